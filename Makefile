@@ -1,0 +1,42 @@
+# `make demo` and `make test` do all the set-up on a fresh machine with Python 3.11 or newer.
+PYTHON ?= python3
+BIN := .venv/bin
+READY := .venv/.ready
+
+.PHONY: demo test lint bench golden lock clean
+
+demo: $(READY)
+	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
+	@echo "look at out/keyhole/cut.png and out/keyhole/report.json"
+
+test: lint
+	$(BIN)/pytest
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports --no-cache
+
+bench: $(READY)
+	$(BIN)/python tests/bench.py
+
+# Renew the golden pictures after looking at the new ones.
+golden: $(READY)
+	DRYCUT_RENEW_GOLDEN=1 $(BIN)/pytest tests/test_sim_picture.py
+
+# Renew the lock for every Python the project supports.
+lock: $(READY)
+	$(BIN)/pip install --quiet uv
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --extra test --extra docs \
+		--upgrade --no-header --output-file requirements-lock.txt pyproject.toml
+
+clean:
+	rm -rf .venv out dist
+
+$(READY): pyproject.toml requirements-lock.txt
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "drycut needs Python 3.11 or newer; this is " + sys.version.split()[0])'
+	$(PYTHON) -m venv --clear .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --requirement requirements-lock.txt
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
+	@touch $@
