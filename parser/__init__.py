@@ -1,0 +1,1 @@
+"""3B text to toolpath: the only package that knows how programs are written."""

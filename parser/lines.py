@@ -1,0 +1,42 @@
+"""Places in a text: lines, columns, and which stretches are blank, by arrays over all characters."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.toolpath import Ints
+
+_LF, _CR, _SPACE = 0x0A, 0x0D, 0x20
+
+
+class LineIndex:
+    """Line and column, both from 1, of the characters of one text. Lines end with LF, CRLF or CR."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        code = np.frombuffer(text.encode("utf-32-le"), dtype=np.uint32)
+        cr = code == _CR
+        cr[:-1] &= code[1:] != _LF
+        self._starts = np.concatenate([[0], np.flatnonzero((code == _LF) | cr) + 1])
+        self._ink = np.concatenate([[0], np.cumsum(code > _SPACE)])
+
+    def lines(self, position: Ints) -> Ints:
+        """Lines of (n,) characters, (n,) int64."""
+        return np.searchsorted(self._starts, position, side="right")
+
+    def line(self, position: int) -> int:
+        """Line of one character."""
+        return int(self.lines(np.array([position]))[0])
+
+    def column(self, position: int) -> int:
+        """Column of one character."""
+        return position - int(self._starts[self.line(position) - 1]) + 1
+
+    def has_ink(self, first: Ints, past: Ints) -> NDArray[np.bool_]:
+        """Whether there is more than blanks and control characters from `first` up to but without `past`, each (n,)."""
+        inked: NDArray[np.bool_] = self._ink[past] > self._ink[first]
+        return inked
+
+    def excerpt(self, line: int) -> str:
+        """Text of a line without its end."""
+        last = self._starts[line] if line < len(self._starts) else len(self.text)
+        return self.text[int(self._starts[line - 1]) : int(last)].rstrip("\r\n")

@@ -1,0 +1,224 @@
+"""The toolpath: every block of a program in absolute µm, as columns, one row a block.
+
+This is the one type that leaves the parser. Readers of any dialect fill it; nothing behind it knows 3B text.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from enum import IntEnum
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+class Kind(IntEnum):
+    """What a row of the toolpath is: a cut along a line or an arc, or a line in the air without the wire cutting."""
+
+    LINE = 0
+    ARC = 1
+    JUMP = 2
+
+
+class Axis(IntEnum):
+    """A table axis; as the counted axis it stands in 3B as GX or GY."""
+
+    X = 0
+    Y = 1
+
+
+class Stop(NamedTuple):
+    """A pause (``D``) or the end (``DD``) between blocks.
+
+    Attributes
+    ----------
+    kind
+        ``pause`` or ``end``.
+    after
+        How many blocks run before it.
+    line
+        Source line, from 1.
+    """
+
+    kind: Literal["pause", "end"]
+    after: int
+    line: int
+
+
+class Point(NamedTuple):
+    """A place in µm."""
+
+    x: float
+    y: float
+
+
+class Block(NamedTuple):
+    """One row of the toolpath, for reading code; loops over many blocks use the columns.
+
+    Lengths are µm, angles rad; `sweep_rad` is positive counter-clockwise; centre, radius and angles are None on lines.
+    """
+
+    number: int
+    kind: Kind
+    start_um: Point
+    end_um: Point
+    length_um: float
+    center_um: Point | None
+    radius_um: float | None
+    start_angle_rad: float | None
+    end_angle_rad: float | None
+    sweep_rad: float | None
+    is_major: bool
+    printed_end_um: Point | None
+    line: int
+    label: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Words:
+    """What the controller is told, one row a block, all arrays shape (n,) int64.
+
+    Attributes
+    ----------
+    x_um, y_um
+        Lines: direction as absolute values, only the ratio matters. Arcs: start relative to the centre, absolute
+        values.
+    count_um
+        Count length J.
+    count_axis
+        Counted axis G: 0 X, 1 Y.
+    quadrant
+        1..4. Lines: of the direction. Arcs: the one the first step enters.
+    turn
+        +1 counter-clockwise (NR), −1 clockwise (SR), 0 line.
+    """
+
+    x_um: Ints
+    y_um: Ints
+    count_um: Ints
+    count_axis: Ints
+    quadrant: Ints
+    turn: Ints
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Source:
+    """Where each row stands in the program text.
+
+    Attributes
+    ----------
+    text
+        The whole program.
+    span
+        (n, 2) int64, first character and one past the last of each block.
+    line
+        (n,) int64, from 1.
+    label
+        n labels as printed, such as ``N3``; empty where there is none.
+    """
+
+    text: str
+    span: Ints
+    line: Ints
+    label: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Toolpath:
+    """Geometry of a program: n rows, absolute µm and rad, exact to double precision.
+
+    Attributes
+    ----------
+    kind
+        (n,) int64, values of `Kind`.
+    start_um, end_um, center_um
+        (n, 2) float64; the centre of a line is NaN. `start_um[i]` equals `end_um[i - 1]`.
+    radius_um, start_angle_rad
+        (n,) float64; NaN on lines.
+    sweep_rad
+        (n,) float64, signed, positive counter-clockwise; 0 on lines; beyond 2π for more than one turn.
+    length_um
+        (n,) float64, length along the block.
+    printed_end_um
+        (n, 2) float64, the end that the program prints beside the block; NaN where it prints none.
+    words, source, stops
+        What the controller is told; where it is written; pauses and the end, in order.
+    """
+
+    kind: Ints
+    start_um: Floats
+    end_um: Floats
+    center_um: Floats
+    radius_um: Floats
+    start_angle_rad: Floats
+    sweep_rad: Floats
+    length_um: Floats
+    printed_end_um: Floats
+    words: Words
+    source: Source
+    stops: tuple[Stop, ...]
+
+    def __post_init__(self) -> None:
+        """Check that all columns have one length; raise ValueError with the lengths where they differ."""
+        rows = {f.name: len(getattr(self, f.name)) for f in fields(self) if f.name not in ("words", "source", "stops")}
+        rows |= {f"words.{f.name}": len(getattr(self.words, f.name)) for f in fields(self.words)}
+        if len(set(rows.values())) > 1:
+            raise ValueError(f"columns of a toolpath have one length, not {rows}")
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+    def __iter__(self) -> Iterator[Block]:
+        return (self.block(row) for row in range(len(self)))
+
+    @property
+    def is_arc(self) -> NDArray[np.bool_]:
+        """(n,) True on arcs."""
+        arc: NDArray[np.bool_] = self.kind == Kind.ARC
+        return arc
+
+    @property
+    def is_jump(self) -> NDArray[np.bool_]:
+        """(n,) True on jumps."""
+        jump: NDArray[np.bool_] = self.kind == Kind.JUMP
+        return jump
+
+    @property
+    def is_major(self) -> NDArray[np.bool_]:
+        """(n,) True on arcs of more than a half turn."""
+        return np.abs(self.sweep_rad) > np.pi
+
+    @property
+    def end_angle_rad(self) -> Floats:
+        """(n,) start angle plus sweep; NaN on lines."""
+        return self.start_angle_rad + self.sweep_rad
+
+    def block(self, row: int) -> Block:
+        """Row `row` (from 0) as a light view; its block number is `row + 1`. IndexError beyond the last row."""
+        arc = bool(self.is_arc[row])
+        first, last = self.source.span[row]
+        return Block(
+            number=row + 1,
+            kind=Kind(int(self.kind[row])),
+            start_um=_point(self.start_um[row]),
+            end_um=_point(self.end_um[row]),
+            length_um=float(self.length_um[row]),
+            center_um=_point(self.center_um[row]) if arc else None,
+            radius_um=float(self.radius_um[row]) if arc else None,
+            start_angle_rad=float(self.start_angle_rad[row]) if arc else None,
+            end_angle_rad=float(self.start_angle_rad[row] + self.sweep_rad[row]) if arc else None,
+            sweep_rad=float(self.sweep_rad[row]) if arc else None,
+            is_major=bool(abs(self.sweep_rad[row]) > np.pi),
+            printed_end_um=None if np.isnan(self.printed_end_um[row, 0]) else _point(self.printed_end_um[row]),
+            line=int(self.source.line[row]),
+            label=self.source.label[row],
+            text=self.source.text[first:last],
+        )
+
+
+def _point(pair: Floats) -> Point:
+    return Point(float(pair[0]), float(pair[1]))

@@ -1,0 +1,46 @@
+"""Several figures: pauses, jumps in the air and start nodes."""
+
+from parser.program import parse_program
+from parser.toolpath import Kind
+
+SQUARE = "B10B0B10GXL1 B0B10B10GYL2 B10B0B10GXL3 B0B10B10GYL4\n"
+CIRCLE = "B5B0B5GXL1 B5B0B20GYNR1 B5B0B5GXL3\n"
+
+
+def jumps(text: str) -> list[int]:
+    return [block.number for block in parse_program(text).toolpath if block.kind is Kind.JUMP]
+
+
+def test_lines_between_two_pauses_are_jumps() -> None:
+    assert jumps(f"{CIRCLE} D B100B0B100GXL1 B0B50B50GYL2 D {SQUARE} DD") == [4, 5]
+
+
+def test_after_one_pause_the_first_line_is_the_jump() -> None:
+    assert jumps(f"{SQUARE} D B100B0B100GXL1 {SQUARE} DD") == [5]
+    assert jumps(f"{SQUARE} D B100B0B100GXL1 {SQUARE} D B100B0B100GXL1 {SQUARE} DD") == [5, 10]
+
+
+def test_a_pause_inside_a_figure_makes_no_jump() -> None:
+    assert jumps("B10B0B10GXL1 B0B10B10GYL2 D B10B0B10GXL3 B0B10B10GYL4 DD") == []
+
+
+def test_pauses_and_end_stand_between_blocks() -> None:
+    toolpath = parse_program(f"{CIRCLE} D\nB100B0B100GXL1\nD\n{SQUARE}\nDD").toolpath
+    assert [(stop.kind, stop.after) for stop in toolpath.stops] == [("pause", 3), ("pause", 4), ("end", 8)]
+
+
+def test_first_start_node_is_the_origin() -> None:
+    toolpath = parse_program("Start Point = 1.5 , -2.25 ; Length = 3\nB10B0B10GXL1\nDD").toolpath
+    assert toolpath.start_um[0].tolist() == [1500.0, -2250.0]
+    assert toolpath.end_um[0].tolist() == [1510.0, -2250.0]
+
+
+def test_later_start_node_is_a_jump_to_its_place() -> None:
+    toolpath = parse_program(f"{CIRCLE} D\nStart Point = 0.2 , 0.1\n{CIRCLE} DD").toolpath
+    node = toolpath.block(3)
+    assert node.kind is Kind.JUMP
+    assert node.end_um == (200.0, 100.0)
+    assert node.line == 3
+    assert node.text.startswith("Start Point")
+    assert (toolpath.words.x_um[3], toolpath.words.y_um[3], toolpath.words.count_um[3]) == (200, 100, 200)
+    assert toolpath.end_um[-1].tolist() == [200.0, 100.0]
