@@ -1,0 +1,82 @@
+"""Point-by-point comparison (逐点比较法): toolpath to steps, as a 3B controller makes them (docs/3b.md §3)."""
+
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.quadrants import walk_arcs
+from controller.steps import Steps
+from controller.strokes import Bools, Followed, arc_strokes, follow, line_strokes
+from parser.toolpath import Axis, Ints, Toolpath
+
+Number = TypeVar("Number", np.int64, np.float64)
+
+# Signs of (X, Y) in quadrants 1..4; there is no quadrant 0.
+_SIGNS = np.array([[0, 0], [1, 1], [-1, 1], [-1, -1], [1, -1]], dtype=np.int64)
+
+
+def interpolate(toolpath: Toolpath) -> Steps:
+    """Steps of a whole toolpath, each block from where the steps of the one before it ended.
+
+    A block of length 0 (no count, or one that no controller can finish) makes no step.
+    """
+    words = toolpath.words
+    place = np.stack([words.x_um, words.y_um], axis=1)
+    sign = _SIGNS[words.quadrant]
+    line, arc = np.flatnonzero(~toolpath.is_arc), np.flatnonzero(toolpath.is_arc)
+    first_is_x = words.quadrant[line] % 2 == 1  # X in L1 and L3, Y in L2 and L4
+    in_j = np.where(toolpath.length_um > 0.0, words.count_um, 0)
+    start = (place * sign)[arc]
+    walk = walk_arcs(start[:, 0], start[:, 1], in_j[arc], words.count_axis[arc], words.turn[arc])
+    count = np.zeros(len(toolpath), dtype=np.int64)
+    count[line] = count_line(place[line], in_j[line], words.count_axis[line], first_is_x)
+    count[arc] = walk.steps
+    line_ends = follow(line_strokes(line, place[line], sign[line], first_is_x, count[line]), *_last_step(count[line]))
+    last = arc_strokes(arc, walk, words.turn[arc], np.maximum(walk.steps - 1, 0), walk.steps)
+    arc_ends = follow(last, *_last_step(last.steps))
+    moved, along = np.zeros((len(toolpath), 2), dtype=np.int64), np.zeros(len(toolpath))
+    for rows, ends in ((line[count[line] > 0], line_ends), (last.row, arc_ends)):
+        moved[rows], along[rows] = _columns(ends), ends.along_um
+    return Steps(
+        count=count,
+        before=_running(count),
+        corner_um=_running(moved),
+        along_um=_running(toolpath.length_um),
+        stretch=np.divide(toolpath.length_um, along, out=np.ones(len(toolpath)), where=along > 0.0),
+        line_row=line,
+        line_extent=place[line],
+        line_sign=sign[line],
+        line_first_is_x=first_is_x,
+        arc_row=arc,
+        arc_walk=walk,
+        arc_turn=words.turn[arc],
+    )
+
+
+def count_line(extent: Ints, count_um: Ints, count_axis: Ints, first_is_x: Bools) -> Ints:
+    """Steps until each of m lines made its count on the counted axis, whose extent is not 0; (m,) int64.
+
+    On the first axis the last counted step waits for F ≥ 0, on the second for F < 0.
+    """
+    on_first = (count_axis == Axis.X) == first_is_x
+    first = np.where(first_is_x, extent[:, 0], extent[:, 1])
+    second = np.where(first_is_x, extent[:, 1], extent[:, 0])
+    before = count_um - 1
+    waits_for_first = -(-second * before // np.maximum(first, 1))
+    waits_for_second = first * before // np.maximum(second, 1) + 1
+    return np.where(count_um > 0, count_um + np.where(on_first, waits_for_first, waits_for_second), 0)
+
+
+def _last_step(count: Ints) -> tuple[Ints, Ints]:
+    """Skip all but the last step of strokes that have any."""
+    return np.maximum(count - 1, 0), np.minimum(count, 1)
+
+
+def _columns(ends: Followed) -> Ints:
+    return np.stack([ends.x_um, ends.y_um], axis=1)
+
+
+def _running(column: NDArray[Number]) -> NDArray[Number]:
+    """Sums before each row and after the last, one more than there are rows."""
+    return np.concatenate([np.zeros((1, *column.shape[1:]), dtype=column.dtype), np.cumsum(column, axis=0)])

@@ -1,0 +1,185 @@
+"""Strokes: stretches of steps in which each axis moves one way only, with every step in closed form.
+
+A line is one stroke, an arc one per quadrant. Of the first k steps of a stroke, `firsts` are on its first axis; the
+staircase of point-by-point comparison gives that number without walking:
+
+* line, a µm on the first axis to b µm on the second: F ≥ 0 before each first-axis step means
+  ``firsts = floor(a (k − 1) / (a + b)) + 1``;
+* quadrant of an arc, from (u0, v0), first axis toward the centre: after k steps v − u = c is known, and u is the
+  largest with ``u² + (u + c − 1)² < R²``, hence ``u = floor((ceil(sqrt(2R² − (c − 1)²)) − c) / 2)``, but no less than
+  u0 − k, which is where it stands while F ≥ 0.
+"""
+
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.quadrants import AWAY, TOWARD, ArcWalk, ceil_sqrt
+from parser.toolpath import Floats, Ints
+
+Bools = NDArray[np.bool_]
+Number = TypeVar("Number", np.int64, np.float64, np.bool_)
+
+
+class Strokes(NamedTuple):
+    """m strokes; all (m,) int64 unless said otherwise, µm and steps.
+
+    Attributes
+    ----------
+    row
+        Row of the toolpath.
+    base
+        Steps of the row before the stroke.
+    steps
+        Steps of the stroke.
+    origin
+        (m, 2) where the stroke starts; as made here, relative to the row's start.
+    first, second
+        (m, 2) unit steps of the first and the second axis.
+    is_arc
+        (m,) bool.
+    a, b
+        Lines: extent on the first and second axis. Arcs: u0 and v0.
+    radius_sq
+        Arcs: R², µm²; 0 on lines.
+    lead_um
+        (m,) float64, length of the ideal path before the stroke.
+    stretch
+        (m,) float64, by which lengths along the stroke are multiplied.
+    """
+
+    row: Ints
+    base: Ints
+    steps: Ints
+    origin: Ints
+    first: Ints
+    second: Ints
+    is_arc: Bools
+    a: Ints
+    b: Ints
+    radius_sq: Ints
+    lead_um: Floats
+    stretch: Floats
+
+    def picked(self, order: Ints | Bools) -> "Strokes":
+        """The strokes of these indices, in this order, or where the mask is True."""
+        return Strokes._make(column[order] for column in self)
+
+
+class Followed(NamedTuple):
+    """Steps of strokes, (n,): place (int64 µm) and length of the ideal path by then (float64 µm)."""
+
+    x_um: Ints
+    y_um: Ints
+    along_um: Floats
+
+
+def line_strokes(row: Ints, extent: Ints, sign: Ints, first_is_x: Bools, steps: Ints) -> Strokes:
+    """One stroke a line, from the (m, 2) absolute direction, its signs, and whether X is the first axis.
+
+    The signs are those of the quadrant, also on an axis: there a neighbour label shows in one stray step.
+    """
+    m = len(row)
+    unit = np.eye(2, dtype=np.int64)
+    on_first = np.where(first_is_x, 0, 1)
+    rows = np.arange(m)
+    return Strokes(
+        row=row,
+        base=np.zeros(m, dtype=np.int64),
+        steps=steps,
+        origin=np.zeros((m, 2), dtype=np.int64),
+        first=unit[on_first] * sign,
+        second=unit[1 - on_first] * sign,
+        is_arc=np.zeros(m, dtype=np.bool_),
+        a=extent[rows, on_first],
+        b=extent[rows, 1 - on_first],
+        radius_sq=np.zeros(m, dtype=np.int64),
+        lead_um=np.zeros(m),
+        stretch=np.ones(m),
+    )
+
+
+def arc_strokes(row: Ints, walk: ArcWalk, turn: Ints, since: Ints, until: Ints) -> Strokes:
+    """Strokes of arcs that hold any of the steps after `since` up to `until` (per arc, counted from its start).
+
+    Only these are made, so that a program of many turns costs no more than the steps asked for.
+    """
+    whole = walk.u0 + walk.top - walk.v0
+    lowest = _visit(since, whole, walk.top)
+    visits = np.maximum(_visit(until - 1, whole, walk.top) - lowest + 1, 0) * (until > since)
+    arc = np.repeat(np.arange(len(row)), visits)
+    visit = np.arange(len(arc)) - np.repeat(np.cumsum(visits) - visits - lowest, visits)
+    opening = visit == 0
+    u0, v0 = np.where(opening, walk.u0[arc], walk.top[arc]), np.where(opening, walk.v0[arc], 0)
+    base = np.where(opening, 0, whole[arc] + (visit - 1) * 2 * walk.top[arc])
+    quarter = (walk.quarter[arc] + visit) % 4
+    mirror = np.stack([np.ones_like(arc), turn[arc]], axis=1)
+    toward, away = TOWARD[quarter] * mirror, AWAY[quarter] * mirror
+    opened = np.arctan2(walk.v0, walk.u0)[arc]
+    start = TOWARD[walk.quarter] * -walk.u0[:, None] + AWAY[walk.quarter] * walk.v0[:, None]
+    return Strokes(
+        row=row[arc],
+        base=base,
+        steps=np.minimum(u0 + walk.top[arc] - v0, walk.steps[arc] - base),
+        origin=toward * -u0[:, None] + away * v0[:, None] - start[arc] * mirror,
+        first=toward,
+        second=away,
+        is_arc=np.ones(len(arc), dtype=np.bool_),
+        a=u0,
+        b=v0,
+        radius_sq=walk.radius_sq[arc],
+        lead_um=np.sqrt(walk.radius_sq[arc]) * (visit * (np.pi / 2) - opened * ~opening),
+        stretch=np.ones(len(arc)),
+    )
+
+
+def _visit(step: Ints, whole: Ints, top: Ints) -> Ints:
+    """Number of the quadrant visit, from 0, that holds the step with this number (from 0) of an arc."""
+    return np.where(step < whole, 0, 1 + (step - whole) // (2 * top))
+
+
+def firsts_of_line(a: Ints, a_and_b: Ints, k: Ints) -> Ints:
+    """First-axis steps among the first k ≥ 1 of a line from a and a + b > 0, (n,) int64."""
+    return a * (k - 1) // a_and_b + 1
+
+
+def firsts_of_arc(u0: Ints, v0: Ints, radius_sq: Ints, k: Ints) -> Ints:
+    """Steps toward the centre among the first k of a quadrant, (n,) int64; k ≥ 0."""
+    c = k + (v0 - u0)
+    u = (ceil_sqrt(2 * radius_sq - (c - 1) ** 2) - c) >> 1
+    return np.minimum(k, u0 - u)
+
+
+def follow(strokes: Strokes, skipped: Ints, taken: Ints) -> Followed:
+    """The `taken` steps after the first `skipped` of each stroke, (m,) each, strung together.
+
+    The length of the ideal path is that of the step's foot on it: along a line its share in the direction, along an
+    arc the angle seen from the centre.
+    """
+
+    def each(column: NDArray[Number]) -> NDArray[Number]:
+        return np.repeat(column, taken)
+
+    k = np.arange(1, int(taken.sum()) + 1) - each(np.cumsum(taken) - taken - skipped)
+    firsts = firsts_of_line(each(strokes.a), each(strokes.a + strokes.b), k)
+    extent = np.maximum(np.hypot(strokes.a, strokes.b), 1.0) / strokes.stretch
+    along = each((strokes.a - strokes.b) / extent) * firsts + each(strokes.b / extent) * k + each(strokes.lead_um)
+    if strokes.is_arc.any():
+        arc = np.flatnonzero(each(strokes.is_arc))
+        firsts[arc], along[arc] = _follow_arcs(strokes.picked(strokes.is_arc), k[arc], taken[strokes.is_arc])
+    # first · firsts + second · (k − firsts), axis by axis
+    turn, second = strokes.first - strokes.second, strokes.second
+    x = each(turn[:, 0]) * firsts + each(second[:, 0]) * k + each(strokes.origin[:, 0])
+    y = each(turn[:, 1]) * firsts + each(second[:, 1]) * k + each(strokes.origin[:, 1])
+    return Followed(x, y, along)
+
+
+def _follow_arcs(strokes: Strokes, k: Ints, taken: Ints) -> tuple[Ints, Floats]:
+    """First-axis steps and path lengths of the k-th steps of arcs."""
+    u0, v0 = np.repeat(strokes.a, taken), np.repeat(strokes.b, taken)
+    firsts = firsts_of_arc(u0, v0, np.repeat(strokes.radius_sq, taken), k)
+    radius = np.sqrt(strokes.radius_sq) * strokes.stretch
+    lead = strokes.lead_um - radius * np.arctan2(strokes.b, strokes.a)
+    angle = np.arctan2(v0 + (k - firsts), u0 - firsts)
+    return firsts, np.repeat(lead, taken) + np.repeat(radius, taken) * angle

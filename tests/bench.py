@@ -1,0 +1,109 @@
+"""The in-repo benchmark: ``make bench``. Writes its own path, runs it whole, and a plain loop beside it.
+
+Path: 100 000 blocks of 0.1 mm, two lines to one arc, in all directions; 10 m and about 12.8 million steps. Times are
+of one process on one core, the fastest of three; the ratio to the plain loop is the figure to compare machines by.
+"""
+
+import argparse
+import math
+import random
+import resource
+import sys
+import tempfile
+import time
+from itertools import pairwise
+from pathlib import Path
+
+from plain import PlainBlock, plain_steps
+
+from controller.card import Status, StepCard
+from controller.plan import Feeds, plan_runs
+from controller.point_by_point import interpolate
+from parser.program import read_program
+from parser.words import line_words
+
+LENGTH_UM = 100.0
+FEEDS = Feeds(cut_um_s=43.75, jump_um_s=500.0, acceleration_um_s2=1e5)
+
+
+def line(rng: random.Random) -> PlainBlock:
+    angle = rng.uniform(0.0, 2.0 * math.pi)
+    words = line_words(LENGTH_UM * math.cos(angle), LENGTH_UM * math.sin(angle))
+    return PlainBlock(words.x_um, words.y_um, words.count_um, words.count_axis.name, "L", words.quadrant)
+
+
+def arc(rng: random.Random) -> PlainBlock:
+    """An arc of 0.1 mm on a radius of 0.05 to 2 mm, counted on the axis that is stepped last."""
+    radius, start, turn = rng.uniform(50.0, 2000.0), rng.uniform(0.0, 2.0 * math.pi), rng.choice((1, -1))
+    x0, y0 = round(radius * math.cos(start)), round(radius * math.sin(start))
+    start, radius = math.atan2(y0, x0), math.hypot(x0, y0)
+    end = start + turn * LENGTH_UM / radius
+    x1, y1 = radius * math.cos(end), radius * math.sin(end)
+    axis = "Y" if abs(x1) > abs(y1) else "X"
+    count = _travel(start, end, radius, axis)
+    quadrant = int((start + turn * 1e-9) % (2.0 * math.pi) // (math.pi / 2.0)) + 1
+    return PlainBlock(abs(x0), abs(y0), max(1, round(count)), axis, "NR" if turn > 0 else "SR", quadrant)
+
+
+def _travel(start: float, end: float, radius: float, axis: str) -> float:
+    """Way on the counted axis between two angles, by its extremes in between."""
+    low, high = sorted((start, end))
+    shift = 0.0 if axis == "X" else math.pi / 2.0
+    turns = [k * math.pi + shift for k in range(-8, 9) if low < k * math.pi + shift < high]
+    places = [radius * math.cos(a - shift) for a in (low, *turns, high)]
+    return sum(abs(b - a) for a, b in pairwise(places))
+
+
+def write_path(path: Path, blocks: int) -> list[PlainBlock]:
+    rng = random.Random(20260101)
+    made = [arc(rng) if row % 3 == 2 else line(rng) for row in range(blocks)]
+    path.write_text("\n".join(block.text() for block in made) + "\nDD\n", encoding="ascii")
+    return made
+
+
+def whole(path: Path) -> tuple[float, float, float, int]:
+    """Seconds to read and decode, to plan and count, to step and time; and the number of steps."""
+    began = time.perf_counter()
+    toolpath = read_program(path).toolpath
+    read = time.perf_counter()
+    card = StepCard()
+    card.load(interpolate(toolpath), plan_runs(toolpath, FEEDS))
+    card.start()
+    planned = time.perf_counter()
+    steps = 0
+    while card.status is Status.RUNNING:
+        steps += len(card.take().t_s)
+    done = time.perf_counter()
+    return read - began, planned - read, done - planned, steps
+
+
+def plain_ns_per_step(blocks: list[PlainBlock]) -> float:
+    began = time.perf_counter()
+    steps = sum(len(plain_steps(block)) for block in blocks)
+    return (time.perf_counter() - began) / steps * 1e9
+
+
+def main() -> None:
+    options = argparse.ArgumentParser(description=__doc__)
+    options.add_argument("--blocks", type=int, default=100_000)
+    n = options.parse_args().blocks
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "path.3b"
+        blocks = write_path(path, n)
+        read, planned, stepped, steps = min((whole(path) for _ in range(3)), key=lambda times: sum(times[:3]))
+    total = read + planned + stepped
+    plain = plain_ns_per_step(blocks[: max(1, n // 100)])
+    peak_kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    print(f"path                {n:,} blocks, {n * LENGTH_UM / 1e6:g} m, {steps:,} steps")
+    print(f"read and decode     {read:.3f} s   {n / read:,.0f} blocks/s")
+    print(f"plan and count      {planned:.3f} s")
+    print(f"step and time       {stepped:.3f} s   {stepped / steps * 1e9:.1f} ns per step")
+    print(f"in all              {total:.3f} s   {n / total:,.0f} blocks/s, {total / steps * 1e9:.1f} ns per step")
+    print(
+        f"plain loop          {plain:.0f} ns per step (steps only), {plain / (stepped / steps * 1e9):.1f} times as long"
+    )
+    print(f"peak memory         {peak_kib / 1024:.0f} MiB", file=sys.stdout)
+
+
+if __name__ == "__main__":
+    main()
