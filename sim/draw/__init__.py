@@ -1,0 +1,1 @@
+"""Pictures: pygame draws, pillow finishes; nothing outside this package imports either."""

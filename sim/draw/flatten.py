@@ -1,0 +1,140 @@
+"""The toolpath as points: arcs become chords, all of them at once in numpy."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.toolpath import Floats, Ints, Toolpath
+
+Bools = NDArray[np.bool_]
+
+
+def bounds_um(toolpath: Toolpath) -> Floats:
+    """Give the smallest box around all blocks, jumps included.
+
+    Parameters
+    ----------
+    toolpath
+        At least one block.
+
+    Returns
+    -------
+    (2, 2) float64, µm: lowest and highest (x, y).
+    """
+    points = np.concatenate([toolpath.start_um, toolpath.end_um, _arc_extremes_um(toolpath)])
+    return np.stack([points.min(axis=0), points.max(axis=0)])
+
+
+def _arc_extremes_um(toolpath: Toolpath) -> Floats:
+    arc = toolpath.is_arc
+    start, sweep = toolpath.start_angle_rad[arc], toolpath.sweep_rad[arc]
+    low, high = np.minimum(start, start + sweep), np.maximum(start, start + sweep)
+    quarter = np.ceil(low / (np.pi / 2))[:, None] + np.arange(4)  # four directions in a row are all there are
+    angle = np.asarray(quarter * (np.pi / 2), dtype=np.float64)
+    reached = angle <= high[:, None]
+    points = _on_circle_um(toolpath.center_um[arc][:, None], toolpath.radius_um[arc][:, None], angle)
+    return np.asarray(points[reached], dtype=np.float64)
+
+
+def _on_circle_um(center_um: Floats, radius_um: Floats, angle_rad: Floats) -> Floats:
+    unit = np.stack([np.cos(angle_rad), np.sin(angle_rad)], axis=-1)
+    return np.asarray(center_um + radius_um[..., None] * unit, dtype=np.float64)
+
+
+def flatten(toolpath: Toolpath, tolerance_um: float) -> tuple[Floats, Ints]:
+    """Follow the toolpath by straight chords.
+
+    Parameters
+    ----------
+    toolpath
+        At least one block.
+    tolerance_um
+        The furthest a chord may leave its arc; above 0.
+
+    Returns
+    -------
+    points_um
+        (m, 2) float64, from the first block's start to the last one's end.
+    row
+        (m,) int64, the row that leads to each point; 0 for the first point.
+    """
+    toolpath = _unwound(toolpath)
+    count = _chords(toolpath, tolerance_um)
+    row = np.repeat(np.arange(len(toolpath)), count)
+    step = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count) + 1
+    points = along(toolpath, row, step / count[row])[0]
+    last = np.cumsum(count) - 1
+    points[last] = toolpath.end_um  # the program's own numbers, without the rounding of sin and cos
+    return np.concatenate([toolpath.start_um[:1], points]), np.concatenate([row[:1], row])
+
+
+def _unwound(toolpath: Toolpath) -> Toolpath:
+    """Draw the same with no arc over two turns: a wrong count length can ask for millions of them."""
+    size = np.abs(toolpath.sweep_rad)
+    turns = np.maximum(np.floor(size / (2 * np.pi)) - 1, 0)
+    return replace(toolpath, sweep_rad=np.sign(toolpath.sweep_rad) * (size - turns * 2 * np.pi))
+
+
+def _chords(toolpath: Toolpath, tolerance_um: float) -> Ints:
+    """Chords of each block, (n,): the sagitta r (1 − cos(φ/2)) of a chord of angle φ stays below the tolerance."""
+    count = np.ones(len(toolpath), dtype=np.int64)
+    arc = toolpath.is_arc
+    ratio = np.minimum(tolerance_um / np.maximum(toolpath.radius_um[arc], tolerance_um), 1.0)
+    count[arc] = np.maximum(np.ceil(np.abs(toolpath.sweep_rad[arc]) / (2 * np.arccos(1 - ratio))), 1)
+    return count
+
+
+def along(toolpath: Toolpath, row: Ints, fraction: Floats) -> tuple[Floats, Floats]:
+    """Give places inside blocks and the direction of travel there.
+
+    Parameters
+    ----------
+    toolpath
+        Of n blocks.
+    row
+        (m,) int64, rows of the toolpath.
+    fraction
+        (m,) float64, 0 at the block's start, 1 at its end.
+
+    Returns
+    -------
+    points_um
+        (m, 2) float64.
+    direction
+        (m, 2) float64 of length 1; along +X in a block of no length.
+    """
+    start = toolpath.start_um[row]
+    points, heading = start + fraction[:, None] * (toolpath.end_um[row] - start), toolpath.end_um[row] - start
+    arc = toolpath.is_arc[row]
+    turned = row[arc]
+    angle = toolpath.start_angle_rad[turned] + fraction[arc] * toolpath.sweep_rad[turned]
+    points[arc] = _on_circle_um(toolpath.center_um[turned], toolpath.radius_um[turned], angle)
+    turn = np.sign(toolpath.sweep_rad[turned])[:, None]
+    heading[arc] = turn * np.stack([-np.sin(angle), np.cos(angle)], axis=-1)
+    length = np.hypot(heading[:, 0], heading[:, 1])[:, None]
+    return points, np.where(length > 0, heading / np.where(length > 0, length, 1.0), (1.0, 0.0))
+
+
+def cut_runs(points_um: Floats, row: Ints, is_jump: Bools) -> list[Floats]:
+    """Split a path where the wire jumps.
+
+    Parameters
+    ----------
+    points_um
+        (m, 2) float64, a flattened toolpath or a trace.
+    row
+        (m,) int64, the row that leads to each point.
+    is_jump
+        (n,) bool, by row.
+
+    Returns
+    -------
+    The stretches where the wire cuts, each (k, 2) with k ≥ 1, in order.
+    """
+    air = is_jump[row]
+    change = np.flatnonzero(air[1:] != air[:-1]) + 1
+    edges = [0, *change.tolist(), len(row)]
+    # A stretch starts where the jump before it ends, which is the last point of that jump.
+    return [points_um[max(a - 1, 0) : b] for a, b in pairwise(edges) if not air[a]]
