@@ -1,0 +1,90 @@
+"""Machine files: table, controller and cutting rates of one machine, from TOML with units in the key names."""
+
+from importlib import resources
+from pathlib import Path
+from typing import NamedTuple
+
+from controller.plan import Feeds
+from parser.errors import SettingsError
+from parser.units import UM_PER_MM
+from sim.settings import Bound, load_toml, numbers, refuse_unknown, section, text
+
+_TABLE = {
+    "travel_x_mm": Bound(1.0, 10_000.0),
+    "travel_y_mm": Bound(1.0, 10_000.0),
+    "saddle_mass_kg": Bound(0.01, 100_000.0),
+    "carriage_mass_kg": Bound(0.01, 100_000.0),
+    "drive_stiffness_n_um": Bound(1e-3, 1e5),
+    "drive_damping_ratio": Bound(0.01, 10.0),
+    "drive_force_limit_n": Bound(0.1, 1e6),
+}
+_CONTROLLER = {
+    "path_acceleration_mm_s2": Bound(0.01, 1e5),
+    "cut_step_limit_hz": Bound(0.1, 1e6),
+    "jump_feed_mm_s": Bound(1e-3, 1e3),
+}
+_CUTTING = {"area_rate_mm2_min": Bound(0.1, 1e4)}
+
+
+class TableModel(NamedTuple):
+    """Moving masses and drives; mm, kg, N as named. The X drive moves saddle and carriage, the Y drive the carriage."""
+
+    travel_x_mm: float
+    travel_y_mm: float
+    saddle_mass_kg: float
+    carriage_mass_kg: float
+    drive_stiffness_n_um: float
+    drive_damping_ratio: float
+    drive_force_limit_n: float
+
+    @property
+    def moved_kg(self) -> tuple[float, float]:
+        """Mass that the X and the Y drive have to move."""
+        return self.saddle_mass_kg + self.carriage_mass_kg, self.carriage_mass_kg
+
+
+class Machine(NamedTuple):
+    """One machine as its file gives it; units as named."""
+
+    name: str
+    table: TableModel
+    path_acceleration_mm_s2: float
+    cut_step_limit_hz: float
+    jump_feed_mm_s: float
+    area_rate_mm2_min: float
+
+    def feeds(self, thickness_mm: float) -> Feeds:
+        """Feeds in a work of this thickness: area rate over thickness, no faster than one step a tick of the limit."""
+        by_area = self.area_rate_mm2_min / thickness_mm / 60.0 * UM_PER_MM
+        return Feeds(
+            cut_um_s=min(by_area, self.cut_step_limit_hz),
+            jump_um_s=self.jump_feed_mm_s * UM_PER_MM,
+            acceleration_um_s2=self.path_acceleration_mm_s2 * UM_PER_MM,
+        )
+
+
+def load_machine(name: str, beside: Path | None = None) -> Machine:
+    """Machine of a shipped name such as ``dk7740``, or of a ``.toml`` file (relative to the folder `beside`).
+
+    Raises FileUnreadableError and SettingsError with the file and the key.
+    """
+    if name.endswith(".toml"):
+        return _read(Path(beside or "") / name)
+    shipped = resources.files("sim") / "machines"
+    known = sorted(entry.name.removesuffix(".toml") for entry in shipped.iterdir() if entry.name.endswith(".toml"))
+    if name not in known:
+        raise SettingsError(f"machine {name!r} is not shipped; known: {', '.join(known)}, or give a .toml file")
+    with resources.as_file(shipped / f"{name}.toml") as path:
+        return _read(path)
+
+
+def _read(path: Path) -> Machine:
+    content, where = load_toml(path), str(path)
+    refuse_unknown(content, ("name", "table", "controller", "cutting"), where)
+    parts = {key: section(content, key, where) for key in ("table", "controller", "cutting")}
+    return Machine(
+        name=text(content, "name", where),
+        table=TableModel(**numbers(parts["table"], _TABLE, f"{where}: [table]")),
+        **numbers(parts["controller"], _CONTROLLER, f"{where}: [controller]"),
+        **numbers(parts["cutting"], _CUTTING, f"{where}: [cutting]"),
+    )

@@ -1,0 +1,110 @@
+"""Scenarios: a program with its machine, wire, work and what is expected of the dry run.
+
+A folder holds ``scenario.toml`` and the program it names; a program alone is a scenario with the defaults.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from parser.errors import SettingsError
+from parser.units import UM_PER_MM
+from sim.expect import Expectation, read_expectation
+from sim.machine import Machine, load_machine
+from sim.settings import Bound, load_toml, number, numbers, refuse_unknown, section, text, truth
+from sim.wire import Wire
+
+WIRE_DIAMETER_MM = Bound(0.01, 1.0)
+SPARK_GAP_MM = Bound(-0.05, 0.5)
+THICKNESS_MM = Bound(0.01, 2000.0)
+_WIRE = {"diameter_mm": WIRE_DIAMETER_MM, "spark_gap_mm": SPARK_GAP_MM}
+_WORK = {"thickness_mm": THICKNESS_MM}
+_KEYS = ("title", "provenance", "program", "machine", "start_mm", "open", "wire", "work", "expect")
+
+DEFAULT_MACHINE = "dk7740"
+DEFAULT_THICKNESS_MM = 40.0
+DEFAULT_WIRE = Wire(diameter_um=180.0, spark_gap_um=10.0)
+"""Usual wire, with the gap that the trade's offset of 0.1 mm leaves it (docs/3b.md §5)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scenario:
+    """One case to dry-run.
+
+    Attributes
+    ----------
+    title
+        Title line of pictures and tables.
+    program
+        Program file.
+    machine, wire, thickness_mm
+        What it is cut on, with and through.
+    start_mm
+        Place of the program's start on the table, (x, y) from the corner of the travel; the centre where None.
+    provenance
+        Where the program comes from.
+    may_stay_open
+        Whether contours may end away from their own path; else that is a finding.
+    expect
+        What the scenario promises of its report; checked after the run.
+    """
+
+    title: str
+    program: Path
+    machine: Machine
+    wire: Wire = DEFAULT_WIRE
+    thickness_mm: float = DEFAULT_THICKNESS_MM
+    start_mm: tuple[float, float] | None = None
+    provenance: str = "not given"
+    may_stay_open: bool = False
+    expect: tuple[Expectation, ...] = ()
+
+    @property
+    def start_um(self) -> tuple[float, float]:
+        """Place of the program's start on the table, µm."""
+        travel = self.machine.table.travel_x_mm / 2.0, self.machine.table.travel_y_mm / 2.0
+        x, y = self.start_mm or travel
+        return x * UM_PER_MM, y * UM_PER_MM
+
+
+def load_scenario(path: Path) -> Scenario:
+    """Scenario of a folder with a ``scenario.toml``, or of a program file with the defaults.
+
+    Raises FileUnreadableError or SettingsError with file and key.
+    """
+    if not path.is_dir():
+        return Scenario(path.name, path, load_machine(DEFAULT_MACHINE))
+    file = path / "scenario.toml"
+    if not file.exists():
+        raise SettingsError(f"{path}: is a folder without scenario.toml; give a 3B file or a scenario folder")
+    content, where = load_toml(file), str(file)
+    refuse_unknown(content, _KEYS, where)
+    wire = numbers(section(content, "wire", where), _WIRE, f"{where}: [wire]", _wire_defaults())
+    work = section(content, "work", where)
+    work_numbers = numbers(work, _WORK, f"{where}: [work]", {"thickness_mm": DEFAULT_THICKNESS_MM})
+    return Scenario(
+        title=text(content, "title", where, default=path.resolve().name),
+        program=path / text(content, "program", where, default="program.3b"),
+        machine=load_machine(text(content, "machine", where, default=DEFAULT_MACHINE), beside=path),
+        wire=Wire(wire["diameter_mm"] * UM_PER_MM, wire["spark_gap_mm"] * UM_PER_MM),
+        start_mm=_start(content, where),
+        provenance=text(content, "provenance", where, default="not given"),
+        may_stay_open=truth(content, "open", where),
+        expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
+        **work_numbers,
+    )
+
+
+def _wire_defaults() -> dict[str, float]:
+    return {"diameter_mm": DEFAULT_WIRE.diameter_um / UM_PER_MM, "spark_gap_mm": DEFAULT_WIRE.spark_gap_um / UM_PER_MM}
+
+
+def _start(content: Mapping[str, Any], where: str) -> tuple[float, float] | None:
+    if "start_mm" not in content:
+        return None
+    pair = content["start_mm"]
+    if not isinstance(pair, list) or len(pair) != 2:
+        raise SettingsError(f"{where}: start_mm is [x, y] on the table; found {pair!r}")
+    x, y = (number(value, Bound(-1e5, 1e5), f"{where}: start_mm") for value in pair)
+    return x, y

@@ -1,0 +1,43 @@
+"""Dry runs for tests."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from parser.program import Program, parse_program, read_program
+from sim.dryrun import DryRun, dry_run
+from sim.judge import check_expectations
+from sim.machine import Machine, load_machine
+from sim.scenario import Scenario, load_scenario
+
+SCENARIOS = Path(__file__).parent.parent / "scenarios"
+
+
+def silent(stage: str, done: int, total: int) -> None:
+    """Progress that nobody watches."""
+
+
+def plain_scenario(**changes: object) -> Scenario:
+    return replace(Scenario("test", Path("test.3b"), load_machine("dk7740")), **changes)
+
+
+def machine(**table: float) -> Machine:
+    """The shipped machine with some values of its table changed."""
+    shipped = load_machine("dk7740")
+    return shipped._replace(table=shipped.table._replace(**table))
+
+
+def run_text(text: str, **changes: object) -> DryRun:
+    return dry_run(parse_program(text), plain_scenario(**changes), silent)
+
+
+def run_folder(folder: Path) -> DryRun:
+    scenario = load_scenario(folder)
+    return check_expectations(dry_run(read_program(scenario.program), scenario, silent))
+
+
+def codes(run: DryRun) -> list[str]:
+    return [finding.code for finding in run.findings]
+
+
+def program(text: str) -> Program:
+    return parse_program(text)

@@ -1,0 +1,124 @@
+"""The dry run as a whole: what it finds, and what its figures mean."""
+
+import numpy as np
+import pytest
+from runs import SCENARIOS, codes, machine, run_folder, run_text
+
+from parser.errors import ProgramError
+from sim.dryrun import verdict
+
+CIRCLE = "B9900B0B9900GXL1 {arc} B9900B0B9900GXL3 DD"
+SQUARE = "B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B10000GXL3 B0B10000B10000GYL4"
+
+
+def test_sound_programs_pass() -> None:
+    run = run_text(CIRCLE.format(arc="B9900B0B39600GYNR1"))
+    assert codes(run) == []
+    assert verdict(run.findings) == "pass"
+
+
+def test_wrong_line_quadrant_opens_the_contour_by_twice_the_line() -> None:
+    run = run_text("B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL1 DD")
+    assert codes(run) == ["3B301"]
+    assert run.contours[0].closure_exact_um == 19800.0
+    assert verdict(run.findings) == "fail"
+
+
+def test_wrong_count_axis_is_seen_by_the_stepped_run_alone() -> None:
+    run = run_text(CIRCLE.format(arc="B9900B0B39600GXNR1"))
+    assert run.contours[0].closure_exact_um == 0.0
+    assert run.contours[0].closure_stepped_um == pytest.approx(140, abs=2)  # µm
+    assert "3B303" in codes(run)
+    assert verdict(run.findings) == "fail"
+    assert run.deviations.steps.max_um == pytest.approx(140, abs=2)
+    assert run.deviations.interpolation.max_um < 1.5
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "B100B0B100GXL1 DD",
+        "B100B0B100GXL1 B0B100B100GYL2 DD",
+        "B100B0B100GXNR1 DD",
+        "B100B0B100GXL1 B0B100B100GYL2 B100B0B100GXL1 B20B100B100GYL1 B9B0B9GXL1 DD",
+    ],
+)
+def test_a_cut_that_encloses_nothing_need_not_close(text: str) -> None:
+    run = run_text(text)
+    assert codes(run) == []
+    assert not run.contours[0].encloses
+
+
+def test_contours_are_told_apart_by_jumps() -> None:
+    run = run_text(f"{SQUARE} D B30000B0B30000GXL1 D {SQUARE} DD")
+    assert [(c.first, c.last, c.closure_exact_um) for c in run.contours] == [(1, 4, 0.0), (6, 9, 0.0)]
+    assert codes(run) == []
+    # 80 mm of cut at 43.75 µm/s, 30 mm of jump at 500 µm/s, three stops and starts at 100 mm/s².
+    ramps = 2 * 43.75 / 1e5 + 500 / 1e5
+    assert run.plan.duration_s == pytest.approx(80_000 / 43.75 + 30_000 / 500 + ramps)
+
+
+def test_leaving_the_travel_names_the_first_block_out() -> None:
+    run = run_text("B150000B0B150000GXL1 B60000B0B60000GXL1 B10000B0B10000GXL1 DD", start_mm=(200.0, 250.0))
+    assert [(f.code, f.block) for f in run.findings] == [("3B401", 2)]
+    assert run_text("B150000B0B150000GXL1 B60000B0B60000GXL1 DD", start_mm=(10.0, 250.0)).findings == ()
+
+
+def test_the_table_stops_at_its_travel() -> None:
+    run = run_text("B150000B0B150000GXL1 DD", start_mm=(399.0, 250.0))
+    assert run.trace.actual_um[-1, 0] == pytest.approx(1000.0, abs=1.0)
+    assert run.deviations.table.max_um < 2.0  # where it stands is on the path
+    assert run.trace.commanded_um[-1, 0] == 150000.0
+
+
+def test_table_follows_at_cutting_speed_to_a_fraction_of_a_step() -> None:
+    run = run_folder(SCENARIOS / "keyhole")
+    lag = np.hypot(*(run.trace.actual_um - run.trace.commanded_um).T)
+    assert np.percentile(lag, 99) < 0.01  # µm
+    assert run.trace.actual_um[-1] == pytest.approx(run.trace.commanded_um[-1], abs=0.05)
+    assert run.deviations.interpolation.max_um <= 1.0 + 1e-9
+
+
+def test_a_weak_drive_shows_in_the_table_and_not_in_the_steps() -> None:
+    strong = run_text(f"{SQUARE} D B30000B0B30000GXL1 D {SQUARE} DD")
+    weak = run_text(f"{SQUARE} D B30000B0B30000GXL1 D {SQUARE} DD", machine=machine(drive_force_limit_n=1.0))
+    assert weak.deviations.steps.max_um == strong.deviations.steps.max_um
+    lag = np.abs(weak.trace.actual_um - weak.trace.commanded_um).max()
+    assert lag > 10 * np.abs(strong.trace.actual_um - strong.trace.commanded_um).max()
+
+
+def test_acceleration_of_the_trace_stays_within_force_over_mass() -> None:
+    limit = 5.0 / 320.0 * 1e6  # µm/s² of the X axis
+    run = run_text(
+        "B5B0B5GXL1B5B0B20GYNR1B5B0B5GXL3 D B5000B0B5000GXL1 D B5B0B5GXL1", machine=machine(drive_force_limit_n=5.0)
+    )
+    t_s, x = run.trace.t_s, run.trace.actual_um[:, 0]
+    velocity = np.diff(x) / np.diff(t_s)
+    # A tick's velocity is set in one go at its start, by the force over the tick.
+    assert np.all(np.abs(np.diff(velocity)) <= limit * np.diff(t_s)[1:] * (1 + 1e-6) + 1e-3)
+
+
+def test_blocks_after_the_end_are_not_run() -> None:
+    run = run_text("B100B0B100GXL1 DD B100B0B100GXL1")
+    assert len(run.steps) == 100
+    assert verdict(run.findings) == "fail"
+
+
+@pytest.mark.parametrize("text", ["B0B0B1000000000000000GXL1", "B999999999B0B999999999GXL1", "B2B2B999999999GXNR1"])
+def test_programs_beyond_any_table_are_refused(text: str) -> None:
+    with pytest.raises(ProgramError) as caught:
+        run_text(text)
+    assert caught.value.code == "3B206"
+    assert caught.value.line == 1
+
+
+def test_cutting_time_is_length_times_thickness_over_area_rate() -> None:
+    run = run_text("B30000B0B30000GXL1 DD", thickness_mm=100.0)
+    assert run.plan.duration_s == pytest.approx(30.0 * 100.0 / 105.0 * 60.0, rel=1e-5)
+
+
+def test_a_start_node_off_the_grid_keeps_its_place() -> None:
+    run = run_text("Start Point = 0 , 10.0004\nB100B0B100GXL1 DD")
+    assert run.trace.actual_um[0].tolist() == [0.0, 10000.0]
+    assert run.deviations.interpolation.max_um < 1e-6
+    assert run.deviations.steps.max_um == pytest.approx(0.4, abs=1e-6)
