@@ -1,0 +1,109 @@
+"""Output files of a run: made beside the target and moved there whole, or not at all."""
+
+import shutil
+import tempfile
+import zipfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any, Self
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from controller.pulses import Pulses
+from controller.steps import Steps
+from parser.errors import FileUnreadableError
+
+
+@contextmanager
+def staged(target: Path) -> Iterator[Path]:
+    """Empty folder whose files move into `target` at the end of a block that raised nothing.
+
+    FileUnreadableError where the target is no folder or may not be written.
+    """
+    if target.exists() and not target.is_dir():
+        raise FileUnreadableError(f"{target}: is a file; -o names a folder")
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        stage = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
+    except OSError as error:
+        raise FileUnreadableError(f"{target}: cannot be written: {error.strerror or error}") from None
+    try:
+        yield stage
+        target.mkdir(exist_ok=True)
+        for path in sorted(stage.iterdir()):
+            path.replace(target / path.name)
+    finally:
+        shutil.rmtree(stage, ignore_errors=True)
+
+
+class StepFiles:
+    """Arrays of all steps, streamed to files as the pulses come; a `PulseSink`.
+
+    The arrays are ``step_x_um`` and ``step_y_um`` (int32, one more than there are steps, the start first),
+    ``step_block`` (int32) and ``step_t_s`` (float64), one entry a step.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._files: dict[str, IO[bytes]] = {}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        for file in self._files.values():
+            file.close()
+
+    @property
+    def paths(self) -> dict[str, Path]:
+        """Array name to its finished ``.npy`` file."""
+        return {name: self._folder / f"{name}.npy" for name in self._files}
+
+    def open(self, steps: Steps, origin_um: tuple[int, int]) -> None:
+        """Write the heads, and the start."""
+        n = len(steps)
+        for name, dtype, length in (
+            ("step_x_um", np.int32, n + 1),
+            ("step_y_um", np.int32, n + 1),
+            ("step_block", np.int32, n),
+            ("step_t_s", np.float64, n),
+        ):
+            self._files[name] = (self._folder / f"{name}.npy").open("wb")
+            _write_head(self._files[name], dtype, length)
+        self._append(step_x_um=np.array(origin_um[:1]), step_y_um=np.array(origin_um[1:]))
+
+    def take(self, pulses: Pulses) -> None:
+        """Append pulses."""
+        self._append(step_x_um=pulses.x_um, step_y_um=pulses.y_um, step_block=pulses.row + 1)
+        self._files["step_t_s"].write(pulses.t_s.tobytes())
+
+    def _append(self, **columns: NDArray[np.integer]) -> None:
+        for name, column in columns.items():
+            self._files[name].write(column.astype("<i4").tobytes())
+
+
+def _write_head(file: IO[bytes], dtype: DTypeLike, length: int) -> None:
+    descr = np.lib.format.dtype_to_descr(np.dtype(dtype))
+    np.lib.format.write_array_header_1_0(file, {"descr": descr, "fortran_order": False, "shape": (length,)})
+
+
+def write_npz(path: Path, files: Mapping[str, Path], arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Write an uncompressed ``.npz`` of finished ``.npy`` files, which are removed, and of arrays.
+
+    The same input gives the same bytes.
+    """
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED, allowZip64=True) as archive:
+        for name, source in files.items():
+            with source.open("rb") as file, archive.open(_member(name), "w", force_zip64=True) as member:
+                shutil.copyfileobj(file, member, 1 << 20)
+            source.unlink()
+        for name, array in arrays.items():
+            with archive.open(_member(name), "w", force_zip64=True) as member:
+                np.lib.format.write_array(member, np.ascontiguousarray(array), allow_pickle=False)
+
+
+def _member(name: str) -> zipfile.ZipInfo:
+    return zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))

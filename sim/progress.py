@@ -1,0 +1,58 @@
+"""Progress on stderr for work that takes longer than a second: a bar on a terminal, a line now and then elsewhere."""
+
+import time
+from types import TracebackType
+from typing import Self
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
+
+_QUIET_S = 1.0
+_BETWEEN_LINES_S = 5.0
+
+
+class StageProgress:
+    """Progress of named stages; call it with stage, done and total."""
+
+    def __init__(self) -> None:
+        self._console = Console(stderr=True)
+        self._next_s = time.monotonic() + _QUIET_S
+        self._bar: Progress | None = None
+        self._tasks: dict[str, TaskID] = {}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        if self._bar is not None:
+            self._bar.stop()
+
+    def __call__(self, stage: str, done: int, total: int) -> None:
+        """Show how far a stage has come."""
+        if self._bar is not None:
+            self._show(self._bar, stage, done, total)
+        elif time.monotonic() >= self._next_s and done < total:
+            if self._console.is_terminal:
+                self._bar = _bar(self._console)
+                self._show(self._bar, stage, done, total)
+            else:
+                self._console.print(f"drycut: {stage}, {done / total:.0%}", highlight=False)
+                self._next_s = time.monotonic() + _BETWEEN_LINES_S
+
+    def _show(self, bar: Progress, stage: str, done: int, total: int) -> None:
+        if stage not in self._tasks:
+            self._tasks[stage] = bar.add_task(stage, total=total)
+        bar.update(self._tasks[stage], completed=done, total=total)
+
+
+def _bar(console: Console) -> Progress:
+    bar = Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.percentage:>3.0f} %"),
+        TimeRemainingColumn(),
+        console=console,
+        transient=True,
+    )
+    bar.start()
+    return bar

@@ -1,0 +1,104 @@
+"""The summary table of a run on the terminal."""
+
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+from rich.text import Text
+
+from parser.findings import Finding, Severity, place, with_caret
+from parser.lines import LineIndex
+from parser.units import mm
+from sim.deviation import Deviation
+from sim.dryrun import DryRun, verdict
+from sim.units import clock
+
+_COLOURS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
+_MOST_FINDINGS = 20
+
+
+def print_summary(run: DryRun, output: Path | None) -> None:
+    """Print the figures of a run, its findings and its verdict to stdout."""
+    console = Console(highlight=False, soft_wrap=True)
+    table = Table(title=escape(run.scenario.title), title_justify="left", show_header=False, title_style="bold")
+    table.add_column(style="dim")
+    table.add_column()
+    for name, value in _rows(run):
+        table.add_row(name, escape(value))
+    console.print(table)
+    _print_findings(console, run, output)
+    passed = verdict(run.findings) == "pass"
+    console.print(Text(f"verdict: {'pass' if passed else 'fail'}", style="bold green" if passed else "bold red"))
+    if output is not None:
+        console.print(f"written: {escape(str(output))}/ cut.png, report.json, trace.npz")
+
+
+def _rows(run: DryRun) -> list[tuple[str, str]]:
+    toolpath, scenario = run.toolpath, run.scenario
+    jumps = int(toolpath.is_jump.sum())
+    arcs = int(toolpath.is_arc.sum())
+    numbers = {"line": len(toolpath) - arcs - jumps, "arc": arcs, "jump": jumps}
+    kinds = ", ".join(f"{number:,} {kind}{'s' * (number > 1)}" for kind, number in numbers.items() if number)
+    wire = f"wire {mm(scenario.wire.diameter_um):g} mm + 2 × {scenario.wire.spark_gap_um:g} µm gap"
+    return [
+        ("machine", scenario.machine.name),
+        ("blocks", f"{len(toolpath):,} ({kinds})"),
+        ("path length", f"{mm(float(toolpath.length_um.sum())):,.3f} mm"),
+        ("kerf", f"{mm(scenario.wire.kerf_um):g} mm ({wire})"),
+        ("steps", f"{len(run.steps):,} of 1 µm"),
+        ("estimated cutting time", f"{clock(run.plan.duration_s)} in {scenario.thickness_mm:g} mm"),
+        *_closures(run),
+        ("deviation of steps, at most", _largest(run.deviations.steps)),
+        ("  of it interpolation", _largest(run.deviations.interpolation)),
+        ("deviation of table, at most", _largest(run.deviations.table)),
+    ]
+
+
+def _closures(run: DryRun) -> list[tuple[str, str]]:
+    """Closure of each contour; of many, the worst."""
+    shown = run.contours
+    if len(shown) > 4:
+        shown = (max(shown, key=lambda contour: contour.closure_stepped_um),)
+    rows = []
+    for contour in shown:
+        name = "closure"
+        if len(run.contours) > 1:
+            name += f" {contour.first}–{contour.last}" + (" (worst)" if len(shown) < len(run.contours) else "")
+        if not contour.encloses:
+            rows.append((name, "none: a parting cut"))
+            continue
+        figures = f"{contour.closure_exact_um:,.2f} µm exact, {contour.closure_stepped_um:,.2f} µm stepped"
+        rows.append((name, figures))
+    return rows
+
+
+def _largest(deviation: Deviation) -> str:
+    where = deviation.where
+    if where is None or where.t_s == 0.0:
+        return "no motion"
+    return f"{deviation.max_um:,.2f} µm in block {where.block:,} at {_mm(where.x_um)}, {_mm(where.y_um)} mm"
+
+
+def _mm(length_um: float) -> str:
+    """Millimetres to the micrometre; never −0."""
+    return f"{round(mm(length_um), 3) + 0.0:.3f}"
+
+
+def _print_findings(console: Console, run: DryRun, output: Path | None) -> None:
+    lines = LineIndex(run.program.text) if run.findings else None
+    for finding in run.findings[:_MOST_FINDINGS]:
+        console.print(_line(run.program.name, finding))
+        if lines is not None and finding.column:
+            console.print(Text(with_caret(lines.excerpt(finding.line), finding.column), style="dim"))
+    if len(run.findings) > _MOST_FINDINGS:
+        there = "in report.json" if output else "in the report; -o DIR or --json shows them"
+        console.print(f"… and {len(run.findings) - _MOST_FINDINGS} findings more, {there}")
+
+
+def _line(name: str, finding: Finding) -> Text:
+    at = place(name, finding.line, finding.column)
+    block = f" block {finding.block}:" if finding.block else ""
+    text = Text(f"{at}: ")
+    text.append(f"{finding.severity}[{finding.code}]", style=_COLOURS[finding.severity])
+    return text.append(f":{block} {finding.message}")

@@ -1,0 +1,195 @@
+"""The command line as a user meets it: in a process of its own, with good and with bad input."""
+
+import json
+import os
+import subprocess
+import sys
+from importlib import resources
+from pathlib import Path
+
+import pytest
+from runs import SCENARIOS
+
+from sim import __version__
+
+ROOT = Path(__file__).parent.parent
+SOUND = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 DD"
+
+
+def drycut(*args: str | Path, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "sim.cli", *map(str, args)],
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        cwd=cwd,
+        check=False,
+        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONUTF8": "1", "COLUMNS": "100"},
+    )
+
+
+@pytest.fixture
+def part(tmp_path: Path) -> Path:
+    path = tmp_path / "零件.3b"
+    path.write_text(SOUND, "utf-8")
+    return path
+
+
+def test_a_sound_program_passes_and_prints_its_figures(part: Path) -> None:
+    done = drycut("run", part)
+    assert (done.returncode, done.stderr) == (0, "")
+    for figure in (
+        "零件.3b",
+        "82.004 mm",
+        "0.2 mm",
+        "99,000",
+        "31 min",
+        "0.00 µm exact, 0.00 µm stepped",
+        "verdict: pass",
+    ):
+        assert figure in done.stdout
+
+
+def test_output_goes_where_it_is_sent(part: Path, tmp_path: Path) -> None:
+    done = drycut("run", part, "-o", tmp_path / "a" / "b")
+    assert done.returncode == 0
+    assert sorted(path.name for path in (tmp_path / "a" / "b").iterdir()) == ["cut.png", "report.json", "trace.npz"]
+
+
+def test_without_output_no_file_is_written(part: Path, tmp_path: Path) -> None:
+    drycut("run", part.name, cwd=tmp_path)
+    assert list(tmp_path.iterdir()) == [part]
+
+
+def test_a_scenario_folder_runs(tmp_path: Path) -> None:
+    done = drycut("run", SCENARIOS / "keyhole")
+    assert done.returncode == 0
+    assert "0.28 µm exact, 2.24 µm stepped" in done.stdout
+    assert drycut("run", ".", cwd=SCENARIOS / "keyhole").returncode == 0
+
+
+def test_json_is_the_report(part: Path, tmp_path: Path) -> None:
+    done = drycut("run", part, "--json", "-o", tmp_path / "out")
+    assert done.stdout == (tmp_path / "out" / "report.json").read_text("utf-8")
+    assert json.loads(done.stdout)["schema"] == "drycut.report/1"
+
+
+def test_options_take_the_place_of_the_scenario(part: Path, tmp_path: Path) -> None:
+    shipped = (resources.files("sim") / "machines" / "dk7740.toml").read_text("utf-8")
+    machine = tmp_path / "mine.toml"
+    machine.write_text(shipped.replace("DK7740 class, stepper drives", "mine"), "utf-8")
+    done = drycut(
+        *("run", part, "--json", "--machine", machine, "--thickness", "60mm"),
+        *("--wire-diameter", "0.12mm", "--gap", "15um"),
+    )
+    report = json.loads(done.stdout)
+    assert report["machine"]["name"] == "mine"
+    assert report["work"]["thickness_mm"] == 60.0
+    assert report["wire"] == {"diameter_um": 120.0, "spark_gap_um": 15.0, "kerf_um": 150.0}
+
+
+def test_a_failed_verdict_exits_1_and_names_line_and_code(tmp_path: Path) -> None:
+    path = tmp_path / "part.3b"
+    path.write_text(SOUND.replace("GYNR1", "GYNR5").replace(" ", "\n"), "utf-8")
+    done = drycut("run", path)
+    assert done.returncode == 1
+    assert "part.3b:2:1: error[3B101]: 'B9900B0B39600GYNR5'" in done.stdout
+    assert "\n    B9900B0B39600GYNR5\n    ^\n" in done.stdout
+    assert "verdict: fail" in done.stdout
+
+
+def _huge(path: Path) -> None:
+    path.write_text("B1B0B1GXL1\nN2: B0B0B1000000000000000GXL1", "utf-8")
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda path: path.write_bytes(b""), "part.3b: error[3B100]: the file is empty"),
+        (
+            lambda path: path.write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0"),
+            "part.3b: error[3B100]: the file is not a text",
+        ),
+        (lambda path: path.write_text("hello", "utf-8"), "part.3b: error[3B100]: no block found"),
+        (lambda path: path.mkdir(), "is a folder without scenario.toml"),
+        (lambda path: None, "cannot be read: No such file"),
+        (_huge, "part.3b:2:5: error[3B206]: a number of more than nine digits"),
+    ],
+    ids=["empty", "picture", "no block", "folder", "missing", "huge count"],
+)
+def test_bad_programs_exit_2_with_one_clear_error(tmp_path: Path, make: object, message: str) -> None:
+    path = tmp_path / "part.3b"
+    make(path)
+    done = drycut("run", path, "-o", tmp_path / "out")
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert message in done.stderr.splitlines()[0]
+    assert "Traceback" not in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (["--machine", "dk9"], "machine 'dk9' is not shipped; known: dk7740"),
+        (["--thickness", "40"], "'40' is no length"),
+        (["--thickness", "0mm"], "--thickness in mm is 0; it must lie between"),
+        (["--wire-diameter", "0.02mm", "--gap=-40um"], "cuts no kerf"),
+        (["--nonsense"], "No such option"),
+        (["-o", __file__], "is a file; -o names a folder"),
+    ],
+)
+def test_bad_options_exit_2_with_one_clear_line(part: Path, args: list[str], message: str) -> None:
+    done = drycut("run", part, *args)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert message in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_bad_machine_files_are_named(part: Path, tmp_path: Path) -> None:
+    shipped = (resources.files("sim") / "machines" / "dk7740.toml").read_text("utf-8")
+    for text, message in (
+        (
+            shipped.replace("saddle_mass_kg", "sadle_mass_kg"),
+            "unknown key 'sadle_mass_kg'; did you mean saddle_mass_kg?",
+        ),
+        (shipped.replace("= 140.0", "= -140.0"), "carriage_mass_kg is -140"),
+    ):
+        (tmp_path / "m.toml").write_text(text, "utf-8")
+        done = drycut("run", part, "--machine", tmp_path / "m.toml", "-o", tmp_path / "out")
+        assert done.returncode == 2
+        assert message in done.stderr
+        assert not (tmp_path / "out").exists()
+
+
+def test_version_and_help() -> None:
+    assert drycut("--version").stdout == f"drycut, version {__version__}\n"
+    assert "run  Dry-run a 3B program" in drycut("--help").stdout
+    assert "drycut run part.3b -o out/\n" in drycut("run", "--help").stdout
+    assert drycut().returncode == 2
+    assert drycut("frobnicate").returncode == 2
+
+
+def test_version_imports_nothing_heavy() -> None:
+    code = (
+        "import sys; from sim.cli import cli; cli.main(['--version'], standalone_mode=False);"
+        "print(*sorted({'numpy', 'pymunk', 'pygame', 'PIL', 'rich'} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
+    assert done.stdout.splitlines()[1:] == [""]
+
+
+def test_run_without_output_needs_no_pictures(part: Path) -> None:
+    code = (
+        f"import sys; from sim.cli import cli; cli.main(['run', {str(part)!r}], standalone_mode=False);"
+        "print('drawn' if {'pygame', 'PIL'} & set(sys.modules) else 'not drawn')"
+    )
+    done = subprocess.run(
+        [sys.executable, "-X", "utf8", "-c", code],
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=True,
+        cwd=ROOT,
+    )
+    assert done.stdout.splitlines()[-1] == "not drawn"

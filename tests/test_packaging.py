@@ -1,0 +1,48 @@
+"""The packages install, hold what they need, and own their names."""
+
+import subprocess
+import sys
+import tomllib
+import zipfile
+from importlib import metadata
+from pathlib import Path
+
+from sim import __version__
+
+ROOT = Path(__file__).parent.parent
+
+
+def test_no_other_distribution_owns_our_names() -> None:
+    owners = metadata.packages_distributions()
+    for name in ("parser", "controller", "sim"):
+        assert set(owners.get(name, ["drycut"])) == {"drycut"}, name
+
+
+def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
+    code = f"from hatchling.build import build_wheel; print(build_wheel({str(tmp_path)!r}))"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    name = done.stdout.splitlines()[-1]
+    assert __version__ in name
+    with zipfile.ZipFile(tmp_path / name) as wheel:
+        names = wheel.namelist()
+    assert {path.split("/")[0] for path in names} == {"parser", "controller", "sim", f"drycut-{__version__}.dist-info"}
+    for needed in ("sim/machines/dk7740.toml", "sim/draw/fonts/OFL.txt", "parser/program.py", "sim/cli/run.py"):
+        assert needed in names
+    assert any(path.startswith("sim/draw/fonts/") and path.endswith(".otf") for path in names)
+    assert any(path.endswith("licenses/LICENSE") for path in names)
+
+
+def test_types_are_shipped() -> None:
+    for name in ("parser", "controller", "sim"):
+        assert (ROOT / name / "py.typed").exists(), name
+
+
+def test_every_dependency_is_locked() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    wanted = [
+        *project["dependencies"],
+        *(name for extra in project["optional-dependencies"].values() for name in extra),
+    ]
+    locked = {line.split("==")[0] for line in (ROOT / "requirements-lock.txt").read_text("utf-8").splitlines()}
+    for requirement in wanted:
+        assert requirement.split(">=")[0] in locked, requirement
