@@ -8,7 +8,7 @@ from parser.decode import endless
 from parser.findings import Finding
 from parser.lines import LineIndex
 from parser.toolpath import Axis, Ints, Toolpath
-from parser.units import UM_PER_MM
+from parser.units import mm
 
 PRINTED_END_TOLERANCE_UM = 2.0
 """Printed ends are rounded to 1 µm; one that is more than 2 µm off is a damaged block (docs/3b.md §4)."""
@@ -67,7 +67,7 @@ def _uncounted(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
 
 def _misprinted(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
     for row in _printed_off(toolpath).tolist():
-        printed, end = toolpath.printed_end_um[row] / UM_PER_MM, toolpath.end_um[row] / UM_PER_MM
+        printed, end = mm(toolpath.printed_end_um[row]), mm(toolpath.end_um[row])
         yield _at(
             toolpath,
             lines,

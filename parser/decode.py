@@ -15,8 +15,6 @@ from parser.reader import RawBlocks, Records
 from parser.toolpath import Axis, Floats, Kind, Source, Stop, Toolpath, Words
 from parser.words import line_words
 
-# Signs of (X, Y) in quadrants 1..4; there is no quadrant 0.
-_SIGNS = np.array([[0, 0], [1, 1], [-1, 1], [-1, -1], [1, -1]], dtype=np.int64)
 # (X, Y) of a line that leaves both out and so runs along the axis its digit names (`BBB40000GXL1`).
 _AXIS_OF_LABEL = np.array([[0, 0], [1, 0], [0, 1], [1, 0], [0, 1]], dtype=np.int64)
 
@@ -90,7 +88,7 @@ def _words(blocks: RawBlocks) -> Words:
 
 def _moves(words: Words, is_arc: NDArray[np.bool_]) -> Moves:
     n = len(is_arc)
-    signs = _SIGNS[words.quadrant]
+    signs = words.signs
     by = _line_by(words) * signs
     center = np.full((n, 2), np.nan)
     radius, angle, sweep = np.full(n, np.nan), np.full(n, np.nan), np.zeros(n)

@@ -18,8 +18,7 @@ _NARROW = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)} | {0x3000: 0x2
 def decode_text(data: bytes) -> tuple[str, str]:
     """Text of a program file and the name of its encoding.
 
-    Raises ProgramError (3B100) for an empty file and for bytes that are no text: control characters, or no encoding
-    fits.
+    Raises ProgramError (3B100) for an empty file and for bytes that are no text.
     """
     if not data.strip():
         raise ProgramError("the file is empty; expected a 3B program; the machine would do nothing", code="3B100")
@@ -35,6 +34,13 @@ def narrow(text: str) -> str:
     return text if text.isascii() else text.translate(_NARROW)
 
 
+def printable(text: str) -> str:
+    """Text for people: control characters and bytes that were no text become U+FFFD, tabs a blank."""
+    if text.isprintable():
+        return text
+    return "".join(char if char.isprintable() else " " if char == "\t" else "\ufffd" for char in text)
+
+
 def _decoded(data: bytes) -> tuple[str, str]:
     for bom, encoding in _BOMS:
         if data.startswith(bom):
@@ -43,12 +49,12 @@ def _decoded(data: bytes) -> tuple[str, str]:
             except UnicodeDecodeError:
                 raise _not_text() from None
     # GB18030 holds all of GBK and GB2312; an 8-bit remark of any other code page still leaves the ASCII blocks intact.
-    for encoding in ("utf-8", "gb18030", "latin-1"):
+    for encoding in ("utf-8", "gb18030"):
         try:
             return data.decode(encoding), encoding
         except UnicodeDecodeError:
             continue
-    raise _not_text()
+    return data.decode("latin-1"), "latin-1"
 
 
 def _not_text() -> ProgramError:

@@ -17,6 +17,9 @@ CLOSED_WITHIN_UM = 5.0
 """A figure whose end is this near its start is closed: 1 µm exact per arc, 5 µm stepped (docs/3b.md §3)."""
 
 
+_MOST_JUMPS = 3  # lines in one way to the next figure; a figure of lines and the jump to it make more
+
+
 class Nodes(NamedTuple):
     """Start nodes: `origin_um` where the program starts, and m rows that go to absolute places.
 
@@ -46,7 +49,7 @@ def with_node_rows(blocks: RawBlocks, marks: Sequence[Mark]) -> tuple[RawBlocks,
 
 
 def air_lines(end_um: Floats, start_um: Floats, is_arc: NDArray[np.bool_], pauses: Sequence[int]) -> Ints:
-    """Rows that are jumps: the lines in the air after a pause that ends a closed figure.
+    """Rows that are jumps: the lines in the air between two figures.
 
     Parameters
     ----------
@@ -57,24 +60,30 @@ def air_lines(end_um: Floats, start_um: Floats, is_arc: NDArray[np.bool_], pause
 
     Notes
     -----
-    Two pauses round the jump (wire out, wire in) tell all of its lines. With one, or where the lines close on
-    themselves and so are a figure, only the first line can be the jump. A pause inside an open figure (to clamp the
-    slug before the last cut) makes none.
+    Up to three lines alone between two pauses (wire out, wire in) are jumps, however badly the figure before them
+    closed; more of them are a figure with the jump to it. Else the first line after a pause is the jump if the figure
+    before is closed: a pause inside an open figure (to clamp the slug before the last cut) makes none.
     """
     rows: list[int] = []
     begin = 0  # first row of the figure being cut
     stops = [*pauses, len(end_um)]
     for at, until in pairwise(stops):
-        if at >= until or at <= begin or is_arc[at] or not _closed(end_um[at - 1], start_um[begin]):
+        if at >= until or at <= begin or is_arc[at]:
             continue
-        between_pauses = until < len(end_um) and not is_arc[at:until].any()
-        begin = until if between_pauses and not _closed(end_um[until - 1], end_um[at]) else at + 1
-        rows.extend(range(at, begin))
+        few_lines = until - at <= _MOST_JUMPS and not is_arc[at:until].any()
+        if few_lines and until < len(end_um):
+            rows.extend(range(at, until))
+            begin = until
+        elif _closed(end_um[at - 1], start_um[begin:at]):
+            rows.append(at)
+            begin = at + 1
     return np.array(rows, dtype=np.int64)
 
 
-def _closed(end_um: Floats, start_um: Floats) -> bool:
-    return float(np.hypot(*(end_um - start_um))) <= CLOSED_WITHIN_UM
+def _closed(end_um: Floats, corners_um: Floats) -> bool:
+    """Whether a figure ends at its start or at another corner of its own, such as the end of a lead-in."""
+    off = corners_um - end_um
+    return bool((np.hypot(off[:, 0], off[:, 1]) <= CLOSED_WITHIN_UM).any())
 
 
 def _insert(blocks: RawBlocks, nodes: Sequence[Mark]) -> RawBlocks:

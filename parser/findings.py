@@ -6,6 +6,8 @@ The hundreds digit of a code names the layer: ``3B1xx`` grammar, ``3B2xx`` block
 from enum import StrEnum
 from typing import NamedTuple
 
+from parser.encoding import printable
+
 
 class Severity(StrEnum):
     """How a finding counts: an error fails the dry run, a warning and a note do not."""
@@ -20,6 +22,7 @@ CATALOGUE: dict[str, tuple[Severity, str]] = {
     "3B101": (Severity.ERROR, "unreadable text"),
     "3B102": (Severity.NOTE, "no end code"),
     "3B103": (Severity.ERROR, "blocks after the end code"),
+    "3B104": (Severity.ERROR, "block in a remark"),
     "3B201": (Severity.ERROR, "arc without radius"),
     "3B202": (Severity.ERROR, "the counted axis never moves"),
     "3B205": (Severity.WARNING, "zero count length"),
@@ -85,6 +88,6 @@ def with_caret(excerpt: str, column: int) -> str:
     Wide (CJK) characters before the caret take two cells, so the caret keeps its place in a terminal.
     """
     first = max(0, column - 61)
-    window = excerpt[first : first + 100].replace("\t", " ")
+    window = printable(excerpt[first : first + 100])
     cells = sum(2 if ord(char) >= 0x1100 else 1 for char in window[: column - 1 - first])
     return f"    {window}\n    {' ' * cells}^"

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from parser.block_checks import block_findings
 from parser.decode import decode
-from parser.encoding import decode_text
+from parser.encoding import decode_text, printable
 from parser.errors import FileUnreadableError, ProgramError
 from parser.findings import Finding
 from parser.reader import RawBlocks, Records, read_records
@@ -51,7 +51,7 @@ def read_program(path: Path | str) -> Program:
     except OSError as error:
         raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
     text, encoding = decode_text(data)
-    return parse_program(text, name=path.name, encoding=encoding)
+    return parse_program(text, name=printable(path.name), encoding=encoding)
 
 
 def parse_program(text: str, name: str = "program", encoding: str = "utf-8") -> Program:
@@ -70,23 +70,34 @@ def parse_program(text: str, name: str = "program", encoding: str = "utf-8") -> 
 
 
 def _up_to_end(records: Records) -> tuple[Records, list[Finding]]:
-    """Records without the blocks after the first end code, and a finding where there are any."""
-    after = next((mark.after for mark in records.marks if mark.kind == "end"), None)
-    lost = 0 if after is None else len(records.blocks.line) - after
-    if after is None or lost == 0:
-        return records, []
-    finding = Finding(
-        "3B103",
-        f"{lost} block{'s' if lost > 1 else ''} after DD",
-        "DD as the last mark",
-        "the machine switches off at DD and never runs them",
-        int(records.blocks.line[after]),
-        1,
-        after + 1,
+    """Records without what stands after the end code, and a finding where blocks do: the machine is off by then.
+
+    ``D`` and ``DD`` before the first block are words of the header.
+    """
+    marks = tuple(mark for mark in records.marks if mark.after > 0 or mark.kind == "node")
+    end = next((mark for mark in marks if mark.kind == "end"), None)
+    if end is None:
+        return records._replace(marks=marks), []
+    at = end.line, records.lines.column(end.span[0])
+    lost = len(records.blocks.line) - end.after
+    kept = records._replace(
+        blocks=RawBlocks._make(column[: end.after] for column in records.blocks),
+        marks=marks[: marks.index(end) + 1],
+        findings=tuple(finding for finding in records.findings if (finding.line, finding.column) < at),
     )
-    blocks = RawBlocks._make(column[:after] for column in records.blocks)
-    marks = tuple(mark for mark in records.marks if mark.after <= after)
-    return records._replace(blocks=blocks, marks=marks), [finding]
+    if not lost:
+        return kept, []
+    line, column = int(records.blocks.line[end.after]), records.lines.column(int(records.blocks.span[end.after, 0]))
+    return kept, [
+        Finding(
+            "3B103",
+            f"{lost} block{'s' if lost > 1 else ''} after DD",
+            "DD as the last mark",
+            "the machine switches off at DD and never runs them",
+            line,
+            column,
+        )
+    ]
 
 
 def _no_end(records: Records) -> list[Finding]:

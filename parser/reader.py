@@ -19,6 +19,8 @@ from parser.units import from_mm
 MAX_WORD_UM = 999_999_999
 """Largest X, Y or J taken, in µm: a kilometre, a thousand times the travel of the largest table (DK7780, 1 m)."""
 
+_OVER_UM = MAX_WORD_UM + 1
+
 # Possessive quantifiers keep hostile runs of blanks and digits linear. `ws` is blank space within a line.
 _WS = r"[ \t]*+"
 _LABEL = rf"(?:N{_WS}(\d++){_WS}:?{_WS})?"
@@ -29,12 +31,15 @@ _BLOCK = rf"(B{_NUMBER}B{_NUMBER}B{_NUMBER}G{_WS}([XY]){_WS}(L|SR|NR){_WS}([1-4]
 _START_NODE = rf"Start{_WS}Point{_WS}={_MM},{_MM}[^\r\n]*"
 _HEADER = r"(?:\*{2}|CAXA|Conn?er\s?R|Offset|Length)[^\r\n]*"
 _REMARK = r"//[^\r\n]*|;[^\r\n]*|\([^()\r\n]*\)"
+# A mark is a token: `D` in a word, in `part-D` or in `3D` is none; glued to a block it is.
+_MARK = rf"((?:(?<![A-Z0-9_-])|(?<=[LR][1-4]))DD?)(?:(?![A-Z0-9_-])|(?=B{_WS}\d*+{_WS}B))"
 _TOKEN = re.compile(
-    rf"{_LABEL}(?:{_BLOCK}|((?<![A-Z_])DD?)(?![A-Z0-9_])|{_START_NODE}|({_HEADER}|{_REMARK}))",
+    rf"{_LABEL}(?:{_BLOCK}|{_MARK}|{_START_NODE}|({_HEADER}|{_REMARK}))",
     re.IGNORECASE | re.ASCII,
 )
+_HIDDEN_BLOCK = re.compile(_BLOCK, re.IGNORECASE | re.ASCII)
 _INKED_LINE = re.compile(r"[^\s\0-\x1f][^\r\n]*")
-_LIKE_A_BLOCK = re.compile(r"B\s*+\d", re.IGNORECASE)
+_LIKE_A_BLOCK = re.compile(r"^\s*+(?:N\s*+\d++\s*+:?)?\s*+B\s*+\d|B\s*+\d*+\s*+B\s*+\d", re.IGNORECASE | re.MULTILINE)
 # Groups of the pattern above, in its order.
 _GROUPS = (
     *("label", "block", "x", "y", "j", "axis", "sense", "quadrant", "end_x", "end_y"),
@@ -88,14 +93,15 @@ class Records(NamedTuple):
 def read_records(text: str) -> Records:
     """Read a whole program text.
 
-    Text that is no block, mark, header or remark becomes finding 3B101, and a word over `MAX_WORD_UM` becomes 3B206
-    with its digits cut to ten; nothing is raised.
+    Text that is no block, mark, header or remark becomes finding 3B101, and a word over `MAX_WORD_UM` becomes 3B206;
+    nothing is raised.
     """
     folded = narrow(text)
     lines = LineIndex(folded)
     words: list[str | None] = []  # one flat list: a hundred thousand tuples would keep the garbage collector busy
     spans: list[int] = []
     marks: list[Mark] = []
+    hidden: list[int] = []
     covered = [0]
     for match in _TOKEN.finditer(folded):
         span, groups = match.span(), match.groups()
@@ -103,11 +109,18 @@ def read_records(text: str) -> Records:
         if groups[1]:
             words += groups
             spans += match.span(_BLOCK_GROUP)
-        elif not groups[13]:
+            continue
+        if not groups[13]:
             marks.append(_mark(groups, span, len(spans) // 2, lines.line(span[0])))
+        if folded[span[0]] not in "/(" and (block := _HIDDEN_BLOCK.search(folded, *span)):
+            hidden.append(block.start())
     covered.append(len(folded))
     raw = _columns(words, np.array(spans, dtype=np.int64).reshape(-1, 2), lines)
-    findings = [*_too_large(raw, lines), *_gaps(covered, lines, first_block=spans[0] if spans else -1)]
+    findings = [
+        *_hidden(hidden, lines),
+        *_too_large(raw, marks, lines),
+        *_gaps(covered, lines, first_block=spans[0] if spans else -1),
+    ]
     return Records(text, lines, raw, tuple(marks), tuple(sorted(findings, key=lambda f: (f.line, f.column))))
 
 
@@ -119,8 +132,8 @@ def _mark(groups: tuple[str | None, ...], span: tuple[int, int], after: int, lin
 
 
 def _mm(digits: str) -> float:
-    """Printed millimetres to µm; beyond any table where the digits are hostile."""
-    return from_mm(float(digits[:32]))
+    """Printed millimetres to µm, held at just over `MAX_WORD_UM` either way."""
+    return max(-_OVER_UM, min(from_mm(float(digits[:32])), _OVER_UM))
 
 
 def _columns(words: list[str | None], span: Ints, lines: LineIndex) -> RawBlocks:
@@ -153,26 +166,41 @@ def _cases(word: str) -> list[str]:
 
 
 def _numbers(column: list[str | None]) -> Ints:
-    """Digits to int64: an empty field is 0; more digits than `MAX_WORD_UM` has become a number over it."""
+    """Digits to int64: an empty field is 0, a number over `MAX_WORD_UM` is held at just over it."""
     digits = [digit or "0" for digit in column]
     if max(map(len, digits), default=0) > 10:
         digits = [(digit.lstrip("0") or "0")[:10] for digit in digits]
-    return np.fromiter(map(int, digits), dtype=np.int64, count=len(digits))
+    return np.minimum(np.fromiter(map(int, digits), dtype=np.int64, count=len(digits)), _OVER_UM)
 
 
-def _too_large(raw: RawBlocks, lines: LineIndex) -> list[Finding]:
+def _hidden(positions: list[int], lines: LineIndex) -> list[Finding]:
+    return [
+        Finding(
+            "3B104",
+            "a block in a header line or in a remark after `;`",
+            "a block on a line of its own, or behind // where it is not to run",
+            "some controllers would run it; the path here leaves it out",
+            lines.line(at),
+            lines.column(at),
+        )
+        for at in positions
+    ]
+
+
+def _too_large(raw: RawBlocks, marks: list[Mark], lines: LineIndex) -> list[Finding]:
     worst = np.maximum(np.maximum(raw.x_um, raw.y_um), raw.count_um)
+    places = raw.span[worst > MAX_WORD_UM, 0].tolist()
+    places += [mark.span[0] for mark in marks if max(abs(mark.x_um), abs(mark.y_um)) > MAX_WORD_UM]
     return [
         Finding(
             "3B206",
-            "a number of more than nine digits",
-            f"at most {MAX_WORD_UM} µm, a kilometre",
+            f"a number over {MAX_WORD_UM} µm",
+            "at most that, a kilometre",
             "the machine would run into its end stop",
-            int(raw.line[row]),
-            lines.column(int(raw.span[row, 0])),
-            int(row) + 1,
+            lines.line(at),
+            lines.column(at),
         )
-        for row in np.flatnonzero(worst > MAX_WORD_UM)
+        for at in places
     ]
 
 

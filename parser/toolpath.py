@@ -15,6 +15,10 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
+# Signs of (X, Y) in quadrants 1..4; there is no quadrant 0.
+_SIGNS = np.array([[0, 0], [1, 1], [-1, 1], [-1, -1], [1, -1]], dtype=np.int64)
+
+
 class Kind(IntEnum):
     """What a row of the toolpath is: a cut along a line or an arc, or a line in the air without the wire cutting."""
 
@@ -104,6 +108,11 @@ class Words:
     quadrant: Ints
     turn: Ints
 
+    @property
+    def signs(self) -> Ints:
+        """(n, 2) int64, signs of X and Y in each block's quadrant."""
+        return _SIGNS[self.quadrant]
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Source:
@@ -163,11 +172,16 @@ class Toolpath:
     stops: tuple[Stop, ...]
 
     def __post_init__(self) -> None:
-        """Check that all columns have one length; raise ValueError with the lengths where they differ."""
-        rows = {f.name: len(getattr(self, f.name)) for f in fields(self) if f.name not in ("words", "source", "stops")}
-        rows |= {f"words.{f.name}": len(getattr(self.words, f.name)) for f in fields(self.words)}
+        """Freeze the columns, and raise ValueError with their lengths where they are not all the same."""
+        columns = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("words", "source", "stops")}
+        columns |= {f"words.{f.name}": getattr(self.words, f.name) for f in fields(self.words)}
+        columns |= {f"source.{name}": getattr(self.source, name) for name in ("span", "line", "label")}
+        rows = {name: len(column) for name, column in columns.items()}
         if len(set(rows.values())) > 1:
             raise ValueError(f"columns of a toolpath have one length, not {rows}")
+        for column in columns.values():
+            if isinstance(column, np.ndarray):
+                column.setflags(write=False)
 
     def __len__(self) -> int:
         return len(self.kind)

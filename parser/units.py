@@ -1,13 +1,18 @@
 """The factor between the inside, µm, and the millimetres that programs, settings and people use."""
 
+from typing import TypeVar
+
+from parser.toolpath import Floats
+
 UM_PER_MM = 1000.0
+_Length = TypeVar("_Length", float, Floats)
 
 
-def mm(length_um: float) -> float:
-    """µm to mm."""
+def mm(length_um: _Length) -> _Length:
+    """µm to mm, a number or an array."""
     return length_um / UM_PER_MM
 
 
-def from_mm(length_mm: float) -> float:
-    """Mm to µm."""
+def from_mm(length_mm: _Length) -> _Length:
+    """Mm to µm, a number or an array."""
     return length_mm * UM_PER_MM

@@ -1,6 +1,7 @@
 """Exact decoding: closed forms against a walk from extreme to extreme, and the published numbers."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -105,6 +106,14 @@ def test_line_without_x_and_y_runs_along_the_axis_of_its_label(quadrant: int, co
 def test_reduced_line_takes_its_length_from_the_count() -> None:
     toolpath = parse_program("B1B9B90000GYL4").toolpath
     assert toolpath.end_um[0].tolist() == [10000.0, -90000.0]
+
+
+def test_a_toolpath_cannot_be_changed_nor_made_of_uneven_columns() -> None:
+    toolpath = decode(PlainBlock(3, 4, 4, "Y", "L", 1))
+    with pytest.raises(ValueError, match="read-only"):
+        toolpath.end_um[0] = 0.0
+    with pytest.raises(ValueError, match="one length"):
+        replace(toolpath, length_um=np.zeros(2))
 
 
 def test_long_words_lose_nothing_to_rounding() -> None:

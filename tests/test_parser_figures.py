@@ -20,6 +20,14 @@ def test_after_one_pause_the_first_line_is_the_jump() -> None:
     assert jumps(f"{SQUARE} D B100B0B100GXL1 {SQUARE} D B100B0B100GXL1 {SQUARE} DD") == [5, 10]
 
 
+def test_a_figure_left_at_the_end_of_its_lead_in_is_closed_too() -> None:
+    assert jumps(f"B50B0B50GXL1 {SQUARE} D B100B0B100GXL1 {CIRCLE} DD") == [6]
+
+
+def test_lines_between_two_pauses_are_jumps_though_the_figure_before_is_open() -> None:
+    assert jumps("B10B0B10GXL1 B0B10B10GYL2 B10B0B10GXL3 D B100B0B100GXL1 D B5B0B5GXL1 B5B0B20GYNR1 DD") == [4]
+
+
 def test_a_pause_inside_a_figure_makes_no_jump() -> None:
     assert jumps("B10B0B10GXL1 B0B10B10GYL2 D B10B0B10GXL3 B0B10B10GYL4 DD") == []
 

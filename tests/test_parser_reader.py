@@ -40,7 +40,7 @@ def words(text: str) -> list[tuple[int, int, int, str, str]]:
         "B 0 B 024900 B 00024900 Gy L2",
         "B\t0\tB\t24900\tB\t24900\tG\tY\tL\t2",
         "Ｂ０　Ｂ２４９００　Ｂ２４９００　ＧＹ　Ｌ２",
-        "// B1B1B1GXL1\r\nB0B24900B24900GYL2 (B2B2B2GXL1) ; B3B3B3GXL1",
+        "// B1B1B1GXL1\r\nB0B24900B24900GYL2 (B2B2B2GXL1) ; remark with B 12 and D and DD",
     ],
 )
 def test_one_block_in_any_spelling(text: str) -> None:
@@ -89,6 +89,34 @@ def test_marks_are_tokens_not_letters(text: str, marks: list[str]) -> None:
     assert records.findings == ()
 
 
+@pytest.mark.parametrize("text", ["DD\n", "part D\n", "PART-D DD\n", "3D model\n", "Name : DD.3B\n", "Name : B12\n"])
+def test_marks_in_a_header_are_words(text: str) -> None:
+    program = parse_program(f"{text}B1B0B1GXL1\nDD")
+    assert program.findings == ()
+    assert [(stop.kind, stop.after) for stop in program.toolpath.stops] == [("end", 1)]
+
+
+def test_marks_glued_to_blocks_on_both_sides() -> None:
+    toolpath = parse_program("B1B0B1GXL1DB1B0B1GXL1DD").toolpath
+    assert [(stop.kind, stop.after) for stop in toolpath.stops] == [("pause", 1), ("end", 2)]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["B1B0B1GXL1;B1B0B1GXL1", "Length= 4 B1B0B1GXL1\nB1B0B1GXL1", "Start Point = 1.0,2.0 B1B0B1GXL1\nB1B0B1GXL1"],
+)
+def test_a_block_is_not_lost_in_a_remark(text: str) -> None:
+    records = read_records(text)
+    assert [finding.code for finding in records.findings] == ["3B104"]
+    assert len(records.blocks.line) == 1
+
+
+def test_what_follows_the_end_is_not_judged() -> None:
+    program = parse_program("B1B0B1GXL1\nDD\nsome note\nD\nB1B0B1000000000000GXL1\nDD")
+    assert [(finding.code, finding.line) for finding in program.findings] == [("3B103", 5)]
+    assert [stop.kind for stop in program.toolpath.stops] == ["end"]
+
+
 def test_caxa_header_is_no_finding() -> None:
     text = (
         "****************************************\nCAXAWEDM -Version 2.0 , Name : part.3B\n"
@@ -119,6 +147,12 @@ def test_unreadable_text_is_named_with_its_place(text: str, line: int, column: i
 def test_numbers_beyond_any_table_are_a_finding(digits: str) -> None:
     findings = read_records(f"B0B0B{digits}GXL1").findings
     assert [f.code for f in findings] == ["3B206"]
+
+
+@pytest.mark.parametrize("mark", ["", "D\n"])
+def test_start_points_beyond_any_table_are_a_finding(mark: str) -> None:
+    program = parse_program(f"{mark}Start Point = 9999999999 , 0\nB1B0B1GXL1\nStart Point = 0 , -{'9' * 400}\nDD")
+    assert [finding.code for finding in program.findings] == ["3B206", "3B206"]
 
 
 def test_leading_zeros_do_not_make_a_number_large() -> None:
