@@ -2,6 +2,8 @@
 
 from enum import Enum
 
+import numpy as np
+
 from controller.plan import Plan
 from controller.pulses import Pulses, time_steps
 from controller.steps import CHUNK_STEPS, Steps
@@ -74,6 +76,7 @@ class StepCard:
         until = min(self._taken + most, len(steps))
         pulses = time_steps(steps.chunk(self._taken, until), plan)
         x0, y0 = self._origin_um
+        np.maximum(pulses.t_s, self._time_s, out=pulses.t_s)
         pulses = pulses._replace(x_um=pulses.x_um + x0, y_um=pulses.y_um + y0) if x0 or y0 else pulses
         if until > self._taken:
             self._taken = until

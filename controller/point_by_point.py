@@ -12,9 +12,6 @@ from parser.toolpath import Axis, Ints, Toolpath
 
 Number = TypeVar("Number", np.int64, np.float64)
 
-# Signs of (X, Y) in quadrants 1..4; there is no quadrant 0.
-_SIGNS = np.array([[0, 0], [1, 1], [-1, 1], [-1, -1], [1, -1]], dtype=np.int64)
-
 
 def interpolate(toolpath: Toolpath) -> Steps:
     """Steps of a whole toolpath, each block from where the steps of the one before it ended.
@@ -23,7 +20,7 @@ def interpolate(toolpath: Toolpath) -> Steps:
     """
     words = toolpath.words
     place = np.stack([words.x_um, words.y_um], axis=1)
-    sign = _SIGNS[words.quadrant]
+    sign = words.signs
     line, arc = np.flatnonzero(~toolpath.is_arc), np.flatnonzero(toolpath.is_arc)
     first_is_x = words.quadrant[line] % 2 == 1  # X in L1 and L3, Y in L2 and L4
     in_j = np.where(toolpath.length_um > 0.0, words.count_um, 0)
@@ -54,6 +51,10 @@ def interpolate(toolpath: Toolpath) -> Steps:
     )
 
 
+_ENDLESS_STEPS = 10**12
+"""Counts of lines are held at this, a million times what any table runs, so that their sums stay whole numbers."""
+
+
 def count_line(extent: Ints, count_um: Ints, count_axis: Ints, first_is_x: Bools) -> Ints:
     """Steps until each of m lines made its count on the counted axis, whose extent is not 0; (m,) int64.
 
@@ -65,7 +66,8 @@ def count_line(extent: Ints, count_um: Ints, count_axis: Ints, first_is_x: Bools
     before = count_um - 1
     waits_for_first = -(-second * before // np.maximum(first, 1))
     waits_for_second = first * before // np.maximum(second, 1) + 1
-    return np.where(count_um > 0, count_um + np.where(on_first, waits_for_first, waits_for_second), 0)
+    steps = count_um + np.where(on_first, waits_for_first, waits_for_second)
+    return np.where(count_um > 0, np.minimum(steps, _ENDLESS_STEPS), 0)
 
 
 def _last_step(count: Ints) -> tuple[Ints, Ints]:

@@ -31,4 +31,5 @@ class Pulses(NamedTuple):
 
 def time_steps(steps: StepChunk, plan: Plan) -> Pulses:
     """Pulses of some steps: each comes when the plan reaches the foot of the step on the path."""
-    return Pulses(plan.time_at(steps.along_um), steps.x_um, steps.y_um, steps.row)
+    # Accumulated, so that rounding (10⁻¹² s) puts no pulse before the one it follows.
+    return Pulses(np.maximum.accumulate(plan.time_at(steps.along_um)), steps.x_um, steps.y_um, steps.row)
