@@ -4,12 +4,13 @@ import numpy as np
 
 from controller.steps import Steps
 from parser.findings import Finding
-from parser.toolpath import Axis, Floats, Toolpath
+from parser.toolpath import Axis, Ints, Toolpath
 from parser.units import UM_PER_MM, mm
 from sim.contours import Contour
 
-STEPPED_END_UM = 6.0
-"""400 random arcs ended at most 5.4 µm from their exact end when stepped (docs/3b.md §3)."""
+STEPPED_END_UM = 12.0
+"""40,000 random arcs of 10 µm to 1 m radius, on the right count axis, ended at most 9.5 µm from their exact end when
+stepped, half of them within 1.0 µm and 95 % within 3.7 µm; the worst found, on purpose, was 9.94 µm off."""
 
 
 def contour_findings(toolpath: Toolpath, contours: tuple[Contour, ...], *, may_stay_open: bool) -> list[Finding]:
@@ -22,7 +23,7 @@ def contour_findings(toolpath: Toolpath, contours: tuple[Contour, ...], *, may_s
             found.append(
                 Finding(
                     "3B301",
-                    f"{blocks} ends {_um(contour.closure_exact_um)} from its start, and not on its own path",
+                    f"{blocks} ends {_um(contour.closure_exact_um)} from its start, and does not close on its path",
                     "a contour that closes, or a scenario that says open = true",
                     "the part is not cut free, or the cut runs into it",
                     **at,
@@ -60,7 +61,7 @@ def missed_ends(toolpath: Toolpath, steps: Steps) -> list[Finding]:
     ]
 
 
-def ruled_count_axis(toolpath: Toolpath) -> Floats:
+def ruled_count_axis(toolpath: Toolpath) -> Ints:
     """Axis (n,) that the trade's rule counts on (docs/3b.md §1): arcs by their end, lines by their longer side.
 
     Near an extreme of the counted axis one count is a long way along the path; the rule keeps the end away from it.
@@ -68,7 +69,7 @@ def ruled_count_axis(toolpath: Toolpath) -> Floats:
     end = np.abs(toolpath.end_um - np.where(toolpath.is_arc[:, None], toolpath.center_um, 0.0))
     side = np.abs(toolpath.end_um - toolpath.start_um)
     on_y = np.where(toolpath.is_arc, end[:, 0] > end[:, 1], side[:, 1] > side[:, 0])
-    return np.where(on_y, Axis.Y, Axis.X)
+    return np.where(on_y, np.int64(Axis.Y), np.int64(Axis.X))
 
 
 def _expected(axis: int, ruled: int) -> str:

@@ -5,13 +5,14 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.steps import Steps
-from parser.toolpath import Floats, Toolpath
+from parser.figures import CLOSED_WITHIN_UM
+from parser.toolpath import Floats, Ints, Toolpath
 from sim.deviation import distance_to_blocks
-from sim.directions import directions
+from sim.directions import directions, tangents_at
 
 EXACT_PER_ARC_UM = 1.0
-CLOSES_WITHIN_UM = 5.0
 """A sound program closes to 1 µm per arc exact and to 5 µm stepped (docs/3b.md §3)."""
+_SAME_WAY = 0.9  # cosine of the angle between two ways along one curve
 
 
 class Contour(NamedTuple):
@@ -26,7 +27,8 @@ class Contour(NamedTuple):
     tolerance_um
         Distance within which it counts as closed.
     returns
-        Whether its end lies on its own earlier path: at the start, at the end of a lead-in, or past them.
+        Whether it ends at its start, at a corner that it passed before, such as the end of a lead-in, or past that,
+        running along its own path once more.
     encloses
         Whether it turns back on itself anywhere; a path that always runs forward in some direction is a parting cut
         and need not close.
@@ -55,37 +57,51 @@ def find_contours(toolpath: Toolpath, steps: Steps) -> tuple[Contour, ...]:
     """Contours in the order they are cut."""
     cut = np.concatenate([[False], ~toolpath.is_jump, [False]])
     borders = np.flatnonzero(np.diff(cut)).reshape(-1, 2)
-    leaving, arriving = directions(toolpath)
-    return tuple(
-        Contour(
-            first=low + 1,
-            last=high,
-            closure_exact_um=_length(toolpath.end_um[high - 1] - toolpath.start_um[low]),
-            closure_stepped_um=_length(steps.corner_um[high] - steps.corner_um[low]),
-            tolerance_um=(tolerance := _tolerance(toolpath, slice(low, high))),
-            returns=_returns(toolpath, low, high, tolerance),
-            encloses=_turns_back(toolpath, slice(low, high), np.concatenate([leaving[low:high], arriving[low:high]])),
+    ways = directions(toolpath)
+    pauses = np.array([stop.after for stop in toolpath.stops], dtype=np.int64)
+    found = []
+    for low, high in borders.tolist():
+        rows = slice(low, high)
+        tolerance = max(CLOSED_WITHIN_UM, EXACT_PER_ARC_UM * float(toolpath.is_arc[rows].sum()))
+        first_pause = int(np.append(pauses[np.searchsorted(pauses, low, side="right") :], high)[0])
+        before = np.arange(low, max(min(first_pause, high - 1), low + 1))
+        found.append(
+            Contour(
+                first=low + 1,
+                last=high,
+                closure_exact_um=_length(toolpath.end_um[high - 1] - toolpath.start_um[low]),
+                closure_stepped_um=_length(steps.corner_um[high] - steps.corner_um[low]),
+                tolerance_um=tolerance,
+                returns=_returns(toolpath, before, high - 1, ways.arriving[high - 1], tolerance),
+                encloses=_turns_back(toolpath, rows, np.concatenate([ways.leaving[rows], ways.arriving[rows]])),
+            )
         )
-        for low, high in borders.tolist()
-    )
+    return tuple(found)
 
 
 def _length(pair: Floats) -> float:
     return float(np.hypot(pair[0], pair[1]))
 
 
-def _tolerance(toolpath: Toolpath, rows: slice) -> float:
-    return max(CLOSES_WITHIN_UM, EXACT_PER_ARC_UM * float(toolpath.is_arc[rows].sum()))
+def _returns(toolpath: Toolpath, before: Ints, last: int, arriving: Floats, tolerance_um: float) -> bool:
+    """Whether the row `last`, arriving so, ends at the start of a row of `before`, or on such a row in its direction.
 
-
-def _returns(toolpath: Toolpath, low: int, high: int, tolerance_um: float) -> bool:
-    """Whether the end lies on the start or on a block before the last one (a full circle is on its own start)."""
-    x, y = toolpath.end_um[high - 1]
-    if np.hypot(x - toolpath.start_um[low, 0], y - toolpath.start_um[low, 1]) <= tolerance_um:
+    `before` are the rows up to the first pause: an end on what was cut after it is no closure, since a faulty figure
+    and the next one make one contour there. Neither is one back along the lead-in, short of its start: the direction
+    tells it from an overlap.
+    """
+    end = toolpath.end_um[last]
+    turned = abs(toolpath.sweep_rad[last])
+    # A full circle closes on itself; past a full turn it overlaps itself, and off the axes it stops a little short.
+    if turned >= 2.0 * np.pi or (turned > np.pi and _length(end - toolpath.start_um[last]) <= tolerance_um):
         return True
-    rows = np.arange(low, high - 1)
-    off, _ = distance_to_blocks(toolpath, rows, np.full(len(rows), x), np.full(len(rows), y))
-    return bool((off <= tolerance_um).any())
+    corners = toolpath.start_um[before] - end
+    if (np.hypot(corners[:, 0], corners[:, 1]) <= tolerance_um).any():
+        return True
+    before = before[before < last]
+    off, _ = distance_to_blocks(toolpath, before, np.full(len(before), end[0]), np.full(len(before), end[1]))
+    along = tangents_at(toolpath, before[off <= tolerance_um], end)
+    return bool((along @ arriving > _SAME_WAY).any())
 
 
 def _turns_back(toolpath: Toolpath, rows: slice, tangents: Floats) -> bool:

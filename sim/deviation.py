@@ -103,10 +103,11 @@ def distance_to_blocks(toolpath: Toolpath, row: Ints, x: Floats, y: Floats) -> t
 
 
 def _from_lines(toolpath: Toolpath, row: Ints, x: Floats, y: Floats) -> tuple[Floats, Ints]:
-    by = toolpath.end_um - toolpath.start_um
-    length = np.hypot(by[:, 0], by[:, 1])
-    unit = by / np.where(length > 0.0, length, 1.0)[:, None]
-    ux, uy, length = unit[:, 0][row], unit[:, 1][row], length[row]
+    by_x = toolpath.end_um[:, 0][row] - toolpath.start_um[:, 0][row]
+    by_y = toolpath.end_um[:, 1][row] - toolpath.start_um[:, 1][row]
+    length = np.hypot(by_x, by_y)
+    inverse = 1.0 / np.where(length > 0.0, length, 1.0)
+    ux, uy = by_x * inverse, by_y * inverse
     dx, dy = x - toolpath.start_um[:, 0][row], y - toolpath.start_um[:, 1][row]
     along = dx * ux + dy * uy
     across = dx * uy - dy * ux

@@ -11,7 +11,7 @@ import numpy as np
 import pymunk
 
 from parser.toolpath import Floats
-from parser.units import UM_PER_MM
+from parser.units import from_mm
 from sim.machine import TableModel
 from sim.ticks import Ringing
 from sim.units import engine_force, engine_stiffness
@@ -93,10 +93,10 @@ class Table:
         """
         if not len(dt_s):
             return
+        last_x, last_y = self._stall.at_um.tolist()
         held = self._stall.held(command_um)
         x_drive, y_drive = self._drives
         saddle, carriage, step = self._saddle, self._carriage, self._space.step
-        last_x, last_y = carriage.position
         for dt, (x, y) in zip(dt_s.tolist(), held.tolist(), strict=True):
             (at_x, at_y), (v_x, v_y) = carriage.position, carriage.velocity
             saddle.force = x_drive.force(x, (x - last_x) / dt, at_x, v_x, dt), 0.0
@@ -109,20 +109,23 @@ class Table:
 
 
 class _Stall:
-    """What the motors make of commands: steps beyond an end of the travel are lost for good."""
+    """What the motors make of commands: steps beyond an end of the travel are lost for good.
+
+    `at_um` is where they stand, (2,) µm from the start.
+    """
 
     def __init__(self, room_um: Floats) -> None:
         self._low, self._high = room_um
-        self._asked, self._held = np.zeros(2), np.zeros(2)
+        self._asked, self.at_um = np.zeros(2), np.zeros(2)
 
     def held(self, command_um: Floats) -> Floats:
         """Where the motors stand for the next commands, (n, 2) µm."""
-        held = command_um + (self._held - self._asked)
+        held = command_um + (self.at_um - self._asked)
         if not np.all((held >= self._low) & (held <= self._high)):
-            at, moves = self._held, np.diff(command_um, axis=0, prepend=self._asked[None, :])
+            at, moves = self.at_um, np.diff(command_um, axis=0, prepend=self._asked[None, :])
             for tick, move in enumerate(moves):
                 held[tick] = at = np.clip(at + move, self._low, self._high)
-        self._asked, self._held = command_um[-1], held[-1]
+        self._asked, self.at_um = command_um[-1], held[-1]
         return held
 
 
@@ -143,6 +146,6 @@ def _stay(body: pymunk.Body, dt: float) -> None:
 
 def _room(model: TableModel, start_um: tuple[float, float]) -> Floats:
     """Lowest and highest place of the travel, (2, 2) µm relative to the start."""
-    travel = np.array([[0.0, 0.0], [model.travel_x_mm, model.travel_y_mm]]) * UM_PER_MM
+    travel = from_mm(np.array([[0.0, 0.0], [model.travel_x_mm, model.travel_y_mm]]))
     room: Floats = travel - np.array(start_um)
     return room

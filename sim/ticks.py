@@ -17,12 +17,15 @@ SPACING_UM = 5.0
 """Path between two samples of the trace. On an arc of 100 µm radius the chord of it is 0.03 µm off."""
 SPACED = 500_000
 """Samples along the path past which they are set wider apart: a program of any length is followed in seconds."""
-FINE_S = 0.00025
-"""Tick while an axis rings: a sixtieth of the period of a 65 Hz axis."""
+FINE_RAD = 0.2
+"""Phase of the ringing in one tick: thirty ticks to the period, half a millisecond on a table of 60 Hz."""
 FELT_UM = 0.25
 """Ringing of less than this, a quarter of a step, is not resolved."""
-SETTLED = 4.0
-"""Decay times after which ringing counts as dead: e⁻⁴ is 2 %."""
+SETTLED = 3.0
+"""Decay times after which ringing counts as dead: e⁻³ is 5 %."""
+
+
+_COINCIDE_S = 1e-6
 
 
 class Ringing(NamedTuple):
@@ -30,6 +33,16 @@ class Ringing(NamedTuple):
 
     frequency: float
     decay: float
+
+    @property
+    def tick_s(self) -> float:
+        """Tick while it rings."""
+        return FINE_RAD / self.frequency
+
+    @property
+    def settled_s(self) -> float:
+        """Time after which it has died."""
+        return SETTLED / self.decay
 
 
 class Ticks(NamedTuple):
@@ -44,10 +57,10 @@ def choose_ticks(toolpath: Toolpath, plan: Plan, ringing: Ringing) -> Ticks:
     before = np.concatenate([[0.0], np.cumsum(toolpath.length_um)])
     along = _spaced(before)
     times = np.concatenate([plan.time_at(along), plan.time_s, *_fine_windows(toolpath, plan, before, ringing)])
-    rest = plan.duration_s + np.arange(FINE_S, SETTLED / ringing.decay, FINE_S)
+    rest = plan.duration_s + np.arange(ringing.tick_s, ringing.settled_s, ringing.tick_s)
     times = np.unique(np.concatenate([times[(times > 0.0) & (times <= plan.duration_s)], rest]))
-    # Borders that differ by rounding alone are one tick, the later of them.
-    times = times[np.diff(times, append=np.inf) > 1e-9]
+    # Borders that all but coincide are one tick, the later of them.
+    times = times[np.diff(times, append=np.inf) > _COINCIDE_S]
     row = np.searchsorted(plan.time_at(before[1:]), times - 1e-9, side="right")
     return Ticks(times, np.minimum(row, len(toolpath) - 1))
 
@@ -67,10 +80,10 @@ def _fine_windows(toolpath: Toolpath, plan: Plan, before: Floats, ringing: Ringi
     shakes = np.unique(np.concatenate([*_ramps(plan, ringing), _corners(toolpath, plan, before, ringing)]))
     if not len(shakes):
         return []
-    length = SETTLED / ringing.decay
+    length = ringing.settled_s
     opens = shakes[np.diff(shakes, prepend=-np.inf) > length]
     closes = np.append(shakes[:-1][np.diff(shakes) > length], shakes[-1]) + length
-    return [np.arange(low, high, FINE_S) for low, high in zip(opens, closes, strict=True)]
+    return [np.arange(low, high, ringing.tick_s) for low, high in zip(opens, closes, strict=True)]
 
 
 def _ramps(plan: Plan, ringing: Ringing) -> list[Floats]:
@@ -84,8 +97,8 @@ def _ramps(plan: Plan, ringing: Ringing) -> list[Floats]:
 
 def _corners(toolpath: Toolpath, plan: Plan, before: Floats, ringing: Ringing) -> Floats:
     """Times of the block borders at which the velocity jumps enough: swing is Δv / ω."""
-    leaving, arriving = directions(toolpath)
-    change = leaving[1:] - arriving[:-1]
+    ways = directions(toolpath)
+    change = ways.leaving[1:] - ways.arriving[:-1]
     turn = np.hypot(change[:, 0], change[:, 1])
     speed = plan.speed_at(before[1:-1])
     shakes: Floats = plan.time_at(before[1:-1])[turn * speed / ringing.frequency > FELT_UM]

@@ -2,10 +2,7 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
-Floats = NDArray[np.float64]
+from parser.toolpath import Floats, Ints
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,7 +24,7 @@ class Trace:
     t_s: Floats
     commanded_um: Floats
     actual_um: Floats
-    row: NDArray[np.int64]
+    row: Ints
 
     def __len__(self) -> int:
         return len(self.t_s)

@@ -5,7 +5,7 @@ import numpy as np
 from controller.pulses import Pulses
 from parser.findings import Finding
 from parser.toolpath import Toolpath
-from parser.units import UM_PER_MM
+from parser.units import from_mm
 from sim.machine import TableModel
 
 
@@ -14,7 +14,7 @@ class TravelWatch:
 
     def __init__(self, model: TableModel, start_um: tuple[float, float], toolpath: Toolpath) -> None:
         self._model, self._toolpath = model, toolpath
-        self._high = np.array([model.travel_x_mm, model.travel_y_mm]) * UM_PER_MM
+        self._high = from_mm(np.array([model.travel_x_mm, model.travel_y_mm]))
         self._shift = np.array(start_um) - np.rint(toolpath.start_um[0])
         self._out: int | None = None
 

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
-from parser.program import Program, parse_program, read_program
+from parser.program import parse_program, read_program
 from sim.dryrun import DryRun, dry_run
 from sim.judge import check_expectations
 from sim.machine import Machine, load_machine
@@ -37,7 +37,3 @@ def run_folder(folder: Path) -> DryRun:
 
 def codes(run: DryRun) -> list[str]:
     return [finding.code for finding in run.findings]
-
-
-def program(text: str) -> Program:
-    return parse_program(text)

@@ -87,3 +87,11 @@ def test_meter_sums_up_as_numpy_does(offsets: list[float], size: int) -> None:
 
 def test_an_empty_meter_has_no_place() -> None:
     assert DeviationMeter(CORNER).result().where is None
+
+
+def test_past_the_end_of_an_arc_the_next_block_counts() -> None:
+    # A quarter turn from (0, 0) to (100, 100), then straight up.
+    toolpath = parse_program("B0B100B100GYNR4 B0B50B50GYL2 DD").toolpath
+    assert toolpath.end_um[0] == pytest.approx([100.0, 100.0])
+    found = distance(toolpath, np.array([0, 1]), np.array([103.0, 98.0]), np.array([120.0, 99.0]))
+    assert found == pytest.approx([3.0, abs(math.hypot(98.0, 1.0) - 100.0)])

@@ -7,7 +7,7 @@ from controller.plan import Feeds, plan_runs
 from parser.program import parse_program
 from sim.machine import TableModel, load_machine
 from sim.table import Table, drives, ringing
-from sim.ticks import FINE_S, SPACING_UM, choose_ticks
+from sim.ticks import SPACING_UM, choose_ticks
 
 MODEL = TableModel(
     travel_x_mm=400.0,
@@ -106,7 +106,7 @@ def test_ticks_rise_end_at_every_block_and_keep_their_spacing() -> None:
     ticks = choose_ticks(toolpath, plan, ringing(MODEL))
     assert np.diff(ticks.t_s, prepend=0.0).min() > 0.0
     borders = plan.time_at(np.cumsum(toolpath.length_um))
-    assert np.abs(ticks.t_s[:, None] - borders).min(axis=0).max() < 1e-8
+    assert np.abs(ticks.t_s[:, None] - borders).min(axis=0).max() < 1e-6
     running = ticks.t_s < plan.duration_s
     assert np.diff(ticks.t_s[running]).max() <= SPACING_UM / FEEDS.cut_um_s * 1.01
     assert np.array_equal(np.unique(ticks.row), [0, 1, 2])
@@ -118,4 +118,40 @@ def test_ticks_are_fine_where_the_drives_are_shaken() -> None:
     plan = plan_runs(toolpath, FEEDS)
     ticks = choose_ticks(toolpath, plan, ringing(MODEL))
     ramp = (plan.time_s[3] < ticks.t_s) & (ticks.t_s < plan.time_s[4])
-    assert np.diff(ticks.t_s[ramp]).max() <= FINE_S * 1.01
+    assert np.diff(ticks.t_s[ramp]).max() <= ringing(MODEL).tick_s * 1.01
+
+
+def test_following_in_slices_changes_nothing() -> None:
+    command = np.cumsum(np.random.default_rng(3).integers(-1, 2, (400, 2)), axis=0).astype(np.float64)
+    whole, table = follow(MODEL, command), Table(MODEL, CENTRE)
+    parts = [list(table.follow(np.full(len(part), DT), part)) for part in np.array_split(command, 7)]
+    assert np.array_equal(whole, np.array([place for part in parts for place in part]))
+
+
+def test_steps_beyond_the_travel_are_lost_for_good() -> None:
+    out = np.linspace(0.0, 700.0, 3000)
+    command = np.zeros((6000, 2))
+    command[:, 0] = np.concatenate([out, out[::-1]])
+    table = Table(MODEL, (400_000.0 - 500.0, 250_000.0))  # room for 500 µm
+    at = np.array(list(table.follow(np.full(6000, 1e-3), command)))
+    assert at[:, 0].max() == pytest.approx(500.0, abs=1.0)  # µm
+    assert at[-1, 0] == pytest.approx(-200.0, abs=0.3)  # µm
+
+
+@pytest.mark.parametrize(
+    ("text", "fine"),
+    [
+        ("B90000B0B90000GXL1 B90000B0B90000GXL1", False),  # straight on
+        ("B90000B0B90000GXL1 B0B9000B9000GXSR1", False),  # into a clockwise arc without a corner
+        ("B90000B0B90000GXL1 B0B90000B90000GYL2", True),  # round a corner
+        ("B90000B0B90000GXL1 B0B9000B9000GXSR3", True),  # into a clockwise arc, straight back
+    ],
+)
+def test_ticks_are_fine_at_corners_alone(text: str, fine: bool) -> None:
+    toolpath = parse_program(f"{text} DD").toolpath
+    plan = plan_runs(toolpath, Feeds(1000.0, 1000.0, 100.0))
+    rate = ringing(MODEL)
+    ticks = choose_ticks(toolpath, plan, rate)
+    corner = plan.time_at(toolpath.length_um[:1])[0]
+    after = ticks.t_s[(ticks.t_s > corner + 1e-6) & (ticks.t_s < corner + rate.settled_s)]
+    assert (np.diff(after).max() <= rate.tick_s * 1.01) is np.bool_(fine)

@@ -1,0 +1,115 @@
+"""Contours: which are told apart, which close, and what is said of those that do not."""
+
+import pytest
+from runs import codes, run_text
+
+from parser.words import line_words
+from sim.contour_checks import ruled_count_axis
+
+HOLE = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3"
+SQUARE = "B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B10000GXL3 B0B10000B10000GYL4"
+JUMP = "D B30000B0B30000GXL1 D"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        HOLE,
+        f"B2000B0B2000GXL1 {SQUARE}",  # ends where its lead-in ended
+        f"B0B2000B2000GYL2 {SQUARE} B500B0B500GXL1",  # runs on past that, along its first side
+        "B9900B0B9900GXL1 B9900B0B42000GYNR1",  # a circle cut past its start
+        "B15241B0B15241GXL3 B73215B15463B299320GYNR4",  # a circle off the axes, left where it began
+        SQUARE.replace("B0B10000B10000GYL4", "D B0B10000B10000GYL4"),  # a pause before the last cut
+    ],
+)
+def test_closed_contours_are_silent(text: str) -> None:
+    assert codes(run_text(f"{text} DD")) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        HOLE.replace("GXL3", "GXL1"),
+        HOLE.replace("B9900B0B9900GXL3", "B9900B0B5000GXL3"),  # back along the lead-in, and short
+        SQUARE.replace("B10000B0B10000GXL3", "B10000B0B9000GXL3"),
+        f"B0B2000B2000GYL2 {SQUARE} B0B500B500GYL3",  # leaves its path to one side
+    ],
+)
+def test_open_contours_are_named(text: str) -> None:
+    assert codes(run_text(f"{text} DD")) == ["3B301"]
+
+
+@pytest.mark.parametrize("figure", [HOLE, SQUARE])
+def test_a_figure_that_does_not_close_is_named_and_the_jump_stays_a_jump(figure: str) -> None:
+    broken = figure.rsplit("B", 1)[0] + "B5000" + figure[-4:]
+    run = run_text(f"{broken} {JUMP} {HOLE} DD")
+    assert codes(run) == ["3B301"]
+    assert run.toolpath.is_jump.sum() == 1
+    assert [(c.first, c.is_open) for c in run.contours] == [(1, True), (len(figure.split()) + 2, False)]
+
+
+def test_a_figure_that_does_not_close_is_named_though_one_pause_hides_the_jump() -> None:
+    broken = HOLE.replace("B9900B0B9900GXL3", "B9900B0B5000GXL3")
+    assert "3B301" in codes(run_text(f"{broken} D B30000B0B30000GXL1 {HOLE} DD"))
+
+
+def test_one_micrometre_for_each_arc_past_the_fifth() -> None:
+    # Eight quarter arcs round a square with round corners, the last of them 7 µm short.
+    corner = "B0B1000B1000GYNR4 B1000B0B1000GXNR1 B0B1000B1000GYNR2 B1000B0B1000GXNR3"
+    short = f"{corner} B1000B0B1000GXL1 B1007B0B1007GXL3 DD"
+    assert codes(run_text(short)) == ["3B301"]
+    assert "3B301" not in codes(run_text(f"{corner} {corner} {short}"))
+
+
+def test_wrong_count_axis_names_the_right_one() -> None:
+    finding = next(f for f in run_text(f"{HOLE.replace('GYNR1', 'GXNR1')} DD").findings if f.code == "3B303")
+    assert finding.block == 2
+    assert finding.expected.startswith("GY")
+    line = run_text("B1000B3B3GYL1 B1000B3B3GYL3 DD")
+    assert [(f.code, f.expected[:2]) for f in line.findings] == [("3B303", "GX")] * 2
+
+
+def test_a_long_way_round_may_miss_by_more() -> None:
+    turns = run_text("B13B14B760GXSR4 DD")  # ten turns, each a little off
+    assert "3B303" not in codes(turns)
+
+
+def test_rule_of_the_count_axis() -> None:
+    toolpath = run_text("B100B30B100GXL1 B30B100B100GYL2 B0B500B400GXNR4 B0B500B480GXNR4 DD").toolpath
+    assert ruled_count_axis(toolpath).tolist() == [0, 1, 1, 1]
+
+
+@pytest.mark.parametrize(
+    ("dx", "dy", "axis", "quadrant"),
+    [
+        (5, 5, "Y", 1),
+        (-5, 5, "X", 2),
+        (-5, -5, "Y", 3),
+        (5, -5, "X", 4),
+        (7, 0, "X", 1),
+        (0, 7, "Y", 2),
+        (-7, 0, "X", 3),
+        (0, -7, "Y", 4),
+        (3, -7, "Y", 4),
+        (0, 0, "X", 1),
+    ],
+)
+def test_words_of_a_line(dx: int, dy: int, axis: str, quadrant: int) -> None:
+    words = line_words(dx, dy)
+    assert (words.count_um, words.quadrant) == (max(abs(dx), abs(dy)), quadrant)
+    assert words.count_axis.name == axis or dx == dy == 0
+
+
+@pytest.mark.parametrize(
+    ("start_mm", "text"),
+    [
+        ((399.0, 250.0), "B2000B0B2000GXL1"),
+        ((1.0, 250.0), "B2000B0B2000GXL3"),
+        ((200.0, 499.0), "B0B2000B2000GYL2"),
+        ((200.0, 1.0), "B0B2000B2000GYL4"),
+    ],
+)
+def test_each_edge_of_the_travel_is_watched(start_mm: tuple[float, float], text: str) -> None:
+    header = "Start Point = 50.0 , 60.0\n"  # where the program says it is does not move it on the table
+    assert codes(run_text(f"{header}{text} DD", start_mm=start_mm)) == ["3B401"]
+    assert codes(run_text(f"{header}{text.replace('2000', '900')} DD", start_mm=start_mm)) == []
