@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from controller.plan import Feeds
 from parser.errors import SettingsError
-from parser.units import UM_PER_MM
+from parser.units import from_mm
 from sim.settings import Bound, load_toml, numbers, refuse_unknown, section, text
 
 _TABLE = {
@@ -55,11 +55,11 @@ class Machine(NamedTuple):
 
     def feeds(self, thickness_mm: float) -> Feeds:
         """Feeds in a work of this thickness: area rate over thickness, no faster than one step a tick of the limit."""
-        by_area = self.area_rate_mm2_min / thickness_mm / 60.0 * UM_PER_MM
+        by_area = from_mm(self.area_rate_mm2_min / thickness_mm / 60.0)
         return Feeds(
             cut_um_s=min(by_area, self.cut_step_limit_hz),
-            jump_um_s=self.jump_feed_mm_s * UM_PER_MM,
-            acceleration_um_s2=self.path_acceleration_mm_s2 * UM_PER_MM,
+            jump_um_s=from_mm(self.jump_feed_mm_s),
+            acceleration_um_s2=from_mm(self.path_acceleration_mm_s2),
         )
 
 

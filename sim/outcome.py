@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from parser.program import Program
 from parser.units import mm
 from sim.draw.picture import draw_cut
-from sim.dryrun import DryRun, dry_run, verdict
+from sim.dryrun import DryRun, check_runnable, dry_run, verdict
 from sim.judge import check_expectations
 from sim.motion import Progress
 from sim.output import StepFiles, staged, write_npz
@@ -21,13 +21,17 @@ if TYPE_CHECKING:
     from PIL import Image
 
 
+FILES = ("cut.png", "report.json", "trace.npz")
+
+
 def run_into(folder: Path, program: Program, scenario: Scenario, progress: Progress) -> DryRun:
     """Dry-run a program and write ``cut.png``, ``report.json`` and ``trace.npz`` into a folder.
 
     Raises ProgramError as `dry_run` does and FileUnreadableError where the folder cannot be written; then no file of
     the folder has changed.
     """
-    with staged(folder) as stage:
+    check_runnable(program)
+    with staged(folder, FILES) as stage:
         with StepFiles(stage) as files:
             run = check_expectations(dry_run(program, scenario, progress, files))
         write_npz(stage / "trace.npz", files.paths, trace_arrays(run))
@@ -52,5 +56,6 @@ def trace_arrays(run: DryRun) -> dict[str, NDArray[np.float64] | NDArray[np.int3
 def picture(run: DryRun) -> "Image.Image":
     """The cut path of a run."""
     length = f"{mm(float(run.toolpath.length_um.sum())):.1f} mm"
-    note = f"{verdict(run.findings)} · {len(run.toolpath)} blocks · {length} · {clock(run.plan.duration_s)}"
+    blocks = f"{len(run.toolpath):,} block{'s' * (len(run.toolpath) > 1)}"
+    note = f"{verdict(run.findings)} · {blocks} · {length} · {clock(run.plan.duration_s)}"
     return draw_cut(run.toolpath, run.trace, kerf_um=run.scenario.wire.kerf_um, title=run.scenario.title, note=note)

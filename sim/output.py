@@ -1,10 +1,10 @@
-"""Output files of a run: made beside the target and moved there whole, or not at all."""
+"""Output files of a run: made aside and moved into their folder whole, or not at all."""
 
 import shutil
 import tempfile
 import zipfile
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
@@ -18,25 +18,46 @@ from parser.errors import FileUnreadableError
 
 
 @contextmanager
-def staged(target: Path) -> Iterator[Path]:
-    """Empty folder whose files move into `target` at the end of a block that raised nothing.
+def staged(target: Path, names: Sequence[str]) -> Iterator[Path]:
+    """Empty folder whose files `names` move into `target` at the end of a block that raised nothing.
 
-    FileUnreadableError where the target is no folder or may not be written.
+    It lies inside the target, so that the moves stay on one file system; folders made for it go again where the block
+    raises. FileUnreadableError where the target is no folder or cannot be written.
     """
-    if target.exists() and not target.is_dir():
-        raise FileUnreadableError(f"{target}: is a file; -o names a folder")
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        stage = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
+        made = _make_folders(target)
+        with _removed_on_error(made), tempfile.TemporaryDirectory(prefix=".drycut-", dir=target) as folder:
+            for name in names:
+                if (target / name).is_dir():
+                    raise FileUnreadableError(f"{target / name}: is a folder; a file of this name is to be written")
+            yield Path(folder)
+            for name in names:
+                (Path(folder) / name).replace(target / name)
+    except FileUnreadableError:
+        raise
     except OSError as error:
         raise FileUnreadableError(f"{target}: cannot be written: {error.strerror or error}") from None
+
+
+def _make_folders(target: Path) -> list[Path]:
+    """Make a folder with its parents; those that were missing, innermost first."""
+    if target.exists() and not target.is_dir():
+        raise FileUnreadableError(f"{target}: is a file; -o names a folder")
+    missing = [folder for folder in (target, *target.parents) if not folder.exists()]
+    with _removed_on_error(missing):
+        target.mkdir(parents=True, exist_ok=True)
+    return missing
+
+
+@contextmanager
+def _removed_on_error(folders: list[Path]) -> Iterator[None]:
     try:
-        yield stage
-        target.mkdir(exist_ok=True)
-        for path in sorted(stage.iterdir()):
-            path.replace(target / path.name)
-    finally:
-        shutil.rmtree(stage, ignore_errors=True)
+        yield
+    except BaseException:
+        for folder in folders:
+            with suppress(OSError):
+                folder.rmdir()
+        raise
 
 
 class StepFiles:

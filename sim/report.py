@@ -32,11 +32,11 @@ def build_report(run: DryRun) -> dict[str, Any]:
             "provenance": scenario.provenance,
             "encoding": run.program.encoding,
         },
-        "machine": {"name": scenario.machine.name, "start_um": list(scenario.start_um)},
+        "machine": {"name": scenario.machine.name, "start_um": [_round(place) for place in scenario.start_um]},
         "wire": {
-            "diameter_um": scenario.wire.diameter_um,
-            "spark_gap_um": scenario.wire.spark_gap_um,
-            "kerf_um": scenario.wire.kerf_um,
+            "diameter_um": _round(scenario.wire.diameter_um),
+            "spark_gap_um": _round(scenario.wire.spark_gap_um),
+            "kerf_um": _round(scenario.wire.kerf_um),
         },
         "work": {"thickness_mm": scenario.thickness_mm},
         "summary": {

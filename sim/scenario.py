@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from parser.errors import SettingsError
-from parser.units import UM_PER_MM
+from parser.encoding import printable
+from parser.errors import FileUnreadableError, SettingsError
+from parser.units import from_mm, mm
 from sim.expect import Expectation, read_expectation
 from sim.machine import Machine, load_machine
 from sim.settings import Bound, load_toml, number, numbers, refuse_unknown, section, text, truth
@@ -65,7 +66,7 @@ class Scenario:
         """Place of the program's start on the table, µm."""
         travel = self.machine.table.travel_x_mm / 2.0, self.machine.table.travel_y_mm / 2.0
         x, y = self.start_mm or travel
-        return x * UM_PER_MM, y * UM_PER_MM
+        return from_mm(x), from_mm(y)
 
 
 def load_scenario(path: Path) -> Scenario:
@@ -73,8 +74,12 @@ def load_scenario(path: Path) -> Scenario:
 
     Raises FileUnreadableError or SettingsError with file and key.
     """
-    if not path.is_dir():
-        return Scenario(path.name, path, load_machine(DEFAULT_MACHINE))
+    try:
+        is_folder = path.is_dir()
+    except OSError as error:
+        raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
+    if not is_folder:
+        return Scenario(printable(path.name), path, load_machine(DEFAULT_MACHINE))
     file = path / "scenario.toml"
     if not file.exists():
         raise SettingsError(f"{path}: is a folder without scenario.toml; give a 3B file or a scenario folder")
@@ -84,10 +89,10 @@ def load_scenario(path: Path) -> Scenario:
     work = section(content, "work", where)
     work_numbers = numbers(work, _WORK, f"{where}: [work]", {"thickness_mm": DEFAULT_THICKNESS_MM})
     return Scenario(
-        title=text(content, "title", where, default=path.resolve().name),
+        title=printable(text(content, "title", where, default=path.resolve().name)),
         program=path / text(content, "program", where, default="program.3b"),
         machine=load_machine(text(content, "machine", where, default=DEFAULT_MACHINE), beside=path),
-        wire=Wire(wire["diameter_mm"] * UM_PER_MM, wire["spark_gap_mm"] * UM_PER_MM),
+        wire=Wire(from_mm(wire["diameter_mm"]), from_mm(wire["spark_gap_mm"])),
         start_mm=_start(content, where),
         provenance=text(content, "provenance", where, default="not given"),
         may_stay_open=truth(content, "open", where),
@@ -97,7 +102,7 @@ def load_scenario(path: Path) -> Scenario:
 
 
 def _wire_defaults() -> dict[str, float]:
-    return {"diameter_mm": DEFAULT_WIRE.diameter_um / UM_PER_MM, "spark_gap_mm": DEFAULT_WIRE.spark_gap_um / UM_PER_MM}
+    return {"diameter_mm": mm(DEFAULT_WIRE.diameter_um), "spark_gap_mm": mm(DEFAULT_WIRE.spark_gap_um)}
 
 
 def _start(content: Mapping[str, Any], where: str) -> tuple[float, float] | None:

@@ -1,6 +1,7 @@
 """TOML settings read strictly: every key known, every number in its bounds, every complaint names file and key."""
 
 import difflib
+import math
 import tomllib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -22,7 +23,7 @@ def load_toml(path: Path) -> dict[str, Any]:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except ValueError as error:  # TOMLDecodeError, UnicodeDecodeError, and integers of thousands of digits
         raise SettingsError(f"{path}: is no TOML: {error}") from None
 
 
@@ -64,6 +65,8 @@ def number(value: object, bound: Bound, where: str) -> float:
     """A number in its bounds. SettingsError otherwise."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise SettingsError(f"{where} is a number; found {value!r}")
+    if isinstance(value, int) and abs(value) > 1e300:
+        value = math.inf if value > 0 else -math.inf
     if not bound.low <= value <= bound.high:  # also refuses NaN
         raise SettingsError(f"{where} is {value:g}; it must lie between {bound.low:g} and {bound.high:g}")
     return float(value)

@@ -7,6 +7,7 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
+from parser.encoding import printable
 from parser.findings import Finding, Severity, place, with_caret
 from parser.lines import LineIndex
 from parser.units import mm
@@ -16,11 +17,13 @@ from sim.units import clock
 
 _COLOURS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 _MOST_FINDINGS = 20
+_MOST_CLOSURES = 4
 
 
 def print_summary(run: DryRun, output: Path | None) -> None:
     """Print the figures of a run, its findings and its verdict to stdout."""
-    console = Console(highlight=False, soft_wrap=True)
+    console = Console(highlight=False)
+    console.soft_wrap = not console.is_terminal  # a line a finding for those that read lines
     table = Table(title=escape(run.scenario.title), title_justify="left", show_header=False, title_style="bold")
     table.add_column(style="dim")
     table.add_column()
@@ -31,7 +34,7 @@ def print_summary(run: DryRun, output: Path | None) -> None:
     passed = verdict(run.findings) == "pass"
     console.print(Text(f"verdict: {'pass' if passed else 'fail'}", style="bold green" if passed else "bold red"))
     if output is not None:
-        console.print(f"written: {escape(str(output))}/ cut.png, report.json, trace.npz")
+        console.print(f"written: {escape(printable(str(output)))}/ cut.png, report.json, trace.npz")
 
 
 def _rows(run: DryRun) -> list[tuple[str, str]]:
@@ -51,15 +54,16 @@ def _rows(run: DryRun) -> list[tuple[str, str]]:
         *_closures(run),
         ("deviation of steps, at most", _largest(run.deviations.steps)),
         ("  of it interpolation", _largest(run.deviations.interpolation)),
-        ("deviation of table, at most", _largest(run.deviations.table)),
+        ("deviation of table, at most", _largest(run.deviations.table) if len(run.steps) else "no motion"),
     ]
 
 
 def _closures(run: DryRun) -> list[tuple[str, str]]:
     """Closure of each contour; of many, the worst."""
     shown = run.contours
-    if len(shown) > 4:
-        shown = (max(shown, key=lambda contour: contour.closure_stepped_um),)
+    if len(shown) > _MOST_CLOSURES:
+        worst = max(shown, key=lambda contour: contour.encloses * (contour.closure_stepped_um + contour.is_open * 1e9))
+        shown = (worst,)
     rows = []
     for contour in shown:
         name = "closure"
@@ -69,13 +73,15 @@ def _closures(run: DryRun) -> list[tuple[str, str]]:
             rows.append((name, "none: a parting cut"))
             continue
         figures = f"{contour.closure_exact_um:,.2f} µm exact, {contour.closure_stepped_um:,.2f} µm stepped"
+        if contour.returns and contour.closure_exact_um > contour.tolerance_um:
+            figures += ", closed on its path"
         rows.append((name, figures))
     return rows
 
 
 def _largest(deviation: Deviation) -> str:
     where = deviation.where
-    if where is None or where.t_s == 0.0:
+    if where is None:
         return "no motion"
     return f"{deviation.max_um:,.2f} µm in block {where.block:,} at {_mm(where.x_um)}, {_mm(where.y_um)} mm"
 
@@ -88,7 +94,7 @@ def _mm(length_um: float) -> str:
 def _print_findings(console: Console, run: DryRun, output: Path | None) -> None:
     lines = LineIndex(run.program.text) if run.findings else None
     for finding in run.findings[:_MOST_FINDINGS]:
-        console.print(_line(run.program.name, finding))
+        console.print(_line(printable(str(run.scenario.program)), finding))
         if lines is not None and finding.column:
             console.print(Text(with_caret(lines.excerpt(finding.line), finding.column), style="dim"))
     if len(run.findings) > _MOST_FINDINGS:

@@ -1,4 +1,4 @@
-"""The one module that converts: people speak mm, N and minutes, the inside µm and s, the engine µm, kg and s."""
+"""What people write and read, and what the engine counts in: lengths with units, durations, forces."""
 
 import re
 from fractions import Fraction
@@ -9,7 +9,7 @@ ENGINE_FORCE_PER_N = 1e6
 """1 N is 10⁶ kg µm/s², the engine's unit of force where its lengths are µm."""
 
 _LENGTHS_UM = {"um": 1, "µm": 1, "μm": 1, "mm": 1000, "cm": 10_000, "m": 1_000_000, "in": 25_400}
-_LENGTH = re.compile(r"\s*([-+]?\d+(?:\.\d*)?|[-+]?\.\d+)\s*([a-zµμ]+)\s*")
+_LENGTH = re.compile(r"\s*([-+]?\d{1,12}(?:\.\d{0,12})?|[-+]?\.\d{1,12})\s*([a-zµμ]+)\s*", re.ASCII)
 
 
 def parse_length(text: str) -> float:

@@ -113,7 +113,7 @@ def _huge(path: Path) -> None:
         (lambda path: path.write_text("hello", "utf-8"), "part.3b: error[3B100]: no block found"),
         (lambda path: path.mkdir(), "is a folder without scenario.toml"),
         (lambda path: None, "cannot be read: No such file"),
-        (_huge, "part.3b:2:5: error[3B206]: a number of more than nine digits"),
+        (_huge, "part.3b:2:5: error[3B206]: a number over 999999999 µm"),
     ],
     ids=["empty", "picture", "no block", "folder", "missing", "huge count"],
 )
@@ -160,6 +160,51 @@ def test_bad_machine_files_are_named(part: Path, tmp_path: Path) -> None:
         assert done.returncode == 2
         assert message in done.stderr
         assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("encoding", ["gbk", "ascii", "cp1252"])
+def test_any_encoding_of_the_output_will_do(part: Path, encoding: str) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "sim.cli", "run", str(part)],
+        capture_output=True,
+        check=False,
+        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"},
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert "0.00 um exact" in done.stdout.decode(encoding).replace("µ", "u")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="has no device that is always full")
+def test_output_that_cannot_be_written_is_one_clear_line(part: Path) -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "sim.cli", "run", str(part)],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
+            check=False,
+            env={**os.environ, "PYTHONPATH": str(ROOT)},
+        )
+    assert (done.returncode, done.stderr) == (2, "drycut: error: output: No space left on device\n")
+
+
+def test_names_are_shown_as_they_can_be(tmp_path: Path) -> None:
+    for name in ("[red]a.3b", "error[1].3b", "a" * 300 + ".3b"):
+        done = drycut("run", tmp_path / name)
+        assert (done.returncode, len(done.stderr.splitlines())) == (2, 1)
+        assert done.stderr.startswith("drycut: error: ")
+    path = tmp_path / "[red]\x1b[31m.3b"
+    path.write_text(SOUND, "utf-8")
+    assert "[red]\ufffd[31m.3b" in drycut("run", path).stdout
+
+
+def test_long_work_shows_its_progress_on_stderr(tmp_path: Path) -> None:
+    path = tmp_path / "long.3b"
+    path.write_text("B100B100B10000GXNR1" * 150 + "DD", "utf-8")
+    done = drycut("run", path)
+    assert "drycut: " in done.stderr
+    assert "%" in done.stderr
+    assert "drycut: " not in done.stdout
 
 
 def test_version_and_help() -> None:

@@ -78,8 +78,35 @@ def test_other_files_of_the_folder_are_left_alone(tmp_path: Path) -> None:
 
 def test_a_file_in_the_folders_place_is_refused(tmp_path: Path) -> None:
     (tmp_path / "out").write_text("", "utf-8")
-    with pytest.raises(FileUnreadableError, match="is a file"), staged(tmp_path / "out"):
+    with pytest.raises(FileUnreadableError, match="is a file"), staged(tmp_path / "out", NAMES):
         pass
+
+
+def test_a_folder_in_a_files_place_is_refused_before_anything_changes(tmp_path: Path) -> None:
+    run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent)
+    (tmp_path / "report.json").unlink()
+    (tmp_path / "report.json").mkdir()
+    before = (tmp_path / "cut.png").read_bytes()
+    with pytest.raises(FileUnreadableError, match=r"report\.json: is a folder"):
+        run_into(tmp_path, parse_program("B10B0B10GXL1"), plain_scenario(), silent)
+    assert (tmp_path / "cut.png").read_bytes() == before
+    assert sorted(path.name for path in tmp_path.iterdir()) == NAMES
+
+
+def test_folders_made_for_a_run_that_breaks_go_again(tmp_path: Path) -> None:
+    def broken(stage: str, done: int, total: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    with pytest.raises(FileUnreadableError, match="cannot be written: No space left"):
+        run_into(tmp_path / "a" / "b", parse_program(TEXT), plain_scenario(), broken)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_output_goes_through_a_link(tmp_path: Path) -> None:
+    (tmp_path / "real").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "real")
+    run_into(tmp_path / "link", parse_program("B10B0B10GXL1"), plain_scenario(), silent)
+    assert sorted(path.name for path in (tmp_path / "real").iterdir()) == NAMES
 
 
 def test_written_files_can_be_read_by_others(tmp_path: Path) -> None:

@@ -26,6 +26,8 @@ def changed(tmp_path: Path, old: str, new: str) -> str:
         ("saddle_mass_kg = 180.0", "saddle_mass_kg = -180.0", r"m\.toml: \[table\]: saddle_mass_kg is -180"),
         ("saddle_mass_kg = 180.0", "saddle_mass_kg = nan", "saddle_mass_kg is nan"),
         ("saddle_mass_kg = 180.0", "saddle_mass_kg = inf", "saddle_mass_kg is inf"),
+        ("saddle_mass_kg = 180.0", "saddle_mass_kg = " + "9" * 400, "saddle_mass_kg is inf"),
+        ("saddle_mass_kg = 180.0", "saddle_mass_kg = " + "9" * 5000, "is no TOML"),
         ("saddle_mass_kg = 180.0", "saddle_mass_kg = true", "saddle_mass_kg is a number; found True"),
         ("saddle_mass_kg = 180.0", "saddle_mass_kg = '180'", "saddle_mass_kg is a number"),
         ("saddle_mass_kg", "sadle_mass_kg", "unknown key 'sadle_mass_kg'; did you mean saddle_mass_kg"),

@@ -2,12 +2,14 @@
 
 import importlib
 import os
+import signal
 import sys
 
 import click
 
 from parser.errors import DrycutError
 from sim import __version__
+from sim.cli.streams import prepare_streams
 
 _COMMANDS = {"run": "sim.cli.run"}
 
@@ -42,21 +44,32 @@ def cli(ctx: click.Context) -> None:
 
 def main() -> None:
     """Run the command line; exit 0 for good, 1 for a failed verdict, 2 for bad use or unreadable input."""
+    prepare_streams()
+    # A run that is told to end takes its unfinished files with it.
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     try:
         code = cli.main(prog_name="drycut", standalone_mode=False)
+        sys.stdout.flush()
     except click.ClickException as error:
-        code = _complain(error.format_message())
+        code = _complain(f"drycut: error: {error.format_message()}")
     except click.Abort:
         code = 130
     except DrycutError as error:
-        code = _complain(str(error))
+        code = _complain(f"drycut: error: {error}")
     except BrokenPipeError:
-        # The reader of our output has gone; nothing more can be said to it.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        code = 1
+        code = _drop_stdout()
+    except OSError as error:
+        _drop_stdout()
+        code = _complain(f"drycut: error: {error.filename or 'output'}: {error.strerror or error}")
     sys.exit(code)
 
 
 def _complain(message: str) -> int:
-    click.echo(message if "error[" in message else f"drycut: error: {message}", err=True)
+    click.echo(message, err=True)
     return 2
+
+
+def _drop_stdout() -> int:
+    """Send what is left of the output nowhere: its reader has gone, or it cannot be written."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 1

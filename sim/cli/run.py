@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from parser.encoding import printable
 from parser.errors import ProgramError
 from parser.findings import place, with_caret
-from parser.units import UM_PER_MM
+from parser.units import mm
 from sim.settings import number
 from sim.units import parse_length
 
@@ -71,7 +72,8 @@ def run(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
         program = read_program(scenario.program)
         done = _run(program, scenario, output)
     except ProgramError as error:
-        raise click.ClickException(describe(scenario.program.name, error)) from None
+        click.echo(describe(printable(str(scenario.program)), error), err=True)
+        raise click.exceptions.Exit(2) from None
     if as_json:
         click.echo(report_text(build_report(done)), nl=False)
     else:
@@ -97,14 +99,13 @@ def _overridden(
     if machine is not None:
         scenario = replace(scenario, machine=load_machine(machine))
     if thickness is not None:
-        mm = number(thickness / UM_PER_MM, scenarios.THICKNESS_MM, "--thickness in mm")
-        scenario = replace(scenario, thickness_mm=mm)
+        scenario = replace(scenario, thickness_mm=number(mm(thickness), scenarios.THICKNESS_MM, "--thickness in mm"))
     if wire_diameter is not None:
-        mm = number(wire_diameter / UM_PER_MM, scenarios.WIRE_DIAMETER_MM, "--wire-diameter in mm")
-        wire = replace(wire, diameter_um=mm * UM_PER_MM)
+        number(mm(wire_diameter), scenarios.WIRE_DIAMETER_MM, "--wire-diameter in mm")
+        wire = replace(wire, diameter_um=wire_diameter)
     if gap is not None:
-        mm = number(gap / UM_PER_MM, scenarios.SPARK_GAP_MM, "--gap in mm")
-        wire = replace(wire, spark_gap_um=mm * UM_PER_MM)
+        number(mm(gap), scenarios.SPARK_GAP_MM, "--gap in mm")
+        wire = replace(wire, spark_gap_um=gap)
     return replace(scenario, wire=wire)
 
 
