@@ -74,12 +74,12 @@ def draw_cut(  # noqa: PLR0913 - all but the first two are named
 
 
 def _bounds_um(toolpath: Toolpath, trace: Trace | None, kerf_um: float) -> Floats:
-    """Box around all that is drawn, (2, 2), at least ten kerfs and 0.1 mm wide."""
+    """Box around all that is drawn, (2, 2), at least three kerfs and 0.1 mm wide."""
     box = bounds_um(toolpath)
     if trace is not None:
         low, high = trace.actual_um.min(axis=0), trace.actual_um.max(axis=0)
         box = np.stack([np.minimum(box[0], low), np.maximum(box[1], high)])
-    missing = max(10 * kerf_um, 100.0) - float((box[1] - box[0]).max())
+    missing = max(3 * kerf_um, 100.0) - float((box[1] - box[0]).max())
     grow = kerf_um / 2 + max(missing / 2, 0.0)
     margin = np.array([[-grow, -kerf_um / 2], [grow, kerf_um / 2]])
     return np.asarray(box + margin, dtype=np.float64)
