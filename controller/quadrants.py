@@ -53,8 +53,8 @@ def walk_arcs(x_um: Ints, y_um: Ints, count_um: Ints, count_axis: Ints, turn: In
     u0 = np.choose(quarter, [x_um, y, -x_um, -y])
     v0 = np.choose(quarter, [y, -x_um, -y, x_um])
     top = ceil_sqrt(radius_sq - 1)
-    endless = ArcWalk(radius_sq, quarter, u0, v0, top, np.zeros_like(top))
-    return endless._replace(steps=_count_steps(endless, count_um, count_axis))
+    uncounted = ArcWalk(radius_sq, quarter, u0, v0, top, np.zeros_like(top))
+    return uncounted._replace(steps=_count_steps(uncounted, count_um, count_axis))
 
 
 def _count_steps(walk: ArcWalk, count_um: Ints, count_axis: Ints) -> Ints:

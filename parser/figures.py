@@ -15,8 +15,6 @@ from parser.toolpath import Floats, Ints
 
 CLOSED_WITHIN_UM = 5.0
 """A figure whose end is this near its start is closed: 1 µm exact per arc, 5 µm stepped (docs/3b.md §3)."""
-
-
 _MOST_JUMPS = 3  # lines in one way to the next figure; a figure of lines and the jump to it make more
 
 

@@ -21,7 +21,7 @@ MAX_WORD_UM = 999_999_999
 
 _OVER_UM = MAX_WORD_UM + 1
 
-# Possessive quantifiers keep hostile runs of blanks and digits linear. `ws` is blank space within a line.
+# Possessive quantifiers keep hostile runs of blanks and digits linear. `_WS` is blank space within a line.
 _WS = r"[ \t]*+"
 _LABEL = rf"(?:N{_WS}(\d++){_WS}:?{_WS})?"
 _NUMBER = rf"{_WS}(\d*+){_WS}"

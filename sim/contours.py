@@ -8,7 +8,7 @@ from controller.steps import Steps
 from parser.figures import CLOSED_WITHIN_UM
 from parser.toolpath import Floats, Ints, Toolpath
 from sim.deviation import distance_to_blocks
-from sim.directions import directions, tangents_at
+from sim.directions import directions, headings_at
 
 EXACT_PER_ARC_UM = 1.0
 """A sound program closes to 1 µm per arc exact and to 5 µm stepped (docs/3b.md §3)."""
@@ -100,7 +100,7 @@ def _returns(toolpath: Toolpath, before: Ints, last: int, arriving: Floats, tole
         return True
     before = before[before < last]
     off, _ = distance_to_blocks(toolpath, before, np.full(len(before), end[0]), np.full(len(before), end[1]))
-    along = tangents_at(toolpath, before[off <= tolerance_um], end)
+    along = headings_at(toolpath, before[off <= tolerance_um], end)
     return bool((along @ arriving > _SAME_WAY).any())
 
 

@@ -105,7 +105,7 @@ def dry_run(program: Program, scenario: Scenario, progress: Progress, sink: Puls
     Raises ProgramError where the program asks for more than any table can do.
     """
     toolpath, machine = program.toolpath, scenario.machine
-    steps = check_runnable(program)
+    steps = _runnable_steps(program)
     plan = plan_runs(toolpath, machine.feeds(scenario.thickness_mm))
     motion = Motion(steps, plan, choose_ticks(toolpath, plan, ringing(machine.table)), origin_um(toolpath))
     watch = TravelWatch(machine.table, scenario.start_um, toolpath)
@@ -156,7 +156,7 @@ class _StepMeters:
         self.own.add(pulses.row, x - self._drift[:, 0][pulses.row], y - self._drift[:, 1][pulses.row], pulses.t_s)
 
 
-def check_runnable(program: Program) -> Steps:
+def _runnable_steps(program: Program) -> Steps:
     """Steps of a program that is worth running. ProgramError where it asks for more than any table can do."""
     for finding in program.findings:
         if finding.code in REFUSED:

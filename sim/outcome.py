@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from parser.program import Program
 from parser.units import mm
 from sim.draw.picture import draw_cut
-from sim.dryrun import DryRun, check_runnable, dry_run, verdict
+from sim.dryrun import DryRun, dry_run, verdict
 from sim.judge import check_expectations
 from sim.motion import Progress
 from sim.output import StepFiles, staged, write_npz
@@ -30,7 +30,6 @@ def run_into(folder: Path, program: Program, scenario: Scenario, progress: Progr
     Raises ProgramError as `dry_run` does and FileUnreadableError where the folder cannot be written; then no file of
     the folder has changed.
     """
-    check_runnable(program)
     with staged(folder, FILES) as stage:
         with StepFiles(stage) as files:
             run = check_expectations(dry_run(program, scenario, progress, files))

@@ -1,4 +1,4 @@
-"""Settings for all tests: the same examples on every run, and no clock in the verdict."""
+"""Settings for all tests: the same examples on every run, and no deadline on one of them."""
 
 from hypothesis import settings
 

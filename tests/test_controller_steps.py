@@ -31,6 +31,8 @@ def test_keyhole_makes_the_published_steps() -> None:
     steps = interpolate(read_program(SCENARIOS / "keyhole" / "program.3b").toolpath)
     assert steps.count.tolist() == [24900, 99600, 56757, 336086, 56758, 24900]
     assert np.hypot(*steps.corner_um[-1]) == pytest.approx(2.24, abs=0.005)  # µm
+    ends = [[0, 24900], [0, -24900], [56757, -24900], [56757, 24900], [1, 24902], [1, 2]]  # by the plain walk
+    assert steps.corner_um[1:].tolist() == ends
 
 
 def test_round_hole_closes_to_the_step() -> None:

@@ -1,5 +1,6 @@
 """The packages install, hold what they need, and own their names."""
 
+import os
 import subprocess
 import sys
 import tomllib
@@ -30,6 +31,19 @@ def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
         assert needed in names
     assert any(path.startswith("sim/draw/fonts/") and path.endswith(".otf") for path in names)
     assert any(path.endswith("licenses/LICENSE") for path in names)
+
+
+def test_the_benchmark_runs_and_prints_its_figures() -> None:
+    done = subprocess.run(
+        [sys.executable, "tests/bench.py", "--blocks", "60"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )
+    for figure in ("60 blocks", "blocks/s", "ns per step", "plain loop", "peak memory"):
+        assert figure in done.stdout
 
 
 def test_types_are_shipped() -> None:

@@ -53,7 +53,7 @@ def test_two_runs_give_the_same_bytes(tmp_path: Path) -> None:
 
 def test_a_refused_run_writes_nothing(tmp_path: Path) -> None:
     with pytest.raises(ProgramError):
-        run_into(tmp_path / "out", parse_program("B0B0B1000000000000GXL1"), plain_scenario(), silent)
+        run_into(tmp_path / "new" / "out", parse_program("B0B0B1000000000000GXL1"), plain_scenario(), silent)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parser.toolpath import Floats, Ints, Toolpath
+from sim.directions import headings
 
 Bools = NDArray[np.bool_]
 
@@ -106,15 +107,14 @@ def along(toolpath: Toolpath, row: Ints, fraction: Floats) -> tuple[Floats, Floa
         (m, 2) float64 of length 1; along +X in a block of no length.
     """
     start = toolpath.start_um[row]
-    points, heading = start + fraction[:, None] * (toolpath.end_um[row] - start), toolpath.end_um[row] - start
+    points = start + fraction[:, None] * (toolpath.end_um[row] - start)
     arc = toolpath.is_arc[row]
     turned = row[arc]
     angle = toolpath.start_angle_rad[turned] + fraction[arc] * toolpath.sweep_rad[turned]
     points[arc] = _on_circle_um(toolpath.center_um[turned], toolpath.radius_um[turned], angle)
-    turn = np.sign(toolpath.sweep_rad[turned])[:, None]
-    heading[arc] = turn * np.stack([-np.sin(angle), np.cos(angle)], axis=-1)
-    length = np.hypot(heading[:, 0], heading[:, 1])[:, None]
-    return points, np.where(length > 0, heading / np.where(length > 0, length, 1.0), (1.0, 0.0))
+    heading = headings(toolpath, row, fraction)
+    moves = np.hypot(heading[:, 0], heading[:, 1]) > 0.0
+    return points, np.where(moves[:, None], heading, (1.0, 0.0))
 
 
 def cut_runs(points_um: Floats, row: Ints, is_jump: Bools) -> list[Floats]:
