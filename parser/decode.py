@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from parser.arcs import arc_ends
 from parser.figures import Nodes, air_lines, with_node_rows
-from parser.reader import RawBlocks, Records
-from parser.toolpath import Axis, Floats, Kind, Source, Stop, Toolpath, Words
+from parser.reader import Records
+from parser.toolpath import Axis, Floats, Ints, Kind, Source, Stop, Toolpath, Words
 from parser.words import line_words
 
 # (X, Y) of a line that leaves both out and so runs along the axis its digit names (`BBB40000GXL1`).
@@ -37,28 +37,26 @@ def decode(records: Records) -> Toolpath:
     stood.
     """
     blocks, marks, nodes = with_node_rows(records.blocks, records.marks)
-    words = _words(blocks)
+    words = with_axes_named(Words(**{name: getattr(blocks, name) for name in Words.__slots__}))
     is_arc = (words.turn != 0) & ~endless(words)
-    moves = _moves(words, is_arc)
-    start, end = _chain(moves.by_um, nodes)
-    jumps = air_lines(end, start, is_arc, [m.after for m in marks if m.kind == "pause"])
-    kind = np.where(is_arc, Kind.ARC, Kind.LINE).astype(np.int64)
-    kind[np.concatenate([jumps, nodes.row])] = Kind.JUMP
+    made = moves(words)
+    start, end = _chain(made.by_um, nodes)
     toolpath = Toolpath(
-        kind=kind,
+        kind=np.where(is_arc, Kind.ARC, Kind.LINE).astype(np.int64),
         start_um=start,
         end_um=end,
-        center_um=start + moves.center_um,
-        radius_um=moves.radius_um,
-        start_angle_rad=moves.start_angle_rad,
-        sweep_rad=moves.sweep_rad,
-        length_um=moves.length_um,
+        center_um=start + made.center_um,
+        radius_um=made.radius_um,
+        start_angle_rad=made.start_angle_rad,
+        sweep_rad=made.sweep_rad,
+        length_um=made.length_um,
         printed_end_um=blocks.printed_um,
         words=words,
         source=Source(records.text, blocks.span, blocks.line, blocks.label),
         stops=tuple(Stop("end" if m.kind == "end" else "pause", m.after, m.line) for m in marks if m.kind != "node"),
     )
-    return _with_node_words(toolpath, nodes)
+    jumps = air_lines(toolpath, [m.after for m in marks if m.kind == "pause"])
+    return _with_node_words(_with_jumps(toolpath, np.concatenate([jumps, nodes.row])), nodes)
 
 
 def endless(words: Words) -> NDArray[np.bool_]:
@@ -72,24 +70,19 @@ def endless(words: Words) -> NDArray[np.bool_]:
     return np.where(words.turn != 0, no_radius, (counted == 0) & (words.count_um > 0))
 
 
-def _words(blocks: RawBlocks) -> Words:
+def with_axes_named(words: Words) -> Words:
     """Words as the controller reads them: a line without X and Y gets the axis its digit names."""
-    bare = (blocks.turn == 0) & (blocks.x_um == 0) & (blocks.y_um == 0)
-    named = _AXIS_OF_LABEL[blocks.quadrant]
-    return Words(
-        x_um=np.where(bare, named[:, 0], blocks.x_um),
-        y_um=np.where(bare, named[:, 1], blocks.y_um),
-        count_um=blocks.count_um,
-        count_axis=blocks.count_axis,
-        quadrant=blocks.quadrant,
-        turn=blocks.turn,
-    )
+    bare = (words.turn == 0) & (words.x_um == 0) & (words.y_um == 0)
+    named = _AXIS_OF_LABEL[words.quadrant]
+    return replace(words, x_um=np.where(bare, named[:, 0], words.x_um), y_um=np.where(bare, named[:, 1], words.y_um))
 
 
-def _moves(words: Words, is_arc: NDArray[np.bool_]) -> Moves:
+def moves(words: Words) -> Moves:
+    """What each block does relative to its own start."""
+    is_arc = (words.turn != 0) & ~endless(words)
     n = len(is_arc)
     signs = words.signs
-    by = _line_by(words) * signs
+    by = np.where(endless(words)[:, None], 0.0, _line_by(words) * signs)
     center = np.full((n, 2), np.nan)
     radius, angle, sweep = np.full(n, np.nan), np.full(n, np.nan), np.zeros(n)
     start = (np.stack([words.x_um, words.y_um], axis=1) * signs)[is_arc]
@@ -119,6 +112,12 @@ def _chain(by_um: Floats, nodes: Nodes) -> tuple[Floats, Floats]:
     shifts = np.concatenate([nodes.origin_um[None, :], nodes.target_um - end[nodes.row]])
     end = end + shifts[np.searchsorted(nodes.row, np.arange(len(by_um)), side="right")]
     return np.concatenate([nodes.origin_um[None, :], end[:-1]]), end
+
+
+def _with_jumps(toolpath: Toolpath, rows: Ints) -> Toolpath:
+    kind = toolpath.kind.copy()
+    kind[rows] = Kind.JUMP
+    return replace(toolpath, kind=kind)
 
 
 def _with_node_words(toolpath: Toolpath, nodes: Nodes) -> Toolpath:

@@ -3,6 +3,9 @@
 Every error doubles as the built-in that a caller without drycut's names would catch.
 """
 
+from parser.catalogue import texts
+from parser.findings import Finding
+
 
 class DrycutError(Exception):
     """Root of all errors that a user can cause; its text is the whole message."""
@@ -17,24 +20,19 @@ class ProgramError(DrycutError, ValueError):
 
     Parameters
     ----------
-    message
-        What was found; what was expected; what the machine would do.
-    line, column
-        Place in the program, both counted from 1; None where the whole file is meant.
-    code
-        Finding code of the catalogue, e.g. ``3B206``.
+    finding
+        What is wrong; its English message is the text of the error.
     excerpt
-        The source line, shown with a caret under `column`.
+        The source line that the finding points at, where it points at one.
+    others
+        What else was found before this ended the reading, in file order.
     """
 
-    def __init__(
-        self, message: str, *, code: str, line: int | None = None, column: int | None = None, excerpt: str = ""
-    ) -> None:
-        super().__init__(message)
-        self.code = code
-        self.line = line
-        self.column = column
+    def __init__(self, finding: Finding, *, excerpt: str = "", others: tuple[Finding, ...] = ()) -> None:
+        super().__init__(texts(finding).message)
+        self.finding = finding
         self.excerpt = excerpt
+        self.others = others
 
 
 class SettingsError(DrycutError, ValueError):

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from parser.findings import Finding, Value
 from parser.toolpath import Ints
 
 _LF, _CR, _SPACE = 0x0A, 0x0D, 0x20
@@ -23,9 +24,14 @@ class LineIndex:
         """Lines of (n,) characters, (n,) int64."""
         return np.searchsorted(self._starts, position, side="right")
 
+    def places(self, position: Ints) -> tuple[Ints, Ints]:
+        """Lines and columns of (n,) characters, each (n,) int64."""
+        line = self.lines(position)
+        return line, position - self._starts[line - 1] + 1
+
     def line(self, position: int) -> int:
         """Line of one character."""
-        return int(self.lines(np.array([position]))[0])
+        return int(self._starts.searchsorted(position, side="right"))
 
     def column(self, position: int) -> int:
         """Column of one character."""
@@ -36,7 +42,12 @@ class LineIndex:
         inked: NDArray[np.bool_] = self._ink[past] > self._ink[first]
         return inked
 
-    def excerpt(self, line: int) -> str:
-        """Text of a line without its end."""
-        last = self._starts[line] if line < len(self._starts) else len(self.text)
-        return self.text[int(self._starts[line - 1]) : int(last)].rstrip("\r\n")
+    def bounds(self, line: int) -> tuple[int, int]:
+        """First character of a line, and one past its last before the line end."""
+        first = int(self._starts[line - 1])
+        past = int(self._starts[line]) if line < len(self._starts) else len(self.text)
+        return first, first + len(self.text[first:past].rstrip("\r\n"))
+
+    def finding(self, code: str, span: tuple[int, int], block: int = 0, **values: Value) -> Finding:
+        """Finding at a span of characters, in a block (from 1; 0 in none)."""
+        return Finding(code, values, span, self.line(span[0]), self.column(span[0]), block)

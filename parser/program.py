@@ -2,17 +2,48 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
 
 from parser.block_checks import block_findings
+from parser.columns import RawBlocks
+from parser.damage import Damage
 from parser.decode import decode
-from parser.encoding import decode_text, printable
+from parser.encoding import decode_text, no_program, printable
 from parser.errors import FileUnreadableError, ProgramError
-from parser.findings import Finding
-from parser.reader import RawBlocks, Records, read_records
+from parser.findings import Finding, file_order
+from parser.grammar import STANDARD_MARKS, Marks
+from parser.header import Header
+from parser.lines import LineIndex
+from parser.order_checks import dialect, lost_blocks, order_findings
+from parser.print_checks import print_findings
+from parser.reader import Records, read_records
 from parser.toolpath import Toolpath
 
 
-@dataclass(frozen=True, slots=True)
+class Reading(NamedTuple):
+    """How a text was read.
+
+    Attributes
+    ----------
+    dialect
+        ``3B``, ``4B`` or ``3B+4B``. 4B is read as the trade recalls it (docs/3b.md §6).
+    blocks
+        Whole blocks, also those after the end code.
+    run
+        Of these, blocks before the end code.
+    damages
+        What could not be read before the end code, in order.
+    """
+
+    dialect: str
+    blocks: int
+    run: int
+    damages: tuple[Damage, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Program:
     """A program as read.
 
@@ -22,8 +53,12 @@ class Program:
         File name to show in messages.
     encoding
         Encoding of the file.
-    text
-        The whole text.
+    text, lines
+        The whole text, and the places in it.
+    header
+        What its header says.
+    reading
+        Dialect, and what could be read.
     toolpath
         Its exact geometry, up to the end code.
     findings
@@ -33,12 +68,19 @@ class Program:
     name: str
     encoding: str
     text: str
+    lines: LineIndex
+    header: Header
+    reading: Reading
     toolpath: Toolpath
     findings: tuple[Finding, ...]
 
+    def excerpt(self, line: int) -> str:
+        """Text of a line, from 1, as written, without its end."""
+        return self.text[slice(*self.lines.bounds(line))]
+
 
 def read_program(path: Path | str) -> Program:
-    """Read a 3B file.
+    """Read a 3B or 4B file.
 
     Raises FileUnreadableError where there is no readable file, ProgramError (3B100) where it is no text or holds no
     block.
@@ -50,65 +92,47 @@ def read_program(path: Path | str) -> Program:
         raise FileUnreadableError(f"{path}: is a folder; a 3B file was expected") from None
     except OSError as error:
         raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
+    return load_program(data, name=printable(path.name))
+
+
+def load_program(data: bytes, name: str, marks: Marks = STANDARD_MARKS) -> Program:
+    """Program of the bytes of a file. Raises ProgramError (3B100) where they are no text or hold no block."""
     text, encoding = decode_text(data)
-    return parse_program(text, name=printable(path.name), encoding=encoding)
+    return parse_program(text, name=name, encoding=encoding, marks=marks)
 
 
-def parse_program(text: str, name: str = "program", encoding: str = "utf-8") -> Program:
+def parse_program(text: str, name: str = "program", encoding: str = "utf-8", marks: Marks = STANDARD_MARKS) -> Program:
     """Program of a text. Raises ProgramError (3B100) where it holds no block."""
-    records = read_records(text)
+    records = read_records(text, marks)
     if not len(records.blocks.line):
-        raise ProgramError(
-            "no block found; expected `B X B Y B J G Z` such as `B 0 B 24900 B 24900 GY L2`; "
-            "the machine would do nothing",
-            code="3B100",
-        )
+        raise ProgramError(no_program("no-block"), others=records.findings)
+    blocks = len(records.blocks.line)
     records, after_end = _up_to_end(records)
+    reading = Reading(dialect(records), blocks, len(records.blocks.line), records.damages)
     toolpath = decode(records)
-    findings = [*records.findings, *after_end, *_no_end(records), *block_findings(toolpath, records.lines)]
-    return Program(name, encoding, text, toolpath, tuple(sorted(findings, key=lambda f: (f.line, f.column, f.code))))
+    damaged = np.array([damage.span[0] for damage in records.damages], dtype=np.int64)
+    findings = [*records.findings, *after_end, *order_findings(records, toolpath, marks)]
+    if not any(finding.code == "3B206" for finding in findings):
+        findings += block_findings(toolpath, records.lines)
+        findings += print_findings(toolpath, records.header, records.lines, damaged)
+    ordered = tuple(sorted(findings, key=file_order))
+    return Program(name, encoding, text, records.lines, records.header, reading, toolpath, ordered)
 
 
 def _up_to_end(records: Records) -> tuple[Records, list[Finding]]:
-    """Records without what stands after the end code, and a finding where blocks do: the machine is off by then.
+    """Records without what stands after the end code, and finding 3B103 where blocks do.
 
-    ``D`` and ``DD`` before the first block are words of the header.
+    Marks before the first block are words of the header.
     """
     marks = tuple(mark for mark in records.marks if mark.after > 0 or mark.kind == "node")
     end = next((mark for mark in marks if mark.kind == "end"), None)
     if end is None:
         return records._replace(marks=marks), []
-    at = end.line, records.lines.column(end.span[0])
-    lost = len(records.blocks.line) - end.after
+    first = end.span[0]
     kept = records._replace(
         blocks=RawBlocks._make(column[: end.after] for column in records.blocks),
         marks=marks[: marks.index(end) + 1],
-        findings=tuple(finding for finding in records.findings if (finding.line, finding.column) < at),
+        damages=tuple(damage for damage in records.damages if damage.span[0] < first),
+        findings=tuple(finding for finding in records.findings if finding.span[0] < first),
     )
-    if not lost:
-        return kept, []
-    line, column = int(records.blocks.line[end.after]), records.lines.column(int(records.blocks.span[end.after, 0]))
-    return kept, [
-        Finding(
-            "3B103",
-            f"{lost} block{'s' if lost > 1 else ''} after DD",
-            "DD as the last mark",
-            "the machine switches off at DD and never runs them",
-            line,
-            column,
-        )
-    ]
-
-
-def _no_end(records: Records) -> list[Finding]:
-    if any(mark.kind == "end" for mark in records.marks):
-        return []
-    return [
-        Finding(
-            "3B102",
-            "no end code",
-            "DD after the last block",
-            "the machine does not switch off by itself",
-            int(records.blocks.line[-1]),
-        )
-    ]
+    return kept, lost_blocks(records, end)

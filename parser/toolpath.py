@@ -99,6 +99,10 @@ class Words:
         1..4. Lines: of the direction. Arcs: the one the first step enters.
     turn
         +1 counter-clockwise (NR), −1 clockwise (SR), 0 line.
+    radius_um
+        4B: radius R as written, 0 on lines; −1 in 3B blocks, which have none.
+    curve
+        4B: the curve mark, 1 convex (D), 2 concave (DD), 0 none.
     """
 
     x_um: Ints
@@ -107,6 +111,8 @@ class Words:
     count_axis: Ints
     quadrant: Ints
     turn: Ints
+    radius_um: Ints
+    curve: Ints
 
     @property
     def signs(self) -> Ints:

@@ -1,11 +1,12 @@
 """The factor between the inside, µm, and the millimetres that programs, settings and people use."""
 
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
-from parser.toolpath import Floats
+if TYPE_CHECKING:  # the command line must start without numpy
+    from parser.toolpath import Floats
 
 UM_PER_MM = 1000.0
-_Length = TypeVar("_Length", float, Floats)
+_Length = TypeVar("_Length", float, "Floats")
 
 
 def mm(length_um: _Length) -> _Length:

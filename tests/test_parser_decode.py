@@ -103,6 +103,12 @@ def test_line_without_x_and_y_runs_along_the_axis_of_its_label(quadrant: int, co
     assert tuple(toolpath.end_um[0] + 0.0) == expected
 
 
+@pytest.mark.parametrize("text", ["B1B0B100000GXNR1", "B0B1B100000GYSR1", "B0B5B100GXL1"])
+def test_a_block_that_never_ends_makes_no_move(text: str) -> None:
+    toolpath = parse_program(f"{text}\nDD").toolpath
+    assert (toolpath.end_um.tolist(), toolpath.length_um.tolist()) == ([[0.0, 0.0]], [0.0])
+
+
 def test_reduced_line_takes_its_length_from_the_count() -> None:
     toolpath = parse_program("B1B9B90000GYL4").toolpath
     assert toolpath.end_um[0].tolist() == [10000.0, -90000.0]

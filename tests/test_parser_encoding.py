@@ -13,7 +13,13 @@ BLOCK = "N1: B0 B24900 B24900 GYL2;0.000,24.900//往Y軸正向移動24.9 mm;\r\n
 
 @pytest.mark.parametrize(
     ("codec", "named"),
-    [("utf-8", "utf-8"), ("utf-8-sig", "utf-8-sig"), ("gbk", "gb18030"), ("utf-16", "utf-16"), ("gb18030", "gb18030")],
+    [
+        ("utf-8", "utf-8"),
+        ("utf-8-sig", "utf-8-sig"),
+        ("gbk", "gb18030"),
+        ("utf-16", "utf-16-le"),
+        ("gb18030", "gb18030"),
+    ],
 )
 def test_remarks_survive_their_encoding(codec: str, named: str) -> None:
     assert decode_text(BLOCK.encode(codec)) == (BLOCK, named)
@@ -33,7 +39,7 @@ def test_big5_remarks_leave_the_blocks_readable(tmp_path: Path) -> None:
 def test_what_is_no_text_is_refused(data: bytes) -> None:
     with pytest.raises(ProgramError) as caught:
         decode_text(data)
-    assert caught.value.code == "3B100"
+    assert caught.value.finding.code == "3B100"
 
 
 def test_missing_file_and_folder_are_refused(tmp_path: Path) -> None:

@@ -32,6 +32,17 @@ def test_a_pause_inside_a_figure_makes_no_jump() -> None:
     assert jumps("B10B0B10GXL1 B0B10B10GYL2 D B10B0B10GXL3 B0B10B10GYL4 DD") == []
 
 
+def test_lines_between_two_pauses_that_close_the_figure_are_its_last_cut() -> None:
+    tab = "B10B0B10GXL1 B0B10B10GYL2 B10B0B10GXL3 D B0B10B10GYL4 B0B50B50GYL4 D B100B0B100GXL1 D"
+    assert jumps(f"B0B50B50GYL2 {tab} {SQUARE} DD") == [7]
+
+
+def test_a_figure_that_ends_in_an_overcut_is_closed() -> None:
+    wide = SQUARE.replace("10", "100")
+    assert jumps(f"B0B50B50GYL2 {wide} B30B0B30GXL1 D B100B0B100GXL1 {CIRCLE} DD") == [7]
+    assert jumps(f"B0B50B50GYL2 {wide} B30B0B30GXL3 D B100B0B100GXL1 {CIRCLE} DD") == []
+
+
 def test_pauses_and_end_stand_between_blocks() -> None:
     toolpath = parse_program(f"{CIRCLE} D\nB100B0B100GXL1\nD\n{SQUARE}\nDD").toolpath
     assert [(stop.kind, stop.after) for stop in toolpath.stops] == [("pause", 3), ("pause", 4), ("end", 8)]
@@ -52,3 +63,10 @@ def test_later_start_node_is_a_jump_to_its_place() -> None:
     assert node.text.startswith("Start Point")
     assert (toolpath.words.x_um[3], toolpath.words.y_um[3], toolpath.words.count_um[3]) == (200, 100, 200)
     assert toolpath.end_um[-1].tolist() == [200.0, 100.0]
+
+
+def test_a_lead_in_right_behind_a_pause_is_no_jump() -> None:
+    hole = "B5000B0B5000GXL1 B5000B0B20000GYNR1 B5000B0B5000GXL3"
+    program = parse_program(f"{hole} D {hole} D {hole} DD")
+    assert not program.toolpath.is_jump.any()
+    assert [finding.code for finding in program.findings] == ["3B308", "3B308"]

@@ -1,0 +1,48 @@
+"""Printed ends: the block or the print that is wrong is named once, with the caret under the print."""
+
+import pytest
+
+from parser.program import parse_program
+
+SQUARE = "B0B10000B10000GYL2{}\nB10000B0B10000GXL1{}\nB0B10000B10000GYL4{}\nB10000B0B10000GXL3{}\nDD"
+ENDS = (";0.000,10.000", ";10.000,10.000", ";10.000,0.000", ";0.000,0.000")
+
+
+def places(text: str) -> list[tuple[str, int, int, int]]:
+    return [(f.code, f.line, f.column, f.block) for f in parse_program(text).findings]
+
+
+def test_sound_prints_are_silent() -> None:
+    assert places(SQUARE.format(*ENDS)) == []
+    assert places(SQUARE.format(ENDS[0], "", "", ENDS[3])) == []
+
+
+def test_a_print_that_is_wrong_alone_is_named_once() -> None:
+    assert places(SQUARE.format(ENDS[0], ";10.000,10.003", *ENDS[2:])) == [("3B207", 2, 20, 2)]
+
+
+def test_a_wrong_block_is_named_once_though_all_later_prints_are_off() -> None:
+    wrong = SQUARE.format(*ENDS).replace("B10000GXL1", "B10400GXL1").replace("B10000B0B10400", "B10400B0B10400")
+    assert places(wrong) == [("3B207", 2, 20, 2)]
+
+
+@pytest.mark.parametrize(("print_mm", "is_named"), [("10.001", False), ("10.002", True), ("9.998", True)])
+def test_two_micrometres_are_a_finding(print_mm: str, is_named: bool) -> None:
+    assert bool(places(SQUARE.format(f";0.000,{print_mm}", "", "", ""))) == is_named
+
+
+def test_a_drift_is_named_where_it_comes_to_two_micrometres() -> None:
+    lines = [f"B0B10000B10000GYL2;0.000,{10 * n + 0.001 * n:.3f}" for n in range(1, 11)]
+    assert [place[1] for place in places("\n".join([*lines, "DD"]))] == [2, 4, 6, 8, 10]
+
+
+def test_prints_of_two_decimals_may_lie_half_a_digit_off() -> None:
+    assert places("B0B10004B10004GYL2;0.00,10.00\nDD") == []
+    assert places("B0B10020B10020GYL2;0.00,10.00\nDD") == [("3B207", 1, 20, 1)]
+
+
+def test_a_length_belongs_to_the_figure_behind_its_start_point() -> None:
+    hole = "B5000B0B5000GXL1\nB5000B0B20000GYNR1\nB5000B0B5000GXL3\nD\n"
+    text = "".join(f"Start Point = {20 * n}.0 , 0.0 ; Length = 41.42\n{hole}" for n in range(4))
+    assert places(f"{text}DD") == []
+    assert [place[:2] for place in places(f"{text}DD".replace("41.42", "43.42", 1))] == [("3B108", 1)]
