@@ -1,0 +1,1 @@
+"""``drycut check``: everything that is wrong with programs, without moving a table."""

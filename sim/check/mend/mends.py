@@ -1,0 +1,197 @@
+"""Mends: blocks of which one field is written otherwise, so that they end at a wanted place.
+
+Words stand here as an (n, 6) int64 table, one row a block, in the order of the columns of `Words`.
+"""
+
+from enum import IntEnum
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.decode import Moves, moves, with_axes_named
+from parser.toolpath import Axis, Floats, Ints, Toolpath, Words
+from sim.check.mend.likelihood import slip
+from sim.check.mend.solved import solved_numbers
+
+X, Y, COUNT, AXIS, QUADRANT, TURN = range(6)
+"""Columns of a table of words."""
+
+_COLUMNS = ("x_um", "y_um", "count_um", "count_axis", "quadrant", "turn")
+_OTHER_FIELD = 7  # points of a changed letter or label, like one changed digit
+_LETTERS = {0: "L", 1: "NR", -1: "SR"}
+_SENSES = tuple(product((0, 1, -1), (1, 2, 3, 4)))  # (turn, quadrant): what Z can say
+_PLACES = 10 ** np.arange(9)  # places of the digits of a word of up to nine
+
+
+class Field(IntEnum):
+    """Fields of a block; sense and quadrant are one, Z."""
+
+    X = 0
+    Y = 1
+    COUNT = 2
+    AXIS = 3
+    SENSE = 4
+
+
+class Mends(NamedTuple):
+    """Blocks written otherwise: `row` (k,) of the table they were made from, `field` (k,), `word` (k, 6)."""
+
+    row: Ints
+    field: Ints
+    word: Ints
+
+
+def word_table(toolpath: Toolpath, rows: Ints) -> Ints:
+    """(n, 6) words of the rows."""
+    return np.stack([getattr(toolpath.words, name)[rows] for name in _COLUMNS], axis=1)
+
+
+def moves_of(word: Ints) -> Moves:
+    """What blocks with these words do."""
+    return moves(words_of(word))
+
+
+def mends(word: Ints, by_um: Floats, gap_um: Floats, tolerance_um: float) -> Mends:
+    """Every way to write one field of one block otherwise so that the block ends elsewhere by the gap.
+
+    Parameters
+    ----------
+    word, by_um
+        (n, 6) words of n blocks and (n, 2) what they do.
+    gap_um
+        (2,) by which each block should end elsewhere.
+    tolerance_um
+        Distance within which it does.
+    """
+    want = by_um + gap_um
+    fixed = _that_end(_other_axes_and_senses(word), want, tolerance_um)
+    solved = [
+        _that_end(_near(word, _numbers(word, want, field, tolerance_um)), want, tolerance_um)
+        for field in (Field.X, Field.Y, Field.COUNT)
+    ]
+    return _joined([fixed, *solved])
+
+
+def _other_axes_and_senses(word: Ints) -> Mends:
+    """Each block counted on the other axis, and with each of the eleven other Z."""
+    rows = np.arange(len(word))
+    other_axis = word.copy()
+    other_axis[:, AXIS] = 1 - word[:, AXIS]
+    made = [Mends(rows, np.full(len(word), Field.AXIS), other_axis)]
+    bare = _is_bare(word)
+    for turn, quadrant in _SENSES:
+        changed = word.copy()
+        changed[:, QUADRANT], changed[:, TURN] = quadrant, turn
+        # A line that leaves X and Y out runs along the axis that its new digit names.
+        changed[bare, X], changed[bare, Y] = 0, 0
+        words = with_axes_named(words_of(changed))
+        changed[:, X], changed[:, Y] = words.x_um, words.y_um
+        differs = (word[:, QUADRANT] != quadrant) | (word[:, TURN] != turn)
+        made.append(Mends(rows[differs], np.full(int(differs.sum()), Field.SENSE), changed[differs]))
+    return _joined(made)
+
+
+def _is_bare(word: Ints) -> NDArray[np.bool_]:
+    """Lines without X and Y, which decode to 1 along the axis that their digit names."""
+    named = with_axes_named(words_of(word * np.array([0, 0, 1, 1, 1, 1])))
+    bare: NDArray[np.bool_] = (word[:, TURN] == 0) & (word[:, X] == named.x_um) & (word[:, Y] == named.y_um)
+    return bare
+
+
+def _numbers(word: Ints, want_um: Floats, field: Field, tolerance_um: float) -> Mends:
+    """Blocks with one number solved, as near as whole µm come."""
+    solved = solved_numbers(words_of(word), want_um, int(field), tolerance_um)
+    able = ~_is_bare(word)[solved.row] | (field == Field.COUNT)
+    row, changed = solved.row[able], word[solved.row[able]]
+    changed[:, field] = solved.value[able]
+    made = Mends(row, np.full(len(row), field), changed)
+    # Solving is good to a few µm: what it gives is looked at more closely below.
+    return _that_end(made, want_um, 4.0 * tolerance_um)
+
+
+def _near(word: Ints, solved: Mends) -> Mends:
+    """The solved numbers, and beside each the likelier ones near it: one slip away from what is written, or ruled.
+
+    A closed contour still ends some µm off, and a flat line hardly feels its X: many numbers close it then, and only
+    one of them was meant.
+    """
+    if not len(solved.row):
+        return solved
+    field = int(solved.field[0])
+    written, value = word[solved.row, field], solved.word[np.arange(len(solved.row)), field]
+    ruled = _ruled(solved.word, field)
+    values = np.concatenate([value[None], ruled[None], *_slips(written, value)])
+    changed = np.tile(solved.word, (len(values), 1))
+    changed[:, field] = values.ravel()
+    row = np.tile(solved.row, len(values))
+    differs = (changed[:, field] != word[row, field]) & (changed[:, field] >= (field == Field.COUNT))
+    return Mends(row[differs], np.full(int(differs.sum()), field), changed[differs])
+
+
+def _ruled(word: Ints, field: int) -> Ints:
+    """The number that the rest of a block asks for.
+
+    Of an unreduced line J is its longer side; of an arc, the nearest that whole quarters of its circle count.
+    """
+    if field == COUNT:
+        radius = np.maximum(np.hypot(word[:, X], word[:, Y]), 1.0)
+        quarters = np.rint(np.rint(word[:, COUNT] / radius) * radius).astype(np.int64)
+        return np.where(word[:, TURN] == 0, np.maximum(word[:, X], word[:, Y]), quarters)
+    return np.where(word[:, AXIS] == field, word[:, COUNT], word[:, field])
+
+
+def _slips(written: Ints, value: Ints) -> list[Ints]:
+    """(9, k) numbers one slip from the written ones, for each kind of slip: a changed, a lost and a doubled digit.
+
+    In each of the nine places stands the digit that brings the number nearest to `value`.
+    """
+    place = _PLACES[:, None]
+    high, low = written // (10 * place), written % place
+    changed = high * 10 * place + low
+    restored = written // place * 10 * place + low
+    return [
+        changed + _digit(value - changed, place) * place,
+        restored + _digit(value - restored, place) * place,
+        high * place + low,
+    ]
+
+
+def _digit(missing: Ints, place: Ints) -> Ints:
+    digit: Ints = np.clip((missing + place // 2) // place, 0, 9)
+    return digit
+
+
+def _that_end(made: Mends, want_um: Floats, tolerance_um: float) -> Mends:
+    """Those whose blocks end where wanted."""
+    off = moves_of(made.word).by_um - want_um[made.row]
+    ends = np.hypot(off[:, 0], off[:, 1]) <= tolerance_um
+    return Mends(*(column[ends] for column in made))
+
+
+def _joined(made: list[Mends]) -> Mends:
+    return Mends(*(np.concatenate(columns) for columns in zip(*made, strict=True)))
+
+
+def words_of(word: Ints) -> Words:
+    """The table as words; the radius and the curve mark of 4B do not move the path."""
+    none = np.zeros(len(word), dtype=np.int64)
+    x, y, count, axis, quadrant, turn = np.ascontiguousarray(word.T)
+    return Words(x, y, count, axis, quadrant, turn, radius_um=none - 1, curve=none)
+
+
+def ease(written: Ints, made: Mends) -> Ints:
+    """(k,) points of how little mends change blocks (k, 6) as written."""
+    points = np.full(len(made.row), _OTHER_FIELD)
+    for field in (Field.X, Field.Y, Field.COUNT):
+        of = made.field == field
+        points[of] = slip(written[of, field], made.word[of, field])
+    return points
+
+
+def field_text(word: Ints, field: int) -> str:
+    """A field as 3B writes it."""
+    if field == Field.AXIS:
+        return f"G{Axis(int(word[AXIS])).name}"
+    return f"{_LETTERS[int(word[TURN])]}{word[QUADRANT]}" if field == Field.SENSE else str(word[field])

@@ -1,0 +1,176 @@
+"""Suspects: the one block that would close an open contour if one of its fields were written otherwise.
+
+All that follows the mended block shifts with its end, so a mend closes the contour if it makes up for the gap. Of those
+that do, the likeliest are named: the ones that turn an unlikely block into a likely one by the slightest change.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.decode import Moves
+from parser.toolpath import Floats, Ints, Toolpath
+from sim.check.mend.likelihood import familiar, joint, obedience, sizes
+from sim.check.mend.mends import Field, Mends, ease, field_text, mends, moves_of, word_table, words_of
+from sim.contours import closure_tolerance_um
+
+MOST = 5
+"""Suspects named at most; where more are as likely, naming some would accuse them by chance."""
+
+_ROWS_AT_ONCE = 4096
+_MOST_OFF_UM = 100.0  # however many arcs: errors of a CAM do not add up (docs/3b.md §1)
+_OWN_START = 2  # points for ending at the first start, not at the end of a lead-in
+_CLOSED_LOOP = 6  # points for a loop that closes between lead-in and lead-out, one of which is at fault then
+_LEAST = 7  # points of a mend worth naming: one slip that makes the contour no less likely
+
+
+class Suspect(NamedTuple):
+    """A block that may be the damaged one.
+
+    Attributes
+    ----------
+    row
+        Of the toolpath, from 0.
+    field
+        ``x``, ``y``, ``count``, ``axis`` or ``sense``.
+    written, other
+        What stands there, and what would close the contour, as 3B writes it: ``24900``, ``GX``, ``NR2``.
+    """
+
+    row: int
+    field: str
+    written: str
+    other: str
+
+
+class _Ring(NamedTuple):
+    """A contour as it should close: from `end` back to the start of `begin`; `rows` (n,) may be at fault.
+
+    `is_led` where it closes as a lead-out on a lead-in, which is no joint.
+    """
+
+    rows: Ints
+    begin: int
+    end: int
+    gap_um: Floats
+    points: int = 0
+    is_led: bool = False
+
+
+class _Ranked(NamedTuple):
+    """Mends with their rows in the toolpath, their points, and how far from closed they leave the contour."""
+
+    row: Ints
+    field: Ints
+    word: Ints
+    points: Ints
+    off_um: Floats
+
+
+def suspects(toolpath: Toolpath, first_row: int, past_row: int) -> tuple[Suspect, ...]:
+    """The likeliest mends of the open contour of the rows from `first_row` up to but without `past_row`, best first.
+
+    It may rightly end at its start, or at the end of a lead-in of one line. Empty where no mend closes it, where none
+    makes it likelier than it stands, and where more than `MOST` are as likely.
+    """
+    rows = np.arange(first_row, past_row)
+    tolerance = min(closure_tolerance_um(int(toolpath.is_arc[rows].sum())), _MOST_OFF_UM)
+    all_sizes = np.sort(sizes(moves_of(word_table(toolpath, rows))))
+    best = [
+        _ranked(toolpath, ring, part, all_sizes, tolerance)
+        for ring in _rings(toolpath, first_row, past_row, tolerance)
+        for part in np.array_split(ring.rows, len(ring.rows) // _ROWS_AT_ONCE + 1)
+    ]
+    return _named(toolpath, _leading(best))
+
+
+def _rings(toolpath: Toolpath, first: int, past: int, tolerance_um: float) -> list[_Ring]:
+    """Where the contour may close, and which rows may be at fault then.
+
+    A lead-in that is cut back as the lead-out, or a loop between the two that closes, clears the one or the other.
+    """
+    last = past - 1
+    start, end = toolpath.start_um, toolpath.end_um
+    gap = start[first] - end[last]
+    own = _Ring(np.arange(first, past), first, last, gap, _OWN_START)
+    if past - first < 3:
+        return [own]
+    after_lead = _Ring(np.arange(first + 1, past), first + 1, last, start[first + 1] - end[last])
+    there_and_back = end[first] - start[first] + end[last] - start[last]
+    loop = start[first + 1] - end[last - 1]
+    if np.hypot(*loop) <= tolerance_um:
+        return [_Ring(np.array([first, last]), first, last, gap, _CLOSED_LOOP, is_led=True), own, after_lead]
+    if np.hypot(*there_and_back) <= tolerance_um:
+        return [_Ring(np.arange(first + 1, last), first + 1, last - 1, loop)]
+    return [own, after_lead]
+
+
+def _ranked(toolpath: Toolpath, ring: _Ring, rows: Ints, all_um: Floats, tolerance_um: float) -> _Ranked:
+    """Mends of some rows of a ring, with their points: those of the block mended less those of the block written."""
+    word = word_table(toolpath, rows)
+    was = moves_of(word)
+    made = mends(word, was.by_um, ring.gap_um, tolerance_um)
+    now, row = moves_of(made.word), rows[made.row]
+    before, after = word[made.row], made.word
+    old = Moves(*(column[made.row] for column in was))
+    points = (
+        obedience(words_of(after), now)
+        - obedience(words_of(before), old)
+        + _joints(toolpath, ring, row, now)
+        - _joints(toolpath, ring, row, old)
+        + familiar(sizes(now), all_um, 1)
+        - familiar(sizes(old), all_um, 2)
+        + ease(before, made)
+        + ring.points
+    )
+    off = now.by_um - old.by_um - ring.gap_um
+    return _Ranked(row, made.field, made.word, points, np.hypot(off[:, 0], off[:, 1]))
+
+
+def _joints(toolpath: Toolpath, ring: _Ring, row: Ints, made: Moves) -> Ints:
+    """(k,) points of the joints of a ring that the rows touch, if they moved so, and of the one that closes it."""
+    before = np.where(row == ring.begin, ring.end, row - 1)
+    after = np.where(row == ring.end, ring.begin, row + 1)
+    was = moves_of(word_table(toolpath, np.concatenate([before, after, [ring.end, ring.begin]])))
+    arriving, leaving = _directions(was, 1.0), _directions(was, 0.0)
+    own_leaving, own_arriving = _directions(made, 0.0), _directions(made, 1.0)
+    k = len(row)
+    slack = 1.0 / np.maximum(was.length_um, 1.0)
+    own = 1.0 / np.maximum(made.length_um, 1.0)
+    entering = joint(arriving[:k], own_leaving, slack[:k] + own)
+    exiting = joint(own_arriving, leaving[k:-2], slack[k:-2] + own)
+    at_begin, at_end = row == ring.begin, row == ring.end
+    if ring.is_led:
+        return np.where(at_begin, 0, entering) + np.where(at_end, 0, exiting)
+    closing = joint(arriving[-2:-1], leaving[-1:], slack[-2:-1] + slack[-1:])
+    return entering + exiting + np.where(at_begin | at_end, 0, closing)
+
+
+def _directions(made: Moves, fraction: float) -> Floats:
+    """(n, 2) directions at a fraction of each block's length; (0, 0) where it has none."""
+    angle = made.start_angle_rad + fraction * made.sweep_rad
+    tangent = np.stack([-np.sin(angle), np.cos(angle)], axis=1) * np.sign(made.sweep_rad)[:, None]
+    chord = made.by_um / np.where(made.length_um > 0.0, made.length_um, 1.0)[:, None]
+    return np.where(np.isnan(made.radius_um)[:, None], chord, tangent)
+
+
+def _leading(found: list[_Ranked]) -> Mends:
+    """Those with the most points of all; of one row and field the one that closes best. Rows are the toolpath's."""
+    best = max([_LEAST, *(int(ranked.points.max()) for ranked in found if len(ranked.points))])
+    row, field, word, off = (
+        np.concatenate([ranked[column][ranked.points >= best] for ranked in found]) for column in (0, 1, 2, 4)
+    )
+    order = np.lexsort([off, field, row])
+    row, field, word = row[order], field[order], word[order]
+    new = (np.diff(row, prepend=-1) != 0) | (np.diff(field, prepend=-1) != 0)
+    return Mends(row[new], field[new], word[new])
+
+
+def _named(toolpath: Toolpath, leading: Mends) -> tuple[Suspect, ...]:
+    if len(leading.row) > MOST:
+        return ()
+    written = word_table(toolpath, leading.row)
+    return tuple(
+        Suspect(int(row), Field(field).name.lower(), field_text(before, field), field_text(after, field))
+        for row, field, before, after in zip(leading.row, leading.field.tolist(), written, leading.word, strict=True)
+    )

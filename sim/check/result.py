@@ -1,0 +1,111 @@
+"""What a check of one program says: its findings, and how far the check came."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+from parser.findings import Finding, Severity
+
+Verdict = Literal["pass", "fail", "incomplete"]
+State = Literal["complete", "incomplete", "not asked"]
+
+
+class CheckState(NamedTuple):
+    """How far one check came.
+
+    Attributes
+    ----------
+    name
+        Name of the check, a term of the catalogue: ``check-crossings``.
+    state
+        ``not asked`` where a setting that it needs was not given; ``incomplete`` where it could not look at everything.
+    reason
+        Term of the catalogue that says why it is not complete; empty where it is.
+    """
+
+    name: str
+    state: State = "complete"
+    reason: str = ""
+
+
+class Coverage(NamedTuple):
+    """How much of a program was looked at.
+
+    Attributes
+    ----------
+    found, read, decoded, stepped
+        Blocks that stand in the file, damaged ones included; that could be read; that have an exact geometry; whose
+        steps were worked out. Start nodes are none of them, though findings number them as rows of the path.
+    checks
+        Every check there is, with its state.
+    """
+
+    found: int
+    read: int
+    decoded: int
+    stepped: int
+    checks: tuple[CheckState, ...]
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether every check that was asked for came to its end."""
+        return all(check.state != "incomplete" for check in self.checks)
+
+
+@dataclass(frozen=True, slots=True)
+class CheckResult:
+    """What was found in one file.
+
+    Attributes
+    ----------
+    name
+        File as the user named it; ``<stdin>`` for the standard input.
+    encoding, dialect
+        Of the file; empty where it could not be read. The dialect is ``3B``, ``4B`` or ``3B+4B``.
+    findings
+        In file order, those that were selected.
+    excerpts
+        Source lines that findings point at, by their number from 1.
+    coverage
+        How far the check came.
+    length_um, steps
+        Length of the exact path, jumps included, and its steps of 1 µm.
+    fail_on
+        Mildest severity that fails the file.
+    """
+
+    name: str
+    encoding: str
+    dialect: str
+    findings: tuple[Finding, ...]
+    excerpts: Mapping[int, str]
+    coverage: Coverage
+    length_um: float
+    steps: int
+    fail_on: Severity = Severity.ERROR
+
+    def count(self, severity: Severity) -> int:
+        """How many findings are of a severity."""
+        return sum(finding.severity is severity for finding in self.findings)
+
+    def fails(self, severity: Severity) -> bool:
+        """Whether a finding of this severity fails the file."""
+        order = tuple(Severity)
+        return order.index(severity) <= order.index(self.fail_on)
+
+    @property
+    def failed(self) -> bool:
+        """Whether the file is not good enough: a finding fails it, or a check could not run to its end."""
+        return self.verdict != "pass"
+
+    @property
+    def verdict(self) -> Verdict:
+        """``fail`` where a finding fails it; else ``incomplete`` where a check did not run to its end, or ``pass``."""
+        if any(self.fails(finding.severity) for finding in self.findings):
+            return "fail"
+        return "pass" if self.coverage.is_complete else "incomplete"
+
+    @property
+    def unreadable(self) -> bool:
+        """Whether there was no program to check."""
+        return any(finding.code == "3B100" for finding in self.findings)

@@ -1,0 +1,1 @@
+"""Shape of contours: loops, crossings, senses of arcs, tight corners."""

@@ -1,0 +1,44 @@
+"""Corners too tight for the wire: arcs of a radius that no path with the wire's offset can have."""
+
+import numpy as np
+
+from parser.toolpath import Ints, Toolpath
+from sim.check.shape.loops import find_loops
+
+_ROUNDING_UM = 5.0  # a small arc in whole µm, begun where the last block ended, is some µm off its radius
+
+
+def tight_corners(toolpath: Toolpath, contour_of_row: Ints, offset_um: float, is_drawing: bool) -> Ints:
+    """Rows (k,) of arcs too small for the offset.
+
+    Parameters
+    ----------
+    contour_of_row
+        (n,) contour number of each row, −1 on jumps; see `sim.check.shape.rows`.
+    offset_um
+        Of the wire's centre from the part: wire radius and spark gap.
+    is_drawing
+        Whether the path is the drawing's contour; else it is that of the wire's centre.
+
+    Notes
+    -----
+    The wire's centre runs round an outer corner of the part with R + f, about a centre on the part's side: never less
+    than f. On an inner corner it runs with R − f, which may be anything. On a drawing it is the other way round: an
+    inner corner, its centre on the scrap's side, has to be R ≥ f. Without a lead-in the sides are not known, and a
+    small arc may be either.
+    """
+    small = toolpath.is_arc & (contour_of_row >= 0) & (np.nan_to_num(toolpath.radius_um) < offset_um - _ROUNDING_UM)
+    row = np.flatnonzero(small)
+    if not len(row):
+        return row
+    contour = contour_of_row[row]
+    loops = find_loops(toolpath, contour_of_row, np.unique(contour))
+    # Where a contour has no loop, the search gives a neighbour of it, or the one past the last.
+    at = np.searchsorted(loops.contour, contour)
+    found = np.append(loops.contour, -1)[at] == contour
+    side = np.where(found, np.append(loops.part_side, 0)[at], 0)
+    in_loop = (row >= np.append(loops.first, 0)[at]) & (row <= np.append(loops.last, 0)[at])
+    center_side = np.sign(toolpath.sweep_rad[row])
+    wrong_side = -side if is_drawing else side
+    tight: Ints = row[in_loop & (side != 0) & (center_side == wrong_side)]
+    return tight

@@ -1,0 +1,150 @@
+"""Where a contour crosses itself: places where two of its blocks run through each other.
+
+Only a clear crossing counts. Sound programs touch, overlap and retrace their own path all the time (lead-out along the
+lead-in, overcut, second pass), each time off by a rounding of 1 µm or two: none of these is a crossing.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.figures import CLOSED_WITHIN_UM
+from parser.toolpath import Floats, Ints, Point, Toolpath
+from sim.check.shape.meets import CLEAR_UM, Meets, by_xy, curves_meet
+from sim.check.shape.nearness import near_pairs, turn_rad
+from sim.directions import headings_at
+
+_CORNER_LOOP_UM = 5000.0
+_KERF_UM = 200.0
+"""Passes of one cut lie this near each other: the lead-out of the last one may run through those before it."""
+_LEAST_SINE = 0.05
+MOST_PAIRS = 4_000_000
+
+
+class Crossing(NamedTuple):
+    """Two blocks, by their rows, and the place where the later one runs through the earlier."""
+
+    later_row: int
+    earlier_row: int
+    place_um: Point
+
+
+class Crossings(NamedTuple):
+    """Crossings of one contour.
+
+    Attributes
+    ----------
+    contour
+        Its number.
+    crossings
+        How many were found.
+    first
+        The one that the wire meets first; None where none was found.
+    is_complete
+        Whether all its blocks were looked at.
+    """
+
+    contour: int
+    crossings: int
+    first: Crossing | None
+    is_complete: bool
+
+
+def find_crossings(toolpath: Toolpath, contour_of_row: Ints, most_pairs: int = MOST_PAIRS) -> tuple[Crossings, ...]:
+    """Contours that cross themselves, and those too dense to be looked at to the end, in the order they are cut.
+
+    Parameters
+    ----------
+    contour_of_row
+        (n,) contour number of each row, −1 on jumps; see `sim.check.shape.rows`.
+    most_pairs
+        How many pairs of pieces of blocks are compared at most.
+    """
+    pairs = near_pairs(toolpath, contour_of_row, 2.0 * CLEAR_UM, most_pairs)
+    if not len(pairs.early) and not len(pairs.incomplete):
+        return ()
+    meets = _proper(toolpath, curves_meet(toolpath, pairs.early, pairs.late), contour_of_row)
+    contour = contour_of_row[meets.late]
+    numbers, first, count = np.unique(contour, return_index=True, return_counts=True)
+    found = dict(zip(numbers.tolist(), zip(first.tolist(), count.tolist(), strict=True), strict=True))
+    incomplete = set(pairs.incomplete.tolist())
+    return tuple(
+        Crossings(
+            contour=number,
+            crossings=found[number][1] if number in found else 0,
+            first=_crossing(meets, found[number][0]) if number in found else None,
+            is_complete=number not in incomplete,
+        )
+        for number in sorted(found.keys() | incomplete)
+    )
+
+
+def _crossing(meets: Meets, at: int) -> Crossing:
+    x, y = meets.place_um[at].tolist()
+    return Crossing(int(meets.late[at]), int(meets.early[at]), Point(x, y))
+
+
+def _proper(toolpath: Toolpath, meets: Meets, contour_of_row: Ints) -> Meets:
+    """Those of the places that are crossings, in the order the wire meets them."""
+    on_late, kept = np.empty(0), np.arange(len(meets.late))
+    for row in (meets.early, meets.late):
+        before, after = _along(toolpath, row[kept], meets.place_um[kept])
+        clear = np.minimum(before, after) > CLEAR_UM
+        on_late, kept = before[clear], kept[clear]
+    meets = meets.take(kept)
+    sine, clearance, begun = _clearance(toolpath, meets)
+    corner_loop = _is_corner_loop(toolpath, meets)
+    lead_out = _back_to_hole(toolpath, contour_of_row)[meets.late] & (begun <= _KERF_UM)
+    crossing = np.flatnonzero((sine > _LEAST_SINE) & (clearance > CLEAR_UM) & ~corner_loop & ~lead_out)
+    return meets.take(crossing[np.lexsort((on_late[crossing], meets.late[crossing]))])
+
+
+def _is_corner_loop(toolpath: Toolpath, meets: Meets) -> NDArray[np.bool_]:
+    """Where a CAM overshoots a sharp corner and comes back by a loop of one block, short beside the corner's sides."""
+    length = toolpath.length_um
+    loop, sides = length[meets.late - 1], np.minimum(length[meets.early], length[meets.late])
+    is_loop: NDArray[np.bool_] = (meets.late - meets.early == 2) & (loop <= np.minimum(_CORNER_LOOP_UM, sides / 2.0))
+    return is_loop
+
+
+def _back_to_hole(toolpath: Toolpath, contour_of_row: Ints) -> NDArray[np.bool_]:
+    """(n,) True on the last rows of contours that end where they began."""
+    last = np.flatnonzero(np.append(contour_of_row[1:] != contour_of_row[:-1], True))
+    first = np.concatenate([[0], last[:-1] + 1])
+    gap = toolpath.end_um[last] - toolpath.start_um[first]
+    back = np.zeros(len(toolpath), dtype=np.bool_)
+    back[last] = np.hypot(gap[:, 0], gap[:, 1]) <= CLOSED_WITHIN_UM
+    return back
+
+
+def _clearance(toolpath: Toolpath, meets: Meets) -> tuple[Floats, Floats, Floats]:
+    """How blocks meet, (k,) each.
+
+    Sines of their angles, how far µm their nearest ends lie off the other's direction, and how far the start of the
+    later one does.
+    """
+    a, b = (headings_at(toolpath, row, meets.place_um) for row in (meets.early, meets.late))
+    sine = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    along = [_along(toolpath, row, meets.place_um) for row in (meets.early, meets.late)]
+    return sine, np.minimum.reduce([side for pair in along for side in pair]) * sine, along[1][0] * sine
+
+
+def _along(toolpath: Toolpath, row: Ints, place_um: Floats) -> tuple[Floats, Floats]:
+    """Lengths (k,) µm along the blocks from their start to a place on their curve, and on to their end."""
+    by_x, by_y = by_xy(toolpath, row)
+    from_x, from_y = place_um[:, 0] - toolpath.start_um[row, 0], place_um[:, 1] - toolpath.start_um[row, 1]
+    length = np.hypot(by_x, by_y)
+    before = (from_x * by_x + from_y * by_y) / np.where(length > 0.0, length, 1.0)
+    after = length - before
+    arc = np.flatnonzero(toolpath.is_arc[row])
+    if len(arc):
+        on = row[arc]
+        radial = place_um[arc] - toolpath.center_um[on]
+        turned = (np.arctan2(radial[:, 1], radial[:, 0]) - toolpath.start_angle_rad[on]) * np.sign(
+            toolpath.sweep_rad[on]
+        )
+        turned = np.mod(turned, 2.0 * np.pi)
+        before[arc] = turned * toolpath.radius_um[on]
+        after[arc] = (turn_rad(toolpath)[on] - turned) * toolpath.radius_um[on]
+    return before, after

@@ -1,0 +1,139 @@
+"""Arcs that look reversed: SR written for NR, or the other way.
+
+Such an arc keeps its ends and runs round the other side of the circle. Its tangents at both ends point the other way
+exactly, so a smooth joint with a neighbour becomes a cusp; no closure sees it (docs/3b.md §4).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.figures import CLOSED_WITHIN_UM
+from parser.toolpath import Floats, Ints, Toolpath
+from sim.check.shape.loops import find_loops, is_circle
+from sim.directions import Directions, directions
+
+Bools = NDArray[np.bool_]
+
+_CUSP_RAD = np.radians(178.0)
+_LEAST_CUSP_RAD = np.radians(172.0)
+_ROUNDING_UM = 3.0  # by which ends and centres in whole µm tilt the tangents of short blocks
+_NO_WORSE_RAD = np.radians(85.0)
+_SAME_CIRCLE_UM = 10.0
+
+
+class ReversedArcs(NamedTuple):
+    """Arcs (k,) that would fit the blocks beside them if they ran the other way round.
+
+    Attributes
+    ----------
+    row
+        Their rows.
+    is_major
+        True on arcs of more than a half turn: the smaller arc between the same ends fits.
+    sweep_rad, other_sweep_rad
+        Signed sweep as programmed, and the one that fits.
+    """
+
+    row: Ints
+    is_major: Bools
+    sweep_rad: Floats
+    other_sweep_rad: Floats
+
+
+class _Chain(NamedTuple):
+    """Blocks (m,) of a length, by their rows, each with its neighbours as indices into the chain.
+
+    The first and the last of a contour are neighbours; `joined` is False before a block that does not begin where its
+    neighbour ends.
+    """
+
+    row: Ints
+    before: Ints
+    after: Ints
+    joined: Bools
+
+
+class _Joints(NamedTuple):
+    """Joints (m,) of blocks: the break rad; whether it is a cusp; whether the path runs back there the way it came."""
+
+    break_rad: Floats
+    is_cusp: Bools
+    retraces: Bools
+
+
+def reversed_arcs(toolpath: Toolpath, contour_of_row: Ints) -> ReversedArcs:
+    """Arcs of the contours (n,), −1 on jumps, that look reversed, in the order they are cut."""
+    row = np.empty(0, dtype=np.int64)
+    if toolpath.is_arc.any():
+        ways, chain = directions(toolpath), _chain(toolpath, contour_of_row)
+        row = _suspects(toolpath, chain, ways)
+        if len(row):
+            # A loop's last block goes over into its first one, not into the lead-out.
+            chain = _with_loops(toolpath, chain, contour_of_row, np.unique(contour_of_row[row]))
+            row = _suspects(toolpath, chain, ways)
+    sweep = toolpath.sweep_rad[row]
+    return ReversedArcs(row, toolpath.is_major[row], sweep, sweep - 2.0 * np.pi * np.sign(sweep))
+
+
+def _chain(toolpath: Toolpath, contour_of_row: Ints) -> _Chain:
+    row = np.flatnonzero((contour_of_row >= 0) & (toolpath.length_um > 0.0))
+    contour = contour_of_row[row]
+    begins = np.diff(contour, prepend=-1) != 0
+    first = np.flatnonzero(begins)
+    last = np.append(first[1:] - 1, len(row) - 1)[: len(first)]
+    before, after = np.arange(len(row)) - 1, np.arange(len(row)) + 1
+    before[first], after[last] = last, first
+    gap = toolpath.start_um[row[first]] - toolpath.end_um[row[last]]
+    joined = ~begins
+    joined[first] = np.hypot(gap[:, 0], gap[:, 1]) <= CLOSED_WITHIN_UM
+    return _Chain(row, before, after, joined)
+
+
+def _with_loops(toolpath: Toolpath, chain: _Chain, contour_of_row: Ints, wanted: Ints) -> _Chain:
+    """The chain with the ends of the loops of the contours `wanted` made neighbours, where these do meet."""
+    loops = find_loops(toolpath, contour_of_row, wanted)
+    place = np.full(len(toolpath), -1, dtype=np.int64)
+    place[chain.row] = np.arange(len(chain.row))
+    gap = toolpath.end_um[loops.last] - toolpath.start_um[loops.first]
+    meet = np.hypot(gap[:, 0], gap[:, 1]) <= CLOSED_WITHIN_UM
+    first, last = place[loops.first[meet]], place[loops.last[meet]]
+    real = (first >= 0) & (last >= 0)  # not of length 0
+    before, after, joined = chain.before.copy(), chain.after.copy(), chain.joined.copy()
+    before[first[real]], after[last[real]], joined[first[real]] = last[real], first[real], True
+    return chain._replace(before=before, after=after, joined=joined)
+
+
+def _suspects(toolpath: Toolpath, chain: _Chain, ways: Directions) -> Ints:
+    """Arcs, as rows, that the other way round would turn every cusp smooth and no joint worse."""
+    before = _joints(toolpath, chain.row[chain.before], chain.row, ways)
+    after = _joints(toolpath, chain.row, chain.row[chain.after], ways)
+    joined = chain.joined, chain.joined[chain.after]
+    cusp = before.is_cusp & joined[0], after.is_cusp & joined[1]
+    suspect = (toolpath.is_arc & ~is_circle(toolpath))[chain.row] & (cusp[0] | cusp[1])
+    suspect &= ~joined[0] | (before.break_rad >= _NO_WORSE_RAD)
+    suspect &= ~joined[1] | (after.break_rad >= _NO_WORSE_RAD)
+    # The way back along a lead-in or a slit begins with a cusp too.
+    back = before.retraces | after.retraces
+    suspect &= ~back & ~(cusp[0] & back[chain.before]) & ~(cusp[1] & back[chain.after])
+    # Where the block across a cusp is as much a suspect, it is the tip of a crescent or of a star.
+    cusps = np.where(suspect, cusp[0].astype(np.int64) + cusp[1], 0)
+    suspect &= ~(cusp[0] & (cusps[chain.before] >= cusps)) & ~(cusp[1] & (cusps[chain.after] >= cusps))
+    return chain.row[suspect]
+
+
+def _joints(toolpath: Toolpath, one: Ints, other: Ints, ways: Directions) -> _Joints:
+    """Joints from the rows `one` (m,) to the rows `other` (m,)."""
+    arriving, leaving = ways.arriving[one], ways.leaving[other]
+    cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
+    break_rad = np.arctan2(np.abs(cross), (arriving * leaving).sum(axis=1))
+    # A circle's tangent is as uncertain as its centre; that of a line as its ends.
+    scale = np.fmin(toolpath.radius_um, toolpath.length_um)
+    tilt = _ROUNDING_UM / np.minimum(scale[one], scale[other])
+    is_cusp = break_rad >= np.maximum(_CUSP_RAD - tilt, _LEAST_CUSP_RAD)
+    off = toolpath.center_um[one] - toolpath.center_um[other]
+    larger = np.abs(toolpath.radius_um[one] - toolpath.radius_um[other])
+    same_circle = (np.hypot(off[:, 0], off[:, 1]) <= _SAME_CIRCLE_UM) & (larger <= _SAME_CIRCLE_UM)
+    lines = ~toolpath.is_arc[one] & ~toolpath.is_arc[other]
+    return _Joints(break_rad, is_cusp, (break_rad >= _LEAST_CUSP_RAD) & (same_circle | lines))
