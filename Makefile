@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: demo test lint bench golden lock clean
+.PHONY: demo test lint bench mutate fuzz golden pages lock clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
@@ -21,9 +21,21 @@ lint: $(READY)
 bench: $(READY)
 	$(BIN)/python tests/bench.py
 
+# How many faults of each kind are found: the table of docs/check.md.
+mutate: $(READY)
+	PYTHONPATH=.:tests $(BIN)/python tests/mutation.py
+
+# Promises that hold for any input, on 200,000 inputs.
+fuzz: $(READY)
+	PYTHONPATH=.:tests $(BIN)/python tests/fuzz.py
+
 # Renew the golden pictures after looking at the new ones.
 golden: $(READY)
 	DRYCUT_RENEW_GOLDEN=1 $(BIN)/pytest tests/test_sim_picture.py
+
+# Renew docs/findings.md and docs/findings.zh.md from the pages in parser/pages.
+pages: $(READY)
+	$(BIN)/python -m sim.check.findings_document
 
 # Renew the lock for every Python the project supports.
 lock: $(READY)

@@ -5,13 +5,12 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.steps import Steps
-from parser.figures import CLOSED_WITHIN_UM
+from parser.figures import CLOSED_WITHIN_UM, EXACT_PER_ARC_UM
 from parser.toolpath import Floats, Ints, Toolpath
 from sim.deviation import distance_to_blocks
 from sim.directions import directions, headings_at
 
-EXACT_PER_ARC_UM = 1.0
-"""A sound program closes to 1 µm per arc exact and to 5 µm stepped (docs/3b.md §3)."""
+_OF_LINES_UM = 2.0  # ends in whole µm, of a CAM that rounds them apart
 _SAME_WAY = 0.9  # cosine of the angle between two ways along one curve
 
 
@@ -26,6 +25,8 @@ class Contour(NamedTuple):
         Distance of the end from the start, in the exact geometry and as stepped.
     tolerance_um
         Distance within which it counts as closed.
+    arcs
+        How many of its blocks are arcs.
     returns
         Whether it ends at its start, at a corner that it passed before, such as the end of a lead-in, or past that,
         running along its own path once more.
@@ -39,6 +40,7 @@ class Contour(NamedTuple):
     closure_exact_um: float
     closure_stepped_um: float
     tolerance_um: float
+    arcs: int
     returns: bool
     encloses: bool
 
@@ -47,23 +49,19 @@ class Contour(NamedTuple):
         """Whether it should close and does not."""
         return self.encloses and not self.returns
 
-    @property
-    def closes_badly_stepped(self) -> bool:
-        """Whether it closes in the exact geometry and not on the machine."""
-        return self.closure_exact_um <= self.tolerance_um < self.closure_stepped_um
-
 
 def find_contours(toolpath: Toolpath, steps: Steps) -> tuple[Contour, ...]:
     """Contours in the order they are cut."""
     cut = np.concatenate([[False], ~toolpath.is_jump, [False]])
     borders = np.flatnonzero(np.diff(cut)).reshape(-1, 2)
-    ways = directions(toolpath)
-    pauses = np.array([stop.after for stop in toolpath.stops], dtype=np.int64)
+    ways, is_arc = directions(toolpath), toolpath.is_arc
+    pauses = np.array([*(stop.after for stop in toolpath.stops), len(toolpath)], dtype=np.int64)
     found = []
     for low, high in borders.tolist():
         rows = slice(low, high)
-        tolerance = max(CLOSED_WITHIN_UM, EXACT_PER_ARC_UM * float(toolpath.is_arc[rows].sum()))
-        first_pause = int(np.append(pauses[np.searchsorted(pauses, low, side="right") :], high)[0])
+        arcs = int(is_arc[rows].sum())
+        tolerance = closure_tolerance_um(arcs)
+        first_pause = int(pauses[np.searchsorted(pauses, low, side="right")])
         before = np.arange(low, max(min(first_pause, high - 1), low + 1))
         found.append(
             Contour(
@@ -72,11 +70,17 @@ def find_contours(toolpath: Toolpath, steps: Steps) -> tuple[Contour, ...]:
                 closure_exact_um=_length(toolpath.end_um[high - 1] - toolpath.start_um[low]),
                 closure_stepped_um=_length(steps.corner_um[high] - steps.corner_um[low]),
                 tolerance_um=tolerance,
+                arcs=arcs,
                 returns=_returns(toolpath, before, high - 1, ways.arriving[high - 1], tolerance),
                 encloses=_turns_back(toolpath, rows, np.concatenate([ways.leaving[rows], ways.arriving[rows]])),
             )
         )
     return tuple(found)
+
+
+def closure_tolerance_um(arcs: int) -> float:
+    """Distance within which a contour with so many arcs counts as closed: lines are exact, arcs are not."""
+    return max(CLOSED_WITHIN_UM, EXACT_PER_ARC_UM * arcs) if arcs else _OF_LINES_UM
 
 
 def _length(pair: Floats) -> float:
@@ -99,6 +103,8 @@ def _returns(toolpath: Toolpath, before: Ints, last: int, arriving: Floats, tole
     if (np.hypot(corners[:, 0], corners[:, 1]) <= tolerance_um).any():
         return True
     before = before[before < last]
+    if not len(before):
+        return False
     off, _ = distance_to_blocks(toolpath, before, np.full(len(before), end[0]), np.full(len(before), end[1]))
     along = headings_at(toolpath, before[off <= tolerance_um], end)
     return bool((along @ arriving > _SAME_WAY).any())

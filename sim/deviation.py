@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.toolpath import Floats, Ints, Toolpath
+from parser.toolpath import Floats, Ints, Kind, Toolpath
 
 _BINS_PER_E = 1000.0
 _SMALLEST_UM = 1e-6
@@ -95,7 +95,7 @@ def distance(toolpath: Toolpath, row: Ints, x_um: Floats, y_um: Floats) -> Float
 def distance_to_blocks(toolpath: Toolpath, row: Ints, x: Floats, y: Floats) -> tuple[Floats, Ints]:
     """Distances (m,) µm of positions from the curves of the blocks `row`, and −1, 0, +1: before, on, past the curve."""
     result, beyond = np.empty(len(row)), np.empty(len(row), dtype=np.int64)
-    arc = toolpath.is_arc[row]
+    arc = toolpath.kind[row] == Kind.ARC
     for which, measure in ((np.flatnonzero(~arc), _from_lines), (np.flatnonzero(arc), _from_arcs)):
         if len(which):
             result[which], beyond[which] = measure(toolpath, row[which], x[which], y[which])

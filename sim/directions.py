@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Floats, Ints, Toolpath
+from parser.toolpath import Floats, Ints, Kind, Toolpath
 
 
 class Directions(NamedTuple):
@@ -36,4 +36,4 @@ def _headings(toolpath: Toolpath, row: Ints, angle_rad: Floats) -> Floats:
     by = toolpath.end_um[row] - toolpath.start_um[row]
     length = np.hypot(by[:, 0], by[:, 1])[:, None]
     tangent = np.stack([-np.sin(angle_rad), np.cos(angle_rad)], axis=1) * np.sign(toolpath.sweep_rad[row])[:, None]
-    return np.where(toolpath.is_arc[row][:, None], tangent, by / np.where(length > 0.0, length, 1.0))
+    return np.where((toolpath.kind[row] == Kind.ARC)[:, None], tangent, by / np.where(length > 0.0, length, 1.0))

@@ -6,28 +6,21 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from controller.plan import Plan, plan_runs
-from controller.point_by_point import interpolate
 from controller.pulses import Pulses
 from controller.steps import Steps
 from parser.errors import ProgramError
 from parser.findings import Finding, Severity
-from parser.lines import LineIndex
 from parser.program import Program
 from parser.toolpath import Floats, Toolpath
-from sim.contour_checks import contour_findings, missed_ends
-from sim.contours import Contour, find_contours
+from sim.check.engine import Demands, check_program
+from sim.check.result import Coverage
+from sim.contours import Contour
 from sim.deviation import Deviation, DeviationMeter
 from sim.motion import Motion, Progress, run_card, run_table
 from sim.scenario import Scenario
 from sim.table import Table, ringing
 from sim.ticks import choose_ticks
 from sim.trace import Trace
-from sim.travel import TravelWatch
-
-MAX_STEPS = 300_000_000
-"""Steps that one run takes: 240 m of path, two months of cutting; a word damaged to nine digits asks for more."""
-REFUSED = ("3B206",)
-"""Findings that leave nothing worth running."""
 
 
 class PulseSink(Protocol):
@@ -70,6 +63,8 @@ class DryRun:
         (n,) float64, planned time in each block.
     findings
         Of program and run, in file order.
+    coverage
+        How far their checks came.
     """
 
     program: Program
@@ -81,6 +76,7 @@ class DryRun:
     contours: tuple[Contour, ...]
     block_time_s: Floats
     findings: tuple[Finding, ...]
+    coverage: Coverage
 
     @property
     def toolpath(self) -> Toolpath:
@@ -105,15 +101,16 @@ def dry_run(program: Program, scenario: Scenario, progress: Progress, sink: Puls
     Raises ProgramError where the program asks for more than any table can do.
     """
     toolpath, machine = program.toolpath, scenario.machine
-    steps = _runnable_steps(program)
+    checked = check_program(program, _demands(scenario))
+    if checked.steps is None:
+        raise _refusal(program, checked.findings)
+    steps = checked.steps
     plan = plan_runs(toolpath, machine.feeds(scenario.thickness_mm))
     motion = Motion(steps, plan, choose_ticks(toolpath, plan, ringing(machine.table)), origin_um(toolpath))
-    watch = TravelWatch(machine.table, scenario.start_um, toolpath)
     meters = _StepMeters(toolpath, motion)
 
     def take(pulses: Pulses) -> None:
         meters.take(pulses)
-        watch.take(pulses)
         if sink is not None:
             sink.take(pulses)
 
@@ -123,13 +120,6 @@ def dry_run(program: Program, scenario: Scenario, progress: Progress, sink: Puls
     trace = run_table(motion, command, Table(machine.table, scenario.start_um), progress)
     of_table = DeviationMeter(toolpath)
     of_table.add(trace.row, trace.actual_um[:, 0], trace.actual_um[:, 1], trace.t_s)
-    contours = find_contours(toolpath, steps)
-    found = [
-        *program.findings,
-        *contour_findings(toolpath, contours, may_stay_open=scenario.may_stay_open),
-        *missed_ends(toolpath, steps),
-        *watch.findings(),
-    ]
     return DryRun(
         program=program,
         scenario=scenario,
@@ -137,9 +127,10 @@ def dry_run(program: Program, scenario: Scenario, progress: Progress, sink: Puls
         plan=plan,
         trace=trace,
         deviations=Deviations(meters.own.result(), meters.placed.result(), of_table.result()),
-        contours=contours,
+        contours=checked.contours,
         block_time_s=np.diff(plan.time_at(steps.along_um)),
-        findings=tuple(sorted(found, key=lambda f: (f.line, f.block, f.code))),
+        findings=checked.findings,
+        coverage=checked.coverage,
     )
 
 
@@ -156,21 +147,11 @@ class _StepMeters:
         self.own.add(pulses.row, x - self._drift[:, 0][pulses.row], y - self._drift[:, 1][pulses.row], pulses.t_s)
 
 
-def _runnable_steps(program: Program) -> Steps:
-    """Steps of a program that is worth running. ProgramError where it asks for more than any table can do."""
-    for finding in program.findings:
-        if finding.code in REFUSED:
-            excerpt = LineIndex(program.text).excerpt(finding.line)
-            raise ProgramError(
-                finding.message, code=finding.code, line=finding.line, column=finding.column, excerpt=excerpt
-            )
-    steps = interpolate(program.toolpath)
-    if len(steps) > MAX_STEPS:
-        longest = program.toolpath.block(int(np.argmax(steps.count)))
-        raise ProgramError(
-            f"the program makes {len(steps):,} steps, most of them in block {longest.number}; "
-            f"expected at most {MAX_STEPS:,}; the machine would run for months or into its end stop",
-            code="3B206",
-            line=longest.line,
-        )
-    return steps
+def _demands(scenario: Scenario) -> Demands:
+    return Demands(scenario.machine.table, scenario.start_um, scenario.wire.offset_um, scenario.may_stay_open)
+
+
+def _refusal(program: Program, findings: tuple[Finding, ...]) -> ProgramError:
+    """Error of a program that asks for more than any table can do."""
+    finding = next(finding for finding in findings if finding.code == "3B206")
+    return ProgramError(finding, excerpt=program.excerpt(finding.line))

@@ -49,7 +49,7 @@ def read_expectation(table: Mapping[str, Any], where: str) -> tuple[Expectation,
 def compare(report: Mapping[str, Any], expected: tuple[Expectation, ...]) -> list[Finding]:
     """A finding 3B490 for each expectation that the report does not meet."""
     return [
-        Finding("3B490", f"{e.path} is {_show(found)}", f"{_wanted(e)} by the scenario", "it runs as reported")
+        Finding("3B490", {"path": e.path, "found": _show(found), "wanted": _wanted(e)})
         for e in expected
         if not _meets(found := _look_up(report, e.path), e)
     ]

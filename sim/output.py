@@ -128,3 +128,23 @@ def write_npz(path: Path, files: Mapping[str, Path], arrays: Mapping[str, NDArra
 
 def _member(name: str) -> zipfile.ZipInfo:
     return zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
+
+
+def replace_file(path: Path, data: bytes) -> None:
+    """Put `data` in place of a file's content, whole or not at all; its permissions stay, a link is followed.
+
+    Raises FileUnreadableError where it cannot be written.
+    """
+    target = path.resolve()
+    try:
+        with tempfile.NamedTemporaryFile(prefix=".drycut-", dir=target.parent, delete=False) as file:
+            try:
+                file.write(data)
+                file.close()
+                shutil.copymode(target, file.name)
+                Path(file.name).replace(target)
+            except BaseException:
+                Path(file.name).unlink(missing_ok=True)
+                raise
+    except OSError as error:
+        raise FileUnreadableError(f"{path}: cannot be written: {error.strerror or error}") from None

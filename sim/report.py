@@ -6,9 +6,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from parser.catalogue import term, texts
 from parser.findings import Finding
+from parser.header import Header
 from parser.toolpath import Axis, Floats, Kind, Toolpath
 from sim import __version__
+from sim.check.result import CheckState, Coverage
 from sim.contours import Contour
 from sim.deviation import Deviation
 from sim.dryrun import DryRun, origin_um, verdict
@@ -17,6 +20,7 @@ SCHEMA = "drycut.report/1"
 
 _UM_DIGITS = 6
 _DEG_DIGITS = 9
+_CURVES = (None, "convex", "concave")
 
 
 def build_report(run: DryRun) -> dict[str, Any]:
@@ -31,6 +35,8 @@ def build_report(run: DryRun) -> dict[str, Any]:
             "title": scenario.title,
             "provenance": scenario.provenance,
             "encoding": run.program.encoding,
+            "dialect": run.program.reading.dialect,
+            "header": _header(run.program.header),
         },
         "machine": {"name": scenario.machine.name, "start_um": [_round(place) for place in scenario.start_um]},
         "wire": {
@@ -51,6 +57,7 @@ def build_report(run: DryRun) -> dict[str, Any]:
             "steps": _deviation(run.deviations.steps),
             "table": _deviation(run.deviations.table),
         },
+        "coverage": _coverage(run.coverage),
         "findings": [finding_entry(finding) for finding in run.findings],
         "stops": [{"kind": s.kind, "after_block": s.after, "line": s.line} for s in toolpath.stops],
         "blocks": _blocks(run),
@@ -76,18 +83,49 @@ def _line(value: Any) -> str:
 
 
 def finding_entry(finding: Finding) -> dict[str, Any]:
-    """One entry of ``findings[]``."""
+    """One entry of ``findings[]``, its texts in English."""
+    said = texts(finding)
     return {
         "code": finding.code,
         "severity": str(finding.severity),
-        "title": finding.title,
-        "found": finding.found,
-        "expected": finding.expected,
-        "machine": finding.machine,
+        "title": said.title,
+        "found": said.found,
+        "expected": said.expected,
+        "machine": said.machine,
+        "hint": said.hint,
         "line": finding.line or None,
         "column": finding.column or None,
         "block": finding.block or None,
     }
+
+
+def _header(header: Header) -> dict[str, Any]:
+    return {
+        "version": header.version or None,
+        "name": header.name or None,
+        "corner_radius_um": _known(header.corner_radius_um),
+        "offset_um": _known(header.offset_um),
+        "lengths_um": [_round(length.um) for length in header.lengths],
+    }
+
+
+def _coverage(coverage: Coverage) -> dict[str, Any]:
+    return {
+        "blocks": {
+            "found": coverage.found,
+            "read": coverage.read,
+            "decoded": coverage.decoded,
+            "stepped": coverage.stepped,
+        },
+        "checks": [
+            {"check": check.name.removeprefix("check-"), "state": check.state, "reason": _reason(check)}
+            for check in coverage.checks
+        ],
+    }
+
+
+def _reason(check: CheckState) -> str | None:
+    return term(check.reason) if check.reason else None
 
 
 def _contour(contour: Contour) -> dict[str, Any]:
@@ -119,6 +157,8 @@ def _blocks(run: DryRun) -> list[dict[str, Any]]:
         "text": [toolpath.source.text[low:high] for low, high in toolpath.source.span.tolist()],
         "kind": [Kind(kind).name.lower() for kind in toolpath.kind.tolist()],
         "count_um": toolpath.words.count_um.tolist(),
+        "radius_um": [None if radius < 0 else radius for radius in toolpath.words.radius_um.tolist()],
+        "curve": [_CURVES[curve] for curve in toolpath.words.curve.tolist()],
         "count_axis": [Axis(axis).name for axis in toolpath.words.count_axis.tolist()],
         "exact": _rows(_exact(toolpath)),
         "stepped": _rows(_stepped(run)),
@@ -168,6 +208,10 @@ def _column(values: Floats, digits: int = _UM_DIGITS) -> list[float | None]:
 def _points(pairs: NDArray[np.float64]) -> list[list[float] | None]:
     rounded = (np.round(pairs, _UM_DIGITS) + 0.0).tolist()
     return [None if pair[0] != pair[0] else pair for pair in rounded]
+
+
+def _known(length_um: float | None) -> float | None:
+    return None if length_um is None else _round(length_um)
 
 
 def _round(value: float) -> float:

@@ -3,21 +3,17 @@
 A folder holds ``scenario.toml`` and the program it names; a program alone is a scenario with the defaults.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from parser.encoding import printable
 from parser.errors import FileUnreadableError, SettingsError
 from parser.units import from_mm, mm
 from sim.expect import Expectation, read_expectation
 from sim.machine import Machine, load_machine
-from sim.settings import Bound, load_toml, number, numbers, refuse_unknown, section, text, truth
-from sim.wire import Wire
+from sim.settings import Bound, load_toml, numbers, pair, refuse_unknown, section, text, truth
+from sim.wire import DEFAULT_WIRE, SPARK_GAP_MM, WIRE_DIAMETER_MM, Wire
 
-WIRE_DIAMETER_MM = Bound(0.01, 1.0)
-SPARK_GAP_MM = Bound(-0.05, 0.5)
 THICKNESS_MM = Bound(0.01, 2000.0)
 _WIRE = {"diameter_mm": WIRE_DIAMETER_MM, "spark_gap_mm": SPARK_GAP_MM}
 _WORK = {"thickness_mm": THICKNESS_MM}
@@ -25,8 +21,6 @@ _KEYS = ("title", "provenance", "program", "machine", "start_mm", "open", "wire"
 
 DEFAULT_MACHINE = "dk7740"
 DEFAULT_THICKNESS_MM = 40.0
-DEFAULT_WIRE = Wire(diameter_um=180.0, spark_gap_um=10.0)
-"""Usual wire, with the gap that the trade's offset of 0.1 mm leaves it (docs/3b.md §5)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +87,7 @@ def load_scenario(path: Path) -> Scenario:
         program=path / text(content, "program", where, default="program.3b"),
         machine=load_machine(text(content, "machine", where, default=DEFAULT_MACHINE), beside=path),
         wire=Wire(from_mm(wire["diameter_mm"]), from_mm(wire["spark_gap_mm"])),
-        start_mm=_start(content, where),
+        start_mm=pair(content, "start_mm", where),
         provenance=text(content, "provenance", where, default="not given"),
         may_stay_open=truth(content, "open", where),
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
@@ -103,13 +97,3 @@ def load_scenario(path: Path) -> Scenario:
 
 def _wire_defaults() -> dict[str, float]:
     return {"diameter_mm": mm(DEFAULT_WIRE.diameter_um), "spark_gap_mm": mm(DEFAULT_WIRE.spark_gap_um)}
-
-
-def _start(content: Mapping[str, Any], where: str) -> tuple[float, float] | None:
-    if "start_mm" not in content:
-        return None
-    pair = content["start_mm"]
-    if not isinstance(pair, list) or len(pair) != 2:
-        raise SettingsError(f"{where}: start_mm is [x, y] on the table; found {pair!r}")
-    x, y = (number(value, Bound(-1e5, 1e5), f"{where}: start_mm") for value in pair)
-    return x, y

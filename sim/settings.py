@@ -1,8 +1,6 @@
 """TOML settings read strictly: every key known, every number in its bounds, every complaint names file and key."""
 
-import difflib
 import math
-import tomllib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,9 +15,14 @@ class Bound(NamedTuple):
     high: float
 
 
+_PLACE_MM = Bound(-1e5, 1e5)
+
+
 def load_toml(path: Path) -> dict[str, Any]:
     """Content of a TOML file. FileUnreadableError where it cannot be read, SettingsError where it is no TOML."""
     try:
+        import tomllib  # noqa: PLC0415 - most checks have no settings file
+
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
@@ -32,6 +35,8 @@ def refuse_unknown(table: Mapping[str, Any], known: Iterable[str], where: str) -
     names = sorted(known)
     for key in table:
         if key not in names:
+            import difflib  # noqa: PLC0415 - few keys are misspelt
+
             near = difflib.get_close_matches(key, names, n=1)
             hint = f"did you mean {near[0]}?" if near else f"known keys: {', '.join(names)}"
             raise SettingsError(f"{where}: unknown key {key!r}; {hint}")
@@ -85,3 +90,14 @@ def numbers(
         if key not in given:
             raise SettingsError(f"{where}: {key} is missing")
     return {key: number(given[key], bound, f"{where}: {key}") for key, bound in bounds.items()}
+
+
+def pair(table: Mapping[str, Any], key: str, where: str) -> tuple[float, float] | None:
+    """Place [x, y] on the table in mm; None where it is left out. SettingsError where it is no pair of numbers."""
+    if key not in table:
+        return None
+    value = table[key]
+    if not isinstance(value, list) or len(value) != 2:
+        raise SettingsError(f"{where}: {key} is [x, y] on the table; found {value!r}")
+    x, y = (number(place, _PLACE_MM, f"{where}: {key}") for place in value)
+    return x, y

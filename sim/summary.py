@@ -7,9 +7,10 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
+from parser.catalogue import texts
 from parser.encoding import printable
-from parser.findings import Finding, Severity, place, with_caret
-from parser.lines import LineIndex
+from parser.excerpt import place, with_caret
+from parser.findings import Finding, Severity
 from parser.units import mm
 from sim.deviation import Deviation
 from sim.dryrun import DryRun, verdict
@@ -92,11 +93,12 @@ def _mm(length_um: float) -> str:
 
 
 def _print_findings(console: Console, run: DryRun, output: Path | None) -> None:
-    lines = LineIndex(run.program.text) if run.findings else None
     for finding in run.findings[:_MOST_FINDINGS]:
         console.print(_line(printable(str(run.scenario.program)), finding))
-        if lines is not None and finding.column:
-            console.print(Text(with_caret(lines.excerpt(finding.line), finding.column), style="dim"))
+        if finding.column:
+            width = finding.span[1] - finding.span[0]
+            excerpt = with_caret(run.program.excerpt(finding.line), finding.column, width)
+            console.print(Text(excerpt, style="dim"))
     if len(run.findings) > _MOST_FINDINGS:
         there = "in report.json" if output else "in the report; -o DIR or --json shows them"
         console.print(f"… and {len(run.findings) - _MOST_FINDINGS} findings more, {there}")
@@ -107,4 +109,4 @@ def _line(name: str, finding: Finding) -> Text:
     block = f" block {finding.block}:" if finding.block else ""
     text = Text(f"{at}: ")
     text.append(f"{finding.severity}[{finding.code}]", style=_COLOURS[finding.severity])
-    return text.append(f":{block} {finding.message}")
+    return text.append(f":{block} {texts(finding).message}")

@@ -3,6 +3,10 @@
 from dataclasses import dataclass
 
 from parser.errors import SettingsError
+from sim.settings import Bound
+
+WIRE_DIAMETER_MM = Bound(0.01, 1.0)
+SPARK_GAP_MM = Bound(-0.05, 0.5)
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,3 +41,7 @@ class Wire:
     def kerf_um(self) -> float:
         """Width of the slot that the wire leaves."""
         return 2.0 * self.offset_um
+
+
+DEFAULT_WIRE = Wire(diameter_um=180.0, spark_gap_um=10.0)
+"""Usual wire, with the gap that the trade's offset of 0.1 mm leaves it (docs/3b.md §5)."""

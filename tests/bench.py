@@ -8,6 +8,8 @@ import argparse
 import math
 import random
 import resource
+import statistics
+import subprocess
 import sys
 import tempfile
 import time
@@ -21,6 +23,10 @@ from controller.plan import Feeds, plan_runs
 from controller.point_by_point import interpolate
 from parser.program import read_program
 from parser.words import line_words
+from sim.check.batch import Job, check_file
+from sim.check.settings import CheckSettings
+
+KEYHOLE = Path(__file__).parent.parent / "scenarios" / "keyhole" / "program.3b"
 
 LENGTH_UM = 100.0
 FEEDS = Feeds(cut_um_s=43.75, jump_um_s=500.0, acceleration_um_s2=1e5)
@@ -77,6 +83,31 @@ def whole(path: Path) -> tuple[float, float, float, int]:
     return read - began, planned - read, done - planned, steps
 
 
+def checked(path: Path, times: int) -> float:
+    """Seconds to check a file with every rule, the fastest of three rounds of `times`."""
+    job = Job(path.name, path, CheckSettings(wire_diameter_um=180.0))
+    rounds = []
+    for _ in range(3):
+        began = time.perf_counter()
+        for _ in range(times):
+            check_file(job)
+        rounds.append((time.perf_counter() - began) / times)
+    return min(rounds)
+
+
+def start_ratio(path: Path) -> tuple[float, float]:
+    """Seconds from the start to the end of ``drycut check`` of a small file, and of a Python that imports numpy."""
+    commands = ([sys.executable, "-m", "sim.cli", "check", str(path)], [sys.executable, "-c", "import numpy"])
+    taken: list[list[float]] = [[], []]
+    for _ in range(15):  # in turns, so that both meet the same noise
+        for times, command in zip(taken, commands, strict=True):
+            began = time.perf_counter()
+            subprocess.run(command, capture_output=True, check=False)
+            times.append(time.perf_counter() - began)
+    check, numpy = (statistics.median(times) for times in taken)
+    return check, numpy
+
+
 def plain_ns_per_step(blocks: list[PlainBlock]) -> float:
     began = time.perf_counter()
     steps = sum(len(plain_steps(block)) for block in blocks)
@@ -91,6 +122,9 @@ def main() -> None:
         path = Path(folder) / "path.3b"
         blocks = write_path(path, n)
         read, planned, stepped, steps = min((whole(path) for _ in range(3)), key=lambda times: sum(times[:3]))
+        check = checked(path, 1)
+    small = checked(KEYHOLE, 100)
+    start, numpy = start_ratio(KEYHOLE)
     total = read + planned + stepped
     plain = plain_ns_per_step(blocks[: max(1, n // 100)])
     peak_kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -102,6 +136,9 @@ def main() -> None:
     print(
         f"plain loop          {plain:.0f} ns per step (steps only), {plain / (stepped / steps * 1e9):.1f} times as long"
     )
+    print(f"check               {check:.3f} s   {n / check:,.0f} blocks/s, every rule")
+    print(f"check a small file  {small * 1e3:.1f} ms, {start * 1e3:.0f} ms with its start")
+    print(f"start of a check    {start / numpy:.2f} times a Python that imports numpy")
     print(f"peak memory         {peak_kib / 1024:.0f} MiB", file=sys.stdout)
 
 

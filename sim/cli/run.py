@@ -2,30 +2,21 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from parser.encoding import printable
 from parser.errors import ProgramError
-from parser.findings import place, with_caret
+from parser.excerpt import place, with_caret
 from parser.units import mm
+from sim.cli.lengths import Length
 from sim.settings import number
-from sim.units import parse_length
 
 if TYPE_CHECKING:
     from parser.program import Program
     from sim.dryrun import DryRun
     from sim.scenario import Scenario
-
-
-class _Length(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
-    """A length with its unit, in µm."""
-
-    name = "length"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        return value if isinstance(value, float) else parse_length(value)
 
 
 @click.command()
@@ -38,9 +29,9 @@ class _Length(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
     help="Write cut.png, report.json and trace.npz here.",
 )
 @click.option("--machine", metavar="NAME|FILE", help="Shipped machine, such as dk7740, or a machine file (.toml).")
-@click.option("--thickness", type=_Length(), help="Thickness of the work, such as 40mm.")
-@click.option("--wire-diameter", type=_Length(), help="Diameter of the wire, such as 0.18mm.")
-@click.option("--gap", type=_Length(), help="Spark gap on one side, such as 10um.")
+@click.option("--thickness", type=Length(), help="Thickness of the work, such as 40mm.")
+@click.option("--wire-diameter", type=Length(), help="Diameter of the wire, such as 0.18mm.")
+@click.option("--gap", type=Length(), help="Spark gap on one side, such as 10um.")
 @click.option("--json", "as_json", is_flag=True, help="Print report.json instead of the summary.")
 def run(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     path: Path,
@@ -83,8 +74,9 @@ def run(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
 
 def describe(name: str, error: ProgramError) -> str:
     """``part.3b:7:12: error[3B206]: …`` with the line and a caret where the place is known."""
-    text = f"{place(name, error.line, error.column)}: error[{error.code}]: {error}"
-    return f"{text}\n{with_caret(error.excerpt, error.column)}" if error.excerpt and error.column else text
+    finding = error.finding
+    text = f"{place(name, finding.line, finding.column)}: error[{finding.code}]: {error}"
+    return f"{text}\n{with_caret(error.excerpt, finding.column)}" if error.excerpt and finding.column else text
 
 
 def _overridden(
@@ -93,6 +85,7 @@ def _overridden(
     """Scenario of the path with the options of the command line in place of its own values."""
     from sim import scenario as scenarios
     from sim.machine import load_machine
+    from sim.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
 
     scenario = scenarios.load_scenario(path)
     wire = scenario.wire
@@ -101,10 +94,10 @@ def _overridden(
     if thickness is not None:
         scenario = replace(scenario, thickness_mm=number(mm(thickness), scenarios.THICKNESS_MM, "--thickness in mm"))
     if wire_diameter is not None:
-        number(mm(wire_diameter), scenarios.WIRE_DIAMETER_MM, "--wire-diameter in mm")
+        number(mm(wire_diameter), WIRE_DIAMETER_MM, "--wire-diameter in mm")
         wire = replace(wire, diameter_um=wire_diameter)
     if gap is not None:
-        number(mm(gap), scenarios.SPARK_GAP_MM, "--gap in mm")
+        number(mm(gap), SPARK_GAP_MM, "--gap in mm")
         wire = replace(wire, spark_gap_um=gap)
     return replace(scenario, wire=wire)
 

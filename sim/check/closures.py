@@ -1,0 +1,132 @@
+"""Findings about contours: whether they close, exact and stepped, and which block may be why not."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from parser.figures import CLOSED_WITHIN_UM
+from parser.findings import Finding, Value
+from parser.places import at_block
+from parser.program import Program
+from parser.tokens import TokenKind
+from parser.toolpath import Ints
+from sim.check.shape.loops import end_in_waste
+from sim.contours import Contour
+
+if TYPE_CHECKING:
+    from sim.check.mend.suspects import Suspect
+
+STEPPED_CLOSURE_UM = 12.0
+"""A sound arc may end up to 9.9 µm off when stepped (sim/check/count_axes.py)."""
+STEPPED_CLOSURE_UM_PER_ROOT_ARC = 6.0
+"""Arcs end about 2 µm off, each in its own direction: of many the sum grows as the root of their number. Three times
+that is not met by chance."""
+
+MOST_SUSPECTED = 50
+"""Contours of a program of which the broken block is looked for: where more do not close, it is no slip of a digit."""
+
+_EXPLAIN = ("3B204", "3B207", "3B208", "3B303", "3B310")
+_FIELDS = {
+    "x": (TokenKind.X, "field-x"),
+    "y": (TokenKind.Y, "field-y"),
+    "count": (TokenKind.COUNT, "field-count"),
+    "axis": (TokenKind.AXIS, "field-axis"),
+    "sense": (TokenKind.DIRECTION, "field-sense"),
+}
+
+
+def contour_findings(
+    program: Program, contours: tuple[Contour, ...], rows: Ints, known: tuple[Finding, ...], *, may_stay_open: bool
+) -> list[Finding]:
+    """Open contours (3B301) with their suspects (3B304) unless they may stay open; poor stepped closure (3B302).
+
+    `rows` (n,) is each row's contour. One whose loop is closed may be left by another way than it was entered (3B311).
+    A block that is `known` to be wrong explains its contour: no other is suspected then, nor is its stepped closure
+    named. Of the contours that neither close nor are explained the first `MOST_SUSPECTED` get suspects: also those that
+    run forward, since a triangle with a wrong quadrant does so too; hardly a parting cut has a block that would close
+    it.
+    """
+    guilty = np.sort(np.array([finding.block for finding in known if finding.code in _EXPLAIN], dtype=np.int64))
+    found: list[Finding] = []
+    suspected = 0
+    unclosed = [contour for contour in contours if contour.is_open and not may_stay_open]
+    left = _left_elsewhere(program, rows, unclosed)
+    for contour in contours:
+        if contour.first in left:
+            found += [_lead_out(program, contour, block) for block in (contour.first, contour.last)]
+            continue
+        low, high = np.searchsorted(guilty, [contour.first, contour.last + 1])
+        explained = bool(low < high)
+        gap, limit = contour.closure_stepped_um, stepped_limit_um(contour)
+        if contour.is_open and not may_stay_open:
+            found.append(_at_end(program, "3B301", contour, gap=contour.closure_exact_um))
+        elif (
+            contour.closure_exact_um <= contour.tolerance_um
+            and gap - contour.closure_exact_um > limit
+            and not explained
+        ):
+            found.append(_at_end(program, "3B302", contour, gap=gap, limit=limit))
+        may_close = contour.is_open or contour.last - contour.first > 1  # one line or two are no figure
+        if may_close and not (contour.returns or explained or may_stay_open) and suspected < MOST_SUSPECTED:
+            suspected += 1
+            found += _suspects(program, contour)
+    return found
+
+
+def _left_elsewhere(program: Program, rows: Ints, contours: list[Contour]) -> set[int]:
+    """First blocks of those open contours whose loop is closed, and whose lead-out ends in the waste.
+
+    What ends within some µm of its start was to end there.
+    """
+    far = (contour.first for contour in contours if contour.closure_exact_um > CLOSED_WITHIN_UM)
+    first = np.fromiter(far, dtype=np.int64)
+    if not len(first):
+        return set()
+    number = rows[first - 1]
+    return set(first[np.isin(number, end_in_waste(program.toolpath, rows, number))].tolist())
+
+
+def _lead_out(program: Program, contour: Contour, block: int) -> Finding:
+    values: dict[str, Value] = {"first": contour.first, "last": contour.last, "gap": contour.closure_exact_um}
+    return at_block(program.toolpath, program.lines, "3B311", block - 1, **values)
+
+
+def stepped_limit_um(contour: Contour) -> float:
+    """Closure in µm within which the steps of a sound contour end."""
+    return float(STEPPED_CLOSURE_UM + STEPPED_CLOSURE_UM_PER_ROOT_ARC * contour.arcs**0.5)
+
+
+def _at_end(program: Program, code: str, contour: Contour, **values: float) -> Finding:
+    return at_block(
+        program.toolpath,
+        program.lines,
+        code,
+        contour.last - 1,
+        first=contour.first,
+        last=contour.last,
+        **values,
+    )
+
+
+def _suspects(program: Program, contour: Contour) -> list[Finding]:
+    """Notes at blocks of which one changed field would close the contour."""
+    from sim.check.mend.suspects import suspects  # noqa: PLC0415 - most contours are closed
+
+    rows = contour.first - 1, contour.last
+    return [_suspect(program, contour, one) for one in suspects(program.toolpath, *rows)]
+
+
+def _suspect(program: Program, contour: Contour, one: "Suspect") -> Finding:
+    token, term = _FIELDS[one.field]
+    return at_block(
+        program.toolpath,
+        program.lines,
+        "3B304",
+        one.row,
+        token,
+        first=contour.first,
+        last=contour.last,
+        field=term,
+        written=one.written,
+        other=one.other,
+    )

@@ -1,0 +1,213 @@
+"""All checks of one program, and how far each came."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from controller.point_by_point import interpolate
+from controller.steps import Steps
+from parser.decode import endless
+from parser.findings import Finding, file_order
+from parser.places import at_block
+from parser.program import Program
+from parser.tokens import TokenKind
+from parser.toolpath import Ints
+from sim.check.closures import contour_findings
+from sim.check.count_axes import stepped_end_findings
+from sim.check.geometry import corner_findings, crossing_findings, sense_findings
+from sim.check.passages import passage_findings
+from sim.check.result import CheckState, Coverage, State
+from sim.check.shape.rows import contour_rows
+from sim.check.travel import travel_findings
+from sim.contours import Contour, find_contours
+
+if TYPE_CHECKING:  # most checks know no machine
+    from sim.machine import TableModel
+
+MAX_STEPS = 300_000_000
+"""Steps that one run takes: 240 m of path, two months of cutting; a word damaged to nine digits asks for more."""
+
+PARSER_CHECKS = ("check-grammar", "check-order", "check-blocks", "check-printed-ends", "check-header")
+PATH_CHECKS = ("check-steps", "check-contours", "check-senses", "check-crossings", "check-corners", "check-travel")
+
+
+class Demands(NamedTuple):
+    """What a program is held against.
+
+    Attributes
+    ----------
+    table, start_um
+        Table that it is to run on, and where its start lies there; None where no table is known.
+    offset_um
+        Distance of the cut edge from the wire's centre; None where no wire is known.
+    may_stay_open
+        Whether contours may end away from their own path.
+    """
+
+    table: "TableModel | None" = None
+    start_um: tuple[float, float] | None = None
+    offset_um: float | None = None
+    may_stay_open: bool = False
+
+
+class Checked(NamedTuple):
+    """What the checks of a program found.
+
+    Attributes
+    ----------
+    findings
+        In file order.
+    coverage
+        How far the checks came.
+    steps
+        Of the program; None where they were not worked out.
+    contours, judged
+        All contours, and those of them that no damaged block leaves open.
+    """
+
+    findings: tuple[Finding, ...]
+    coverage: Coverage
+    steps: Steps | None
+    contours: tuple[Contour, ...]
+    judged: tuple[Contour, ...]
+
+
+def check_program(program: Program, demands: Demands) -> Checked:
+    """Run every check on a program."""
+    if any(finding.code == "3B206" for finding in program.findings):
+        return _without_path(program, "reason-too-large")
+    steps = interpolate(program.toolpath)
+    excess = too_many_steps(program, steps)
+    if excess:
+        return _without_path(program, "reason-too-large", excess)
+    contours = find_contours(program.toolpath, steps)
+    path = _PathChecks(program, steps, contours, demands)
+    findings = tuple(sorted([*program.findings, *path.findings()], key=file_order))
+    decoded = program.reading.run - int(endless(program.toolpath.words).sum())
+    states = (*_parser_states(program), *path.states)
+    coverage = Coverage(_found(program), program.reading.blocks, decoded, decoded, states)
+    return Checked(findings, coverage, steps, contours, path.judged)
+
+
+def too_many_steps(program: Program, steps: Steps) -> list[Finding]:
+    """Finding 3B206 where a program makes more steps than any table does."""
+    if len(steps) <= MAX_STEPS:
+        return []
+    row = int(np.argmax(steps.count))
+    of = program.toolpath, program.lines
+    return [at_block(*of, "3B206", row, TokenKind.COUNT, what="too-many-steps", limit=MAX_STEPS)]
+
+
+class _PathChecks:
+    """The checks that look at the path, with their states; what a damaged block leaves open is not judged."""
+
+    def __init__(self, program: Program, steps: Steps, contours: tuple[Contour, ...], demands: Demands) -> None:
+        self._program, self._steps, self._demands = program, steps, demands
+        rows = contour_rows(program.toolpath)
+        self._broken = _broken_contours(program, rows)
+        self.judged = tuple(contour for number, contour in enumerate(contours) if number not in self._broken)
+        self._rows = np.where(np.isin(rows, list(self._broken)), -1, rows)
+        self.states: list[CheckState] = []
+
+    def findings(self) -> Iterator[Finding]:
+        """Findings of all path checks; afterwards `states` tells how far they came."""
+        program, demands = self._program, self._demands
+        stepped = stepped_end_findings(program, self._steps)
+        yield from stepped
+        self._done("check-steps", _stopped(program))
+        passages = passage_findings(program, self._rows)
+        yield from passages
+        known = (*program.findings, *stepped, *passages)
+        closures = contour_findings(program, self.judged, self._rows, known, may_stay_open=demands.may_stay_open)
+        yield from closures
+        self._done("check-contours", self._left_out)
+        rows = _closed(self._rows, closures)  # where an open contour runs follows from why it is open
+        open_ones = "" if rows is self._rows else "reason-open"
+        yield from _undoubted(sense_findings(program, rows), known)
+        self._done("check-senses", self._left_out or open_ones)
+        crossings, all_pairs = crossing_findings(program, rows)
+        yield from crossings
+        self._done("check-crossings", self._left_out or open_ones if all_pairs else "reason-many")
+        yield from self._asked_for()
+
+    @property
+    def _left_out(self) -> str:
+        """Why a check of whole contours did not look at all of them; empty where it did."""
+        if not self._broken:
+            return ""
+        return "reason-damaged" if self._program.reading.damages else "reason-endless"
+
+    def _asked_for(self) -> Iterator[Finding]:
+        """Checks that need to know the wire or the machine."""
+        program, demands = self._program, self._demands
+        if demands.offset_um is None:
+            self.states.append(CheckState("check-corners", "not asked", "reason-no-wire"))
+        else:
+            yield from corner_findings(program, self._rows, demands.offset_um)
+            self._done("check-corners", self._left_out)
+        if demands.table is None or demands.start_um is None:
+            self.states.append(CheckState("check-travel", "not asked", "reason-no-machine"))
+        else:
+            yield from travel_findings(program, self._steps, demands.table, demands.start_um)
+            self._done("check-travel", "reason-damaged" if program.reading.damages else _stopped(program))
+
+    def _done(self, name: str, reason: str = "") -> None:
+        self.states.append(CheckState(name, *_state(reason)))
+
+
+def _closed(rows: Ints, closures: list[Finding]) -> Ints:
+    """The contour column without the contours that are found open; itself where there are none."""
+    ends = np.array([finding.block - 1 for finding in closures if finding.code == "3B301"], dtype=np.int64)
+    return np.where(np.isin(rows, rows[ends]), -1, rows) if len(ends) else rows
+
+
+def _undoubted(senses: list[Finding], known: tuple[Finding, ...]) -> list[Finding]:
+    """Those findings about arcs that no wrong count length or end, of the arc or of a neighbour, explains."""
+    doubtful = {finding.block for finding in known if finding.code in ("3B207", "3B208")}
+    return [finding for finding in senses if not doubtful & {finding.block - 1, finding.block, finding.block + 1}]
+
+
+def _broken_contours(program: Program, rows: Ints) -> set[int]:
+    """Contours with a block missing in or beside them, or with one that never ends."""
+    toolpath = program.toolpath
+    places = [damage.span[0] for damage in program.reading.damages]
+    before = np.searchsorted(toolpath.source.span[:, 0], places)
+    near = np.concatenate([before - 1, before, np.flatnonzero(endless(toolpath.words))]).astype(np.int64)
+    near = near[(near >= 0) & (near < len(toolpath))]
+    return set(rows[near].tolist()) - {-1}
+
+
+def _stopped(program: Program) -> str:
+    return "reason-endless" if endless(program.toolpath.words).any() else ""
+
+
+def _parser_states(program: Program) -> tuple[CheckState, ...]:
+    damaged = "reason-damaged" if program.reading.damages else ""
+    beyond = "reason-too-large" if any(finding.code == "3B206" for finding in program.findings) else damaged
+    grammar, order, blocks, prints, header = PARSER_CHECKS
+    has_prints = bool((~np.isnan(program.toolpath.printed_end_um)).any())
+    return (
+        CheckState(grammar),
+        CheckState(order, *_state(damaged)),
+        CheckState(blocks, *_state(beyond)),
+        CheckState(prints, *_state(beyond)) if has_prints else CheckState(prints, "not asked", "reason-no-prints"),
+        CheckState(header, *_state(beyond))
+        if program.header.lengths
+        else CheckState(header, "not asked", "reason-no-header"),
+    )
+
+
+def _state(reason: str) -> tuple[State, str]:
+    return ("incomplete", reason) if reason else ("complete", "")
+
+
+def _without_path(program: Program, reason: str, more: list[Finding] | None = None) -> Checked:
+    """Findings of a program whose geometry is not worth working out."""
+    states = (*_parser_states(program), *(CheckState(name, "incomplete", reason) for name in PATH_CHECKS))
+    coverage = Coverage(_found(program), program.reading.blocks, 0, 0, states)
+    return Checked(tuple(sorted([*program.findings, *(more or [])], key=file_order)), coverage, None, (), ())
+
+
+def _found(program: Program) -> int:
+    return program.reading.blocks + sum(damage.is_block for damage in program.reading.damages)

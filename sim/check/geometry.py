@@ -1,0 +1,68 @@
+"""Findings about the shape of contours: crossings, senses of arcs, corners tighter than the wire."""
+
+import math
+
+from parser.findings import Finding, Value
+from parser.places import at_block
+from parser.program import Program
+from parser.tokens import TokenKind
+from parser.toolpath import Ints
+from sim.check.shape.corners import tight_corners
+from sim.check.shape.crossings import find_crossings
+from sim.check.shape.retraced import retraced_arcs
+from sim.check.shape.senses import reversed_arcs
+
+_SENSES = {1: "NR", -1: "SR"}
+
+
+def sense_findings(program: Program, contour: Ints) -> list[Finding]:
+    """Arcs that would fit their neighbours the other way round: 3B306, and 3B211 for the major arc of a circle."""
+    toolpath = program.toolpath
+    found = [_reversed(program, row) for row in retraced_arcs(toolpath, contour).tolist()]
+    arcs = reversed_arcs(toolpath, contour)
+    for row, is_major, sweep, other_sweep in zip(*(column.tolist() for column in arcs), strict=True):
+        turn = int(toolpath.words.turn[row])
+        written, other = _SENSES[turn], _SENSES[-turn]
+        if is_major:
+            degrees = {"sweep": round(abs(math.degrees(sweep))), "minor": round(abs(math.degrees(other_sweep)))}
+            values: dict[str, Value] = {"written": written, "other": other, **degrees}
+            found.append(at_block(toolpath, program.lines, "3B211", row, TokenKind.DIRECTION, **values))
+        else:
+            found.append(_reversed(program, row))
+    return found
+
+
+def _reversed(program: Program, row: int) -> Finding:
+    turn = int(program.toolpath.words.turn[row])
+    values = {"written": _SENSES[turn], "other": _SENSES[-turn]}
+    return at_block(program.toolpath, program.lines, "3B306", row, TokenKind.DIRECTION, **values)
+
+
+def crossing_findings(program: Program, contour: Ints) -> tuple[list[Finding], bool]:
+    """The first crossing of each contour with itself (3B307), and whether all pairs of blocks were looked at."""
+    crossings = find_crossings(program.toolpath, contour)
+    found = []
+    for one in crossings:
+        if one.first is not None:
+            later, earlier, (x, y) = one.first
+            values: dict[str, Value] = {
+                "crossing": later + 1,
+                "other": earlier + 1,
+                "x": x,
+                "y": y,
+                "more": one.crossings - 1,
+            }
+            found.append(at_block(program.toolpath, program.lines, "3B307", later, **values))
+    return found, all(one.is_complete for one in crossings)
+
+
+def corner_findings(program: Program, contour: Ints, offset_um: float) -> list[Finding]:
+    """Arcs that a wire of this offset cannot cut as drawn (3B305)."""
+    toolpath = program.toolpath
+    # 4B, and a CAXA program with an offset of 0, run on the drawing's contour; the controller offsets it.
+    is_drawing = program.reading.dialect == "4B" or program.header.offset_um == 0.0
+    rows = tight_corners(toolpath, contour, offset_um, is_drawing)
+    return [
+        at_block(toolpath, program.lines, "3B305", row, radius=float(toolpath.radius_um[row]), offset=offset_um)
+        for row in rows.tolist()
+    ]

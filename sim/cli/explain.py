@@ -1,0 +1,29 @@
+"""``drycut explain``."""
+
+import click
+
+from parser.findings import SEVERITIES
+from sim.cli.language import chosen
+
+
+@click.command()
+@click.argument("code", required=False)
+@click.option("--lang", type=click.Choice(["en", "zh"]), help="Language; that of the locale where left out.")
+def explain(code: str | None, lang: str | None) -> None:
+    """Show the page of a finding: what it is, why it matters, an example, how to mend it.
+
+    Without a code, list all codes with their titles.
+
+    \b
+    drycut explain 3B204
+    """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from sim.check.pages import page_text, titles_text
+
+    language = chosen(lang)
+    if code is None:
+        click.echo(titles_text(language), nl=False)
+        return
+    known = code.strip().upper()
+    if known not in SEVERITIES:
+        raise click.UsageError(f"no finding has the code {code!r}; drycut explain lists them all")
+    click.echo(page_text(known, language), nl=False)
