@@ -2,20 +2,32 @@
 
 import copy
 import json
+import os
 import re
+import subprocess
+import sys
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+import click
 import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
 from controller.point_by_point import interpolate
-from parser.findings import CATALOGUE
+from parser.catalogue import Language
+from parser.catalogue import page as catalogue_page
+from parser.encoding import encode_text
+from parser.findings import SEVERITIES
 from parser.program import read_program
 from sim import machine, scenario
+from sim.check import settings as check_settings
+from sim.check.engine import PARSER_CHECKS, PATH_CHECKS
+from sim.check.findings_document import NAMES, anchor, findings_document
+from sim.check.formats.checks import CHECK_OF
+from sim.cli.check import check
 from sim.dryrun import dry_run
 from sim.outcome import trace_arrays
 from sim.report import build_report
@@ -31,6 +43,17 @@ B5000 B0 B5000 GX L1
 B0 B5000 B4000 GY L2;5.000,5.000
 B0 B0 B5000 GX NR1
 B0 B5000 B0 GY L4
+"""
+
+PART = "B9900B0B9900GXL1\nB9900B0B39600GXNR1\nB9900B0B9900GXL3\nDD\n"
+HEADED_4B = """
+CAXAWEDM -Version 2.0 , Name : ring.4B
+Conner R= 1.001 , Offset F= -0.10000 ,Length= 82.004 mm
+B9900B0B9900B0GXL1
+B9900B0B19800B9900GYDNR1
+B9900B0B19800B9900GYDDNR3
+B9900B0B9900B0GXL3
+DD
 """
 
 
@@ -80,6 +103,47 @@ def test_report_of_no_motion_fits_the_schema(tmp_path: Path) -> None:
     assert complaints(report) == []
 
 
+def test_report_of_4b_with_a_header_fits_the_schema(tmp_path: Path) -> None:
+    (tmp_path / "four.4b").write_text(HEADED_4B)
+    report = report_of(tmp_path / "four.4b")
+    assert report["program"]["dialect"] == "4B"
+    assert report["program"]["header"] == {
+        "version": "2.0",
+        "name": "ring.4B",
+        "corner_radius_um": 1001.0,
+        "offset_um": -100.0,
+        "lengths_um": [82_004.0],
+    }
+    written = [(block["radius_um"], block["curve"]) for block in report["blocks"]]
+    assert written == [(0, None), (9900, "convex"), (9900, "concave"), (0, None)]
+    assert complaints(report) == []
+
+
+def test_report_of_a_damaged_program_tells_its_coverage(tmp_path: Path) -> None:
+    (tmp_path / "damaged.3b").write_text("B9900B0B9900GXL1\nB9900BOB39600GYNR1\nB9900B0B9900GXL3\nDD\n")
+    report = report_of(tmp_path / "damaged.3b")
+    assert report["coverage"]["blocks"] == {"found": 3, "read": 2, "decoded": 2, "stepped": 2}
+    states = {entry["check"]: entry["state"] for entry in report["coverage"]["checks"]}
+    assert {name: states[name] for name in ("grammar", "contours", "header")} == {
+        "grammar": "complete",
+        "contours": "incomplete",
+        "header": "not asked",
+    }
+    assert complaints(report) == []
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16-le", "utf-16-be", "gb18030", "big5", "latin-1"])
+def test_every_encoding_is_in_both_schemas(tmp_path: Path, encoding: str) -> None:
+    remark = {"gb18030": "结束停机", "big5": "結束停機", "latin-1": "fin\u00e9 \u00ff"}.get(encoding, "结束")
+    (tmp_path / "part.3b").write_bytes(encode_text(f"B0B5000B5000GYL2 DD // {remark}\n", encoding))
+    report = report_of(tmp_path / "part.3b")
+    assert report["program"]["encoding"] == encoding
+    assert complaints(report) == []
+    for name in ("report", "check"):
+        assert f"`{encoding}`" in read(DOCS / f"{name}.md")
+        assert f'"{encoding}"' in read(DOCS / f"{name}.schema.json")
+
+
 def objects(node: object, path: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
     """Paths of all objects inside a report."""
     inner: list[tuple[str | int, Any]] = []
@@ -118,7 +182,7 @@ def test_schema_refuses_wrong_types_anywhere() -> None:
     report = report_of(ROOT / "scenarios" / "round-hole")
     for path in objects(report):
         for key, value in report_node(report, path).items():
-            wrong = "text" if isinstance(value, int | float) else -1.5
+            wrong = "text" if isinstance(value, int | float) else False if value is None else -1.5
             assert complaints(changed(report, path, lambda node, key=key, wrong=wrong: node.update({key: wrong}))), (
                 *path,
                 key,
@@ -200,16 +264,112 @@ def test_scenario_and_machine_files_have_no_key_that_is_not_documented() -> None
 
 
 def test_findings_are_documented_with_severity_and_title() -> None:
-    rows = [row.split("|") for row in read(DOCS / "findings.md").splitlines() if row.startswith("| 3B")]
-    written = {code.strip(): (severity.strip(), title.strip()) for _, code, severity, title, *_ in rows}
-    assert written == {code: (str(severity), title) for code, (severity, title) in CATALOGUE.items()}
+    rows = [row.split("|") for row in read(DOCS / "findings.md").splitlines() if row.startswith("| [3B")]
+    written = {code[2:7]: (severity.strip(), title.strip()) for _, code, severity, title, *_ in rows}
+    assert written == {code: (str(severity), catalogue_page(code).title) for code, severity in SEVERITIES.items()}
+
+
+def rows_of(page: Path, beginning: str) -> list[list[str]]:
+    """Cells of the table rows of a page whose first cell begins so."""
+    rows = [row for row in read(page).splitlines() if row.startswith(f"| {beginning}")]
+    return [[cell.strip().strip("`") for cell in re.split(r"(?<!\\)\|", row)[1:-1]] for row in rows]
+
+
+def test_options_of_the_check_are_documented() -> None:
+    written = {cells[0].split()[0] for cells in rows_of(DOCS / "check.md", "`--")}
+    assert written == {option.opts[0] for option in check.params if isinstance(option, click.Option)}
+
+
+def test_settings_of_the_check_are_documented_with_their_bounds() -> None:
+    page = read(DOCS / "check.md").partition("## Settings\n")[2].partition("## Checks\n")[0]
+    written = re.findall(r"^\| `([^`]+)` \|", page, flags=re.MULTILINE)
+    plain = [key for key in check_settings._KEYS if key != "wire"]
+    assert written == [*plain, *(f"[wire] {key}" for key in check_settings._WIRE)]
+    for key, bound in check_settings._WIRE.items():
+        ((_, _, bounds, *_),) = rows_of(DOCS / "check.md", f"`[wire] {key}`")
+        assert tuple(float(text) for text in bounds.replace("−", "-").split(" to ")) == tuple(bound)
+
+
+def test_settings_shown_are_settings(tmp_path: Path) -> None:
+    (shown,) = re.findall(r"```toml\n(.*?)```", read(DOCS / "check.md"), flags=re.DOTALL)
+    (tmp_path / "drycut.toml").write_text(shown)
+    near = check_settings.settings_near(tmp_path)
+    assert near.machine is not None
+    assert (near.start_mm, near.fail_on, near.ignore, near.marks.end) == ((120.0, 200.0), "warning", ("3B102",), ("E",))
+    assert near.wire_diameter_um == 180.0
+
+
+def test_checks_are_documented_with_their_findings() -> None:
+    rows = rows_of(DOCS / "check.md", "`check-")
+    assert {cells[0] for cells in rows} == {*PARSER_CHECKS, *PATH_CHECKS}
+    assert {code: cells[0] for cells in rows for code in cells[2].split(", ")} == dict(CHECK_OF)
+
+
+SHOWN = [
+    (page, command, output)
+    for page in PAGES
+    for command, output in re.findall(r"^```\n\$ drycut (.*?)\n(.*?)^```$", read(page), flags=re.MULTILINE | re.DOTALL)
+]
+
+
+@pytest.mark.parametrize(("page", "command", "output"), SHOWN, ids=[f"{page.name} {what}" for page, what, _ in SHOWN])
+def test_shown_output_is_what_is_printed(tmp_path: Path, page: Path, command: str, output: str) -> None:
+    assert f"```\n{PART}```" in read(page)
+    (tmp_path / "part.3b").write_text(PART)
+    printed = subprocess.run(
+        [sys.executable, "-m", "sim.cli", *command.split()],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONUTF8": "1", "LC_ALL": "C"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        check=False,
+    ).stdout
+    # A line that ends in … was cut off for the page.
+    pairs = zip(output.splitlines(), printed.splitlines(), strict=True)
+    for shown, real in pairs:
+        assert real == shown or (shown.endswith("…") and real.startswith(shown.removesuffix("…")))
+
+
+def test_outputs_and_the_number_of_codes_are_shown() -> None:
+    assert f"There are {len(SEVERITIES)} codes" in " ".join(read(ROOT / "README.md").split())
+    assert {"check part.3b", "check part.3b --fix"} <= {command for _, command, _ in SHOWN}
+
+
+def test_python_shown_runs(tmp_path: Path) -> None:
+    (code,) = re.findall(r"```python\n(.*?)```", read(DOCS / "check.md"), flags=re.DOTALL)
+    (tmp_path / "part.3b").write_text(PART)
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONUTF8": "1"},
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
+    )
+    assert done.stdout.startswith("2 14 3B204 the block counts on X")
+    assert "direction NR1 2 16" in done.stdout
+
+
+@pytest.mark.parametrize("language", NAMES)
+def test_findings_documents_are_those_of_the_pages(language: Language) -> None:
+    assert read(DOCS / NAMES[language]) == findings_document(language), "renew them: make pages"
+
+
+def anchors(page: Path) -> list[str]:
+    """Anchors of a page's headings; what stands in a fence is none."""
+    text = re.sub(r"^```.*?^```$", "", read(page), flags=re.MULTILINE | re.DOTALL)
+    return [anchor(heading) for heading in re.findall(r"^#+ (.+)$", text, flags=re.MULTILINE)]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_lead_somewhere(page: Path) -> None:
     for target in re.findall(r"\]\(([^)\s]+)\)", read(page)):
         if not target.startswith("https://"):
-            assert (page.parent / target).exists(), target
+            name, _, place = target.partition("#")
+            led_to = page.parent / name if name else page
+            assert led_to.exists(), target
+            assert not place or anchors(led_to).count(place) == 1, target
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -228,11 +388,11 @@ def test_quoted_commands_are_make_targets() -> None:
 
 def test_code_flow_names_what_exists() -> None:
     page = read(DOCS / "code-flow.md")
-    for path, name in re.findall(r"`((?:parser|controller|sim)/\w+\.py)`\s+`([A-Za-z_.]+)`", page):
+    for path, name in re.findall(r"`((?:parser|controller|sim)/[\w/]+\.py)`\s+`([A-Za-z_.]+)`", page):
         source = read(ROOT / path)
         for part in name.split("."):
             assert re.search(rf"^\s*(?:class|def) {part}\b", source, flags=re.MULTILINE), f"{path} {name}"
-    for path in re.findall(r"(?:parser|controller|sim)/\w+\.py", page):
+    for path in re.findall(r"(?:parser|controller|sim)/[\w/]+\.py", page):
         assert (ROOT / path).exists(), path
 
 

@@ -3,11 +3,13 @@
 import os
 import subprocess
 import sys
+import tarfile
 import tomllib
 import zipfile
 from importlib import metadata
 from pathlib import Path
 
+from parser.findings import SEVERITIES
 from sim import __version__
 
 ROOT = Path(__file__).parent.parent
@@ -29,8 +31,22 @@ def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
     assert {path.split("/")[0] for path in names} == {"parser", "controller", "sim", f"drycut-{__version__}.dist-info"}
     for needed in ("sim/machines/dk7740.toml", "sim/draw/fonts/OFL.txt", "parser/program.py", "sim/cli/run.py"):
         assert needed in names
+    pages = {path.relative_to(ROOT).as_posix() for path in (ROOT / "parser" / "pages").glob("*.toml")}
+    assert len(pages) > len(SEVERITIES)
+    assert pages <= set(names)
     assert any(path.startswith("sim/draw/fonts/") and path.endswith(".otf") for path in names)
     assert any(path.endswith("licenses/LICENSE") for path in names)
+
+
+def test_source_package_holds_what_tests_and_documents_need(tmp_path: Path) -> None:
+    code = f"from hatchling.build import build_sdist; print(build_sdist({str(tmp_path)!r}))"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    with tarfile.open(tmp_path / done.stdout.splitlines()[-1]) as package:
+        names = {name.partition("/")[2] for name in package.getnames()}
+    here = [path for folder in ("parser", "tests", "docs", "scenarios") for path in (ROOT / folder).rglob("*.*")]
+    made = {"__pycache__", "failures"}
+    wanted = {path.relative_to(ROOT).as_posix() for path in here if path.is_file() and not made & set(path.parts)}
+    assert {"action.yml", ".pre-commit-hooks.yaml", ".github/action-check.sh", *wanted} - names == set()
 
 
 def test_the_benchmark_runs_and_prints_its_figures() -> None:
