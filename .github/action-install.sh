@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Part of action.yml: installs drycut into an environment of its own and hands its path on as DRYCUT.
+set -euo pipefail
+
+venv="$RUNNER_TEMP/drycut-venv"
+"$DRYCUT_PYTHON" -m venv --clear "$venv"
+bin="$venv/bin"
+[ -d "$bin" ] || bin="$venv/Scripts" # Windows
+"$bin/python" -m pip install --quiet --disable-pip-version-check "$DRYCUT_ACTION"
+printf 'DRYCUT=%s\n' "$bin/drycut" >> "$GITHUB_ENV"
