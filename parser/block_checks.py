@@ -28,12 +28,11 @@ def block_findings(toolpath: Toolpath, lines: LineIndex) -> list[Finding]:
     return [finding for check in checks for finding in check(toolpath, lines)]
 
 
-def ruled_label(toolpath: Toolpath) -> Ints:
+def ruled_label(words: Words) -> Ints:
     """Quadrant (n,) that the trade writes on blocks along or from an axis (docs/3b.md §1); elsewhere the one written.
 
     Lines and counter-clockwise arcs: +X 1, +Y 2, −X 3, −Y 4; clockwise arcs: +Y 1, −X 2, −Y 3, +X 4.
     """
-    words = toolpath.words
     sign = words.signs
     along_x, along_y = (words.y_um == 0) & (words.x_um > 0), (words.x_um == 0) & (words.y_um > 0)
     way = np.where(along_x, np.where(sign[:, 0] > 0, 0, 2), np.where(sign[:, 1] > 0, 1, 3))
@@ -78,7 +77,7 @@ def _uncounted(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
 
 def _neighbour_labels(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
     words = toolpath.words
-    ruled = ruled_label(toolpath)
+    ruled = ruled_label(words)
     for row in np.flatnonzero(ruled != words.quadrant).tolist():
         sense = ("L", "NR", "SR")[words.turn[row]]
         way = (int(ruled[row]) - 1 + (words.turn[row] < 0)) % 4

@@ -13,10 +13,9 @@ import subprocess
 import sys
 import tempfile
 import time
-from itertools import pairwise
 from pathlib import Path
 
-from plain import PlainBlock, plain_steps
+from plain import PlainBlock, counted_way, plain_steps
 
 from controller.card import Status, StepCard
 from controller.plan import Feeds, plan_runs
@@ -46,18 +45,9 @@ def arc(rng: random.Random) -> PlainBlock:
     end = start + turn * LENGTH_UM / radius
     x1, y1 = radius * math.cos(end), radius * math.sin(end)
     axis = "Y" if abs(x1) > abs(y1) else "X"
-    count = _travel(start, end, radius, axis)
+    count = counted_way(start, end, radius, axis)
     quadrant = int((start + turn * 1e-9) % (2.0 * math.pi) // (math.pi / 2.0)) + 1
     return PlainBlock(abs(x0), abs(y0), max(1, round(count)), axis, "NR" if turn > 0 else "SR", quadrant)
-
-
-def _travel(start: float, end: float, radius: float, axis: str) -> float:
-    """Way on the counted axis between two angles, by its extremes in between."""
-    low, high = sorted((start, end))
-    shift = 0.0 if axis == "X" else math.pi / 2.0
-    turns = [k * math.pi + shift for k in range(-8, 9) if low < k * math.pi + shift < high]
-    places = [radius * math.cos(a - shift) for a in (low, *turns, high)]
-    return sum(abs(b - a) for a, b in pairwise(places))
 
 
 def write_path(path: Path, blocks: int) -> list[PlainBlock]:

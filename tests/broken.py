@@ -2,11 +2,10 @@
 
 import math
 import random
-from itertools import pairwise
 from typing import NamedTuple
 
 from drawings import Arc, Line, Place
-from plain import PlainBlock
+from plain import PlainBlock, counted_way
 
 from parser.decode import decode
 from parser.reader import read_records
@@ -49,17 +48,8 @@ def _arc(at: Place, move: Arc) -> PlainBlock:
     end = start + move.turn * (sweep if sweep > 1e-3 else sweep + 2.0 * math.pi)
     axis = "Y" if abs(math.cos(end)) > abs(math.sin(end)) else "X"
     quadrant = int((start + move.turn * 1e-9) % (2.0 * math.pi) // (math.pi / 2.0)) + 1
-    count = max(1, round(_travel(start, end, radius, axis)))
+    count = max(1, round(counted_way(start, end, radius, axis)))
     return PlainBlock(abs(x0), abs(y0), count, axis, "NR" if move.turn > 0 else "SR", quadrant)
-
-
-def _travel(start: float, end: float, radius: float, axis: str) -> float:
-    """Way on the counted axis between two angles, by its extremes in between."""
-    low, high = sorted((start, end))
-    shift = 0.0 if axis == "X" else math.pi / 2.0
-    turns = [k * math.pi + shift for k in range(-8, 9) if low < k * math.pi + shift < high]
-    places = [radius * math.cos(a - shift) for a in (low, *turns, high)]
-    return sum(abs(b - a) for a, b in pairwise(places))
 
 
 def decoded(program: list[PlainBlock]) -> Toolpath:

@@ -1,6 +1,7 @@
 """Slow, plain re-implementations to prove the array code against: one step, one block at a time, no closed forms."""
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
 
@@ -106,3 +107,12 @@ def plain_arc_end(block: PlainBlock) -> tuple[float, float]:
     s = math.sqrt(max(0.0, (radius - c) * (radius + c))) * (1 if falling else -1)
     x1, y1 = (c, s * turn) if block.axis == "X" else (-s * turn, c)
     return x1 - x0, y1 - y0
+
+
+def counted_way(start: float, end: float, radius: float, axis: str) -> float:
+    """Way on the counted axis between two angles, by its extremes in between."""
+    low, high = sorted((start, end))
+    shift = 0.0 if axis == "X" else math.pi / 2.0
+    turns = [k * math.pi + shift for k in range(-8, 9) if low < k * math.pi + shift < high]
+    places = [radius * math.cos(a - shift) for a in (low, *turns, high)]
+    return sum(abs(b - a) for a, b in pairwise(places))

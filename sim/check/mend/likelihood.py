@@ -7,6 +7,7 @@ more often than chance would have it gives them. They were set on broken contour
 import numpy as np
 from numpy.typing import NDArray
 
+from parser.block_checks import ruled_label
 from parser.decode import Moves
 from parser.toolpath import Axis, Floats, Ints, Words
 
@@ -30,7 +31,7 @@ def obedience(words: Words, made: Moves) -> Ints:
     extent = np.stack([words.x_um, words.y_um], axis=1)
     is_arc = ~np.isnan(made.radius_um)
     broken = (
-        _wrong_label(words).astype(np.int64)
+        (ruled_label(words) != words.quadrant).astype(np.int64)
         + _wrong_axis(words, made, is_arc)
         + np.where(is_arc, words.count_um > 4.0 * made.radius_um + 4.0, _uneven(words))
         + (is_arc & _line_like(words))
@@ -41,13 +42,6 @@ def obedience(words: Words, made: Moves) -> Ints:
     unreduced = ~is_arc & (words.count_um == longer)
     points: Ints = _RULE_BROKEN * broken + _AXIS_PARALLEL * parallel + _UNREDUCED * unreduced
     return points
-
-
-def _wrong_label(words: Words) -> Flags:
-    """Blocks on an axis with the label of the neighbouring quadrant (docs/3b.md §1)."""
-    odd = (words.quadrant % 2 == 1) ^ (words.turn < 0)
-    wrong: Flags = ((words.y_um == 0) & (words.x_um > 0) & ~odd) | ((words.x_um == 0) & (words.y_um > 0) & odd)
-    return wrong
 
 
 def _wrong_axis(words: Words, made: Moves, is_arc: Flags) -> Flags:
