@@ -29,14 +29,14 @@ def order_findings(records: Records, toolpath: Toolpath, marks: Marks) -> list[F
 def lost_blocks(records: Records, end: Mark) -> list[Finding]:
     """Finding 3B103 where blocks, whole or damaged, stand after the end code: the machine is off by then."""
     whole = len(records.blocks.line) - end.after
-    damaged = _damaged_after(records, end)
+    damaged = damaged_after(records, end)
     if not whole and not damaged:
         return []
     first = min([*damaged[:1], *([_span(records, end.after)] if whole else [])])
     return [records.lines.finding("3B103", first, blocks=whole + len(damaged), mark=end.word)]
 
 
-def _damaged_after(records: Records, end: Mark) -> list[tuple[int, int]]:
+def damaged_after(records: Records, end: Mark) -> list[tuple[int, int]]:
     """Spans of damaged blocks after the end code, in lines that were meant for blocks: other text may stand there."""
     lines = records.lines
     behind = [damage.span for damage in records.damages if damage.is_block and damage.span[0] > end.span[0]]

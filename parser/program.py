@@ -16,7 +16,7 @@ from parser.findings import Finding, file_order
 from parser.grammar import STANDARD_MARKS, Marks
 from parser.header import Header
 from parser.lines import LineIndex
-from parser.order_checks import dialect, lost_blocks, order_findings
+from parser.order_checks import damaged_after, dialect, lost_blocks, order_findings
 from parser.print_checks import print_findings
 from parser.reader import Records, read_records
 from parser.toolpath import Toolpath
@@ -29,6 +29,8 @@ class Reading(NamedTuple):
     ----------
     dialect
         ``3B``, ``4B`` or ``3B+4B``. 4B is read as the trade recalls it (docs/3b.md §6).
+    found
+        Blocks that stand in the text, damaged ones and those after the end code included.
     blocks
         Whole blocks, also those after the end code.
     run
@@ -38,6 +40,7 @@ class Reading(NamedTuple):
     """
 
     dialect: str
+    found: int
     blocks: int
     run: int
     damages: tuple[Damage, ...]
@@ -107,8 +110,9 @@ def parse_program(text: str, name: str = "program", encoding: str = "utf-8", mar
     if not len(records.blocks.line):
         raise ProgramError(no_program("no-block"), others=records.findings)
     blocks = len(records.blocks.line)
-    records, after_end = _up_to_end(records)
-    reading = Reading(dialect(records), blocks, len(records.blocks.line), records.damages)
+    records, after_end, behind = _up_to_end(records)
+    found = blocks + behind + sum(damage.is_block for damage in records.damages)
+    reading = Reading(dialect(records), found, blocks, len(records.blocks.line), records.damages)
     toolpath = decode(records)
     damaged = np.array([damage.span[0] for damage in records.damages], dtype=np.int64)
     findings = [*records.findings, *after_end, *order_findings(records, toolpath, marks)]
@@ -119,15 +123,15 @@ def parse_program(text: str, name: str = "program", encoding: str = "utf-8", mar
     return Program(name, encoding, text, records.lines, records.header, reading, toolpath, ordered)
 
 
-def _up_to_end(records: Records) -> tuple[Records, list[Finding]]:
-    """Records without what stands after the end code, and finding 3B103 where blocks do.
+def _up_to_end(records: Records) -> tuple[Records, list[Finding], int]:
+    """Records without what stands after the end code, finding 3B103 where blocks do, and how many of these are damaged.
 
     Marks before the first block are words of the header.
     """
     marks = tuple(mark for mark in records.marks if mark.after > 0 or mark.kind == "node")
     end = next((mark for mark in marks if mark.kind == "end"), None)
     if end is None:
-        return records._replace(marks=marks), []
+        return records._replace(marks=marks), [], 0
     first = end.span[0]
     kept = records._replace(
         blocks=RawBlocks._make(column[: end.after] for column in records.blocks),
@@ -135,4 +139,4 @@ def _up_to_end(records: Records) -> tuple[Records, list[Finding]]:
         damages=tuple(damage for damage in records.damages if damage.span[0] < first),
         findings=tuple(finding for finding in records.findings if finding.span[0] < first),
     )
-    return kept, lost_blocks(records, end)
+    return kept, lost_blocks(records, end), len(damaged_after(records, end))

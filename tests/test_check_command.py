@@ -1,13 +1,13 @@
 """``drycut check`` and ``drycut explain`` as a user meets them."""
 
 import json
-import os
 import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from command import run_command
 
 from parser.catalogue import page
 from parser.findings import SEVERITIES
@@ -17,16 +17,7 @@ WRONG_AXIS = SOUND.replace("GYNR1", "GXNR1")
 
 
 def drycut(*arguments: object, stdin: bytes = b"", cwd: Path | None = None, **environment: str) -> tuple[int, str, str]:
-    plain = {"PYTHONUTF8": "1", "LC_ALL": "C.UTF-8", "NO_COLOR": "1", **environment}
-    done = subprocess.run(
-        [sys.executable, "-m", "sim.cli", *map(str, arguments)],
-        input=stdin,
-        capture_output=True,
-        cwd=cwd,
-        env={**os.environ, "PYTHONPATH": str(Path(__file__).parent.parent), **plain},
-        timeout=120,
-        check=False,
-    )
+    done = run_command(*arguments, stdin=stdin, cwd=cwd, **environment)
     return done.returncode, done.stdout.decode(), done.stderr.decode()
 
 
@@ -237,3 +228,11 @@ def test_check_needs_no_engine_and_no_pictures(part: Path) -> None:
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=60)
     assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_blocks_behind_the_end_code_are_counted_whole_or_damaged(part: Path) -> None:
+    part.write_text(SOUND + "B1B0B1GXL1\nBxB0B1GXL1\n", "ascii")
+    code, out, _ = drycut("check", part)
+    assert code == 1
+    assert "blocks after DD: 2" in out
+    assert "4 of 5 blocks read, 3 decoded" in out

@@ -86,7 +86,7 @@ def check_program(program: Program, demands: Demands) -> Checked:
     findings = tuple(sorted([*program.findings, *path.findings()], key=file_order))
     decoded = program.reading.run - int(endless(program.toolpath.words).sum())
     states = (*_parser_states(program), *path.states)
-    coverage = Coverage(_found(program), program.reading.blocks, decoded, decoded, states)
+    coverage = Coverage(program.reading.found, program.reading.blocks, decoded, decoded, states)
     return Checked(findings, coverage, steps, contours, path.judged)
 
 
@@ -205,9 +205,5 @@ def _state(reason: str) -> tuple[State, str]:
 def _without_path(program: Program, reason: str, more: list[Finding] | None = None) -> Checked:
     """Findings of a program whose geometry is not worth working out."""
     states = (*_parser_states(program), *(CheckState(name, "incomplete", reason) for name in PATH_CHECKS))
-    coverage = Coverage(_found(program), program.reading.blocks, 0, 0, states)
+    coverage = Coverage(program.reading.found, program.reading.blocks, 0, 0, states)
     return Checked(tuple(sorted([*program.findings, *(more or [])], key=file_order)), coverage, None, (), ())
-
-
-def _found(program: Program) -> int:
-    return program.reading.blocks + sum(damage.is_block for damage in program.reading.damages)

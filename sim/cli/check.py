@@ -62,7 +62,8 @@ def check(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     or in [tool.drycut] of pyproject.toml, in the folder of the file or above it; options come first.
 
     \b
-    Exit code: 0 nothing wrong, 1 findings, or a check that could not run to its end, 2 bad use or unreadable input.
+    Exit code: 0 nothing as severe as --fail-on, 1 a finding that is, or a check that could not look at everything,
+    2 bad use or unreadable input.
 
     \b
     drycut check part.3b
