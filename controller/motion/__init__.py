@@ -1,0 +1,1 @@
+"""Motion in time: the path, the limits that hold along it, and the plan that keeps them."""
