@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from long_steps import SEED, run
 from plain import PlainBlock, plain_steps
 from strategies import arcs, blocks, lines, program_text, programs
 
-from controller.point_by_point import interpolate
-from controller.quadrants import ceil_sqrt
-from controller.steps import Steps
+from controller.stepping.point_by_point import interpolate
+from controller.stepping.quadrants import ceil_sqrt
+from controller.stepping.steps import Steps
 from parser.program import parse_program, read_program
 
 SCENARIOS = Path(__file__).parent.parent / "scenarios"
@@ -72,6 +73,20 @@ def test_programs_step_block_after_block_in_any_chunks(program: list, size: int)
     assert steps.corner_um[-1].tolist() == [x, y]
     rows = np.concatenate([chunk.row for chunk in steps.chunks(size)])
     assert np.array_equal(rows, np.repeat(np.arange(len(program)), steps.count))
+
+
+def test_random_programs_of_all_sizes_step_as_the_plain_walk() -> None:
+    done, wrong = run(300_000, SEED)
+    assert done >= 300_000
+    assert wrong == []
+
+
+@given(programs, st.data())
+def test_place_after_any_number_of_steps(program: list, data: st.DataObject) -> None:
+    steps = steps_of(*program)
+    walked = [(0, 0), *places(steps)]
+    for count in (0, len(steps), data.draw(st.integers(0, len(steps)))):
+        assert steps.place_after(count) == walked[count]
 
 
 @given(programs)

@@ -1,46 +1,52 @@
-"""Point-by-point comparison (逐点比较法): toolpath to steps, as a 3B controller makes them (docs/3b.md §3)."""
+"""Point-by-point comparison (逐点比较法): words to steps, as a 3B controller makes them (docs/3b.md §3)."""
 
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.quadrants import walk_arcs
-from controller.steps import Steps
-from controller.strokes import Bools, Followed, arc_strokes, follow, line_strokes
-from parser.toolpath import Axis, Ints, Toolpath
+from controller.stepping.quadrants import walk_arcs
+from controller.stepping.steps import Steps
+from controller.stepping.strokes import Bools, Followed, arc_strokes, follow, line_strokes
+from parser.toolpath import Axis, Floats, Ints, Toolpath, Words
 
 Number = TypeVar("Number", np.int64, np.float64)
 
 
 def interpolate(toolpath: Toolpath) -> Steps:
-    """Steps of a whole toolpath, each block from where the steps of the one before it ended.
+    """Steps of a whole toolpath, each block from where the steps of the one before it ended."""
+    return interpolate_words(toolpath.words, toolpath.length_um)
+
+
+def interpolate_words(words: Words, length_um: Floats) -> Steps:
+    """Steps of n blocks from their words and the lengths (n,) µm of their ideal lines and arcs.
 
     A block of length 0 (no count, or one that no controller can finish) makes no step.
     """
-    words = toolpath.words
+    n = len(length_um)
     place = np.stack([words.x_um, words.y_um], axis=1)
     sign = words.signs
-    line, arc = np.flatnonzero(~toolpath.is_arc), np.flatnonzero(toolpath.is_arc)
+    is_arc = (words.turn != 0) & (length_um > 0.0)
+    line, arc = np.flatnonzero(~is_arc), np.flatnonzero(is_arc)
     first_is_x = words.quadrant[line] % 2 == 1  # X in L1 and L3, Y in L2 and L4
-    in_j = np.where(toolpath.length_um > 0.0, words.count_um, 0)
+    in_j = np.where(length_um > 0.0, words.count_um, 0)
     start = (place * sign)[arc]
     walk = walk_arcs(start[:, 0], start[:, 1], in_j[arc], words.count_axis[arc], words.turn[arc])
-    count = np.zeros(len(toolpath), dtype=np.int64)
+    count = np.zeros(n, dtype=np.int64)
     count[line] = count_line(place[line], in_j[line], words.count_axis[line], first_is_x)
     count[arc] = walk.steps
     line_ends = follow(line_strokes(line, place[line], sign[line], first_is_x, count[line]), *_last_step(count[line]))
     last = arc_strokes(arc, walk, words.turn[arc], np.maximum(walk.steps - 1, 0), walk.steps)
     arc_ends = follow(last, *_last_step(last.steps))
-    moved, along = np.zeros((len(toolpath), 2), dtype=np.int64), np.zeros(len(toolpath))
+    moved, along = np.zeros((n, 2), dtype=np.int64), np.zeros(n)
     for rows, ends in ((line[count[line] > 0], line_ends), (last.row, arc_ends)):
         moved[rows], along[rows] = _columns(ends), ends.along_um
     return Steps(
         count=count,
         before=_running(count),
         corner_um=_running(moved),
-        along_um=_running(toolpath.length_um),
-        stretch=np.divide(toolpath.length_um, along, out=np.ones(len(toolpath)), where=along > 0.0),
+        along_um=_running(length_um),
+        stretch=np.divide(length_um, along, out=np.ones(n), where=along > 0.0),
         line_row=line,
         line_extent=place[line],
         line_sign=sign[line],

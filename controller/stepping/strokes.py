@@ -15,7 +15,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.quadrants import AWAY, TOWARD, ArcWalk, ceil_sqrt
+from controller.stepping.quadrants import AWAY, TOWARD, ArcWalk, ceil_sqrt
 from parser.toolpath import Floats, Ints
 
 Bools = NDArray[np.bool_]

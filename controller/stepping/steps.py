@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.quadrants import ArcWalk
-from controller.strokes import Bools, Strokes, arc_strokes, follow, line_strokes
+from controller.stepping.quadrants import ArcWalk
+from controller.stepping.strokes import Bools, Strokes, arc_strokes, follow, line_strokes
 from parser.toolpath import Floats, Ints
 
 CHUNK_STEPS = 1 << 18
@@ -75,6 +75,15 @@ class Steps:
 
     def __len__(self) -> int:
         return int(self.before[-1])
+
+    def place_after(self, count: int) -> tuple[int, int]:
+        """Where the table stands after so many steps, µm."""
+        block = int(np.searchsorted(self.before, count))
+        if self.before[block] == count:
+            x, y = self.corner_um[block]
+        else:
+            (x,), (y,), _, _ = self.chunk(count - 1, count)
+        return int(x), int(y)
 
     def chunks(self, size: int = CHUNK_STEPS) -> Iterator[StepChunk]:
         """All steps in stretches of `size`; the last may be shorter."""

@@ -1,0 +1,1 @@
+"""Stepping: paths and plans to steps of 1 µm and their pulses, point by point or at equal times."""
