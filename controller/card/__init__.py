@@ -1,0 +1,1 @@
+"""The emulated GE motion card: `GECard` with every function of the card's library under its C name."""

@@ -1,0 +1,1 @@
+"""The functions of the card's library, in groups."""

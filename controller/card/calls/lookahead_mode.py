@@ -1,0 +1,172 @@
+"""The look-ahead mode of the library: path calls go through the look-ahead into the list (grade C, as all of it).
+
+For the meaning of the numbers see `host_lookahead_calls`; coordinates are in units of `con` pulses from the axis' zero.
+"""
+
+from typing import Any
+
+from controller.card.call import Double, Short, UShort, gt
+from controller.card.calls.host_lookahead import HostLookAheadCalls, rules_of
+from controller.card.calls.paths import PathBase, with_length
+from controller.card.codes import LIST_FULL, Code, Refused
+from controller.card.engine.entries import Output, Pace, Place, Segment, Wait, four, line
+from controller.card.engine.shapes import arc_about, arc_by_radius, check_size, checked_line
+from controller.card.engine.speeds import checked
+from controller.card.lookahead.data import TLookAheadMsg
+from controller.card.lookahead.host import HostBlock
+from controller.card.lookahead.list import ListLookAhead
+from controller.card.units import UM_S_PER_PULSE_MS
+
+_NO_CEILING = 1e9
+"""pulse/ms; the feed of each block limits its speed."""
+
+
+class LookAheadModeCalls(HostLookAheadCalls, PathBase):
+    """The mode in which path calls go through the look-ahead into the open list."""
+
+    def __init__(self, *args: Any, **named: Any) -> None:
+        super().__init__(*args, **named)
+        self._kept: dict[int, ListLookAhead] = {}
+        self._in_mode: set[int] = set()
+
+    def _reset(self) -> None:
+        super()._reset()
+        self._kept.pop(self._number, None)
+        self._in_mode.discard(self._number)
+
+    @gt()
+    def GT_SwitchLookaheadMode(self, mode: UShort) -> None:
+        """Switch the mode on (1) or off (0); refused with 1 while blocks are kept."""
+        if mode > 1:
+            raise Refused(Code.PARAMETER)
+        if len(self._kept.get(self._number, ())):
+            raise Refused(Code.COMMAND)
+        (self._in_mode.add if mode else self._in_mode.discard)(self._number)
+
+    @gt()
+    def GT_InitLookAheadEx(self, T: Double, amax: Double, am: Double, n: Short, con: Double) -> None:
+        """Set the rules; blocks that are kept are forgotten."""
+        self._kept[self._number] = ListLookAhead(rules_of(T, amax, am, _NO_CEILING, n, con))
+
+    @gt()
+    def GT_InitLookAheadExx(
+        self, T: Double, amax: Double, am: Double, n: Short, con: Double, timepara: Double, filename: str
+    ) -> None:
+        """As `GT_InitLookAheadEx`; the last two are recorded."""
+        self._kept[self._number] = ListLookAhead(rules_of(T, amax, am, _NO_CEILING, n, con))
+        self._state.recorded["GT_InitLookAheadExx"] = (timepara, filename)
+
+    @gt()
+    def GT_EndLookaheadMode(self) -> None:
+        """Let all blocks go, and leave the mode; refused with 1 until the list is open and has room for them."""
+        if len(self._kept.get(self._number, ())):
+            self._let_all_go(self._lookahead())
+        self._in_mode.discard(self._number)
+
+    @gt(zeros=(TLookAheadMsg(),))
+    def GT_M30(self) -> TLookAheadMsg:
+        """Let all blocks go; refused with 1 until the list has room for them."""
+        return self._let_all_go(self._lookahead())
+
+    def _lookahead(self) -> ListLookAhead:
+        """Refused with 1 unless the mode is on, its rules are set and the list is open.
+
+        Blocks of a list that was begun anew since are forgotten.
+        """
+        kept = self._kept.get(self._number)
+        if kept is None or self._number not in self._in_mode or not self._engine.list.is_open:
+            raise Refused(Code.COMMAND)
+        if kept.begun != self._engine.list.begun:
+            kept.clear(self._engine.list.begun)
+        return kept
+
+    def _let_all_go(self, kept: ListLookAhead) -> TLookAheadMsg:
+        self._engine.check_room(kept.entries)
+        message = TLookAheadMsg()
+        while len(kept):
+            number = self._let_go(kept)
+            message = TLookAheadMsg(number, message.num + 1)
+        return message
+
+    def _let_go(self, kept: ListLookAhead) -> int:
+        number, entries = kept.oldest(max(1, self._engine.list.number))
+        for entry in entries:
+            self._engine.push(entry)
+        return number
+
+    def _kept_end(self, kept: ListLookAhead) -> Place:
+        return kept.end() or self._engine.list_end()
+
+    def _add_to(self, kept: ListLookAhead, segment: Segment, rests: int, number: int) -> TLookAheadMsg:
+        self._check_axes(with_length(segment))
+        message = TLookAheadMsg()
+        if kept.is_full or kept.entries >= self.settings.capacity:
+            self._engine.check_room(kept.oldest_entries)
+            message = TLookAheadMsg(self._let_go(kept), 1)
+        kept.add(HostBlock(segment, number, bool(rests)))
+        return message
+
+    def _push_behind(self, entry: Output | Wait) -> None:
+        kept = self._lookahead()
+        if len(kept):
+            if kept.entries >= self.settings.capacity:
+                raise Refused(Code.COMMAND, LIST_FULL)
+            kept.add_behind(entry)
+            return
+        self._engine.check_room()
+        self._engine.push(entry)
+
+    def _kept_place(self, kept: ListLookAhead, start: Place, values: tuple[float, ...]) -> Place:
+        """Place of coordinates X, Y, …; the other axes stay.
+
+        Refused with 1 where the card lacks an axis, with 3 where it is too far.
+        """
+        if len(values) > self.settings.axes:
+            raise Refused(Code.COMMAND)
+        given = (self._kept_at(kept, axis, value) for axis, value in enumerate(values))
+        place = four((*given, *start[len(values) :]))
+        check_size(*place)
+        return place
+
+    def _kept_at(self, kept: ListLookAhead, axis: int, value: float) -> float:
+        return value * kept.rules.pulses_per_unit + self._state.axes[axis].zero
+
+    def _kept_in_plane(self, kept: ListLookAhead, plane: tuple[int, int], u: float, v: float) -> tuple[float, float]:
+        """Refused with 1 where the card lacks an axis."""
+        if max(plane) >= self.settings.axes:
+            raise Refused(Code.COMMAND)
+        return self._kept_at(kept, plane[0], u), self._kept_at(kept, plane[1], v)
+
+    def _kept_move(self, vel: float, *values: float) -> None:
+        kept = self._lookahead()
+        if self._engine.list.number or self._engine.list.entries:
+            raise Refused(Code.COMMAND)
+        start = self._engine.list_end()
+        pace = Pace(checked(vel) * UM_S_PER_PULSE_MS, kept.rules.along_um_s2)
+        self._submit(line(0, pace, start, self._kept_place(kept, start, values)))
+        kept.clear(self._engine.list.begun)
+
+    def _kept_line(self, values: tuple[float, ...], F: float, rests: int, number: int, rapid: bool) -> TLookAheadMsg:
+        kept = self._lookahead()
+        start, pace = self._kept_end(kept), Pace(checked(F) * UM_S_PER_PULSE_MS, 0.0, rapid)
+        return self._add_to(kept, checked_line(0, pace, start, self._kept_place(kept, start, values)), rests, number)
+
+    def _kept_arc(
+        self, plane: tuple[int, int], arc: tuple[float, ...], F: float, rests: int, number: int
+    ) -> TLookAheadMsg:
+        """`arc` is centre and angle."""
+        kept = self._lookahead()
+        pace = Pace(checked(F) * UM_S_PER_PULSE_MS, 0.0)
+        centre = self._kept_in_plane(kept, plane, arc[0], arc[1])
+        return self._add_to(kept, arc_about(0, pace, self._kept_end(kept), plane, centre, arc[2]), rests, number)
+
+    def _kept_arc_p(
+        self, plane: tuple[int, int], arc: tuple[float, ...], F: float, rests: int, number: int
+    ) -> TLookAheadMsg:
+        """`arc` is end, radius and sense."""
+        kept = self._lookahead()
+        pace = Pace(checked(F) * UM_S_PER_PULSE_MS, 0.0)
+        end = self._kept_in_plane(kept, plane, arc[0], arc[1])
+        radius = arc[2] * kept.rules.pulses_per_unit
+        segment = arc_by_radius(0, pace, self._kept_end(kept), plane, end, radius, int(arc[3]))
+        return self._add_to(kept, segment, rests, number)

@@ -1,0 +1,1 @@
+"""What moves behind the functions of the card."""

@@ -1,0 +1,85 @@
+"""Stretches are made: entries to path, limits, plan, and what hands out the pulses."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from controller.card.engine.entries import Entry, Kind, Segment, Stepped, Wait, steps_made
+from controller.card.engine.motion_list import steps_of
+from controller.card.engine.rows import limits_of, path_of_blocks, path_of_segments
+from controller.card.engine.speeds import Speeds
+from controller.card.engine.stops import braking
+from controller.card.engine.stretch import Start, Stretch
+from controller.card.settings import CardSettings
+from controller.card.units import UM_S3_PER_PULSE_MS3
+from controller.motion.path import Path
+from controller.motion.plan import Plan
+from controller.motion.planner import plan_rows
+from controller.stepping.equal_time import Clock
+from controller.stepping.interpolators import EqualTime, Interpolator, PointByPoint
+from controller.stepping.steps import Steps
+from parser.toolpath import Floats, Ints
+
+_STEADY = 1e-6
+"""Share of the acceleration below which there is none, but for the rounding of times."""
+
+
+def make_stretch(
+    entries: Sequence[Entry], start: Start, speeds: Speeds, settings: CardSettings, deceleration_um_s2: float = 0.0
+) -> Stretch:
+    """Stretch of entries of one kind, run as fast as the limits allow, or braked for a stop where that is asked for."""
+    rows = [e for e in entries if isinstance(e, Segment | Stepped) and e.kind]
+    steps = steps_of([e for e in rows if isinstance(e, Stepped)]) if rows and rows[0].kind is Kind.STEPPED else None
+    path = path_of_segments(rows) if steps is None else path_of_blocks(rows, steps, start.place, start.at_um)
+    row_of = np.cumsum([0, *(isinstance(e, Segment | Stepped) and e.kind is not None for e in entries)])
+    waits = np.array([e.seconds if isinstance(e, Wait) else 0.0 for e in entries])
+    limits = limits_of(rows, np.bincount(row_of[1:], waits, len(rows) + 1).astype(np.float64), path, speeds, settings)
+    if deceleration_um_s2:
+        limits.border_um_s[limits.wait_s > 0.0] = 0.0  # a stop runs through no wait
+        plan, deceleration_um_s2 = braking(limits, start.speed_um_s, deceleration_um_s2)
+    else:
+        # A jerk-limited plan begins without acceleration; from any other state the rest is planned without the limit.
+        steady = abs(start.acceleration_um_s2) <= _STEADY * limits.acceleration_um_s2.max(initial=0.0)
+        jerk = settings.jerk_pulse_ms3 * UM_S3_PER_PULSE_MS3 if steady else math.inf
+        plan = plan_rows(limits, start.speed_um_s or None, jerk)
+    before = path.before_um
+    ends = _ends(waits, row_of, before, plan, deceleration_um_s2 > 0.0) + start.clock_s
+    interpolator, end = _interpolator(rows, steps, path, plan, start, settings)
+    if not rows and len(ends) and not deceleration_um_s2:
+        end = float(ends[-1])
+    return Stretch(start, entries, rows, row_of, path, before, plan, deceleration_um_s2, ends, end, steps, interpolator)
+
+
+def _ends(waits_s: Floats, row_of: Ints, before_um: Floats, plan: Plan, stops: bool) -> Floats:
+    """Time of the plan (m,) at which each entry is done; none is from where a stop ends on, nor a wait in which it is.
+
+    The plan tells when a border is reached; the waits at that border follow one after another.
+    """
+    reached: Floats = np.concatenate([[0.0], plan.time_at(before_um[1:])])
+    ends: Floats
+    if stops:
+        reached[before_um > plan.along_um[-1]] = math.inf
+        ends = np.maximum.accumulate(np.where(waits_s > 0.0, math.inf, reached[row_of[1:]]))
+        return ends
+    waited = np.cumsum(waits_s)
+    before_row = np.maximum.accumulate(np.where(np.diff(row_of) > 0, waited, 0.0))
+    ends = reached[row_of[1:]] + (waited - before_row)
+    return ends
+
+
+def _interpolator(  # noqa: PLR0913, PLR0917 - what a stretch is made of
+    rows: Sequence[Segment | Stepped], steps: Steps | None, path: Path, plan: Plan, start: Start, settings: CardSettings
+) -> tuple[Interpolator | None, float]:
+    """What makes the pulses, and the clock time at which it has made them."""
+    if not rows:
+        return None, start.clock_s
+    if steps is not None:
+        first, at = rows[0], start.at_um[:2]
+        offset = first.offset_um if isinstance(first, Stepped) else 0.0
+        stepped = PointByPoint(steps, plan, start.clock_s, at, done=steps_made(first), offset_um=offset)
+        return stepped, start.clock_s + plan.duration_s
+    clock = Clock(settings.servo_period_s, start.clock_s)
+    last = max(clock.first_from(plan.duration_s), clock.first_after(start.clock_s))
+    equal = EqualTime(path, plan, start.clock_s, start.at_um, settings.servo_period_s)
+    return equal, last * settings.servo_period_s

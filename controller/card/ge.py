@@ -1,0 +1,44 @@
+"""`GECard`: all functions of the card's library on one class."""
+
+from controller.card.calls.axis import PositionCalls
+from controller.card.calls.io import IoCalls
+from controller.card.calls.list import ListCalls
+from controller.card.calls.lookahead import LookAheadCalls
+from controller.card.calls.path import ArcCalls, LineCalls, MoveCalls
+from controller.card.calls.recorded import GuardCalls, RecordedCalls
+from controller.card.calls.servo import ServoCalls
+from controller.card.calls.special import SpecialCalls
+from controller.card.calls.speed import SpeedCalls
+from controller.card.calls.status import StatusCalls
+from controller.card.calls.step import StepCalls
+from controller.card.calls.stop import StopCalls
+
+
+class GECard(
+    ListCalls,
+    MoveCalls,
+    LineCalls,
+    ArcCalls,
+    StepCalls,
+    SpeedCalls,
+    StopCalls,
+    PositionCalls,
+    StatusCalls,
+    IoCalls,
+    ServoCalls,
+    LookAheadCalls,
+    RecordedCalls,
+    GuardCalls,
+    SpecialCalls,
+):
+    """The emulated GE motion card; see docs/card.md."""
+
+    @property
+    def status(self) -> int:
+        """Coordinate status of the selected card, as `GT_GetCrdSts` tells it, without a call."""
+        return self._engine.coordinate_status()
+
+    @property
+    def places(self) -> list[list[int]]:
+        """Where the axes of each card stand, pulses from where they stood when the card was made."""
+        return [list(engine.pulses_out()) for engine in self._engines]

@@ -1,0 +1,1 @@
+"""Look-ahead as the card's library has it."""

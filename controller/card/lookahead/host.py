@@ -1,0 +1,108 @@
+"""Look-ahead of the host: the library keeps blocks ahead of the list and tells how fast each of them may end.
+
+What its numbers mean is grade C: at a corner the velocity may change by ``amax T`` (`CornerTime`), an arc may bend it
+with `amax`, along the path it changes with `am`; the last block known ends at rest. Blocks are told in order, and what
+was told for one is where the next ones start from.
+"""
+
+from collections import deque
+from typing import NamedTuple
+
+import numpy as np
+
+from controller.card.engine.entries import Segment
+from controller.card.engine.rows import path_of_segments
+from controller.motion.junctions import CornerTime, junction_speeds
+from controller.motion.planner import RowLimits, border_speeds_sq
+
+
+class HostRules(NamedTuple):
+    """Numbers of the look-ahead, inside units.
+
+    Attributes
+    ----------
+    corner_s, corner_um_s2
+        Time in which a corner is turned, and the acceleration that turns it and bends arcs.
+    along_um_s2
+        Acceleration along the path.
+    ceiling_um_s
+        Highest speed.
+    blocks
+        Blocks kept at most.
+    pulses_per_unit
+        Of the coordinates.
+    """
+
+    corner_s: float
+    corner_um_s2: float
+    along_um_s2: float
+    ceiling_um_s: float
+    blocks: int
+    pulses_per_unit: float
+
+
+class HostBlock(NamedTuple):
+    """A block kept: its path, the program's number of it, and whether it ends at rest."""
+
+    segment: Segment
+    number: int
+    rests: bool
+
+
+class Told(NamedTuple):
+    """The oldest block with its end speed and the highest speed in it, µm/s."""
+
+    block: HostBlock
+    end_um_s: float
+    feed_um_s: float
+
+
+class HostLookAhead:
+    """Blocks ahead of the list, oldest first."""
+
+    def __init__(self, rules: HostRules) -> None:
+        self.rules = rules
+        self.blocks: deque[HostBlock] = deque()
+        self._from_um_s = 0.0
+        self._known: deque[Told] = deque()
+
+    @property
+    def is_full(self) -> bool:
+        """Whether no more blocks are kept."""
+        return len(self.blocks) >= self.rules.blocks
+
+    def add(self, block: HostBlock) -> None:
+        """Keep one more."""
+        self.blocks.append(block)
+        self._known.clear()
+
+    def rest(self) -> None:
+        """Let the youngest block end at rest."""
+        if self.blocks:
+            self.add(self.blocks.pop()._replace(rests=True))
+
+    def told(self) -> Told:
+        """The oldest block, which is kept no longer. IndexError where there is none."""
+        if not self._known:
+            self._known.extend(told_of(list(self.blocks), self.rules, self._from_um_s))
+        known = self._known.popleft()
+        self.blocks.popleft()
+        self._from_um_s = known.end_um_s
+        return known
+
+
+def told_of(blocks: list[HostBlock], rules: HostRules, from_um_s: float) -> list[Told]:
+    """All blocks with their speeds, if nothing comes behind them."""
+    if not blocks:
+        return []
+    path = path_of_segments([block.segment for block in blocks])
+    feed = np.minimum([block.segment.pace.speed_um_s for block in blocks], rules.ceiling_um_s)
+    bend = np.sqrt(rules.corner_um_s2 / np.maximum(path.curvature, 1e-100))
+    feed = np.minimum(feed, bend)
+    along = np.full_like(feed, rules.along_um_s2)
+    rule = CornerTime(rules.corner_s, rules.corner_um_s2)
+    border = np.concatenate([[from_um_s], junction_speeds(path, rule, 0.0, along), [0.0]])
+    border[1:][[block.rests for block in blocks]] = 0.0
+    limits = RowLimits(path.length_um, feed, along, border, np.zeros_like(border))
+    ends = np.sqrt(border_speeds_sq(limits, from_um_s))[1:]
+    return [Told(*entry) for entry in zip(blocks, ends.tolist(), feed.tolist(), strict=True)]

@@ -1,0 +1,61 @@
+"""Look-ahead between path calls and list: keeps the youngest blocks back until their end speeds are known."""
+
+from collections import deque
+
+from controller.card.engine.entries import Entry, Output, Pace, Place, Wait
+from controller.card.lookahead.host import HostBlock, HostLookAhead, HostRules
+
+
+class ListLookAhead:
+    """Blocks kept back, with the outputs and waits that come behind each; `begun` tells for which list."""
+
+    def __init__(self, rules: HostRules) -> None:
+        self.rules = rules
+        self.clear(0)
+
+    def clear(self, begun: int) -> None:
+        """Keep nothing, from rest."""
+        self.begun = begun
+        self._ahead = HostLookAhead(self.rules)
+        self._behind: deque[list[Entry]] = deque()
+
+    def __len__(self) -> int:
+        """Blocks kept."""
+        return len(self._behind)
+
+    @property
+    def is_full(self) -> bool:
+        """Whether the oldest block has to go before another comes."""
+        return self._ahead.is_full
+
+    @property
+    def entries(self) -> int:
+        """Entries that all of it will be in the list."""
+        return sum(1 + len(behind) for behind in self._behind)
+
+    @property
+    def oldest_entries(self) -> int:
+        """Entries that the oldest block will be in the list."""
+        return 1 + len(self._behind[0])
+
+    def end(self) -> Place | None:
+        """Where the youngest block ends."""
+        return self._ahead.blocks[-1].segment.end if self._behind else None
+
+    def add(self, block: HostBlock) -> None:
+        """Keep a block back."""
+        self._ahead.add(block)
+        self._behind.append([])
+
+    def add_behind(self, entry: Output | Wait) -> None:
+        """Keep an output or a wait behind the youngest block; a wait lets it end at rest."""
+        self._behind[-1].append(entry)
+        if isinstance(entry, Wait):
+            self._ahead.rest()
+
+    def oldest(self, number: int) -> tuple[int, list[Entry]]:
+        """Let the oldest block go, which becomes `number` of the list: the program's number of it, and its entries."""
+        told = self._ahead.told()
+        segment = told.block.segment
+        pace = Pace(told.feed_um_s, self.rules.along_um_s2, segment.pace.rapid, told.end_um_s)
+        return told.block.number, [segment._replace(number=number, pace=pace), *self._behind.popleft()]
