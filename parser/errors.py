@@ -37,3 +37,7 @@ class ProgramError(DrycutError, ValueError):
 
 class SettingsError(DrycutError, ValueError):
     """A machine file, scenario file or option with an unknown key or a value out of bounds."""
+
+
+class ControllerError(DrycutError, RuntimeError):
+    """A controller that refuses what it is told to run."""

@@ -4,7 +4,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.steps import Steps
 from parser.figures import CLOSED_WITHIN_UM, EXACT_PER_ARC_UM
 from parser.toolpath import Floats, Ints, Toolpath
 from sim.deviation import distance_to_blocks
@@ -50,8 +49,8 @@ class Contour(NamedTuple):
         return self.encloses and not self.returns
 
 
-def find_contours(toolpath: Toolpath, steps: Steps) -> tuple[Contour, ...]:
-    """Contours in the order they are cut."""
+def find_contours(toolpath: Toolpath, corner_um: Ints) -> tuple[Contour, ...]:
+    """Contours in the order they are cut; `corner_um` (n + 1, 2) is where the steps stand between the blocks."""
     cut = np.concatenate([[False], ~toolpath.is_jump, [False]])
     borders = np.flatnonzero(np.diff(cut)).reshape(-1, 2)
     ways, is_arc = directions(toolpath), toolpath.is_arc
@@ -68,7 +67,7 @@ def find_contours(toolpath: Toolpath, steps: Steps) -> tuple[Contour, ...]:
                 first=low + 1,
                 last=high,
                 closure_exact_um=_length(toolpath.end_um[high - 1] - toolpath.start_um[low]),
-                closure_stepped_um=_length(steps.corner_um[high] - steps.corner_um[low]),
+                closure_stepped_um=_length(corner_um[high] - corner_um[low]),
                 tolerance_um=tolerance,
                 arcs=arcs,
                 returns=_returns(toolpath, before, high - 1, ways.arriving[high - 1], tolerance),

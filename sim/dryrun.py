@@ -5,19 +5,25 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from controller.plan import Plan, plan_runs
-from controller.pulses import Pulses
-from controller.steps import Steps
+from controller.card.log import CardLog
+from controller.host.entries import Drive
+from controller.motion.limits import row_limits
+from controller.motion.plan import Plan
+from controller.motion.planner import plan_rows
+from controller.stepping.pulses import Pulses
+from controller.stepping.steps import Steps
 from parser.errors import ProgramError
 from parser.findings import Finding, Severity
 from parser.program import Program
 from parser.toolpath import Floats, Toolpath
 from sim.check.engine import Demands, check_program
 from sim.check.result import Coverage
-from sim.contours import Contour
+from sim.contours import Contour, find_contours
 from sim.deviation import Deviation, DeviationMeter
+from sim.meters import Sampling, SamplingMeter, StepMeters
 from sim.motion import Motion, Progress, run_card, run_table
 from sim.scenario import Scenario
+from sim.stepped import Stepped, StepTally
 from sim.table import Table, ringing
 from sim.ticks import choose_ticks
 from sim.trace import Trace
@@ -26,8 +32,8 @@ from sim.trace import Trace
 class PulseSink(Protocol):
     """Takes the pulses of a run as they are handed out."""
 
-    def open(self, steps: Steps, origin_um: tuple[int, int]) -> None:
-        """Get ready for all pulses of these steps."""
+    def open(self, origin_um: tuple[int, int]) -> None:
+        """Get ready for pulses that start from here."""
 
     def take(self, pulses: Pulses) -> None:
         """Take the next pulses, in program coordinates."""
@@ -37,12 +43,13 @@ class Deviations(NamedTuple):
     """Deviation of the steps and of the table from the ideal geometry.
 
     `interpolation` is that of the steps with each block moved to where the table stood when it began, so without what
-    earlier blocks missed.
+    earlier blocks missed. `sampling` is known of the card's own interpolator alone.
     """
 
     interpolation: Deviation
     steps: Deviation
     table: Deviation
+    sampling: Sampling | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,7 +60,7 @@ class DryRun:
     ----------
     program, scenario
         What was run.
-    steps, plan, trace
+    stepped, plan, trace
         What the controller made of it, and the table.
     deviations
         Of steps and table.
@@ -69,7 +76,7 @@ class DryRun:
 
     program: Program
     scenario: Scenario
-    steps: Steps
+    stepped: Stepped
     plan: Plan
     trace: Trace
     deviations: Deviations
@@ -95,56 +102,88 @@ def origin_um(toolpath: Toolpath) -> tuple[int, int]:
     return x, y
 
 
-def dry_run(program: Program, scenario: Scenario, progress: Progress, sink: PulseSink | None = None) -> DryRun:
-    """Run a program on the machine of a scenario.
+def dry_run(
+    program: Program,
+    scenario: Scenario,
+    progress: Progress,
+    sink: PulseSink | None = None,
+    log: CardLog | None = None,
+) -> DryRun:
+    """Run a program on the machine of a scenario; its pulses go to `sink`, the calls to its card to `log`.
 
     Raises ProgramError where the program asks for more than any table can do.
     """
-    toolpath, machine = program.toolpath, scenario.machine
     checked = check_program(program, _demands(scenario))
     if checked.steps is None:
         raise _refusal(program, checked.findings)
-    steps = checked.steps
-    plan = plan_runs(toolpath, machine.feeds(scenario.thickness_mm))
-    motion = Motion(steps, plan, choose_ticks(toolpath, plan, ringing(machine.table)), origin_um(toolpath))
-    meters = _StepMeters(toolpath, motion)
+    toolpath, motion = program.toolpath, _motion(program.toolpath, scenario)
+    meters = _Meters(motion, checked.steps)
+    sinks = [meters.take]
+    if sink is not None:
+        sink.open(motion.drive.origin_um)
+        sinks.append(sink.take)
 
     def take(pulses: Pulses) -> None:
-        meters.take(pulses)
-        if sink is not None:
-            sink.take(pulses)
+        for taker in sinks:
+            taker(pulses)
 
-    if sink is not None:
-        sink.open(steps, motion.origin_um)
-    command = run_card(motion, take, progress)
-    trace = run_table(motion, command, Table(machine.table, scenario.start_um), progress)
-    of_table = DeviationMeter(toolpath)
-    of_table.add(trace.row, trace.actual_um[:, 0], trace.actual_um[:, 1], trace.t_s)
+    command = run_card(motion, take, progress, log)
+    trace = run_table(motion, command, Table(scenario.machine.table, scenario.start_um), progress)
+    stepped = meters.tally.result()
+    plan = motion.drive.plan
     return DryRun(
         program=program,
         scenario=scenario,
-        steps=steps,
+        stepped=stepped,
         plan=plan,
         trace=trace,
-        deviations=Deviations(meters.own.result(), meters.placed.result(), of_table.result()),
-        contours=checked.contours,
-        block_time_s=np.diff(plan.time_at(steps.along_um)),
+        deviations=meters.deviations(trace),
+        contours=find_contours(toolpath, stepped.corner_um),
+        block_time_s=_block_times(plan, checked.steps.along_um),
         findings=checked.findings,
         coverage=checked.coverage,
     )
 
 
-class _StepMeters:
-    """Deviation of the steps where they are, and of each block from where it began."""
+def _block_times(plan: Plan, before_um: Floats) -> Floats:
+    """Planned time (n,) s in each block, which add up to the whole."""
+    reached = plan.time_at(before_um)
+    reached[-1] = plan.duration_s
+    return np.diff(reached)
 
-    def __init__(self, toolpath: Toolpath, motion: Motion) -> None:
-        self.placed, self.own = DeviationMeter(toolpath), DeviationMeter(toolpath)
-        self._drift = motion.steps.corner_um[:-1] + np.array(motion.origin_um) - toolpath.start_um
+
+def _motion(toolpath: Toolpath, scenario: Scenario) -> Motion:
+    controller = scenario.machine.controller
+    limits = row_limits(toolpath, scenario.machine.feeds(scenario.thickness_mm), controller.limits)
+    plan = plan_rows(limits, jerk_um_s3=controller.limits.jerk_um_s3)
+    drive = Drive(toolpath, limits, plan, origin_um(toolpath), controller.interpolation)
+    return Motion(drive, controller.card_settings, choose_ticks(toolpath, plan, ringing(scenario.machine.table)))
+
+
+class _Meters:
+    """All that is measured of the pulses of a run."""
+
+    def __init__(self, motion: Motion, steps: Steps) -> None:
+        drive = motion.drive
+        self._toolpath = drive.toolpath
+        own = drive.interpolation == "card"
+        start = drive.toolpath.start_um
+        drift = np.array(drive.origin_um) - (start[:1] if own else start - steps.corner_um[:-1])
+        self._steps = StepMeters(drive, np.broadcast_to(drift, start.shape))
+        self._sampling = SamplingMeter(drive, motion.card.servo_period_s) if own else None
+        self.tally = StepTally(len(drive.toolpath), drive.origin_um)
 
     def take(self, pulses: Pulses) -> None:
-        x, y = pulses.x_um.astype(np.float64), pulses.y_um.astype(np.float64)
-        self.placed.add(pulses.row, x, y, pulses.t_s)
-        self.own.add(pulses.row, x - self._drift[:, 0][pulses.row], y - self._drift[:, 1][pulses.row], pulses.t_s)
+        self._steps.take(pulses)
+        self.tally.take(pulses)
+        if self._sampling is not None:
+            self._sampling.take(pulses)
+
+    def deviations(self, trace: Trace) -> Deviations:
+        of_table = DeviationMeter(self._toolpath)
+        of_table.add(trace.row, trace.actual_um[:, 0], trace.actual_um[:, 1], trace.t_s)
+        sampling = self._sampling.result() if self._sampling is not None else None
+        return Deviations(self._steps.own, self._steps.placed, of_table.result(), sampling)
 
 
 def _demands(scenario: Scenario) -> Demands:

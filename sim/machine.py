@@ -4,9 +4,11 @@ from importlib import resources
 from pathlib import Path
 from typing import NamedTuple
 
-from controller.plan import Feeds
+from controller.host.entries import Interpolation
+from controller.motion.limits import Feeds
 from parser.errors import SettingsError
 from parser.units import from_mm
+from sim.controller_model import ControllerModel, read_controller
 from sim.settings import Bound, load_toml, numbers, refuse_unknown, section, text
 
 _TABLE = {
@@ -17,11 +19,6 @@ _TABLE = {
     "drive_stiffness_n_um": Bound(1e-3, 1e5),
     "drive_damping_ratio": Bound(0.01, 10.0),
     "drive_force_limit_n": Bound(0.1, 1e6),
-}
-_CONTROLLER = {
-    "path_acceleration_mm_s2": Bound(0.01, 1e5),
-    "cut_step_limit_hz": Bound(0.1, 1e6),
-    "jump_feed_mm_s": Bound(1e-3, 1e3),
 }
 _CUTTING = {"area_rate_mm2_min": Bound(0.1, 1e4)}
 
@@ -48,18 +45,19 @@ class Machine(NamedTuple):
 
     name: str
     table: TableModel
-    path_acceleration_mm_s2: float
-    cut_step_limit_hz: float
-    jump_feed_mm_s: float
+    controller: ControllerModel
     area_rate_mm2_min: float
+
+    def stepping_by(self, interpolation: Interpolation) -> "Machine":
+        """The machine with another interpolator."""
+        return self._replace(controller=self.controller._replace(interpolation=interpolation))
 
     def feeds(self, thickness_mm: float) -> Feeds:
         """Feeds in a work of this thickness: area rate over thickness, no faster than one step a tick of the limit."""
         by_area = from_mm(self.area_rate_mm2_min / thickness_mm / 60.0)
         return Feeds(
-            cut_um_s=min(by_area, self.cut_step_limit_hz),
-            jump_um_s=from_mm(self.jump_feed_mm_s),
-            acceleration_um_s2=from_mm(self.path_acceleration_mm_s2),
+            cut_um_s=min(by_area, self.controller.cut_step_limit_hz),
+            jump_um_s=from_mm(self.controller.jump_feed_mm_s),
         )
 
 
@@ -85,6 +83,6 @@ def _read(path: Path) -> Machine:
     return Machine(
         name=text(content, "name", where),
         table=TableModel(**numbers(parts["table"], _TABLE, f"{where}: [table]")),
-        **numbers(parts["controller"], _CONTROLLER, f"{where}: [controller]"),
+        controller=read_controller(parts["controller"], f"{where}: [controller]"),
         **numbers(parts["cutting"], _CUTTING, f"{where}: [cutting]"),
     )

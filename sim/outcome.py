@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.card.log import CardLog
 from parser.program import Program
 from parser.units import mm
 from sim.draw.picture import draw_cut
@@ -24,15 +25,23 @@ if TYPE_CHECKING:
 FILES = ("cut.png", "report.json", "trace.npz")
 
 
-def run_into(folder: Path, program: Program, scenario: Scenario, progress: Progress) -> DryRun:
+def run_into(
+    folder: Path,
+    program: Program,
+    scenario: Scenario,
+    progress: Progress,
+    log: CardLog | None = None,
+) -> DryRun:
     """Dry-run a program and write ``cut.png``, ``report.json`` and ``trace.npz`` into a folder.
+
+    The calls to the card go to `log`.
 
     Raises ProgramError as `dry_run` does and FileUnreadableError where the folder cannot be written; then no file of
     the folder has changed.
     """
     with staged(folder, FILES) as stage:
         with StepFiles(stage) as files:
-            run = check_expectations(dry_run(program, scenario, progress, files))
+            run = check_expectations(dry_run(program, scenario, progress, files, log))
         write_npz(stage / "trace.npz", files.paths, trace_arrays(run))
         (stage / "report.json").write_text(report_text(build_report(run)), encoding="utf-8")
         picture(run).save(stage / "cut.png", dpi=(200, 200))

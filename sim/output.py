@@ -1,5 +1,6 @@
 """Output files of a run: made aside and moved into their folder whole, or not at all."""
 
+import os
 import shutil
 import tempfile
 import zipfile
@@ -12,8 +13,7 @@ from typing import IO, Any, Self
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from controller.pulses import Pulses
-from controller.steps import Steps
+from controller.stepping.pulses import Pulses
 from parser.errors import FileUnreadableError
 
 
@@ -28,8 +28,7 @@ def staged(target: Path, names: Sequence[str]) -> Iterator[Path]:
         made = _make_folders(target)
         with _removed_on_error(made), tempfile.TemporaryDirectory(prefix=".drycut-", dir=target) as folder:
             for name in names:
-                if (target / name).is_dir():
-                    raise FileUnreadableError(f"{target / name}: is a folder; a file of this name is to be written")
+                _refuse_other_than_file(target / name)
             yield Path(folder)
             for name in names:
                 (Path(folder) / name).replace(target / name)
@@ -39,10 +38,17 @@ def staged(target: Path, names: Sequence[str]) -> Iterator[Path]:
         raise FileUnreadableError(f"{target}: cannot be written: {error.strerror or error}") from None
 
 
+def _refuse_other_than_file(path: Path) -> None:
+    """FileUnreadableError where a folder, a device or a pipe has the name of a file that is to be written."""
+    if path.exists() and not path.is_file():
+        kind = "a folder" if path.is_dir() else "no plain file"
+        raise FileUnreadableError(f"{path}: is {kind}; a file of this name is to be written")
+
+
 def _make_folders(target: Path) -> list[Path]:
     """Make a folder with its parents; those that were missing, innermost first."""
     if target.exists() and not target.is_dir():
-        raise FileUnreadableError(f"{target}: is a file; -o names a folder")
+        raise FileUnreadableError(f"{target}: is a file; a folder of this name is to be written into")
     missing = [folder for folder in (target, *target.parents) if not folder.exists()]
     with _removed_on_error(missing):
         target.mkdir(parents=True, exist_ok=True)
@@ -75,7 +81,10 @@ class StepFiles:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        """Close the files; their heads now tell how many entries there are."""
         for file in self._files.values():
+            if error is None:
+                _finish_head(file)
             file.close()
 
     @property
@@ -83,17 +92,11 @@ class StepFiles:
         """Array name to its finished ``.npy`` file."""
         return {name: self._folder / f"{name}.npy" for name in self._files}
 
-    def open(self, steps: Steps, origin_um: tuple[int, int]) -> None:
-        """Write the heads, and the start."""
-        n = len(steps)
-        for name, dtype, length in (
-            ("step_x_um", np.int32, n + 1),
-            ("step_y_um", np.int32, n + 1),
-            ("step_block", np.int32, n),
-            ("step_t_s", np.float64, n),
-        ):
-            self._files[name] = (self._folder / f"{name}.npy").open("wb")
-            _write_head(self._files[name], dtype, length)
+    def open(self, origin_um: tuple[int, int]) -> None:
+        """Make the files, and write the start."""
+        for name in ("step_x_um", "step_y_um", "step_block", "step_t_s"):
+            self._files[name] = (self._folder / f"{name}.npy").open("w+b")
+            _write_head(self._files[name], np.float64 if name == "step_t_s" else np.int32, 0)
         self._append(step_x_um=np.array(origin_um[:1]), step_y_um=np.array(origin_um[1:]))
 
     def take(self, pulses: Pulses) -> None:
@@ -109,6 +112,17 @@ class StepFiles:
 def _write_head(file: IO[bytes], dtype: DTypeLike, length: int) -> None:
     descr = np.lib.format.dtype_to_descr(np.dtype(dtype))
     np.lib.format.write_array_header_1_0(file, {"descr": descr, "fortran_order": False, "shape": (length,)})
+
+
+def _finish_head(file: IO[bytes]) -> None:
+    """Write the length into a head: numpy leaves room in it for a first axis that grows."""
+    file.seek(0)
+    np.lib.format.read_magic(file)
+    dtype = np.lib.format.read_array_header_1_0(file)[2]
+    head = file.tell()
+    length = (file.seek(0, os.SEEK_END) - head) // dtype.itemsize
+    file.seek(0)
+    _write_head(file, dtype, length)
 
 
 def write_npz(path: Path, files: Mapping[str, Path], arrays: Mapping[str, NDArray[Any]]) -> None:

@@ -14,7 +14,7 @@ from sim import __version__
 from sim.check.result import CheckState, Coverage
 from sim.contours import Contour
 from sim.deviation import Deviation
-from sim.dryrun import DryRun, origin_um, verdict
+from sim.dryrun import DryRun, verdict
 
 SCHEMA = "drycut.report/1"
 
@@ -48,10 +48,11 @@ def build_report(run: DryRun) -> dict[str, Any]:
         "summary": {
             "blocks": len(toolpath),
             "length_um": _round(float(toolpath.length_um.sum())),
-            "steps": len(run.steps),
+            "steps": len(run.stepped),
         },
         "time_s": {"total": _round(run.plan.duration_s), "by_block": _column(run.block_time_s)},
-        "contours": [_contour(contour) for contour in run.contours],
+        "contours": [_contour(contour, run.block_time_s) for contour in run.contours],
+        "interpolator": _interpolator(run),
         "deviation": {
             "interpolation": _deviation(run.deviations.interpolation),
             "steps": _deviation(run.deviations.steps),
@@ -128,12 +129,23 @@ def _reason(check: CheckState) -> str | None:
     return term(check.reason) if check.reason else None
 
 
-def _contour(contour: Contour) -> dict[str, Any]:
+def _interpolator(run: DryRun) -> dict[str, Any]:
+    controller, sampling = run.scenario.machine.controller, run.deviations.sampling
+    return {
+        "name": controller.interpolation,
+        "servo_period_s": None if sampling is None else controller.servo_period_s,
+        "axis_um": None if sampling is None else [_round(axis) for axis in sampling.axis_um],
+        "chord_um": None if sampling is None else _round(sampling.chord_um),
+    }
+
+
+def _contour(contour: Contour, block_time_s: Floats) -> dict[str, Any]:
     return {
         "first_block": contour.first,
         "last_block": contour.last,
         "closure_exact_um": _round(contour.closure_exact_um),
         "closure_stepped_um": _round(contour.closure_stepped_um),
+        "time_s": _round(float(block_time_s[contour.first - 1 : contour.last].sum())),
     }
 
 
@@ -185,10 +197,9 @@ def _exact(toolpath: Toolpath) -> dict[str, list[Any]]:
 
 
 def _stepped(run: DryRun) -> dict[str, list[Any]]:
-    ends = run.steps.corner_um[1:] + np.array(origin_um(run.toolpath))
     return {
-        "end_um": ends.tolist(),
-        "steps": run.steps.count.tolist(),
+        "end_um": run.stepped.corner_um[1:].tolist(),
+        "steps": run.stepped.count.tolist(),
         "max_deviation_um": _column(run.deviations.steps.by_row_um),
         "interpolation_um": _column(run.deviations.interpolation.by_row_um),
     }

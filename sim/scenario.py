@@ -9,6 +9,7 @@ from pathlib import Path
 from parser.encoding import printable
 from parser.errors import FileUnreadableError, SettingsError
 from parser.units import from_mm, mm
+from sim.controller_model import interpolation
 from sim.expect import Expectation, read_expectation
 from sim.machine import Machine, load_machine
 from sim.settings import Bound, load_toml, numbers, pair, refuse_unknown, section, text, truth
@@ -17,7 +18,7 @@ from sim.wire import DEFAULT_WIRE, SPARK_GAP_MM, WIRE_DIAMETER_MM, Wire
 THICKNESS_MM = Bound(0.01, 2000.0)
 _WIRE = {"diameter_mm": WIRE_DIAMETER_MM, "spark_gap_mm": SPARK_GAP_MM}
 _WORK = {"thickness_mm": THICKNESS_MM}
-_KEYS = ("title", "provenance", "program", "machine", "start_mm", "open", "wire", "work", "expect")
+_KEYS = ("title", "provenance", "program", "machine", "interpolator", "start_mm", "open", "wire", "work", "expect")
 
 DEFAULT_MACHINE = "dk7740"
 DEFAULT_THICKNESS_MM = 40.0
@@ -79,13 +80,16 @@ def load_scenario(path: Path) -> Scenario:
         raise SettingsError(f"{path}: is a folder without scenario.toml; give a 3B file or a scenario folder")
     content, where = load_toml(file), str(file)
     refuse_unknown(content, _KEYS, where)
+    machine = load_machine(text(content, "machine", where, default=DEFAULT_MACHINE), beside=path)
+    if "interpolator" in content:
+        machine = machine.stepping_by(interpolation(text(content, "interpolator", where), f"{where}: interpolator"))
     wire = numbers(section(content, "wire", where), _WIRE, f"{where}: [wire]", _wire_defaults())
     work = section(content, "work", where)
     work_numbers = numbers(work, _WORK, f"{where}: [work]", {"thickness_mm": DEFAULT_THICKNESS_MM})
     return Scenario(
         title=printable(text(content, "title", where, default=path.resolve().name)),
         program=path / text(content, "program", where, default="program.3b"),
-        machine=load_machine(text(content, "machine", where, default=DEFAULT_MACHINE), beside=path),
+        machine=machine,
         wire=Wire(from_mm(wire["diameter_mm"]), from_mm(wire["spark_gap_mm"])),
         start_mm=pair(content, "start_mm", where),
         provenance=text(content, "provenance", where, default="not given"),

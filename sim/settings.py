@@ -82,9 +82,14 @@ def numbers(
     bounds: Mapping[str, Bound],
     where: str,
     defaults: Mapping[str, float] | None = None,
+    optional: Mapping[str, Bound] | None = None,
 ) -> dict[str, float]:
-    """Numbers of a table that holds nothing else, each in its bounds; SettingsError for what is missing or unknown."""
-    refuse_unknown(table, bounds, where)
+    """Numbers of a table that holds nothing else, each in its bounds; SettingsError for what is missing or unknown.
+
+    Of the `optional` ones, those that are given; a default is not held to the bounds.
+    """
+    refuse_unknown(table, (*bounds, *(optional or {})), where)
+    bounds = {**bounds, **{key: bound for key, bound in (optional or {}).items() if key in table}}
     given = {**(defaults or {}), **table}
     for key in bounds:
         if key not in given:

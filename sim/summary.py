@@ -17,6 +17,7 @@ from sim.dryrun import DryRun, verdict
 from sim.units import clock
 
 _COLOURS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
+_INTERPOLATORS = {"point-by-point": "point by point", "card": "by the card at equal times"}
 _MOST_FINDINGS = 20
 _MOST_CLOSURES = 4
 
@@ -50,13 +51,22 @@ def _rows(run: DryRun) -> list[tuple[str, str]]:
         ("blocks", f"{len(toolpath):,} ({kinds})"),
         ("path length", f"{mm(float(toolpath.length_um.sum())):,.3f} mm"),
         ("kerf", f"{mm(scenario.wire.kerf_um):g} mm ({wire})"),
-        ("steps", f"{len(run.steps):,} of 1 µm"),
+        ("steps", f"{len(run.stepped):,} of 1 µm, {_INTERPOLATORS[scenario.machine.controller.interpolation]}"),
         ("estimated cutting time", f"{clock(run.plan.duration_s)} in {scenario.thickness_mm:g} mm"),
+        *_times(run),
         *_closures(run),
         ("deviation of steps, at most", _largest(run.deviations.steps)),
         ("  of it interpolation", _largest(run.deviations.interpolation)),
-        ("deviation of table, at most", _largest(run.deviations.table) if len(run.steps) else "no motion"),
+        ("deviation of table, at most", _largest(run.deviations.table) if len(run.stepped) else "no motion"),
     ]
+
+
+def _times(run: DryRun) -> list[tuple[str, str]]:
+    """Time of each contour, where there are some but few."""
+    if not 1 < len(run.contours) <= _MOST_CLOSURES:
+        return []
+    times = [(c, float(run.block_time_s[c.first - 1 : c.last].sum())) for c in run.contours]
+    return [(f"  blocks {c.first}–{c.last}", clock(time_s)) for c, time_s in times]
 
 
 def _closures(run: DryRun) -> list[tuple[str, str]]:

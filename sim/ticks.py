@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.plan import Plan
+from controller.motion.plan import Plan
 from parser.toolpath import Floats, Ints, Toolpath
 from sim.directions import directions
 
@@ -88,7 +88,8 @@ def _fine_windows(toolpath: Toolpath, plan: Plan, before: Floats, ringing: Ringi
 
 def _ramps(plan: Plan, ringing: Ringing) -> list[Floats]:
     """Times within phases whose acceleration bends the drives enough: lag is a / ω²."""
-    felt = np.abs(plan.acceleration_um_s2) / ringing.frequency**2 > FELT_UM
+    ends = plan.acceleration_um_s2 + plan.jerk_um_s3 * np.diff(plan.time_s)
+    felt = np.maximum(np.abs(plan.acceleration_um_s2), np.abs(ends)) / ringing.frequency**2 > FELT_UM
     return [
         np.append(np.arange(low, high, 1.0 / ringing.decay), high)
         for low, high in zip(plan.time_s[:-1][felt], plan.time_s[1:][felt], strict=True)

@@ -3,6 +3,9 @@
 from dataclasses import replace
 from pathlib import Path
 
+from lawful import assert_plan_is_lawful
+
+from controller.motion.limits import row_limits
 from parser.program import parse_program, read_program
 from sim.dryrun import DryRun, dry_run
 from sim.judge import check_expectations
@@ -27,12 +30,20 @@ def machine(**table: float) -> Machine:
 
 
 def run_text(text: str, **changes: object) -> DryRun:
-    return dry_run(parse_program(text), plain_scenario(**changes), silent)
+    return lawful(dry_run(parse_program(text), plain_scenario(**changes), silent))
+
+
+def lawful(run: DryRun) -> DryRun:
+    """The run, whose plan keeps its limits in the least time."""
+    machine = run.scenario.machine
+    limits = row_limits(run.toolpath, machine.feeds(run.scenario.thickness_mm), machine.controller.limits)
+    assert_plan_is_lawful(run.plan, limits, jerk_um_s3=machine.controller.limits.jerk_um_s3)
+    return run
 
 
 def run_folder(folder: Path) -> DryRun:
     scenario = load_scenario(folder)
-    return check_expectations(dry_run(read_program(scenario.program), scenario, silent))
+    return check_expectations(lawful(dry_run(read_program(scenario.program), scenario, silent)))
 
 
 def codes(run: DryRun) -> list[str]:

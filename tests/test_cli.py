@@ -130,7 +130,7 @@ def test_bad_programs_exit_2_with_one_clear_error(tmp_path: Path, make: object, 
         (["--thickness", "0mm"], "--thickness in mm is 0; it must lie between"),
         (["--wire-diameter", "0.02mm", "--gap=-40um"], "cuts no kerf"),
         (["--nonsense"], "No such option"),
-        (["-o", __file__], "is a file; -o names a folder"),
+        (["-o", __file__], "is a file; a folder of this name is to be written into"),
     ],
 )
 def test_bad_options_exit_2_with_one_clear_line(part: Path, args: list[str], message: str) -> None:
@@ -232,3 +232,26 @@ def test_run_without_output_needs_no_pictures(part: Path) -> None:
         cwd=ROOT,
     )
     assert done.stdout.splitlines()[-1] == "not drawn"
+
+
+def test_the_card_log_of_a_run_replays_and_takes_no_other_files_place(tmp_path: Path) -> None:
+    part, log = tmp_path / "part.3b", tmp_path / "logs" / "part.log"
+    part.write_text("B500B0B500GXL1 B500B0B2000GYNR1 B500B0B500GXL3 DD")
+    assert run_command("run", part, "--interpolator", "card", "--card-log", log).returncode == 0
+    replayed = run_command("card", "replay", log)
+    assert (replayed.returncode, replayed.stderr) == (0, b"")
+    assert b": equal: " in replayed.stdout
+    for other, output in ((part, None), (tmp_path / "out" / "cut.png", tmp_path / "out"), (Path("/dev/full"), None)):
+        before = part.read_bytes()
+        done = run_command("run", part, "--card-log", other, *(["-o", output] if output else []))
+        assert done.returncode == 2
+        assert done.stderr.startswith(b"drycut: error: ")
+        assert part.read_bytes() == before
+        assert not (tmp_path / "out").exists()
+
+
+def test_a_refused_run_leaves_no_card_log(tmp_path: Path) -> None:
+    part = tmp_path / "part.3b"
+    part.write_text("B0B0B1000000000000GXL1")
+    assert run_command("run", part, "--card-log", tmp_path / "new" / "part.log").returncode == 2
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["part.3b"]

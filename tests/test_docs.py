@@ -16,13 +16,13 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
-from controller.point_by_point import interpolate
+from controller.stepping.point_by_point import interpolate
 from parser.catalogue import Language
 from parser.catalogue import page as catalogue_page
 from parser.encoding import encode_text
 from parser.findings import SEVERITIES
 from parser.program import read_program
-from sim import machine, scenario
+from sim import controller_model, machine, scenario
 from sim.check import settings as check_settings
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS
 from sim.check.findings_document import NAMES, anchor, findings_document
@@ -238,7 +238,7 @@ def settings() -> dict[str, Any]:
     """Every key with bounds, as the documents write it."""
     tables = {
         "table": machine._TABLE,
-        "controller": machine._CONTROLLER,
+        "controller": controller_model._REQUIRED | controller_model._OPTIONAL,
         "cutting": machine._CUTTING,
         "wire": scenario._WIRE,
         "work": scenario._WORK,
@@ -259,7 +259,8 @@ def test_settings_are_documented_with_their_bounds(key: str) -> None:
 def test_scenario_and_machine_files_have_no_key_that_is_not_documented() -> None:
     page = read(DOCS / "scenarios.md")
     plain = [key for key in scenario._KEYS if key not in ("wire", "work", "expect")]
-    for key in [*plain, "name", "[expect]"]:
+    texts = [f"[controller] {key}" for key in controller_model._TEXTS]
+    for key in [*plain, *texts, "name", "[expect]"]:
         assert f"| `{key}` |" in page, key
 
 

@@ -100,7 +100,7 @@ def test_acceleration_of_the_trace_stays_within_force_over_mass() -> None:
 
 def test_blocks_after_the_end_are_not_run() -> None:
     run = run_text("B100B0B100GXL1 DD B100B0B100GXL1")
-    assert len(run.steps) == 100
+    assert len(run.stepped) == 100
     assert verdict(run.findings) == "fail"
 
 

@@ -27,7 +27,7 @@ def digests(folder: Path) -> dict[str, str]:
 def test_trace_holds_every_step_from_the_start(tmp_path: Path) -> None:
     run = run_into(tmp_path / "out", parse_program(TEXT), plain_scenario(), silent)
     trace = np.load(tmp_path / "out" / "trace.npz")
-    n = len(run.steps)
+    n = len(run.stepped)
     assert {name: (trace[name].dtype.str, trace[name].shape) for name in trace if name.startswith("step")} == {
         "step_x_um": ("<i4", (n + 1,)),
         "step_y_um": ("<i4", (n + 1,)),
@@ -36,9 +36,9 @@ def test_trace_holds_every_step_from_the_start(tmp_path: Path) -> None:
     }
     x, y = trace["step_x_um"], trace["step_y_um"]
     assert (x[0], y[0]) == (0, 0)
-    assert [x[-1], y[-1]] == run.steps.corner_um[-1].tolist()
+    assert [x[-1], y[-1]] == run.stepped.corner_um[-1].tolist()
     assert np.array_equal(np.abs(np.diff(x)) + np.abs(np.diff(y)), np.ones(n))
-    assert np.array_equal(np.bincount(trace["step_block"], minlength=6)[1:], run.steps.count)
+    assert np.array_equal(np.bincount(trace["step_block"], minlength=6)[1:], run.stepped.count)
     assert trace["step_t_s"][-1] == pytest.approx(run.plan.duration_s)
     assert trace["t_s"][0] == 0.0
     assert trace["t_s"].shape == trace["x_um"].shape == trace["y_um"].shape == trace["block"].shape
@@ -137,7 +137,7 @@ from parser.program import parse_program
 from sim.outcome import run_into
 text = "B100B100B10000GXNR1" * 520  # 18 turns each
 run = run_into(Path(sys.argv[1]), parse_program(text), plain_scenario(), silent)
-print(len(run.steps), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+print(len(run.stepped), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
 """
 
 

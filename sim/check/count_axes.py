@@ -4,8 +4,8 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from controller.point_by_point import interpolate
-from controller.steps import Steps
+from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import Steps
 from parser.findings import Finding
 from parser.places import at_block
 from parser.program import Program

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from controller.point_by_point import interpolate
-from controller.steps import Steps
+from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import Steps
 from parser.decode import endless
 from parser.findings import Finding, file_order
 from parser.places import at_block
@@ -81,7 +81,7 @@ def check_program(program: Program, demands: Demands) -> Checked:
     excess = too_many_steps(program, steps)
     if excess:
         return _without_path(program, "reason-too-large", excess)
-    contours = find_contours(program.toolpath, steps)
+    contours = find_contours(program.toolpath, steps.corner_um)
     path = _PathChecks(program, steps, contours, demands)
     findings = tuple(sorted([*program.findings, *path.findings()], key=file_order))
     decoded = program.reading.run - int(endless(program.toolpath.words).sum())

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from controller.steps import Steps
+from controller.stepping.steps import Steps
 from parser.findings import Finding
 from parser.places import at_block
 from parser.program import Program

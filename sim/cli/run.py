@@ -32,6 +32,17 @@ if TYPE_CHECKING:
 @click.option("--thickness", type=Length(), help="Thickness of the work, such as 40mm.")
 @click.option("--wire-diameter", type=Length(), help="Diameter of the wire, such as 0.18mm.")
 @click.option("--gap", type=Length(), help="Spark gap on one side, such as 10um.")
+@click.option(
+    "--interpolator",
+    type=click.Choice(["point-by-point", "card"]),
+    help="How the path becomes steps: as 3B controllers do, or by a motion card at equal times.",
+)
+@click.option(
+    "--card-log",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Write every call to the card here, to be replayed by drycut card replay.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print report.json instead of the summary.")
 def run(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     path: Path,
@@ -40,11 +51,14 @@ def run(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     thickness: float | None,
     wire_diameter: float | None,
     gap: float | None,
+    interpolator: str | None,
+    card_log: Path | None,
     as_json: bool,
 ) -> None:
     """Dry-run a 3B program, or a scenario folder that holds one.
 
-    Steps the program as a 3B controller does, lets the table follow, and compares both with the ideal geometry.
+    Plans and steps the program as its controller does, lets the table follow, and compares both with the ideal
+    geometry.
 
     \b
     Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input.
@@ -52,6 +66,7 @@ def run(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     \b
     drycut run part.3b -o out/
     drycut run scenarios/keyhole --thickness 60mm
+    drycut run part.3b --interpolator card --card-log part.log
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.program import read_program
     from sim.dryrun import verdict
@@ -59,9 +74,11 @@ def run(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.summary import print_summary
 
     scenario = _overridden(path, machine, thickness, wire_diameter, gap)
+    if interpolator is not None:
+        scenario = replace(scenario, machine=scenario.machine.stepping_by(interpolator))  # type: ignore[arg-type]
     try:
         program = read_program(scenario.program)
-        done = _run(program, scenario, output)
+        done = _run(program, scenario, output, card_log)
     except ProgramError as error:
         click.echo(describe(printable(str(scenario.program)), error), err=True)
         raise click.exceptions.Exit(2) from None
@@ -102,14 +119,33 @@ def _overridden(
     return replace(scenario, wire=wire)
 
 
-def _run(program: "Program", scenario: "Scenario", output: Path | None) -> "DryRun":
+def _run(program: "Program", scenario: "Scenario", output: Path | None, card_log: Path | None) -> "DryRun":
+    from sim.card_log import logging_to
     from sim.dryrun import dry_run
     from sim.judge import check_expectations
     from sim.progress import StageProgress
 
-    with StageProgress() as progress:
+    settings = scenario.machine.controller.card_settings
+    _refuse_to_overwrite(card_log, program_file=scenario.program, output=output)
+    with StageProgress() as progress, logging_to(card_log, settings) as log:
         if output is None:
-            return check_expectations(dry_run(program, scenario, progress))
+            return check_expectations(dry_run(program, scenario, progress, log=log))
         from sim.outcome import run_into
 
-        return run_into(output, program, scenario, progress)
+        return run_into(output, program, scenario, progress, log)
+
+
+def _refuse_to_overwrite(card_log: Path | None, *, program_file: Path, output: Path | None) -> None:
+    """BadParameter where the log would take the place of the program or of a file of the run."""
+    if card_log is None:
+        return
+    if not card_log.name:
+        raise click.BadParameter("names no file", param_hint="--card-log")
+    taken = {program_file.resolve(): "the program"}
+    if output is not None:
+        from sim.outcome import FILES
+
+        taken |= {(output / name).resolve(): "a file of the run" for name in FILES}
+    other = taken.get(card_log.resolve())
+    if other is not None:
+        raise click.BadParameter(f"{card_log} is {other}; give the log a name of its own", param_hint="--card-log")

@@ -1,0 +1,104 @@
+"""What the host tells the card of a toolpath: the entries of its list, as columns in the card's units."""
+
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from controller.card.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
+from controller.motion.plan import Plan
+from controller.motion.planner import RowLimits
+from parser.toolpath import Floats, Ints, Toolpath
+
+Interpolation = Literal["point-by-point", "card"]
+"""How a path becomes steps: as 3B controllers do, or by the card's own interpolation at equal times."""
+
+STANDING_UM_S = 1e-6
+"""Slower than this, a pulse in eleven days, is at rest: what rounding leaves of a stop at a full turn."""
+
+
+class Drive(NamedTuple):
+    """What is driven.
+
+    Attributes
+    ----------
+    toolpath, limits, plan
+        The path, what its motion has to keep, and the plan that follows from that; the host sleeps by it.
+    origin_um
+        Where the axes stand at the start, whole µm of the program; a start between them shifts all steps alike.
+    interpolation
+        How the card makes steps of the path.
+    """
+
+    toolpath: Toolpath
+    limits: RowLimits
+    plan: Plan
+    origin_um: tuple[int, int]
+    interpolation: Interpolation
+
+
+class Entries(NamedTuple):
+    """m entries of the list; all (m,) but the places, which are (m, 2) from where the axes stand at the start.
+
+    Attributes
+    ----------
+    row
+        Row of the toolpath; rows without length make no entry, arcs of more than one turn several.
+    end_um, center_um
+        Ends, and centres of arcs.
+    angle_deg
+        Of arcs, positive counter-clockwise; 0 on lines.
+    speed_pulse_ms, acceleration_pulse_ms2
+        In the entry.
+    end_pulse_ms
+        Highest speed at its end; NaN where only the speeds of the entries limit it.
+    wait_ms
+        Time to stand still at its end, whole ms.
+    """
+
+    row: Ints
+    end_um: Floats
+    center_um: Floats
+    angle_deg: Floats
+    speed_pulse_ms: Floats
+    acceleration_pulse_ms2: Floats
+    end_pulse_ms: Floats
+    wait_ms: Ints
+
+
+def entries_of(drive: Drive) -> Entries:
+    """Entries of a whole toolpath."""
+    toolpath, limits = drive.toolpath, drive.limits
+    kept = np.flatnonzero(limits.length_um > 0.0)
+    if not len(kept):
+        empty, pairs = np.zeros(0), np.zeros((0, 2))
+        return Entries(kept, pairs, pairs, empty, empty, empty, empty, kept)
+    # The borders from each kept row's end to the start of the next kept one are one place.
+    ends_at = np.minimum.reduceat(limits.border_um_s, kept + 1)
+    waits = np.add.reduceat(limits.wait_s, kept + 1)
+    ahead = np.append(limits.speed_um_s[kept[1:]], np.inf)
+    told = ends_at < np.minimum(limits.speed_um_s[kept], ahead)
+    told[-1] = False  # the list ends at the start speed by itself
+    turns = _turns(toolpath.sweep_rad[kept], drive.interpolation)
+    row = np.repeat(kept, turns)
+    last = np.cumsum(turns) - 1
+    end, wait = np.full(len(row), np.nan), np.zeros(len(row), dtype=np.int64)
+    end[last] = np.where(told, np.where(ends_at < STANDING_UM_S, 0.0, ends_at), np.nan) / UM_S_PER_PULSE_MS
+    wait[last] = np.rint(waits * 1e3).astype(np.int64)
+    origin = toolpath.start_um[0]
+    return Entries(
+        row=row,
+        end_um=toolpath.end_um[row] - origin,
+        center_um=toolpath.center_um[row] - origin,
+        angle_deg=np.degrees(toolpath.sweep_rad[row]) / np.repeat(turns, turns),
+        speed_pulse_ms=limits.speed_um_s[row] / UM_S_PER_PULSE_MS,
+        acceleration_pulse_ms2=limits.acceleration_um_s2[row] / UM_S2_PER_PULSE_MS2,
+        end_pulse_ms=end,
+        wait_ms=wait,
+    )
+
+
+def _turns(sweep_rad: Floats, interpolation: Interpolation) -> Ints:
+    """Entries that each row takes: an arc of the card's own turns by 360° at most."""
+    if interpolation == "point-by-point":
+        return np.ones(len(sweep_rad), dtype=np.int64)
+    return np.maximum(np.ceil(np.abs(sweep_rad) / (2.0 * np.pi) - 1e-12), 1.0).astype(np.int64)

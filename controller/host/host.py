@@ -1,0 +1,157 @@
+"""The host's part: a toolpath driven through the card, call by call, as a program on the machine's computer does it."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from controller.card.base import Logged
+from controller.card.codes import LIST_FULL, Code, CrdSts
+from controller.card.ge import GECard
+from controller.card.settings import CardSettings
+from controller.card.units import UM_S_PER_PULSE_MS
+from controller.host.entries import Drive, entries_of
+from controller.stepping.pulses import Pulses
+from parser.errors import ControllerError
+
+AXES = (1, 2)  # X and Y
+
+
+class Host:
+    """Drives one program through a card of its own.
+
+    Parameters
+    ----------
+    drive
+        What is driven.
+    settings
+        Of the card.
+    take
+        Told the pulses as they come, in program coordinates, with times from the start of motion and the rows of the
+        toolpath.
+    on_call
+        Told every call.
+    """
+
+    def __init__(
+        self,
+        drive: Drive,
+        settings: CardSettings,
+        take: Callable[[Pulses], None],
+        on_call: Callable[[Logged], None] | None = None,
+    ) -> None:
+        self.card = GECard(settings, on_pulses=self._pulses, on_call=on_call)
+        self._drive, self._take = drive, take
+        self._entries = entries_of(drive)
+        self._row_of = np.concatenate([[0], self._entries.row]).astype(np.int32)
+        words = drive.toolpath.words
+        columns = words.x_um, words.y_um, words.count_um, words.count_axis, words.quadrant, words.turn
+        self._blocks = [column[self._entries.row].tolist() for column in columns]
+        self._lengths = drive.limits.length_um[self._entries.row].tolist()
+        self._ends = self._entries.end_um.tolist()
+        self._centers = self._entries.center_um.tolist()
+        self._angles = self._entries.angle_deg.tolist()
+        self._end_s = drive.plan.time_at(np.cumsum(drive.limits.length_um)[self._entries.row])
+        self._pushed = 0
+        self._began_s: float | None = None
+
+    def run(self) -> None:
+        """Run the whole program. ControllerError where the card refuses a call that it should take."""
+        self._prepare()
+        push = self._push_words if self._drive.interpolation == "point-by-point" else self._push_geometry
+        entries = self._entries
+        speeds, accelerations = entries.speed_pulse_ms.tolist(), entries.acceleration_pulse_ms2.tolist()
+        ends, waits = entries.end_pulse_ms.tolist(), entries.wait_ms.tolist()
+        for entry, (speed, acceleration) in enumerate(zip(speeds, accelerations, strict=True)):
+            if entry and speed != speeds[entry - 1]:
+                self._must(self.card.GT_SetSynVel, speed)
+            if entry and acceleration != accelerations[entry - 1]:
+                self._must(self.card.GT_SetSynAcc, acceleration)
+            if ends[entry] >= 0.0:  # else NaN
+                self._must(self.card.GT_SetDccVel, ends[entry])
+            push(entry)
+            self._pushed += 1
+            if waits[entry]:
+                self._push(self.card.GT_Delay, waits[entry])
+        self._finish()
+
+    def _prepare(self) -> None:
+        """Open the card, and begin its list where the axes stand; that entry sets speed and acceleration."""
+        card, entries = self.card, self._entries
+        self._must(card.GT_Open)
+        self._must(card.GT_Reset)
+        for axis in AXES:
+            for call in (card.GT_ClrSts, card.GT_AxisOn, card.GT_ZeroPos):
+                self._must(call, axis)
+        start_speed = float(self._drive.limits.border_um_s[0]) / UM_S_PER_PULSE_MS
+        if start_speed > 0.0:
+            self._must(card.GT_SetStrtVel, start_speed)
+        self._must(card.GT_StrtList)
+        if len(entries.row):
+            motion = float(entries.speed_pulse_ms[0]), float(entries.acceleration_pulse_ms2[0])
+            self._must(card.GT_MvXY, 0.0, 0.0, *motion)
+
+    def _push_words(self, entry: int) -> None:
+        self._push(self.card.step_block, *(column[entry] for column in self._blocks), self._lengths[entry])
+
+    def _push_geometry(self, entry: int) -> None:
+        if self._angles[entry]:
+            self._push(self.card.GT_ArcXY, *self._centers[entry], self._angles[entry])
+        else:
+            self._push(self.card.GT_LnXY, *self._ends[entry])
+
+    def _push(self, call: Callable[..., int], *arguments: float) -> None:
+        """Make a call that needs room in the list, when there is room."""
+        while (code := call(*arguments)) == Code.COMMAND and self.card.GT_GetCmdSts()[1] == LIST_FULL:
+            self._make_room()
+        if code != Code.OK:
+            raise _refused(call, arguments, code)
+
+    def _must(self, call: Callable[..., int], *arguments: float) -> None:
+        code = call(*arguments)
+        if code != Code.OK:
+            raise _refused(call, arguments, code)
+
+    def _make_room(self) -> None:
+        """Let the card run until about half of its list is done."""
+        done = self._pushed - self.card.settings.capacity // 2
+        self._sleep_until(float(self._end_s[min(max(done, 0), self._pushed - 1)]))
+
+    def _sleep_until(self, t_s: float) -> None:
+        """Sleep until a time from the start of motion, 1 ms at least; starts the list where it does not run yet."""
+        if self._began_s is None:
+            self._start()
+        began = self._began_s or 0.0
+        self.card.sleep(max((began + t_s - self.card.time_s) * 1e3, 1.0))
+
+    def _start(self) -> None:
+        """Start the list with a servo period, so that what the card samples does not hang on the calls before."""
+        card = self.card
+        period_s, call_s = card.settings.servo_period_s, card.settings.call_s
+        begins_s = math.ceil((card.time_s + call_s) / period_s) * period_s
+        card.sleep(max(begins_s - call_s - card.time_s, 0.0) * 1e3)
+        self._must(card.GT_StrtMtn)
+        self._began_s = card.time_s
+
+    def _finish(self) -> None:
+        """Close the list, wait for its end, ask where the axes stand."""
+        card = self.card
+        self._must(card.GT_EndList)
+        self._sleep_until(self._drive.plan.duration_s)
+        while not card.GT_GetCrdSts()[1] & CrdSts.IDLE:
+            card.sleep(1.0)
+        for axis in AXES:
+            card.GT_GetAtlPos(axis)
+        self._must(card.GT_Close)
+
+    def _pulses(self, pulses: Pulses) -> None:
+        began = self._began_s or 0.0  # no pulse comes before the start
+        x0, y0 = self._drive.origin_um
+        t_s = np.maximum(pulses.t_s - began, 0.0)
+        self._take(Pulses(t_s, pulses.x_um + np.int32(x0), pulses.y_um + np.int32(y0), self._row_of[pulses.row]))
+
+
+def _refused(call: Any, arguments: tuple[float, ...], code: int) -> ControllerError:
+    asked = ", ".join(map(str, arguments))
+    return ControllerError(f"the card refused {call.__name__}({asked}) with {code} ({Code(code).name.lower()})")
