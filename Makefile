@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: demo test lint bench mutate fuzz golden pages lock clean
+.PHONY: demo test lint bench steps mutate fuzz golden pages lock clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
@@ -20,6 +20,10 @@ lint: $(READY)
 
 bench: $(READY)
 	$(BIN)/python tests/bench.py
+
+# Every step of random programs as a plain loop makes it.
+steps: $(READY)
+	PYTHONPATH=.:tests $(BIN)/python tests/long_steps.py --steps 100000000
 
 # How many faults of each kind are found: the table of docs/check.md.
 mutate: $(READY)

@@ -5,6 +5,7 @@ of one process on one core, the fastest of three; the ratio to the plain loop is
 """
 
 import argparse
+import importlib.util
 import math
 import random
 import resource
@@ -17,9 +18,15 @@ from pathlib import Path
 
 from plain import PlainBlock, counted_way, plain_steps
 
-from controller.card import Status, StepCard
-from controller.plan import Feeds, plan_runs
-from controller.point_by_point import interpolate
+from controller.card.settings import CardSettings
+from controller.host.entries import Drive, Interpolation
+from controller.host.host import Host
+from controller.motion.junctions import JunctionDeviation
+from controller.motion.limits import Feeds, MotionLimits, row_limits
+from controller.motion.planner import plan_rows
+from controller.stepping.interpolators import PointByPoint
+from controller.stepping.point_by_point import interpolate
+from controller.stepping.pulses import Pulses
 from parser.program import read_program
 from parser.words import line_words
 from sim.check.batch import Job, check_file
@@ -28,7 +35,8 @@ from sim.check.settings import CheckSettings
 KEYHOLE = Path(__file__).parent.parent / "scenarios" / "keyhole" / "program.3b"
 
 LENGTH_UM = 100.0
-FEEDS = Feeds(cut_um_s=43.75, jump_um_s=500.0, acceleration_um_s2=1e5)
+FEEDS = Feeds(cut_um_s=43.75, jump_um_s=500.0)
+LIMITS = MotionLimits(acceleration_um_s2=1e5, axis_acceleration_um_s2=(8e4, 9e4), junction=JunctionDeviation(0.01))
 
 
 def line(rng: random.Random) -> PlainBlock:
@@ -62,15 +70,40 @@ def whole(path: Path) -> tuple[float, float, float, int]:
     began = time.perf_counter()
     toolpath = read_program(path).toolpath
     read = time.perf_counter()
-    card = StepCard()
-    card.load(interpolate(toolpath), plan_runs(toolpath, FEEDS))
-    card.start()
+    plan = plan_rows(row_limits(toolpath, FEEDS, LIMITS))
+    stepping = PointByPoint(interpolate(toolpath), plan, 0.0, (0, 0))
     planned = time.perf_counter()
-    steps = 0
-    while card.status is Status.RUNNING:
-        steps += len(card.take().t_s)
+    steps = sum(len(pulses.t_s) for pulses in stepping.pulses(math.inf))
     done = time.perf_counter()
     return read - began, planned - read, done - planned, steps
+
+
+def driven(path: Path, interpolation: Interpolation) -> float:
+    """Seconds to drive the path through the emulated card, call by call, until its last pulse."""
+    toolpath = read_program(path).toolpath
+    limits = row_limits(toolpath, FEEDS, LIMITS)
+
+    def drop(pulses: Pulses) -> None:
+        """Nobody looks at them here."""
+
+    host = Host(Drive(toolpath, limits, plan_rows(limits), (0, 0), interpolation), CardSettings(), drop)
+    began = time.perf_counter()
+    host.run()
+    return time.perf_counter() - began
+
+
+def planner_lines(path: Path) -> list[str]:
+    """What the planner takes beside others, on machines that ruckig is made for."""
+    if importlib.util.find_spec("ruckig") is None:
+        return ["planner             no ruckig here to compare with"]
+    from bench_planner import compare
+
+    times = compare(row_limits(read_program(path).toolpath, FEEDS, LIMITS))
+    plain, other = times.plain_s / times.ours_s, times.ruckig_s / times.ours_jerk_s
+    return [
+        f"planner             {times.ours_s:.3f} s, a plain planner {plain:.0f} times as long",
+        f"planner, S-curves   {times.ours_jerk_s:.3f} s, ruckig row by row {other:.0f} times as long",
+    ]
 
 
 def checked(path: Path, times: int) -> float:
@@ -113,6 +146,8 @@ def main() -> None:
         blocks = write_path(path, n)
         read, planned, stepped, steps = min((whole(path) for _ in range(3)), key=lambda times: sum(times[:3]))
         check = checked(path, 1)
+        cards = [driven(path, "point-by-point"), driven(path, "card")]
+        planners = planner_lines(path)
     small = checked(KEYHOLE, 100)
     start, numpy = start_ratio(KEYHOLE)
     total = read + planned + stepped
@@ -126,6 +161,9 @@ def main() -> None:
     print(
         f"plain loop          {plain:.0f} ns per step (steps only), {plain / (stepped / steps * 1e9):.1f} times as long"
     )
+    for planned_line in planners:
+        print(planned_line)
+    print(f"through the card    {cards[0]:.2f} s point by point, {cards[1]:.2f} s at equal times")
     print(f"check               {check:.3f} s   {n / check:,.0f} blocks/s, every rule")
     print(f"check a small file  {small * 1e3:.1f} ms, {start * 1e3:.0f} ms with its start")
     print(f"start of a check    {start / numpy:.2f} times a Python that imports numpy")
