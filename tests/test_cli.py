@@ -255,3 +255,12 @@ def test_a_refused_run_leaves_no_card_log(tmp_path: Path) -> None:
     part.write_text("B0B0B1000000000000GXL1")
     assert run_command("run", part, "--card-log", tmp_path / "new" / "part.log").returncode == 2
     assert sorted(path.name for path in tmp_path.iterdir()) == ["part.3b"]
+
+
+def test_a_scenario_run_by_another_interpolator_is_not_held_to_its_figures() -> None:
+    keyhole = Path(__file__).parent.parent / "scenarios" / "keyhole"
+    done = run_command("run", keyhole, "--interpolator", "card")
+    assert done.returncode == 0
+    assert b"drycut: [expect] is not looked at" in done.stderr
+    own = run_command("run", keyhole, "--interpolator", "point-by-point", "--json")
+    assert (own.returncode, b"[expect]" in own.stderr) == (0, False)
