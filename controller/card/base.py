@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from controller.card.call import CType, read_arguments
+from controller.card.call import Function, read_arguments
 from controller.card.codes import Code, Refused
 from controller.card.engine.engine import Engine
 from controller.card.settings import CardSettings
@@ -94,28 +94,15 @@ class CardBase:
         for engine in self._engines:
             engine.advance(self._now_s)
 
-    def _called(
-        self,
-        body: Callable[..., Any],
-        given: tuple[Any, ...],
-        types: list[CType | None],
-        zeros: tuple[Any, ...],
-        when_closed: bool,
-    ) -> Any:
+    def _called(self, function: Function, given: tuple[Any, ...]) -> Any:
         began = self._now_s
         self._pass(self.settings.call_s)
-        answer = self._answer(body, given, types, zeros, when_closed)
-        self._log(began, body.__name__, given, answer)
+        answer = self._answer(function, given)
+        self._log(began, function.body.__name__, given, answer)
         return answer
 
-    def _answer(
-        self,
-        body: Callable[..., Any],
-        given: tuple[Any, ...],
-        types: list[CType | None],
-        zeros: tuple[Any, ...],
-        when_closed: bool,
-    ) -> Any:
+    def _answer(self, function: Function, given: tuple[Any, ...]) -> Any:
+        body, types, zeros, when_closed, _ = function
         if not (self._state.opened or when_closed):
             return (int(Code.CLOSED), *zeros) if zeros else int(Code.CLOSED)
         try:

@@ -43,6 +43,23 @@ ULong = Annotated[int, CType("unsigned long", 0, 0xFFFF_FFFF)]
 Double = Annotated[float, CType("double")]
 
 
+ADDRESSED = ("axis", "Axis", "AxisNum")
+"""Names of a first parameter that is the number of an axis."""
+
+
+class Function(NamedTuple):
+    """A function of the card: its body, the C types of its parameters, and what `gt` was told.
+
+    `of_axis` tells whether it is addressed to an axis by number.
+    """
+
+    body: Callable[..., Any]
+    types: list[CType | None]
+    zeros: tuple[Any, ...]
+    when_closed: bool
+    of_axis: bool
+
+
 def gt(*, zeros: tuple[Any, ...] = (), when_closed: bool = False) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Decorator of a function of the card.
 
@@ -58,11 +75,13 @@ def gt(*, zeros: tuple[Any, ...] = (), when_closed: bool = False) -> Callable[[C
         hints = get_type_hints(body, include_extras=True)
         parameters = [p for p in signature(body).parameters.values() if p.name != "self"]
         types = [_c_type(hints[p.name]) for p in parameters]
+        of_axis = bool(parameters) and parameters[0].name in ADDRESSED
+        function = Function(body, types, zeros, when_closed, of_axis)
 
         @functools.wraps(body)
         def call(self: Any, *args: Any, **named: Any) -> Any:
             given = _bound(parameters, args, named) if named or len(args) != len(parameters) else args
-            return self._called(body, given, types, zeros, when_closed)
+            return self._called(function, given)
 
         return call
 

@@ -1,29 +1,20 @@
 """Functions of single axes: drives, limits, captures, positions, errors, encoders."""
 
-from collections.abc import Callable
 from typing import Any
 
 from controller.card.base import CardBase
-from controller.card.call import CType, Double, UShort, gt
-from controller.card.calls.recording import ADDRESSED
+from controller.card.call import Double, Function, UShort, gt
 from controller.card.codes import AxisSts, Code, Refused
 
 
 class AxisCalls(CardBase):
     """Drives, limits and captures of an axis."""
 
-    def _answer(
-        self,
-        body: Callable[..., Any],
-        given: tuple[Any, ...],
-        types: list[CType | None],
-        zeros: tuple[Any, ...],
-        when_closed: bool,
-    ) -> Any:
+    def _answer(self, function: Function, given: tuple[Any, ...]) -> Any:
         """The answer; a refusal by an axis that the call is addressed to is latched there as a host error."""
-        answer = super()._answer(body, given, types, zeros, when_closed)
-        code = answer[0] if zeros else answer
-        if code in (Code.COMMAND, Code.PARAMETER) and given and body.__code__.co_varnames[1] in ADDRESSED:
+        answer = super()._answer(function, given)
+        code = answer[0] if function.zeros else answer
+        if code in (Code.COMMAND, Code.PARAMETER) and function.of_axis and given:
             for axis in self._state.axes[: self.settings.axes]:
                 if axis.number == given[0]:
                     axis.latched |= AxisSts.HOST_ERROR

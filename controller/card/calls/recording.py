@@ -5,10 +5,7 @@ from collections.abc import Callable
 from inspect import signature
 from typing import Any
 
-from controller.card.call import gt
-
-ADDRESSED = ("axis", "Axis", "AxisNum")
-"""Names of a first parameter that is the number of an axis."""
+from controller.card.call import ADDRESSED, gt
 
 
 def record(body: Callable[..., None]) -> Callable[..., Any]:
