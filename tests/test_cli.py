@@ -257,10 +257,15 @@ def test_a_refused_run_leaves_no_card_log(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["part.3b"]
 
 
-def test_a_scenario_run_by_another_interpolator_is_not_held_to_its_figures() -> None:
-    keyhole = Path(__file__).parent.parent / "scenarios" / "keyhole"
-    done = run_command("run", keyhole, "--interpolator", "card")
+def test_a_scenario_run_by_another_interpolator_is_held_to_all_but_its_steps(tmp_path: Path) -> None:
+    expected = '"summary.steps" = 7\n"contours.0.closure_stepped_um" = 7.0\n"summary.blocks" = 3\n'
+    (tmp_path / "program.3b").write_text("B500B0B500GXL1 B500B0B2000GYNR1 B500B0B500GXL3 DD")
+    (tmp_path / "scenario.toml").write_text(f"[expect]\n{expected}", "utf-8")
+    done = run_command("run", tmp_path, "--interpolator", "card")
     assert done.returncode == 0
-    assert b"drycut: [expect] is not looked at" in done.stderr
-    own = run_command("run", keyhole, "--interpolator", "point-by-point", "--json")
-    assert (own.returncode, b"[expect]" in own.stderr) == (0, False)
+    assert b"another interpolator steps: summary.steps, contours.0.closure_stepped_um" in done.stderr
+    (tmp_path / "scenario.toml").write_text('[expect]\n"summary.blocks" = 4\n', "utf-8")
+    assert run_command("run", tmp_path, "--interpolator", "card").returncode == 1
+    (tmp_path / "scenario.toml").write_text(f"[expect]\n{expected}", "utf-8")
+    own = run_command("run", tmp_path, "--interpolator", "point-by-point")
+    assert (own.returncode, b"[expect]" in own.stderr) == (1, False)

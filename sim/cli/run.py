@@ -120,12 +120,16 @@ def _overridden(
 
 
 def _stepping_by(scenario: "Scenario", interpolator: str) -> "Scenario":
-    """Scenario with another interpolator; what it expects of the steps of its own is not held against those of it."""
+    """Scenario with another interpolator; counts and ends of steps that it expects of its own are not held to."""
+    from sim.expect import not_of_steps
+
     if interpolator == scenario.machine.controller.interpolation:
         return scenario
-    if scenario.expect:
-        click.echo("drycut: [expect] is not looked at: the scenario is written for another interpolator", err=True)
-    return replace(scenario, machine=scenario.machine.stepping_by(interpolator), expect=())  # type: ignore[arg-type]
+    kept = not_of_steps(scenario.expect)
+    left_out = ", ".join(e.path for e in scenario.expect if e not in kept)
+    if left_out:
+        click.echo(f"drycut: [expect]: not held, since another interpolator steps: {left_out}", err=True)
+    return replace(scenario, machine=scenario.machine.stepping_by(interpolator), expect=kept)  # type: ignore[arg-type]
 
 
 def _run(program: "Program", scenario: "Scenario", output: Path | None, card_log: Path | None) -> "DryRun":
