@@ -10,43 +10,20 @@ from parser.errors import SettingsError
 from parser.units import from_mm
 from sim.controller_model import ControllerModel, read_controller
 from sim.settings import Bound, load_toml, numbers, refuse_unknown, section, text
+from sim.surroundings import Outline, read_arm
+from sim.table_model import TableModel, read_table
 
-_TABLE = {
-    "travel_x_mm": Bound(1.0, 10_000.0),
-    "travel_y_mm": Bound(1.0, 10_000.0),
-    "saddle_mass_kg": Bound(0.01, 100_000.0),
-    "carriage_mass_kg": Bound(0.01, 100_000.0),
-    "drive_stiffness_n_um": Bound(1e-3, 1e5),
-    "drive_damping_ratio": Bound(0.01, 10.0),
-    "drive_force_limit_n": Bound(0.1, 1e6),
-}
 _CUTTING = {"area_rate_mm2_min": Bound(0.1, 1e4)}
 
 
-class TableModel(NamedTuple):
-    """Moving masses and drives; mm, kg, N as named. The X drive moves saddle and carriage, the Y drive the carriage."""
-
-    travel_x_mm: float
-    travel_y_mm: float
-    saddle_mass_kg: float
-    carriage_mass_kg: float
-    drive_stiffness_n_um: float
-    drive_damping_ratio: float
-    drive_force_limit_n: float
-
-    @property
-    def moved_kg(self) -> tuple[float, float]:
-        """Mass that the X and the Y drive have to move."""
-        return self.saddle_mass_kg + self.carriage_mass_kg, self.carriage_mass_kg
-
-
 class Machine(NamedTuple):
-    """One machine as its file gives it; units as named."""
+    """One machine as its file gives it; units as named. `arm_um` is the outline of the arm round the wire, if known."""
 
     name: str
     table: TableModel
     controller: ControllerModel
     area_rate_mm2_min: float
+    arm_um: Outline | None = None
 
     def stepping_by(self, interpolation: Interpolation) -> "Machine":
         """The machine with another interpolator."""
@@ -78,11 +55,12 @@ def load_machine(name: str, beside: Path | None = None) -> Machine:
 
 def _read(path: Path) -> Machine:
     content, where = load_toml(path), str(path)
-    refuse_unknown(content, ("name", "table", "controller", "cutting"), where)
-    parts = {key: section(content, key, where) for key in ("table", "controller", "cutting")}
+    refuse_unknown(content, ("name", "table", "motor", "controller", "cutting", "arm"), where)
+    parts = {key: section(content, key, where) for key in ("table", "motor", "controller", "cutting")}
     return Machine(
         name=text(content, "name", where),
-        table=TableModel(**numbers(parts["table"], _TABLE, f"{where}: [table]")),
+        table=read_table(parts["table"], parts["motor"], where),
         controller=read_controller(parts["controller"], f"{where}: [controller]"),
         **numbers(parts["cutting"], _CUTTING, f"{where}: [cutting]"),
+        arm_um=read_arm(content, where),
     )
