@@ -4,19 +4,27 @@ from collections.abc import Callable
 from typing import NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from controller.card.log import CardLog
 from controller.card.settings import CardSettings
 from controller.host.entries import Drive
 from controller.host.host import Host
+from controller.motion.limits import Feeds, row_limits
+from controller.motion.planner import plan_rows
 from controller.stepping.pulses import Pulses
-from parser.toolpath import Floats
-from sim.table import Table
-from sim.ticks import Ticks
+from parser.toolpath import Toolpath
+from sim.check.travel import extents
+from sim.machine import Machine
+from sim.table.follow import Following, Setup
+from sim.table.lanes import NEAR_STOP_UM
+from sim.table.losses import Loss
+from sim.table.peaks import Peak
+from sim.table.rhythm import rhythm
+from sim.table.slow_step import NO_PLAY
+from sim.table.ticks import Ticks, choose_ticks
+from sim.table.trial import slow_step
 from sim.trace import Trace
-
-_TABLE_SLICE = 20_000  # ticks between two words to the progress
-_GRACE_S = 1e-9  # a pulse due at the end of a tick is out, whichever way its time was rounded
 
 
 class Progress(Protocol):
@@ -27,74 +35,75 @@ class Progress(Protocol):
 
 
 class Motion(NamedTuple):
-    """What is to be run, on which card, and the ticks to follow it by."""
+    """What is to be run, by which card, and on which table, with the ticks to follow it by."""
 
     drive: Drive
     card: CardSettings
+    table: Setup
     ticks: Ticks
 
 
-def run_card(
+class Moved(NamedTuple):
+    """What the table made of a motion: where it was, what its drives lost, and how near they came to their limits."""
+
+    trace: Trace
+    losses: tuple[Loss, ...]
+    peaks: tuple[Peak, ...]
+
+
+def motion_of(
+    toolpath: Toolpath,
+    feeds: Feeds,
+    machine: Machine,
+    start_um: tuple[float, float],
+    spacing_um: float,
+) -> Motion:
+    """Motion of a toolpath on a machine, planned at these feeds; the trace has a sample every `spacing_um` of path."""
+    controller = machine.controller
+    limits = row_limits(toolpath, feeds, controller.limits)
+    plan = plan_rows(limits, jerk_um_s3=controller.limits.jerk_um_s3)
+    drive = Drive(toolpath, limits, plan, origin_um(toolpath), controller.interpolation)
+    beats = rhythm(machine.table)
+    slow = slow_step(machine.table, beats)
+    x, y = controller.limits.axis_speed_um_s
+    table = Setup(machine.table, start_um, origin_um(toolpath), slow or NO_PLAY, speed_limit_um_s=(x, y))
+    every_step = _near_stop(toolpath, table) | (slow is None)
+    ticks = choose_ticks(toolpath, plan, beats, spacing_um, every_step)
+    return Motion(drive, controller.card_settings, table, ticks)
+
+
+def _near_stop(toolpath: Toolpath, table: Setup) -> NDArray[np.bool_]:
+    """Blocks (n,) that come near a stop of the travel, or would go beyond it."""
+    (low, high), room = extents(toolpath), table.room_um
+    near: NDArray[np.bool_] = ((low < room[0] + NEAR_STOP_UM) | (high > room[1] - NEAR_STOP_UM)).any(axis=1)
+    return near
+
+
+def origin_um(toolpath: Toolpath) -> tuple[int, int]:
+    """Start of the program in whole µm, where the steps begin."""
+    x, y = np.rint(toolpath.start_um[0]).astype(int).tolist()
+    return x, y
+
+
+def simulate(
     motion: Motion,
     take: Callable[[Pulses], None],
     progress: Progress,
     log: CardLog | None = None,
-) -> Floats:
-    """Run the program on the card: positions (n, 2) µm commanded at the end of each of the n ticks.
-
-    Every pulse goes to `take`, every call to `log`; pulses and positions are in program coordinates.
-    """
-    commands = _Commands(motion)
+) -> Moved:
+    """Run the motion on card and table. Every pulse goes to `take`, every call to `log`, in program coordinates."""
+    table = Following(motion.table, motion.ticks)
     total = int(motion.drive.plan.duration_s)
 
     def taken(pulses: Pulses) -> None:
         take(pulses)
-        commands.take(pulses)
+        table.take(pulses)
         if log is not None:
             log.count(pulses)
-        progress("running the card", min(int(pulses.t_s[-1]), total), total)
+        progress("running card and table", min(int(pulses.t_s[-1]), total), total)
 
     host = Host(motion.drive, motion.card, taken, log)
     host.run()
     if log is not None:
         log.close(host.card)
-    return commands.result()
-
-
-class _Commands:
-    """Positions commanded at the end of each tick, as the pulses stream in."""
-
-    def __init__(self, motion: Motion) -> None:
-        self._t_s = motion.ticks.t_s
-        self._command = np.empty((len(self._t_s), 2))
-        self._done = 0
-        self._at = np.array(motion.drive.origin_um, dtype=np.float64)
-
-    def take(self, pulses: Pulses) -> None:
-        place = np.empty((len(pulses.t_s) + 1, 2))
-        place[0], place[1:, 0], place[1:, 1] = self._at, pulses.x_um, pulses.y_um
-        until = int(np.searchsorted(self._t_s, pulses.t_s[-1] - _GRACE_S))
-        ends = self._t_s[self._done : until] + _GRACE_S
-        self._command[self._done : until] = place[np.searchsorted(pulses.t_s, ends, side="right")]
-        self._done, self._at = max(until, self._done), place[-1]
-
-    def result(self) -> Floats:
-        self._command[self._done :] = self._at
-        return self._command
-
-
-def run_table(motion: Motion, command_um: Floats, table: Table, progress: Progress) -> Trace:
-    """Trace of the table following the commands, a sample a tick and one at the start."""
-    start = np.array(motion.drive.origin_um, dtype=np.float64)
-    actual = np.empty_like(command_um)
-    dt = np.diff(motion.ticks.t_s, prepend=0.0)
-    for low in range(0, len(dt), _TABLE_SLICE):
-        part = slice(low, low + _TABLE_SLICE)
-        actual[part] = list(table.follow(dt[part], command_um[part] - start))
-        progress("moving the table", min(low + _TABLE_SLICE, len(dt)), len(dt))
-    return Trace(
-        t_s=np.concatenate([[0.0], motion.ticks.t_s]),
-        commanded_um=np.concatenate([start[None, :], command_um]),
-        actual_um=np.concatenate([start[None, :], actual + start]),
-        row=np.concatenate([motion.ticks.row[:1], motion.ticks.row]),
-    )
+    return Moved(*table.finish())

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from parser.toolpath import Floats, Ints
 
 
@@ -15,16 +17,26 @@ class Trace:
         (n,) float64, strictly rising, from 0.
     commanded_um
         (n, 2) float64, sum of the pulses handed out by then.
-    actual_um
-        (n, 2) float64, where the wire really was.
+    table_um
+        (n, 2) float64, where the table stood.
+    wire_um
+        (n, 2) float64, where the wire really cut: the same array, unless the wire bows back.
     row
         (n,) int64, row of the toolpath that was running (block number less one).
     """
 
     t_s: Floats
     commanded_um: Floats
-    actual_um: Floats
+    table_um: Floats
+    wire_um: Floats
     row: Ints
+
+    def until(self, t_s: float) -> "Trace":
+        """The samples up to a time."""
+        count = int(np.searchsorted(self.t_s, t_s, side="right"))
+        return Trace(
+            self.t_s[:count], self.commanded_um[:count], self.table_um[:count], self.wire_um[:count], self.row[:count]
+        )
 
     def __len__(self) -> int:
         return len(self.t_s)

@@ -1,33 +1,63 @@
-"""What people write and read, and what the engine counts in: lengths with units, durations, forces."""
+"""What people write and read, and what the engine counts in: lengths and speeds with units, durations, forces."""
 
 import re
+from collections.abc import Mapping
 from fractions import Fraction
+from typing import TypeVar
 
 from parser.errors import SettingsError
+from parser.toolpath import Floats
 
 ENGINE_FORCE_PER_N = 1e6
 """1 N is 10⁶ kg µm/s², the engine's unit of force where its lengths are µm."""
 
+_Number = TypeVar("_Number", float, Floats)
+
 _LENGTHS_UM = {"um": 1, "µm": 1, "μm": 1, "mm": 1000, "cm": 10_000, "m": 1_000_000, "in": 25_400}
-_LENGTH = re.compile(r"\s*([-+]?\d{1,12}(?:\.\d{0,12})?|[-+]?\.\d{1,12})\s*([a-zµμ]+)\s*", re.ASCII)
+_SPEEDS_UM_S = {
+    f"{length}/{time}": Fraction(um, seconds)
+    for length, um in _LENGTHS_UM.items()
+    for time, seconds in (("s", 1), ("min", 60))
+}
+_QUANTITY = re.compile(r"\s*([-+]?\d{1,12}(?:\.\d{0,12})?|[-+]?\.\d{1,12})\s*([a-zµμ]+(?:/[a-z]+)?)\s*", re.ASCII)
 
 
 def parse_length(text: str) -> float:
     """Length such as ``40mm`` or ``0.18 mm`` in µm. SettingsError where it is no number with a unit of length."""
-    match = _LENGTH.fullmatch(text)
-    if not match or match[2] not in _LENGTHS_UM:
-        raise SettingsError(f"{text!r} is no length; write a number with its unit, such as 40mm, 180um or 0.18mm")
-    return float(Fraction(match[1]) * _LENGTHS_UM[match[2]])
+    return _parsed(text, _LENGTHS_UM, "length", "40mm, 180um or 0.18mm")
 
 
-def engine_force(force_n: float) -> float:
+def parse_speed(text: str) -> float:
+    """Speed such as ``500mm/min`` or ``2 mm/s`` in µm/s. SettingsError where it is no number with a unit of speed."""
+    return _parsed(text, _SPEEDS_UM_S, "speed", "500mm/min, 2mm/s or 180um/s")
+
+
+def _parsed(text: str, units: Mapping[str, int | Fraction], what: str, such_as: str) -> float:
+    """The exact number in the unit that `units` are counted in, rounded once."""
+    match = _QUANTITY.fullmatch(text)
+    if not match or match[2] not in units:
+        raise SettingsError(f"{text!r} is no {what}; write a number with its unit, such as {such_as}")
+    return float(Fraction(match[1]) * units[match[2]])
+
+
+def engine_force(force_n: _Number) -> _Number:
     """N to the engine's unit of force."""
     return force_n * ENGINE_FORCE_PER_N
 
 
-def engine_stiffness(stiffness_n_um: float) -> float:
+def engine_stiffness(stiffness_n_um: _Number) -> _Number:
     """N/µm to the engine's force per length."""
     return stiffness_n_um * ENGINE_FORCE_PER_N
+
+
+def engine_viscosity(viscous_n_s_mm: _Number) -> _Number:
+    """N s/mm to the engine's force per velocity."""
+    return viscous_n_s_mm * (ENGINE_FORCE_PER_N / 1000.0)
+
+
+def newtons(force: _Number) -> _Number:
+    """The engine's unit of force to N."""
+    return force / ENGINE_FORCE_PER_N
 
 
 def clock(seconds: float) -> str:

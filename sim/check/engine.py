@@ -23,7 +23,7 @@ from sim.check.travel import travel_findings
 from sim.contours import Contour, find_contours
 
 if TYPE_CHECKING:  # most checks know no machine
-    from sim.machine import TableModel
+    from sim.table_model import TableModel
 
 MAX_STEPS = 300_000_000
 """Steps that one run takes: 240 m of path, two months of cutting; a word damaged to nine digits asks for more."""

@@ -12,7 +12,7 @@ from parser.toolpath import Axis, Floats, Toolpath
 from parser.units import from_mm
 
 if TYPE_CHECKING:
-    from sim.machine import TableModel
+    from sim.table_model import TableModel
 
 
 def travel_findings(
