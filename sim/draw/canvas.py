@@ -4,6 +4,8 @@ It draws three times as large and takes the mean of 3 × 3 pixels, which smooths
 """
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from itertools import pairwise
 from typing import Final
 
@@ -84,6 +86,18 @@ class Canvas:
         back = tip - size * direction
         corners = np.array([tip, back + 0.36 * size * side, tip - 0.75 * size * direction, back - 0.36 * size * side])
         pygame.draw.polygon(self._surface, colour, np.rint(corners * SUPERSAMPLE).tolist())
+
+    def polygon(self, corners: Floats, colour: Colour) -> None:
+        """Fill a polygon of `corners`, (n, 2) with n ≥ 3."""
+        pygame.draw.polygon(self._surface, colour, np.rint(corners * SUPERSAMPLE).tolist())
+
+    @contextmanager
+    def clipped(self, box: Box) -> Iterator[None]:
+        """Draw nothing outside a rectangle for as long as the context lasts."""
+        left, top, right, bottom = (round(side * SUPERSAMPLE) for side in box)
+        self._surface.set_clip((left, top, right - left, bottom - top))
+        yield
+        self._surface.set_clip(None)
 
     def box(self, box: Box, fill: Colour, edge: Colour, width: float) -> None:
         """Fill a rectangle and stroke its border inwards."""

@@ -34,12 +34,16 @@ def draw_header(canvas: Canvas, page: Page, title: str, note: str) -> None:
         canvas.text((left, share * style.HEAD * page.unit), line, size * page.unit, colour)
 
 
+def draw_frame(canvas: Canvas, page: Page) -> None:
+    """Draw the empty plot with its frame."""
+    canvas.box(page.plot, style.WHITE, style.FRAME, style.GRID_WIDTH * page.unit)
+
+
 def draw_axes(canvas: Canvas, page: Page) -> list[Box]:
-    """Draw frame, grid and labels in mm; give the boxes that the names of the axes take inside the frame."""
+    """Draw grid and labels in mm; give the boxes that the names of the axes take inside the frame."""
     plot, unit = page.plot, page.unit
     step = nice_below(style.TICK_SPACING * unit / page.view.px_per_um * 1.5)
     low, high = page.view.range_um(plot)
-    canvas.box(plot, style.WHITE, style.FRAME, style.GRID_WIDTH * unit)
     for axis in (0, 1):
         for tick in ticks(float(low[axis]), float(high[axis]), step):
             _draw_tick(canvas, page, axis, float(tick), step)

@@ -11,6 +11,7 @@ from sim.draw import style
 from sim.draw.canvas import Canvas
 from sim.draw.layout import Box, Page, box_around, mm_text, nice_below
 from sim.draw.marks import draw_end, draw_number, draw_start, number_size
+from sim.draw.outlines import Shown, draw_clamp, draw_work, swatch
 
 ROWS: Final = 3
 
@@ -28,6 +29,8 @@ class Legend(NamedTuple):
         Whether there are jumps.
     numbers
         What the block numbers are.
+    shown
+        Which bodies show.
     """
 
     kerf_um: float
@@ -35,6 +38,7 @@ class Legend(NamedTuple):
     ran: bool
     jumps: bool
     numbers: str
+    shown: Shown
 
 
 class _Entry(NamedTuple):
@@ -99,7 +103,22 @@ def _numbers(canvas: Canvas, page: Page, legend: Legend) -> list[_Entry]:
             legend.numbers,
         ),
         _Entry(_scale_bar(canvas, unit), bar_um * page.view.px_per_um, mm_text(bar_um, bar_um) + " mm"),
+        *_bodies(canvas, unit, legend.shown),
     ]
+
+
+def _bodies(canvas: Canvas, unit: float, shown: Shown) -> list[_Entry]:
+    """One entry for work and clamps, each with its half of the sample where there are both."""
+    draws = [draw for draw, is_there in ((draw_work, shown.work), (draw_clamp, shown.clamps)) if is_there]
+    names = [name for name, is_there in (("workpiece", shown.work), ("clamp", shown.clamps)) if is_there]
+
+    def draw(box: Box) -> None:
+        width = (box.right - box.left) / len(draws)
+        for at, one in enumerate(draws):
+            part = box._replace(left=box.left + at * width, right=box.left + (at + 1) * width)
+            one(canvas, swatch(part, 0.6 * style.LEGEND_ROW * unit), unit)
+
+    return [_Entry(draw, style.SAMPLE * unit, ", ".join(names))] if draws else []
 
 
 def _middle(box: Box) -> Floats:

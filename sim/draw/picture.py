@@ -9,16 +9,19 @@ from parser.toolpath import Floats, Ints, Toolpath
 from sim.draw import style
 from sim.draw.canvas import Canvas
 from sim.draw.flatten import bounds_um, cut_runs, flatten
-from sim.draw.furniture import draw_axes, draw_header
+from sim.draw.furniture import draw_axes, draw_frame, draw_header
 from sim.draw.labels import Ink, Room
 from sim.draw.layout import View, page_for
 from sim.draw.legend import Legend, draw_legend
 from sim.draw.marks import draw_marks
+from sim.draw.outlines import Bodies, draw_bodies
 from sim.draw.simplify import simplify
 from sim.trace import Trace
 
 CHORD_PX: Final = 0.15
 """How far a drawn line may leave the true one."""
+
+NOTHING: Final = Bodies()
 
 
 class _Lines(NamedTuple):
@@ -30,7 +33,14 @@ class _Lines(NamedTuple):
 
 
 def draw_cut(  # noqa: PLR0913 - all but the first two are named
-    toolpath: Toolpath, trace: Trace | None, *, kerf_um: float, title: str, note: str = "", width_px: int = 1600
+    toolpath: Toolpath,
+    trace: Trace | None,
+    *,
+    kerf_um: float,
+    title: str,
+    note: str = "",
+    bodies: Bodies = NOTHING,
+    width_px: int = 1600,
 ) -> Image.Image:
     """Draw the path of a cut.
 
@@ -44,6 +54,8 @@ def draw_cut(  # noqa: PLR0913 - all but the first two are named
         Full width of the kerf, twice the sum of wire radius and spark gap; not negative.
     title, note
         Lines at the top; the middle of a line that is too long is left out.
+    bodies
+        The workpiece and the clamps; those near the path show.
     width_px
         Width of the picture, 600 or more; its height follows from the part, from half the width to the whole.
 
@@ -60,16 +72,18 @@ def draw_cut(  # noqa: PLR0913 - all but the first two are named
         raise ValueError("a picture of a cut needs at least one block, the toolpath has 0")
     if not kerf_um >= 0:
         raise ValueError(f"kerf width is 0 µm or more, not {kerf_um}")
-    page = page_for(_bounds_um(toolpath, trace, kerf_um), width_px)
+    page = page_for(bodies.around(_bounds_um(toolpath, trace, kerf_um)), width_px)
     lines = _lines(toolpath, trace, page.view)
     kerf_px = max(kerf_um * page.view.px_per_um, style.KERF_WIDTH_MIN * page.unit)
     canvas = Canvas(page.width_px, page.height_px)
     draw_header(canvas, page, title, note)
+    draw_frame(canvas, page)
+    shown = draw_bodies(canvas, page, bodies)
     names = draw_axes(canvas, page)
     _draw_lines(canvas, page.unit, lines, kerf_px)
     ink = Ink([*lines.ideal, *lines.jumps], page.width_px, page.height_px)
     numbers = draw_marks(canvas, page, toolpath, Room(page.plot, ink, names), kerf_px)
-    draw_legend(canvas, page, Legend(kerf_um, kerf_px, trace is not None, bool(lines.jumps), numbers))
+    draw_legend(canvas, page, Legend(kerf_um, kerf_px, trace is not None, bool(lines.jumps), numbers, shown))
     return canvas.image()
 
 
@@ -77,7 +91,7 @@ def _bounds_um(toolpath: Toolpath, trace: Trace | None, kerf_um: float) -> Float
     """Box around all that is drawn, (2, 2), at least three kerfs and 0.1 mm wide."""
     box = bounds_um(toolpath)
     if trace is not None:
-        low, high = trace.actual_um.min(axis=0), trace.actual_um.max(axis=0)
+        low, high = trace.wire_um.min(axis=0), trace.wire_um.max(axis=0)
         box = np.stack([np.minimum(box[0], low), np.maximum(box[1], high)])
     missing = max(3 * kerf_um, 100.0) - float((box[1] - box[0]).max())
     grow = kerf_um / 2 + max(missing / 2, 0.0)
@@ -88,7 +102,7 @@ def _bounds_um(toolpath: Toolpath, trace: Trace | None, kerf_um: float) -> Float
 def _lines(toolpath: Toolpath, trace: Trace | None, view: View) -> _Lines:
     points_um, row = flatten(toolpath, CHORD_PX / view.px_per_um)
     ideal = _runs_px(points_um, row, toolpath, view)
-    kerf = ideal if trace is None else _runs_px(trace.actual_um, trace.row, toolpath, view)
+    kerf = ideal if trace is None else _runs_px(trace.wire_um, trace.row, toolpath, view)
     jumps = np.stack([toolpath.start_um, toolpath.end_um], axis=1)[toolpath.is_jump]
     return _Lines(kerf, ideal, list(view.to_px(jumps)))
 

@@ -21,6 +21,10 @@ IDEAL: Final[Colour] = INK
 JUMP: Final[Colour] = (213, 94, 0)
 START: Final[Colour] = (0, 138, 101)
 END: Final[Colour] = (158, 50, 120)
+WORK: Final[Colour] = (248, 243, 230)
+WORK_EDGE: Final[Colour] = (176, 158, 116)
+CLAMP: Final[Colour] = (226, 226, 226)
+CLAMP_EDGE: Final[Colour] = (130, 130, 130)
 
 BASE_WIDTH: Final = 1600
 LEAST_WIDTH: Final = 600
@@ -42,6 +46,11 @@ LEGEND_ROW: Final = 37.0
 SAMPLE: Final = 64.0  # width of a legend's sample
 LEGEND_GAP: Final = 14.0
 PAD: Final = 56.0  # free border inside the frame, room for block numbers
+
+BODIES_NEAR: Final = 0.15  # bodies show as far from the path as this share of its longer side
+BODY_EDGE: Final = 2.0
+HATCH: Final = 12.0  # from line to line
+HATCH_WIDTH: Final = 1.0
 
 TICK_SPACING: Final = 120.0
 SCALE_BAR: Final = 260.0  # the longest
