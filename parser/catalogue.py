@@ -85,8 +85,14 @@ def length(um: float) -> str:
     return f"{um:.2f} µm" if abs(um) < UM_PER_MM else f"{mm(um):.3f} mm"
 
 
+def instant(t_s: float) -> str:
+    """A time into a run for people: ``3:12:04.25``, hours, minutes and seconds."""
+    minutes, hundredths = divmod(round(t_s * 100.0), 6000)
+    return f"{minutes // 60}:{minutes % 60:02}:{hundredths / 100.0:05.2f}"
+
+
 class _Filler(string.Formatter):
-    """Fills templates; besides Python's own formats it knows ``um``, ``mm``, ``term`` and ``aside``.
+    """Fills templates; besides Python's own formats it knows ``um``, ``mm``, ``instant``, ``term`` and ``aside``.
 
     ``aside`` is a text in parentheses, and nothing where there is none.
     """
@@ -99,6 +105,8 @@ class _Filler(string.Formatter):
             return length(float(value))
         if format_spec == "mm":
             return f"{round(mm(float(value)), 3) + 0.0:.3f}"
+        if format_spec == "instant":
+            return instant(float(value))
         if format_spec == "term":
             return term(str(value), self._language)
         if format_spec == "aside":

@@ -11,8 +11,9 @@ from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.machine import load_machine
 
-WITHOUT_EXAMPLE = {"3B100", "3B303", "3B490"}
-"""No program; no arc known that misses so far on the right axis; a scenario's expectations."""
+OF_A_RUN = {"3B402", "3B403", "3B404", "3B405", "3B490"}
+WITHOUT_EXAMPLE = {"3B100", "3B303"} | OF_A_RUN
+"""No program; no arc known that misses so far on the right axis; what a check cannot see."""
 EXAMPLES = {code: shown for code in sorted(SEVERITIES) if (shown := example(code))}
 ALSO = {
     "3B304": {"3B301"},  # the contour that it is a suspect of

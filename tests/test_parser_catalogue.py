@@ -8,13 +8,13 @@ from typing import get_args
 
 import pytest
 
-from parser.catalogue import LANGUAGES, Language, Page, Texts, example, page, texts
+from parser.catalogue import LANGUAGES, Language, Page, Texts, example, instant, page, texts
 from parser.findings import SEVERITIES, Finding, Value
 
 PAGES = resources.files("parser") / "pages"
 TEMPLATES = ("found", "expected", "machine", "hint")
 LINE = 110
-NO_EXAMPLE = {"3B100", "3B303", "3B490"}
+NO_EXAMPLE = {"3B100", "3B303", "3B402", "3B403", "3B404", "3B405", "3B490"}
 
 VALUES: dict[str, dict[str, Value]] = {
     "3B100": {"what": "unreadable-file", "detail": "Permission denied"},
@@ -52,6 +52,10 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B310": {"length": 30000.0},
     "3B311": {"first": 1, "last": 7, "gap": 1414.2},
     "3B401": {"x_mm": 400.0, "y_mm": 500.0, "axis": "X", "by": 10000.0},
+    "3B402": {"axis": "X", "lost": 18.0, "last": 12, "t_s": 11524.25, "x_mm": 12.5, "y_mm": -0.0001},
+    "3B403": {"axis": "Y", "lag": 100.2, "limit": 100.0, "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B404": {"body": "arm", "name": "left clamp", "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B405": {"t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B490": {"path": "summary.steps", "found": "99000", "wanted": "at most 5"},
 }
 
@@ -147,6 +151,27 @@ def test_lengths_terms_and_asides() -> None:
     assert texts(Finding("3B106", VALUES["3B106"]), "zh").found == "计数方向 G：空缺"
     assert texts(Finding("3B100", {"what": "empty", "detail": ""})).found == "the file is empty"
     assert texts(Finding("3B100", VALUES["3B100"])).found == "the file cannot be read (Permission denied)"
+    assert texts(Finding("3B402", VALUES["3B402"])).found == (
+        "the X motor slips at 12.500, 0.000 mm, 3:12:04.25 into the run, and loses 18.00 µm up to block 12"
+    )
+    for body, english, chinese in (("wire", "the wire touches", "钼丝碰到"), ("arm", "the arm touches", "丝架碰到")):
+        values = VALUES["3B404"] | {"body": body}
+        assert texts(Finding("3B404", values)).found.startswith(f"{english} `left clamp`")
+        assert texts(Finding("3B404", values), "zh").found.startswith(f"{chinese} `left clamp`")
+
+
+@pytest.mark.parametrize(
+    ("t_s", "text"),
+    [
+        (0.0, "0:00:00.00"),
+        (9.876, "0:00:09.88"),
+        (59.996, "0:01:00.00"),
+        (3599.996, "1:00:00.00"),
+        (360_000.5, "100:00:00.50"),
+    ],
+)
+def test_a_time_into_a_run_is_hours_minutes_and_seconds(t_s: float, text: str) -> None:
+    assert instant(t_s) == text
 
 
 @pytest.mark.parametrize("code", ["3B111", "3B999", "terms", "../findings", ""])

@@ -20,4 +20,4 @@ CHECKS: tuple[str, ...] = tuple(_CODES)
 """Names of all checks, terms of the catalogue."""
 
 CHECK_OF: Mapping[str, str] = MappingProxyType({code: check for check, codes in _CODES.items() for code in codes})
-"""Code -> check. 3B490 has none: only a dry run holds a program against a scenario."""
+"""Code -> check. 3B402 to 3B405 and 3B490 have none: only a dry run moves the table and holds it against a scenario."""
