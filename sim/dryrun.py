@@ -1,32 +1,30 @@
 """The dry run: one program through controller, card and table, and what came of it."""
 
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 
 from controller.card.log import CardLog
-from controller.host.entries import Drive
-from controller.motion.limits import row_limits
 from controller.motion.plan import Plan
-from controller.motion.planner import plan_rows
 from controller.stepping.pulses import Pulses
-from controller.stepping.steps import Steps
 from parser.errors import ProgramError
-from parser.findings import Finding, Severity
+from parser.findings import Finding, Severity, file_order
 from parser.program import Program
 from parser.toolpath import Floats, Toolpath
 from sim.check.engine import Demands, check_program
 from sim.check.result import Coverage
+from sim.collisions.findings import obstacle_findings
 from sim.contours import Contour, find_contours
-from sim.deviation import Deviation, DeviationMeter
-from sim.meters import Sampling, SamplingMeter, StepMeters
-from sim.motion import Motion, Progress, run_card, run_table
+from sim.measure import Deviations, Meters
+from sim.motion import Motion, Progress, motion_of, simulate
 from sim.scenario import Scenario
-from sim.stepped import Stepped, StepTally
-from sim.table import Table, ringing
-from sim.ticks import choose_ticks
+from sim.stepped import Stepped
+from sim.table.losses import Loss
+from sim.table.peaks import Peak
+from sim.table_findings import loss_findings
 from sim.trace import Trace
+from sim.wire_lag import bowed
 
 
 class PulseSink(Protocol):
@@ -39,19 +37,6 @@ class PulseSink(Protocol):
         """Take the next pulses, in program coordinates."""
 
 
-class Deviations(NamedTuple):
-    """Deviation of the steps and of the table from the ideal geometry.
-
-    `interpolation` is that of the steps with each block moved to where the table stood when it began, so without what
-    earlier blocks missed. `sampling` is known of the card's own interpolator alone.
-    """
-
-    interpolation: Deviation
-    steps: Deviation
-    table: Deviation
-    sampling: Sampling | None
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class DryRun:
     """All that is known after a run.
@@ -61,9 +46,11 @@ class DryRun:
     program, scenario
         What was run.
     stepped, plan, trace
-        What the controller made of it, and the table.
+        What the controller made of it, and table and wire.
+    losses, peaks
+        What the drives lost, and how near they came to their limits.
     deviations
-        Of steps and table.
+        Of steps, table and wire.
     contours
         Contours with their closures.
     block_time_s
@@ -79,11 +66,18 @@ class DryRun:
     stepped: Stepped
     plan: Plan
     trace: Trace
+    losses: tuple[Loss, ...]
+    peaks: tuple[Peak, ...]
     deviations: Deviations
     contours: tuple[Contour, ...]
     block_time_s: Floats
     findings: tuple[Finding, ...]
     coverage: Coverage
+
+    @property
+    def tripped(self) -> Loss | None:
+        """Where a drive tripped; None where none did."""
+        return next((loss for loss in self.losses if loss.kind == "trip"), None)
 
     @property
     def toolpath(self) -> Toolpath:
@@ -94,12 +88,6 @@ class DryRun:
 def verdict(findings: tuple[Finding, ...]) -> str:
     """``fail`` where any finding is an error, else ``pass``."""
     return "fail" if any(finding.severity is Severity.ERROR for finding in findings) else "pass"
-
-
-def origin_um(toolpath: Toolpath) -> tuple[int, int]:
-    """Start of the program in whole µm, where the steps begin."""
-    x, y = np.rint(toolpath.start_um[0]).astype(int).tolist()
-    return x, y
 
 
 def dry_run(
@@ -117,7 +105,7 @@ def dry_run(
     if checked.steps is None:
         raise _refusal(program, checked.findings)
     toolpath, motion = program.toolpath, _motion(program.toolpath, scenario)
-    meters = _Meters(motion, checked.steps)
+    meters = Meters(motion, checked.steps)
     sinks = [meters.take]
     if sink is not None:
         sink.open(motion.drive.origin_um)
@@ -127,9 +115,12 @@ def dry_run(
         for taker in sinks:
             taker(pulses)
 
-    command = run_card(motion, take, progress, log)
-    trace = run_table(motion, command, Table(scenario.machine.table, scenario.start_um), progress)
+    moved = simulate(motion, take, progress, log)
+    trace = bowed(moved.trace, toolpath, scenario.wire_lag_um)
     stepped = meters.tally.result()
+    contours = find_contours(toolpath, stepped.corner_um)
+    met = obstacle_findings(program, trace, contours, scenario)
+    lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     plan = motion.drive.plan
     return DryRun(
         program=program,
@@ -137,12 +128,20 @@ def dry_run(
         stepped=stepped,
         plan=plan,
         trace=trace,
-        deviations=meters.deviations(trace),
-        contours=find_contours(toolpath, stepped.corner_um),
+        losses=moved.losses,
+        peaks=moved.peaks,
+        deviations=meters.deviations(_cut(trace, moved.losses)),
+        contours=contours,
         block_time_s=_block_times(plan, checked.steps.along_um),
-        findings=checked.findings,
+        findings=tuple(sorted([*checked.findings, *met, *lost], key=file_order)),
         coverage=checked.coverage,
     )
+
+
+def _cut(trace: Trace, losses: tuple[Loss, ...]) -> Trace:
+    """The trace as far as the machine ran: after a trip it stands, and cuts nothing of what follows."""
+    trip = next((loss for loss in losses if loss.kind == "trip"), None)
+    return trace.until(trip.t_s) if trip else trace
 
 
 def _block_times(plan: Plan, before_um: Floats) -> Floats:
@@ -153,37 +152,9 @@ def _block_times(plan: Plan, before_um: Floats) -> Floats:
 
 
 def _motion(toolpath: Toolpath, scenario: Scenario) -> Motion:
-    controller = scenario.machine.controller
-    limits = row_limits(toolpath, scenario.machine.feeds(scenario.thickness_mm), controller.limits)
-    plan = plan_rows(limits, jerk_um_s3=controller.limits.jerk_um_s3)
-    drive = Drive(toolpath, limits, plan, origin_um(toolpath), controller.interpolation)
-    return Motion(drive, controller.card_settings, choose_ticks(toolpath, plan, ringing(scenario.machine.table)))
-
-
-class _Meters:
-    """All that is measured of the pulses of a run."""
-
-    def __init__(self, motion: Motion, steps: Steps) -> None:
-        drive = motion.drive
-        self._toolpath = drive.toolpath
-        own = drive.interpolation == "card"
-        start = drive.toolpath.start_um
-        drift = np.array(drive.origin_um) - (start[:1] if own else start - steps.corner_um[:-1])
-        self._steps = StepMeters(drive, np.broadcast_to(drift, start.shape))
-        self._sampling = SamplingMeter(drive, motion.card.servo_period_s) if own else None
-        self.tally = StepTally(len(drive.toolpath), drive.origin_um)
-
-    def take(self, pulses: Pulses) -> None:
-        self._steps.take(pulses)
-        self.tally.take(pulses)
-        if self._sampling is not None:
-            self._sampling.take(pulses)
-
-    def deviations(self, trace: Trace) -> Deviations:
-        of_table = DeviationMeter(self._toolpath)
-        of_table.add(trace.row, trace.actual_um[:, 0], trace.actual_um[:, 1], trace.t_s)
-        sampling = self._sampling.result() if self._sampling is not None else None
-        return Deviations(self._steps.own, self._steps.placed, of_table.result(), sampling)
+    machine = scenario.machine
+    feeds = machine.feeds(scenario.thickness_mm)
+    return motion_of(toolpath, feeds, machine, scenario.start_um, scenario.trace_spacing_um)
 
 
 def _demands(scenario: Scenario) -> Demands:

@@ -27,10 +27,13 @@ class Sampling(NamedTuple):
         Largest distance in X and in Y of the place commanded at the end of a servo period from the planned one.
     chord_um
         Largest distance of an arc from the chord between two such ends.
+    rounding
+        Deviation of the places commanded at those ends.
     """
 
     axis_um: tuple[float, float]
     chord_um: float
+    rounding: Deviation
 
 
 class StepMeters:
@@ -80,6 +83,7 @@ class SamplingMeter:
         self._before = self._path.before_um
         self._shift = np.array(drive.origin_um) - drive.toolpath.start_um[:1]
         self._most = np.zeros(2)
+        self._rounding = DeviationMeter(drive.toolpath)
 
     def take(self, pulses: Pulses) -> None:
         """Take the next pulses."""
@@ -87,8 +91,10 @@ class SamplingMeter:
         along = self._drive.plan.at(pulses.t_s[settled]).along_um
         row = np.minimum(np.searchsorted(self._before, along, side="right") - 1, len(self._path) - 1)
         wanted = self._path.place(row, along - self._before[row]) + self._shift
-        off = np.abs(np.stack([pulses.x_um[settled], pulses.y_um[settled]], axis=1) - wanted)
-        self._most = np.maximum(self._most, off.max(axis=0, initial=0.0))
+        place = np.stack([pulses.x_um[settled], pulses.y_um[settled]], axis=1)
+        self._most = np.maximum(self._most, np.abs(place - wanted).max(axis=0, initial=0.0))
+        own = place - self._shift
+        self._rounding.add(pulses.row[settled], own[:, 0], own[:, 1], pulses.t_s[settled])
 
     def _ends_period(self, t_s: Floats) -> Bools:
         """Whether the pulse is the last at the end of a servo period; motion begins with one."""
@@ -98,7 +104,8 @@ class SamplingMeter:
     def result(self) -> Sampling:
         """Of all pulses so far."""
         x, y = self._most.tolist()
-        return Sampling((x, y), chord_error_um(self._path, self._drive.plan, self._period_s))
+        chord_um = chord_error_um(self._path, self._drive.plan, self._period_s)
+        return Sampling((x, y), chord_um, self._rounding.result())
 
 
 def at_rest_between(pulses: Pulses) -> slice | Bools:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from controller.card.log import CardLog
 from parser.program import Program
 from parser.units import mm
+from sim.draw.outlines import Bodies
 from sim.draw.picture import draw_cut
 from sim.dryrun import DryRun, dry_run, verdict
 from sim.judge import check_expectations
@@ -53,8 +54,10 @@ def trace_arrays(run: DryRun) -> dict[str, NDArray[np.float64] | NDArray[np.int3
     trace = run.trace
     return {
         "t_s": trace.t_s,
-        "x_um": trace.actual_um[:, 0],
-        "y_um": trace.actual_um[:, 1],
+        "x_um": trace.wire_um[:, 0],
+        "y_um": trace.wire_um[:, 1],
+        "table_x_um": trace.table_um[:, 0],
+        "table_y_um": trace.table_um[:, 1],
         "commanded_x_um": trace.commanded_um[:, 0],
         "commanded_y_um": trace.commanded_um[:, 1],
         "block": (trace.row + 1).astype(np.int32),
@@ -66,4 +69,7 @@ def picture(run: DryRun) -> "Image.Image":
     length = f"{mm(float(run.toolpath.length_um.sum())):.1f} mm"
     blocks = f"{len(run.toolpath):,} block{'s' * (len(run.toolpath) > 1)}"
     note = f"{verdict(run.findings)} · {blocks} · {length} · {clock(run.plan.duration_s)}"
-    return draw_cut(run.toolpath, run.trace, kerf_um=run.scenario.wire.kerf_um, title=run.scenario.title, note=note)
+    scenario = run.scenario
+    bodies = Bodies(scenario.work_um, [clamp.outline_um for clamp in scenario.clamps])
+    kerf_um = scenario.wire.kerf_um
+    return draw_cut(run.toolpath, run.trace, kerf_um=kerf_um, title=scenario.title, note=note, bodies=bodies)

@@ -23,7 +23,7 @@ def plain_scenario(**changes: object) -> Scenario:
     return replace(Scenario("test", Path("test.3b"), load_machine("dk7740")), **changes)
 
 
-def machine(**table: float) -> Machine:
+def machine(**table: object) -> Machine:
     """The shipped machine with some values of its table changed."""
     shipped = load_machine("dk7740")
     return shipped._replace(table=shipped.table._replace(**table))

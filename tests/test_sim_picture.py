@@ -175,7 +175,7 @@ def test_kerf_follows_the_wire() -> None:
     toolpath = lines(np.array([(20000, 0)]))
     x = np.arange(0.0, 20001.0, 5.0)
     where = np.stack([x, np.full_like(x, 4000.0)], axis=1)
-    trace = Trace(x / 100, where, where, np.zeros(len(x), dtype=np.int64))
+    trace = Trace(x / 100, where, where, where, np.zeros(len(x), dtype=np.int64))
     picture = draw_cut(toolpath, trace, kerf_um=1000.0, title="x")
     band, ideal = extent(near(picture, style.KERF), 0), extent(near(picture, style.IDEAL)[150:], 0)
     assert band[1] < ideal[0] + 150

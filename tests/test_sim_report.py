@@ -2,15 +2,22 @@
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from jsonschema import Draft202012Validator
 from runs import plain_scenario, run_text, silent
 
 from parser.program import parse_program
+from parser.toolpath import Axis
 from sim.outcome import run_into
 from sim.report import build_report
+from sim.summary import print_summary
+from sim.table.losses import Loss
+from sim.table.peaks import Peak
+from sim.wire import DEFAULT_WIRE
 
 # A line of 3 mm, a half turn of R 2 mm to the left, back down by 3 mm, a pause, a jump: nothing lies on itself.
 TEXT = (
@@ -28,7 +35,7 @@ def report() -> dict:
 def test_head_of_the_report(report: dict) -> None:
     assert report["schema"] == "drycut.report/1"
     assert report["machine"] == {"name": "DK7740 class, stepper drives", "start_um": [100_100.0, 64_100.0]}
-    assert report["wire"] == {"diameter_um": 180.0, "spark_gap_um": 10.0, "kerf_um": 200.0}
+    assert report["wire"] == {"diameter_um": 180.0, "spark_gap_um": 10.0, "kerf_um": 200.0, "lag_um": 0.0}
     assert report["work"] == {"thickness_mm": 40.0}
     half_turn = math.pi * 2000.0
     assert report["summary"] == {
@@ -45,6 +52,7 @@ def test_times_of_the_report(report: dict) -> None:
     assert report["time_s"]["by_block"] == pytest.approx(
         [3000.0 / CUT + CUT / RAMP / 2, math.pi * 2000.0 / CUT + CUT / RAMP / 2, jump, last], abs=2e-6
     )
+    assert sum(report["time_s"]["by_block"]) == pytest.approx(report["time_s"]["total"], abs=3e-6)  # six digits each
 
 
 def test_stops_and_contours_of_the_report(report: dict) -> None:
@@ -87,10 +95,10 @@ def test_blocks_of_the_report(report: dict) -> None:
 
 
 def test_deviations_of_the_report_are_those_of_the_run() -> None:
-    # On the wrong count axis the second circle begins 140 µm off: the three kinds of deviation differ clearly.
+    # On the wrong count axis the second circle begins 140 µm off: the kinds of deviation differ clearly.
     run = run_text("B9900B0B39600GXNR1 B9900B0B39600GYNR1 DD")
     report = build_report(run)
-    kinds = {"interpolation": (1.0, 1), "steps": (140.0, 2), "table": (140.0, 2)}
+    kinds = {"interpolation": (1.0, 1), "steps": (140.0, 2), "table": (140.0, 2), "wire": (140.0, 2)}
     for kind, (largest, block) in kinds.items():
         found, entry = getattr(run.deviations, kind), report["deviation"][kind]
         assert entry["max_um"] == pytest.approx(largest, abs=2.0)
@@ -110,11 +118,115 @@ def test_deviations_of_the_report_are_those_of_the_run() -> None:
     assert block["stepped"]["max_deviation_um"] != block["table"]["max_deviation_um"]
 
 
+def test_causes_of_the_report_are_those_of_the_run() -> None:
+    run = run_text("B9900B0B39600GXNR1 B9900B0B39600GYNR1 DD", wire=replace(DEFAULT_WIRE, lag=25.0))
+    report = build_report(run)
+    assert report["wire"]["lag_um"] == 25.0
+    causes = report["deviation"]["by_cause"]
+    assert list(causes) == ["interpolation", "carried", "planning", "table", "wire"]
+    for name, entry in causes.items():
+        part = getattr(run.deviations.by_cause, name)
+        assert entry["max_um"] == pytest.approx(part.max_um, abs=1e-6)
+        assert (entry["where"] is None) == (part.where is None)
+        if part.where is not None:
+            assert list(entry["where"].values()) == pytest.approx(list(part.where), abs=1e-6)
+    assert causes["planning"] == {"max_um": 0.0, "where": None}
+    assert (causes["carried"]["where"]["block"], causes["wire"]["max_um"] > 0.0) == (2, True)
+
+
+PEAKS = (
+    Peak("force", Axis.X, 240.0, 2000.0, row=1, t_s=3.25, x_um=13_000.0, y_um=24_000.0),
+    Peak("speed", Axis.Y, 500.0, 10_000.0, row=2, t_s=80.0, x_um=12_999.5, y_um=22_123.4567891),
+    Peak("lag", Axis.X, 1.5, math.inf, row=0, t_s=0.5, x_um=10_001.0, y_um=20_000.0),
+    Peak("lag", Axis.Y, 4.0, 5.0, row=3, t_s=90.0, x_um=12_700.0, y_um=-0.0001),
+    Peak("force", Axis.Y, 20.0, 1500.0, row=3, t_s=91.0, x_um=0.0, y_um=0.0),
+)
+LOSSES = (Loss("lost-steps", Axis.Y, row=2, t_s=80.5, amount_um=-12.0, x_um=13_000.0, y_um=22_500.0),)
+
+
+def complaints(report: dict) -> list[str]:
+    schema = json.loads((Path(__file__).parent.parent / "docs" / "report.schema.json").read_text("utf-8"))
+    return [f"{error.json_path}: {error.message}" for error in Draft202012Validator(schema).iter_errors(report)]
+
+
+def test_limits_and_losses_of_the_report() -> None:
+    report = build_report(replace(run_text(TEXT), peaks=PEAKS, losses=LOSSES))
+    assert complaints(report) == []
+    assert [report["limits"][0], report["limits"][2]] == [
+        {
+            **{"quantity": "force", "axis": "X", "value": 240.0, "limit": 2000.0, "share": 0.12},
+            **{"block": 2, "t_s": 3.25, "x_um": 13_000.0, "y_um": 24_000.0},
+        },
+        {
+            **{"quantity": "lag", "axis": "X", "value": 1.5, "limit": None, "share": None},
+            **{"block": 1, "t_s": 0.5, "x_um": 10_001.0, "y_um": 20_000.0},
+        },
+    ]
+    assert report["limits"][1]["y_um"] == 22_123.456789
+    assert report["losses"] == [
+        {
+            **{"kind": "lost-steps", "axis": "Y", "amount_um": -12.0},
+            **{"block": 3, "t_s": 80.5, "x_um": 13_000.0, "y_um": 22_500.0},
+        }
+    ]
+
+
+@pytest.mark.parametrize(
+    ("entries", "change"),
+    [
+        ("limits", {"limit": None}),
+        ("limits", {"share": None}),
+        ("limits", {"quantity": "heat"}),
+        ("limits", {"axis": "Z"}),
+        ("limits", {"value": -1.0}),
+        ("limits", {"unit": "N"}),
+        ("losses", {"kind": "wear"}),
+        ("losses", {"block": 0}),
+        ("losses", {"amount_um": None}),
+        ("losses", {"lost": 1.0}),
+    ],
+)
+def test_schema_refuses_wrong_limits_and_losses(entries: str, change: dict) -> None:
+    report = build_report(replace(run_text(TEXT), peaks=PEAKS, losses=LOSSES))
+    report[entries][0] |= change
+    assert complaints(report)
+
+
+def test_the_summary_shows_causes_and_the_nearest_limits(capsys: pytest.CaptureFixture[str]) -> None:
+    run = run_text(TEXT, wire=replace(DEFAULT_WIRE, lag=20.0))
+    print_summary(replace(run, peaks=PEAKS, findings=()), None)
+    shown = capsys.readouterr().out
+    rows = {
+        name.strip(): value.strip()
+        for _, name, value, _ in (line.split("│") for line in shown.splitlines() if "│" in line)
+    }
+    assert rows["wire lag"] == "20 µm"
+    deviations = run.deviations
+    for name, part in {"deviation, at most": deviations.wire, "by the wire": deviations.by_cause.wire}.items():
+        assert rows[name].startswith(f"{part.max_um:.2f} µm in block {part.where.block} at ")  # type: ignore[union-attr]
+    assert rows["by planning"] == "none"
+    assert rows["limits, nearest"] == "lag Y 80 % of 5 µm, block 4 at 12.7, 0.0 mm"
+    assert "│ force X 12 % of 2,000 N, block 2 at 13.0, 24.0 mm" in shown
+    assert "│ speed Y 5 % of 10 mm/s, block 3 at 13.0, 22.1 mm" in shown
+    assert "1,500 N" not in shown
+    assert max(map(len, shown.splitlines())) <= 80
+
+
+def test_the_summary_leaves_out_what_there_is_not(capsys: pytest.CaptureFixture[str]) -> None:
+    print_summary(replace(run_text("B0 B5000 B0 GY L2 DD"), peaks=()), None)
+    shown = capsys.readouterr().out
+    assert "deviation, at most" in shown
+    assert "no motion" in shown
+    assert not [word for word in ("limits", "by the table", "wire lag") if word in shown]
+
+
 def test_trace_file_is_the_trace(tmp_path: Path) -> None:
-    run = run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent)
+    run = run_into(tmp_path, parse_program(TEXT), plain_scenario(wire=replace(DEFAULT_WIRE, lag=10.0)), silent)
     arrays, trace = np.load(tmp_path / "trace.npz"), run.trace
     assert np.array_equal(arrays["t_s"], trace.t_s)
-    assert np.array_equal(np.stack([arrays["x_um"], arrays["y_um"]], axis=1), trace.actual_um)
+    assert np.array_equal(np.stack([arrays["x_um"], arrays["y_um"]], axis=1), trace.wire_um)
+    assert np.array_equal(np.stack([arrays["table_x_um"], arrays["table_y_um"]], axis=1), trace.table_um)
+    assert not np.array_equal(trace.table_um, trace.wire_um)
     assert np.array_equal(np.stack([arrays["commanded_x_um"], arrays["commanded_y_um"]], axis=1), trace.commanded_um)
     assert np.array_equal(arrays["block"], trace.row + 1)
     assert (arrays["step_x_um"][0], arrays["step_y_um"][0]) == (10_000, 20_000)

@@ -43,7 +43,7 @@ def test_bad_machine_files_are_refused(tmp_path: Path, old: str, new: str, compl
 
 
 def test_unknown_and_missing_machines_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(SettingsError, match="known: dk7740"):
+    with pytest.raises(SettingsError, match="known: dk7732, dk7740"):
         load_machine("dk7741")
     with pytest.raises(FileUnreadableError, match=r"nowhere\.toml"):
         load_machine(str(tmp_path / "nowhere.toml"))

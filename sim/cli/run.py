@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from parser.program import Program
     from sim.dryrun import DryRun
     from sim.scenario import Scenario
+    from sim.wire import Wire
 
 
 @click.command()
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 @click.option("--thickness", type=Length(), help="Thickness of the work, such as 40mm.")
 @click.option("--wire-diameter", type=Length(), help="Diameter of the wire, such as 0.18mm.")
 @click.option("--gap", type=Length(), help="Spark gap on one side, such as 10um.")
+@click.option("--wire-lag", type=Length(), help="How far the wire bows back behind its guides, such as 20um.")
 @click.option(
     "--interpolator",
     type=click.Choice(["point-by-point", "card"]),
@@ -51,6 +53,7 @@ def run(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     thickness: float | None,
     wire_diameter: float | None,
     gap: float | None,
+    wire_lag: float | None,
     interpolator: str | None,
     card_log: Path | None,
     as_json: bool,
@@ -73,7 +76,7 @@ def run(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.report import build_report, report_text
     from sim.summary import print_summary
 
-    scenario = _overridden(path, machine, thickness, wire_diameter, gap)
+    scenario = _overridden(path, machine, thickness, (wire_diameter, gap, wire_lag))
     if interpolator is not None:
         scenario = _stepping_by(scenario, interpolator)
     try:
@@ -97,26 +100,37 @@ def describe(name: str, error: ProgramError) -> str:
 
 
 def _overridden(
-    path: Path, machine: str | None, thickness: float | None, wire_diameter: float | None, gap: float | None
+    path: Path,
+    machine: str | None,
+    thickness: float | None,
+    of_wire: tuple[float | None, float | None, float | None],
 ) -> "Scenario":
     """Scenario of the path with the options of the command line in place of its own values."""
     from sim import scenario as scenarios
     from sim.machine import load_machine
-    from sim.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
 
     scenario = scenarios.load_scenario(path)
-    wire = scenario.wire
     if machine is not None:
         scenario = replace(scenario, machine=load_machine(machine))
+    thickness_mm = scenario.thickness_mm
     if thickness is not None:
-        scenario = replace(scenario, thickness_mm=number(mm(thickness), scenarios.THICKNESS_MM, "--thickness in mm"))
-    if wire_diameter is not None:
-        number(mm(wire_diameter), WIRE_DIAMETER_MM, "--wire-diameter in mm")
-        wire = replace(wire, diameter_um=wire_diameter)
+        thickness_mm = number(mm(thickness), scenarios.THICKNESS_MM, "--thickness in mm")
+    return replace(scenario, thickness_mm=thickness_mm, wire=_wire(scenario.wire, *of_wire))
+
+
+def _wire(wire: "Wire", diameter: float | None, gap: float | None, lag: float | None) -> "Wire":
+    """The wire with the options, µm, in place of its own values."""
+    from sim.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM, WIRE_LAG_UM
+
+    if diameter is not None:
+        number(mm(diameter), WIRE_DIAMETER_MM, "--wire-diameter in mm")
+        wire = replace(wire, diameter_um=diameter)
     if gap is not None:
         number(mm(gap), SPARK_GAP_MM, "--gap in mm")
         wire = replace(wire, spark_gap_um=gap)
-    return replace(scenario, wire=wire)
+    if lag is not None:
+        wire = replace(wire, lag=number(lag, WIRE_LAG_UM, "--wire-lag in µm"))
+    return wire
 
 
 def _stepping_by(scenario: "Scenario", interpolator: str) -> "Scenario":
