@@ -11,7 +11,13 @@ from parser.errors import DrycutError
 from sim import __version__
 from sim.cli.streams import prepare_streams
 
-_COMMANDS = {"card": "sim.cli.card", "check": "sim.cli.check", "explain": "sim.cli.explain", "run": "sim.cli.run"}
+_COMMANDS = {
+    "ballbar": "sim.cli.ballbar",
+    "card": "sim.cli.card",
+    "check": "sim.cli.check",
+    "explain": "sim.cli.explain",
+    "run": "sim.cli.run",
+}
 
 
 class _LazyGroup(click.Group):

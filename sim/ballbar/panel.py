@@ -1,0 +1,69 @@
+"""The panel beside the dial: what the lines are, and the test in figures."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from parser.toolpath import Floats
+from sim.ballbar.dial import COLOURS, CURVE_WIDTH, NOMINAL_WIDTH, ZONE_WIDTH
+from sim.ballbar.rows import Row
+from sim.draw import style
+from sim.draw.canvas import Canvas
+from sim.draw.style import Colour
+
+LEFT: Final = 1145.0
+TOP: Final = 160.0
+ROW: Final = 35.0
+TEXT: Final = 20.0
+_SAMPLES: Final[tuple[tuple[Colour, float, float], ...]] = (
+    (COLOURS[1], CURVE_WIDTH, 0.0),
+    (COLOURS[-1], CURVE_WIDTH, 16.0),
+    (style.INK, NOMINAL_WIDTH, 0.0),
+    (style.END, ZONE_WIDTH, 8.0),
+)
+"""Colour, width and dash of counter-clockwise and clockwise curve, nominal circle and zone; a dash of 0 is a line."""
+
+
+class Panel:
+    """Rows from top to bottom, in a column from `LEFT` to the edge of the page."""
+
+    def __init__(self, canvas: Canvas, unit: float, width_px: int) -> None:
+        self._canvas = canvas
+        self._unit = unit
+        self._right = width_px - style.EDGE * unit
+        self._y = TOP * unit
+
+    def legend(self, names: Sequence[str]) -> None:
+        """Samples of the two curves, the nominal circle and the zone, with their names."""
+        left, unit = LEFT * self._unit, self._unit
+        for (colour, width, dash), name in zip(_SAMPLES, names, strict=True):
+            line = np.array([[left, self._y], [left + style.SAMPLE * unit, self._y]])
+            self._stroke(line, colour, width * unit, dash * unit)
+            self._text(left + (style.SAMPLE + style.LEGEND_GAP) * unit, name, style.INK)
+            self._down()
+
+    def table(self, title: str, rows: Sequence[Row]) -> None:
+        """A title, a line below it, and rows with their values at the right edge."""
+        left = LEFT * self._unit
+        self._down(0.6)
+        self._text(left, title, style.INK)
+        self._down(0.55)
+        self._stroke(np.array([[left, self._y], [self._right, self._y]]), style.FRAME, style.GRID_WIDTH, 0.0)
+        self._down(0.6)
+        for row in rows:
+            self._text(left, row.name, style.GREY)
+            self._text(self._right, row.value, style.INK, align=1.0)
+            self._down()
+
+    def _down(self, rows: float = 1.0) -> None:
+        self._y += rows * ROW * self._unit
+
+    def _text(self, x: float, text: str, colour: Colour, align: float = 0.0) -> None:
+        self._canvas.text((x, self._y), text, TEXT * self._unit, colour, align=align)
+
+    def _stroke(self, line: Floats, colour: Colour, width: float, dash: float) -> None:
+        if dash:
+            self._canvas.dashed(line, colour, width, dash, 0.6 * dash)
+        else:
+            self._canvas.polyline(line, colour, width)

@@ -1,0 +1,107 @@
+"""``drycut ballbar``."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from sim.cli.lengths import Length
+
+if TYPE_CHECKING:
+    from sim.ballbar.circle import Ballbar
+
+
+class Speed(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """A speed with its unit, in µm/s."""
+
+    name = "speed"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """The speed in µm/s."""
+        from sim.units import parse_speed
+
+        return value if isinstance(value, float) else parse_speed(value)
+
+
+@click.command()
+@click.option("--radius", type=Length(), default="50mm", show_default=True, help="Radius of the circle.")
+@click.option("--feed", type=Speed(), help="Feed along the circle, such as 500mm/min; that of the machine's jumps.")
+@click.option("--machine", default="dk7740", show_default=True, metavar="NAME|FILE", help="Machine to test.")
+@click.option(
+    "--interpolator",
+    type=click.Choice(["point-by-point", "card"]),
+    help="How the path becomes steps, in place of the machine's own.",
+)
+@click.option("--tolerance", type=Length(), help="Largest circularity G(b) that passes, such as 10um.")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    metavar="FILE.png|DIR",
+    help="Write the polar plot here, or ballbar.png and ballbar.json into a folder.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print ballbar.json instead of the table.")
+def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
+    radius: float,
+    feed: float | None,
+    machine: str,
+    interpolator: str | None,
+    tolerance: float | None,
+    output: Path | None,
+    as_json: bool,
+) -> None:
+    """Run the circular test of ISO 230-4 on a machine.
+
+    Moves the table round a circle in both directions and tells how round it went: circularity, the steps and spikes at
+    the reversals of the axes, and what else the deviation consists of.
+
+    \b
+    Exit code: 0 good; 1 steps were lost, a drive tripped or --tolerance is
+    exceeded; 2 bad use.
+
+    \b
+    drycut ballbar --radius 50mm --feed 500mm/min -o ballbar.png
+    """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from sim.ballbar.circle import circle_test, run_test
+    from sim.ballbar.document import document_text
+    from sim.ballbar.summary import print_ballbar
+    from sim.machine import load_machine
+    from sim.progress import StageProgress
+
+    if output is not None and output.suffix.lower() not in ("", ".png") and not output.is_dir():
+        raise click.BadParameter(f"{output} is neither a folder nor a .png", param_hint="-o")
+    if tolerance is not None and tolerance <= 0.0:
+        raise click.BadParameter("is above 0", param_hint="--tolerance")
+    model = load_machine(machine)
+    if interpolator is not None:
+        model = model.stepping_by(interpolator)  # type: ignore[arg-type]
+    test = circle_test(model, radius, feed)
+    with StageProgress() as progress:
+        done = run_test(test, progress)
+    written = _write(done, tolerance, output) if output is not None else []
+    if as_json:
+        click.echo(document_text(done, tolerance), nl=False)
+    else:
+        print_ballbar(done, tolerance)
+        if written:
+            click.echo(f"written: {', '.join(written)}")
+    raise click.exceptions.Exit(0 if done.passes(tolerance) else 1)
+
+
+def _write(done: "Ballbar", tolerance_um: float | None, output: Path) -> list[str]:
+    """Files of a test, all of them or none; names of those written. A turn that does not go round has no picture."""
+    from parser.encoding import printable
+    from sim.ballbar.document import document_text
+    from sim.output import staged
+
+    alone = output.suffix.lower() == ".png"
+    folder, picture = (output.parent, output.name) if alone else (output, "ballbar.png")
+    names = [picture] * (done.measured is not None) + ["ballbar.json"] * (not alone)
+    with staged(folder, names) as stage:
+        if done.measured is not None:
+            from sim.ballbar.plot import draw_ballbar
+
+            draw_ballbar(done, done.measured).save(stage / picture, dpi=(200, 200))
+        if not alone:
+            (stage / "ballbar.json").write_text(document_text(done, tolerance_um), encoding="utf-8")
+    return [printable(str(folder / name)) for name in names]
