@@ -25,6 +25,19 @@ def test_scenario_says_where_it_comes_from_and_what_it_expects(folder: Path) -> 
     assert any(expectation.path == "verdict" for expectation in scenario.expect)
 
 
+@pytest.mark.parametrize(
+    ("name", "x_mm"),
+    [
+        ("clamp-hit", 2.0 + 0.18 / 2),  # edge of the clamp, and the wire's radius before it
+        ("arm-hit", 20.0 - 15.0),  # edge of the clamp, and the arm's reach before it
+        ("leaves-work", 2.0),  # edge of the work
+    ],
+)
+def test_things_in_the_way_are_met_where_their_edges_stand(name: str, x_mm: float) -> None:
+    (finding,) = run_folder(SCENARIOS / name).findings
+    assert finding.values["x_mm"] == pytest.approx(x_mm, abs=0.0005)
+
+
 def test_an_expectation_that_is_not_met_fails_the_run(tmp_path: Path) -> None:
     (tmp_path / "program.3b").write_text("B100B0B100GXL1 DD", "utf-8")
     (tmp_path / "scenario.toml").write_text('[expect]\n"summary.steps" = 99', "utf-8")
