@@ -16,6 +16,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from bench_table import add_options, table_lines
 from plain import PlainBlock, counted_way, plain_steps
 
 from controller.card.settings import CardSettings
@@ -140,7 +141,9 @@ def plain_ns_per_step(blocks: list[PlainBlock]) -> float:
 def main() -> None:
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--blocks", type=int, default=100_000)
-    n = options.parse_args().blocks
+    add_options(options)
+    given = options.parse_args()
+    n = given.blocks
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "path.3b"
         blocks = write_path(path, n)
@@ -168,6 +171,8 @@ def main() -> None:
     print(f"check a small file  {small * 1e3:.1f} ms, {start * 1e3:.0f} ms with its start")
     print(f"start of a check    {start / numpy:.2f} times a Python that imports numpy")
     print(f"peak memory         {peak_kib / 1024:.0f} MiB", file=sys.stdout)
+    for table_line in table_lines(given.length, given.part):
+        print(table_line)
 
 
 if __name__ == "__main__":

@@ -29,6 +29,14 @@ def part(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.fixture
+def short(tmp_path: Path) -> Path:
+    """A program that has run before progress would be told."""
+    path = tmp_path / "零件.3b"
+    path.write_text("B500B0B500GXL1 B0B500B500GYL2 B500B0B500GXL3 B0B500B500GYL4 DD", "utf-8")
+    return path
+
+
 def test_a_sound_program_passes_and_prints_its_figures(part: Path) -> None:
     done = drycut("run", part)
     assert (done.returncode, done.stderr) == (0, "")
@@ -74,12 +82,12 @@ def test_options_take_the_place_of_the_scenario(part: Path, tmp_path: Path) -> N
     machine.write_text(shipped.replace("DK7740 class, stepper drives", "mine"), "utf-8")
     done = drycut(
         *("run", part, "--json", "--machine", machine, "--thickness", "60mm"),
-        *("--wire-diameter", "0.12mm", "--gap", "15um"),
+        *("--wire-diameter", "0.12mm", "--gap", "15um", "--wire-lag", "20um"),
     )
     report = json.loads(done.stdout)
     assert report["machine"]["name"] == "mine"
     assert report["work"]["thickness_mm"] == 60.0
-    assert report["wire"] == {"diameter_um": 120.0, "spark_gap_um": 15.0, "kerf_um": 150.0}
+    assert report["wire"] == {"diameter_um": 120.0, "spark_gap_um": 15.0, "kerf_um": 150.0, "lag_um": 20.0}
 
 
 def test_a_failed_verdict_exits_1_and_names_line_and_code(tmp_path: Path) -> None:
@@ -125,10 +133,12 @@ def test_bad_programs_exit_2_with_one_clear_error(tmp_path: Path, make: object, 
 @pytest.mark.parametrize(
     ("args", "message"),
     [
-        (["--machine", "dk9"], "machine 'dk9' is not shipped; known: dk7740"),
+        (["--machine", "dk9"], "machine 'dk9' is not shipped; known: dk7732, dk7740"),
         (["--thickness", "40"], "'40' is no length"),
         (["--thickness", "0mm"], "--thickness in mm is 0; it must lie between"),
         (["--wire-diameter", "0.02mm", "--gap=-40um"], "cuts no kerf"),
+        (["--wire-lag", "2mm"], "--wire-lag in µm is 2000; it must lie between 0 and 1000"),
+        (["--wire-lag", "20"], "'20' is no length"),
         (["--nonsense"], "No such option"),
         (["-o", __file__], "is a file; a folder of this name is to be written into"),
     ],
@@ -157,9 +167,9 @@ def test_bad_machine_files_are_named(part: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("encoding", ["gbk", "ascii", "cp1252"])
-def test_any_encoding_of_the_output_will_do(part: Path, encoding: str) -> None:
+def test_any_encoding_of_the_output_will_do(short: Path, encoding: str) -> None:
     done = subprocess.run(
-        [sys.executable, "-m", "sim.cli", "run", str(part)],
+        [sys.executable, "-m", "sim.cli", "run", str(short)],
         capture_output=True,
         check=False,
         env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"},
@@ -169,10 +179,10 @@ def test_any_encoding_of_the_output_will_do(part: Path, encoding: str) -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="has no device that is always full")
-def test_output_that_cannot_be_written_is_one_clear_line(part: Path) -> None:
+def test_output_that_cannot_be_written_is_one_clear_line(short: Path) -> None:
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            [sys.executable, "-m", "sim.cli", "run", str(part)],
+            [sys.executable, "-m", "sim.cli", "run", str(short)],
             stdout=full,
             stderr=subprocess.PIPE,
             encoding="utf-8",

@@ -22,13 +22,13 @@ from parser.catalogue import page as catalogue_page
 from parser.encoding import encode_text
 from parser.findings import SEVERITIES
 from parser.program import read_program
-from sim import controller_model, machine, scenario
+from sim import controller_model, machine, scenario, table_model, wire
 from sim.check import settings as check_settings
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS
 from sim.check.findings_document import NAMES, anchor, findings_document
 from sim.check.formats.checks import CHECK_OF
 from sim.cli.check import check
-from sim.dryrun import dry_run
+from sim.dryrun import DryRun, dry_run
 from sim.outcome import trace_arrays
 from sim.report import build_report
 from sim.scenario import load_scenario
@@ -73,10 +73,14 @@ def complaints(report: object) -> list[str]:
 
 
 @cache
-def report_text(folder: Path) -> str:
+def run_of(folder: Path) -> DryRun:
     case = load_scenario(folder)
-    run = dry_run(read_program(case.program), case, lambda stage, done, total: None)
-    return json.dumps(build_report(run), allow_nan=False)
+    return dry_run(read_program(case.program), case, lambda stage, done, total: None)
+
+
+@cache
+def report_text(folder: Path) -> str:
+    return json.dumps(build_report(run_of(folder)), allow_nan=False)
 
 
 def report_of(folder: Path) -> Any:
@@ -237,10 +241,11 @@ def test_trace_arrays_are_documented() -> None:
 def settings() -> dict[str, Any]:
     """Every key with bounds, as the documents write it."""
     tables = {
-        "table": machine._TABLE,
+        "table": table_model._TABLE | table_model._RESISTING,
+        "motor": table_model._MOTOR,
         "controller": controller_model._REQUIRED | controller_model._OPTIONAL,
         "cutting": machine._CUTTING,
-        "wire": scenario._WIRE,
+        "wire": wire.WIRE_KEYS,
         "work": scenario._WORK,
     }
     return {f"[{table}] {key}": bound for table, keys in tables.items() for key, bound in keys.items()}
@@ -260,8 +265,22 @@ def test_scenario_and_machine_files_have_no_key_that_is_not_documented() -> None
     page = read(DOCS / "scenarios.md")
     plain = [key for key in scenario._KEYS if key not in ("wire", "work", "expect")]
     texts = [f"[controller] {key}" for key in controller_model._TEXTS]
-    for key in [*plain, *texts, "name", "[expect]"]:
+    for key in [*plain, *texts, "[motor] kind", "[motor] force_at_rate", "name", "[expect]"]:
         assert f"| `{key}` |" in page, key
+
+
+def test_shipped_machines_are_documented_with_their_figures() -> None:
+    rows = {cells[0]: cells[1:] for cells in rows_of(DOCS / "scenarios.md", "`") if cells[1].endswith(" mm")}
+    files = sorted(path.stem for path in (ROOT / "sim" / "machines").glob("*.toml"))
+    assert list(rows) == files
+    for name, (travel, drives, jumps) in rows.items():
+        table, controller = (of := machine.load_machine(name)).table, of.controller
+        assert travel == f"{table.travel_x_mm:g} × {table.travel_y_mm:g} mm"
+        assert drives.startswith(f"{table.motor.kind}s")
+        assert drives.endswith(f"backlash {table.backlash_um[0]:g} µm")
+        assert table.backlash_um[0] == table.backlash_um[1]
+        assert ("motion card" in drives) == (controller.interpolation == "card")
+        assert jumps == f"{controller.jump_feed_mm_s:g} mm/s"
 
 
 def test_findings_are_documented_with_severity_and_title() -> None:
@@ -419,13 +438,36 @@ def test_code_flow_quotes_the_numbers_of_the_code() -> None:
     assert [text for text in shown if text.replace("−", "-") not in flat] == []
 
 
+def test_code_flow_quotes_the_samples_of_the_table() -> None:
+    rows = re.findall(r"^\| (\d\d,\d{3}) \|.*\|$", read(DOCS / "code-flow.md"), flags=re.MULTILINE)
+    assert len(rows) >= 5
+    trace = run_of(ROOT / "scenarios" / "keyhole").trace
+    page = read(DOCS / "code-flow.md").replace("−", "-")
+    assert f"{int((trace.row == 3).sum()):,} samples" in page
+    for row in rows:
+        sample = int(row.replace(",", ""))
+        (asked_x, asked_y), (x, y) = trace.commanded_um[sample], trace.table_um[sample]
+        shown = f"| {asked_x:.0f}, {asked_y:.0f} | {x:.2f}, {y:.2f} | {asked_x - x:.2f}, {asked_y - y:.2f} |"
+        assert f"| {row} | {trace.t_s[sample]:.6f} {shown}" in page
+
+
+def test_every_scenario_is_told_of() -> None:
+    page = read(DOCS / "scenarios.md")
+    assert re.findall(r"^\| `([a-z-]+)` \|.*\| [01] \|$", page, flags=re.MULTILINE) != []
+    for folder in SCENARIOS:
+        row = re.search(rf"^\| `{folder.name}` \|.*\| ([01]) \|$", page, flags=re.MULTILINE)
+        assert row, folder.name
+        assert (row[1] == "1") == (report_of(folder)["verdict"] == "fail")
+
+
 def test_readme_shows_the_keyhole() -> None:
     page = read(ROOT / "README.md")
     report = report_of(ROOT / "scenarios" / "keyhole")
     assert f"{report['summary']['steps']:,} of 1 µm" in page
     assert f"{report['summary']['length_um'] / 1000:.3f} mm" in page
-    for kind in ("steps", "interpolation", "table"):
-        assert (
-            f"{report['deviation'][kind]['max_um']:.2f} µm in block {report['deviation'][kind]['where']['block']}"
-            in page
-        )
+    deviation = report["deviation"]
+    for largest in (
+        deviation["wire"],
+        *(deviation["by_cause"][cause] for cause in ("interpolation", "carried", "table")),
+    ):
+        assert f"{largest['max_um']:.2f} µm in block {largest['where']['block']}" in page
