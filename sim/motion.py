@@ -4,7 +4,6 @@ from collections.abc import Callable
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from controller.card.log import CardLog
 from controller.card.settings import CardSettings
@@ -14,10 +13,8 @@ from controller.motion.limits import Feeds, row_limits
 from controller.motion.planner import plan_rows
 from controller.stepping.pulses import Pulses
 from parser.toolpath import Toolpath
-from sim.check.travel import extents
 from sim.machine import Machine
 from sim.table.follow import Following, Setup
-from sim.table.lanes import NEAR_STOP_UM
 from sim.table.losses import Loss
 from sim.table.peaks import Peak
 from sim.table.rhythm import rhythm
@@ -67,16 +64,8 @@ def motion_of(
     slow = slow_step(machine.table, beats)
     x, y = controller.limits.axis_speed_um_s
     table = Setup(machine.table, start_um, origin_um(toolpath), slow or NO_PLAY, speed_limit_um_s=(x, y))
-    every_step = _near_stop(toolpath, table) | (slow is None)
-    ticks = choose_ticks(toolpath, plan, beats, spacing_um, every_step)
+    ticks = choose_ticks(toolpath, plan, beats, spacing_um, every_step=slow is None)
     return Motion(drive, controller.card_settings, table, ticks)
-
-
-def _near_stop(toolpath: Toolpath, table: Setup) -> NDArray[np.bool_]:
-    """Blocks (n,) that come near a stop of the travel, or would go beyond it."""
-    (low, high), room = extents(toolpath), table.room_um
-    near: NDArray[np.bool_] = ((low < room[0] + NEAR_STOP_UM) | (high > room[1] - NEAR_STOP_UM)).any(axis=1)
-    return near
 
 
 def origin_um(toolpath: Toolpath) -> tuple[int, int]:

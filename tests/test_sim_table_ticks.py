@@ -10,6 +10,7 @@ from table_runs import MODEL, Drawn, draw, even_ticks, farthest_um, fixed, motio
 from controller.motion.limits import Feeds, MotionLimits
 from parser.program import parse_program
 from sim.machine import load_machine
+from sim.motion import motion_of
 from sim.table import follow, passes
 from sim.table.rhythm import STEP_RAD, rhythm
 from sim.table.ticks import Ticks, choose_ticks
@@ -22,8 +23,9 @@ def ticks_of(text: str, feeds: Feeds, limits: MotionLimits, spacing_um: float = 
     """Ticks of a program, and the times at which its blocks end."""
     toolpath = parse_program(f"{text} DD").toolpath
     plan = plan_toolpath(toolpath, feeds, limits)
-    every_step = np.zeros(len(toolpath), dtype=bool)
-    return choose_ticks(toolpath, plan, BEATS, spacing_um, every_step), plan.time_at(np.cumsum(toolpath.length_um))
+    return choose_ticks(toolpath, plan, BEATS, spacing_um, every_step=False), plan.time_at(
+        np.cumsum(toolpath.length_um)
+    )
 
 
 def test_ticks_rise_sample_the_end_of_every_block_and_keep_their_spacing() -> None:
@@ -148,3 +150,15 @@ def test_axes_do_not_pull_at_one_another() -> None:
     assert both[:, 1] == pytest.approx(alone[1][:, 1], abs=0.01)  # µm
     assert not alone[0][:, 1].any()
     assert not alone[1][:, 0].any()
+
+
+def test_at_a_stop_as_much_is_lost_in_chosen_ticks_as_in_fine_ones() -> None:
+    machine, beyond = load_machine("dk7740"), "B500B0B500GXL1 B500B0B500GXL3 DD"
+    toolpath, feeds = parse_program(beyond).toolpath, machine.feeds(40.0)
+    chosen = motion_of(toolpath, feeds, machine, (399_950.0, 250_000.0), 5.0)  # 50 µm from the stop
+    run, fine = moved(chosen), moved(fixed(chosen))
+    assert [(loss.row, loss.amount_um) for loss in run.losses] == [(loss.row, loss.amount_um) for loss in fine.losses]
+    assert sum(loss.amount_um for loss in run.losses) == 132.0
+    apart = np.abs(run.trace.table_um - fine.trace.table_um)
+    assert apart[-1] == pytest.approx([0.0, 0.0], abs=0.1)  # µm
+    assert apart.max() < 0.5  # µm, where it meets the stop

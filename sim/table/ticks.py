@@ -64,21 +64,19 @@ def parts(length_s: Floats, tick_s: Floats) -> Ints:
     return np.maximum(np.ceil(length_s / tick_s - 1e-9), 1.0).astype(np.int64)
 
 
-def choose_ticks(
-    toolpath: Toolpath, plan: Plan, rhythm: Rhythm, spacing_um: float, every_step: NDArray[np.bool_]
-) -> Ticks:
+def choose_ticks(toolpath: Toolpath, plan: Plan, rhythm: Rhythm, spacing_um: float, *, every_step: bool) -> Ticks:
     """Ticks of a program, from 0 until the table has come to rest after the end of the plan.
 
-    The trace gets a sample at every border of blocks and after every `spacing_um` of path. In blocks of `every_step`
-    (n,) no tick is long: those that come near the stops of the travel.
+    The trace gets a sample at every border of blocks and after every `spacing_um` of path. With `every_step` no tick is
+    long.
     """
     before = np.concatenate([[0.0], np.cumsum(toolpath.length_um)])
     borders = plan.time_at(before)
     rest = plan.duration_s + rhythm.died_s
     samples = np.concatenate([plan.time_at(_spaced(before, spacing_um)), [plan.duration_s, rest]])
     samples = _apart(np.unique(samples[samples > 0.0]))
-    stops = np.stack([borders[:-1], borders[1:]], axis=1)[every_step]
-    felt = _joined(np.concatenate([np.stack([samples - rhythm.step_tick_s, samples], axis=1), stops]))
+    before_sample = 0.0 if every_step else samples - rhythm.step_tick_s
+    felt = _joined(np.stack(np.broadcast_arrays(before_sample, samples), axis=1))
     shaken = _joined(np.concatenate([shakes(toolpath, plan, before, rhythm), [[plan.duration_s, rest]]]))
     cuts = np.concatenate([samples, felt.ravel(), shaken.ravel()])
     t_s = _apart(np.unique(cuts[(cuts > 0.0) & (cuts <= samples[-1])]), samples)
