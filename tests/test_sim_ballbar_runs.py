@@ -38,9 +38,9 @@ def test_friction_alone_winds_the_drive_up() -> None:
 
 
 def test_backlash_is_found_as_it_is_set() -> None:
-    """On top of 2F/k."""
+    """On top of 2F/k; a flank only pushes, so that steps throw the slide on within its slack by a few hundredths."""
     found = parts(friction_n=FRICTION_N, backlash_um=(5.0, 3.0))
-    assert found.step_um == pytest.approx((5.0 + 2.4, 3.0 + 1.2), abs=0.02)
+    assert found.step_um == pytest.approx((5.0 + 2.4, 3.0 + 1.2), abs=0.05)  # µm
     for reversal in found.reversals:
         assert reversal.step_um == pytest.approx((7.4, 4.2)[reversal.axis], abs=0.05)
 

@@ -25,7 +25,8 @@ class Loss(NamedTuple):
         Time of it, of the first of several.
     amount_um
         Lost way, all of the block's slips together: positive where the table stands short of its command in the
-        positive direction. Of a trip the following error, command less place.
+        positive direction. Where slips back make good those forth, the way of all of them. Of a trip the following
+        error, command less place.
     x_um, y_um
         Place of the table then, in program coordinates.
     """
@@ -45,6 +46,7 @@ class LossTally:
     def __init__(self, model: TableModel) -> None:
         self._limit_um = model.motor.following_error_limit_um
         self._lost: dict[tuple[int, int], Loss] = {}
+        self._slipped: dict[tuple[int, int], float] = {}
         self._trip: Loss | None = None
 
     def take(self, travelled: Travelled) -> None:
@@ -52,6 +54,7 @@ class LossTally:
         for tick, axis in np.argwhere(travelled.lost_um != 0.0).tolist():
             key = int(travelled.row[tick]), axis
             amount = float(travelled.lost_um[tick, axis])
+            self._slipped[key] = self._slipped.get(key, 0.0) + abs(amount)
             known = self._lost.get(key)
             if known is None:
                 self._lost[key] = _loss("lost-steps", travelled, tick, axis, amount)
@@ -65,7 +68,10 @@ class LossTally:
 
     def result(self) -> tuple[Loss, ...]:
         """All losses, in order of time."""
-        lost = (loss for loss in self._lost.values() if loss.amount_um != 0.0)  # a slip back makes good one forth
+        lost = [
+            loss if loss.amount_um != 0.0 else loss._replace(amount_um=self._slipped[key])
+            for key, loss in self._lost.items()
+        ]
         losses = [*lost, *([self._trip] if self._trip else [])]
         return tuple(sorted(losses, key=lambda loss: (loss.t_s, loss.axis)))
 
