@@ -101,7 +101,7 @@ def _on_arc(outside, on, start: float, sweep: float) -> int | None:
     length = math.hypot(ux, uy)
     ux, uy = ux / length, uy / length
     toward = -(on[0] * ux + on[1] * uy)  # the other place on the circle lies 2 × toward further along
-    if abs(toward) < 60.0:
+    if abs(toward) < 80.0:  # so flat (0.05 rad, and what a chord of the arc turns by) that it may count as a touch
         return None
     if toward > 0:
         return 0
