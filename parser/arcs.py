@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Axis, Floats, Ints
+from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Axis
 
 
 class ArcEnds(NamedTuple):

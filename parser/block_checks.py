@@ -7,11 +7,12 @@ from numpy.typing import NDArray
 
 from parser.decode import endless
 from parser.findings import Finding, Value
+from parser.geometry.curves import Ints
 from parser.lines import LineIndex
 from parser.places import at_block
 from parser.strays import RADIUS_TOLERANCE_UM
 from parser.tokens import TokenKind
-from parser.toolpath import Axis, Ints, Toolpath, Words
+from parser.toolpath import Axis, Toolpath, Words
 
 FULL_TURN_UM = 4.0
 """J of a full circle is 4R within about this; more is more than one turn (docs/3b.md §1)."""

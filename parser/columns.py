@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.geometry.curves import Ints
 from parser.grammar import BLOCK_FIELDS, GROUPS
 from parser.lines import LineIndex
-from parser.toolpath import Ints
 from parser.units import from_mm
 
 MAX_WORD_UM = 999_999_999

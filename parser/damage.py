@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.geometry.curves import Ints
 from parser.grammar import FLAGS, LABEL
-from parser.toolpath import Ints
 
 _INKED_LINE = re.compile(r"[^\s\0-\x1f][^\r\n]*")
 # A damaged block reaches from its first B to the first B behind other letters than those between numbers.

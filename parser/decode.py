@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from parser.arcs import arc_ends
 from parser.figures import Nodes, air_lines, with_node_rows
+from parser.geometry.curves import Floats, Ints, Kind
 from parser.reader import Records
-from parser.toolpath import Axis, Floats, Ints, Kind, Source, Stop, Toolpath, Words
-from parser.words import line_words
+from parser.toolpath import Axis, Source, Stop, Toolpath, Words
+from parser.words import words_of_lines
 
 # (X, Y) of a line that leaves both out and so runs along the axis its digit names (`BBB40000GXL1`).
 _AXIS_OF_LABEL = np.array([[0, 0], [1, 0], [0, 1], [1, 0], [0, 1]], dtype=np.int64)
@@ -52,7 +53,7 @@ def decode(records: Records) -> Toolpath:
         length_um=made.length_um,
         printed_end_um=blocks.printed_um,
         words=words,
-        source=Source(records.text, blocks.span, blocks.line, blocks.label),
+        source=Source(records.text, np.arange(1, len(start) + 1), blocks.span, blocks.line, blocks.label),
         stops=tuple(Stop("end" if m.kind == "end" else "pause", m.after, m.line) for m in marks if m.kind != "node"),
     )
     jumps = air_lines(toolpath, [m.after for m in marks if m.kind == "pause"])
@@ -124,11 +125,10 @@ def _with_node_words(toolpath: Toolpath, nodes: Nodes) -> Toolpath:
     """Toolpath whose start nodes carry the words and the length of the move to them."""
     if not len(nodes.row):
         return toolpath
-    columns = {name: getattr(toolpath.words, name).copy() for name in Words.__slots__}
-    length = toolpath.length_um.copy()
-    for row in nodes.row:
-        by = toolpath.end_um[row] - toolpath.start_um[row]
-        length[row] = np.hypot(*by)
-        for name, word in line_words(*by)._asdict().items():
-            columns[name][row] = word
+    by = toolpath.end_um[nodes.row] - toolpath.start_um[nodes.row]
+    length, columns = toolpath.length_um.copy(), {n: getattr(toolpath.words, n).copy() for n in Words.__slots__}
+    length[nodes.row] = np.hypot(by[:, 0], by[:, 1])
+    words = words_of_lines(by)
+    for name, column in columns.items():
+        column[nodes.row] = getattr(words, name)
     return replace(toolpath, words=Words(**columns), length_um=length)

@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.columns import RawBlocks
+from parser.geometry.curves import Floats, Ints, Kind
 from parser.reader import Mark
-from parser.toolpath import Floats, Ints, Kind, Toolpath
+from parser.toolpath import Toolpath
 
 CLOSED_WITHIN_UM = 5.0
 EXACT_PER_ARC_UM = 1.0

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parser.findings import Finding, Value
-from parser.toolpath import Ints
+from parser.geometry.curves import Ints
 
 _LF, _CR, _SPACE = 0x0A, 0x0D, 0x20
 

@@ -14,4 +14,4 @@ def at_block(
     if field is not None:
         low, high = field_spans(lines.text, first, past).get(field, (first, past))
         first, past = (low, high) if high > low else (first, past)
-    return lines.finding(code, (first, past), row + 1, **values)
+    return lines.finding(code, (first, past), int(toolpath.source.block[row]), **values)

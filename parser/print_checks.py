@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from parser.encoding import narrow
 from parser.findings import Finding
+from parser.geometry.curves import Floats, Ints
 from parser.header import Header
 from parser.lines import LineIndex
-from parser.toolpath import Floats, Ints, Toolpath
+from parser.toolpath import Toolpath
 from parser.units import UM_PER_MM
 
 _HALF_DIGITS = 3.0

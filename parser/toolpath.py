@@ -11,20 +11,10 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
+from parser.geometry.curves import Curves, Floats, Ints, Kind
 
 # Signs of (X, Y) in quadrants 1..4; there is no quadrant 0.
 _SIGNS = np.array([[0, 0], [1, 1], [-1, 1], [-1, -1], [1, -1]], dtype=np.int64)
-
-
-class Kind(IntEnum):
-    """What a row of the toolpath is: a cut along a line or an arc, or a line in the air without the wire cutting."""
-
-    LINE = 0
-    ARC = 1
-    JUMP = 2
 
 
 class Axis(IntEnum):
@@ -128,6 +118,9 @@ class Source:
     ----------
     text
         The whole program.
+    block
+        (n,) int64, number of each block in the program, from 1; rows that a controller adds bear that of the block
+        they belong to.
     span
         (n, 2) int64, first character and one past the last of each block.
     line
@@ -137,41 +130,29 @@ class Source:
     """
 
     text: str
+    block: Ints
     span: Ints
     line: Ints
     label: tuple[str, ...]
 
+    def picked(self, row: Ints) -> "Source":
+        """The source of the rows `row`."""
+        label = tuple(self.label[at] for at in row.tolist())
+        return Source(self.text, self.block[row], self.span[row], self.line[row], label)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Toolpath:
-    """Geometry of a program: n rows, absolute µm and rad, exact to double precision.
+class Toolpath(Curves):
+    """Geometry of a program: n curves, `start_um[i]` equal to `end_um[i - 1]`.
 
     Attributes
     ----------
-    kind
-        (n,) int64, values of `Kind`.
-    start_um, end_um, center_um
-        (n, 2) float64; the centre of a line is NaN. `start_um[i]` equals `end_um[i - 1]`.
-    radius_um, start_angle_rad
-        (n,) float64; NaN on lines.
-    sweep_rad
-        (n,) float64, signed, positive counter-clockwise; 0 on lines; beyond 2π for more than one turn.
-    length_um
-        (n,) float64, length along the block.
     printed_end_um
         (n, 2) float64, the end that the program prints beside the block; NaN where it prints none.
     words, source, stops
         What the controller is told; where it is written; pauses and the end, in order.
     """
 
-    kind: Ints
-    start_um: Floats
-    end_um: Floats
-    center_um: Floats
-    radius_um: Floats
-    start_angle_rad: Floats
-    sweep_rad: Floats
-    length_um: Floats
     printed_end_um: Floats
     words: Words
     source: Source
@@ -181,7 +162,7 @@ class Toolpath:
         """Freeze the columns, and raise ValueError with their lengths where they are not all the same."""
         columns = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("words", "source", "stops")}
         columns |= {f"words.{f.name}": getattr(self.words, f.name) for f in fields(self.words)}
-        columns |= {f"source.{name}": getattr(self.source, name) for name in ("span", "line", "label")}
+        columns |= {f"source.{name}": getattr(self.source, name) for name in ("block", "span", "line", "label")}
         rows = {name: len(column) for name, column in columns.items()}
         if len(set(rows.values())) > 1:
             raise ValueError(f"columns of a toolpath have one length, not {rows}")
@@ -189,17 +170,8 @@ class Toolpath:
             if isinstance(column, np.ndarray):
                 column.setflags(write=False)
 
-    def __len__(self) -> int:
-        return len(self.kind)
-
     def __iter__(self) -> Iterator[Block]:
         return (self.block(row) for row in range(len(self)))
-
-    @property
-    def is_arc(self) -> NDArray[np.bool_]:
-        """(n,) True on arcs."""
-        arc: NDArray[np.bool_] = self.kind == Kind.ARC
-        return arc
 
     @property
     def is_jump(self) -> NDArray[np.bool_]:
@@ -218,7 +190,7 @@ class Toolpath:
         return self.start_angle_rad + self.sweep_rad
 
     def block(self, row: int) -> Block:
-        """Row `row` (from 0) as a light view; its block number is `row + 1`. IndexError beyond the last row."""
+        """Row `row` (from 0) as a light view, numbered `row + 1` as it runs. IndexError beyond the last row."""
         arc = bool(self.is_arc[row])
         first, last = self.source.span[row]
         return Block(

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:  # the command line must start without numpy
-    from parser.toolpath import Floats
+    from parser.geometry.curves import Floats
 
 UM_PER_MM = 1000.0
 _Length = TypeVar("_Length", float, "Floats")

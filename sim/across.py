@@ -7,8 +7,10 @@ past an end of a block its neighbour there, as in `sim.deviation`.
 
 import numpy as np
 
-from parser.toolpath import Floats, Ints, Toolpath
-from sim.deviation import Deviation, Where, distance_to_blocks
+from parser.geometry.curves import Floats, Ints
+from parser.geometry.distance import distance_to_curves
+from parser.toolpath import Toolpath
+from sim.deviation import Deviation, Where
 from sim.trace import Trace
 
 _MOST_BACK = 50
@@ -24,7 +26,7 @@ def across_um(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floa
     """
     x, y = np.ascontiguousarray(place_um[:, 0]), np.ascontiguousarray(place_um[:, 1])
     row = trace.row.copy()
-    away, beyond = distance_to_blocks(toolpath, row, x, y)
+    away, beyond = distance_to_curves(toolpath, row, x, y)
     past = np.flatnonzero(beyond)
     _take_nearer(toolpath, past, trace.row[past] + beyond[past], (x, y), (row, away))
     earliest = _earliest(toolpath, trace, place_um, along_um)
@@ -42,7 +44,7 @@ def _take_nearer(
 ) -> None:
     """Put rows and distances of some samples in place of the best so far, where they are nearer."""
     row = np.clip(row, 0, len(toolpath) - 1)
-    away, _ = distance_to_blocks(toolpath, row, xy[0][samples], xy[1][samples])
+    away, _ = distance_to_curves(toolpath, row, xy[0][samples], xy[1][samples])
     nearer = away < best[1][samples] - _NEARER_UM
     best[0][samples[nearer]], best[1][samples[nearer]] = row[nearer], away[nearer]
 

@@ -6,7 +6,8 @@ import numpy as np
 
 from controller.motion.path import Path, path_of
 from controller.motion.plan import Plan
-from parser.toolpath import Floats, Ints, Toolpath
+from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Toolpath
 from sim.across import where
 from sim.deviation import Deviation, Where
 from sim.trace import Trace

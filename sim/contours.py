@@ -5,9 +5,10 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.figures import CLOSED_WITHIN_UM, EXACT_PER_ARC_UM
-from parser.toolpath import Floats, Ints, Toolpath
-from sim.deviation import distance_to_blocks
-from sim.directions import directions, headings_at
+from parser.geometry.curves import Floats, Ints
+from parser.geometry.directions import directions, headings_at
+from parser.geometry.distance import distance_to_curves
+from parser.toolpath import Toolpath
 
 _OF_LINES_UM = 2.0  # ends in whole µm, of a CAM that rounds them apart
 _SAME_WAY = 0.9  # cosine of the angle between two ways along one curve
@@ -104,7 +105,7 @@ def _returns(toolpath: Toolpath, before: Ints, last: int, arriving: Floats, tole
     before = before[before < last]
     if not len(before):
         return False
-    off, _ = distance_to_blocks(toolpath, before, np.full(len(before), end[0]), np.full(len(before), end[1]))
+    off, _ = distance_to_curves(toolpath, before, np.full(len(before), end[0]), np.full(len(before), end[1]))
     along = headings_at(toolpath, before[off <= tolerance_um], end)
     return bool((along @ arriving > _SAME_WAY).any())
 

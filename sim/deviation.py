@@ -9,7 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.toolpath import Floats, Ints, Kind, Toolpath
+from parser.geometry.curves import Floats, Ints
+from parser.geometry.distance import distance_to_curves
+from parser.toolpath import Toolpath
 
 _BINS_PER_E = 1000.0
 _SMALLEST_UM = 1e-6
@@ -85,45 +87,8 @@ class DeviationMeter:
 
 def distance(toolpath: Toolpath, row: Ints, x_um: Floats, y_um: Floats) -> Floats:
     """Deviations (m,) µm of (m,) positions that belong to the blocks of `row`."""
-    result, beyond = distance_to_blocks(toolpath, row, x_um, y_um)
+    result, beyond = distance_to_curves(toolpath, row, x_um, y_um)
     past = np.flatnonzero(beyond)
     neighbour = np.clip(row[past] + beyond[past], 0, len(toolpath) - 1)
-    result[past] = np.minimum(result[past], distance_to_blocks(toolpath, neighbour, x_um[past], y_um[past])[0])
+    result[past] = np.minimum(result[past], distance_to_curves(toolpath, neighbour, x_um[past], y_um[past])[0])
     return result
-
-
-def distance_to_blocks(toolpath: Toolpath, row: Ints, x: Floats, y: Floats) -> tuple[Floats, Ints]:
-    """Distances (m,) µm of positions from the curves of the blocks `row`, and −1, 0, +1: before, on, past the curve."""
-    result, beyond = np.empty(len(row)), np.empty(len(row), dtype=np.int64)
-    arc = toolpath.kind[row] == Kind.ARC
-    for which, measure in ((np.flatnonzero(~arc), _from_lines), (np.flatnonzero(arc), _from_arcs)):
-        if len(which):
-            result[which], beyond[which] = measure(toolpath, row[which], x[which], y[which])
-    return result, beyond
-
-
-def _from_lines(toolpath: Toolpath, row: Ints, x: Floats, y: Floats) -> tuple[Floats, Ints]:
-    by_x = toolpath.end_um[:, 0][row] - toolpath.start_um[:, 0][row]
-    by_y = toolpath.end_um[:, 1][row] - toolpath.start_um[:, 1][row]
-    length = np.hypot(by_x, by_y)
-    inverse = 1.0 / np.where(length > 0.0, length, 1.0)
-    ux, uy = by_x * inverse, by_y * inverse
-    dx, dy = x - toolpath.start_um[:, 0][row], y - toolpath.start_um[:, 1][row]
-    along = dx * ux + dy * uy
-    across = dx * uy - dy * ux
-    excess = along - np.clip(along, 0.0, length)
-    return np.hypot(across, excess), np.sign(excess).astype(np.int64)
-
-
-def _from_arcs(toolpath: Toolpath, row: Ints, x: Floats, y: Floats) -> tuple[Floats, Ints]:
-    dx, dy = x - toolpath.center_um[:, 0][row], y - toolpath.center_um[:, 1][row]
-    sweep = toolpath.sweep_rad[row]
-    reach = np.abs(sweep)
-    turned = np.mod((np.arctan2(dy, dx) - toolpath.start_angle_rad[row]) * np.sign(sweep), 2.0 * np.pi)
-    result = np.abs(np.hypot(dx, dy) - toolpath.radius_um[row])
-    # Outside the sweep, the half of the open sector nearer the end is past it.
-    open_ = turned > reach
-    past_end = turned - reach < 2.0 * np.pi - turned
-    beyond = np.where(open_, np.where(past_end, 1, -1), 0)
-    end = np.where(past_end[:, None], toolpath.end_um[row], toolpath.start_um[row])
-    return np.where(open_, np.hypot(x - end[:, 0], y - end[:, 1]), result), beyond

@@ -6,7 +6,7 @@ import numpy as np
 
 from controller.stepping.pulses import Pulses
 from controller.stepping.steps import Steps
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.across import across_um, summed
 from sim.causes import NOTHING, Causes, added, carried, cut_off, whole
 from sim.deviation import Deviation

@@ -3,16 +3,13 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from controller.host.entries import Drive
 from controller.motion.path import path_of
 from controller.stepping.equal_time import chord_error_um
 from controller.stepping.pulses import Pulses
-from parser.toolpath import Floats
+from parser.geometry.curves import Bools, Floats
 from sim.deviation import Deviation, DeviationMeter
-
-Bools = NDArray[np.bool_]
 
 PERIOD_ROUNDING = 1e-3
 """Share of a period by which rounding may move its end: 10⁻⁷ s over months of cutting."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from controller.stepping.pulses import Pulses
-from parser.toolpath import Ints
+from parser.geometry.curves import Ints
 
 
 @dataclass(frozen=True, slots=True, eq=False)

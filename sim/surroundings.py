@@ -10,7 +10,8 @@ import numpy as np
 
 from parser.encoding import printable
 from parser.errors import SettingsError
-from parser.toolpath import Floats, Point
+from parser.geometry.curves import Floats
+from parser.toolpath import Point
 from parser.units import from_mm
 from sim.settings import Bound, number, refuse_unknown, section, text
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import TypeVar
 
 from parser.errors import SettingsError
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 ENGINE_FORCE_PER_N = 1e6
 """1 N is 10⁶ kg µm/s², the engine's unit of force where its lengths are µm."""

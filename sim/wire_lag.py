@@ -23,12 +23,11 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.toolpath import Floats, Toolpath
+from parser.geometry.curves import Bools, Floats
+from parser.toolpath import Toolpath
 from sim.trace import Trace
 
 Complexes = NDArray[np.complex128]
-Bools = NDArray[np.bool_]
-
 _Entry = TypeVar("_Entry", bound=np.generic)
 
 _AGREE_UM = 1e-9

@@ -10,7 +10,7 @@ from ruckig import InputParameter, Result, Ruckig, Trajectory
 
 from controller.motion.planner import RowLimits, plan_rows
 from controller.motion.s_curve import Stretches, border_speeds
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 JERK_UM_S3 = 1e7
 MM = 1e-3

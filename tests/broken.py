@@ -5,12 +5,12 @@ import random
 from typing import NamedTuple
 
 from drawings import Arc, Line, Place
+from line_words import line_words
 from plain import PlainBlock, counted_way
 
 from parser.decode import decode
 from parser.reader import read_records
 from parser.toolpath import Toolpath
-from parser.words import line_words
 
 
 class Damage(NamedTuple):

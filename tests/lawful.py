@@ -11,7 +11,7 @@ from controller.motion.limits import MotionLimits
 from controller.motion.path import Path
 from controller.motion.plan import Plan
 from controller.motion.planner import RowLimits
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 
 RELATIVE = 1e-9
 EPS = 2.0**-52

@@ -6,7 +6,8 @@ from typing import Self
 import numpy as np
 
 from parser.arcs import arc_ends
-from parser.toolpath import Kind, Source, Toolpath, Words
+from parser.geometry.curves import Curves, Kind
+from parser.toolpath import Source, Toolpath, Words
 
 
 class Pen:
@@ -80,7 +81,7 @@ class Pen:
             length_um=np.array(length, dtype=float),
             printed_end_um=np.full((n, 2), np.nan),
             words=Words(none, none, none, none, none, none, none, none),
-            source=Source("", np.zeros((n, 2), dtype=np.int64), none, ("",) * n),
+            source=Source("", np.arange(1, n + 1), np.zeros((n, 2), dtype=np.int64), none, ("",) * n),
             stops=(),
         )
 
@@ -88,3 +89,18 @@ class Pen:
 def _counted(angle: float) -> float:
     turns, rest = divmod(angle, math.pi)
     return 2.0 * turns + 1.0 - math.cos(rest)
+
+
+def flipped(curves: Curves) -> Curves:
+    """The same curves run through backwards, each and all."""
+    back = curves.picked(slice(None, None, -1))
+    return Curves(
+        kind=back.kind,
+        start_um=back.end_um,
+        end_um=back.start_um,
+        center_um=back.center_um,
+        radius_um=back.radius_um,
+        start_angle_rad=back.start_angle_rad + back.sweep_rad,
+        sweep_rad=-back.sweep_rad,
+        length_um=back.length_um,
+    )

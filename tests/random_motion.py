@@ -8,7 +8,8 @@ from paths import Pen
 from controller.motion.junctions import CornerTime, Junction, JunctionDeviation, SlowAt, StopEach, Through
 from controller.motion.limits import Feeds, MotionLimits
 from controller.motion.planner import RowLimits
-from parser.toolpath import Floats, Toolpath
+from parser.geometry.curves import Floats
+from parser.toolpath import Toolpath
 
 TURNS = (0.0, 1e-9, 0.02, 0.5, math.pi / 2, 3.0, math.pi)
 

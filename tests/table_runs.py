@@ -8,8 +8,8 @@ from runs import silent
 
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
+from parser.geometry.curves import Floats
 from parser.program import parse_program
-from parser.toolpath import Floats
 from sim.machine import Machine
 from sim.motion import Motion, Moved, motion_of, simulate
 from sim.table.follow import Following, Setup

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from lawful import assert_plan_is_lawful
+from line_words import line_words
 from strategies import program_text, programs
 
 from controller.card.base import Logged
@@ -21,7 +22,6 @@ from controller.stepping.interpolators import EqualTime, PointByPoint
 from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
 from parser.program import parse_program
-from parser.words import line_words
 
 FEEDS = Feeds(cut_um_s=500.0, jump_um_s=4000.0)
 LIMITS = MotionLimits(acceleration_um_s2=1e5, axis_acceleration_um_s2=(5e4, 7e4), junction=JunctionDeviation(0.1))

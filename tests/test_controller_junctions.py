@@ -20,7 +20,8 @@ from controller.motion.junctions import (
     turns,
 )
 from controller.motion.path import Path, path_of
-from parser.toolpath import Floats, Toolpath
+from parser.geometry.curves import Floats
+from parser.toolpath import Toolpath
 
 FIVE_DEGREES = math.radians(5.0)
 

@@ -14,8 +14,9 @@ from controller.motion.junctions import CornerTime, Junction, JunctionDeviation,
 from controller.motion.limits import Feeds, MotionLimits, row_limits, run_starts
 from controller.motion.path import path_of
 from controller.motion.plan import EMPTY_PLAN, Plan
+from parser.geometry.curves import Floats
 from parser.program import parse_program
-from parser.toolpath import Floats, Toolpath
+from parser.toolpath import Toolpath
 
 FEEDS = Feeds(cut_um_s=50.0, jump_um_s=400.0)
 LIMITS = MotionLimits(acceleration_um_s2=1000.0)

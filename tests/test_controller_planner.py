@@ -13,7 +13,7 @@ from random_motion import random_rows
 
 from controller.motion.lookahead import reachable
 from controller.motion.planner import RowLimits, border_speeds_sq, plan_rows
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 
 def rows(length: list[float], speed: float = 50.0, a: float = 1000.0, border: list[float] | None = None) -> RowLimits:

@@ -12,7 +12,7 @@ from controller.motion.phases import Phases, times_of_lengths
 from controller.motion.plan import plan_of
 from controller.motion.planner import RowLimits, merged, plan_rows
 from controller.motion.s_curve import Stretches, border_speeds, ramp_lengths, s_curves
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 MM = 1e-3
 

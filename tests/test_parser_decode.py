@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from plain import SIGNS, PlainBlock, plain_arc_end
 from strategies import arcs, lines, program_text, programs
 
+from parser.geometry.curves import Kind
 from parser.program import parse_program, read_program
-from parser.toolpath import Kind, Toolpath
+from parser.toolpath import Toolpath
 
 SCENARIOS = Path(__file__).parent.parent / "scenarios"
 

@@ -1,7 +1,7 @@
 """Several figures: pauses, jumps in the air and start nodes."""
 
+from parser.geometry.curves import Kind
 from parser.program import parse_program
-from parser.toolpath import Kind
 
 SQUARE = "B10B0B10GXL1 B0B10B10GYL2 B10B0B10GXL3 B0B10B10GYL4\n"
 CIRCLE = "B5B0B5GXL1 B5B0B20GYNR1 B5B0B5GXL3\n"

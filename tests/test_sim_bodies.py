@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image, ImageChops
 
+from parser.geometry.curves import Floats
 from parser.program import parse_program
-from parser.toolpath import Floats
 from sim.draw import style
 from sim.draw.flatten import bounds_um
 from sim.draw.layout import Box, page_for

@@ -1,9 +1,9 @@
 """Contours: which are told apart, which close, and what is said of those that do not."""
 
 import pytest
+from line_words import line_words
 from runs import closure_codes, codes, run_text
 
-from parser.words import line_words
 from sim.check.count_axes import ruled_count_axis
 
 HOLE = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3"

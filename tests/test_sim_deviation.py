@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import program_text, programs
 
+from parser.geometry.curves import Kind
 from parser.program import parse_program
-from parser.toolpath import Block, Kind, Toolpath
+from parser.toolpath import Block, Toolpath
 from sim.deviation import DeviationMeter, distance
 
 SPOTS = 4001

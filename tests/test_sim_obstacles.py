@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from runs import plain_scenario
 
 from parser.findings import Finding
+from parser.geometry.curves import Floats, Kind
 from parser.program import Program, parse_program
-from parser.toolpath import Floats, Kind, Point
+from parser.toolpath import Point
 from sim.collisions.findings import obstacle_findings
 from sim.collisions.pieces import grown, swept
 from sim.collisions.touches import Touch, touches, way_of

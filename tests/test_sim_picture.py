@@ -13,8 +13,9 @@ import pygame
 import pytest
 from PIL import Image, ImageChops, ImageStat
 
+from parser.geometry.curves import Kind
 from parser.program import parse_program
-from parser.toolpath import Kind, Toolpath
+from parser.toolpath import Toolpath
 from sim.draw import style
 from sim.draw.canvas import Canvas
 from sim.draw.flatten import along, bounds_um, flatten

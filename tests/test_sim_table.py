@@ -8,7 +8,7 @@ import pytest
 from table_runs import MODEL, MOVED_KG, STEPPER, TICK_S, draw, even_ticks, pulses_of, still
 
 from controller.stepping.pulses import Pulses
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.table.drive import Kick, drives_of, kicked
 from sim.table.engine import Tables
 from sim.table.motor import Motors

@@ -13,7 +13,8 @@ from paths import Pen
 from runs import machine, plain_scenario, run_text
 
 from parser.errors import SettingsError
-from parser.toolpath import Kind, Toolpath
+from parser.geometry.curves import Kind
+from parser.toolpath import Toolpath
 from sim.scenario import load_scenario
 from sim.trace import Trace
 from sim.wire import DEFAULT_WIRE, Wire, WireForces, read_wire

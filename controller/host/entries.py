@@ -7,7 +7,8 @@ import numpy as np
 from controller.card.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.motion.plan import Plan
 from controller.motion.planner import RowLimits
-from parser.toolpath import Floats, Ints, Toolpath
+from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Toolpath
 
 Interpolation = Literal["point-by-point", "card"]
 """How a path becomes steps: as 3B controllers do, or by the card's own interpolation at equal times."""

@@ -9,7 +9,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from controller.motion.path import Path
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 
 STRAIGHT_RAD = 1e-12
 """A turn of less is rounding: a line cut in two turns by some 10⁻¹⁶, by more the longer the way from the origin."""

@@ -8,7 +8,8 @@ import numpy as np
 from controller.motion.junctions import Junction, Through, junction_speeds, turns
 from controller.motion.path import Path, path_of
 from controller.motion.planner import RowLimits
-from parser.toolpath import Floats, Ints, Toolpath
+from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Toolpath
 
 CENTRIPETAL_SHARE = math.sqrt(0.75)
 """Of the acceleration, what an arc may take to bend the path, so that half is left along it: 1² = ¾ + ½² (LinuxCNC,

@@ -7,7 +7,7 @@ highest lawful v² at a border is the least, over all borders k, of the limit at
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 
 def reachable(limit_sq: Floats, room_sq: Floats) -> Floats:

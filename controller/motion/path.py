@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from parser.toolpath import Floats, Ints, Toolpath
+from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Toolpath
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 NEWTON_STEPS = 6
 """The start is at most some 3 times the root; 5 steps come from there into its last bits (tried over 20 decades)."""

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.motion.phases import Phases, times_of_lengths
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 
 
 class Instant(NamedTuple):

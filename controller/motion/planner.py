@@ -12,7 +12,7 @@ from controller.motion.lookahead import reachable
 from controller.motion.phases import Phases
 from controller.motion.plan import EMPTY_PLAN, Plan, on_borders, plan_of
 from controller.motion.s_curve import Stretches, border_speeds, braked_from, ramp_lengths, s_curves
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 ALIKE = 1e-9
 """Limits that differ by less, relative, are the same to S-curves: the direction of a line cut in two is rounded."""

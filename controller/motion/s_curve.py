@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.motion.phases import Phases
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 ROUNDING = 1e-12
 """Relative, far above that of ramp lengths, far below anything that a drive could tell."""

@@ -16,7 +16,7 @@ from controller.motion.path import Path
 from controller.motion.plan import Plan
 from controller.stepping.half_pulses import Parts, doubts
 from controller.stepping.pulses import Pulses
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 
 ROUNDING_UM = 1e-6
 """Lengths and places that differ by less may be one: sums over a path of 10 m differ by some 10⁻⁹ µm."""

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.motion.path import Path
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 
 _STANDS = 1e-200
 """Put for a slope or an amplitude of 0: an axis that stands near half a pulse is in doubt all along."""

@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from controller.stepping.quadrants import walk_arcs
 from controller.stepping.steps import Steps
-from controller.stepping.strokes import Bools, Followed, arc_strokes, follow, line_strokes
-from parser.toolpath import Axis, Floats, Ints, Toolpath, Words
+from controller.stepping.strokes import Followed, arc_strokes, follow, line_strokes
+from parser.geometry.curves import Bools, Floats, Ints
+from parser.toolpath import Axis, Toolpath, Words
 
 Number = TypeVar("Number", np.int64, np.float64)
 

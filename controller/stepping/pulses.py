@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from controller.motion.plan import Plan
 from controller.stepping.steps import StepChunk
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 ROUNDING = 1e-13
 """Share of a path by which sums of its parts may differ: √p · 2⁻⁵³ for p parts up to a million."""

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.stepping.quadrants import ArcWalk
-from controller.stepping.strokes import Bools, Strokes, arc_strokes, follow, line_strokes
-from parser.toolpath import Floats, Ints
+from controller.stepping.strokes import Strokes, arc_strokes, follow, line_strokes
+from parser.geometry.curves import Bools, Floats, Ints
 
 CHUNK_STEPS = 1 << 18
 """Steps worked out at once: their arrays stay in a processor's cache, and the cost of an array call is spread thin."""

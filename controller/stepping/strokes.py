@@ -16,9 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.stepping.quadrants import AWAY, TOWARD, ArcWalk, ceil_sqrt
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints
 
-Bools = NDArray[np.bool_]
 Number = TypeVar("Number", np.int64, np.float64, np.bool_)
 
 

@@ -5,7 +5,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.ballbar.turn import Sense
 from sim.draw import style
 from sim.draw.canvas import Canvas

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.ballbar.turn import GRID_RAD, Turn
 
 

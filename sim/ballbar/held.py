@@ -3,7 +3,7 @@
 import numpy as np
 
 from controller.stepping.pulses import Pulses
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 
 class HeldSteps:

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.ballbar.dial import COLOURS, CURVE_WIDTH, NOMINAL_WIDTH, ZONE_WIDTH
 from sim.ballbar.rows import Row
 from sim.draw import style

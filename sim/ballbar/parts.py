@@ -23,12 +23,10 @@ The steps have a form of their own: point by point they lie within 1 µm inside 
 from typing import Final, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from parser.toolpath import Axis, Floats
+from parser.geometry.curves import Bools, Floats
+from parser.toolpath import Axis
 from sim.ballbar.turn import GRID_RAD, SENSES, Sense, Turn
-
-Bools = NDArray[np.bool_]
 
 BEFORE_RAD: Final = np.radians(5.0)
 AFTER_RAD: Final = np.radians(20.0)

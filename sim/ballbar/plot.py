@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from PIL import Image
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.ballbar.circle import Ballbar, Measured
 from sim.ballbar.dial import Dial, dial_for, draw_band, draw_curve, draw_ring_values, draw_rings, draw_zone_edge
 from sim.ballbar.panel import Panel

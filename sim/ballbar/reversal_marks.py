@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.ballbar.dial import COLOURS, RIM, Dial
 from sim.ballbar.parts import Reversal
 from sim.ballbar.rows import um

@@ -5,7 +5,7 @@ from typing import Final, Literal
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 Sense = Literal[1, -1]
 SENSES: Final[tuple[Sense, Sense]] = (1, -1)

@@ -6,10 +6,10 @@ import numpy as np
 
 from parser.figures import CLOSED_WITHIN_UM
 from parser.findings import Finding, Value
+from parser.geometry.curves import Ints
 from parser.places import at_block
 from parser.program import Program
 from parser.tokens import TokenKind
-from parser.toolpath import Ints
 from sim.check.shape.loops import end_in_waste
 from sim.contours import Contour
 

@@ -7,10 +7,12 @@ import numpy as np
 from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
 from parser.findings import Finding
+from parser.geometry.curves import Floats, Ints
 from parser.places import at_block
 from parser.program import Program
 from parser.tokens import TokenKind
-from parser.toolpath import Axis, Floats, Ints, Source, Toolpath, Words
+from parser.toolpath import Axis, Toolpath, Words
+from parser.words import counted_way
 
 STEPPED_END_UM = 12.0
 """40,000 random arcs of 10 µm to 1 m radius, on the right count axis, ended at most 9.5 µm from their exact end when
@@ -80,14 +82,8 @@ def count_on(toolpath: Toolpath, row: Ints, axis: Ints) -> Ints:
     # On X an arc counts |d cos|, on Y |d sin|, which is the same a quarter turn on.
     shift = np.where(axis == Axis.X, 0.0, -np.pi / 2.0)
     low = toolpath.start_angle_rad[row] + shift
-    way = np.abs(_counted(low + toolpath.sweep_rad[row]) - _counted(low)) * toolpath.radius_um[row]
+    way = np.abs(counted_way(low + toolpath.sweep_rad[row]) - counted_way(low)) * toolpath.radius_um[row]
     return np.rint(np.where(toolpath.is_arc[row], way, of_line)).astype(np.int64)
-
-
-def _counted(angle_rad: Floats) -> Floats:
-    """Way of a cosine from 0 to an angle: 2 for every half turn, and the rest of the last one."""
-    halves = np.floor(angle_rad / np.pi)
-    return 2.0 * halves + 1.0 - np.cos(angle_rad - halves * np.pi)
 
 
 def _extents(toolpath: Toolpath) -> Floats:
@@ -109,12 +105,11 @@ def _miss_on(toolpath: Toolpath, row: Ints, axis: Ints) -> Floats:
     picked = {f.name: getattr(toolpath, f.name)[row] for f in fields(toolpath) if f.name not in _PARTS}
     words = {f.name: getattr(toolpath.words, f.name)[row] for f in fields(toolpath.words)}
     words |= {"count_axis": axis, "count_um": count_on(toolpath, row, axis)}
-    source = toolpath.source
     others = replace(
         toolpath,
         **picked,
         words=Words(**words),
-        source=Source(source.text, source.span[row], source.line[row], tuple(source.label[at] for at in row)),
+        source=toolpath.source.picked(row),
         stops=(),
     )
     return stepped_miss(others, interpolate(others))

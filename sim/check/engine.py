@@ -9,10 +9,10 @@ from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
 from parser.decode import endless
 from parser.findings import Finding, file_order
+from parser.geometry.curves import Ints
 from parser.places import at_block
 from parser.program import Program
 from parser.tokens import TokenKind
-from parser.toolpath import Ints
 from sim.check.closures import contour_findings
 from sim.check.count_axes import stepped_end_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings

@@ -17,6 +17,8 @@ _WORDS: dict[Language, dict[str, str]] = {
         "layer 2": "Block",
         "layer 3": "Contour",
         "layer 4": "Machine and scenario",
+        "layer 5": "Wire offset",
+        "layer 6": "Drawing",
     },
     "zh": {
         "error": "错误",
@@ -31,6 +33,8 @@ _WORDS: dict[Language, dict[str, str]] = {
         "layer 2": "程序段",
         "layer 3": "轮廓",
         "layer 4": "机床与 scenario",
+        "layer 5": "间隙补偿",
+        "layer 6": "图纸",
     },
 }
 

@@ -4,10 +4,11 @@ import numpy as np
 
 from parser.figures import CLOSED_WITHIN_UM
 from parser.findings import Finding
+from parser.geometry.curves import Ints
+from parser.geometry.distance import distance_to_curves
 from parser.places import at_block
 from parser.program import Program
-from parser.toolpath import Ints, Toolpath
-from sim.deviation import distance_to_blocks
+from parser.toolpath import Toolpath
 
 _APART_UM = 1000.0
 """Passes of one cut lie within the kerf of each other; figures this far apart are two."""
@@ -73,5 +74,5 @@ def _latest_return(toolpath: Toolpath, contour: Ints) -> Ints:
 def _distance(toolpath: Toolpath, row: int, figure: Ints) -> float:
     """Distance µm of a row's start from the blocks of a figure."""
     x, y = toolpath.start_um[row]
-    off, _ = distance_to_blocks(toolpath, figure, np.full(len(figure), x), np.full(len(figure), y))
+    off, _ = distance_to_curves(toolpath, figure, np.full(len(figure), x), np.full(len(figure), y))
     return float(off.min())

@@ -6,9 +6,10 @@ import numpy as np
 
 from controller.stepping.steps import Steps
 from parser.findings import Finding
+from parser.geometry.curves import Floats
 from parser.places import at_block
 from parser.program import Program
-from parser.toolpath import Axis, Floats, Toolpath
+from parser.toolpath import Axis, Toolpath
 from parser.units import from_mm
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.collisions.pieces import Pieces, grown, sides
 from sim.collisions.touches import Touch, Way, touches
 from sim.contours import Contour

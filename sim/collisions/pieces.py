@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pymunk
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.collisions.triangles import triangles
 from sim.surroundings import Outline
 

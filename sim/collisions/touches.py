@@ -11,7 +11,7 @@ import numpy as np
 import pymunk
 from numpy.typing import NDArray
 
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 from sim.collisions.pieces import Pieces
 
 STRETCH = 256

@@ -6,7 +6,7 @@ lies askew for one, make it return wrong pieces or crash the process.
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.surroundings import Outline
 
 _FLAT_UM = 1e-6

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.draw import style
 from sim.draw.layout import Box
 from sim.draw.style import Colour

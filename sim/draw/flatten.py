@@ -4,12 +4,11 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-from parser.toolpath import Floats, Ints, Toolpath
-from sim.directions import headings
-
-Bools = NDArray[np.bool_]
+from parser.geometry.along import places
+from parser.geometry.curves import Bools, Floats, Ints
+from parser.geometry.directions import headings
+from parser.toolpath import Toolpath
 
 
 def bounds_um(toolpath: Toolpath) -> Floats:
@@ -106,15 +105,9 @@ def along(toolpath: Toolpath, row: Ints, fraction: Floats) -> tuple[Floats, Floa
     direction
         (m, 2) float64 of length 1; along +X in a block of no length.
     """
-    start = toolpath.start_um[row]
-    points = start + fraction[:, None] * (toolpath.end_um[row] - start)
-    arc = toolpath.is_arc[row]
-    turned = row[arc]
-    angle = toolpath.start_angle_rad[turned] + fraction[arc] * toolpath.sweep_rad[turned]
-    points[arc] = _on_circle_um(toolpath.center_um[turned], toolpath.radius_um[turned], angle)
     heading = headings(toolpath, row, fraction)
     moves = np.hypot(heading[:, 0], heading[:, 1]) > 0.0
-    return points, np.where(moves[:, None], heading, (1.0, 0.0))
+    return places(toolpath, row, fraction), np.where(moves[:, None], heading, (1.0, 0.0))
 
 
 def cut_runs(points_um: Floats, row: Ints, is_jump: Bools) -> list[Floats]:

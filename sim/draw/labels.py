@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.draw.layout import Box, box_around
 
 CELL_PX: Final = 4.0

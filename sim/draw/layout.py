@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from parser.units import mm
 from sim.draw import style
 

@@ -4,7 +4,8 @@ from typing import Final
 
 import numpy as np
 
-from parser.toolpath import Floats, Ints, Toolpath
+from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Toolpath
 from sim.draw import style
 from sim.draw.canvas import Canvas
 from sim.draw.flatten import along

@@ -5,7 +5,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from PIL import Image
 
-from parser.toolpath import Floats, Ints, Toolpath
+from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Toolpath
 from sim.draw import style
 from sim.draw.canvas import Canvas
 from sim.draw.flatten import bounds_um, cut_runs, flatten

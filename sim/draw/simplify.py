@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 
 
 def simplify(points: Floats, tolerance: float) -> Floats:

@@ -4,7 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from parser.toolpath import Axis, Kind, Toolpath
+from parser.geometry.curves import Kind
+from parser.toolpath import Axis, Toolpath
 from sim.dryrun import DryRun
 from sim.report.rounded import DEG_DIGITS, column, points, rows
 

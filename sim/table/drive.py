@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.table_model import TableModel
 from sim.units import engine_force, engine_stiffness, engine_viscosity
 

@@ -8,7 +8,7 @@ import numpy as np
 import pymunk
 from pymunk import batch
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from sim.table_model import TableModel
 
 _MOVED = batch.BodyFields.POSITION | batch.BodyFields.VELOCITY

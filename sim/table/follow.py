@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.stepping.pulses import Pulses
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from parser.units import from_mm
 from sim.table.engine import Engines
 from sim.table.losses import Loss, LossTally

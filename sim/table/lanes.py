@@ -8,7 +8,7 @@ from there, until all agree.
 
 import numpy as np
 
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 from sim.table.march import March, Record, Table
 from sim.table.slab import Slab
 from sim.table.state import State

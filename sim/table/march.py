@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 from sim.table.drive import Drives, Kick, drives_of, kicked
 from sim.table.engine import Engines
 from sim.table.slab import Slab

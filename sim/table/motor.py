@@ -3,7 +3,7 @@
 import numpy as np
 
 from controller.stepping.pulses import Pulses
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 _GRACE_S = 1e-9  # a pulse due at a time is out by then, whichever way its time was rounded
 

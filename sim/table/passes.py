@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 from sim.table.drive import drives_of
 from sim.table.lanes import Lanes
 from sim.table.march import Table

@@ -4,7 +4,8 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Axis, Floats
+from parser.geometry.curves import Floats
+from parser.toolpath import Axis
 from sim.table.drive import drives_of
 from sim.table.march import pull_out_um
 from sim.table.travelled import Travelled

@@ -3,8 +3,9 @@
 import numpy as np
 
 from controller.motion.plan import Plan
-from parser.toolpath import Floats, Toolpath
-from sim.directions import directions
+from parser.geometry.curves import Floats
+from parser.geometry.directions import directions
+from parser.toolpath import Toolpath
 from sim.table.rhythm import Rhythm
 
 FELT_UM = 0.25

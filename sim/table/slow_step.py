@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 _SAME_UM = 1e-6
 _MANY = 1000.0

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 
 
 class State(NamedTuple):

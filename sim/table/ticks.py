@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.motion.plan import Plan
-from parser.toolpath import Floats, Ints, Toolpath
+from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Toolpath
 from sim.table.rhythm import STEP_RAD, Rhythm
 from sim.table.shakes import shakes
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 from sim.table.lanes import Lanes
 from sim.table.slab import Slab
 

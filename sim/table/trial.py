@@ -3,7 +3,7 @@
 import numpy as np
 
 from controller.stepping.pulses import Pulses
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 from parser.units import from_mm
 from sim.table.drive import drives_of
 from sim.table.engine import Engines

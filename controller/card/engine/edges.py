@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from controller.motion.path import Path
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 _TURN = 2.0 * math.pi
 _LEVEL = 1e-9

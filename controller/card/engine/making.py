@@ -19,7 +19,7 @@ from controller.motion.planner import plan_rows
 from controller.stepping.equal_time import Clock
 from controller.stepping.interpolators import EqualTime, Interpolator, PointByPoint
 from controller.stepping.steps import Steps
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 
 _STEADY = 1e-6
 """Share of the acceleration below which there is none, but for the rounding of times."""

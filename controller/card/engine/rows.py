@@ -11,7 +11,7 @@ from controller.card.settings import AXES, CardSettings
 from controller.motion.path import Path
 from controller.motion.planner import RowLimits
 from controller.stepping.steps import Steps
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
 
 def path_of_segments(rows: Sequence[Segment | Stepped]) -> Path:

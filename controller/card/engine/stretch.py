@@ -12,7 +12,7 @@ from controller.motion.path import Path
 from controller.motion.plan import Plan
 from controller.stepping.interpolators import EqualTime, Interpolator, PointByPoint
 from controller.stepping.steps import Steps
-from parser.toolpath import Floats, Ints
+from parser.geometry.curves import Floats, Ints
 
 _NO_WAY_UM = 1e-6
 """A phase shorter than this comes from rounding."""

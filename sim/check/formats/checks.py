@@ -20,4 +20,5 @@ CHECKS: tuple[str, ...] = tuple(_CODES)
 """Names of all checks, terms of the catalogue."""
 
 CHECK_OF: Mapping[str, str] = MappingProxyType({code: check for check, codes in _CODES.items() for code in codes})
-"""Code -> check. 3B402 to 3B405 and 3B490 have none: only a dry run moves the table and holds it against a scenario."""
+"""Code -> check. 3B402 to 3B406 and all from 3B490 on have none: only a dry run moves the table, applies an offset, and
+holds the cut against a scenario and a drawing."""

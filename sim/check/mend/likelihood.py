@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from parser.block_checks import ruled_label
 from parser.decode import Moves
-from parser.toolpath import Axis, Floats, Ints, Words
+from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Axis, Words
 
 Flags = NDArray[np.bool_]
 

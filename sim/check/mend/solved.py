@@ -6,7 +6,8 @@ import numpy as np
 
 from parser.arcs import ArcEnds, arc_ends
 from parser.columns import MAX_WORD_UM
-from parser.toolpath import Axis, Floats, Ints, Words
+from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Axis, Words
 
 _COUNT = 2
 _ROUNDS = 4  # of Newton's method; from the closed forms two suffice, four where they are ill-conditioned

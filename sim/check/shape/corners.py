@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from parser.toolpath import Ints, Toolpath
+from parser.geometry.curves import Ints
+from parser.toolpath import Toolpath
 from sim.check.shape.loops import find_loops
 
 _ROUNDING_UM = 5.0  # a small arc in whole µm, begun where the last block ended, is some µm off its radius

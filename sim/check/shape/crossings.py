@@ -10,10 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parser.figures import CLOSED_WITHIN_UM
-from parser.toolpath import Floats, Ints, Point, Toolpath
-from sim.check.shape.meets import CLEAR_UM, Meets, by_xy, curves_meet
-from sim.check.shape.nearness import near_pairs, turn_rad
-from sim.directions import headings_at
+from parser.geometry.boxes import turn_rad
+from parser.geometry.curves import Floats, Ints
+from parser.geometry.directions import headings_at
+from parser.geometry.meets import Meets, by_xy, curves_meet
+from parser.geometry.nearness import near_pairs
+from parser.toolpath import Point, Toolpath
+
+CLEAR_UM = 5.0
+"""Both ends of each block lie this far, measured across the other block; two curves overlap this far at their lens."""
 
 _CORNER_LOOP_UM = 5000.0
 _KERF_UM = 200.0
@@ -64,7 +69,7 @@ def find_crossings(toolpath: Toolpath, contour_of_row: Ints, most_pairs: int = M
     pairs = near_pairs(toolpath, contour_of_row, 2.0 * CLEAR_UM, most_pairs)
     if not len(pairs.early) and not len(pairs.incomplete):
         return ()
-    meets = _proper(toolpath, curves_meet(toolpath, pairs.early, pairs.late), contour_of_row)
+    meets = _proper(toolpath, curves_meet(toolpath, pairs.early, pairs.late, CLEAR_UM), contour_of_row)
     contour = contour_of_row[meets.late]
     numbers, first, count = np.unique(contour, return_index=True, return_counts=True)
     found = dict(zip(numbers.tolist(), zip(first.tolist(), count.tolist(), strict=True), strict=True))

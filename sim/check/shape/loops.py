@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parser.figures import CLOSED_WITHIN_UM
-from parser.toolpath import Floats, Ints, Toolpath
-from sim.deviation import distance_to_blocks
+from parser.geometry.curves import Floats, Ints
+from parser.geometry.distance import distance_to_curves
+from parser.toolpath import Toolpath
 
 _LEAD_IN_BLOCKS = 4  # at most; the loop begins no later
 
@@ -71,7 +72,7 @@ def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints) -> Loops:
 def _first_met(toolpath: Toolpath, part: _Part, first: Ints) -> Ints:
     """Rows (k,) that are the first to pass the start of the rows `first` (k,) again; n where none does."""
     place = toolpath.start_um[first][part.of]
-    off, _ = distance_to_blocks(toolpath, part.row, place[:, 0], place[:, 1])
+    off, _ = distance_to_curves(toolpath, part.row, place[:, 0], place[:, 1])
     run = np.cumsum(toolpath.length_um) - toolpath.length_um
     since = run[part.row] - run[first][part.of]
     # Short first blocks are still near the place they leave; a circle comes back by itself.
@@ -157,6 +158,8 @@ def _turned_about(start: Floats, end: Floats, turn: Floats, in_disc: NDArray[np.
     """Signed angles (m,) that blocks run round the origin: that of the chord, a turn more where the arc spans it."""
     cross = start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0]
     chord = np.arctan2(cross, (start * end).sum(axis=1))
+    # On the chord itself, as in the middle of a half circle, the sign of a zero must not tell.
+    chord = np.where((cross == 0.0) & in_disc, np.abs(chord) * np.sign(turn), chord)
     beyond = (cross * turn < 0.0) | (np.abs(turn) >= 2.0 * np.pi)
     turned: Floats = chord + np.where(in_disc & beyond, 2.0 * np.pi * np.sign(turn), 0.0)
     return turned

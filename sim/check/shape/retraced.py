@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from parser.toolpath import Ints, Toolpath
+from parser.geometry.curves import Ints
+from parser.toolpath import Toolpath
 
 _SAME_CIRCLE_UM = 10.0
 _SLACK_UM, _SLACK_RAD = 20.0, 0.1  # at most; whole µm may miss as much where the counted axis stands still

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from parser.toolpath import Ints, Toolpath
+from parser.geometry.curves import Ints
+from parser.toolpath import Toolpath
 
 
 def contour_rows(toolpath: Toolpath) -> Ints:

@@ -7,14 +7,12 @@ exactly, so a smooth joint with a neighbour becomes a cusp; no closure sees it (
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from parser.figures import CLOSED_WITHIN_UM
-from parser.toolpath import Floats, Ints, Toolpath
+from parser.geometry.curves import Bools, Floats, Ints
+from parser.geometry.directions import Directions, directions
+from parser.toolpath import Toolpath
 from sim.check.shape.loops import find_loops, is_circle
-from sim.directions import Directions, directions
-
-Bools = NDArray[np.bool_]
 
 _CUSP_RAD = np.radians(178.0)
 _LEAST_CUSP_RAD = np.radians(172.0)
