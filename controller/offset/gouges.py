@@ -1,0 +1,143 @@
+"""Gouges: where the wire's path comes nearer to a contour than the offset, and so cuts into it."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.offset.closest import Approaches, approaches
+from controller.offset.groups import groups
+from controller.offset.sections import Side
+from parser.figures import CLOSED_WITHIN_UM
+from parser.geometry.along import along_um, headings_along, places_at
+from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.directions import directions
+from parser.geometry.distance import distance_to_curves
+from parser.geometry.near_places import nearest_um
+from parser.toolpath import Point
+
+TOLERANCE_UM = 0.05
+"""Less is no fault: a twentieth of a step, and far more than rounding makes of places that should be one."""
+_JOINT_UM = 1e-3  # as near to an end of a curve, a place lies at the joint with the next one
+_EQUAL_UM = 1e-6  # depths this near are one: far above the rounding of places
+_WALL_COS = np.cos(np.pi / 4.0)  # blocks that turn by less from one to the next are one wall
+
+
+class Gouge(NamedTuple):
+    """One place where a path cuts into a contour.
+
+    Attributes
+    ----------
+    path_row, row
+        Row of the path that cuts deepest, row of the contour that it cuts into.
+    place_um
+        On the contour, beside the place of the path that cuts deepest.
+    depth_um
+        How far the kerf's edge lies beyond the contour: the offset less the distance of the path from it; where the
+        path has crossed to the other side of it and not yet come nearer to another wall, the offset and the distance,
+        up to twice the offset.
+    """
+
+    path_row: int
+    row: int
+    place_um: Point
+    depth_um: float
+
+
+def gouges(
+    contour: Curves, path: Curves, offset_um: float, side: Side, tolerance_um: float = TOLERANCE_UM
+) -> tuple[Gouge, ...]:
+    """Where a path of the wire's centre on a side of a contour cuts into it by more than a tolerance, along the path.
+
+    What is cut without a break, along the path and along one wall of the contour, makes one gouge.
+    """
+    close = approaches(contour, path, offset_um - tolerance_um)
+    if not len(close.row):
+        return ()
+    along = along_um(contour, close.row, close.place_um)
+    place = places_at(contour, close.row, along)
+    depth = offset_um - np.where(_is_across(contour, close, place, side), -1.0, 1.0) * close.distance_um
+    pair, of = np.unique(close.path_row * len(contour) + close.row, return_inverse=True)
+    at_joint = np.minimum(along, contour.length_um[close.row] - along) < _JOINT_UM
+    cut = _Cut(pair, _deepest(depth, of, len(pair)), _deepest(depth[~at_joint], of[~at_joint], len(pair)))
+    group = _groups(contour, path, cut, offset_um, tolerance_um)[of]
+    keys = (close.row, close.path_row, cut.is_corner[of], -path.length_um[close.path_row], -np.round(depth / _EQUAL_UM))
+    order = np.lexsort((*keys, group))
+    worst = order[np.diff(group[order], prepend=-1) > 0]
+    worst = worst[np.lexsort((close.row[worst], close.path_row[worst]))]
+    columns = (column[worst].tolist() for column in (close.path_row, close.row, place, depth))
+    return tuple(Gouge(path_row, row, Point(*at), deep) for path_row, row, at, deep in zip(*columns, strict=True))
+
+
+class _Cut(NamedTuple):
+    """Pairs (k,) of rows, in order, as path row × rows of the contour + row.
+
+    How deep each cuts µm, and how deep aside from the ends of the contour's row.
+    """
+
+    pair: Ints
+    depth_um: Floats
+    inner_um: Floats
+
+    @property
+    def is_corner(self) -> NDArray[np.bool_]:
+        """(k,) True where the contour's row is cut deepest at one of its ends."""
+        corner: NDArray[np.bool_] = self.depth_um > self.inner_um + _EQUAL_UM
+        return corner
+
+
+def _deepest(depth_um: Floats, of: Ints, pairs: int) -> Floats:
+    result = np.zeros(pairs)
+    np.maximum.at(result, of, depth_um)
+    return result
+
+
+def _is_across(contour: Curves, close: Approaches, place_um: Floats, side: Side) -> NDArray[np.bool_]:
+    """(k,) True where the path lies on the other side of the contour, as far as the wall next to it tells."""
+    way = _ways(contour, close.row, along_um(contour, close.row, place_um))
+    by = close.place_um - place_um
+    is_next = close.distance_um <= nearest_um(contour, close.place_um, float(close.distance_um.max())) + _EQUAL_UM
+    across: NDArray[np.bool_] = side * (way[:, 0] * by[:, 1] - way[:, 1] * by[:, 0]) < 0.0
+    return is_next & across
+
+
+def _ways(contour: Curves, row: Ints, length_um: Floats) -> Floats:
+    """Directions (k, 2) of a contour, at its joints midway through its turn; their lengths mean nothing."""
+    whole = contour.length_um[row]
+    way = headings_along(contour, row, length_um)
+    leaving, arriving = directions(contour)
+    gap = contour.start_um - np.roll(contour.end_um, 1, axis=0)
+    joined = np.hypot(gap[:, 0], gap[:, 1]) <= CLOSED_WITHIN_UM
+    after = (row + 1) % len(contour)
+    way += np.where(((length_um < _JOINT_UM) & joined[row])[:, None], arriving[row - 1], 0.0)
+    return way + np.where(((length_um > whole - _JOINT_UM) & joined[after])[:, None], leaving[after], 0.0)
+
+
+def _groups(contour: Curves, path: Curves, cut: _Cut, offset_um: float, tolerance_um: float) -> Ints:
+    """(k,) the gouge that each pair of rows belongs to.
+
+    Two rows of the path cut in one place where the joint between them is as near. So do two of the contour that are
+    one wall, without a corner between them, or of which one is cut at that corner alone, by one row of the path.
+    """
+    rows, below = len(contour), offset_um - tolerance_um
+    own, row = np.divmod(cut.pair, rows)
+    on, _ = distance_to_curves(contour, row, path.end_um[own, 0], path.end_um[own, 1])
+    along_path = _links(cut.pair, cut.pair + rows, on < below)
+    alone = cut.is_corner.copy()
+    alone[np.concatenate(along_path)] = False
+    beside, _ = distance_to_curves(path, own, contour.end_um[row, 0], contour.end_um[row, 1])
+    after = (row + 1) % rows
+    one, other = _links(cut.pair, own * rows + after, beside < below)
+    leaving, arriving = directions(contour)
+    linked = (arriving[row] * leaving[after]).sum(axis=1)[one] > _WALL_COS
+    for which in (one, other):
+        at_joint = np.abs(np.abs(cut.depth_um[which] - offset_um) - beside[one]) <= _EQUAL_UM
+        linked |= alone[which] & at_joint
+    return groups(len(own), np.append(along_path[0], one[linked]), np.append(along_path[1], other[linked]))
+
+
+def _links(pair: Ints, wanted: Ints, linked: NDArray[np.bool_]) -> tuple[Ints, Ints]:
+    """Indices of linked pairs, and of the neighbours wanted of them that are pairs too."""
+    at = np.minimum(np.searchsorted(pair, wanted), len(pair) - 1)
+    found = np.flatnonzero(linked & (pair[at] == wanted))
+    return found, at[found]

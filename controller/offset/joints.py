@@ -1,0 +1,169 @@
+"""How the offset of one block goes on into that of the next, by the three types of C-type compensation.
+
+Shortened (缩短型) on the inner side of a corner, lengthened (伸长型) on the outer side up to 90°, and beyond that with
+a bridge inserted (插入型): an arc round the corner. Tangent blocks need none of them.
+"""
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+
+from controller.offset.shifted import NOTHING_UM, Blocks, turned_rad
+from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.directions import headings_at
+from parser.geometry.meets import prolonged_meet
+
+_SHARPEST_RAD = 0.5 * np.pi + 0.01
+"""Turn of the sharpest corner that is lengthened: 90°, and what whole µm make of it between lines of 0.1 mm."""
+_FARTHEST = 1.0 / np.cos(0.5 * _SHARPEST_RAD) + 1e-9
+"""How far from its corner lengthened lines meet at most, per offset: √2 at 90°."""
+_BACK_RAD = np.pi - 1e-6
+"""Turn of a block back along the one before it, where rounding decides about the side; the wire goes round its end."""
+_SMOOTH_UM = 0.01
+"""Ends of tangent blocks are as near as this: a turn of 1e-4 rad under an offset of 0.1 mm."""
+_TANGENT_UM, _FAR_PER_GAP = 2.0, 10.0
+"""Inner corners whose ends are as near are tangent, but for whole µm, where the blocks meet this many times as far off:
+arcs of one circle of 1 mm that miss each other by 1 µm may meet anywhere on it."""
+_FLAT_RAD = 1e-6  # of curves that meet; rounding of 1e-10 µm then moves the place by 1e-4 µm
+APART_UM = 1e-3
+"""Blocks whose ends are farther apart than this have no corner: others between them have vanished."""
+
+
+class Bridge(IntEnum):
+    """What lies between two blocks."""
+
+    NONE = 0
+    ARC = 1
+    LINE = 2
+
+
+class Joints(NamedTuple):
+    """How k blocks go on into others.
+
+    Attributes
+    ----------
+    end_um, start_um
+        (k, 2) where the early one ends and where the late one begins; the same where nothing lies between them.
+    bridge
+        (k,) values of `Bridge`.
+    corner_um, turn_rad
+        (k, 2) and (k,) the corner, and the angle that the path turns there.
+    is_apart
+        (k,) True without a corner.
+    early_vanishes, late_vanishes
+        (k,) True on an arc that the offset made so small that it does not reach the other block any more.
+    """
+
+    end_um: Floats
+    start_um: Floats
+    bridge: Ints
+    corner_um: Floats
+    turn_rad: Floats
+    is_apart: Bools
+    early_vanishes: Bools
+    late_vanishes: Bools
+
+
+class _Met(NamedTuple):
+    """Where blocks meet (k, 2), NaN where they do not; how far that is from the corner, and beyond their ends."""
+
+    place_um: Floats
+    off_um: Floats
+    beyond_um: Floats
+    is_met: Bools
+
+
+def joints(blocks: Blocks, early: Ints, late: Ints) -> Joints:
+    """Joints of the blocks `early` (k,) with the blocks `late` (k,)."""
+    offset = abs(blocks.left_um)
+    end, start = blocks.shifted.end_um[early], blocks.shifted.start_um[late]
+    corner = 0.5 * (blocks.drawn.end_um[early] + blocks.drawn.start_um[late])
+    is_apart = _length(blocks.drawn.end_um[early] - blocks.drawn.start_um[late]) > APART_UM
+    turn = _turn(blocks, early, late)
+    is_inner = turn * blocks.left_um > 0.0
+    met = _met(blocks, early, late, corner, is_apart)
+    lengthens = (np.abs(turn) <= _SHARPEST_RAD) & (met.off_um <= _FARTHEST * offset) & (met.beyond_um >= -NOTHING_UM)
+    middle, wide = 0.5 * (end + start), _length(end - start)
+    is_far = met.is_met & (_length(met.place_um - middle) > _FAR_PER_GAP * wide)
+    is_smooth = (wide <= _SMOOTH_UM) | (is_far & is_inner & ~is_apart & (wide <= _TANGENT_UM))
+    is_one = is_smooth | (met.is_met & (is_apart | is_inner | lengthens))
+    # Of nearly tangent curves the place is ill-conditioned, but it lies between their ends.
+    is_middle = is_smooth & ~(_length(met.place_um - middle) <= wide)
+    place = np.where(is_middle[:, None], middle, met.place_um)
+    misses = ~is_one & is_inner & np.isnan(met.place_um[:, 0]) & (early != late)
+    early_vanishes, late_vanishes = _too_small(blocks, early, late, misses)
+    is_arc = ~is_one & ~is_apart & ~is_inner
+    return Joints(
+        end_um=np.where(is_one[:, None], place, end),
+        start_um=np.where(is_one[:, None], place, start),
+        bridge=np.select([is_one, is_arc], [Bridge.NONE, Bridge.ARC], Bridge.LINE).astype(np.int64),
+        corner_um=corner,
+        turn_rad=turn,
+        is_apart=is_apart,
+        early_vanishes=early_vanishes,
+        late_vanishes=late_vanishes,
+    )
+
+
+def _turn(blocks: Blocks, early: Ints, late: Ints) -> Floats:
+    """Angles (k,) that the path turns between blocks, positive to the left; straight back it turns outward."""
+    u, v = blocks.arriving[early], blocks.leaving[late]
+    turn: Floats = np.arctan2(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0], (u * v).sum(axis=1))
+    turn[np.abs(turn) >= _BACK_RAD] = -np.pi * np.sign(blocks.left_um)
+    return turn
+
+
+def _met(blocks: Blocks, early: Ints, late: Ints, corner_um: Floats, is_apart: Bools) -> _Met:
+    """Where blocks meet nearest their corner; those that are apart cross there, no farther beyond them than offset."""
+    shifted = blocks.shifted
+    places = prolonged_meet(shifted, early, late).place_um
+    joint, which = np.nonzero(~np.isnan(places[:, :, 0]))
+    place = places[joint, which]
+    ends = _beyond(shifted, early[joint], place, True), _beyond(shifted, late[joint], place, False)
+    off = _length(place - corner_um[joint])
+    apart = np.flatnonzero(is_apart[joint])
+    is_far = np.maximum(ends[0][apart], ends[1][apart]) > abs(blocks.left_um) + NOTHING_UM
+    off[apart[is_far | _is_flat(shifted, early[joint[apart]], late[joint[apart]], place[apart])]] = np.inf
+    offs, least = np.full((len(early), 2), np.inf), np.full((len(early), 2), np.nan)
+    offs[joint, which], least[joint, which] = off, np.minimum(*ends)
+    at, nearest = np.arange(len(early)), (offs[:, 1] < offs[:, 0]).astype(np.int64)
+    off = offs[at, nearest]
+    return _Met(places[at, nearest], off, least[at, nearest], np.isfinite(off))
+
+
+def _is_flat(shifted: Curves, early: Ints, late: Ints, place_um: Floats) -> Bools:
+    """Whether curves (k,) meet at so flat an angle that rounding decides where."""
+    u, v = headings_at(shifted, early, place_um), headings_at(shifted, late, place_um)
+    flat: Bools = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) < _FLAT_RAD
+    return flat
+
+
+def _beyond(shifted: Curves, row: Ints, place_um: Floats, at_end: bool) -> Floats:
+    """How far (k,) places (k, 2) lie beyond one end of the blocks `row` (k,), outside them; negative within."""
+    end = shifted.end_um[row] if at_end else shifted.start_um[row]
+    way = shifted.end_um[row] - shifted.start_um[row]
+    length = _length(way)
+    along: Floats = ((place_um - end) * way).sum(axis=1) / np.where(length > 0.0, length, np.nan)
+    arc = np.flatnonzero(shifted.is_arc[row])
+    on = row[arc]
+    angle = shifted.start_angle_rad[on] + (shifted.sweep_rad[on] if at_end else 0.0)
+    along[arc] = turned_rad(shifted, on, angle, place_um[arc]) * shifted.radius_um[on]
+    return along if at_end else -along
+
+
+def _too_small(blocks: Blocks, early: Ints, late: Ints, misses: Bools) -> tuple[Bools, Bools]:
+    """Which of blocks that ought to meet is an arc made smaller; of two the shorter, of equals both.
+
+    An arc of radius R at an inner corner of angle θ misses the offset of a line where R (1 + cos θ) < 2 f. With R ≥ 2 f
+    it is no small arc, and the corner is sharp, or what lay between the two has vanished.
+    """
+    smaller = (blocks.drawn.sweep_rad * blocks.left_um > 0.0) & (blocks.drawn.radius_um < 2.0 * abs(blocks.left_um))
+    one, other = misses & smaller[early], misses & smaller[late]
+    length = blocks.shifted.radius_um * np.abs(blocks.shifted.sweep_rad)
+    longer = one & other & ~np.isclose(length[early], length[late], rtol=1e-6, atol=0.0)
+    return one & ~(longer & (length[early] > length[late])), other & ~(longer & (length[late] > length[early]))
+
+
+def _length(way: Floats) -> Floats:
+    return np.hypot(way[:, 0], way[:, 1])

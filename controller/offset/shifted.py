@@ -1,0 +1,140 @@
+"""Blocks of sections, moved aside each by itself: their ends do not meet yet."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from controller.offset.sections import Section
+from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.directions import directions, to_left
+from parser.geometry.meets import prolonged_meet
+
+NOTHING_UM = 1e-6
+"""No block is as short as this, and no radius as small: far below a step, far above the rounding of places."""
+_CORNER_PER_GAP = 10.0  # where blocks that close a contour meet; farther off they run side by side, without a corner
+
+
+class Blocks(NamedTuple):
+    """m blocks of sections, section after section.
+
+    Attributes
+    ----------
+    row
+        (m,) their rows in the toolpath.
+    drawn, shifted
+        The blocks as they are drawn, those of a closed section with one corner where it closes; and moved aside.
+    leaving, arriving
+        (m, 2) directions at the start and the end of each.
+    left_um
+        How far they are moved to the left, negative to the right.
+    """
+
+    row: Ints
+    drawn: Curves
+    shifted: Curves
+    leaving: Floats
+    arriving: Floats
+    left_um: float
+
+    @property
+    def is_left_over(self) -> NDArray[np.bool_]:
+        """(m,) False on blocks without length, and on arcs whose radius the offset uses up."""
+        used_up = self.shifted.is_arc & (self.shifted.radius_um <= NOTHING_UM)
+        left_over: NDArray[np.bool_] = ~used_up & (self.drawn.length_um > NOTHING_UM)
+        return left_over
+
+
+def shifted_blocks(toolpath: Curves, sections: Sequence[Section], left_um: float) -> Blocks:
+    """Blocks of all sections, one or more, moved aside."""
+    row = np.concatenate([np.arange(section.first, section.last + 1) for section in sections])
+    past = np.cumsum([section.last - section.first + 1 for section in sections])
+    first = np.append(0, past[:-1])
+    closing = np.array([section.closed and section.last > section.first for section in sections])
+    drawn = _closed_up(toolpath.picked(row), first[closing], past[closing] - 1)
+    leaving, arriving = directions(drawn)
+    turn = np.sign(drawn.sweep_rad)
+    moved = replace(
+        drawn,
+        start_um=drawn.start_um + left_um * to_left(leaving),
+        end_um=drawn.end_um + left_um * to_left(arriving),
+        radius_um=drawn.radius_um - left_um * turn,
+    )
+    return Blocks(row, drawn, moved, leaving, arriving, left_um)
+
+
+def turned_rad(curves: Curves, row: Ints, from_rad: Floats, place_um: Floats) -> Floats:
+    """Angles (k,) in [−π, π), positive the way the arcs `row` (k,) run, from angles of theirs (k,) to places (k, 2)."""
+    radial = place_um - curves.center_um[row]
+    by = (np.arctan2(radial[:, 1], radial[:, 0]) - from_rad) * np.sign(curves.sweep_rad[row])
+    return np.mod(by + np.pi, 2.0 * np.pi) - np.pi
+
+
+def closed_contour(contour: Curves) -> Curves:
+    """A closed contour without what its last block runs past its first one: a circle alone turns once.
+
+    Where the two run side by side, the contour stays as it is.
+    """
+    first, last = np.array([0]), np.array([len(contour) - 1])
+    if len(contour) == 1:
+        return _one_turn(contour)
+    place, is_met = _closing(contour, first, last)
+    return _closed_at(contour, first, last, place) if is_met[0] else contour
+
+
+def _one_turn(circle: Curves) -> Curves:
+    sweep = 2.0 * np.pi * np.sign(circle.sweep_rad)
+    return replace(circle, end_um=circle.start_um, sweep_rad=sweep, length_um=circle.radius_um * np.abs(sweep))
+
+
+def _closed_up(curves: Curves, first: Ints, last: Ints) -> Curves:
+    """Curves whose rows `last` (k,) end where the rows `first` (k,) begin.
+
+    Arcs of whole µm never close a contour exactly. Its corner is where the two blocks meet, prolonged or shortened, or
+    midway between their ends where they run side by side.
+    """
+    place, is_met = _closing(curves, first, last)
+    middle = 0.5 * (curves.start_um[first] + curves.end_um[last])
+    corner = np.where(is_met[:, None], place, middle)
+    return _closed_at(curves, first, last, corner)
+
+
+def _closed_at(curves: Curves, first: Ints, last: Ints, corner_um: Floats) -> Curves:
+    """Curves whose rows `last` end and rows `first` begin at corners (k, 2)."""
+    closed = _ended(_begun(curves, first, corner_um), last, corner_um)
+    chord = np.hypot(*(closed.end_um - closed.start_um).T)
+    length = np.where(closed.is_arc, closed.radius_um * np.abs(closed.sweep_rad), chord)
+    return replace(closed, length_um=length)
+
+
+def _closing(curves: Curves, first: Ints, last: Ints) -> tuple[Floats, NDArray[np.bool_]]:
+    """Places (k, 2) where rows `last` and `first` meet, prolonged or shortened, and whether (k,) they do."""
+    gap = curves.start_um[first] - curves.end_um[last]
+    middle = curves.end_um[last] + 0.5 * gap
+    wide = np.hypot(gap[:, 0], gap[:, 1])
+    place = prolonged_meet(curves, last, first).place_um
+    off = np.hypot(*np.moveaxis(place - middle[:, None], 2, 0))
+    off = np.where(off <= _CORNER_PER_GAP * wide[:, None], off, np.inf)
+    at, nearest = np.arange(len(first)), np.argmin(off, axis=1)
+    return place[at, nearest], (wide > 0.0) & np.isfinite(off[at, nearest])
+
+
+def _begun(curves: Curves, row: Ints, place_um: Floats) -> Curves:
+    start, angle, sweep = curves.start_um.copy(), curves.start_angle_rad.copy(), curves.sweep_rad.copy()
+    moved = row[(start[row] != place_um).any(axis=1)]
+    start[row] = place_um
+    by = turned_rad(curves, moved, angle[moved], start[moved]) * np.sign(sweep[moved])
+    angle[moved] += by
+    sweep[moved] -= np.nan_to_num(by)
+    return replace(curves, start_um=start, start_angle_rad=angle, sweep_rad=sweep)
+
+
+def _ended(curves: Curves, row: Ints, place_um: Floats) -> Curves:
+    end, sweep = curves.end_um.copy(), curves.sweep_rad.copy()
+    moved = row[(end[row] != place_um).any(axis=1)]
+    end[row] = place_um
+    by = turned_rad(curves, moved, (curves.start_angle_rad + sweep)[moved], end[moved]) * np.sign(sweep[moved])
+    sweep[moved] += np.nan_to_num(by)
+    return replace(curves, end_um=end, sweep_rad=sweep)

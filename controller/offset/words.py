@@ -1,0 +1,44 @@
+"""Words that a controller steps an offset path by: each block from where the steps of the one before it ended."""
+
+import numpy as np
+
+from controller.stepping.point_by_point import interpolate_words
+from parser.geometry.curves import Curves, Floats, Ints
+from parser.toolpath import Words
+from parser.words import chosen, words_of_arcs, words_of_lines
+
+
+def stepped_words(curves: Curves) -> Words:
+    """Words of n curves, all places in whole µm from where the first one begins.
+
+    A controller counts its own pulses, so that rounding does not add up. All blocks are told and stepped at once, as
+    if each began at the whole µm next to its start; those that turn out to begin elsewhere are told again. A line ends
+    at the whole µm next to its end wherever it begins, and an arc mostly does not care either, so that passes over ever
+    fewer blocks suffice: 100,000 arcs without a line between them take 76 passes, and 4 times the work of one. After n
+    passes nothing can change any more.
+    """
+    n = len(curves)
+    origin = curves.start_um[:1]
+    begins = np.rint(curves.start_um - origin).astype(np.int64)
+    ends = np.empty_like(begins)
+    told = {name: np.empty(n, dtype=np.int64) for name in Words.__slots__}
+    row = np.arange(n)
+    while len(row):
+        words = _told(curves, row, begins[row] + origin)
+        for name, column in told.items():
+            column[row] = getattr(words, name)
+        moved = np.diff(interpolate_words(words, curves.length_um[row]).corner_um, axis=0)
+        ends[row] = begins[row] + moved
+        late = row[row < n - 1] + 1
+        row = late[(begins[late] != ends[late - 1]).any(axis=1)]
+        begins[row] = ends[row - 1]
+    return Words(**told)
+
+
+def _told(curves: Curves, row: Ints, begin_um: Floats) -> Words:
+    """Words of the rows (k,) that begin at places (k, 2) and end where they should."""
+    end = curves.end_um[row]
+    is_arc = curves.is_arc[row]
+    lines = words_of_lines(end - begin_um)
+    center = np.where(is_arc[:, None], curves.center_um[row], begin_um - (1.0, 0.0))
+    return chosen(is_arc, words_of_arcs(begin_um - center, end - center, curves.sweep_rad[row]), lines)
