@@ -41,3 +41,7 @@ class SettingsError(DrycutError, ValueError):
 
 class ControllerError(DrycutError, RuntimeError):
     """A controller that refuses what it is told to run."""
+
+
+class DrawingError(DrycutError, ValueError):
+    """A drawing that is no DXF, is damaged beyond mending, or holds no curve where curves were asked for."""

@@ -1,0 +1,153 @@
+"""Curves to loops: what each entity runs through in one go, then end to end from entity to entity."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.drawing.ends import Ends, joints
+from parser.drawing.forms import SAME_WITHIN_UM
+from parser.drawing.model import Loop, running
+from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.directions import directions
+
+
+class Chained(NamedTuple):
+    """Loops, and places (b, 2) µm where more than two ends meet."""
+
+    loops: tuple[Loop, ...]
+    branches_um: Floats
+
+
+class _Strings(NamedTuple):
+    """First and last rows (s,) of curves that an entity runs through one after the other."""
+
+    first: Ints
+    last: Ints
+
+
+class _Run(NamedTuple):
+    """Rows (n,) in running order, whether each is run backwards, its loop, and the end that each loop enters by."""
+
+    row: Ints
+    backwards: NDArray[np.bool_]
+    of: Ints
+    begin: Ints
+
+
+def chain(curves: Curves, entity: Ints, gap_um: float) -> Chained:
+    """Loops of curves (n,) whose ends lie within `gap_um`; entities are numbers (n,) that do not decrease."""
+    strings = _strings(curves, entity)
+    ends = _ends(curves, strings)
+    partner = np.full(len(ends.place_um), -1, dtype=np.int64)
+    itself = np.flatnonzero(_is_closed(curves, strings))
+    partner[2 * itself], partner[2 * itself + 1] = 2 * itself + 1, 2 * itself
+    branches = []
+    for within_um in sorted({SAME_WITHIN_UM, max(gap_um, SAME_WITHIN_UM)}):
+        made = joints(ends, np.flatnonzero(partner < 0), within_um)
+        partner[made.pair[:, 0]], partner[made.pair[:, 1]] = made.pair[:, 1], made.pair[:, 0]
+        branches.append(made.branch)
+    run = _run(strings, _ways(partner))
+    places = ends.place_um[np.unique(np.concatenate(branches))]
+    return Chained(_loops(curves, run, partner), np.unique(np.round(places, -1), axis=0))
+
+
+def _strings(curves: Curves, entity: Ints) -> _Strings:
+    apart = np.hypot(*(curves.start_um[1:] - curves.end_um[:-1]).T) > SAME_WITHIN_UM
+    cut = np.flatnonzero(apart | (np.diff(entity) != 0)) + 1
+    return _Strings(np.append(0, cut), np.append(cut, len(curves)) - 1)
+
+
+def _ends(curves: Curves, strings: _Strings) -> Ends:
+    along = directions(curves)
+    run = np.append(0.0, np.cumsum(curves.length_um))
+    place = np.stack([curves.start_um[strings.first], curves.end_um[strings.last]], axis=1)
+    out = np.stack([-along.leaving[strings.first], along.arriving[strings.last]], axis=1)
+    length = np.repeat(run[strings.last + 1] - run[strings.first], 2)
+    return Ends(place.reshape(-1, 2), out.reshape(-1, 2), length)
+
+
+def _is_closed(curves: Curves, strings: _Strings) -> NDArray[np.bool_]:
+    gap = np.hypot(*(curves.start_um[strings.first] - curves.end_um[strings.last]).T)
+    closed: NDArray[np.bool_] = gap <= SAME_WITHIN_UM
+    return closed
+
+
+def _ways(partner: Ints) -> list[list[int]]:
+    """Ends by which each loop enters its strings, in running order; open ones from a loose end."""
+    to = partner.tolist()
+    seen = [False] * (len(to) // 2)
+    loose = [end for end in range(len(to)) if to[end] < 0]
+    ways = (_way(to, seen, end) for end in (*loose, *range(0, len(to), 2)))
+    return sorted((way for way in ways if way), key=lambda way: min(end // 2 for end in way))
+
+
+def _way(to: list[int], seen: list[bool], end: int) -> list[int]:
+    way = []
+    while end >= 0 and not seen[end // 2]:
+        seen[end // 2] = True
+        way.append(end)
+        end = to[end ^ 1]
+    return way
+
+
+def _run(strings: _Strings, ways: list[list[int]]) -> _Run:
+    """Rows in the order in which the ways pass them."""
+    entry = np.array([end for way in ways for end in way], dtype=np.int64)
+    string, back = entry // 2, entry % 2 == 1
+    number = strings.last[string] - strings.first[string] + 1
+    of_string = np.repeat(np.arange(len(string)), number)
+    at = np.arange(len(of_string)) - (np.cumsum(number) - number)[of_string]
+    row = np.where(back[of_string], strings.last[string][of_string] - at, strings.first[string][of_string] + at)
+    of = np.repeat(np.arange(len(ways)), [len(way) for way in ways])[of_string]
+    begin = np.array([way[0] for way in ways], dtype=np.int64)
+    return _Run(row, back[of_string], of, begin)
+
+
+def _loops(curves: Curves, run: _Run, partner: Ints) -> tuple[Loop, ...]:
+    """Loops of rows, closed ones counter-clockwise from their leftmost place, open ones as their first row runs."""
+    closed = partner[run.begin] >= 0
+    first = np.flatnonzero(np.diff(run.of, prepend=-1))
+    past = np.append(first[1:], len(run.of))
+    turned = _turned(run, first, past, np.where(closed, _areas(curves, run) < 0.0, _runs_back(run)))
+    ran = running(curves, turned.row, turned.backwards)
+    gap = np.hypot(*(ran.start_um - np.roll(ran.end_um, 1, axis=0)).T)
+    gap[first] = np.where(closed, np.hypot(*(ran.start_um[first] - ran.end_um[past - 1]).T), 0.0)
+    widest = np.maximum.reduceat(np.where(gap > SAME_WITHIN_UM, gap, 0.0), first)
+    begin = np.where(closed, _leftmost(ran.start_um, run.of), first)
+    at = np.arange(len(run.of))
+    order = first[run.of] + (at + (begin - 2 * first)[run.of]) % (past - first)[run.of]
+    rows, backs = np.split(turned.row[order], first[1:]), np.split(turned.backwards[order], first[1:])
+    columns = zip(rows, backs, closed.tolist(), widest.tolist(), strict=True)
+    return tuple(Loop(row, back, whole, gap_um) for row, back, whole, gap_um in columns)
+
+
+def _turned(run: _Run, first: Ints, past: Ints, turn: NDArray[np.bool_]) -> _Run:
+    """The run with some loops run through the other way."""
+    at, whether = np.arange(len(run.of)), turn[run.of]
+    other = np.where(whether, (first + past - 1)[run.of] - at, at)
+    return run._replace(row=run.row[other], backwards=run.backwards[other] ^ whether)
+
+
+def _runs_back(run: _Run) -> NDArray[np.bool_]:
+    """Whether loops (l,) run through the earliest of their rows from its end."""
+    order = np.lexsort([run.row, run.of])
+    back: NDArray[np.bool_] = run.backwards[order[np.flatnonzero(np.diff(run.of[order], prepend=-1))]]
+    return back
+
+
+def _leftmost(start: Floats, of: Ints) -> Ints:
+    """Which place (l,) of each loop has the least x, and of these the least y."""
+    order = np.lexsort([start[:, 1], start[:, 0], of])
+    leftmost: Ints = order[np.flatnonzero(np.diff(of[order], prepend=-1))]
+    return leftmost
+
+
+def _areas(curves: Curves, run: _Run) -> Floats:
+    """Signed areas (l,) µm² of loops, arcs included."""
+    ran = running(curves, run.row, run.backwards)
+    origin = ran.start_um[np.flatnonzero(np.diff(run.of, prepend=-1))][run.of]
+    start, end = ran.start_um - origin, ran.end_um - origin
+    segment = np.where(ran.is_arc, ran.radius_um**2 * (ran.sweep_rad - np.sin(ran.sweep_rad)), 0.0)
+    area = np.bincount(run.of, 0.5 * (start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0] + segment))
+    return area.astype(np.float64)

@@ -1,0 +1,114 @@
+"""The bytes of a DXF file to the document that ezdxf makes of them, damaged files through its recover mode."""
+
+import io
+import logging
+import re
+from collections import Counter
+from pathlib import Path
+
+from ezdxf import recover
+from ezdxf.document import Drawing as Document
+from ezdxf.filemanagement import dxf_stream_info
+from ezdxf.lldxf.encoding import decode_dxf_unicode
+from ezdxf.lldxf.tagger import binary_tags_loader
+
+from parser.encoding import printable
+from parser.errors import DrawingError, FileUnreadableError
+
+_DWG = re.compile(rb"AC1\.|AC10\d\d|MC0\.0|AC2\.10")  # first bytes of a DWG file name its release
+_BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
+_SECTION = re.compile(rb"(?:^|[\r\n])[ \t]*0[ \t]*[\r\n]+[ \t]*SECTION")
+_END = re.compile(rb"(?:^|[\r\n])[ \t]*0[ \t]*[\r\n]+[ \t]*EOF[\s\0\x1a]*$")
+_UNITS = "$INSUNITS"
+_MOST_FAULTS = 5  # kinds named one by one
+_LONGEST = 120  # characters of a foreign message
+
+logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it finds stands in the notes, not on stderr
+
+
+def read_document(path: Path) -> tuple[Document, list[str]]:
+    """The document of a file, and notes on what was mended.
+
+    Raises FileUnreadableError where there is no readable file, DrawingError where it is no DXF or beyond mending.
+    """
+    data = _bytes(path)
+    document, notes = _loaded(path, data)
+    if _UNITS.encode() not in data:
+        document.header[_UNITS] = 0  # ezdxf takes a file that names no unit for one in metres
+    return document, notes
+
+
+def _loaded(path: Path, data: bytes) -> tuple[Document, list[str]]:
+    if not data.strip():
+        raise DrawingError(f"{path}: is empty; expected a DXF drawing")
+    if _DWG.match(data):
+        raise DrawingError(f"{path}: is a DWG file; expected DXF: save the drawing as DXF")
+    if data.startswith(_BINARY):
+        return _binary(path, data), []
+    if not _SECTION.search(data):
+        raise DrawingError(f"{path}: is no DXF file; expected a drawing saved as DXF")
+    if _END.search(data[-4096:]):
+        early = []
+    else:
+        data, early = _ended(data), ["the file ends early, without EOF; what would follow is missing"]
+    try:
+        return _text(data), early
+    except Exception:  # damaged files end in any error
+        document, mended = _recovered(path, data)
+        return document, early + mended
+
+
+def _ended(data: bytes) -> bytes:
+    """The data up to the last entity, which may be half of one, and an end behind it: recover mode asks for one."""
+    lines = data.split(b"\n")
+    last = max((at for at in range(0, len(lines), 2) if lines[at].strip() == b"0"), default=0)
+    return b"\n".join([*lines[:last], b"0", b"ENDSEC", b"0", b"EOF", b""])
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except IsADirectoryError:
+        raise FileUnreadableError(f"{path}: is a folder; a DXF drawing was expected") from None
+    except (OSError, ValueError) as error:
+        raise FileUnreadableError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+
+
+def _binary(path: Path, data: bytes) -> Document:
+    try:
+        return Document.load(binary_tags_loader(data))
+    except Exception as error:
+        raise _beyond_mending(path, error) from None
+
+
+def _text(data: bytes) -> Document:
+    encoding = dxf_stream_info(io.StringIO(data.decode("utf-8", errors="ignore"))).encoding
+    text = data.decode(encoding, errors="surrogateescape")
+    # Releases before R2007 write what their code page lacks as \U+ and four digits; ezdxf leaves it as it is.
+    return Document.read(io.StringIO(decode_dxf_unicode(text), newline=None))
+
+
+def _recovered(path: Path, data: bytes) -> tuple[Document, list[str]]:
+    try:
+        document, audit = recover.read(io.BytesIO(data))
+        document.modelspace()
+    except Exception as error:
+        raise _beyond_mending(path, error) from None
+    faults = Counter(_foreign(fault.message) for fault in (*audit.errors, *audit.fixes))
+    named = "; ".join(
+        f"{text} ({times} times)" if times > 1 else text for text, times in faults.most_common(_MOST_FAULTS)
+    )
+    return document, [f"the file is damaged and was read in recover mode; look at what is missing. {named}".rstrip()]
+
+
+def _beyond_mending(path: Path, error: Exception) -> DrawingError:
+    return DrawingError(
+        f"{path}: is damaged beyond what can be mended ({_foreign(str(error)) or type(error).__name__}); expected a DXF"
+        " drawing"
+    )
+
+
+def _foreign(message: str) -> str:
+    """A message of the library on one line, cut to a length that people read."""
+    line = printable(" ".join(message.split())).rstrip(".")
+    return line if len(line) <= _LONGEST else f"{line[: _LONGEST - 1]}…"

@@ -1,0 +1,106 @@
+"""Which loose ends lie near each other, and which two of them are one joint."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.geometry.curves import Floats, Ints
+
+_NEIGHBOURS = ((0, 0), (1, 0), (-1, 1), (0, 1), (1, 1))  # half of the cells round one; the other half look back
+_HASH = (-7046029254386353131, 7809847782465536322)  # mixes x and y of a cell
+_CROWD = 24  # ends in a cell; no contour goes on from there in a way that anyone could tell
+
+
+class Ends(NamedTuple):
+    """Loose ends (e,) of strings of curves; the ends 2k and 2k + 1 are the start and the end of string k.
+
+    Attributes
+    ----------
+    place_um
+        (e, 2).
+    out
+        (e, 2) unit vectors along the string and out of it.
+    length_um
+        (e,) of the string.
+    """
+
+    place_um: Floats
+    out: Floats
+    length_um: Floats
+
+
+class Joints(NamedTuple):
+    """Pairs of ends (j, 2) that are joined; and ends (b,) where more than two meet, or a crowd of them."""
+
+    pair: Ints
+    branch: Ints
+
+
+def joints(ends: Ends, loose: Ints, within_um: float) -> Joints:
+    """Joints between the ends `loose` (l,) that are not farther apart than a distance.
+
+    The nearest two are joined first; of ends at one place strings without a free end at their other end go
+    first, and of these the two that run on straightest.
+    """
+    pair, crowd = _near(ends.place_um[loose], within_um)
+    pair = loose[pair]
+    by = np.hypot(*(ends.place_um[pair[:, 0]] - ends.place_um[pair[:, 1]]).T)
+    # A string shorter than the distance does not close upon itself.
+    usable = (by <= within_um) & ((pair[:, 0] ^ 1 != pair[:, 1]) | (ends.length_um[pair[:, 0]] > 2.0 * within_um))
+    pair, by = pair[usable], by[usable]
+    number = np.bincount(pair.ravel(), minlength=len(ends.place_um))
+    free = np.zeros(len(number), dtype=np.bool_)
+    free[loose] = number[loose] == 0
+    branch = np.union1d(np.flatnonzero(number > 1), loose[crowd])
+    return Joints(_matched(pair[_order(ends, pair, by, free)]), branch)
+
+
+def _order(ends: Ends, pair: Ints, by: Floats, free: NDArray[np.bool_]) -> Ints:
+    """Pairs in the order of their right, down to where they lie, so that the order of the file does not tell."""
+    dead = free[pair ^ 1].sum(axis=1)
+    bend = np.round((ends.out[pair[:, 0]] * ends.out[pair[:, 1]]).sum(axis=1), 6)
+    place = ends.place_um[pair].mean(axis=1)
+    far = np.sort((ends.place_um[pair] + ends.out[pair]).sum(axis=1), axis=1)
+    return np.lexsort([far[:, 1], far[:, 0], place[:, 1], place[:, 0], bend, dead, np.round(by, 2)])
+
+
+def _matched(pair: Ints) -> Ints:
+    """Pairs whose two ends no earlier pair has; one after the other, as each depends on those before it."""
+    taken: set[int] = set()
+    kept = []
+    for number, (one, other) in enumerate(pair.tolist()):
+        if one not in taken and other not in taken:
+            taken.update((one, other))
+            kept.append(number)
+    return pair[kept]
+
+
+def _near(place: Floats, within_um: float) -> tuple[Ints, Ints]:
+    """Pairs (k, 2) of places in one cell of a grid or in neighbouring ones, and places (c,) in cells with a crowd."""
+    cell = np.floor(place / within_um).astype(np.int64)
+    key = _keys(cell)
+    order = np.argsort(key, kind="stable")
+    crowded = _count(key[order], key) > _CROWD
+    order = order[~crowded[order]]
+    pairs = [np.empty((0, 2), dtype=np.int64)]
+    for right, up in _NEIGHBOURS:
+        wanted = _keys(cell[order] + (right, up))
+        low, number = np.searchsorted(key[order], wanted), _count(key[order], wanted)
+        one = np.repeat(np.arange(len(order)), number)
+        other = low[one] + np.arange(len(one)) - (np.cumsum(number) - number)[one]
+        if (right, up) == (0, 0):
+            one, other = one[one < other], other[one < other]
+        pairs.append(np.column_stack([order[one], order[other]]))
+    return np.concatenate(pairs), np.flatnonzero(crowded)
+
+
+def _keys(cell: Ints) -> Ints:
+    """One number a cell (k, 2); two cells of one number cost time, not truth."""
+    return cell[:, 0] * _HASH[0] + cell[:, 1] * _HASH[1]
+
+
+def _count(sorted_keys: Ints, wanted: Ints) -> Ints:
+    """How often each of the keys wanted occurs."""
+    count: Ints = np.searchsorted(sorted_keys, wanted, side="right") - np.searchsorted(sorted_keys, wanted)
+    return count

@@ -1,0 +1,165 @@
+"""Placed forms and splines to lines and arcs in the plane: circles stay arcs, ellipses and splines become lines."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.drawing.forms import BEGIN, CENTER, END, MAJOR, MINOR, SAME_WITHIN_UM, START, SWEEP, Spline
+from parser.drawing.splines import flattened
+from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
+
+_FARTHEST_UM = 1e10  # 10 km: no part is drawn there, and floating point still tells 0.001 µm apart
+_LONGEST_STEP_RAD = 0.5 * np.pi  # of an ellipse however small, so that it stays round the place it is round
+
+
+class Flat(NamedTuple):
+    """Curves (n,), which form each comes from (n,), and how many forms were treated how.
+
+    Attributes
+    ----------
+    ellipses
+        Made lines.
+    slanted
+        Not level, so that they are seen shortened from above.
+    upright
+        Ellipses that are lines seen from above; left out.
+    beyond
+        With places beyond any table, or that are no numbers; left out.
+    """
+
+    curves: Curves
+    form: Ints
+    ellipses: int
+    slanted: int
+    upright: int
+    beyond: int
+
+
+def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float) -> Flat:
+    """Forms (k, 17) to curves in µm, by the maps (m, 4, 3), of which `which` (k,) tells each form its own."""
+    forms = _placed(forms, maps[which])
+    rho, thin = _axes(forms[:, MAJOR], forms[:, MINOR])
+    line = forms[:, SWEEP] == 0.0
+    arc = np.isfinite(forms).all(axis=1) & ((rho <= _FARTHEST_UM) | _is_round(forms))
+    near = _is_near(forms[:, START]) & _is_near(forms[:, END]) & (line | arc)
+    upright = near & ~line & (thin <= SAME_WITHIN_UM)
+    kept = np.flatnonzero(near & ~upright)
+    forms, line, rho = forms[kept], line[kept], rho[kept]
+    exact = line | _is_round(forms)
+    chords, of = _chords(forms[~exact], rho[~exact], tolerance_um)
+    form = np.concatenate([kept[exact], kept[~exact][of]])
+    order = np.argsort(form, kind="stable")
+    return Flat(
+        joined([_exact(forms[exact]), chords]).picked(order),
+        form[order],
+        ellipses=int((~exact).sum()),
+        slanted=int(_is_slanted(forms).sum()),
+        upright=int(upright.sum()),
+        beyond=int((~near).sum()),
+    )
+
+
+def flat_spline(spline: Spline, place: Floats, tolerance_um: float) -> Curves:
+    """Lines in µm for a spline that a map (4, 3) places. Raises ValueError beyond any table."""
+    placed = spline._replace(control=spline.control @ place[:3] + place[3])
+    if not _is_near(placed.control).all():
+        raise ValueError("control points beyond any table")
+    at = flattened(placed, tolerance_um)
+    if not _is_near(at).all():
+        raise ValueError("places beyond any table")
+    return curves_between(at[:-1], at[1:], at[1:], np.zeros(len(at) - 1))
+
+
+def is_slanted(control: Floats) -> bool:
+    """Whether places (k, 3) µm are not all of one height."""
+    return bool(np.ptp(control[:, 2]) > SAME_WITHIN_UM)
+
+
+def _placed(forms: Floats, maps: Floats) -> Floats:
+    """Forms (k, 17) by a map (k, 4, 3) each; half-axes are directions, and are turned and stretched only."""
+    placed = forms.copy()
+    for column in (START, END, CENTER, MAJOR, MINOR):
+        placed[:, column] = np.einsum("ki,kij->kj", forms[:, column], maps[:, :3])
+    for column in (START, END, CENTER):
+        placed[:, column] += maps[:, 3]
+    return placed
+
+
+def _axes(major: Floats, minor: Floats) -> tuple[Floats, Floats]:
+    """Half the length and half the width (k,) of ellipses seen from above, from conjugate half-axes."""
+    mean, apart = _squares(major, minor)
+    rho = np.sqrt(mean + np.hypot(apart, (major[:, :2] * minor[:, :2]).sum(axis=1)))
+    return rho, np.abs(_cross(major, minor)) / np.where(rho > 0.0, rho, 1.0)
+
+
+def _squares(major: Floats, minor: Floats) -> tuple[Floats, Floats]:
+    one, other = (major[:, :2] ** 2).sum(axis=1), (minor[:, :2] ** 2).sum(axis=1)
+    return 0.5 * (one + other), 0.5 * (one - other)
+
+
+def _cross(major: Floats, minor: Floats) -> Floats:
+    crossed: Floats = major[:, 0] * minor[:, 1] - major[:, 1] * minor[:, 0]
+    return crossed
+
+
+def _is_near(place: Floats) -> NDArray[np.bool_]:
+    """Whether places (k, d) are numbers that a table may have."""
+    return np.asarray((np.abs(place) <= _FARTHEST_UM).all(axis=1))
+
+
+def _is_round(forms: Floats) -> NDArray[np.bool_]:
+    """Whether ellipses (k,) are circles: half-axes of one length, at right angles."""
+    major, minor = forms[:, MAJOR], forms[:, MINOR]
+    long = np.hypot(major[:, 0], major[:, 1])
+    unequal = np.abs(long - np.hypot(minor[:, 0], minor[:, 1]))
+    along = np.abs((major[:, :2] * minor[:, :2]).sum(axis=1))
+    return np.asarray((unequal <= SAME_WITHIN_UM) & (along <= SAME_WITHIN_UM * long))
+
+
+def _is_slanted(forms: Floats) -> NDArray[np.bool_]:
+    start, end, major, minor = (forms[:, column][:, 2] for column in (START, END, MAJOR, MINOR))
+    rise = np.abs(np.column_stack([end - start, major, minor]))
+    return np.asarray((rise > SAME_WITHIN_UM).any(axis=1))
+
+
+def _exact(forms: Floats) -> Curves:
+    """Lines, and circles as arcs; those whose arc is flatter than anything files tell are lines too."""
+    major = forms[:, MAJOR]
+    radius = np.hypot(major[:, 0], major[:, 1])
+    sweep = forms[:, SWEEP] * np.sign(_cross(major, forms[:, MINOR]))
+    sagitta = 2.0 * radius * np.sin(0.25 * sweep) ** 2
+    arc = (forms[:, SWEEP] != 0.0) & (sagitta > SAME_WITHIN_UM)
+    start, end, center = (_xy(forms, column) for column in (START, END, CENTER))
+    curves = curves_between(start, end, center, np.where(arc, sweep, 0.0))
+    radius = np.where(arc, radius, np.nan)
+    return replace(curves, radius_um=radius, length_um=np.where(arc, radius * np.abs(sweep), curves.length_um))
+
+
+def _chords(forms: Floats, rho: Floats, tolerance_um: float) -> tuple[Curves, Ints]:
+    """Lines (m,) between places on ellipses (k,), and which ellipse each is of.
+
+    Over a step h of the angle, a chord lies h²/8 times the second derivative off the curve at most, which nowhere
+    exceeds half the length of the ellipse.
+    """
+    step = np.minimum(np.sqrt(8.0 * tolerance_um / np.maximum(rho, tolerance_um)), _LONGEST_STEP_RAD)
+    parts = np.ceil(np.abs(forms[:, SWEEP]) / step).astype(np.int64)
+    of = np.repeat(np.arange(len(parts)), parts)
+    at = np.arange(len(of)) - (np.cumsum(parts) - parts)[of]
+    start, end = (_on_ellipse(forms[of], share / parts[of]) for share in (at, at + 1))
+    last = at + 1 == parts[of]
+    start[at == 0], end[last] = _xy(forms, START), _xy(forms, END)
+    return curves_between(start, end, end, np.zeros(len(of))), of
+
+
+def _xy(forms: Floats, column: slice) -> Floats:
+    """A place or a half-axis (k, 2) of forms as it is seen from above."""
+    return forms[:, column][:, :2]
+
+
+def _on_ellipse(forms: Floats, share: Floats) -> Floats:
+    angle = (forms[:, BEGIN] + share * forms[:, SWEEP])[:, None]
+    center, major, minor = (_xy(forms, column) for column in (CENTER, MAJOR, MINOR))
+    place: Floats = center + major * np.cos(angle) + minor * np.sin(angle)
+    return place

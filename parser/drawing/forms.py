@@ -1,0 +1,88 @@
+"""Lines and arcs of ellipses in space, as rows of numbers that any map of a block keeps: what entities are read into.
+
+An arc of an ellipse or a circle is ``center + major·cos t + minor·sin t`` for t from `BEGIN` over `SWEEP`; major and
+minor are conjugate half-axes. A map moves the centre and turns and stretches the half-axes, and t stays.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.geometry.curves import Floats
+
+START, END, CENTER, MAJOR, MINOR = (slice(at, at + 3) for at in range(0, 15, 3))
+BEGIN, SWEEP = 15, 16
+COLUMNS = 17
+SAME_WITHIN_UM = 1e-3
+"""What files lose by printing decimals: places so near are one, curves so short are none, so flat are straight."""
+_FULL_WITHIN_RAD = 1e-6  # files print angles to six digits and more
+
+
+class Spline(NamedTuple):
+    """A B-spline: control points (c, 3), their weights (c,), knots (c + degree + 1,)."""
+
+    control: Floats
+    weight: Floats
+    knot: Floats
+    degree: int
+
+
+class Read(NamedTuple):
+    """What an entity holds: forms (k, 17) in its own coordinates, and the map from these to its block, if any."""
+
+    forms: Floats | Spline
+    own: Floats | None = None
+
+
+def line_forms(place: Floats) -> Floats:
+    """Lines (k, 17) from each of places (k + 1, 3) to the next."""
+    forms = np.full((max(len(place) - 1, 0), COLUMNS), np.nan)
+    forms[:, START], forms[:, END], forms[:, SWEEP] = place[:-1], place[1:], 0.0
+    return forms
+
+
+def ellipse_form(center: Floats, major: Floats, minor: Floats, begin_rad: float, end_rad: float) -> Floats:
+    """The arc (1, 17) of an ellipse from one angle counter-clockwise to the other; all round where they are one."""
+    sweep = (end_rad - begin_rad) % (2.0 * math.pi)
+    sweep = sweep if _FULL_WITHIN_RAD < sweep < 2.0 * math.pi - _FULL_WITHIN_RAD else 2.0 * math.pi
+    begin = center + major * math.cos(begin_rad) + minor * math.sin(begin_rad)
+    last = begin_rad + sweep
+    end = begin if sweep == 2.0 * math.pi else center + major * math.cos(last) + minor * math.sin(last)
+    return np.concatenate([begin, end, center, major, minor, (begin_rad, sweep)])[None, :]
+
+
+def circle_form(center: Floats, radius: float, begin_rad: float, end_rad: float) -> Floats:
+    """The arc (1, 17) of a circle in the plane of X and Y."""
+    return ellipse_form(center, np.array([radius, 0.0, 0.0]), np.array([0.0, radius, 0.0]), begin_rad, end_rad)
+
+
+def polyline_forms(place: Floats, bulge: Floats, closed: bool) -> Floats:
+    """Lines and arcs (k, 17) between places (n, 3); a closed polyline runs back to its first place.
+
+    The bulge (n,) of a segment is the tangent of a quarter of the angle that it turns, positive counter-clockwise
+    (DXF reference, LWPOLYLINE, group code 42).
+    """
+    if closed:
+        place = np.concatenate([place, place[:1]])
+    forms = line_forms(place)
+    bulge = bulge[: len(forms)]
+    chord = forms[:, END] - forms[:, START]
+    curved = (bulge != 0.0) & chord[:, :2].any(axis=1)
+    _bend(forms, chord, bulge, curved)
+    return forms
+
+
+def _bend(forms: Floats, chord: Floats, bulge: Floats, curved: NDArray[np.bool_]) -> None:
+    """Make arcs of the lines that are curved: half the chord is R·sin(2·atan b), which is R·2b / (1 + b²)."""
+    bulge, chord = bulge[curved], chord[curved]
+    across = np.stack([-chord[:, 1], chord[:, 0], np.zeros(len(chord))], axis=1)
+    center = 0.5 * (forms[curved, START] + forms[curved, END]) + across * ((1.0 - bulge**2) / (4.0 * bulge))[:, None]
+    radius = np.hypot(chord[:, 0], chord[:, 1]) * (1.0 + bulge**2) / (4.0 * np.abs(bulge))
+    out = forms[curved, START] - center
+    forms[curved, CENTER] = center
+    forms[curved, MAJOR] = radius[:, None] * (1.0, 0.0, 0.0)
+    forms[curved, MINOR] = radius[:, None] * (0.0, 1.0, 0.0)
+    forms[curved, BEGIN] = np.arctan2(out[:, 1], out[:, 0])
+    forms[curved, SWEEP] = 4.0 * np.arctan(bulge)

@@ -1,0 +1,124 @@
+"""Entities to curves in µm, and counts of what was left out."""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from ezdxf.entities.dxfentity import DXFEntity
+from ezdxf.entities.insert import Insert
+
+from parser.drawing.blocks import Placed
+from parser.drawing.entities import reader_of
+from parser.drawing.flat import Flat, flat_forms, flat_spline, is_slanted
+from parser.drawing.forms import COLUMNS, SAME_WITHIN_UM, Read, Spline
+from parser.drawing.placing import behind
+from parser.encoding import printable
+from parser.geometry.curves import Curves, Floats, Ints, joined
+
+
+@dataclass(slots=True)
+class Counts:
+    """How many entities, by kind, are no curves or have numbers that cannot be; and how many curves were treated how.
+
+    See `Flat` for the latter.
+    """
+
+    no_curves: Counter[str] = field(default_factory=Counter)
+    unreadable: Counter[str] = field(default_factory=Counter)
+    flattened: int = 0
+    slanted: int = 0
+    upright: int = 0
+    beyond: int = 0
+
+
+class Gathered(NamedTuple):
+    """Curves (n,), which of the entities looked at each belongs to, never decreasing, and the counts."""
+
+    curves: Curves
+    entity: Ints
+    counts: Counts
+
+
+class _Forms(NamedTuple):
+    """Forms (k, 17), the number of the map and of the entity (k,) of each, and the maps (m, 4, 3)."""
+
+    forms: Floats
+    which: Ints
+    entity: Ints
+    maps: Floats
+
+
+def gather(placed: Sequence[Placed], tolerance_um: float) -> Gathered:
+    """Curves of entities, ellipses and splines made lines within a tolerance."""
+    counts = Counts()
+    read = [_read(one.entity, counts) for one in placed]
+    forms = _forms(placed, read)
+    flat = flat_forms(forms.forms, forms.maps, forms.which, tolerance_um)
+    _count(counts, flat)
+    parts, entity = [flat.curves], [forms.entity[flat.form]]
+    for number, (one, found) in enumerate(zip(placed, read, strict=True)):
+        if found is not None and isinstance(found.forms, Spline):
+            curves = _spline(one, found.forms, tolerance_um, counts)
+            if curves is not None:
+                parts.append(curves)
+                entity.append(np.full(len(curves), number))
+    order = np.argsort(np.concatenate(entity), kind="stable")
+    curves = joined(parts).picked(order)
+    long = curves.length_um > SAME_WITHIN_UM
+    return Gathered(curves.picked(long), np.concatenate(entity)[order][long], counts)
+
+
+def _read(entity: DXFEntity, counts: Counts) -> Read | None:
+    reader = reader_of(entity)
+    if reader is None:
+        counts.no_curves[_kind(entity)] += 1
+        return None
+    try:
+        return reader(entity)
+    except Exception:  # a number is missing, is a word, or there are too few
+        counts.unreadable[entity.dxftype()] += 1
+        return None
+
+
+def _kind(entity: DXFEntity) -> str:
+    """What is left out; blocks that are not opened are missing or insert themselves."""
+    if isinstance(entity, Insert):
+        return f"INSERT of {printable(str(entity.dxf.get('name', '')))}"
+    return "POLYLINE (mesh)" if entity.dxftype() == "POLYLINE" else printable(entity.dxftype())
+
+
+def _forms(placed: Sequence[Placed], read: Sequence[Read | None]) -> _Forms:
+    forms, number, which = [np.empty((0, COLUMNS))], [], []
+    maps: list[Floats] = []
+    known: dict[tuple[int, bytes], int] = {}
+    for at, (one, found) in enumerate(zip(placed, read, strict=True)):
+        if found is None or isinstance(found.forms, Spline):
+            continue
+        key = (id(one.place), b"" if found.own is None else found.own.tobytes())
+        if key not in known:
+            known[key] = len(maps)
+            maps.append(one.place if found.own is None else behind(found.own, one.place))
+        forms.append(found.forms)
+        which.append(known[key])
+        number.append(at)
+    rows = [len(part) for part in forms[1:]]
+    which_of, entity = (np.repeat(np.array(column, dtype=np.int64), rows) for column in (which, number))
+    return _Forms(np.concatenate(forms), which_of, entity, np.array(maps).reshape(-1, 4, 3))
+
+
+def _spline(placed: Placed, spline: Spline, tolerance_um: float, counts: Counts) -> Curves | None:
+    try:
+        curves = flat_spline(spline, placed.place, tolerance_um)
+    except Exception:  # knots, weights or places that cannot be
+        counts.unreadable["SPLINE"] += 1
+        return None
+    counts.flattened += len(curves) > 1
+    counts.slanted += is_slanted(spline.control @ placed.place[:3])
+    return curves
+
+
+def _count(counts: Counts, flat: Flat) -> None:
+    counts.flattened, counts.slanted = flat.ellipses, flat.slanted
+    counts.upright, counts.beyond = flat.upright, flat.beyond

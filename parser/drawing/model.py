@@ -1,0 +1,112 @@
+"""What a drawing holds once it is read: curves, the entities they come from, and the loops that they form."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.geometry.curves import Curves, Ints, Kind
+
+DEFAULT_GAP_UM = 10.0
+"""Ends of a drawing this near are joined: more than the rounding of any CAD, less than what anyone draws (assumed)."""
+DEFAULT_FLATTEN_UM = 0.1
+"""How far lines lie off ellipses and splines at most: little beside the 5 µm that a cut is usually held to."""
+
+
+class Entity(NamedTuple):
+    """An entity of the drawing as it is placed once; one inside a block occurs as often as the block is inserted.
+
+    Attributes
+    ----------
+    kind
+        Its DXF name, such as ``LWPOLYLINE``.
+    handle
+        Its handle in the file, hexadecimal; files without handles get theirs on reading, in file order.
+    layer
+        The layer that it is drawn on; for layer 0 inside a block that of the INSERT.
+    block
+        The block that it belongs to, empty in the model space itself.
+    """
+
+    kind: str
+    handle: str
+    layer: str
+    block: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Loop:
+    """Curves that follow each other, closed or open.
+
+    Attributes
+    ----------
+    row
+        (k,) rows of the drawing's curves in running order.
+    backwards
+        (k,) True where the curve is run from its end to its start.
+    closed
+        Whether the last curve ends where the first one starts. Closed loops run counter-clockwise.
+    gap_um
+        Largest distance bridged between the end of a curve and the start of the next; 0 where none is.
+    """
+
+    row: Ints
+    backwards: NDArray[np.bool_]
+    closed: bool
+    gap_um: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Drawing:
+    """A drawing of one part.
+
+    Attributes
+    ----------
+    name
+        The file's name, for messages.
+    version
+        Release of the file format, such as ``R2010``.
+    unit
+        Unit of the file, such as ``mm``; the curves are in µm whatever it is.
+    curves
+        n lines and arcs in file order; a full circle is one arc of 2π.
+    entity
+        (n,) which of `entities` each curve belongs to.
+    entities
+        Entities that gave curves.
+    loops
+        Every curve in exactly one loop, the loop of the first curve first.
+    flattened, flatten_um
+        How many ellipses and splines were made lines, and how far these lie off them at most.
+    notes
+        What was left out, assumed or mended, one line each.
+    """
+
+    name: str
+    version: str
+    unit: str
+    curves: Curves
+    entity: Ints
+    entities: tuple[Entity, ...]
+    loops: tuple[Loop, ...]
+    flattened: int
+    flatten_um: float
+    notes: tuple[str, ...]
+
+
+def running(curves: Curves, row: Ints, backwards: NDArray[np.bool_]) -> Curves:
+    """Rows (k,) of curves in running order, those turned round that are run backwards."""
+    ahead = curves.picked(row)
+    sign = np.where(backwards, -1.0, 1.0)
+    turn = backwards[:, None]
+    return Curves(
+        kind=ahead.kind,
+        start_um=np.where(turn, ahead.end_um, ahead.start_um),
+        end_um=np.where(turn, ahead.start_um, ahead.end_um),
+        center_um=ahead.center_um,
+        radius_um=ahead.radius_um,
+        start_angle_rad=ahead.start_angle_rad + np.where(backwards, ahead.sweep_rad, 0.0),
+        sweep_rad=ahead.sweep_rad * np.where(ahead.kind == Kind.ARC, sign, 1.0),
+        length_um=ahead.length_um,
+    )

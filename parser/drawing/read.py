@@ -1,0 +1,107 @@
+"""A DXF file to a drawing: `read_drawing`, the one way in."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from ezdxf.document import Drawing as Document
+
+from parser.drawing.blocks import Placed, placed_entities
+from parser.drawing.chain import chain
+from parser.drawing.document import read_document
+from parser.drawing.duplicates import drawn_once
+from parser.drawing.gather import gather
+from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity
+from parser.drawing.notes import notes_of
+from parser.drawing.placing import scaled
+from parser.drawing.units import unit_of
+from parser.encoding import printable
+from parser.errors import DrawingError
+
+
+class _Asked(NamedTuple):
+    """What a drawing is read with; see `read_drawing`."""
+
+    layer: str | None
+    gap_um: float
+    flatten_um: float
+
+
+def read_drawing(
+    path: Path | str, layer: str | None = None, gap_um: float = DEFAULT_GAP_UM, flatten_um: float = DEFAULT_FLATTEN_UM
+) -> Drawing:
+    """The drawing of a DXF file, ASCII or binary, of any release.
+
+    Parameters
+    ----------
+    path
+        The file.
+    layer
+        The one layer to read, in letters of either case, seen or not; None for all that are neither off nor frozen.
+    gap_um
+        Ends that are no farther apart are joined.
+    flatten_um
+        How far the lines that ellipses and splines become may lie off them.
+
+    Raises FileUnreadableError where there is no readable file; DrawingError where it is no DXF, is damaged beyond
+    mending, has no such layer, or holds no curve.
+    """
+    path = Path(path)
+    document, notes = read_document(path)
+    try:
+        with np.errstate(all="ignore"):  # damaged numbers overflow; what comes of them is left out by its value
+            return _drawing(path.name, document, _Asked(layer, gap_um, flatten_um), notes)
+    except DrawingError as error:
+        raise DrawingError(f"{path}: {error}") from None
+    except Exception as error:  # what no part of the reader foresaw in a damaged file
+        raise DrawingError(f"{path}: is damaged ({type(error).__name__}); expected a DXF drawing") from None
+
+
+def _drawing(name: str, document: Document, asked: _Asked, notes: list[str]) -> Drawing:
+    unit, assumed = unit_of(document.header.get("$INSUNITS", None))
+    placed = list(placed_entities(document, scaled(unit.um)))
+    wanted = _wanted(document, placed, asked.layer)
+    gathered = gather(wanted, asked.flatten_um)
+    once = drawn_once(gathered.curves, gathered.entity)
+    if not len(once):
+        raise DrawingError(_nothing(placed, wanted, asked.layer))
+    curves = gathered.curves.picked(once)
+    number, entity = np.unique(gathered.entity[once], return_inverse=True)
+    chained = chain(curves, entity, asked.gap_um)
+    return Drawing(
+        name=name,
+        version=str(document.acad_release),
+        unit=unit.name,
+        curves=curves,
+        entity=entity.astype(np.int64),
+        entities=tuple(_entity(wanted[at]) for at in number.tolist()),
+        loops=chained.loops,
+        flattened=gathered.counts.flattened,
+        flatten_um=asked.flatten_um,
+        notes=(*notes, *([assumed] if assumed else []), *notes_of(placed, wanted, gathered, len(once), chained)),
+    )
+
+
+def _wanted(document: Document, placed: Sequence[Placed], layer: str | None) -> list[Placed]:
+    if layer is None:
+        return [one for one in placed if not one.hidden]
+    drawn = {one.layer for one in placed}
+    names = drawn | {str(entry.dxf.name) for entry in document.layers}
+    if layer.lower() not in map(str.lower, names):
+        shown = ", ".join(sorted(map(printable, drawn or names)))
+        raise DrawingError(f"has no layer {printable(layer)}; expected one of {shown}")
+    return [one for one in placed if one.layer.lower() == layer.lower()]
+
+
+def _nothing(placed: Sequence[Placed], wanted: Sequence[Placed], layer: str | None) -> str:
+    where = "" if layer is None else f" on layer {printable(layer)}"
+    hidden = len(placed) - len(wanted)
+    unseen = f" ({hidden} entities on layers that are off or frozen)" if layer is None and hidden else ""
+    return f"holds no line, arc or curve{where}{unseen}; expected the contour of a part"
+
+
+def _entity(placed: Placed) -> Entity:
+    dxf = placed.entity.dxf
+    handle, kind = str(dxf.get("handle", "")), placed.entity.dxftype()
+    return Entity(kind, printable(handle), printable(placed.layer), printable(placed.block))
