@@ -16,7 +16,10 @@ import tempfile
 import time
 from pathlib import Path
 
+from bench_compare import compare_lines
+from bench_offset import offset_lines
 from bench_table import add_options, table_lines
+from line_words import line_words
 from plain import PlainBlock, counted_way, plain_steps
 
 from controller.card.settings import CardSettings
@@ -29,7 +32,6 @@ from controller.stepping.interpolators import PointByPoint
 from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
 from parser.program import read_program
-from parser.words import line_words
 from sim.check.batch import Job, check_file
 from sim.check.settings import CheckSettings
 
@@ -167,12 +169,16 @@ def main() -> None:
     for planned_line in planners:
         print(planned_line)
     print(f"through the card    {cards[0]:.2f} s point by point, {cards[1]:.2f} s at equal times")
+    for offset_line in offset_lines(min(n, 10_000)):
+        print(offset_line)
     print(f"check               {check:.3f} s   {n / check:,.0f} blocks/s, every rule")
     print(f"check a small file  {small * 1e3:.1f} ms, {start * 1e3:.0f} ms with its start")
     print(f"start of a check    {start / numpy:.2f} times a Python that imports numpy")
     print(f"peak memory         {peak_kib / 1024:.0f} MiB", file=sys.stdout)
     for table_line in table_lines(given.length, given.part):
         print(table_line)
+    for compare_line in compare_lines(10_000):
+        print(compare_line)
 
 
 if __name__ == "__main__":

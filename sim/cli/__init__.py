@@ -15,6 +15,7 @@ _COMMANDS = {
     "ballbar": "sim.cli.ballbar",
     "card": "sim.cli.card",
     "check": "sim.cli.check",
+    "compare": "sim.cli.compare",
     "explain": "sim.cli.explain",
     "run": "sim.cli.run",
 }

@@ -1,0 +1,92 @@
+"""``drycut compare``."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from sim.cli.lengths import Length
+
+if TYPE_CHECKING:
+    from parser.program import Program
+    from sim.scenario import Scenario
+
+
+@click.command()
+@click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
+@click.argument("drawing", type=click.Path(path_type=Path), metavar="[DRAWING.dxf]", required=False)
+@click.option(
+    "--offset",
+    type=Length(),
+    help="How far the wire cuts past its path, such as 0.1mm; else that of the program's header, else of the wire.",
+)
+@click.option("--tolerance", type=Length(), help="Largest deviation that passes; 5um where left out.")
+@click.option("--layer", metavar="NAME", help="The drawing's layer to compare with; all of them where left out.")
+@click.option("--gap", type=Length(), help="Gap between curves that is bridged; 10um where left out.")
+@click.option("--no-fit", is_flag=True, help="Compare in place, without a fit of position and turn.")
+@click.option("--json", "as_json", is_flag=True, help="Print the comparison as JSON instead of the summary.")
+def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> None:
+    """Compare the edge that a program cuts with a drawing (DXF).
+
+    Measures how far the cut edge lies from the drawing and the drawing from the cut edge, after the drawing is turned
+    and shifted on to it. Mirrored programs, slips of units and offsets to the wrong side are named. A scenario may have
+    a drawing of its own, with layer, tolerance and gap.
+
+    \b
+    Exit code: 0 within the tolerance, 1 outside, 2 bad use or unreadable input.
+
+    \b
+    drycut compare part.3b part.dxf --offset 0.1mm --tolerance 5um
+    drycut compare part.3b part.dxf --layer CUT --json
+    drycut compare scenarios/punch
+    """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from parser.drawing.read import read_drawing
+    from parser.encoding import printable
+    from parser.errors import ProgramError
+    from parser.program import read_program
+    from parser.units import mm
+    from sim.asked import OFFSET_MM
+    from sim.cli.overrides import OfDrawing, held
+    from sim.cli.run import describe
+    from sim.compare.compared_program import compare_program
+    from sim.compare.document import document_text
+    from sim.compare.summary import print_comparison
+    from sim.offsetting import offsetting
+    from sim.scenario import load_scenario
+    from sim.settings import number
+
+    number(mm(offset or 0.0), OFFSET_MM._replace(low=0.0), "--offset in mm")
+    scenario = load_scenario(path)
+    drawing = held(scenario.drawing, OfDrawing(**options))
+    if drawing is None:
+        raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
+    try:
+        program = read_program(scenario.program)
+    except ProgramError as error:
+        click.echo(describe(printable(str(scenario.program)), error), err=True)
+        raise click.exceptions.Exit(2) from None
+    offset_um, source = _offset(offset, program, scenario)
+    if scenario.offset is not None:
+        program = offsetting(program, scenario.offset).program
+    shown = read_drawing(drawing.file, layer=drawing.layer, gap_um=drawing.gap_um)
+    done = compare_program(program.toolpath, offset_um, shown, drawing.tolerance_um, fitted=drawing.fit)
+    if as_json:
+        click.echo(document_text(done), nl=False)
+    else:
+        print_comparison(done, program.name, source)
+    raise click.exceptions.Exit(0 if done.passes else 1)
+
+
+def _offset(given: float | None, program: "Program", scenario: "Scenario") -> tuple[float, str]:
+    """The offset in µm, and what it is for people; a header without one, or with 0, tells nothing.
+
+    Nor does the header where the controller is to add an offset: the program is that of the drawing's contour.
+    """
+    from parser.units import mm
+
+    if given is not None:
+        return given, f"{mm(given):g} mm, as given"
+    if program.header.offset_um and scenario.offset is None:
+        offset_um = abs(program.header.offset_um)
+        return offset_um, f"{mm(offset_um):g} mm, of the program's header"
+    return scenario.wire.offset_um, f"{mm(scenario.wire.offset_um):g} mm, of the wire and its spark gap"
