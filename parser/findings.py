@@ -1,6 +1,7 @@
 """Findings: what is wrong with a program, as data with a stable code; the texts to them are in `parser.catalogue`.
 
-The hundreds digit of a code names the layer: ``3B1xx`` grammar, ``3B2xx`` block, ``3B3xx`` contour, ``3B4xx`` machine.
+The hundreds digit of a code names the layer: ``3B1xx`` grammar, ``3B2xx`` block, ``3B3xx`` contour, ``3B4xx`` machine,
+``3B5xx`` wire offset, ``3B6xx`` drawing.
 """
 
 from collections.abc import Mapping
@@ -24,6 +25,8 @@ SEVERITIES: Mapping[str, Severity] = MappingProxyType(
             *("3B201", "3B202", "3B204", "3B206", "3B207", "3B208"),
             *("3B301", "3B303", "3B309"),
             *("3B401", "3B402", "3B403", "3B404", "3B490"),
+            *("3B501", "3B503", "3B504"),
+            *("3B601", "3B602"),
         ),
         Severity.ERROR,
     )
@@ -32,7 +35,7 @@ SEVERITIES: Mapping[str, Severity] = MappingProxyType(
             *("3B105", "3B107", "3B108", "3B109"),
             *("3B203", "3B205", "3B209", "3B210", "3B211", "3B212"),
             *("3B302", "3B305", "3B306", "3B307", "3B308", "3B310"),
-            "3B405",
+            *("3B405", "3B406", "3B502"),
         ),
         Severity.WARNING,
     )

@@ -8,16 +8,22 @@ import numpy as np
 from controller.card.log import CardLog
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
-from parser.errors import ProgramError
+from parser.drawing.model import Drawing
 from parser.findings import Finding, Severity, file_order
+from parser.geometry.curves import Floats
 from parser.program import Program
-from parser.toolpath import Floats, Toolpath
-from sim.check.engine import Demands, check_program
+from parser.toolpath import Toolpath
+from sim.asked import DrawingAsked
 from sim.check.result import Coverage
 from sim.collisions.findings import obstacle_findings
+from sim.compare.result import Comparison
 from sim.contours import Contour, find_contours
+from sim.held import drawing_findings, held_against
 from sim.measure import Deviations, Meters
 from sim.motion import Motion, Progress, motion_of, simulate
+from sim.offsetting import Offsetting
+from sim.prepare import prepare
+from sim.remains import Remains, early_findings, remains_of
 from sim.scenario import Scenario
 from sim.stepped import Stepped
 from sim.table.losses import Loss
@@ -44,7 +50,9 @@ class DryRun:
     Attributes
     ----------
     program, scenario
-        What was run.
+        What was run: the toolpath of the program is the one that ran.
+    offset
+        What the controller's compensation made of the program; None where it ran as written.
     stepped, plan, trace
         What the controller made of it, and table and wire.
     losses, peaks
@@ -55,6 +63,10 @@ class DryRun:
         Contours with their closures.
     block_time_s
         (n,) float64, planned time in each block.
+    remains
+        Kerf, pieces and sizes; None where nobody asked for them or for a drawing.
+    comparison
+        The cut edge beside its drawing; None where there is no drawing, or no edge.
     findings
         Of program and run, in file order.
     coverage
@@ -63,6 +75,7 @@ class DryRun:
 
     program: Program
     scenario: Scenario
+    offset: Offsetting | None
     stepped: Stepped
     plan: Plan
     trace: Trace
@@ -71,6 +84,8 @@ class DryRun:
     deviations: Deviations
     contours: tuple[Contour, ...]
     block_time_s: Floats
+    remains: Remains | None
+    comparison: Comparison | None
     findings: tuple[Finding, ...]
     coverage: Coverage
 
@@ -81,7 +96,7 @@ class DryRun:
 
     @property
     def toolpath(self) -> Toolpath:
-        """The exact geometry that was run."""
+        """The exact geometry that was run, the offset added."""
         return self.program.toolpath
 
 
@@ -99,13 +114,14 @@ def dry_run(
 ) -> DryRun:
     """Run a program on the machine of a scenario; its pulses go to `sink`, the calls to its card to `log`.
 
-    Raises ProgramError where the program asks for more than any table can do.
+    Raises ProgramError where the program asks for more than any table can do, and DrawingError where the scenario's
+    drawing cannot be read.
     """
-    checked = check_program(program, _demands(scenario))
-    if checked.steps is None:
-        raise _refusal(program, checked.findings)
-    toolpath, motion = program.toolpath, _motion(program.toolpath, scenario)
-    meters = Meters(motion, checked.steps)
+    drawing = _drawing(scenario.drawing)
+    ready = prepare(program, scenario)
+    program, toolpath = ready.program, ready.program.toolpath
+    motion = _motion(toolpath, scenario)
+    meters = Meters(motion, ready.steps)
     sinks = [meters.take]
     if sink is not None:
         sink.open(motion.drive.origin_um)
@@ -122,20 +138,48 @@ def dry_run(
     met = obstacle_findings(program, trace, contours, scenario)
     lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     plan = motion.drive.plan
+    cut = _cut(trace, moved.losses)
+    remains, comparison, left = _left(program, cut, contours, scenario, drawing)
     return DryRun(
         program=program,
         scenario=scenario,
+        offset=ready.offset,
         stepped=stepped,
         plan=plan,
         trace=trace,
         losses=moved.losses,
         peaks=moved.peaks,
-        deviations=meters.deviations(_cut(trace, moved.losses)),
+        deviations=meters.deviations(cut),
         contours=contours,
-        block_time_s=_block_times(plan, checked.steps.along_um),
-        findings=tuple(sorted([*checked.findings, *met, *lost], key=file_order)),
-        coverage=checked.coverage,
+        block_time_s=_block_times(plan, ready.steps.along_um),
+        remains=remains,
+        comparison=comparison,
+        findings=tuple(sorted([*ready.findings, *met, *lost, *left], key=file_order)),
+        coverage=ready.coverage,
     )
+
+
+def _drawing(held: DrawingAsked | None) -> Drawing | None:
+    if held is None:
+        return None
+    from parser.drawing.read import read_drawing  # noqa: PLC0415 - most runs have no drawing, and ezdxf loads for 0.3 s
+
+    return read_drawing(held.file, layer=held.layer, gap_um=held.gap_um)
+
+
+def _left(
+    program: Program, cut: Trace, contours: tuple[Contour, ...], scenario: Scenario, drawing: Drawing | None
+) -> tuple[Remains | None, Comparison | None, list[Finding]]:
+    """What the cut leaves, beside the drawing, with findings; as far as the scenario asks for it."""
+    held = scenario.drawing
+    if not scenario.kerf and held is None:
+        return None, None, []
+    remains = remains_of(program, cut, contours, scenario)
+    found = early_findings(program, remains)
+    if held is None or drawing is None:
+        return remains, None, found
+    comparison = held_against(program, remains.pieces, scenario.wire.offset_um, drawing, held)
+    return remains, comparison, [*found, *drawing_findings(program, comparison)]
 
 
 def _cut(trace: Trace, losses: tuple[Loss, ...]) -> Trace:
@@ -155,13 +199,3 @@ def _motion(toolpath: Toolpath, scenario: Scenario) -> Motion:
     machine = scenario.machine
     feeds = machine.feeds(scenario.thickness_mm)
     return motion_of(toolpath, feeds, machine, scenario.start_um, scenario.trace_spacing_um)
-
-
-def _demands(scenario: Scenario) -> Demands:
-    return Demands(scenario.machine.table, scenario.start_um, scenario.wire.offset_um, scenario.may_stay_open)
-
-
-def _refusal(program: Program, findings: tuple[Finding, ...]) -> ProgramError:
-    """Error of a program that asks for more than any table can do."""
-    finding = next(finding for finding in findings if finding.code == "3B206")
-    return ProgramError(finding, excerpt=program.excerpt(finding.line))

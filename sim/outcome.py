@@ -68,8 +68,10 @@ def picture(run: DryRun) -> "Image.Image":
     """The cut path of a run."""
     length = f"{mm(float(run.toolpath.length_um.sum())):.1f} mm"
     blocks = f"{len(run.toolpath):,} block{'s' * (len(run.toolpath) > 1)}"
-    note = f"{verdict(run.findings)} · {blocks} · {length} · {clock(run.plan.duration_s)}"
     scenario = run.scenario
+    note = f"{verdict(run.findings)} · {blocks} · {length} · {clock(run.plan.duration_s)}"
+    if scenario.offset is not None:
+        note += f" · offset {mm(scenario.offset.by_um):g} mm {scenario.offset.side.name.lower()}"
     bodies = Bodies(scenario.work_um, [clamp.outline_um for clamp in scenario.clamps])
     kerf_um = scenario.wire.kerf_um
     return draw_cut(run.toolpath, run.trace, kerf_um=kerf_um, title=scenario.title, note=note, bodies=bodies)

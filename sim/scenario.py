@@ -9,6 +9,14 @@ from pathlib import Path
 from parser.encoding import printable
 from parser.errors import FileUnreadableError, SettingsError
 from parser.units import from_mm
+from sim.asked import (
+    DEFAULT_DENSITY_G_CM3,
+    DENSITY_G_CM3,
+    DrawingAsked,
+    Offset,
+    read_drawing_asked,
+    read_offset,
+)
 from sim.controller_model import interpolation
 from sim.expect import Expectation, read_expectation
 from sim.machine import Machine, load_machine
@@ -18,7 +26,9 @@ from sim.wire import DEFAULT_WIRE, Wire, read_wire
 
 THICKNESS_MM = Bound(0.01, 2000.0)
 TRACE_SPACING_UM = Bound(0.1, 1e4)
-_WORK = {"thickness_mm": THICKNESS_MM}
+DEFAULT_THICKNESS_MM = 40.0
+_WORK = {"thickness_mm": THICKNESS_MM, "density_g_cm3": DENSITY_G_CM3}
+_OF_WORK = {"thickness_mm": DEFAULT_THICKNESS_MM, "density_g_cm3": DEFAULT_DENSITY_G_CM3}
 _KEYS = (
     "title",
     "provenance",
@@ -28,14 +38,16 @@ _KEYS = (
     "start_mm",
     "open",
     "trace_spacing_um",
+    "kerf",
     "clamps",
+    "drawing",
+    "offset",
     "wire",
     "work",
     "expect",
 )
 
 DEFAULT_MACHINE = "dk7740"
-DEFAULT_THICKNESS_MM = 40.0
 DEFAULT_TRACE_SPACING_UM = 5.0
 """On an arc of 100 µm radius the chord of it is 0.03 µm off."""
 
@@ -62,6 +74,14 @@ class Scenario:
         Path between two samples of the trace.
     clamps, work_um
         What stands beside the path, and the outline of the workpiece, if known; in the program's coordinates.
+    offset
+        What the controller adds to the program; None where it runs as written.
+    kerf
+        Whether the kerf and the pieces that it leaves are worked out.
+    drawing
+        What the cut is held against, if anything.
+    density_g_cm3
+        Density of the work.
     expect
         What the scenario promises of its report; checked after the run.
     """
@@ -77,6 +97,10 @@ class Scenario:
     trace_spacing_um: float = DEFAULT_TRACE_SPACING_UM
     clamps: tuple[Clamp, ...] = ()
     work_um: Outline | None = None
+    offset: Offset | None = None
+    kerf: bool = False
+    drawing: DrawingAsked | None = None
+    density_g_cm3: float = DEFAULT_DENSITY_G_CM3
     expect: tuple[Expectation, ...] = ()
 
     def __post_init__(self) -> None:
@@ -118,7 +142,7 @@ def load_scenario(path: Path) -> Scenario:
     work = section(content, "work", where)
     refuse_unknown(work, (*_WORK, "outline_mm"), f"{where}: [work]")
     given = {key: value for key, value in work.items() if key in _WORK}
-    work_numbers = numbers(given, _WORK, f"{where}: [work]", {"thickness_mm": DEFAULT_THICKNESS_MM})
+    work_numbers = numbers(given, _WORK, f"{where}: [work]", _OF_WORK)
     return Scenario(
         title=printable(text(content, "title", where, default=path.resolve().name)),
         program=path / text(content, "program", where, default="program.3b"),
@@ -132,6 +156,9 @@ def load_scenario(path: Path) -> Scenario:
         ),
         clamps=read_clamps(content, where),
         work_um=read_outline(work, f"{where}: [work]") if "outline_mm" in work else None,
+        offset=read_offset(content, where),
+        kerf=truth(content, "kerf", where),
+        drawing=read_drawing_asked(content, where, path),
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
         **work_numbers,
     )

@@ -58,9 +58,9 @@ def text(table: Mapping[str, Any], key: str, where: str, default: str | None = N
     return value
 
 
-def truth(table: Mapping[str, Any], key: str, where: str) -> bool:
-    """Truth `key`, false where it is left out. SettingsError where it is something else."""
-    value = table.get(key, False)
+def truth(table: Mapping[str, Any], key: str, where: str, *, default: bool = False) -> bool:
+    """Truth `key`; the default where it is left out. SettingsError where it is something else."""
+    value = table.get(key, default)
     if not isinstance(value, bool):
         raise SettingsError(f"{where}: {key} is true or false; found {value!r}")
     return value

@@ -2,9 +2,11 @@
 
 import math
 
+from controller.offset.path import Made
 from parser.units import mm
 from sim.deviation import Where
 from sim.dryrun import DryRun
+from sim.kerf.pieces import Piece
 from sim.table.peaks import Peak
 from sim.units import clock
 
@@ -21,6 +23,7 @@ _CAUSES = {
 _UNITS = {"force": (1.0, "N"), "speed": (1e-3, "mm/s"), "lag": (1.0, "µm")}
 _MOST_CLOSURES = 4
 _MOST_LIMITS = 3
+_MOST_PIECES = 4
 _LEAST_UM = 0.005  # shown as 0.00
 
 
@@ -43,7 +46,10 @@ def summary_rows(run: DryRun) -> list[Row]:
         *_times(run),
         *_closures(run),
         *_stopped(run),
+        *_offset(run),
+        *_pieces(run),
         *_deviations(run),
+        *_drawing(run),
         *_limits(run.peaks),
     ]
 
@@ -81,6 +87,45 @@ def _stopped(run: DryRun) -> list[Row]:
     """Where a drive tripped, and all that follows is not cut."""
     trip = run.tripped
     return [("stopped", f"in block {trip.row + 1:,} after {clock(trip.t_s)}: a drive tripped")] if trip else []
+
+
+def _offset(run: DryRun) -> list[Row]:
+    """What the controller adds, and what became of the program's blocks."""
+    asked, made = run.scenario.offset, run.offset
+    if asked is None or made is None:
+        return []
+    bridges = int((made.path.made == Made.BRIDGE).sum())
+    parts = [(bridges, "bridge", "added"), (len(made.path.vanished), "block", "left out")]
+    told = [f"{number} {name}{'s' * (number > 1)} {what}" for number, name, what in parts if number]
+    return [("offset", ", ".join([f"{mm(asked.by_um):g} mm to the {asked.side.name.lower()}", *told]))]
+
+
+def _pieces(run: DryRun) -> list[Row]:
+    """What comes free, and when."""
+    if run.remains is None:
+        return []
+    freed = run.remains.pieces.freed
+    if not freed:
+        return [("pieces", "none comes free")]
+    shown = [_piece(piece) for piece in freed[:_MOST_PIECES]]
+    more = [f"and {len(freed) - _MOST_PIECES} more"] if len(freed) > _MOST_PIECES else []
+    return [("pieces" if at == 0 else "", text) for at, text in enumerate([*shown, *more])]
+
+
+def _piece(piece: Piece) -> str:
+    freed = piece.freed
+    mass = f"{piece.mass_g:,.1f} g" if piece.mass_g >= 1.0 else f"{piece.mass_g * 1e3:,.0f} mg"
+    return f"{piece.kind} of {piece.area_mm2:,.2f} mm², {mass}, free in block {freed.block:,} after {clock(freed.t_s)}"
+
+
+def _drawing(run: DryRun) -> list[Row]:
+    """How far the cut lies from its drawing."""
+    held, found = run.scenario.drawing, run.comparison
+    if held is None or found is None:
+        return []
+    allowed = f"{held.tolerance_um:g} µm allowed"
+    names = [("", named.text) for named in found.names]
+    return [(f"off {found.drawing.name}", f"{found.max_um:,.2f} µm at most, {allowed}"), *names]
 
 
 def _deviations(run: DryRun) -> list[Row]:

@@ -22,13 +22,14 @@ from parser.catalogue import page as catalogue_page
 from parser.encoding import encode_text
 from parser.findings import SEVERITIES
 from parser.program import read_program
-from sim import controller_model, machine, scenario, table_model, wire
+from sim import asked, controller_model, machine, scenario, table_model, wire
 from sim.check import settings as check_settings
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS
 from sim.check.findings_document import NAMES, anchor, findings_document
 from sim.check.formats.checks import CHECK_OF
 from sim.cli.check import check
 from sim.dryrun import DryRun, dry_run
+from sim.kerf.swaths import rays as kerf_rays
 from sim.outcome import trace_arrays
 from sim.report import build_report
 from sim.scenario import load_scenario
@@ -223,9 +224,10 @@ def test_schema_is_strict_everywhere() -> None:
 def test_report_keys_are_documented() -> None:
     page = read(DOCS / "report.md")
     named = set(re.findall(r"\w+", " ".join(re.findall(r"`([^`]+)`", page))))
-    report = report_of(ROOT / "scenarios" / "round-hole")
+    report = report_of(ROOT / "scenarios" / "die")
+    report.pop("drawing")  # docs/compare.md
     keys = {str(key) for path in objects(report) for key in report_node(report, path)}
-    assert keys - named == set()
+    assert (keys | {"drawing"}) - named == set()
 
 
 def test_trace_arrays_are_documented() -> None:
@@ -263,9 +265,20 @@ def test_settings_are_documented_with_their_bounds(key: str) -> None:
 
 def test_scenario_and_machine_files_have_no_key_that_is_not_documented() -> None:
     page = read(DOCS / "scenarios.md")
-    plain = [key for key in scenario._KEYS if key not in ("wire", "work", "expect")]
+    plain = [key for key in scenario._KEYS if key not in ("wire", "work", "offset", "drawing", "expect")]
     texts = [f"[controller] {key}" for key in controller_model._TEXTS]
-    for key in [*plain, *texts, "[motor] kind", "[motor] force_at_rate", "name", "[expect]"]:
+    of_drawing = [f"[drawing] {key}" for key in asked.DrawingAsked._fields]
+    for key in [
+        *plain,
+        *texts,
+        *of_drawing,
+        "[offset] by_mm",
+        "[offset] side",
+        "[motor] kind",
+        "[motor] force_at_rate",
+        "name",
+        "[expect]",
+    ]:
         assert f"| `{key}` |" in page, key
 
 
@@ -436,6 +449,26 @@ def test_code_flow_quotes_the_numbers_of_the_code() -> None:
     ]
     flat = " ".join(page.replace("−", "-").split())
     assert [text for text in shown if text.replace("−", "-") not in flat] == []
+
+
+def test_code_flow_quotes_what_is_left() -> None:
+    run = run_of(ROOT / "scenarios" / "keyhole")
+    assert run.remains is not None
+    assert run.comparison is not None
+    (piece,), (_, radius) = run.remains.pieces.freed, run.remains.sizes.radii
+    shown = [
+        f"{piece.area_mm2:,.2f} mm²",
+        f"{piece.mass_g / 1000.0:.2f} kg",
+        f"{piece.freed.t_s:,.2f} s after the start, in block {piece.freed.block}",
+        f"({piece.freed.wire_um.x:.1f}, {piece.freed.wire_um.y:.1f})",
+        f"{radius.cut_um:,.2f} µm, where its path means {radius.nominal_um:,.2f} µm",
+        f"by {np.hypot(*run.comparison.placement.shift_um):.2f} µm",
+        f"{abs(np.degrees(run.comparison.placement.turn_rad)):.4f}°",
+        f"at most {run.comparison.max_um:.2f} µm, in block 2",
+        f"{len(kerf_rays(run.remains.kerf.offset_um))} rays",
+    ]
+    flat = " ".join(read(DOCS / "code-flow.md").split())
+    assert [text for text in shown if text not in flat] == []
 
 
 def test_code_flow_quotes_the_samples_of_the_table() -> None:

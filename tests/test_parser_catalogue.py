@@ -14,7 +14,10 @@ from parser.findings import SEVERITIES, Finding, Value
 PAGES = resources.files("parser") / "pages"
 TEMPLATES = ("found", "expected", "machine", "hint")
 LINE = 110
-NO_EXAMPLE = {"3B100", "3B303", "3B402", "3B403", "3B404", "3B405", "3B490"}
+NO_EXAMPLE = {
+    *("3B100", "3B303", "3B402", "3B403", "3B404", "3B405", "3B406", "3B490"),
+    *("3B501", "3B502", "3B503", "3B504", "3B601", "3B602"),
+}
 
 VALUES: dict[str, dict[str, Value]] = {
     "3B100": {"what": "unreadable-file", "detail": "Permission denied"},
@@ -56,7 +59,14 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B403": {"axis": "Y", "lag": 100.2, "limit": 100.0, "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B404": {"body": "arm", "name": "left clamp", "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B405": {"t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B406": {"kind": "slug", "area_mm2": 12.5, "cut_after": 5000.0, "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B490": {"path": "summary.steps", "found": "99000", "wanted": "at most 5"},
+    "3B501": {"radius": 50.0, "offset": 100.0, "left": 20.7, "x_mm": 12.5, "y_mm": 0.0},
+    "3B502": {"offset": 100.0, "left": 3.2, "x_mm": 12.5, "y_mm": 0.0},
+    "3B503": {"other": 9, "depth": 110.0, "offset": 100.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B504": {"loops": 2, "offset": 100.0},
+    "3B601": {"what": "edge-off", "off": 7.0, "tolerance": 5.0, "x_mm": 12.5, "y_mm": 0.0, "entity": "ARC 2F"},
+    "3B602": {"what": "wrong-side"},
 }
 
 

@@ -1,23 +1,20 @@
 """``drycut run``."""
 
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from parser.encoding import printable
 from parser.errors import ProgramError
 from parser.excerpt import place, with_caret
-from parser.units import mm
 from sim.cli.lengths import Length
-from sim.settings import number
+from sim.cli.overrides import Overrides, overridden
 
 if TYPE_CHECKING:
     from parser.program import Program
     from sim.dryrun import DryRun
     from sim.scenario import Scenario
-    from sim.wire import Wire
 
 
 @click.command()
@@ -39,6 +36,22 @@ if TYPE_CHECKING:
     type=click.Choice(["point-by-point", "card"]),
     help="How the path becomes steps: as 3B controllers do, or by a motion card at equal times.",
 )
+@click.option("--offset", type=Length(), help="Offset that the controller is to add, such as 0.1mm; with --side.")
+@click.option(
+    "--side",
+    type=click.Choice(["left", "right"]),
+    help="Side of the contour on which the wire runs, along the cutting direction.",
+)
+@click.option("--kerf", is_flag=True, help="Work out the kerf, the pieces that it leaves, and their sizes.")
+@click.option(
+    "--drawing",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="DXF",
+    help="Hold the cut edge against a drawing.",
+)
+@click.option("--layer", metavar="NAME", help="Layer of the contour in the drawing.")
+@click.option("--tolerance", type=Length(), help="How far edge and drawing may be apart, such as 5um.")
+@click.option("--no-fit", is_flag=True, help="Take the drawing as it lies, without fitting place and turn.")
 @click.option(
     "--card-log",
     type=click.Path(path_type=Path, dir_okay=False),
@@ -46,17 +59,12 @@ if TYPE_CHECKING:
     help="Write every call to the card here, to be replayed by drycut card replay.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print report.json instead of the summary.")
-def run(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
+def run(
     path: Path,
     output: Path | None,
-    machine: str | None,
-    thickness: float | None,
-    wire_diameter: float | None,
-    gap: float | None,
-    wire_lag: float | None,
-    interpolator: str | None,
     card_log: Path | None,
     as_json: bool,
+    **options: Any,
 ) -> None:
     """Dry-run a 3B program, or a scenario folder that holds one.
 
@@ -70,15 +78,15 @@ def run(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut run part.3b -o out/
     drycut run scenarios/keyhole --thickness 60mm
     drycut run part.3b --interpolator card --card-log part.log
+    drycut run contour.3b --offset 0.1mm --side right
+    drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.program import read_program
     from sim.dryrun import verdict
     from sim.report import build_report, report_text
     from sim.summary import print_summary
 
-    scenario = _overridden(path, machine, thickness, (wire_diameter, gap, wire_lag))
-    if interpolator is not None:
-        scenario = _stepping_by(scenario, interpolator)
+    scenario = overridden(path, Overrides(**options))
     try:
         program = read_program(scenario.program)
         done = _run(program, scenario, output, card_log)
@@ -97,53 +105,6 @@ def describe(name: str, error: ProgramError) -> str:
     finding = error.finding
     text = f"{place(name, finding.line, finding.column)}: error[{finding.code}]: {error}"
     return f"{text}\n{with_caret(error.excerpt, finding.column)}" if error.excerpt and finding.column else text
-
-
-def _overridden(
-    path: Path,
-    machine: str | None,
-    thickness: float | None,
-    of_wire: tuple[float | None, float | None, float | None],
-) -> "Scenario":
-    """Scenario of the path with the options of the command line in place of its own values."""
-    from sim import scenario as scenarios
-    from sim.machine import load_machine
-
-    scenario = scenarios.load_scenario(path)
-    if machine is not None:
-        scenario = replace(scenario, machine=load_machine(machine))
-    thickness_mm = scenario.thickness_mm
-    if thickness is not None:
-        thickness_mm = number(mm(thickness), scenarios.THICKNESS_MM, "--thickness in mm")
-    return replace(scenario, thickness_mm=thickness_mm, wire=_wire(scenario.wire, *of_wire))
-
-
-def _wire(wire: "Wire", diameter: float | None, gap: float | None, lag: float | None) -> "Wire":
-    """The wire with the options, µm, in place of its own values."""
-    from sim.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM, WIRE_LAG_UM
-
-    if diameter is not None:
-        number(mm(diameter), WIRE_DIAMETER_MM, "--wire-diameter in mm")
-        wire = replace(wire, diameter_um=diameter)
-    if gap is not None:
-        number(mm(gap), SPARK_GAP_MM, "--gap in mm")
-        wire = replace(wire, spark_gap_um=gap)
-    if lag is not None:
-        wire = replace(wire, lag=number(lag, WIRE_LAG_UM, "--wire-lag in µm"))
-    return wire
-
-
-def _stepping_by(scenario: "Scenario", interpolator: str) -> "Scenario":
-    """Scenario with another interpolator; counts and ends of steps that it expects of its own are not held to."""
-    from sim.expect import not_of_steps
-
-    if interpolator == scenario.machine.controller.interpolation:
-        return scenario
-    kept = not_of_steps(scenario.expect)
-    left_out = ", ".join(e.path for e in scenario.expect if e not in kept)
-    if left_out:
-        click.echo(f"drycut: [expect]: not held, since another interpolator steps: {left_out}", err=True)
-    return replace(scenario, machine=scenario.machine.stepping_by(interpolator), expect=kept)  # type: ignore[arg-type]
 
 
 def _run(program: "Program", scenario: "Scenario", output: Path | None, card_log: Path | None) -> "DryRun":

@@ -4,14 +4,18 @@ from typing import Any
 
 from parser.catalogue import term, texts
 from parser.findings import Finding
+from parser.geometry.curves import Floats
 from parser.header import Header
-from parser.toolpath import Floats
 from sim import __version__
 from sim.check.result import CheckState, Coverage
+from sim.compare.document import comparison_document
+from sim.compare.result import Comparison
 from sim.contours import Contour
 from sim.dryrun import DryRun, verdict
 from sim.report.blocks import block_entries
 from sim.report.figures import deviation_entries, limit_entry, loss_entry
+from sim.report.offset import offset_entry
+from sim.report.remains import remains_entry
 from sim.report.rounded import column, known, rounded
 
 SCHEMA = "drycut.report/1"
@@ -39,7 +43,8 @@ def build_report(run: DryRun) -> dict[str, Any]:
             "kerf_um": rounded(scenario.wire.kerf_um),
             "lag_um": rounded(scenario.wire_lag_um),
         },
-        "work": {"thickness_mm": scenario.thickness_mm},
+        "work": {"thickness_mm": scenario.thickness_mm, "density_g_cm3": scenario.density_g_cm3},
+        "offset": offset_entry(run),
         "summary": {
             "blocks": len(toolpath),
             "length_um": rounded(float(toolpath.length_um.sum())),
@@ -51,10 +56,23 @@ def build_report(run: DryRun) -> dict[str, Any]:
         "deviation": deviation_entries(run.deviations),
         "limits": [limit_entry(peak) for peak in run.peaks],
         "losses": [loss_entry(loss) for loss in run.losses],
+        "remains": remains_entry(run.remains),
+        "drawing": _drawing(run.comparison),
         "coverage": _coverage(run.coverage),
         "findings": [_finding(finding) for finding in run.findings],
         "stops": [{"kind": s.kind, "after_block": s.after, "line": s.line} for s in toolpath.stops],
         "blocks": block_entries(run),
+    }
+
+
+def _drawing(comparison: Comparison | None) -> dict[str, Any] | None:
+    """``drawing``: the comparison as ``drycut compare --json`` has it, without what the report or the kerf says."""
+    if comparison is None:
+        return None
+    return {
+        key: value
+        for key, value in comparison_document(comparison).items()
+        if key not in ("schema", "drycut", "offset_um")
     }
 
 

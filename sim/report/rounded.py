@@ -5,23 +5,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.toolpath import Floats
+from parser.geometry.curves import Floats
 
-_UM_DIGITS = 6
+_DIGITS = 6
 DEG_DIGITS = 9
 
 
 def rounded(value: float) -> float:
     """To the report's digits; never −0."""
-    return round(value, _UM_DIGITS) + 0.0
+    return round(value, _DIGITS) + 0.0
 
 
-def known(length_um: float | None) -> float | None:
+def known(value: float | None) -> float | None:
     """Rounded, or None."""
-    return None if length_um is None else rounded(length_um)
+    return None if value is None else rounded(value)
 
 
-def column(values: Floats, digits: int = _UM_DIGITS) -> list[float | None]:
+def column(values: Floats, digits: int = _DIGITS) -> list[float | None]:
     """Rounded numbers; None for NaN."""
     found = (np.round(values, digits) + 0.0).tolist()
     return [None if value != value else value for value in found]  # noqa: PLR0124 - NaN
@@ -29,7 +29,7 @@ def column(values: Floats, digits: int = _UM_DIGITS) -> list[float | None]:
 
 def points(pairs: NDArray[np.float64]) -> list[list[float] | None]:
     """Rounded pairs; None for NaN."""
-    found = (np.round(pairs, _UM_DIGITS) + 0.0).tolist()
+    found = (np.round(pairs, _DIGITS) + 0.0).tolist()
     return [None if pair[0] != pair[0] else pair for pair in found]
 
 

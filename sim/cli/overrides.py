@@ -1,0 +1,140 @@
+"""Options of ``drycut run`` that take the place of a scenario's own values."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import click
+
+from parser.errors import SettingsError
+from parser.units import mm
+from sim.settings import number
+
+if TYPE_CHECKING:
+    from sim.asked import DrawingAsked, Offset
+    from sim.scenario import Scenario
+    from sim.wire import Wire
+
+
+class Overrides(NamedTuple):
+    """The options as given, lengths in µm; None where an option was left out."""
+
+    machine: str | None
+    thickness: float | None
+    wire_diameter: float | None
+    gap: float | None
+    wire_lag: float | None
+    interpolator: str | None
+    offset: float | None
+    side: str | None
+    kerf: bool
+    drawing: Path | None
+    layer: str | None
+    tolerance: float | None
+    no_fit: bool
+
+
+def overridden(path: Path, options: Overrides) -> "Scenario":
+    """Scenario of the path with the options of the command line in place of its own values."""
+    from sim import scenario as scenarios
+    from sim.machine import load_machine
+
+    scenario = scenarios.load_scenario(path)
+    if options.machine is not None:
+        scenario = replace(scenario, machine=load_machine(options.machine))
+    thickness_mm = scenario.thickness_mm
+    if options.thickness is not None:
+        thickness_mm = number(mm(options.thickness), scenarios.THICKNESS_MM, "--thickness in mm")
+    scenario = replace(
+        scenario,
+        thickness_mm=thickness_mm,
+        wire=_wire(scenario.wire, options),
+        offset=_offset(scenario.offset, options),
+        kerf=scenario.kerf or options.kerf,
+        drawing=_drawing(scenario.drawing, options),
+    )
+    return _stepping_by(scenario, options.interpolator)
+
+
+def _wire(wire: "Wire", options: Overrides) -> "Wire":
+    """The wire with the options in place of its own values."""
+    from sim.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM, WIRE_LAG_UM
+
+    if options.wire_diameter is not None:
+        number(mm(options.wire_diameter), WIRE_DIAMETER_MM, "--wire-diameter in mm")
+        wire = replace(wire, diameter_um=options.wire_diameter)
+    if options.gap is not None:
+        number(mm(options.gap), SPARK_GAP_MM, "--gap in mm")
+        wire = replace(wire, spark_gap_um=options.gap)
+    if options.wire_lag is not None:
+        wire = replace(wire, lag=number(options.wire_lag, WIRE_LAG_UM, "--wire-lag in µm"))
+    return wire
+
+
+def _offset(offset: "Offset | None", options: Overrides) -> "Offset | None":
+    """The offset with the options in place of its own values. SettingsError where only half of one is known."""
+    from sim.asked import OFFSET_MM, SIDES, Offset
+
+    if options.offset is None and options.side is None:
+        return offset
+    by_um = options.offset if options.offset is not None else offset and offset.by_um
+    side = SIDES[options.side] if options.side is not None else offset and offset.side
+    if side is None:
+        raise SettingsError("--offset needs --side left or --side right: where the wire runs along the contour")
+    if by_um is None:
+        raise SettingsError("--side needs --offset, such as --offset 0.1mm")
+    number(mm(by_um), OFFSET_MM, "--offset in mm")
+    return Offset(by_um, side)
+
+
+class OfDrawing(NamedTuple):
+    """Options that say which drawing a cut is held against, and how; lengths in µm, None where left out."""
+
+    drawing: Path | None
+    layer: str | None
+    tolerance: float | None
+    no_fit: bool
+    gap: float | None = None
+
+
+def held(own: "DrawingAsked | None", options: OfDrawing) -> "DrawingAsked | None":
+    """The drawing with the options in place of a scenario's own values; None without a drawing.
+
+    SettingsError for values out of their bounds.
+    """
+    from sim.asked import GAP_UM, TOLERANCE_UM, DrawingAsked
+
+    if options.drawing is not None:
+        own = own._replace(file=options.drawing) if own is not None else DrawingAsked(options.drawing)
+    if own is None:
+        return None
+    if options.layer is not None:
+        own = own._replace(layer=options.layer)
+    if options.tolerance is not None:
+        own = own._replace(tolerance_um=number(options.tolerance, TOLERANCE_UM, "--tolerance in µm"))
+    if options.gap is not None:
+        own = own._replace(gap_um=number(options.gap, GAP_UM, "--gap in µm"))
+    return own._replace(fit=own.fit and not options.no_fit)
+
+
+def _drawing(own: "DrawingAsked | None", options: Overrides) -> "DrawingAsked | None":
+    """The drawing of a run. SettingsError where the options say how to hold it but not which."""
+    of = OfDrawing(options.drawing, options.layer, options.tolerance, options.no_fit)
+    drawing = held(own, of)
+    for name, given in (("layer", of.layer), ("tolerance", of.tolerance), ("no-fit", of.no_fit)):
+        if drawing is None and given not in (None, False):
+            raise SettingsError(f"--{name} needs --drawing, such as --drawing part.dxf")
+    return drawing
+
+
+def _stepping_by(scenario: "Scenario", interpolator: str | None) -> "Scenario":
+    """Scenario with another interpolator; counts and ends of steps that it expects of its own are not held to."""
+    from sim.expect import not_of_steps
+
+    if interpolator in (None, scenario.machine.controller.interpolation):
+        return scenario
+    kept = not_of_steps(scenario.expect)
+    left_out = ", ".join(e.path for e in scenario.expect if e not in kept)
+    if left_out:
+        click.echo(f"drycut: [expect]: not held, since another interpolator steps: {left_out}", err=True)
+    return replace(scenario, machine=scenario.machine.stepping_by(interpolator), expect=kept)  # type: ignore[arg-type]

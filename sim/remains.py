@@ -1,0 +1,71 @@
+"""What a cut leaves: its kerf, the pieces that come free and how they can move, and the sizes of what is kept."""
+
+from dataclasses import dataclass
+
+from parser.findings import Finding
+from parser.places import at_block
+from parser.program import Program
+from parser.units import mm
+from sim.contours import Contour
+from sim.kerf.pieces import Material, Piece, Pieces, pieces_of
+from sim.kerf.region import Kerf, kerf_of
+from sim.kerf.sizes import Sizes, sizes_of
+from sim.kerf.slug import Play, plays_of
+from sim.scenario import Scenario
+from sim.trace import Trace
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Remains:
+    """What a run leaves of the work.
+
+    Attributes
+    ----------
+    kerf
+        What the wire removed.
+    pieces
+        The frame, and what came free of it.
+    plays
+        How each of the pieces can move once it is free.
+    sizes
+        Of what is kept, as cut and nominal.
+    """
+
+    kerf: Kerf
+    pieces: Pieces
+    plays: tuple[Play, ...]
+    sizes: Sizes
+
+
+def remains_of(program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario) -> Remains:
+    """Kerf, pieces and sizes by where the wire really was."""
+    wire = scenario.wire
+    kerf = kerf_of(program.toolpath, trace, contours, wire.offset_um)
+    pieces = pieces_of(kerf, scenario.work_um, Material(scenario.thickness_mm, scenario.density_g_cm3))
+    return Remains(
+        kerf=kerf,
+        pieces=pieces,
+        plays=plays_of(pieces, wire.radius_um),
+        sizes=sizes_of(program.toolpath, kerf, pieces, scenario.work_um),
+    )
+
+
+def early_findings(program: Program, remains: Remains) -> list[Finding]:
+    """Finding 3B406 for each piece that comes free before its cut is done."""
+    return [_early(program, piece) for piece in remains.pieces.freed if piece.early]
+
+
+def _early(program: Program, piece: Piece) -> Finding:
+    freed = piece.freed
+    return at_block(
+        program.toolpath,
+        program.lines,
+        "3B406",
+        freed.block - 1,
+        kind=piece.kind,
+        area_mm2=piece.area_mm2,
+        cut_after=piece.cut_after_um,
+        t_s=freed.t_s,
+        x_mm=mm(freed.wire_um.x),
+        y_mm=mm(freed.wire_um.y),
+    )
