@@ -173,8 +173,16 @@ def changed(report: object, path: tuple[str | int, ...], change: Callable[[dict[
     return report
 
 
+def shortened(node: Any) -> Any:
+    """A report with no more than three entries in any list, which a schema looks at as at all others."""
+    if isinstance(node, dict):
+        return {key: shortened(value) for key, value in node.items()}
+    return [shortened(value) for value in node[:3]] if isinstance(node, list) else node
+
+
 def test_schema_refuses_a_key_more_or_less_anywhere() -> None:
-    report = report_of(ROOT / "scenarios" / "round-hole")
+    report = shortened(report_of(ROOT / "scenarios" / "round-hole"))
+    assert complaints(report) == []
     paths = objects(report)
     assert len(paths) > 20
     for path in paths:
@@ -184,7 +192,7 @@ def test_schema_refuses_a_key_more_or_less_anywhere() -> None:
 
 
 def test_schema_refuses_wrong_types_anywhere() -> None:
-    report = report_of(ROOT / "scenarios" / "round-hole")
+    report = shortened(report_of(ROOT / "scenarios" / "round-hole"))
     for path in objects(report):
         for key, value in report_node(report, path).items():
             wrong = "text" if isinstance(value, int | float) else False if value is None else -1.5
