@@ -135,3 +135,16 @@ def test_sizes_of_a_run_are_those_of_the_drawing_on_a_steady_table(tmp_path: Pat
     assert piece.area_mm2 == pytest.approx(3.8 * 3.8, abs=2e-3)
     assert piece.mass_g == pytest.approx(3.8 * 3.8 * 40.0 * 7.85e-3, rel=1e-3)
     assert math.hypot(piece.center_um.x, piece.center_um.y - 4000.0) < 1.0
+
+
+def test_a_mirrored_part_passes_within_the_tolerance_and_is_named_past_it(tmp_path: Path) -> None:
+    """An angle, and its drawing seen from the back; its inside corner keeps 41.4 µm."""
+    angle = """B0B2000B2000GYL2 B2000B0B2000GXL1 B0B2000B2000GYL2 B1500B0B1500GXL3 B0B2000B2000GYL2
+        B2500B0B2500GXL3 B0B4000B4000GYL4 B2000B0B2000GXL1 B0B2000B2000GYL4 DD"""
+    corners = [(-1.9, 2.1), (1.9, 2.1), (1.9, 3.9), (0.4, 3.9), (0.4, 5.9), (-1.9, 5.9)]
+    seen_from_behind = drawn(tmp_path / "part.dxf", *((-x, y) for x, y in corners))
+    passed = run_held(angle, DrawingAsked(seen_from_behind, tolerance_um=45.0))
+    assert codes(passed) == []
+    assert [named.name for named in passed.comparison.names] == ["mirrored"]
+    failed = run_held(angle, DrawingAsked(seen_from_behind, tolerance_um=0.1))
+    assert [f.values["what"] for f in failed.findings if f.code == "3B602"] == ["mirrored"]
