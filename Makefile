@@ -3,20 +3,26 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: demo test lint bench steps mutate fuzz golden pages lock clean
+.PHONY: demo test lint browser bench steps mutate fuzz golden pages lock clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
-	@echo "look at out/keyhole/cut.png and out/keyhole/report.json"
+	@echo "open out/keyhole/report.html in a browser"
 
-test: lint
-	$(BIN)/pytest
+# Each file on one core, as its tests share what they make.
+test: lint browser
+	$(BIN)/pytest -m alone
+	$(BIN)/pytest -m "not alone" --numprocesses auto --dist loadfile
 
 lint: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-cache
+
+# Chromium, for the tests of pages: installed where it is missing and that can be done, or told how to.
+browser: $(READY)
+	$(BIN)/python tests/chromium.py
 
 bench: $(READY)
 	$(BIN)/python tests/bench.py
@@ -33,9 +39,9 @@ mutate: $(READY)
 fuzz: $(READY)
 	PYTHONPATH=.:tests $(BIN)/python tests/fuzz.py
 
-# Renew the golden pictures after looking at the new ones.
-golden: $(READY)
-	DRYCUT_RENEW_GOLDEN=1 $(BIN)/pytest tests/test_sim_picture.py
+# Renew the golden pictures that no longer fit, after looking at the new ones.
+golden: browser
+	DRYCUT_RENEW_GOLDEN=1 $(BIN)/pytest $$(grep -l 'import.* assert_golden' tests/test_*.py)
 
 # Renew docs/findings.md and docs/findings.zh.md from the pages in parser/pages.
 pages: $(READY)

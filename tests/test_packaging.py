@@ -31,9 +31,10 @@ def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
     assert {path.split("/")[0] for path in names} == {"parser", "controller", "sim", f"drycut-{__version__}.dist-info"}
     for needed in ("sim/machines/dk7740.toml", "sim/draw/fonts/OFL.txt", "parser/program.py", "sim/cli/run.py"):
         assert needed in names
-    pages = {path.relative_to(ROOT).as_posix() for path in (ROOT / "parser" / "pages").glob("*.toml")}
-    assert len(pages) > len(SEVERITIES)
-    assert pages <= set(names)
+    files = [path for folder in ("parser", "controller", "sim") for path in (ROOT / folder).rglob("*.*")]
+    ours = {path.relative_to(ROOT).as_posix() for path in files if "__pycache__" not in path.parts}
+    assert ours - set(names) == set()
+    assert sum(path.startswith("parser/pages/") for path in names) > len(SEVERITIES)
     assert any(path.startswith("sim/draw/fonts/") and path.endswith(".otf") for path in names)
     assert any(path.endswith("licenses/LICENSE") for path in names)
 
