@@ -12,20 +12,20 @@ import numpy as np
 import pytest
 from circles import SAMPLES, measured, moved_out, perfect, with_play, with_spikes
 from command import ROOT, run_command
+from golden_pictures import assert_golden, compare
 from jsonschema import Draft202012Validator
 from PIL import Image
 from runs import silent
-from test_sim_picture import FAILURES, GOLDEN, RENEW, compare
 
 from parser.toolpath import Axis
 from sim.ballbar.circle import Ballbar, circle_test, run_test
-from sim.ballbar.dial import RING_SIZES, RINGS, dial_for
 from sim.ballbar.document import document
 from sim.ballbar.plot import draw_ballbar
 from sim.ballbar.summary import print_ballbar
 from sim.ballbar.turn import SENSES, Turn
 from sim.cli.ballbar import ballbar as command
-from sim.draw import style
+from sim.draw.dial import RING_SIZES, RINGS, ring_for
+from sim.draw.paints import LIGHT, Paint
 from sim.machine import load_machine
 from sim.table.losses import Loss
 
@@ -153,6 +153,7 @@ def test_output_is_a_picture_or_a_folder(tmp_path: Path) -> None:
     assert (tmp_path / "b" / "ballbar.png").read_bytes() == (tmp_path / "a" / "plot.PNG").read_bytes()
 
 
+@pytest.mark.alone  # progress is told after a second
 @pytest.mark.parametrize(
     ("args", "message"),
     [
@@ -187,10 +188,7 @@ def picture(done: Ballbar) -> Image.Image:
 
 
 def test_golden() -> None:
-    image = picture(with_known_errors())
-    if RENEW:
-        image.save(GOLDEN / "ballbar.png", optimize=True)
-    assert compare(image, "ballbar.png", FAILURES) == ""
+    assert_golden(picture(with_known_errors()), "ballbar.png")
 
 
 @pytest.mark.parametrize("changed", [{"x_um": 6.5}, {"y_um": 0.0}, {"out_um": 0.0}])
@@ -201,10 +199,10 @@ def test_comparison_can_fail(changed: dict[str, float], tmp_path: Path) -> None:
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 37.0, 1e4])
 def test_rings_have_room_for_any_deviation(scale: float) -> None:
     for most_um in (scale * factor for factor in (1.0, 1.999, 2.0, 4.2, 9.999)):
-        dial = dial_for(most_um, 1.0)
-        assert dial.ring_um * RINGS >= most_um * (1.0 - 1e-9)
-        assert dial.ring_um <= max(1.6 * most_um / RINGS, 0.1)
-        assert float(f"{dial.ring_um:.6e}".split("e")[0]) in RING_SIZES
+        ring_um = ring_for(most_um)
+        assert ring_um * RINGS >= most_um * (1.0 - 1e-9)
+        assert ring_um <= max(1.6 * most_um / RINGS, 0.1)
+        assert float(f"{ring_um:.6e}".split("e")[0]) in RING_SIZES
 
 
 def test_nothing_is_drawn_beyond_the_page() -> None:
@@ -218,7 +216,7 @@ def test_nothing_is_drawn_beyond_the_page() -> None:
 def test_the_picture_of_a_real_run_has_both_paths() -> None:
     image = picture(run_test(circle_test(load_machine("dk7740"), 1000.0, None), silent))
     colours = {colour for _, colour in image.getcolors(1 << 20)}
-    assert {(0, 104, 168), (213, 94, 0), style.INK} <= colours
+    assert {(0, 104, 168), (213, 94, 0), LIGHT[Paint.INK]} <= colours
 
 
 def test_a_picture_too_narrow_to_read_is_refused() -> None:

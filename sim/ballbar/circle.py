@@ -144,7 +144,7 @@ def _run(test: CircleTest, sense: Sense, progress: Progress) -> _Run:
     def told(stage: str, done: int, total: int) -> None:
         progress(f"{stage}, {NAMES[sense]}", done, total)
 
-    trace, losses, _ = simulate(motion, take, told)
+    trace, losses, *_ = simulate(motion, take, told)
     measured = (trace.t_s >= start_s) & (trace.t_s <= end_s)
     center_um = trace.commanded_um[0] - (test.radius_um, 0.0)
     return _Run(

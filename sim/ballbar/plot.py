@@ -8,7 +8,7 @@ from PIL import Image
 
 from parser.geometry.curves import Floats
 from sim.ballbar.circle import Ballbar, Measured
-from sim.ballbar.dial import Dial, dial_for, draw_band, draw_curve, draw_ring_values, draw_rings, draw_zone_edge
+from sim.ballbar.dial import draw_band, draw_curve, draw_zone_edge
 from sim.ballbar.panel import Panel
 from sim.ballbar.parts import Reversal
 from sim.ballbar.reversal_marks import mark_spike, write_reversals
@@ -16,14 +16,19 @@ from sim.ballbar.rows import FIGURES, PARTS, figure_rows, part_rows, setup_rows,
 from sim.ballbar.turn import Sense
 from sim.draw import style
 from sim.draw.canvas import Canvas
+from sim.draw.dial import Dial, draw_ring_values, draw_rings, ring_for
 from sim.draw.furniture import draw_header
 from sim.draw.layout import Box, Page, View
+from sim.draw.paints import Paint
+from sim.draw.raster import Raster
 
 CELLS: Final = 1440
 CELL_RAD: Final = np.asarray((np.arange(CELLS) + 0.5) * (2.0 * np.pi / CELLS), dtype=np.float64)
 """Quarters of a degree, over which the drawn curves are means, as a ball bar's filter makes them."""
 ASPECT: Final = 0.72
 """Height over width."""
+CENTER: Final = (572.0, 638.0)
+"""Middle of the dial."""
 
 
 def draw_ballbar(ballbar: Ballbar, measured: Measured, width_px: int = 1600) -> Image.Image:
@@ -37,8 +42,8 @@ def draw_ballbar(ballbar: Ballbar, measured: Measured, width_px: int = 1600) -> 
     curves = [_curve(ballbar, measured, row) for row in (0, 1)]
     lowest = min(float(curve.ends_um.min()) for curve in curves)
     highest = max(float(curve.ends_um.max()) for curve in curves)
-    dial = dial_for(max(-lowest, highest), unit)
-    canvas = Canvas(width_px, round(ASPECT * width_px))
+    dial = Dial(unit, ring_for(max(-lowest, highest)), (CENTER[0] * unit, CENTER[1] * unit), unit)
+    canvas = Raster(width_px, round(ASPECT * width_px))
     _write_head(canvas, unit, width_px, ballbar, measured)
     for curve in curves:
         draw_band(canvas, dial, curve.sense, CELL_RAD, curve.ends_um)
@@ -88,9 +93,9 @@ def _write_head(canvas: Canvas, unit: float, width_px: int, ballbar: Ballbar, me
 def _write_middle(canvas: Canvas, dial: Dial, measured: Measured) -> None:
     x, y = dial.center.tolist()
     unit = dial.unit
-    canvas.text((x, y - 30.0 * unit), "G(b)", style.NOTE * unit, style.GREY, align=0.5)
+    canvas.text((x, y - 30.0 * unit), "G(b)", style.NOTE * unit, Paint.GREY, align=0.5)
     value = um(measured.figures.circularity_um)
-    canvas.text((x, y + 16.0 * unit), value, style.TITLE * unit, style.INK, align=0.5)
+    canvas.text((x, y + 16.0 * unit), value, style.TITLE * unit, Paint.INK, align=0.5)
 
 
 def _mark(canvas: Canvas, dial: Dial, reversal: Reversal, curve: _Curve) -> None:

@@ -5,20 +5,21 @@ from typing import Final
 import numpy as np
 
 from parser.geometry.curves import Floats
-from sim.ballbar.dial import COLOURS, RIM, Dial
+from sim.ballbar.dial import COLOURS
 from sim.ballbar.parts import Reversal
 from sim.ballbar.rows import um
 from sim.ballbar.turn import NAMES
 from sim.draw import style
 from sim.draw.canvas import Canvas
-from sim.draw.style import Colour
+from sim.draw.dial import RIM, Dial
+from sim.draw.paints import Paint
 
 LINE: Final = 27.0
 GAP: Final = 14.0
 SPIKE: Final = 8.0
 SPIKE_WIDTH: Final = 2.5
 
-Lines = list[tuple[str, Colour]]
+Lines = list[tuple[str, Paint]]
 
 
 def write_reversals(canvas: Canvas, dial: Dial, reversals: tuple[Reversal, ...]) -> None:
@@ -26,7 +27,7 @@ def write_reversals(canvas: Canvas, dial: Dial, reversals: tuple[Reversal, ...])
     for quarter in range(4):
         here = (reversals[quarter], reversals[4 + quarter])
         lines = _beside(here) if quarter % 2 == 0 else _above(here)
-        _write(canvas, dial, quarter, [(_name(here[0]), style.INK), *lines])
+        _write(canvas, dial, quarter, [(_name(here[0]), Paint.INK), *lines])
 
 
 def mark_spike(canvas: Canvas, place_px: Floats, reversal: Reversal, unit: float) -> None:
@@ -59,5 +60,5 @@ def _write(canvas: Canvas, dial: Dial, quarter: int, lines: Lines) -> None:
     x, y = dial.at(np.array(quarter * np.pi / 2.0), (RIM + GAP) * unit).tolist()
     share, align = ((0.5, 0.0), (1.0, 0.5), (0.5, 1.0), (0.0, 0.5))[quarter]
     top = y - share * (len(lines) - 1) * LINE * unit
-    for row, (text, colour) in enumerate(lines):
-        canvas.text((x, top + row * LINE * unit), text, style.NUMBER * unit, colour, align=align)
+    for row, (text, paint) in enumerate(lines):
+        canvas.text((x, top + row * LINE * unit), text, style.NUMBER * unit, paint, align=align)

@@ -1,1 +1,1 @@
-"""Pictures: pygame draws, pillow finishes; nothing outside this package imports either."""
+"""What pictures are drawn on and with: canvases, paints, letters, layout. pygame draws, pillow finishes."""

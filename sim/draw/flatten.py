@@ -6,12 +6,11 @@ from itertools import pairwise
 import numpy as np
 
 from parser.geometry.along import places
-from parser.geometry.curves import Bools, Floats, Ints
+from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.geometry.directions import headings
-from parser.toolpath import Toolpath
 
 
-def bounds_um(toolpath: Toolpath) -> Floats:
+def bounds_um(toolpath: Curves) -> Floats:
     """Give the smallest box around all blocks, jumps included.
 
     Parameters
@@ -27,7 +26,7 @@ def bounds_um(toolpath: Toolpath) -> Floats:
     return np.stack([points.min(axis=0), points.max(axis=0)])
 
 
-def _arc_extremes_um(toolpath: Toolpath) -> Floats:
+def _arc_extremes_um(toolpath: Curves) -> Floats:
     arc = toolpath.is_arc
     start, sweep = toolpath.start_angle_rad[arc], toolpath.sweep_rad[arc]
     low, high = np.minimum(start, start + sweep), np.maximum(start, start + sweep)
@@ -43,7 +42,7 @@ def _on_circle_um(center_um: Floats, radius_um: Floats, angle_rad: Floats) -> Fl
     return np.asarray(center_um + radius_um[..., None] * unit, dtype=np.float64)
 
 
-def flatten(toolpath: Toolpath, tolerance_um: float) -> tuple[Floats, Ints]:
+def flatten(toolpath: Curves, tolerance_um: float) -> tuple[Floats, Ints]:
     """Follow the toolpath by straight chords.
 
     Parameters
@@ -70,14 +69,14 @@ def flatten(toolpath: Toolpath, tolerance_um: float) -> tuple[Floats, Ints]:
     return np.concatenate([toolpath.start_um[:1], points]), np.concatenate([row[:1], row])
 
 
-def _unwound(toolpath: Toolpath) -> Toolpath:
+def _unwound(toolpath: Curves) -> Curves:
     """Draw the same with no arc over two turns: a wrong count length can ask for millions of them."""
     size = np.abs(toolpath.sweep_rad)
     turns = np.maximum(np.floor(size / (2 * np.pi)) - 1, 0)
     return replace(toolpath, sweep_rad=np.sign(toolpath.sweep_rad) * (size - turns * 2 * np.pi))
 
 
-def _chords(toolpath: Toolpath, tolerance_um: float) -> Ints:
+def _chords(toolpath: Curves, tolerance_um: float) -> Ints:
     """Chords of each block, (n,): the sagitta r (1 − cos(φ/2)) of a chord of angle φ stays below the tolerance."""
     count = np.ones(len(toolpath), dtype=np.int64)
     arc = toolpath.is_arc
@@ -86,7 +85,7 @@ def _chords(toolpath: Toolpath, tolerance_um: float) -> Ints:
     return count
 
 
-def along(toolpath: Toolpath, row: Ints, fraction: Floats) -> tuple[Floats, Floats]:
+def along(toolpath: Curves, row: Ints, fraction: Floats) -> tuple[Floats, Floats]:
     """Give places inside blocks and the direction of travel there.
 
     Parameters

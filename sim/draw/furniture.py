@@ -5,6 +5,7 @@ import numpy as np
 from sim.draw import style
 from sim.draw.canvas import Canvas
 from sim.draw.layout import Box, Page, mm_text, nice_below, ticks
+from sim.draw.paints import Paint
 
 
 def elide(canvas: Canvas, text: str, size: float, width: float) -> str:
@@ -25,18 +26,18 @@ def _without_middle(text: str, keep: int) -> str:
     return text[: keep - tail].rstrip() + "…" + text[len(text) - tail :].lstrip()
 
 
-def draw_header(canvas: Canvas, page: Page, title: str, note: str) -> None:
-    """Write the title and the note below it."""
-    left, width = style.EDGE * page.unit, page.width_px - 2 * style.EDGE * page.unit
-    rows = ((title, style.TITLE, 0.34, style.INK), (note, style.NOTE, 0.72, style.GREY))
-    for text, size, share, colour in rows:
+def draw_header(canvas: Canvas, page: Page, title: str, note: str, *, beside_px: float = 0.0) -> None:
+    """Write the title and the note below it, which leave so much of the right side free."""
+    left, width = style.EDGE * page.unit, page.width_px - 2 * style.EDGE * page.unit - beside_px
+    rows = ((title, style.TITLE, 0.34, Paint.INK), (note, style.NOTE, 0.72, Paint.GREY))
+    for text, size, share, paint in rows:
         line = elide(canvas, text, size * page.unit, width)
-        canvas.text((left, share * style.HEAD * page.unit), line, size * page.unit, colour)
+        canvas.text((left, share * style.HEAD * page.unit), line, size * page.unit, paint)
 
 
 def draw_frame(canvas: Canvas, page: Page) -> None:
     """Draw the empty plot with its frame."""
-    canvas.box(page.plot, style.WHITE, style.FRAME, style.GRID_WIDTH * page.unit)
+    canvas.box(page.plot, Paint.PAGE, Paint.FRAME, style.GRID_WIDTH * page.unit)
 
 
 def draw_axes(canvas: Canvas, page: Page) -> list[Box]:
@@ -54,7 +55,7 @@ def draw_axes(canvas: Canvas, page: Page) -> list[Box]:
         Box(plot.left, plot.top, plot.left + wide, plot.top + high_px),
     ]
     for name, box in zip(("X mm", "Y mm"), names, strict=True):
-        canvas.text(((box.left + box.right) / 2, (box.top + box.bottom) / 2), name, size, style.GREY, align=0.5)
+        canvas.text(((box.left + box.right) / 2, (box.top + box.bottom) / 2), name, size, Paint.GREY, align=0.5)
     return names
 
 
@@ -64,8 +65,8 @@ def _draw_tick(canvas: Canvas, page: Page, axis: int, tick_um: float, step_um: f
     text = mm_text(tick_um, step_um)
     if axis == 0:
         line = np.array([[x, plot.top], [x, plot.bottom]])
-        canvas.text((x, plot.bottom + 0.8 * size), text, size, style.GREY, align=0.5)
+        canvas.text((x, plot.bottom + 0.8 * size), text, size, Paint.GREY, align=0.5)
     else:
         line = np.array([[plot.left, y], [plot.right, y]])
-        canvas.text((plot.left - 0.4 * size, y), text, size, style.GREY, align=1.0)
-    canvas.polyline(line, style.GRID, style.GRID_WIDTH * page.unit)
+        canvas.text((plot.left - 0.4 * size, y), text, size, Paint.GREY, align=1.0)
+    canvas.polyline(line, Paint.GRID, style.GRID_WIDTH * page.unit)

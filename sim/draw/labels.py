@@ -1,6 +1,6 @@
 """Places for block numbers and arrows: none covers another one, nor a marker, and the path only where it must."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import product
 from typing import Final, NamedTuple
 
@@ -70,10 +70,18 @@ class Room:
 
     def take(self, tries: Sequence[Box]) -> Box | None:
         """Take the first of `tries` that covers the least of the path; None where all of them overlap something."""
-        free = [box for box in tries if self._area.holds(box) and not any(box.meets(other) for other in self._taken)]
-        best = min(free, key=self._ink.within, default=None)
-        self._taken += [best] if best else []
-        return best
+        return self._taking(min(self._free(tries), key=self._ink.within, default=None))
+
+    def take_clear(self, tries: Sequence[Box]) -> Box | None:
+        """Take the first of `tries` that covers nothing of the path; None where there is none."""
+        return self._taking(next((box for box in self._free(tries) if not self._ink.within(box)), None))
+
+    def _free(self, tries: Sequence[Box]) -> Iterator[Box]:
+        return (box for box in tries if self._area.holds(box) and not any(box.meets(other) for other in self._taken))
+
+    def _taking(self, box: Box | None) -> Box | None:
+        self._taken += [box] if box else []
+        return box
 
     def block(self, box: Box) -> None:
         """Take a box whether it is free or not."""

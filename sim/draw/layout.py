@@ -1,7 +1,7 @@
 """Where things stand on a page: the plot's frame, its scale and its ticks."""
 
 import math
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -59,13 +59,13 @@ class View(NamedTuple):
         """Points of a part, (…, 2) µm with y upwards, on the page, (…, 2) px with y downwards."""
         return np.asarray(points_um * (self.px_per_um, -self.px_per_um) + (self.x_px, self.y_px), dtype=np.float64)
 
+    def to_um(self, points_px: Floats) -> Floats:
+        """Points of the page, (…, 2) px, on the part, (…, 2) µm."""
+        return np.asarray((points_px - (self.x_px, self.y_px)) / (self.px_per_um, -self.px_per_um), dtype=np.float64)
+
     def range_um(self, plot: Box) -> Floats:
         """Give the part of the plane that `plot` shows: (2, 2) µm, lowest and highest (x, y)."""
-        corners = np.array([[plot.left, plot.bottom], [plot.right, plot.top]])
-        return np.asarray(
-            (corners - (self.x_px, self.y_px)) / (self.px_per_um, -self.px_per_um),
-            dtype=np.float64,
-        )
+        return self.to_um(np.array([[plot.left, plot.bottom], [plot.right, plot.top]]))
 
 
 class Page(NamedTuple):
@@ -90,7 +90,34 @@ class Page(NamedTuple):
     view: View
 
 
-def page_for(bounds_um: Floats, width_px: int) -> Page:
+class Margins(NamedTuple):
+    """What is kept free at the four sides of something, in the sizes of `sim.draw.style`."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+    def within(self, box: Box, unit: float) -> Box:
+        """What is left of a box."""
+        return Box(
+            box.left + self.left * unit,
+            box.top + self.top * unit,
+            box.right - self.right * unit,
+            box.bottom - self.bottom * unit,
+        )
+
+
+BESIDE_PLOT: Final = Margins(style.LEFT, style.HEAD, style.EDGE, style.FOOT)
+IN_PLOT: Final = Margins(style.PAD, style.PAD, style.PAD, style.PAD)
+
+
+def unit_of(width_px: int) -> float:
+    """Factor on the sizes of `sim.draw.style` for a page of this width."""
+    return max(width_px / style.BASE_WIDTH, style.LEAST_UNIT)
+
+
+def page_for(bounds_um: Floats, width_px: int, beside: Margins = BESIDE_PLOT, inside: Margins = IN_PLOT) -> Page:
     """Lay out a page so that a part fills its plot.
 
     Parameters
@@ -99,24 +126,33 @@ def page_for(bounds_um: Floats, width_px: int) -> Page:
         (2, 2) µm, lowest and highest (x, y), neither of both sides 0.
     width_px
         Width of the page; its height follows from the part within `style.HEIGHT_RANGE`.
+    beside, inside
+        What is kept free between page and frame, and between frame and part.
 
     Raises
     ------
     ValueError
-        The page is narrower than `style.LEAST_WIDTH`.
+        The page is narrower than `style.LEAST_THUMBNAIL`.
     """
-    if width_px < style.LEAST_WIDTH:
-        raise ValueError(f"a picture is at least {style.LEAST_WIDTH} px wide, not {width_px}")
-    unit = max(width_px / style.BASE_WIDTH, style.LEAST_UNIT)
+    if width_px < style.LEAST_THUMBNAIL:
+        raise ValueError(f"a picture is at least {style.LEAST_THUMBNAIL} px wide, not {width_px}")
+    unit = unit_of(width_px)
     wide_um, tall_um = np.maximum(bounds_um[1] - bounds_um[0], 1e-9).tolist()
-    left, right, top, foot = style.LEFT * unit, width_px - style.EDGE * unit, style.HEAD * unit, style.FOOT * unit
-    pad = 2 * style.PAD * unit
-    height_px = _height_px(width_px, top + foot + pad + (right - left - pad) * tall_um / wide_um)
-    plot = Box(left, top, right, height_px - foot)
-    scale = min((plot.right - plot.left - pad) / wide_um, (plot.bottom - plot.top - pad) / tall_um)
+    room = _room(width_px, width_px, beside, inside)
+    other_px = width_px - (room.bottom - room.top)
+    height_px = _height_px(width_px, other_px + (room.right - room.left) * tall_um / wide_um)
+    room = _room(width_px, height_px, beside, inside)
+    scale = min((room.right - room.left) / wide_um, (room.bottom - room.top) / tall_um)
     middle_x, middle_y = (bounds_um.mean(axis=0) * scale).tolist()
-    view = View(scale, (plot.left + plot.right) / 2 - middle_x, (plot.top + plot.bottom) / 2 + middle_y)
+    view = View(scale, (room.left + room.right) / 2 - middle_x, (room.top + room.bottom) / 2 + middle_y)
+    plot = beside.within(Box(0.0, 0.0, width_px, height_px), unit)
     return Page(width_px, height_px, unit, plot, view)
+
+
+def _room(width_px: int, height_px: int, beside: Margins, inside: Margins) -> Box:
+    """Where the part may lie on a page."""
+    unit = unit_of(width_px)
+    return inside.within(beside.within(Box(0.0, 0.0, width_px, height_px), unit), unit)
 
 
 def _height_px(width_px: int, wanted_px: float) -> int:

@@ -1,33 +1,18 @@
-"""How the pictures look: every colour, size and font, and nothing else.
+"""How the pictures look: every size and the font; colours are those of `sim.draw.paints`.
 
-Sizes are px of a picture 1600 px wide; smaller pictures scale them. The palette follows Okabe and Ito, which the
-colour-blind can tell apart; still every mark differs by its shape too, so that a grey print says the same.
+Sizes are px of a picture 1600 px wide; smaller pictures scale them.
 """
 
 from pathlib import Path
 from typing import Final
 
-Colour = tuple[int, int, int]
-
 FONT: Final = Path(__file__).with_name("fonts") / "NotoSansCJKsc-Regular-subset.otf"
 
-WHITE: Final[Colour] = (255, 255, 255)
-INK: Final[Colour] = (26, 26, 26)
-GREY: Final[Colour] = (95, 95, 95)
-FRAME: Final[Colour] = (150, 150, 150)
-GRID: Final[Colour] = (232, 232, 232)
-KERF: Final[Colour] = (118, 194, 238)
-IDEAL: Final[Colour] = INK
-JUMP: Final[Colour] = (213, 94, 0)
-START: Final[Colour] = (0, 138, 101)
-END: Final[Colour] = (158, 50, 120)
-WORK: Final[Colour] = (248, 243, 230)
-WORK_EDGE: Final[Colour] = (176, 158, 116)
-CLAMP: Final[Colour] = (226, 226, 226)
-CLAMP_EDGE: Final[Colour] = (130, 130, 130)
 
 BASE_WIDTH: Final = 1600
 LEAST_WIDTH: Final = 600
+LEAST_THUMBNAIL: Final = 160
+MOST_WIDTH: Final = 10_000  # an A0 page at 200 dpi
 LEAST_UNIT: Final = 0.45  # text of a small picture stays readable
 
 HEIGHT_RANGE: Final = (0.5, 1.0)  # height of a picture over its width
@@ -69,3 +54,21 @@ ARROW_BLOCK_MIN: Final = 60.0
 ARROW_SPACING: Final = 300.0
 NUMBER_GAP: Final = 7.0
 NUMBER_INSET: Final = 5.0
+
+PAUSE: Final = 26.0  # side of a pause's square
+FLAG: Final = 17.0  # how far a finding's marker reaches
+
+SIZE: Final = 22.0  # text of sizes and labels
+SIZE_PAD: Final = 122.0  # free border inside the frame where sizes stand
+SIZE_AWAY: Final = 66.0  # from the path to a line of sizes
+SIZE_GAP: Final = 8.0
+SIZE_WIDTH: Final = 1.5
+SIZE_ARROW: Final = 15.0
+LEADER: Final = 34.0  # from an arc to its radius
+LINE_STEP: Final = 1.25  # from line to line of a text, in its size
+
+EDGE_WIDTH: Final = 1.5  # of pieces
+ACTUAL_WIDTH: Final = 2.2
+CONTOUR_WIDTH: Final = 1.5
+TABLE: Final = 84.0  # the longer side of the small table in the head
+THUMBNAIL_PAD: Final = 26.0

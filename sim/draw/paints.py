@@ -1,0 +1,149 @@
+"""Colours by what they mean: pictures name a paint, a theme says which colour it is.
+
+The palette follows Okabe and Ito, which the colour-blind can tell apart; still every mark differs by its shape too, so
+that a grey print says the same.
+"""
+
+from collections.abc import Mapping
+from enum import StrEnum
+from typing import Final, Literal
+
+Colour = tuple[int, int, int]
+"""Red, green and blue, 0 to 255."""
+
+
+class Paint(StrEnum):
+    """What a colour stands for."""
+
+    PAGE = "page"
+    INK = "ink"
+    GREY = "grey"
+    FRAME = "frame"
+    GRID = "grid"
+    WORK = "work"
+    WORK_EDGE = "work-edge"
+    CLAMP = "clamp"
+    CLAMP_EDGE = "clamp-edge"
+    KERF = "kerf"
+    TRAVEL = "travel"
+    PART = "part"
+    PART_EDGE = "part-edge"
+    SLUG = "slug"
+    SLUG_EDGE = "slug-edge"
+    IDEAL = "ideal"
+    ACTUAL = "actual"
+    ACTUAL_PALE = "actual-pale"
+    STEPS = "steps"
+    STEPS_PALE = "steps-pale"
+    CONTOUR = "contour"
+    JUMP = "jump"
+    START = "start"
+    END = "end"
+    PAUSE = "pause"
+    SIZE = "size"
+    ERROR = "error"
+    WARNING = "warning"
+    BAND = "band"
+    BAND_EDGE = "band-edge"
+    X = "x"
+    X_PALE = "x-pale"
+    Y = "y"
+    Y_PALE = "y-pale"
+    CCW = "ccw"
+    CCW_PALE = "ccw-pale"
+    CW = "cw"
+    CW_PALE = "cw-pale"
+
+
+Theme = Mapping[Paint, Colour]
+ThemeName = Literal["light", "dark"]
+
+LIGHT: Final[Theme] = {
+    Paint.PAGE: (255, 255, 255),
+    Paint.INK: (26, 26, 26),
+    Paint.GREY: (95, 95, 95),
+    Paint.FRAME: (150, 150, 150),
+    Paint.GRID: (232, 232, 232),
+    Paint.WORK: (248, 243, 230),
+    Paint.WORK_EDGE: (176, 158, 116),
+    Paint.CLAMP: (226, 226, 226),
+    Paint.CLAMP_EDGE: (130, 130, 130),
+    Paint.KERF: (118, 194, 238),
+    Paint.TRAVEL: (130, 60, 0),
+    Paint.PART: (205, 235, 222),
+    Paint.PART_EDGE: (0, 138, 101),
+    Paint.SLUG: (208, 208, 212),
+    Paint.SLUG_EDGE: (120, 120, 120),
+    Paint.IDEAL: (26, 26, 26),
+    Paint.ACTUAL: (0, 104, 168),
+    Paint.ACTUAL_PALE: (196, 221, 238),
+    Paint.STEPS: (158, 50, 120),
+    Paint.STEPS_PALE: (238, 208, 227),
+    Paint.CONTOUR: (158, 50, 120),
+    Paint.JUMP: (213, 94, 0),
+    Paint.START: (0, 138, 101),
+    Paint.END: (158, 50, 120),
+    Paint.PAUSE: (160, 102, 0),
+    Paint.SIZE: (70, 70, 150),
+    Paint.ERROR: (190, 20, 30),
+    Paint.WARNING: (160, 102, 0),
+    Paint.BAND: (226, 240, 232),
+    Paint.BAND_EDGE: (0, 138, 101),
+    Paint.X: (0, 104, 168),
+    Paint.X_PALE: (196, 221, 238),
+    Paint.Y: (213, 94, 0),
+    Paint.Y_PALE: (250, 218, 192),
+    Paint.CCW: (0, 104, 168),
+    Paint.CCW_PALE: (196, 221, 238),
+    Paint.CW: (213, 94, 0),
+    Paint.CW_PALE: (250, 218, 192),
+}
+
+DARK: Final[Theme] = {
+    Paint.PAGE: (22, 24, 28),
+    Paint.INK: (236, 236, 236),
+    Paint.GREY: (172, 176, 182),
+    Paint.FRAME: (104, 108, 116),
+    Paint.GRID: (46, 49, 56),
+    Paint.WORK: (44, 41, 34),
+    Paint.WORK_EDGE: (150, 134, 98),
+    Paint.CLAMP: (58, 60, 64),
+    Paint.CLAMP_EDGE: (150, 152, 158),
+    Paint.KERF: (32, 112, 160),
+    Paint.TRAVEL: (226, 170, 110),
+    Paint.PART: (28, 66, 54),
+    Paint.PART_EDGE: (70, 200, 160),
+    Paint.SLUG: (70, 72, 78),
+    Paint.SLUG_EDGE: (160, 162, 168),
+    Paint.IDEAL: (240, 240, 240),
+    Paint.ACTUAL: (102, 190, 244),
+    Paint.ACTUAL_PALE: (26, 66, 92),
+    Paint.STEPS: (230, 150, 205),
+    Paint.STEPS_PALE: (92, 48, 78),
+    Paint.CONTOUR: (230, 150, 205),
+    Paint.JUMP: (250, 150, 60),
+    Paint.START: (70, 200, 160),
+    Paint.END: (230, 150, 205),
+    Paint.PAUSE: (240, 190, 70),
+    Paint.SIZE: (170, 170, 245),
+    Paint.ERROR: (255, 110, 110),
+    Paint.WARNING: (240, 190, 70),
+    Paint.BAND: (30, 52, 44),
+    Paint.BAND_EDGE: (70, 200, 160),
+    Paint.X: (102, 190, 244),
+    Paint.X_PALE: (26, 66, 92),
+    Paint.Y: (250, 150, 60),
+    Paint.Y_PALE: (92, 56, 26),
+    Paint.CCW: (102, 190, 244),
+    Paint.CCW_PALE: (26, 66, 92),
+    Paint.CW: (250, 150, 60),
+    Paint.CW_PALE: (92, 56, 26),
+}
+
+THEMES: Final[Mapping[ThemeName, Theme]] = {"light": LIGHT, "dark": DARK}
+
+
+def hexadecimal(colour: Colour) -> str:
+    """A colour as pages write it, such as ``#76c2ee``."""
+    red, green, blue = colour
+    return f"#{red:02x}{green:02x}{blue:02x}"
