@@ -15,6 +15,7 @@ from controller.stepping.pulses import Pulses
 from parser.toolpath import Toolpath
 from sim.machine import Machine
 from sim.table.follow import Following, Setup
+from sim.table.history import History
 from sim.table.losses import Loss
 from sim.table.peaks import Peak
 from sim.table.rhythm import rhythm
@@ -41,11 +42,12 @@ class Motion(NamedTuple):
 
 
 class Moved(NamedTuple):
-    """What the table made of a motion: where it was, what its drives lost, and how near they came to their limits."""
+    """What the table made of a motion: its places, what its drives lost, how near they came to limits, its history."""
 
     trace: Trace
     losses: tuple[Loss, ...]
     peaks: tuple[Peak, ...]
+    history: History
 
 
 def motion_of(

@@ -10,7 +10,7 @@ from table_runs import MODEL, Drawn, draw, even_ticks, farthest_um, fixed, motio
 from controller.motion.limits import Feeds, MotionLimits
 from parser.program import parse_program
 from sim.machine import load_machine
-from sim.motion import motion_of
+from sim.motion import Moved, motion_of
 from sim.table import follow, passes
 from sim.table.rhythm import STEP_RAD, rhythm
 from sim.table.ticks import Ticks, choose_ticks
@@ -128,9 +128,9 @@ def in_parts(parts: int) -> Drawn:
     borders = np.linspace(0, len(WAVES.t_s), parts + 1).astype(int).tolist()
     for since, until in pairwise(borders):
         following.take(WAVES.part(since, until))
-    trace, losses, peaks = following.finish()
-    assert losses
-    return Drawn(trace.t_s, trace.table_um, (trace, losses, peaks))
+    moved = Moved(*following.finish())
+    assert moved.losses
+    return Drawn(moved.trace.t_s, moved.trace.table_um, moved)
 
 
 def test_the_run_is_the_same_to_the_byte_however_its_pulses_are_cut(monkeypatch: pytest.MonkeyPatch) -> None:

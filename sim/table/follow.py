@@ -9,6 +9,7 @@ from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from parser.units import from_mm
 from sim.table.engine import Engines
+from sim.table.history import History, HistoryMeter, SlabRun
 from sim.table.losses import Loss, LossTally
 from sim.table.march import Table
 from sim.table.motor import Motors
@@ -69,6 +70,7 @@ class Following:
         origin = np.array([setup.origin_um], dtype=np.float64)
         self._state = State(origin, np.zeros((1, 2)), np.zeros((1, 2)), np.zeros(1, dtype=bool))
         self._losses, self._peaks = LossTally(setup.model), PeakMeter(setup.model, setup.speed_limit_um_s)
+        self._history = HistoryMeter(setup.model, setup.slow, ticks, setup.origin_um)
         # Slabs end where the trace has a sample, so that no long tick is cut off from what follows it.
         self._ends = np.flatnonzero(ticks.sampled) + 1
         self._ticks_before = np.concatenate([[0], np.cumsum(_likely_parts(ticks, rhythm(setup.model)))])
@@ -85,11 +87,11 @@ class Following:
         self._motors.take(pulses, self._needed_s())
         self._advance(self._motors.known_s - RATE_WINDOW_S, whole=False)
 
-    def finish(self) -> tuple[Trace, tuple[Loss, ...], tuple[Peak, ...]]:
+    def finish(self) -> tuple[Trace, tuple[Loss, ...], tuple[Peak, ...], History]:
         """Let the table come to rest, and sum up."""
         self._advance(np.inf, whole=True)
         trace = Trace(self._t_s, self._commanded, self._place, self._place, self._row)
-        return trace, self._losses.result(), self._peaks.result()
+        return trace, self._losses.result(), self._peaks.result(), self._history.result()
 
     def _needed_s(self) -> float:
         """Time from which on pulses are still needed."""
@@ -108,10 +110,16 @@ class Following:
             travelled = travelled_of(slab, lanes, self._ticks.row)
             self._losses.take(travelled)
             self._peaks.take(travelled)
+            commanded_um = self._motors.commanded_um(travelled.t_s)
+            self._history.take(SlabRun(slab, lanes, travelled, commanded_um), self._trip_s())
             self._sample(slab, part, travelled)
             likely = self._ticks_before[part.stop] - self._ticks_before[part.start]
             self._share = min(max(len(slab) / likely, 0.1), 1.0)
             self._done = part.stop
+
+    def _trip_s(self) -> float:
+        """When a drive tripped; infinite where none did yet."""
+        return min((loss.t_s for loss in self._losses.result() if loss.kind == "trip"), default=np.inf)
 
     def _slabs(self, until_s: float, *, whole: bool) -> Iterator[slice]:
         """Stretches of each slab of about `SLAB_TICKS`, up to a time."""

@@ -7,10 +7,10 @@ from parser.geometry.curves import Floats
 from parser.units import from_mm
 from sim.table.drive import drives_of
 from sim.table.engine import Engines
-from sim.table.march import March, Table
+from sim.table.march import March, Record, Table
 from sim.table.motor import Motors
 from sim.table.rhythm import Rhythm
-from sim.table.slab import slab_of
+from sim.table.slab import Slab, slab_of
 from sim.table.slow_step import NO_PLAY, SlowStep
 from sim.table.state import State
 from sim.table.ticks import Ticks
@@ -29,7 +29,7 @@ def slow_step(model: TableModel, rhythm: Rhythm) -> SlowStep | None:
     if not play.any():
         return NO_PLAY
     before = _lags(play)
-    end = _after_a_step(model, rhythm, before)
+    end = after_a_step(model, rhythm, before)[2]
     if (np.abs(end.velocity) / rhythm.frequency > _MOVING_UM).any():
         return None
     return SlowStep(before, 1.0 - end.at_um.T)
@@ -47,8 +47,8 @@ def _lags(play_um: Floats) -> Floats:
     return np.stack(lags)
 
 
-def _after_a_step(model: TableModel, rhythm: Rhythm, lag_um: Floats) -> State:
-    """State of tables (g) that rested at lags (2, g) µm, some time after a step of both axes from 0 to 1 µm."""
+def after_a_step(model: TableModel, rhythm: Rhythm, lag_um: Floats) -> tuple[Slab, Record, State]:
+    """Ticks of a step of both axes from 0 to 1 µm, what tables (g) that rested at lags (2, g) µm do, and their end."""
     wait_s = _WAIT * rhythm.felt_s
     row = np.zeros(1, dtype=np.int32)
     motors = Motors(model.motor.step_time_s, (0, 0))
@@ -60,4 +60,4 @@ def _after_a_step(model: TableModel, rhythm: Rhythm, lag_um: Floats) -> State:
     table = Table(model, room, NO_PLAY, Engines(model, room))
     number = lag_um.shape[1]
     begin = State(-lag_um.T, np.zeros((number, 2)), np.zeros((number, 2)), np.zeros(number, dtype=bool))
-    return March(slab, np.repeat(np.arange(len(slab))[:, None], number, axis=1), table).run(begin)[1]
+    return slab, *March(slab, np.repeat(np.arange(len(slab))[:, None], number, axis=1), table).run(begin)
