@@ -26,6 +26,7 @@ from sim.prepare import prepare
 from sim.remains import Remains, early_findings, remains_of
 from sim.scenario import Scenario
 from sim.stepped import Stepped
+from sim.table.history import History
 from sim.table.losses import Loss
 from sim.table.peaks import Peak
 from sim.table_findings import loss_findings
@@ -57,6 +58,8 @@ class DryRun:
         What the controller made of it, and table and wire.
     losses, peaks
         What the drives lost, and how near they came to their limits.
+    history
+        How the table moved over time.
     deviations
         Of steps, table and wire.
     contours
@@ -81,6 +84,7 @@ class DryRun:
     trace: Trace
     losses: tuple[Loss, ...]
     peaks: tuple[Peak, ...]
+    history: History
     deviations: Deviations
     contours: tuple[Contour, ...]
     block_time_s: Floats
@@ -93,6 +97,16 @@ class DryRun:
     def tripped(self) -> Loss | None:
         """Where a drive tripped; None where none did."""
         return next((loss for loss in self.losses if loss.kind == "trip"), None)
+
+    @property
+    def ran_s(self) -> float:
+        """How long the machine ran: until a drive tripped, else as planned."""
+        return self.plan.duration_s if self.tripped is None else self.tripped.t_s
+
+    @property
+    def cut(self) -> Trace:
+        """The trace as far as the machine ran: after a trip it stands, and cuts nothing of what follows."""
+        return _cut(self.trace, self.losses)
 
     @property
     def toolpath(self) -> Toolpath:
@@ -149,6 +163,7 @@ def dry_run(
         trace=trace,
         losses=moved.losses,
         peaks=moved.peaks,
+        history=moved.history,
         deviations=meters.deviations(cut),
         contours=contours,
         block_time_s=_block_times(plan, ready.steps.along_um),

@@ -33,6 +33,8 @@ class Offsetting:
 
     Attributes
     ----------
+    drawn
+        The program's own toolpath, which runs along the drawing's contour.
     program
         The program with the offset path as its toolpath.
     path
@@ -47,6 +49,7 @@ class Offsetting:
         3B501 to 3B504, in file order.
     """
 
+    drawn: Toolpath
     program: Program
     path: OffsetPath
     left_um: Floats
@@ -62,6 +65,7 @@ def offsetting(program: Program, offset: Offset) -> Offsetting:
     path = compensate(drawn, sections, offset.by_um, offset.side)
     held = [_held(drawn, path, *one, offset) for one in zip(sections, _beside(path, drawn), strict=True)]
     result = Offsetting(
+        drawn=drawn,
         program=replace(program, toolpath=offset_toolpath(drawn, path)),
         path=path,
         left_um=np.concatenate([np.zeros(0), *(one.left_um for one in held)]),

@@ -39,15 +39,27 @@ class Remains:
 
 def remains_of(program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario) -> Remains:
     """Kerf, pieces and sizes by where the wire really was."""
-    wire = scenario.wire
-    kerf = kerf_of(program.toolpath, trace, contours, wire.offset_um)
-    pieces = pieces_of(kerf, scenario.work_um, Material(scenario.thickness_mm, scenario.density_g_cm3))
+    kerf = kerf_of(program.toolpath, trace, contours, scenario.wire.offset_um)
+    pieces = _pieces(kerf, scenario)
     return Remains(
         kerf=kerf,
         pieces=pieces,
-        plays=plays_of(pieces, wire.radius_um),
+        plays=plays_of(pieces, scenario.wire.radius_um),
         sizes=sizes_of(program.toolpath, kerf, pieces, scenario.work_um),
     )
+
+
+def pieces_left(
+    remains: Remains | None, program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario
+) -> Pieces:
+    """Pieces of a run: those of what it leaves, worked out from the rest where nobody had asked for that."""
+    if remains is not None:
+        return remains.pieces
+    return _pieces(kerf_of(program.toolpath, trace, contours, scenario.wire.offset_um), scenario)
+
+
+def _pieces(kerf: Kerf, scenario: Scenario) -> Pieces:
+    return pieces_of(kerf, scenario.work_um, Material(scenario.thickness_mm, scenario.density_g_cm3))
 
 
 def early_findings(program: Program, remains: Remains) -> list[Finding]:
