@@ -11,10 +11,13 @@ from PIL import Image, ImageChops
 from parser.geometry.curves import Floats
 from parser.program import parse_program
 from sim.draw import style
-from sim.draw.flatten import bounds_um
-from sim.draw.layout import Box, page_for
-from sim.draw.outlines import Bodies, _hatching, _within
-from sim.draw.picture import draw_cut
+from sim.draw.layout import Box
+from sim.draw.paints import LIGHT, Paint
+from sim.draw.sheet import pixels
+from sim.pictures.cut.outlines import Bodies, _hatching, _within
+from sim.pictures.cut.picture import draw_cut
+from sim.pictures.cut.plan import plan_of
+from sim.pictures.cut.subject import NOTHING, Cut
 from sim.surroundings import Outline, read_outline
 
 SQUARE = "B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B10000GXL3 B0B10000B10000GYL4 DD"
@@ -27,31 +30,33 @@ def box(left: float, bottom: float, right: float, top: float) -> Outline:
     return read_outline({"outline_mm": [[x, y] for x, y in corners]}, "test")
 
 
-def picture(bodies: Bodies | None = None) -> Image.Image:
-    given_ = {} if bodies is None else {"bodies": bodies}
-    return draw_cut(TOOLPATH, None, kerf_um=KERF_UM, title="x", width_px=800, **given_)
+def cut(bodies: Bodies) -> Cut:
+    return Cut(TOOLPATH, KERF_UM, "x", bodies=bodies)
+
+
+def picture(bodies: Bodies = NOTHING) -> Image.Image:
+    return draw_cut(pixels(800), cut(bodies)).image()
 
 
 def colour_at(drawn: Image.Image, bodies: Bodies, x_mm: float, y_mm: float) -> tuple[int, int, int]:
     """The usual colour round a place, hatching and grid aside."""
-    around = bodies.around(bounds_um(TOOLPATH) + np.array([[-KERF_UM / 2], [KERF_UM / 2]]))
-    x, y = page_for(around, 800).view.to_px(np.array([x_mm, y_mm]) * 1000.0)
-    pixels = np.asarray(drawn)[round(y) - 8 : round(y) + 8, round(x) - 8 : round(x) + 8].reshape(-1, 3)
-    colours, counts = np.unique(pixels, axis=0, return_counts=True)
+    x, y = plan_of(pixels(800), cut(bodies)).page.view.to_px(np.array([x_mm, y_mm]) * 1000.0)
+    about = np.asarray(drawn)[round(y) - 8 : round(y) + 8, round(x) - 8 : round(x) + 8].reshape(-1, 3)
+    colours, counts = np.unique(about, axis=0, return_counts=True)
     return tuple(colours[counts.argmax()].tolist())
 
 
 def test_work_and_clamps_lie_where_they_are() -> None:
     bodies = Bodies(box(-1, -1, 9, 9), (box(5, 3, 7, 5),))
     drawn = picture(bodies)
-    assert colour_at(drawn, bodies, 3, 4) == style.WORK
-    assert colour_at(drawn, bodies, 6, 4) == style.CLAMP
-    assert colour_at(drawn, bodies, 9.5, 9.5) == style.WHITE
+    assert colour_at(drawn, bodies, 3, 4) == LIGHT[Paint.WORK]
+    assert colour_at(drawn, bodies, 6, 4) == LIGHT[Paint.CLAMP]
+    assert colour_at(drawn, bodies, 9.5, 9.5) == LIGHT[Paint.PAGE]
 
 
 def test_the_kerf_is_drawn_over_a_clamp() -> None:
     over = picture(Bodies(None, (box(-0.1, -0.1, 10.1, 10.1),)))  # as large as the path, so drawn to the same scale
-    kerf, alone = ((np.asarray(drawn) == style.KERF).all(axis=2).sum() for drawn in (over, picture()))
+    kerf, alone = ((np.asarray(drawn) == LIGHT[Paint.KERF]).all(axis=2).sum() for drawn in (over, picture()))
     assert alone > 10_000
     assert kerf == alone
 
@@ -73,10 +78,10 @@ def test_what_is_far_changes_no_pixel() -> None:
 def test_bodies_stay_inside_the_frame_and_leave_it_whole() -> None:
     bodies = Bodies(box(-1e5, -1e5, 1e5, 1e5), (box(-1e5, 4, 1e5, 6),))
     drawn = np.asarray(picture(bodies))
-    plot = page_for(bodies.around(bounds_um(TOOLPATH)), 800).plot
+    plot = plan_of(pixels(800), cut(bodies)).page.plot
     top, left = round(plot.top), round(plot.left)
-    assert not (drawn[: top - 1] == style.WORK).all(axis=2).any()
-    assert not (drawn[:, : left - 1] == style.WORK).all(axis=2)[: round(plot.bottom)].any()
+    assert not (drawn[: top - 1] == LIGHT[Paint.WORK]).all(axis=2).any()
+    assert not (drawn[:, : left - 1] == LIGHT[Paint.WORK]).all(axis=2)[: round(plot.bottom)].any()
     assert (drawn[top : round(plot.bottom), left, :] < 220).all()  # the frame's left side, from end to end
 
 
@@ -84,14 +89,16 @@ def test_bodies_stay_inside_the_frame_and_leave_it_whole() -> None:
     ("bodies", "colours"),
     [
         (Bodies(), set()),
-        (Bodies(box(-1, -1, 11, 11)), {style.WORK}),
-        (Bodies(None, (box(1, 1, 2, 2),)), {style.CLAMP}),
-        (Bodies(box(-1, -1, 11, 11), (box(1, 1, 2, 2),)), {style.WORK, style.CLAMP}),
+        (Bodies(box(-1, -1, 11, 11)), {LIGHT[Paint.WORK]}),
+        (Bodies(None, (box(1, 1, 2, 2),)), {LIGHT[Paint.CLAMP]}),
+        (Bodies(box(-1, -1, 11, 11), (box(1, 1, 2, 2),)), {LIGHT[Paint.WORK], LIGHT[Paint.CLAMP]}),
     ],
 )
-def test_the_legend_has_a_sample_of_what_shows(bodies: Bodies, colours: set[style.Colour]) -> None:
+def test_the_legend_has_a_sample_of_what_shows(bodies: Bodies, colours: set[Paint]) -> None:
     below = np.asarray(picture(bodies))[-70:].reshape(-1, 3)
-    assert {colour for colour in (style.WORK, style.CLAMP) if (below == colour).all(axis=1).sum() > 100} == colours
+    assert {
+        colour for colour in (LIGHT[Paint.WORK], LIGHT[Paint.CLAMP]) if (below == colour).all(axis=1).sum() > 100
+    } == colours
 
 
 # Geometry

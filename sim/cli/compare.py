@@ -41,13 +41,12 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     drycut compare scenarios/punch
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.drawing.read import read_drawing
-    from parser.encoding import printable
     from parser.errors import ProgramError
     from parser.program import read_program
     from parser.units import mm
     from sim.asked import OFFSET_MM
     from sim.cli.overrides import OfDrawing, held
-    from sim.cli.run import describe
+    from sim.cli.scenario_options import refused
     from sim.compare.compared_program import compare_program
     from sim.compare.document import document_text
     from sim.compare.summary import print_comparison
@@ -63,8 +62,7 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     try:
         program = read_program(scenario.program)
     except ProgramError as error:
-        click.echo(describe(printable(str(scenario.program)), error), err=True)
-        raise click.exceptions.Exit(2) from None
+        raise refused(scenario, error) from None
     offset_um, source = _offset(offset, program, scenario)
     if scenario.offset is not None:
         program = offsetting(program, scenario.offset).program

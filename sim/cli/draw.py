@@ -1,0 +1,124 @@
+"""``drycut draw``."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from parser.errors import ProgramError
+from sim.cli.overrides import Overrides, overridden
+from sim.cli.scenario_options import refused, scenario_options
+
+if TYPE_CHECKING:
+    from parser.catalogue import Language
+    from sim.draw.paints import ThemeName
+    from sim.pictures.files import Asked
+
+SUFFIXES = (".png", ".svg")
+
+
+class Width(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """A width in px, or the name of one."""
+
+    name = "width"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """The width in px."""
+        from sim.draw.sheet import SIZES_PX
+        from sim.draw.style import LEAST_THUMBNAIL, MOST_WIDTH
+
+        if isinstance(value, int):
+            return value
+        if value.lower() in SIZES_PX:
+            return SIZES_PX[value.lower()]
+        if value.isdecimal() and LEAST_THUMBNAIL <= int(value) <= MOST_WIDTH:
+            return int(value)
+        names, widths = ", ".join(SIZES_PX), f"{LEAST_THUMBNAIL} to {MOST_WIDTH} px"
+        raise click.BadParameter(f"{value!r} is none of {names}, nor a width of {widths}", ctx, param)
+
+
+@click.command()
+@click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    required=True,
+    metavar="FILE|DIR",
+    help="Write one picture here, .png or .svg, or one each into a folder.",
+)
+@click.option(
+    "--picture",
+    "names",
+    multiple=True,
+    metavar="NAME",
+    help="cut, along, whiskers, polar, histogram, worst or motion; cut for a file, all for a folder. May be repeated.",
+)
+@click.option("--size", type=Width(), default="screen", show_default=True, help="thumbnail, screen, a4, a3, or px.")
+@click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True, help="Colours.")
+@click.option("--lang", type=click.Choice(["en", "zh"]), default="en", show_default=True, help="Language of texts.")
+@click.option("--svg", is_flag=True, help="Write the pictures of a folder as SVG, for documents.")
+@scenario_options
+def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
+    path: Path,
+    output: Path,
+    names: tuple[str, ...],
+    size: int,
+    theme: "ThemeName",
+    lang: "Language",
+    svg: bool,
+    **options: Any,
+) -> None:
+    """Dry-run a 3B program, or a scenario folder that holds one, and draw pictures of it.
+
+    cut: the path as it will be cut, with kerf, parts and findings. along, whiskers, polar, histogram: how far wire
+    and steps lie from the ideal path. worst: the worst places, down to single steps of 1 µm. motion: speed,
+    acceleration, following error and force of each axis over time.
+
+    \b
+    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input.
+
+    \b
+    drycut draw part.3b -o part.png
+    drycut draw part.3b -o part.svg --lang zh --theme dark
+    drycut draw scenarios/keyhole -o pictures/ --size a3
+    drycut draw scenarios/keyhole -o worst.png --picture worst
+    """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from parser.encoding import printable
+    from parser.program import read_program
+    from sim.dryrun import verdict
+    from sim.pictures.files import write_pictures
+    from sim.progress import StageProgress
+    from sim.recording import recorded
+
+    asked = _asked(output, names, svg)
+    scenario = overridden(path, Overrides(**options))
+    try:
+        with StageProgress() as progress, recorded(read_program(scenario.program), scenario, progress) as recording:
+            written = write_pictures(recording, asked, size, theme, lang)
+            passed = verdict(recording.run.findings) == "pass"
+    except ProgramError as error:
+        raise refused(scenario, error) from None
+    click.echo(f"written: {', '.join(printable(str(file)) for file in written)}")
+    raise click.exceptions.Exit(0 if passed else 1)
+
+
+def _asked(output: Path, names: tuple[str, ...], svg: bool) -> "Asked":
+    """Which pictures are to become which files. BadParameter for what does not fit together."""
+    from sim.pictures.files import Asked
+    from sim.pictures.gallery import PICTURES
+
+    for name in names:
+        if name not in PICTURES:
+            raise click.BadParameter(f"{name!r} is none of {', '.join(PICTURES)}", param_hint="--picture")
+    suffix = output.suffix.lower()
+    if suffix not in SUFFIXES or output.is_dir():
+        if suffix and not output.is_dir():
+            raise click.BadParameter(f"{output} is neither a folder nor a .png or .svg", param_hint="-o")
+        kind = ".svg" if svg else ".png"
+        return Asked(output, {name: name + kind for name in names or PICTURES})
+    if len(set(names)) > 1:
+        raise click.BadParameter(f"{output} is one picture, of {' or '.join(names)}; give a folder", param_hint="-o")
+    if svg and suffix != ".svg":
+        raise click.BadParameter(f"--svg is for folders; {output} says itself what it is", param_hint="--svg")
+    return Asked(output.parent, {(names or ("cut",))[0]: output.name})

@@ -1,0 +1,65 @@
+"""Options of the commands that run a scenario, and what they say where its program cannot be read or run."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from parser.encoding import printable
+from parser.errors import ProgramError
+from parser.excerpt import place, with_caret
+from sim.cli.lengths import Length
+
+if TYPE_CHECKING:
+    from sim.scenario import Scenario
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+_OPTIONS = (
+    click.option("--machine", metavar="NAME|FILE", help="Shipped machine, such as dk7740, or a machine file (.toml)."),
+    click.option("--thickness", type=Length(), help="Thickness of the work, such as 40mm."),
+    click.option("--wire-diameter", type=Length(), help="Diameter of the wire, such as 0.18mm."),
+    click.option("--gap", type=Length(), help="Spark gap on one side, such as 10um."),
+    click.option("--wire-lag", type=Length(), help="How far the wire bows back behind its guides, such as 20um."),
+    click.option(
+        "--interpolator",
+        type=click.Choice(["point-by-point", "card"]),
+        help="How the path becomes steps: as 3B controllers do, or by a motion card at equal times.",
+    ),
+    click.option("--offset", type=Length(), help="Offset that the controller is to add, such as 0.1mm; with --side."),
+    click.option(
+        "--side",
+        type=click.Choice(["left", "right"]),
+        help="Side of the contour on which the wire runs, along the cutting direction.",
+    ),
+    click.option("--kerf", is_flag=True, help="Work out the kerf, the pieces that it leaves, and their sizes."),
+    click.option(
+        "--drawing",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="DXF",
+        help="Hold the cut edge against a drawing.",
+    ),
+    click.option("--layer", metavar="NAME", help="Layer of the contour in the drawing."),
+    click.option("--tolerance", type=Length(), help="How far edge and drawing may be apart, such as 5um."),
+    click.option("--no-fit", is_flag=True, help="Take the drawing as it lies, without fitting place and turn."),
+)
+
+
+def scenario_options(command: Command) -> Command:
+    """Give a command the options that take the place of a scenario's own values: those of `Overrides`."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+def refused(scenario: "Scenario", error: ProgramError) -> click.exceptions.Exit:
+    """Tell what is wrong with a program that cannot be read or run; the end of the command, to be raised."""
+    click.echo(describe(printable(str(scenario.program)), error), err=True)
+    return click.exceptions.Exit(2)
+
+
+def describe(name: str, error: ProgramError) -> str:
+    """``part.3b:7:12: error[3B206]: …`` with the line and a caret where the place is known."""
+    finding = error.finding
+    text = f"{place(name, finding.line, finding.column)}: error[{finding.code}]: {error}"
+    return f"{text}\n{with_caret(error.excerpt, finding.column)}" if error.excerpt and finding.column else text
