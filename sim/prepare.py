@@ -12,6 +12,7 @@ from sim.check.engine import Demands, check_program, too_many_steps
 from sim.check.result import CheckState, Coverage
 from sim.check.travel import travel_findings
 from sim.offsetting import Offsetting, offsetting
+from sim.quiz import refuse_unanswerable
 from sim.scenario import Scenario
 
 
@@ -38,7 +39,12 @@ class Prepared(NamedTuple):
 
 
 def prepare(program: Program, scenario: Scenario) -> Prepared:
-    """Check a program, and add the offset of the scenario. ProgramError where no table can do what it asks for."""
+    """Check a program, and add the offset of the scenario.
+
+    ProgramError where no table can do what it asks for, SettingsError where the scenario asks about a block that the
+    program does not have.
+    """
+    refuse_unanswerable(scenario.quiz, program.toolpath)
     checked = check_program(program, _demands(scenario))
     if checked.steps is None:
         raise _refusal(program, checked.findings)

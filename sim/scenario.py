@@ -20,6 +20,7 @@ from sim.asked import (
 from sim.controller_model import interpolation
 from sim.expect import Expectation, read_expectation
 from sim.machine import Machine, load_machine
+from sim.quiz import Question, read_quiz
 from sim.settings import Bound, load_toml, number, numbers, pair, refuse_unknown, section, text, truth
 from sim.surroundings import Clamp, Outline, read_clamps, read_outline
 from sim.wire import DEFAULT_WIRE, Wire, read_wire
@@ -40,6 +41,7 @@ _KEYS = (
     "trace_spacing_um",
     "kerf",
     "clamps",
+    "quiz",
     "drawing",
     "offset",
     "wire",
@@ -82,6 +84,8 @@ class Scenario:
         What the cut is held against, if anything.
     density_g_cm3
         Density of the work.
+    quiz
+        What the replay asks a trainee.
     expect
         What the scenario promises of its report; checked after the run.
     """
@@ -101,6 +105,7 @@ class Scenario:
     kerf: bool = False
     drawing: DrawingAsked | None = None
     density_g_cm3: float = DEFAULT_DENSITY_G_CM3
+    quiz: tuple[Question, ...] = ()
     expect: tuple[Expectation, ...] = ()
 
     def __post_init__(self) -> None:
@@ -159,6 +164,7 @@ def load_scenario(path: Path) -> Scenario:
         offset=read_offset(content, where),
         kerf=truth(content, "kerf", where),
         drawing=read_drawing_asked(content, where, path),
+        quiz=read_quiz(content, where),
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
         **work_numbers,
     )

@@ -1,0 +1,1 @@
+"""The replay: a page in which a run is watched again, forward and back, down to its single steps."""
