@@ -1,0 +1,148 @@
+"""``drycut replay``."""
+
+import math
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from parser.errors import ProgramError
+from sim.cli.overrides import Overrides, overridden
+from sim.cli.scenario_options import refused, scenario_options
+
+if TYPE_CHECKING:
+    from parser.catalogue import Language
+    from sim.draw.paints import ThemeName
+    from sim.film.screen import Look
+    from sim.motion import Progress
+    from sim.recording import Recording
+
+_SIZE = re.compile(r"(\d{3,4})\s*[x×]\s*(\d{3,4})", re.ASCII)
+LEAST_PX, MOST_PX = (320, 240), (3840, 2160)
+_BOUNDS = f"{LEAST_PX[0]}x{LEAST_PX[1]} to {MOST_PX[0]}x{MOST_PX[1]}"
+
+
+class FrameSize(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """Width and height of a frame, px."""
+
+    name = "size"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
+        """Width and height."""
+        if isinstance(value, tuple):
+            return value
+        match = _SIZE.fullmatch(value.strip().lower())
+        if not match:
+            raise click.BadParameter(f"{value!r} is no size; write it as 1280x720", ctx, param)
+        size = int(match[1]), int(match[2])
+        if any(not least <= side <= most for least, side, most in zip(LEAST_PX, size, MOST_PX, strict=True)):
+            raise click.BadParameter(f"{value!r} is out of bounds; sizes are {_BOUNDS}", ctx, param)
+        return size
+
+
+class Seconds(click.FloatRange):
+    """A length of time within bounds, which "nan" passes."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The length, s."""
+        seconds = super().convert(value, param, ctx)
+        if math.isnan(seconds):
+            raise click.BadParameter(f"{value!r} is no length of time", ctx, param)
+        return seconds
+
+
+@click.command()
+@click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Write a film here, .mp4, .webp, .apng or .gif, instead of opening a window.",
+)
+@click.option(
+    "--seconds",
+    type=Seconds(0.5, 600.0),
+    default=10.0,
+    show_default=True,
+    help="How long the whole run takes.",
+)
+@click.option(
+    "--fps", type=click.IntRange(1, 60), default=25, show_default=True, help="Frames in each second of a film."
+)
+@click.option("--size", type=FrameSize(), default="1280x720", show_default=True, help="Size of the frames, px.")
+@click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True, help="Colours.")
+@click.option("--lang", type=click.Choice(["en", "zh"]), default="en", show_default=True, help="Language of texts.")
+@scenario_options
+def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
+    path: Path,
+    output: Path | None,
+    seconds: float,
+    fps: int,
+    size: tuple[int, int],
+    theme: "ThemeName",
+    lang: "Language",
+    **options: Any,
+) -> None:
+    """Dry-run a 3B program, or a scenario folder that holds one, and watch it being cut.
+
+    Without -o a window opens and plays the run; h shows its keys. With -o a film of it is written, whose last second
+    shows the end. An .mp4 needs an encoder: pip install 'drycut[film]'.
+
+    \b
+    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input.
+
+    \b
+    drycut replay part.3b
+    drycut replay part.3b -o cut.mp4
+    drycut replay scenarios/keyhole -o cut.gif --seconds 5 --fps 20 --size 640x360
+    drycut replay part.3b -o cut.webp --thickness 60mm --theme dark --lang zh
+    """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from parser.encoding import printable
+    from parser.program import read_program
+    from sim.dryrun import verdict
+    from sim.film.screen import Look
+    from sim.progress import StageProgress
+    from sim.recording import recorded
+
+    look = Look(*size, theme, lang)
+    _refuse(output, seconds, fps, look)
+    scenario = overridden(path, Overrides(**options))
+    try:
+        with StageProgress() as progress, recorded(read_program(scenario.program), scenario, progress) as recording:
+            _show(recording, output, seconds, fps, look, progress)
+            passed = verdict(recording.run.findings) == "pass"
+    except ProgramError as error:
+        raise refused(scenario, error) from None
+    if output is not None:
+        click.echo(f"written: {printable(str(output))}")
+    raise click.exceptions.Exit(0 if passed else 1)
+
+
+def _refuse(output: Path | None, seconds: float, fps: int, look: "Look") -> None:
+    """SettingsError, before anything runs, where there can be no such film, or no window."""
+    if output is not None:
+        from sim.film.film import format_of
+
+        format_of(output, seconds, fps, look)
+    else:
+        from sim.film.window import open_display
+
+        open_display()
+
+
+def _show(  # noqa: PLR0913, PLR0917 - a run, where to, and how
+    recording: "Recording", output: Path | None, seconds: float, fps: int, look: "Look", progress: "Progress"
+) -> None:
+    if output is not None:
+        from sim.film.film import write_film
+
+        write_film(output, recording, seconds, fps, look, progress)
+    else:
+        from sim.film.clock import Clock
+        from sim.film.course import course_of
+        from sim.film.window import Window
+
+        course = course_of(recording)
+        Window(course, look, Clock(seconds, fps, course.duration_s).speed).play()
