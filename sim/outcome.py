@@ -1,29 +1,26 @@
-"""A run with its files: picture, report and trace in one folder, whole or not at all."""
+"""A run with its files: picture, pages, report and trace in one folder, whole or not at all."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from controller.card.log import CardLog
 from parser.program import Program
-from parser.units import mm
-from sim.draw.outlines import Bodies
-from sim.draw.picture import draw_cut
-from sim.dryrun import DryRun, dry_run, verdict
+from sim.draw.sheet import pixels
+from sim.dryrun import DryRun, dry_run
 from sim.judge import check_expectations
 from sim.motion import Progress
 from sim.output import StepFiles, staged, write_npz
+from sim.pictures.cut.of_run import cut_picture
+from sim.pictures.inline import inline_pictures
+from sim.recording import Recording, recording_of
+from sim.replay.page import replay_page
 from sim.report import build_report, report_text
+from sim.report_page.page import report_page
 from sim.scenario import Scenario
-from sim.units import clock
 
-if TYPE_CHECKING:
-    from PIL import Image
-
-
-FILES = ("cut.png", "report.json", "trace.npz")
+FILES = ("report.html", "replay.html", "cut.png", "report.json", "trace.npz")
 
 
 def run_into(
@@ -33,7 +30,7 @@ def run_into(
     progress: Progress,
     log: CardLog | None = None,
 ) -> DryRun:
-    """Dry-run a program and write ``cut.png``, ``report.json`` and ``trace.npz`` into a folder.
+    """Dry-run a program and write `FILES` into a folder.
 
     The calls to the card go to `log`.
 
@@ -43,10 +40,19 @@ def run_into(
     with staged(folder, FILES) as stage:
         with StepFiles(stage) as files:
             run = check_expectations(dry_run(program, scenario, progress, files, log))
+        _show(recording_of(run, files.paths, progress), stage, progress)
         write_npz(stage / "trace.npz", files.paths, trace_arrays(run))
-        (stage / "report.json").write_text(report_text(build_report(run)), encoding="utf-8")
-        picture(run).save(stage / "cut.png", dpi=(200, 200))
     return run
+
+
+def _show(recording: Recording, folder: Path, progress: Progress) -> None:
+    """Write the report and what people look at; then nothing holds the files of the steps any more."""
+    run, report = recording.run, build_report(recording.run)
+    (folder / "report.json").write_text(report_text(report), encoding="utf-8")
+    cut_picture(pixels(), run, recording.pieces).image().save(folder / "cut.png", dpi=(200, 200))
+    (folder / "replay.html").write_text(replay_page(recording), encoding="utf-8")
+    pictures = inline_pictures(recording, progress)
+    (folder / "report.html").write_text(report_page(run, report, pictures), encoding="utf-8")
 
 
 def trace_arrays(run: DryRun) -> dict[str, NDArray[np.float64] | NDArray[np.int32]]:
@@ -62,16 +68,3 @@ def trace_arrays(run: DryRun) -> dict[str, NDArray[np.float64] | NDArray[np.int3
         "commanded_y_um": trace.commanded_um[:, 1],
         "block": (trace.row + 1).astype(np.int32),
     }
-
-
-def picture(run: DryRun) -> "Image.Image":
-    """The cut path of a run."""
-    length = f"{mm(float(run.toolpath.length_um.sum())):.1f} mm"
-    blocks = f"{len(run.toolpath):,} block{'s' * (len(run.toolpath) > 1)}"
-    scenario = run.scenario
-    note = f"{verdict(run.findings)} · {blocks} · {length} · {clock(run.plan.duration_s)}"
-    if scenario.offset is not None:
-        note += f" · offset {mm(scenario.offset.by_um):g} mm {scenario.offset.side.name.lower()}"
-    bodies = Bodies(scenario.work_um, [clamp.outline_um for clamp in scenario.clamps])
-    kerf_um = scenario.wire.kerf_um
-    return draw_cut(run.toolpath, run.trace, kerf_um=kerf_um, title=scenario.title, note=note, bodies=bodies)

@@ -21,8 +21,9 @@ from parser.errors import FileUnreadableError
 def staged(target: Path, names: Sequence[str]) -> Iterator[Path]:
     """Empty folder whose files `names` move into `target` at the end of a block that raised nothing.
 
-    It lies inside the target, so that the moves stay on one file system; folders made for it go again where the block
-    raises. FileUnreadableError where the target is no folder or cannot be written.
+    What the block did not make is not there afterwards either: no file of an earlier run stands beside those of this.
+    The folder lies inside the target, so that the moves stay on one file system; folders made for it go again where the
+    block raises. FileUnreadableError where the target is no folder or cannot be written.
     """
     try:
         made = _make_folders(target)
@@ -31,11 +32,18 @@ def staged(target: Path, names: Sequence[str]) -> Iterator[Path]:
                 _refuse_other_than_file(target / name)
             yield Path(folder)
             for name in names:
-                (Path(folder) / name).replace(target / name)
+                _move(Path(folder) / name, target / name)
     except FileUnreadableError:
         raise
     except OSError as error:
         raise FileUnreadableError(f"{target}: cannot be written: {error.strerror or error}") from None
+
+
+def _move(made: Path, target: Path) -> None:
+    if made.exists():
+        made.replace(target)
+    else:
+        target.unlink(missing_ok=True)
 
 
 def _refuse_other_than_file(path: Path) -> None:

@@ -31,8 +31,6 @@ def print_summary(run: DryRun, output: Path | None) -> None:
     _print_findings(console, run, output)
     passed = verdict(run.findings) == "pass"
     console.print(Text(f"verdict: {'pass' if passed else 'fail'}", style="bold green" if passed else "bold red"))
-    if output is not None:
-        console.print(f"written: {escape(printable(str(output)))}/ cut.png, report.json, trace.npz")
 
 
 def _print_findings(console: Console, run: DryRun, output: Path | None) -> None:

@@ -251,6 +251,7 @@ def test_no_damage_of_a_line_is_a_traceback(number: int, data: st.DataObject) ->
         assert str(error).startswith("part.log")  # noqa: PT017 - an error is allowed, not asked for
 
 
+@pytest.mark.alone
 def test_logging_takes_microseconds_a_call() -> None:
     call, stream = Logged(12.34567890123, "GT_LnXY", (1234.5, 0.25), 0, 0x2001), io.StringIO()
     log, best = CardLog(stream, CardSettings()), math.inf

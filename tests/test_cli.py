@@ -55,7 +55,9 @@ def test_a_sound_program_passes_and_prints_its_figures(part: Path) -> None:
 def test_output_goes_where_it_is_sent(part: Path, tmp_path: Path) -> None:
     done = drycut("run", part, "-o", tmp_path / "a" / "b")
     assert done.returncode == 0
-    assert sorted(path.name for path in (tmp_path / "a" / "b").iterdir()) == ["cut.png", "report.json", "trace.npz"]
+    written = ["report.html", "replay.html", "cut.png", "report.json", "trace.npz"]
+    assert sorted(path.name for path in (tmp_path / "a" / "b").iterdir()) == sorted(written)
+    assert done.stdout.splitlines()[-1] == f"written: {tmp_path / 'a' / 'b'}/ {', '.join(written)}"
 
 
 def test_without_output_no_file_is_written(part: Path, tmp_path: Path) -> None:
@@ -166,6 +168,7 @@ def test_bad_machine_files_are_named(part: Path, tmp_path: Path) -> None:
         assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.alone  # progress is told after a second
 @pytest.mark.parametrize("encoding", ["gbk", "ascii", "cp1252"])
 def test_any_encoding_of_the_output_will_do(short: Path, encoding: str) -> None:
     done = subprocess.run(

@@ -405,6 +405,7 @@ def timed(clamps: tuple[Clamp, ...], trace: Trace, program: Program) -> tuple[fl
     return time.perf_counter() - start, found_
 
 
+@pytest.mark.alone
 def test_half_a_million_samples_are_looked_at_in_time() -> None:
     program, trace = long_trace(500_000)
     far = tuple(Clamp(str(x), box(x, 200_000, x + 20_000, 220_000)) for x in (0, 30_000, 60_000))

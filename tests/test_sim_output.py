@@ -17,7 +17,7 @@ from sim.outcome import run_into
 from sim.output import staged
 
 TEXT = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 D B3000B0B3000GXL2 D B50B0B50GXL1 DD"
-NAMES = ["cut.png", "report.json", "trace.npz"]
+NAMES = ["cut.png", "replay.html", "report.html", "report.json", "trace.npz"]
 
 
 def digests(folder: Path) -> dict[str, str]:

@@ -16,7 +16,9 @@ _COMMANDS = {
     "card": "sim.cli.card",
     "check": "sim.cli.check",
     "compare": "sim.cli.compare",
+    "draw": "sim.cli.draw",
     "explain": "sim.cli.explain",
+    "replay": "sim.cli.replay",
     "run": "sim.cli.run",
 }
 

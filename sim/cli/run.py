@@ -5,11 +5,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from parser.encoding import printable
 from parser.errors import ProgramError
-from parser.excerpt import place, with_caret
-from sim.cli.lengths import Length
 from sim.cli.overrides import Overrides, overridden
+from sim.cli.scenario_options import refused, scenario_options
 
 if TYPE_CHECKING:
     from parser.program import Program
@@ -24,34 +22,9 @@ if TYPE_CHECKING:
     "--output",
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="Write cut.png, report.json and trace.npz here.",
+    help="Write report.html, replay.html, cut.png, report.json and trace.npz here.",
 )
-@click.option("--machine", metavar="NAME|FILE", help="Shipped machine, such as dk7740, or a machine file (.toml).")
-@click.option("--thickness", type=Length(), help="Thickness of the work, such as 40mm.")
-@click.option("--wire-diameter", type=Length(), help="Diameter of the wire, such as 0.18mm.")
-@click.option("--gap", type=Length(), help="Spark gap on one side, such as 10um.")
-@click.option("--wire-lag", type=Length(), help="How far the wire bows back behind its guides, such as 20um.")
-@click.option(
-    "--interpolator",
-    type=click.Choice(["point-by-point", "card"]),
-    help="How the path becomes steps: as 3B controllers do, or by a motion card at equal times.",
-)
-@click.option("--offset", type=Length(), help="Offset that the controller is to add, such as 0.1mm; with --side.")
-@click.option(
-    "--side",
-    type=click.Choice(["left", "right"]),
-    help="Side of the contour on which the wire runs, along the cutting direction.",
-)
-@click.option("--kerf", is_flag=True, help="Work out the kerf, the pieces that it leaves, and their sizes.")
-@click.option(
-    "--drawing",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="DXF",
-    help="Hold the cut edge against a drawing.",
-)
-@click.option("--layer", metavar="NAME", help="Layer of the contour in the drawing.")
-@click.option("--tolerance", type=Length(), help="How far edge and drawing may be apart, such as 5um.")
-@click.option("--no-fit", is_flag=True, help="Take the drawing as it lies, without fitting place and turn.")
+@scenario_options
 @click.option(
     "--card-log",
     type=click.Path(path_type=Path, dir_okay=False),
@@ -81,6 +54,7 @@ def run(
     drycut run contour.3b --offset 0.1mm --side right
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from parser.encoding import printable
     from parser.program import read_program
     from sim.dryrun import verdict
     from sim.report import build_report, report_text
@@ -91,20 +65,16 @@ def run(
         program = read_program(scenario.program)
         done = _run(program, scenario, output, card_log)
     except ProgramError as error:
-        click.echo(describe(printable(str(scenario.program)), error), err=True)
-        raise click.exceptions.Exit(2) from None
+        raise refused(scenario, error) from None
     if as_json:
         click.echo(report_text(build_report(done)), nl=False)
     else:
         print_summary(done, output)
+        if output is not None:
+            from sim.outcome import FILES
+
+            click.echo(f"written: {printable(str(output))}/ {', '.join(FILES)}")
     raise click.exceptions.Exit(0 if verdict(done.findings) == "pass" else 1)
-
-
-def describe(name: str, error: ProgramError) -> str:
-    """``part.3b:7:12: error[3B206]: …`` with the line and a caret where the place is known."""
-    finding = error.finding
-    text = f"{place(name, finding.line, finding.column)}: error[{finding.code}]: {error}"
-    return f"{text}\n{with_caret(error.excerpt, finding.column)}" if error.excerpt and finding.column else text
 
 
 def _run(program: "Program", scenario: "Scenario", output: Path | None, card_log: Path | None) -> "DryRun":
