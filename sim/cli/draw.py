@@ -37,7 +37,7 @@ class Width(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
         raise click.BadParameter(f"{value!r} is none of {names}, nor a width of {widths}", ctx, param)
 
 
-@click.command()
+@click.command(short_help="Draw pictures of a dry run, as PNG or SVG.")
 @click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
 @click.option(
     "-o",

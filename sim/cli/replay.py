@@ -52,7 +52,7 @@ class Seconds(click.FloatRange):
         return seconds
 
 
-@click.command()
+@click.command(short_help="Play a dry run in a window, or write a film of it.")
 @click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
 @click.option(
     "-o",
