@@ -179,6 +179,7 @@ def test_steps_and_blocks_go_on_and_back_one_by_one(open_page: OpenPage) -> None
     page.keyboard.press("ArrowDown")
     page.keyboard.press("ArrowDown")
     assert state(page)["block"] == 4
+    drawn(page)  # what is read out is written with the next frame
     assert page.locator("#live").inner_text() == "Block 5 of 7 · N5 · line"
 
 
@@ -342,7 +343,7 @@ def test_a_loop_that_is_shorter_than_a_frame_is_seen_in_all_its_parts(open_page:
     page = opened(open_page)
     times = page.evaluate("""async () => {
         Drycut.player.setLoop("from", 20);
-        Drycut.player.setLoop("to", 30);
+        Drycut.player.setLoop("to", 30.7);
         Drycut.player.seek(20);
         Drycut.player.setSpeed(10000);
         Drycut.player.play();
@@ -353,7 +354,7 @@ def test_a_loop_that_is_shorter_than_a_frame_is_seen_in_all_its_parts(open_page:
         }
         return times;
     }""")
-    assert all(20 <= t <= 30 for t in times)
+    assert all(20 <= t <= 30.7 for t in times)  # no part of the 167 s of an even frame, which would show few places
     assert len({round(t, 3) for t in times}) > 5
 
 
