@@ -86,18 +86,6 @@
     return boxes;
   }
 
-  /** Number of values in a sorted array that are <= `value`. */
-  function countUpTo(sorted, value) {
-    let low = 0;
-    let high = sorted.length;
-    while (low < high) {
-      const middle = (low + high) >>> 1;
-      if (sorted[middle] <= value) low = middle + 1;
-      else high = middle;
-    }
-    return low;
-  }
-
   /** Levels of the polyline x, y; points with `mustKeep` are on all of them. */
   function detail(x, y, mustKeep) {
     let points = Int32Array.from({ length: x.length }, (_, index) => index);
@@ -117,8 +105,8 @@
     /** Visit runs of points of a level from index `first` to `last` that come near a box; `visit(points, at, past)`. */
     function visitRuns(level, first, last, near, visit) {
       const { points: kept, boxes } = levels[level];
-      const start = Math.max(0, countUpTo(kept, first) - 1);
-      const past = countUpTo(kept, last);
+      const start = Math.max(0, Drycut.countUpTo(kept, first) - 1);
+      const past = Drycut.countUpTo(kept, last);
       for (let at = start; at < past; ) {
         const run = Math.floor(at / RUN);
         const end = Math.min((run + 1) * RUN, past);
@@ -140,5 +128,5 @@
     };
   }
 
-  Object.assign(Drycut, { detail, countUpTo });
+  Drycut.detail = detail;
 })(globalThis);

@@ -122,5 +122,5 @@
     return { duration, stepAt, timeOf, blockAt, blockOfStep, countLeft, stateAt, decision, deviation };
   }
 
-  Drycut.model = model;
+  Object.assign(Drycut, { model, countUpTo });
 })(globalThis);
