@@ -22,30 +22,30 @@ lint: $(READY)
 
 # Chromium, for the tests of pages: installed where it is missing and that can be done, or told how to.
 browser: $(READY)
-	$(BIN)/python tests/chromium.py
+	$(BIN)/python tests/tools/chromium.py
 
 bench: $(READY)
-	$(BIN)/python tests/bench.py
+	$(BIN)/python tests/tools/bench.py
 
 # Every step of random programs as a plain loop makes it.
 steps: $(READY)
-	PYTHONPATH=.:tests $(BIN)/python tests/long_steps.py --steps 100000000
+	PYTHONPATH=. $(BIN)/python tests/tools/long_steps.py --steps 100000000
 
 # How many faults of each kind are found: the table of docs/check.md.
 mutate: $(READY)
-	PYTHONPATH=.:tests $(BIN)/python tests/mutation.py
+	PYTHONPATH=. $(BIN)/python tests/tools/mutation.py
 
 # Promises that hold for any input, on 200,000 inputs.
 fuzz: $(READY)
-	PYTHONPATH=.:tests $(BIN)/python tests/fuzz.py
+	PYTHONPATH=. $(BIN)/python tests/tools/fuzz.py
 
 # Renew the golden pictures that no longer fit, after looking at the new ones.
 golden: browser
-	DRYCUT_RENEW_GOLDEN=1 $(BIN)/pytest $$(grep -l 'import.* assert_golden' tests/test_*.py)
+	DRYCUT_RENEW_GOLDEN=1 $(BIN)/pytest $$(grep -rl --include='test_*.py' 'import.* assert_golden' tests)
 
-# Renew docs/findings.md and docs/findings.zh.md from the pages in parser/pages.
+# Renew docs/findings.md and docs/findings.zh.md from the pages in parser/findings/pages.
 pages: $(READY)
-	$(BIN)/python -m sim.check.findings_document
+	$(BIN)/python -m sim.show.findings.catalogue_document
 
 # Renew the lock for every Python the project supports.
 lock: $(READY)

@@ -1,1 +1,1 @@
-"""3B text to toolpath: the only package that knows how programs are written."""
+"""Text to toolpath, DXF to drawing: the only package that knows how they are written; gives `Program` and `Drawing`."""

@@ -6,19 +6,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.block_checks import block_findings
-from parser.columns import RawBlocks
-from parser.damage import Damage
-from parser.decode import decode
-from parser.encoding import decode_text, no_program, printable
-from parser.errors import FileUnreadableError, ProgramError
-from parser.findings import Finding, file_order
-from parser.grammar import STANDARD_MARKS, Marks
-from parser.header import Header
-from parser.lines import LineIndex
-from parser.order_checks import damaged_after, dialect, lost_blocks, order_findings
-from parser.print_checks import print_findings
-from parser.reader import Records, read_records
+from parser.findings.errors import FileUnreadableError, ProgramError
+from parser.findings.findings import Finding, file_order
+from parser.text.encoding import decode_text, no_program, printable
+from parser.text.lines import LineIndex
+from parser.threeb.block_checks import block_findings
+from parser.threeb.columns import RawBlocks
+from parser.threeb.damage import Damage
+from parser.threeb.decode import decode
+from parser.threeb.grammar import STANDARD_MARKS, Marks
+from parser.threeb.header import Header
+from parser.threeb.order_checks import damaged_after, dialect, lost_blocks, order_findings
+from parser.threeb.print_checks import print_findings
+from parser.threeb.reader import Records, read_records
 from parser.toolpath import Toolpath
 
 

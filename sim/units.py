@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import TypeVar
 
-from parser.errors import SettingsError
+from parser.findings.errors import SettingsError
 from parser.geometry.curves import Floats
 
 ENGINE_FORCE_PER_N = 1e6

@@ -10,7 +10,7 @@ from controller.card.base import Logged
 from controller.card.log import FORMAT
 from controller.card.settings import CardSettings
 from controller.card.settings_text import settings_from
-from parser.errors import DrycutError
+from parser.findings.errors import DrycutError
 
 _CALL = re.compile(r"(\S+) +([0-9a-f]{4,8}) ([A-Za-z]\w*)\((.*)\) = (.*)")
 _NAMES = {"inf": math.inf, "nan": math.nan}

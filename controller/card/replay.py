@@ -12,7 +12,7 @@ from controller.card.log import call_text, end_text
 from controller.card.log_lines import CardLogError, Damaged, End, call_of, check_format, end_of, settings_of
 from controller.card.settings import CardSettings
 from controller.stepping.pulses import Pulses
-from parser.errors import FileUnreadableError
+from parser.findings.errors import FileUnreadableError
 
 OWN = ("set_input", "sleep", "step_block")
 """Calls in a log that are no functions of the library."""

@@ -13,7 +13,7 @@ from controller.card.settings import CardSettings
 from controller.card.units import UM_S_PER_PULSE_MS
 from controller.host.entries import Drive, entries_of
 from controller.stepping.pulses import Pulses
-from parser.errors import ControllerError
+from parser.findings.errors import ControllerError
 
 AXES = (1, 2)  # X and Y
 

@@ -5,11 +5,11 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.along import along_um, places_at
+from parser.geometry.broad_phase_places import near_curves
 from parser.geometry.curves import Curves, Floats, Ints, joined
 from parser.geometry.directions import to_left
 from parser.geometry.distance import distance_to_curves
 from parser.geometry.meets import by_xy, curves_meet
-from parser.geometry.near_places import near_curves
 
 
 class Approaches(NamedTuple):

@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from controller.offset.closest import Approaches, approaches
 from controller.offset.groups import groups
 from controller.offset.sections import Side
-from parser.figures import CLOSED_WITHIN_UM
 from parser.geometry.along import along_um, headings_along, places_at
+from parser.geometry.broad_phase_places import nearest_um
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import directions
 from parser.geometry.distance import distance_to_curves
-from parser.geometry.near_places import nearest_um
+from parser.threeb.figures import CLOSED_WITHIN_UM
 from parser.toolpath import Point
 
 TOLERANCE_UM = 0.05

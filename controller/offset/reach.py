@@ -10,8 +10,8 @@ from controller.offset.sections import Side
 from controller.offset.slices import Slices, open_slices
 from controller.offset.stitching import stitched
 from parser.geometry.along import places_at
+from parser.geometry.broad_phase_places import nearest_um
 from parser.geometry.curves import Curves, Ints
-from parser.geometry.near_places import nearest_um
 
 TOLERANCE_UM = 1e-5
 """A loop lies at least the offset less this from its contour: a slot as wide as the kerf is reached."""

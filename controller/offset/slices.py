@@ -8,12 +8,12 @@ from controller.offset.candidates import SNAP_UM
 from controller.offset.groups import same_places
 from controller.offset.sections import Side
 from parser.geometry.along import along_um
+from parser.geometry.broad_phase_pairs import near_pairs
+from parser.geometry.broad_phase_places import near_places
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import headings_at
 from parser.geometry.distance import distance_to_curves
 from parser.geometry.meets import curves_meet
-from parser.geometry.near_places import near_places
-from parser.geometry.nearness import near_pairs
 
 _SHORT_UM = 1e-3  # shorter slices between two places that are one are rounding, longer ones go round
 _ALL = 1 << 62

@@ -4,8 +4,8 @@ import numpy as np
 
 from controller.stepping.point_by_point import interpolate_words
 from parser.geometry.curves import Curves, Floats, Ints
+from parser.threeb.words import chosen, words_of_arcs, words_of_lines
 from parser.toolpath import Words
-from parser.words import chosen, words_of_arcs, words_of_lines
 
 
 def stepped_words(curves: Curves) -> Words:

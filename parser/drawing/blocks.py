@@ -8,7 +8,7 @@ from ezdxf.entities.dxfentity import DXFEntity
 from ezdxf.entities.insert import Insert
 
 from parser.drawing.placing import behind, of_insert
-from parser.errors import DrawingError
+from parser.findings.errors import DrawingError
 from parser.geometry.curves import Floats
 
 _MOST = 200_000

@@ -12,8 +12,8 @@ from ezdxf.filemanagement import dxf_stream_info
 from ezdxf.lldxf.encoding import decode_dxf_unicode
 from ezdxf.lldxf.tagger import binary_tags_loader
 
-from parser.encoding import printable
-from parser.errors import DrawingError, FileUnreadableError
+from parser.findings.errors import DrawingError, FileUnreadableError
+from parser.text.encoding import printable
 
 _DWG = re.compile(rb"AC1\.|AC10\d\d|MC0\.0|AC2\.10")  # first bytes of a DWG file name its release
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"

@@ -14,8 +14,8 @@ from parser.drawing.entities import reader_of
 from parser.drawing.flat import Flat, flat_forms, flat_spline, is_slanted
 from parser.drawing.forms import COLUMNS, SAME_WITHIN_UM, Read, Spline
 from parser.drawing.placing import behind
-from parser.encoding import printable
 from parser.geometry.curves import Curves, Floats, Ints, joined
+from parser.text.encoding import printable
 
 
 @dataclass(slots=True)

@@ -16,8 +16,8 @@ from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, En
 from parser.drawing.notes import notes_of
 from parser.drawing.placing import scaled
 from parser.drawing.units import unit_of
-from parser.encoding import printable
-from parser.errors import DrawingError
+from parser.findings.errors import DrawingError
+from parser.text.encoding import printable
 
 
 class _Asked(NamedTuple):

@@ -1,1 +1,1 @@
-"""Lines and arcs as plane geometry: where they lie, run, meet and come near; of a toolpath, a drawing or an offset."""
+"""Lines and arcs as plane geometry: where they lie, run, meet and come near; what crosses the border is `Curves`."""

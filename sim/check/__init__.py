@@ -1,1 +1,1 @@
-"""``drycut check``: everything that is wrong with programs, without moving a table."""
+"""Everything that is wrong with programs, without moving a table; what crosses the border is a `CheckResult`."""

@@ -5,11 +5,11 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from parser.encoding import decode_text, no_program
-from parser.errors import ProgramError
-from parser.findings import Finding
-from parser.lines import LineIndex
+from parser.findings.errors import ProgramError
+from parser.findings.findings import Finding
 from parser.program import Program, load_program
+from parser.text.encoding import decode_text, no_program
+from parser.text.lines import LineIndex
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS, Checked, check_program
 from sim.check.result import CheckResult, CheckState, Coverage
 from sim.check.settings import CheckSettings

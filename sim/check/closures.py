@@ -4,14 +4,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from parser.figures import CLOSED_WITHIN_UM
-from parser.findings import Finding, Value
+from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
-from parser.places import at_block
 from parser.program import Program
-from parser.tokens import TokenKind
-from sim.check.shape.loops import end_in_waste
-from sim.contours import Contour
+from parser.shape.contours import Contour
+from parser.shape.loops import end_in_waste
+from parser.threeb.at_block import at_block
+from parser.threeb.figures import CLOSED_WITHIN_UM
+from parser.threeb.tokens import TokenKind
 
 if TYPE_CHECKING:
     from sim.check.mend.suspects import Suspect

@@ -6,13 +6,13 @@ import numpy as np
 
 from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
-from parser.findings import Finding
+from parser.findings.findings import Finding
 from parser.geometry.curves import Floats, Ints
-from parser.places import at_block
 from parser.program import Program
-from parser.tokens import TokenKind
+from parser.threeb.at_block import at_block
+from parser.threeb.tokens import TokenKind
+from parser.threeb.words import counted_way
 from parser.toolpath import Axis, Toolpath, Words
-from parser.words import counted_way
 
 STEPPED_END_UM = 12.0
 """40,000 random arcs of 10 µm to 1 m radius, on the right count axis, ended at most 9.5 µm from their exact end when

@@ -7,23 +7,23 @@ import numpy as np
 
 from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
-from parser.decode import endless
-from parser.findings import Finding, file_order
+from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
-from parser.places import at_block
 from parser.program import Program
-from parser.tokens import TokenKind
+from parser.shape.contours import Contour, find_contours
+from parser.shape.rows import contour_rows
+from parser.threeb.at_block import at_block
+from parser.threeb.decode import endless
+from parser.threeb.tokens import TokenKind
 from sim.check.closures import contour_findings
 from sim.check.count_axes import stepped_end_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
-from sim.check.passages import passage_findings
 from sim.check.result import CheckState, Coverage, State
-from sim.check.shape.rows import contour_rows
 from sim.check.travel import travel_findings
-from sim.contours import Contour, find_contours
+from sim.check.uncut_jumps import passage_findings
 
 if TYPE_CHECKING:  # most checks know no machine
-    from sim.table_model import TableModel
+    from sim.setup.machine.table_model import TableModel
 
 MAX_STEPS = 300_000_000
 """Steps that one run takes: 240 m of path, two months of cutting; a word damaged to nine digits asks for more."""

@@ -5,7 +5,7 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from parser.errors import FileUnreadableError
+from parser.findings.errors import FileUnreadableError
 
 SUFFIXES = (".3b", ".4b")
 """Ends of names, in any case, that files in folders are known by; a file that is named itself may end as it likes."""

@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.findings import Edit, Finding
-from parser.print_checks import is_misprint
+from parser.findings.findings import Edit, Finding
 from parser.program import Program
-from parser.tokens import TokenKind, field_spans
+from parser.threeb.print_checks import is_misprint
+from parser.threeb.tokens import TokenKind, field_spans
 from parser.toolpath import Axis
 from sim.check.count_axes import count_on
 from sim.check.engine import Checked

@@ -2,11 +2,11 @@
 
 import math
 
-from parser.findings import Finding, Value
+from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
-from parser.places import at_block
 from parser.program import Program
-from parser.tokens import TokenKind
+from parser.threeb.at_block import at_block
+from parser.threeb.tokens import TokenKind
 from sim.check.shape.corners import tight_corners
 from sim.check.shape.crossings import find_crossings
 from sim.check.shape.retraced import retraced_arcs

@@ -1,7 +1,7 @@
 """Pages of the catalogue as Markdown, for ``drycut explain`` and for the findings documents."""
 
-from parser.catalogue import Language, example, page
-from parser.findings import SEVERITIES
+from parser.findings.catalogue import Language, example, page
+from parser.findings.findings import SEVERITIES
 
 _WORDS: dict[Language, dict[str, str]] = {
     "en": {

@@ -2,11 +2,11 @@
 
 from bisect import bisect_right
 
-from parser.print_checks import ends_as_printed
 from parser.program import Program
+from parser.shape.contours import Contour
+from parser.shape.loops import is_circle
+from parser.threeb.print_checks import ends_as_printed
 from sim.check.engine import Checked
-from sim.check.shape.loops import is_circle
-from sim.contours import Contour
 
 _DOUBT = ("3B207", "3B208")
 

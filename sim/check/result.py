@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from parser.findings import Finding, Severity
+from parser.findings.findings import Finding, Severity
 
 Verdict = Literal["pass", "fail", "incomplete"]
 State = Literal["complete", "incomplete", "not asked"]

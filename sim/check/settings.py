@@ -6,16 +6,16 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from parser.errors import SettingsError
-from parser.findings import SEVERITIES, Severity
-from parser.grammar import Marks
+from parser.findings.errors import SettingsError
+from parser.findings.findings import SEVERITIES, Severity
+from parser.threeb.grammar import Marks
 from parser.units import from_mm
 from sim.check.engine import Demands
-from sim.settings import load_toml, number, pair, refuse_unknown, section, truth
-from sim.wire import DEFAULT_WIRE, SPARK_GAP_MM, WIRE_DIAMETER_MM
+from sim.setup.toml.reader import load_toml, number, pair, refuse_unknown, section, truth
+from sim.setup.wire import DEFAULT_WIRE, SPARK_GAP_MM, WIRE_DIAMETER_MM
 
 if TYPE_CHECKING:
-    from sim.machine import Machine
+    from sim.setup.machine.machine import Machine
 
 FILE = "drycut.toml"
 _KEYS = ("machine", "start_mm", "open", "select", "ignore", "fail_on", "end_marks", "pause_marks", "wire")
@@ -138,7 +138,7 @@ def _machine(content: Mapping[str, Any], file: Path) -> "Machine | None":
         return None
     if not isinstance(name, str):
         raise SettingsError(f"{file}: machine is the name of a machine, or its .toml file; found {name!r}")
-    from sim.machine import load_machine  # noqa: PLC0415 - most checks know no machine
+    from sim.setup.machine.machine import load_machine  # noqa: PLC0415 - most checks know no machine
 
     return load_machine(name, beside=file.parent)
 

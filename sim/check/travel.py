@@ -5,15 +5,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from controller.stepping.steps import Steps
-from parser.findings import Finding
+from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
-from parser.places import at_block
 from parser.program import Program
+from parser.threeb.at_block import at_block
 from parser.toolpath import Axis, Toolpath
 from parser.units import from_mm
 
 if TYPE_CHECKING:
-    from sim.table_model import TableModel
+    from sim.setup.machine.table_model import TableModel
 
 
 def travel_findings(

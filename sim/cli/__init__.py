@@ -7,7 +7,7 @@ import sys
 
 import click
 
-from parser.errors import DrycutError
+from parser.findings.errors import DrycutError
 from sim import __version__
 from sim.cli.streams import prepare_streams
 

@@ -8,7 +8,7 @@ import click
 from sim.cli.lengths import Length
 
 if TYPE_CHECKING:
-    from sim.ballbar.circle import Ballbar
+    from sim.run.ballbar.circle import Ballbar
 
 
 class Speed(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
@@ -62,11 +62,11 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     \b
     drycut ballbar --radius 50mm --feed 500mm/min -o ballbar.png
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.ballbar.circle import circle_test, run_test
-    from sim.ballbar.document import document_text
-    from sim.ballbar.summary import print_ballbar
-    from sim.machine import load_machine
-    from sim.progress import StageProgress
+    from sim.cli.progress import StageProgress
+    from sim.run.ballbar.circle import circle_test, run_test
+    from sim.run.ballbar.document import document_text
+    from sim.setup.machine.machine import load_machine
+    from sim.show.terminal.ballbar import print_ballbar
 
     if output is not None and output.suffix.lower() not in ("", ".png") and not output.is_dir():
         raise click.BadParameter(f"{output} is neither a folder nor a .png", param_hint="-o")
@@ -90,16 +90,16 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
 
 def _write(done: "Ballbar", tolerance_um: float | None, output: Path) -> list[str]:
     """Files of a test, all of them or none; names of those written. A turn that does not go round has no picture."""
-    from parser.encoding import printable
-    from sim.ballbar.document import document_text
-    from sim.output import staged
+    from parser.text.encoding import printable
+    from sim.files import staged
+    from sim.run.ballbar.document import document_text
 
     alone = output.suffix.lower() == ".png"
     folder, picture = (output.parent, output.name) if alone else (output, "ballbar.png")
     names = [picture] * (done.measured is not None) + ["ballbar.json"] * (not alone)
     with staged(folder, names) as stage:
         if done.measured is not None:
-            from sim.ballbar.plot import draw_ballbar
+            from sim.show.pictures.ballbar.plot import draw_ballbar
 
             draw_ballbar(done, done.measured).save(stage / picture, dpi=(200, 200))
         if not alone:

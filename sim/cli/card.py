@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from parser.encoding import printable
+from parser.text.encoding import printable
 
 if TYPE_CHECKING:
     from controller.card.replay import Difference, Replay

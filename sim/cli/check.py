@@ -14,7 +14,7 @@ from sim.cli.language import chosen
 from sim.cli.lengths import Length
 
 if TYPE_CHECKING:
-    from parser.catalogue import Language
+    from parser.findings.catalogue import Language
     from sim.check.batch import Job
     from sim.check.result import CheckResult
     from sim.check.settings import CheckSettings
@@ -78,8 +78,8 @@ def check(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     outcome = _Outcome()
     if fix and not _fix(jobs, language):
         outcome.code = 2
-    from sim.check.formats import render
-    from sim.check.formats.options import Options
+    from sim.show.findings import render
+    from sim.show.findings.options import Options
 
     colour = form == "text" and sys.stdout.isatty() and "NO_COLOR" not in os.environ
     style = Options(language, colour, quiet, stats)
@@ -98,8 +98,8 @@ def _options(  # noqa: PLR0913, PLR0917 - the options above
 ) -> dict[str, object]:
     """Settings that the command line gives, in place of those of the files."""
     from sim.check.settings import code_list, severity
-    from sim.settings import number
-    from sim.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
+    from sim.setup.toml.reader import number
+    from sim.setup.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
 
     given: dict[str, object] = {}
     if select is not None:
@@ -109,7 +109,7 @@ def _options(  # noqa: PLR0913, PLR0917 - the options above
     if fail_on is not None:
         given["fail_on"] = severity(fail_on, "--fail-on")
     if machine is not None:
-        from sim.machine import load_machine
+        from sim.setup.machine.machine import load_machine
 
         given["machine"] = load_machine(machine)
     if wire_diameter is not None:
@@ -135,8 +135,8 @@ def _job(name: str, options: dict[str, object]) -> "Job":
 
 def _fix(jobs: Sequence["Job"], language: "Language") -> bool:
     """Mend the files of the jobs; what was changed, and what was not, goes to stderr. Whether all could be written."""
-    from parser.errors import FileUnreadableError
-    from sim.check.fixing import fix_file, told
+    from parser.findings.errors import FileUnreadableError
+    from sim.cli.fixing import fix_file, told
 
     all_written = True
     for job in jobs:
@@ -158,7 +158,7 @@ def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:
     if len(jobs) < PARALLEL_FROM:
         yield from map(check_file, jobs)
         return
-    from sim.progress import StageProgress
+    from sim.cli.progress import StageProgress
 
     with StageProgress() as progress:
         yield from check_files(jobs, lambda done, total: progress("check", done, total))

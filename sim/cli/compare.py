@@ -9,7 +9,7 @@ from sim.cli.lengths import Length
 
 if TYPE_CHECKING:
     from parser.program import Program
-    from sim.scenario import Scenario
+    from sim.setup.scenario import Scenario
 
 
 @click.command()
@@ -41,18 +41,18 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     drycut compare scenarios/punch
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.drawing.read import read_drawing
-    from parser.errors import ProgramError
+    from parser.findings.errors import ProgramError
     from parser.program import read_program
     from parser.units import mm
-    from sim.asked import OFFSET_MM
     from sim.cli.overrides import OfDrawing, held
     from sim.cli.scenario_options import refused
-    from sim.compare.compared_program import compare_program
-    from sim.compare.document import document_text
-    from sim.compare.summary import print_comparison
-    from sim.offsetting import offsetting
-    from sim.scenario import load_scenario
-    from sim.settings import number
+    from sim.measure.compare.compared_program import compare_program
+    from sim.run.offsetting import offsetting
+    from sim.run.report.drawing import document_text
+    from sim.setup.part import OFFSET_MM
+    from sim.setup.scenario import load_scenario
+    from sim.setup.toml.reader import number
+    from sim.show.terminal.compare import print_comparison
 
     number(mm(offset or 0.0), OFFSET_MM._replace(low=0.0), "--offset in mm")
     scenario = load_scenario(path)

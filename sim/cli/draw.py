@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from parser.errors import ProgramError
+from parser.findings.errors import ProgramError
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
 
 if TYPE_CHECKING:
-    from parser.catalogue import Language
-    from sim.draw.paints import ThemeName
-    from sim.pictures.files import Asked
+    from parser.findings.catalogue import Language
+    from sim.show.draw.paints import ThemeName
+    from sim.show.pictures.files import Asked
 
 SUFFIXES = (".png", ".svg")
 
@@ -24,8 +24,8 @@ class Width(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
         """The width in px."""
-        from sim.draw.sheet import SIZES_PX
-        from sim.draw.style import LEAST_THUMBNAIL, MOST_WIDTH
+        from sim.show.draw.sheet import SIZES_PX
+        from sim.show.draw.style import LEAST_THUMBNAIL, MOST_WIDTH
 
         if isinstance(value, int):
             return value
@@ -84,12 +84,12 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut draw scenarios/keyhole -o pictures/ --size a3
     drycut draw scenarios/keyhole -o worst.png --picture worst
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from parser.encoding import printable
     from parser.program import read_program
-    from sim.dryrun import verdict
-    from sim.pictures.files import write_pictures
-    from sim.progress import StageProgress
-    from sim.recording import recorded
+    from parser.text.encoding import printable
+    from sim.cli.progress import StageProgress
+    from sim.run.dryrun import verdict
+    from sim.run.recording import recorded
+    from sim.show.pictures.files import write_pictures
 
     asked = _asked(output, names, svg)
     scenario = overridden(path, Overrides(**options))
@@ -105,8 +105,8 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
 
 def _asked(output: Path, names: tuple[str, ...], svg: bool) -> "Asked":
     """Which pictures are to become which files. BadParameter for what does not fit together."""
-    from sim.pictures.files import Asked
-    from sim.pictures.gallery import PICTURES
+    from sim.show.pictures.files import Asked
+    from sim.show.pictures.gallery import PICTURES
 
     for name in names:
         if name not in PICTURES:

@@ -2,7 +2,7 @@
 
 import click
 
-from parser.findings import SEVERITIES
+from parser.findings.findings import SEVERITIES
 from sim.cli.language import chosen
 
 

@@ -2,7 +2,7 @@
 
 import os
 
-from parser.catalogue import LANGUAGES, Language
+from parser.findings.catalogue import LANGUAGES, Language
 
 
 def chosen(asked: str | None) -> Language:

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from parser.errors import SettingsError
+from parser.findings.errors import SettingsError
 from parser.units import mm
-from sim.settings import number
+from sim.setup.toml.reader import number
 
 if TYPE_CHECKING:
-    from sim.asked import DrawingAsked, Offset
-    from sim.scenario import Scenario
-    from sim.wire import Wire
+    from sim.setup.part import DrawingAsked, Offset
+    from sim.setup.scenario import Scenario
+    from sim.setup.wire import Wire
 
 
 class Overrides(NamedTuple):
@@ -36,8 +36,8 @@ class Overrides(NamedTuple):
 
 def overridden(path: Path, options: Overrides) -> "Scenario":
     """Scenario of the path with the options of the command line in place of its own values."""
-    from sim import scenario as scenarios
-    from sim.machine import load_machine
+    from sim.setup import scenario as scenarios
+    from sim.setup.machine.machine import load_machine
 
     scenario = scenarios.load_scenario(path)
     if options.machine is not None:
@@ -58,7 +58,7 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
 
 def _wire(wire: "Wire", options: Overrides) -> "Wire":
     """The wire with the options in place of its own values."""
-    from sim.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM, WIRE_LAG_UM
+    from sim.setup.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM, WIRE_LAG_UM
 
     if options.wire_diameter is not None:
         number(mm(options.wire_diameter), WIRE_DIAMETER_MM, "--wire-diameter in mm")
@@ -73,7 +73,7 @@ def _wire(wire: "Wire", options: Overrides) -> "Wire":
 
 def _offset(offset: "Offset | None", options: Overrides) -> "Offset | None":
     """The offset with the options in place of its own values. SettingsError where only half of one is known."""
-    from sim.asked import OFFSET_MM, SIDES, Offset
+    from sim.setup.part import OFFSET_MM, SIDES, Offset
 
     if options.offset is None and options.side is None:
         return offset
@@ -102,7 +102,7 @@ def held(own: "DrawingAsked | None", options: OfDrawing) -> "DrawingAsked | None
 
     SettingsError for values out of their bounds.
     """
-    from sim.asked import GAP_UM, TOLERANCE_UM, DrawingAsked
+    from sim.setup.part import GAP_UM, TOLERANCE_UM, DrawingAsked
 
     if options.drawing is not None:
         own = own._replace(file=options.drawing) if own is not None else DrawingAsked(options.drawing)
@@ -129,7 +129,7 @@ def _drawing(own: "DrawingAsked | None", options: Overrides) -> "DrawingAsked | 
 
 def _stepping_by(scenario: "Scenario", interpolator: str | None) -> "Scenario":
     """Scenario with another interpolator; counts and ends of steps that it expects of its own are not held to."""
-    from sim.expect import not_of_steps
+    from sim.setup.expectations import not_of_steps
 
     if interpolator in (None, scenario.machine.controller.interpolation):
         return scenario

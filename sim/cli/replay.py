@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from parser.errors import ProgramError
+from parser.findings.errors import ProgramError
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
 
 if TYPE_CHECKING:
-    from parser.catalogue import Language
-    from sim.draw.paints import ThemeName
-    from sim.film.screen import Look
-    from sim.motion import Progress
-    from sim.recording import Recording
+    from parser.findings.catalogue import Language
+    from sim.run.recording import Recording
+    from sim.show.draw.paints import ThemeName
+    from sim.show.film.screen import Look
+    from sim.table.motion import Progress
 
 _SIZE = re.compile(r"(\d{3,4})\s*[x×]\s*(\d{3,4})", re.ASCII)
 LEAST_PX, MOST_PX = (320, 240), (3840, 2160)
@@ -99,12 +99,12 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut replay scenarios/keyhole -o cut.gif --seconds 5 --fps 20 --size 640x360
     drycut replay part.3b -o cut.webp --thickness 60mm --theme dark --lang zh
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from parser.encoding import printable
     from parser.program import read_program
-    from sim.dryrun import verdict
-    from sim.film.screen import Look
-    from sim.progress import StageProgress
-    from sim.recording import recorded
+    from parser.text.encoding import printable
+    from sim.cli.progress import StageProgress
+    from sim.run.dryrun import verdict
+    from sim.run.recording import recorded
+    from sim.show.film.screen import Look
 
     look = Look(*size, theme, lang)
     _refuse(output, seconds, fps, look)
@@ -123,11 +123,11 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
 def _refuse(output: Path | None, seconds: float, fps: int, look: "Look") -> None:
     """SettingsError, before anything runs, where there can be no such film, or no window."""
     if output is not None:
-        from sim.film.film import format_of
+        from sim.show.film.film import format_of
 
         format_of(output, seconds, fps, look)
     else:
-        from sim.film.window import open_display
+        from sim.show.film.window import open_display
 
         open_display()
 
@@ -136,13 +136,13 @@ def _show(  # noqa: PLR0913, PLR0917 - a run, where to, and how
     recording: "Recording", output: Path | None, seconds: float, fps: int, look: "Look", progress: "Progress"
 ) -> None:
     if output is not None:
-        from sim.film.film import write_film
+        from sim.show.film.film import write_film
 
         write_film(output, recording, seconds, fps, look, progress)
     else:
-        from sim.film.clock import Clock
-        from sim.film.course import course_of
-        from sim.film.window import Window
+        from sim.show.film.clock import Clock
+        from sim.show.film.course import course_of
+        from sim.show.film.window import Window
 
         course = course_of(recording)
         Window(course, look, Clock(seconds, fps, course.duration_s).speed).play()

@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from parser.errors import ProgramError
+from parser.findings.errors import ProgramError
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
 
 if TYPE_CHECKING:
     from parser.program import Program
-    from sim.dryrun import DryRun
-    from sim.scenario import Scenario
+    from sim.run.dryrun import DryRun
+    from sim.setup.scenario import Scenario
 
 
 @click.command()
@@ -54,11 +54,11 @@ def run(
     drycut run contour.3b --offset 0.1mm --side right
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from parser.encoding import printable
     from parser.program import read_program
-    from sim.dryrun import verdict
-    from sim.report import build_report, report_text
-    from sim.summary import print_summary
+    from parser.text.encoding import printable
+    from sim.run.dryrun import verdict
+    from sim.run.report import build_report, report_text
+    from sim.show.terminal.run import print_summary
 
     scenario = overridden(path, Overrides(**options))
     try:
@@ -71,24 +71,24 @@ def run(
     else:
         print_summary(done, output)
         if output is not None:
-            from sim.outcome import FILES
+            from sim.cli.run_into import FILES
 
             click.echo(f"written: {printable(str(output))}/ {', '.join(FILES)}")
     raise click.exceptions.Exit(0 if verdict(done.findings) == "pass" else 1)
 
 
 def _run(program: "Program", scenario: "Scenario", output: Path | None, card_log: Path | None) -> "DryRun":
-    from sim.card_log import logging_to
-    from sim.dryrun import dry_run
-    from sim.judge import check_expectations
-    from sim.progress import StageProgress
+    from sim.cli.progress import StageProgress
+    from sim.run.card_log import logging_to
+    from sim.run.dryrun import dry_run
+    from sim.run.judge import check_expectations
 
     settings = scenario.machine.controller.card_settings
     _refuse_to_overwrite(card_log, program_file=scenario.program, output=output)
     with StageProgress() as progress, logging_to(card_log, settings) as log:
         if output is None:
             return check_expectations(dry_run(program, scenario, progress, log=log))
-        from sim.outcome import run_into
+        from sim.cli.run_into import run_into
 
         return run_into(output, program, scenario, progress, log)
 
@@ -101,7 +101,7 @@ def _refuse_to_overwrite(card_log: Path | None, *, program_file: Path, output: P
         raise click.BadParameter("names no file", param_hint="--card-log")
     taken = {program_file.resolve(): "the program"}
     if output is not None:
-        from sim.outcome import FILES
+        from sim.cli.run_into import FILES
 
         taken |= {(output / name).resolve(): "a file of the run" for name in FILES}
     other = taken.get(card_log.resolve())

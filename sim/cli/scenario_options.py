@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from parser.encoding import printable
-from parser.errors import ProgramError
-from parser.excerpt import place, with_caret
+from parser.findings.errors import ProgramError
+from parser.text.encoding import printable
+from parser.text.excerpt import place, with_caret
 from sim.cli.lengths import Length
 
 if TYPE_CHECKING:
-    from sim.scenario import Scenario
+    from sim.setup.scenario import Scenario
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 _OPTIONS = (

@@ -1,1 +1,1 @@
-"""The two-axis table: motors, drives, guides and slides, followed tick by tick in pymunk."""
+"""The two-axis table: motors, drives, guides and slides that follow pulses; what crosses the border is a `Trace`."""

@@ -8,21 +8,21 @@ import numpy as np
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from parser.units import from_mm
-from sim.table.engine import Engines
-from sim.table.history import History, HistoryMeter, SlabRun
-from sim.table.losses import Loss, LossTally
-from sim.table.march import Table
-from sim.table.motor import Motors
-from sim.table.passes import run_slab
-from sim.table.peaks import Peak, PeakMeter
-from sim.table.rhythm import Rhythm, rhythm
-from sim.table.slab import RATE_WINDOW_S, Slab, slab_of
-from sim.table.slow_step import NO_PLAY, SlowStep
-from sim.table.state import State
-from sim.table.ticks import Ticks
-from sim.table.travelled import Travelled, travelled_of
-from sim.table_model import TableModel
-from sim.trace import Trace
+from sim.setup.machine.table_model import TableModel
+from sim.table.physics.bodies import Engines
+from sim.table.physics.motor import Motors
+from sim.table.physics.state import State
+from sim.table.record.history import History, HistoryMeter, SlabRun
+from sim.table.record.losses import Loss, LossTally
+from sim.table.record.peaks import Peak, PeakMeter
+from sim.table.record.travelled import Travelled, travelled_of
+from sim.table.solve.march import Table
+from sim.table.solve.passes import run_slab
+from sim.table.solve.slab import RATE_WINDOW_S, Slab, slab_of
+from sim.table.solve.slow_step import NO_PLAY, SlowStep
+from sim.table.trace import Trace
+from sim.table.when.rhythm import Rhythm, rhythm
+from sim.table.when.ticks import Ticks
 
 SLAB_TICKS = 1 << 18
 
@@ -39,7 +39,7 @@ class Setup(NamedTuple):
     origin_um
         The same in program coordinates, where the pulses begin.
     slow
-        What slow steps do to its slides (`sim.table.trial`).
+        What slow steps do to its slides (`sim.table.solve.trial`).
     speed_limit_um_s
         Of X and Y, that their peaks are held against; infinite where there is none.
     """

@@ -1,15 +1,15 @@
 """How likely a block is in a sound contour, by the trade's rules and by how it joins its neighbours.
 
 Points are logarithms of odds, rounded to whole numbers: what few sound blocks do takes points, what sound blocks do far
-more often than chance would have it gives them. They were set on broken contours (tests/suspects_rates.py).
+more often than chance would have it gives them. They were set on broken contours (tests/tools/suspects_rates.py).
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.block_checks import ruled_label
-from parser.decode import Moves
 from parser.geometry.curves import Floats, Ints
+from parser.threeb.block_checks import ruled_label
+from parser.threeb.decode import Moves
 from parser.toolpath import Axis, Words
 
 Flags = NDArray[np.bool_]

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.decode import Moves, moves, with_axes_named
 from parser.geometry.curves import Floats, Ints
+from parser.threeb.decode import Moves, moves, with_axes_named
 from parser.toolpath import Axis, Toolpath, Words
 from sim.check.mend.likelihood import slip
 from sim.check.mend.solved import solved_numbers

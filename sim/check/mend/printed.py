@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.block_checks import counts_fit
-from parser.decode import endless
-from parser.print_checks import print_change
+from parser.threeb.block_checks import counts_fit
+from parser.threeb.decode import endless
+from parser.threeb.print_checks import print_change
 from parser.toolpath import Toolpath
 from sim.check.mend.likelihood import obedience
 from sim.check.mend.mends import Field, Mends, ease, field_text, mends, moves_of, word_table, words_of

@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.arcs import ArcEnds, arc_ends
-from parser.columns import MAX_WORD_UM
 from parser.geometry.curves import Floats, Ints
+from parser.threeb.arcs import ArcEnds, arc_ends
+from parser.threeb.columns import MAX_WORD_UM
 from parser.toolpath import Axis, Words
 
 _COUNT = 2

@@ -8,12 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.decode import Moves
 from parser.geometry.curves import Floats, Ints
+from parser.shape.contours import closure_tolerance_um
+from parser.threeb.decode import Moves
 from parser.toolpath import Toolpath
 from sim.check.mend.likelihood import familiar, joint, obedience, sizes
 from sim.check.mend.mends import Field, Mends, ease, field_text, mends, moves_of, word_table, words_of
-from sim.contours import closure_tolerance_um
 
 MOST = 5
 """Suspects named at most; where more are as likely, naming some would accuse them by chance."""

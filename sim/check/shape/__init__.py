@@ -1,1 +1,1 @@
-"""Shape of contours: loops, crossings, senses of arcs, tight corners."""
+"""What is wrong with the shape of contours: tight corners, crossings, arcs that turn the wrong way."""

@@ -3,8 +3,8 @@
 import numpy as np
 
 from parser.geometry.curves import Ints
+from parser.shape.loops import find_loops
 from parser.toolpath import Toolpath
-from sim.check.shape.loops import find_loops
 
 _ROUNDING_UM = 5.0  # a small arc in whole µm, begun where the last block ended, is some µm off its radius
 
@@ -15,7 +15,7 @@ def tight_corners(toolpath: Toolpath, contour_of_row: Ints, offset_um: float, is
     Parameters
     ----------
     contour_of_row
-        (n,) contour number of each row, −1 on jumps; see `sim.check.shape.rows`.
+        (n,) contour number of each row, −1 on jumps; see `parser.shape.rows`.
     offset_um
         Of the wire's centre from the part: wire radius and spark gap.
     is_drawing

@@ -9,12 +9,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.figures import CLOSED_WITHIN_UM
 from parser.geometry.boxes import turn_rad
+from parser.geometry.broad_phase_pairs import near_pairs
 from parser.geometry.curves import Floats, Ints
 from parser.geometry.directions import headings_at
 from parser.geometry.meets import Meets, by_xy, curves_meet
-from parser.geometry.nearness import near_pairs
+from parser.threeb.figures import CLOSED_WITHIN_UM
 from parser.toolpath import Point, Toolpath
 
 CLEAR_UM = 5.0
@@ -62,7 +62,7 @@ def find_crossings(toolpath: Toolpath, contour_of_row: Ints, most_pairs: int = M
     Parameters
     ----------
     contour_of_row
-        (n,) contour number of each row, −1 on jumps; see `sim.check.shape.rows`.
+        (n,) contour number of each row, −1 on jumps; see `parser.shape.rows`.
     most_pairs
         How many pairs of pieces of blocks are compared at most.
     """

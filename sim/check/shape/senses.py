@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.figures import CLOSED_WITHIN_UM
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.directions import Directions, directions
+from parser.shape.loops import find_loops, is_circle
+from parser.threeb.figures import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
-from sim.check.shape.loops import find_loops, is_circle
 
 _CUSP_RAD = np.radians(178.0)
 _LEAST_CUSP_RAD = np.radians(172.0)

@@ -1,0 +1,127 @@
+"""Texts of the findings in English and Chinese: one page a code, in ``parser/findings/pages``."""
+
+import string
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
+
+from parser.findings.findings import SEVERITIES, Finding
+from parser.units import UM_PER_MM, mm
+
+Language = Literal["en", "zh"]
+LANGUAGES: tuple[Language, ...] = ("en", "zh")
+
+_JOINTS: Mapping[Language, str] = {
+    "en": "{found}; expected {expected}; {machine}",
+    "zh": "{found}；应为{expected}；{machine}",
+}
+_PAGES = Path(__file__).with_name("pages")
+_ASIDES: Mapping[Language, str] = {"en": " ({})", "zh": "（{}）"}
+
+
+class Page(NamedTuple):
+    """Page of one code in one language.
+
+    `found`, `expected`, `machine` and `hint` are templates of one line, filled from a finding's values; `why` and
+    `mend` are Markdown.
+    """
+
+    title: str
+    found: str
+    expected: str
+    machine: str
+    hint: str
+    why: str
+    mend: str
+
+
+class Example(NamedTuple):
+    """A program with the fault, the same one mended, and what ``drycut check`` needs to see the fault."""
+
+    program: str
+    mended: str
+    options: tuple[str, ...]
+
+
+class Texts(NamedTuple):
+    """Texts of one finding: what it is called, what was found and expected, what the machine does, how to mend it."""
+
+    title: str
+    found: str
+    expected: str
+    machine: str
+    hint: str
+    message: str
+
+
+def page(code: str, language: Language = "en") -> Page:
+    """Page of a code. KeyError where there is no such code."""
+    return Page(**_file(code)[language])
+
+
+def example(code: str) -> Example | None:
+    """Example of a code, None where a program alone cannot show it. KeyError where there is no such code."""
+    found = _file(code).get("example")
+    return found and Example(found["program"], found["mended"], tuple(found.get("options", ())))
+
+
+def texts(finding: Finding, language: Language = "en") -> Texts:
+    """Texts of a finding in one language."""
+    of = page(finding.code, language)
+    fill = _Filler(language)
+    templates = {"found": of.found, "expected": of.expected, "machine": of.machine, "hint": of.hint}
+    parts = {name: fill.vformat(template, (), finding.values) for name, template in templates.items()}
+    return Texts(of.title, **parts, message=_JOINTS[language].format(**parts))
+
+
+def term(key: str, language: Language = "en") -> str:
+    """Text of a term, such as the name of a check; a key that is no term stands for itself, in backquotes."""
+    return str(_read("terms")[language].get(key, f"`{key}`"))
+
+
+def length(um: float) -> str:
+    """A length for people: µm with two digits, from 1 mm up mm with three."""
+    return f"{um:.2f} µm" if abs(um) < UM_PER_MM else f"{mm(um):.3f} mm"
+
+
+def instant(t_s: float) -> str:
+    """A time into a run for people: ``3:12:04.25``, hours, minutes and seconds."""
+    minutes, hundredths = divmod(round(t_s * 100.0), 6000)
+    return f"{minutes // 60}:{minutes % 60:02}:{hundredths / 100.0:05.2f}"
+
+
+class _Filler(string.Formatter):
+    """Fills templates; besides Python's own formats it knows ``um``, ``mm``, ``instant``, ``term`` and ``aside``.
+
+    ``aside`` is a text in parentheses, and nothing where there is none.
+    """
+
+    def __init__(self, language: Language) -> None:
+        self._language = language
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        if format_spec == "um":
+            return length(float(value))
+        if format_spec == "mm":
+            return f"{round(mm(float(value)), 3) + 0.0:.3f}"
+        if format_spec == "instant":
+            return instant(float(value))
+        if format_spec == "term":
+            return term(str(value), self._language)
+        if format_spec == "aside":
+            return _ASIDES[self._language].format(value) if value else ""
+        return str(super().format_field(value, format_spec))
+
+
+def _file(code: str) -> dict[str, Any]:
+    if code not in SEVERITIES:
+        raise KeyError(code)
+    return _read(code)
+
+
+@cache
+def _read(name: str) -> dict[str, Any]:
+    import tomllib  # noqa: PLC0415 - a program without findings needs no page
+
+    return tomllib.loads((_PAGES / f"{name}.toml").read_text(encoding="utf-8"))

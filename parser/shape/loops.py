@@ -1,0 +1,165 @@
+"""The closed loop of a contour, behind its lead-in, and which side of it the part lies on."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.geometry.curves import Floats, Ints
+from parser.geometry.distance import distance_to_curves
+from parser.threeb.figures import CLOSED_WITHIN_UM
+from parser.toolpath import Toolpath
+
+_LEAD_IN_BLOCKS = 4  # at most; the loop begins no later
+
+
+class Loops(NamedTuple):
+    """The first loop that each of k contours closes.
+
+    Attributes
+    ----------
+    contour
+        (k,) contour numbers, those of contours without a loop left out.
+    first, last
+        (k,) rows. The last one ends where the first begins, or passes that place.
+    part_side
+        (k,) +1 with the part on the left of the path, −1 on the right, 0 unknown for want of a lead-in. The lead-in
+        comes from the scrap: from inside the loop of a die, from outside that of a punch.
+    """
+
+    contour: Ints
+    first: Ints
+    last: Ints
+    part_side: Ints
+
+
+class _Ring(NamedTuple):
+    """Blocks (m,) of k loops: their rows, which loop each is of, their ends (m, 2), and the angle each turns."""
+
+    row: Ints
+    of: Ints
+    start_um: Floats
+    end_um: Floats
+    turn_rad: Floats
+
+
+class _Part(NamedTuple):
+    """Rows (m,) of k contours, and which of the k each is of."""
+
+    row: Ints
+    of: Ints
+
+
+def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints) -> Loops:
+    """Loops of the contours `wanted` (k,), numbers that occur in `contour_of_row` (n,), in order."""
+    row = np.flatnonzero(np.isin(contour_of_row, wanted))
+    contour, begin, of, number = np.unique(
+        contour_of_row[row], return_index=True, return_inverse=True, return_counts=True
+    )
+    part, begin = _Part(row, of), row[begin]
+    first, last = begin.copy(), np.full(len(contour), len(toolpath), dtype=np.int64)
+    for skipped in range(_LEAD_IN_BLOCKS + 1):
+        met = np.where(
+            skipped < number, _first_met(toolpath, part, np.minimum(begin + skipped, row[-1])), len(toolpath)
+        )
+        earlier = met < last
+        first[earlier], last[earlier] = begin[earlier] + skipped, met[earlier]
+    closed = np.flatnonzero(last < len(toolpath))
+    contour, begin, first, last = (column[closed] for column in (contour, begin, first, last))
+    return Loops(contour, first, last, _part_side(toolpath, begin, first, last))
+
+
+def _first_met(toolpath: Toolpath, part: _Part, first: Ints) -> Ints:
+    """Rows (k,) that are the first to pass the start of the rows `first` (k,) again; n where none does."""
+    place = toolpath.start_um[first][part.of]
+    off, _ = distance_to_curves(toolpath, part.row, place[:, 0], place[:, 1])
+    run = np.cumsum(toolpath.length_um) - toolpath.length_um
+    since = run[part.row] - run[first][part.of]
+    # Short first blocks are still near the place they leave; a circle comes back by itself.
+    met = (off <= CLOSED_WITHIN_UM) & (part.row > first[part.of]) & (since > 2.0 * CLOSED_WITHIN_UM)
+    met |= (part.row == first[part.of]) & is_circle(toolpath)[part.row]
+    at = np.flatnonzero(met)
+    which, once = np.unique(part.of[at], return_index=True)
+    result = np.full(len(first), len(toolpath), dtype=np.int64)
+    result[which] = part.row[at[once]]
+    return result
+
+
+def is_circle(toolpath: Toolpath) -> NDArray[np.bool_]:
+    """(n,) True on arcs of a full turn or more, and on those that J leaves a few µm short of it."""
+    chord = np.hypot(*(toolpath.end_um - toolpath.start_um).T)
+    turn = np.abs(toolpath.sweep_rad)
+    circle: NDArray[np.bool_] = (turn >= 2.0 * np.pi) | ((turn > np.pi) & (chord <= CLOSED_WITHIN_UM))
+    return circle
+
+
+def end_in_waste(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints) -> Ints:
+    """Those of the contours `wanted` (k,) that close a loop behind a lead-in and end on the side they came in from."""
+    loops = find_loops(toolpath, contour_of_row, wanted)
+    led = loops.part_side != 0
+    contour, first, last = loops.contour[led], loops.first[led], loops.last[led]
+    row = np.flatnonzero(np.isin(contour_of_row, contour))
+    edge = np.diff(contour_of_row[row], prepend=-1) != 0
+    begin, end = row[edge], row[np.append(edge[1:], True)] if len(row) else row
+    ring = _ring(toolpath, first, last)
+    came = _is_inside(toolpath, ring, toolpath.start_um[begin])
+    went = _is_inside(toolpath, ring, toolpath.end_um[end])
+    in_waste: Ints = contour[came == went]
+    return in_waste
+
+
+def _part_side(toolpath: Toolpath, begin: Ints, first: Ints, last: Ints) -> Ints:
+    """Side (k,) of the loops from `first` to `last` that the part lies on, the wire coming in from row `begin`."""
+    ring = _ring(toolpath, first, last)
+    joint = toolpath.start_um[first][ring.of]
+    areas = _areas(ring.start_um - joint, ring.end_um - joint, ring.turn_rad, toolpath.radius_um[ring.row])
+    side = np.sign(np.bincount(ring.of, areas, len(first)))
+    side = side * np.where(_is_inside(toolpath, ring, toolpath.start_um[begin]), -1.0, 1.0)
+    return np.where(first > begin, side, 0.0).astype(np.int64)
+
+
+def _ring(toolpath: Toolpath, first: Ints, last: Ints) -> _Ring:
+    """Blocks of the loops (k,) from `first` to `last`, the last of each cut off where the first begins."""
+    number = last - first + 1
+    of = np.repeat(np.arange(len(first)), number)
+    row = np.arange(len(of)) + (first - np.cumsum(number) + number)[of]
+    start, end = toolpath.start_um[row], toolpath.end_um[row].copy()
+    end[row == last[of]] = toolpath.start_um[first]
+    return _Ring(row, of, start, end, _turn(toolpath, row, end))
+
+
+def _is_inside(toolpath: Toolpath, ring: _Ring, place_um: Floats) -> NDArray[np.bool_]:
+    """Whether places (k, 2) lie inside their loops."""
+    place = place_um[ring.of]
+    radial = toolpath.center_um[ring.row] - place
+    in_disc = np.hypot(radial[:, 0], radial[:, 1]) < toolpath.radius_um[ring.row]
+    turned = _turned_about(ring.start_um - place, ring.end_um - place, ring.turn_rad, in_disc)
+    inside: NDArray[np.bool_] = np.rint(np.bincount(ring.of, turned, len(place_um)) / (2.0 * np.pi)) != 0.0
+    return inside
+
+
+def _turn(toolpath: Toolpath, row: Ints, end: Floats) -> Floats:
+    """Signed angles (m,) that the blocks turn up to the places `end` (m, 2), at most a full turn; 0 on lines."""
+    sweep = np.clip(toolpath.sweep_rad[row], -2.0 * np.pi, 2.0 * np.pi)
+    radial = end - toolpath.center_um[row]
+    angle = np.arctan2(radial[:, 1], radial[:, 0]) - toolpath.start_angle_rad[row]
+    reached = np.minimum(np.mod(angle * np.sign(sweep), 2.0 * np.pi), np.abs(sweep)) * np.sign(sweep)
+    whole = is_circle(toolpath)[row] | (np.hypot(*(end - toolpath.end_um[row]).T) <= CLOSED_WITHIN_UM)
+    return np.where(toolpath.is_arc[row] & ~whole, reached, sweep)
+
+
+def _areas(start: Floats, end: Floats, turn: Floats, radius: Floats) -> Floats:
+    """Signed areas (m,) µm² between the origin and the blocks."""
+    segment = np.where(turn == 0.0, 0.0, np.nan_to_num(radius) ** 2 * (turn - np.sin(turn)))
+    return 0.5 * (start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0] + segment)
+
+
+def _turned_about(start: Floats, end: Floats, turn: Floats, in_disc: NDArray[np.bool_]) -> Floats:
+    """Signed angles (m,) that blocks run round the origin: that of the chord, a turn more where the arc spans it."""
+    cross = start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0]
+    chord = np.arctan2(cross, (start * end).sum(axis=1))
+    # On the chord itself, as in the middle of a half circle, the sign of a zero must not tell.
+    chord = np.where((cross == 0.0) & in_disc, np.abs(chord) * np.sign(turn), chord)
+    beyond = (cross * turn < 0.0) | (np.abs(turn) >= 2.0 * np.pi)
+    turned: Floats = chord + np.where(in_disc & beyond, 2.0 * np.pi * np.sign(turn), 0.0)
+    return turned

@@ -1,0 +1,133 @@
+"""Findings about single blocks, from their words alone."""
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.findings.findings import Finding, Value
+from parser.geometry.curves import Ints
+from parser.text.lines import LineIndex
+from parser.threeb.at_block import at_block
+from parser.threeb.decode import endless
+from parser.threeb.stolen_numbers import RADIUS_TOLERANCE_UM
+from parser.threeb.tokens import TokenKind
+from parser.toolpath import Axis, Toolpath, Words
+
+FULL_TURN_UM = 4.0
+"""J of a full circle is 4R within about this; more is more than one turn (docs/3b.md §1)."""
+_COUNT_TOLERANCE_UM = 1  # a CAM may round X or Y and J apart
+_SMALL_UM = 100  # X:Y of a slope that was reduced are small numbers
+_SLOPE_UM = 1000  # X:Y of a slope by hand, such as 577:1000, are no longer than this
+_SLOPE_TIMES = 10  # J of a line whose X:Y is a slope and no length is so many times as long or longer
+_WAYS = ("+X", "+Y", "−X", "−Y")
+
+
+def block_findings(toolpath: Toolpath, lines: LineIndex) -> list[Finding]:
+    """Blocks that never end or make no step, and words that do not fit each other or the rules of the trade."""
+    checks = (_endless, _uncounted, _neighbour_labels, _line_counts, _turns, _radii)
+    return [finding for check in checks for finding in check(toolpath, lines)]
+
+
+def ruled_label(words: Words) -> Ints:
+    """Quadrant (n,) that the trade writes on blocks along or from an axis (docs/3b.md §1); elsewhere the one written.
+
+    Lines and counter-clockwise arcs: +X 1, +Y 2, −X 3, −Y 4; clockwise arcs: +Y 1, −X 2, −Y 3, +X 4.
+    """
+    sign = words.signs
+    along_x, along_y = (words.y_um == 0) & (words.x_um > 0), (words.x_um == 0) & (words.y_um > 0)
+    way = np.where(along_x, np.where(sign[:, 0] > 0, 0, 2), np.where(sign[:, 1] > 0, 1, 3))
+    ruled = np.where(words.turn < 0, (way - 1) % 4 + 1, way + 1)
+    return np.where(along_x | along_y, ruled, words.quadrant)
+
+
+def counts_fit(words: Words) -> NDArray[np.bool_]:
+    """(n,) False on lines whose J is neither their length on the counted axis nor a multiple of a reduced one.
+
+    Where X:Y is a slope in lowest terms, small against J, the J written by hand need not be a multiple.
+    """
+    counted = _counted(words)
+    line = (words.turn == 0) & (counted > 0) & (words.count_um > 0)
+    near = np.abs(words.count_um - counted) <= _COUNT_TOLERANCE_UM
+    longer = np.maximum(words.x_um, words.y_um)
+    is_slope = (np.gcd(words.x_um, words.y_um) == 1) & (longer <= _SLOPE_UM)
+    is_slope &= _SLOPE_TIMES * longer <= words.count_um
+    fits: NDArray[np.bool_] = ~line | near | is_slope | (words.count_um % np.maximum(counted, 1) == 0)
+    return fits
+
+
+def _counted(words: Words) -> Ints:
+    return np.where(words.count_axis == Axis.X, words.x_um, words.y_um)
+
+
+def _endless(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
+    words = toolpath.words
+    for row in np.flatnonzero(endless(words)).tolist():
+        if words.turn[row]:
+            yield at_block(toolpath, lines, "3B201", row, x=int(words.x_um[row]), y=int(words.y_um[row]))
+            continue
+        axis = Axis(int(words.count_axis[row])).name
+        other = "Y" if axis == "X" else "X"
+        yield at_block(toolpath, lines, "3B202", row, TokenKind.AXIS, axis=axis, other=other)
+
+
+def _uncounted(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
+    for row in np.flatnonzero((toolpath.words.count_um == 0) & ~toolpath.is_jump).tolist():
+        yield at_block(toolpath, lines, "3B205", row, TokenKind.COUNT)
+
+
+def _neighbour_labels(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
+    words = toolpath.words
+    ruled = ruled_label(words)
+    for row in np.flatnonzero(ruled != words.quadrant).tolist():
+        sense = ("L", "NR", "SR")[words.turn[row]]
+        way = (int(ruled[row]) - 1 + (words.turn[row] < 0)) % 4
+        yield at_block(
+            toolpath,
+            lines,
+            "3B203",
+            row,
+            TokenKind.DIRECTION,
+            written=f"{sense}{words.quadrant[row]}",
+            ruled=f"{sense}{ruled[row]}",
+            way=_WAYS[way],
+        )
+
+
+def _line_counts(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
+    """Counts of lines that are neither the length on the counted axis nor a multiple of a reduced one."""
+    words = toolpath.words
+    counted = _counted(words)
+    off = ~counts_fit(words)
+    times, rest = np.divmod(words.count_um, np.maximum(counted, 1))
+    unreduced = (words.turn == 0) & (np.gcd(words.x_um, words.y_um) > 1) & (counted >= _SMALL_UM)
+    for row in np.flatnonzero(off | (unreduced & (times > 1) & (rest == 0))).tolist():
+        count, extent = int(words.count_um[row]), int(counted[row])
+        values: dict[str, Value] = {"count": count, "extent": extent, "axis": Axis(int(words.count_axis[row])).name}
+        if off[row]:
+            goes = "too-far" if count > extent else "too-short"
+            by = abs(count - extent)
+            values |= {"goes": goes, "by": by}
+            yield at_block(toolpath, lines, "3B208", row, TokenKind.COUNT, **values)
+        else:
+            values["times"] = int(times[row])
+            yield at_block(toolpath, lines, "3B209", row, TokenKind.COUNT, **values)
+
+
+def _turns(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
+    full = 4.0 * toolpath.radius_um
+    for row in np.flatnonzero(toolpath.words.count_um > full + FULL_TURN_UM).tolist():
+        count = int(toolpath.words.count_um[row])
+        turns = round(count / float(full[row]), 1)
+        yield at_block(
+            toolpath, lines, "3B210", row, TokenKind.COUNT, count=count, full=round(float(full[row])), turns=turns
+        )
+
+
+def _radii(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
+    """Radii that 4B arcs write beside an X and Y that mean another."""
+    written = toolpath.words.radius_um
+    off = (written > 0) & toolpath.is_arc & (np.abs(written - toolpath.radius_um) > RADIUS_TOLERANCE_UM)
+    for row in np.flatnonzero(off).tolist():
+        decoded = float(toolpath.radius_um[row])
+        yield at_block(toolpath, lines, "3B212", row, TokenKind.RADIUS, radius=int(written[row]), decoded=decoded)

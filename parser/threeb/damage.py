@@ -1,0 +1,148 @@
+"""What the reader could not read: damaged blocks with the first field that is wrong, and other text."""
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Ints
+from parser.threeb.grammar import FLAGS, LABEL
+
+_INKED_LINE = re.compile(r"[^\s\0-\x1f][^\r\n]*")
+# A damaged block reaches from its first B to the first B behind other letters than those between numbers.
+_PIECE = re.compile(rf"{LABEL}B(?:[^BGLNSR\r\n]*+B)*+[^BGLNSR\r\n]*+[^B\r\n]*+", FLAGS)
+_LABEL = re.compile(LABEL, FLAGS)
+_BLOCK_WORD = re.compile(r"B\s*\d|G\s*[XYZ]|\b(?:L|NR|SR)\s*\d", FLAGS)
+_NUMBER = re.compile(r"[ \t]*(\d*)[ \t]*", FLAGS)
+_WORD = re.compile(r"[ \t]*([^\sB]+|B)?", FLAGS)
+_OF_NUMBER = re.compile(r"[^BG]*?(?=[ \t]*(?:[BG]|$))", FLAGS)
+_AXIS = re.compile(r"[ \t]*G[ \t]*[XY]", FLAGS)
+_TO_AXIS = re.compile(r"[ \t]*(G?[ \t]*[^\sLNSR]?)", FLAGS)
+_TO_SENSE = re.compile(r"[ \t]*(?:DD?[ \t]*(?=[LNS]))?((?:[LNSR]+[ \t]*)?[^\s]*)", FLAGS)
+
+_OF_AXIS_AND_SENSE = re.compile(
+    r"(?:DD?[ \t]*)?G[ \t]*[XY][ \t]*(?:DD?[ \t]*)?(?:L|[NS][ \t]*R)[ \t]*[1-4](?!\d)", FLAGS
+)
+
+_FIELDS = ("field-x", "field-y", "field-count", "field-radius")
+_LONGEST_SHOWN = 40
+
+
+class Damage(NamedTuple):
+    """A piece of text that is left out of the path.
+
+    Attributes
+    ----------
+    code
+        3B101 unreadable text, 3B106 a damaged block.
+    span
+        Characters to point at: of a damaged block the field that is wrong.
+    after
+        How many whole blocks stand before it.
+    values
+        Of the finding.
+    """
+
+    code: str
+    span: tuple[int, int]
+    after: int
+    values: dict[str, str]
+
+    @property
+    def is_block(self) -> bool:
+        """Whether a block stood there."""
+        return self.code == "3B106"
+
+
+def damages(text: str, gaps: Sequence[tuple[int, int]], block_starts: Ints) -> tuple[Damage, ...]:
+    """Damages in the stretches `gaps` of a text whose whole blocks start at `block_starts`, in order."""
+    found = [damage for first, past in gaps for damage in _in_gap(text, first, past)]
+    after = np.searchsorted(block_starts, [damage.span[0] for damage in found])
+    return tuple(damage._replace(after=int(n)) for damage, n in zip(found, after, strict=True))
+
+
+def _in_gap(text: str, first: int, past: int) -> Iterator[Damage]:
+    for line in _INKED_LINE.finditer(text, first, past):
+        at = line.start()
+        for piece in _PIECE.finditer(text, *line.span()):
+            if not _BLOCK_WORD.search(piece[0]):
+                continue
+            yield from _other_text(text, at, piece.start())
+            yield _damaged_block(piece.start(), piece[0])
+            at = piece.end()
+        yield from _other_text(text, at, line.end())
+
+
+def _other_text(text: str, first: int, past: int) -> Iterator[Damage]:
+    inked = _INKED_LINE.search(text, first, past)
+    if not inked:
+        return
+    shown = inked[0].rstrip()
+    span = inked.start(), inked.start() + len(shown)
+    if _BLOCK_WORD.search(shown):
+        yield _wrong(span[0], shown, (0, len(shown)), "field-b", "wanted-b")
+    else:
+        yield Damage("3B101", span, 0, {"text": _shortened(shown)})
+
+
+def _damaged_block(base: int, piece: str) -> Damage:
+    """The first field of a damaged block, at `base` of the text, that is not what a block has there."""
+    label = _LABEL.match(piece)
+    at = label.end() if label else 0
+    for number, field in enumerate(_FIELDS):
+        if piece[at : at + 1] not in ("B", "b"):
+            if number == 3:
+                break  # 3B: the fourth number is 4B's alone
+            return _wrong(base, piece, _word_at(piece, at), "field-b", "wanted-b")
+        digits = _NUMBER.match(piece, at + 1)
+        first, at = (digits.start(1), digits.end()) if digits else (at + 1, at + 1)
+        if number < 2 and at == len(piece):
+            return _wrong(base, piece, (at, at), "field-b", "wanted-b")
+        if number < 3 and piece[at : at + 1].isdigit() and piece.upper().count("B") < 3:
+            return _wrong(base, piece, _word_at(piece, at), "field-b", "wanted-b")
+        if not _ends_number(piece[at:], number):
+            return _wrong(base, piece, (first, _number_end(piece, at)), field, "wanted-number")
+        if number == 3 and _OF_AXIS_AND_SENSE.match(piece, at):
+            return _wrong(base, piece, digits.span(1) if digits else (first, at), field, "wanted-radius")
+    return _damaged_end(base, piece, at)
+
+
+def _damaged_end(base: int, piece: str, at: int) -> Damage:
+    """Behind the numbers: the axis or the sense with its quadrant is wrong."""
+    axis = _AXIS.match(piece, at)
+    if not axis:
+        match = _TO_AXIS.match(piece, at)
+        return _wrong(base, piece, match.span(1) if match else (at, at), "field-axis", "wanted-axis")
+    sense = _TO_SENSE.match(piece, axis.end())
+    span = sense.span(1) if sense else (axis.end(), axis.end())
+    return _wrong(base, piece, span, "field-sense", "wanted-sense")
+
+
+def _ends_number(rest: str, number: int) -> bool:
+    """Whether what follows the number (0 to 3) of a block does not belong to it.
+
+    From J on other letters are a later field without its G, unless the G still comes.
+    """
+    return rest[:1] in ("B", "b", "G", "g") or (number >= 2 and not _AXIS.search(rest) and not rest[:1].isdigit())
+
+
+def _number_end(piece: str, at: int) -> int:
+    """End of what stands for a number: before the next letter that begins a field."""
+    match = _OF_NUMBER.match(piece, at)
+    return match.end() if match else at
+
+
+def _word_at(piece: str, at: int) -> tuple[int, int]:
+    match = _WORD.match(piece, at)
+    return match.span(1) if match and match[1] else (at, at)
+
+
+def _wrong(base: int, piece: str, span: tuple[int, int], field: str, wanted: str) -> Damage:
+    found = piece[slice(*span)].strip()
+    values = {"field": field, "found": _shortened(found) or "nothing", "wanted": wanted}
+    return Damage("3B106", (base + span[0], base + max(span[1], span[0])), 0, values)
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= _LONGEST_SHOWN else text[:_LONGEST_SHOWN] + "…"

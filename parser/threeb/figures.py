@@ -1,0 +1,137 @@
+"""Figures of a program: start nodes become rows, and the lines that run in the air between two figures become jumps.
+
+3B has no word for a jump: after a ``D`` the wire is taken out, and the lines to the next figure look like any other.
+"""
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Floats, Ints, Kind
+from parser.threeb.columns import RawBlocks
+from parser.threeb.reader import Mark
+from parser.toolpath import Toolpath
+
+CLOSED_WITHIN_UM = 5.0
+EXACT_PER_ARC_UM = 1.0
+"""A figure whose end is this near its start is closed: 1 µm exact per arc, 5 µm stepped (docs/3b.md §3)."""
+_MOST_JUMPS = 3  # lines in one way to the next figure; a figure of lines and the jump to it make more
+_MOST_OFF_UM = 20.0  # however many arcs: their errors do not add up, and corners lie no nearer than this
+_SAME_WAY = 0.99  # cosine of the angle between two ways along one curve
+
+
+class Nodes(NamedTuple):
+    """Start nodes: `origin_um` where the program starts, and m rows that go to absolute places.
+
+    `row` is (m,) int64, `target_um` (m, 2) float64.
+    """
+
+    origin_um: Floats
+    row: Ints
+    target_um: Floats
+
+
+def with_node_rows(blocks: RawBlocks, marks: Sequence[Mark]) -> tuple[RawBlocks, tuple[Mark, ...], Nodes]:
+    """Blocks with an empty row for each start node past the first block, marks moved along, and the nodes.
+
+    The last node before the first block is the origin; without one it is (0, 0).
+    """
+    first = [mark for mark in marks if mark.kind == "node" and mark.after == 0]
+    nodes = [mark for mark in marks if mark.kind == "node" and mark.after > 0]
+    origin = np.array([first[-1].x_um, first[-1].y_um] if first else [0.0, 0.0])
+    moved = placed_marks(marks)
+    rows = np.array([row for row, mark in moved if mark.kind == "node" and mark.after > 0], dtype=np.int64)
+    target = np.array([(node.x_um, node.y_um) for node in nodes]).reshape(-1, 2)
+    placed = tuple(mark._replace(after=row) for row, mark in moved)
+    return _insert(blocks, nodes), placed, Nodes(origin, rows, target)
+
+
+def placed_marks(marks: Sequence[Mark]) -> list[tuple[int, Mark]]:
+    """Marks with how many rows of the toolpath stand before each: its blocks and the start nodes past the first."""
+    placed, nodes = [], 0
+    for mark in marks:
+        placed.append((mark.after + nodes, mark))
+        nodes += mark.kind == "node" and mark.after > 0
+    return placed
+
+
+def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
+    """Rows that are jumps: the lines in the air between two figures. `pauses` are the rows before each ``D``, rising.
+
+    Notes
+    -----
+    Up to three lines alone between two pauses (wire out, wire in) are jumps, however badly the figure before them
+    closed, unless they close it: then they are its last cut, behind the pause in which the slug is clamped. More of
+    them are a figure with the jump to it. Else the first line after a pause is the jump if the figure before is closed,
+    and if the next one does not need that line to close.
+    """
+    rows: list[int] = []
+    begin = 0  # first row of the figure being cut
+    stops = [*pauses, len(toolpath)]
+    for at, until in pairwise(stops):
+        if at >= until or at <= begin or toolpath.kind[at] == Kind.ARC:
+            continue
+        is_closed = ends_closed(toolpath, begin, at)
+        few_lines = until - at <= _MOST_JUMPS and not (toolpath.kind[at:until] == Kind.ARC).any()
+        if few_lines and until < len(toolpath) and (is_closed or not _close(toolpath, begin, at, until)):
+            rows.extend(range(at, until))
+            begin = until
+        elif is_closed and not (ends_closed(toolpath, at, until) and not ends_closed(toolpath, at + 1, until)):
+            rows.append(at)
+            begin = at + 1
+    return np.array(rows, dtype=np.int64)
+
+
+def ends_closed(toolpath: Toolpath, begin: int, past: int) -> bool:
+    """Whether the figure of the rows from `begin` up to but without `past` ends where it should.
+
+    That is at its start or at another corner of its own, such as the end of its lead-in; or past that in an overcut,
+    one block that leaves such a corner in the direction of the block that it cuts once more.
+    """
+    last = past - 1
+    if _corners_at(toolpath, begin, past, toolpath.end_um[last]).size:
+        return True
+    again = _corners_at(toolpath, begin, last, toolpath.start_um[last])
+    heading = _heading(toolpath, last)
+    return any(float(_heading(toolpath, row) @ heading) > _SAME_WAY for row in again.tolist())
+
+
+def _close(toolpath: Toolpath, begin: int, at: int, until: int) -> bool:
+    """Whether one of the rows from `at` up to but without `until` ends at a corner of the figure begun at `begin`."""
+    return any(_corners_at(toolpath, begin, at, end).size for end in toolpath.end_um[at:until])
+
+
+def _corners_at(toolpath: Toolpath, begin: int, past: int, place_um: Floats) -> Ints:
+    """Rows from `begin` up to but without `past` that start at a place."""
+    off = toolpath.start_um[begin:past] - place_um
+    arcs = float((toolpath.kind[begin:past] == Kind.ARC).sum())
+    within = min(max(CLOSED_WITHIN_UM, EXACT_PER_ARC_UM * arcs), _MOST_OFF_UM)
+    return begin + np.flatnonzero(np.hypot(off[:, 0], off[:, 1]) <= within)
+
+
+def _heading(toolpath: Toolpath, row: int) -> Floats:
+    """Direction (2,) in which a row leaves its start; (0, 0) where it does not move."""
+    if toolpath.kind[row] == Kind.ARC:
+        angle, turn = float(toolpath.start_angle_rad[row]), float(np.sign(toolpath.sweep_rad[row]))
+        return np.array([-np.sin(angle) * turn, np.cos(angle) * turn])
+    x, y = (toolpath.end_um[row] - toolpath.start_um[row]).tolist()
+    return np.array([x, y]) / max(float(np.hypot(x, y)), 1.0)
+
+
+def _insert(blocks: RawBlocks, nodes: Sequence[Mark]) -> RawBlocks:
+    """A row with zero count for each node, named after the source line of the node."""
+    if not nodes:
+        return blocks
+    at = [node.after for node in nodes]
+    columns = blocks._asdict()
+    for name in ("x_um", "y_um", "count_um", "count_axis", "turn", "curve"):
+        columns[name] = np.insert(columns[name], at, 0)
+    columns["radius_um"] = np.insert(columns["radius_um"], at, -1)
+    columns["quadrant"] = np.insert(blocks.quadrant, at, 1)
+    columns["line"] = np.insert(blocks.line, at, [node.line for node in nodes])
+    columns["span"] = np.insert(blocks.span, at, [node.span for node in nodes], axis=0)
+    columns["printed_um"] = np.insert(blocks.printed_um, at, np.nan, axis=0)
+    columns["label"] = tuple(np.insert(np.array(blocks.label, dtype=object), at, ""))
+    return RawBlocks(**columns)

@@ -1,0 +1,116 @@
+"""Findings about what stands between the blocks: marks, labels, dialects."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from parser.findings.findings import Finding
+from parser.threeb.at_block import at_block
+from parser.threeb.figures import ends_closed, placed_marks
+from parser.threeb.grammar import FOREIGN_ENDS, LIKE_A_BLOCK, Marks
+from parser.threeb.reader import Mark, Records
+from parser.toolpath import Toolpath
+
+_SAME_PLACE_UM = 2.0  # printed places are rounded to 1 µm
+
+
+def order_findings(records: Records, toolpath: Toolpath, marks: Marks) -> list[Finding]:
+    """Findings about marks, labels and dialect of a program that was cut off at its end code."""
+    return [
+        *_no_end(records),
+        *_foreign_ends(records, marks),
+        *_repeated_labels(records, toolpath),
+        *_dialect(records),
+        *_idle_pauses(records, toolpath),
+        *_unpaused_nodes(records, toolpath),
+    ]
+
+
+def lost_blocks(records: Records, end: Mark) -> list[Finding]:
+    """Finding 3B103 where blocks, whole or damaged, stand after the end code: the machine is off by then."""
+    whole = len(records.blocks.line) - end.after
+    damaged = damaged_after(records, end)
+    if not whole and not damaged:
+        return []
+    first = min([*damaged[:1], *([_span(records, end.after)] if whole else [])])
+    return [records.lines.finding("3B103", first, blocks=whole + len(damaged), mark=end.word)]
+
+
+def damaged_after(records: Records, end: Mark) -> list[tuple[int, int]]:
+    """Spans of damaged blocks after the end code, in lines that were meant for blocks: other text may stand there."""
+    lines = records.lines
+    behind = [damage.span for damage in records.damages if damage.is_block and damage.span[0] > end.span[0]]
+    meant = {lines.line(like.start()) for like in LIKE_A_BLOCK.finditer(lines.text, end.span[1])} if behind else ()
+    return [span for span in behind if lines.line(span[0]) in meant]
+
+
+def dialect(records: Records) -> str:
+    """``3B``, ``4B``, or ``3B+4B`` where blocks of both stand in one program."""
+    four = int((records.blocks.radius_um >= 0).sum())
+    if not four:
+        return "3B"
+    return "4B" if four == len(records.blocks.line) else "3B+4B"
+
+
+def _span(records: Records, block: int) -> tuple[int, int]:
+    first, past = records.blocks.span[block].tolist()
+    return first, past
+
+
+def _no_end(records: Records) -> list[Finding]:
+    if any(mark.kind == "end" for mark in records.marks):
+        return []
+    return [records.lines.finding("3B102", _span(records, -1))]
+
+
+def _foreign_ends(records: Records, marks: Marks) -> Iterator[Finding]:
+    for mark in records.marks:
+        if mark.kind == "end" and mark.word in FOREIGN_ENDS and mark.word not in marks.end:
+            yield records.lines.finding("3B105", mark.span, mark=mark.word)
+
+
+def _repeated_labels(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
+    seen: dict[str, int] = {}
+    for row, label in enumerate(toolpath.source.label):
+        if not label:
+            continue
+        if label in seen:
+            first = int(toolpath.source.line[seen[label]])
+            yield at_block(toolpath, records.lines, "3B107", row, label=label, line=first)
+        seen.setdefault(label, row)
+
+
+def _dialect(records: Records) -> Iterator[Finding]:
+    four = records.blocks.radius_um >= 0
+    n = int(four.sum())
+    if not n:
+        return
+    yield records.lines.finding("3B110", _span(records, int(np.argmax(four))), blocks=n)
+    if n < len(four):
+        rarer = four if 2 * n <= len(four) else ~four
+        row = int(np.argmax(rarer))
+        yield records.lines.finding("3B109", _span(records, row), row + 1, three=len(four) - n, four=n)
+
+
+def _idle_pauses(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
+    """Pauses behind a pause with nothing between, and pauses after a closed figure that goes on without a jump."""
+    placed, jump = placed_marks(records.marks), toolpath.is_jump
+    begin = 0  # first row of the figure being cut
+    for before, (row, mark) in zip([None, *placed], placed, strict=False):
+        if mark.kind != "pause":
+            continue
+        repeated = before is not None and before[0] == row and before[1].kind == "pause"
+        cuts_on = 0 < row < len(toolpath) and not jump[row - 1] and not jump[row]
+        if repeated or (cuts_on and ends_closed(toolpath, begin, row)):
+            yield records.lines.finding("3B308", mark.span)
+        begin = row
+
+
+def _unpaused_nodes(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
+    """Start nodes that lie elsewhere than the wire stands, with no pause between the last cut and them."""
+    paused, jump = -1, toolpath.is_jump  # rows before the last pause
+    for row, mark in placed_marks(records.marks):
+        if mark.kind != "node":
+            paused = row
+        elif 0 < row != paused and not jump[row - 1] and toolpath.length_um[row] > _SAME_PLACE_UM:
+            yield records.lines.finding("3B309", mark.span, row + 1, length=float(toolpath.length_um[row]))

@@ -1,0 +1,156 @@
+"""Findings about figures that a program prints beside its blocks: their ends and their length."""
+
+import math
+import re
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.findings.findings import Finding
+from parser.geometry.curves import Floats, Ints
+from parser.text.encoding import narrow
+from parser.text.lines import LineIndex
+from parser.threeb.header import Header
+from parser.toolpath import Toolpath
+from parser.units import UM_PER_MM
+
+_HALF_DIGITS = 3.0
+"""A print off by this many halves of its last digit is wrong: 2 µm of a block are, rounded to 1 µm, 1.5 µm or more.
+
+Sound ends, rounded to half a digit on both axes, lie within 2·sqrt(2) halves of one another."""
+_FINEST_HALF_DIGIT_UM = 0.5  # blocks are whole µm
+_ROUNDING_UM = 1e-6
+_LONGEST_PRINT = 120
+_PRINT = re.compile(r"[ \t]*;[ \t]*([-+]?\d*(?:\.(\d*))?[ \t]*,[ \t]*[-+]?\d*(?:\.(\d*))?)")
+_LENGTH_UM_PER_BLOCK = 1.0  # words are rounded to 1 µm
+
+
+def print_findings(toolpath: Toolpath, header: Header, lines: LineIndex, damaged: Ints) -> list[Finding]:
+    """Printed ends that differ from the decoded ends (3B207), and header lengths from the decoded length (3B108).
+
+    `damaged` are the characters (m,) at which blocks are missing: neither is judged by what these would have done.
+    """
+    missing = np.searchsorted(toolpath.source.span[:, 0], damaged)
+    found = list(_misprinted(toolpath, lines, missing))
+    return found if len(damaged) else [*found, *_wrong_lengths(toolpath, header, lines)]
+
+
+def _misprinted_rows(toolpath: Toolpath, missing: Ints) -> list[int]:
+    """Rows at which the printed end leaves the decoded end by more than at the last of them; at first, by more than 0.
+
+    The first row with a printed end behind a missing block is none, of which there are some before the rows `missing`;
+    nor is the one behind a printed end that alone is wrong.
+    """
+    rows, off = _shifts(toolpath)
+    if not _may_be_apart(off).any():
+        return []
+    gaps = np.searchsorted(missing, rows, side="right").tolist()
+    shifts: list[list[float]] = off[1:].tolist()
+    found: list[int] = []
+    kept, gap = [0.0, 0.0], 0
+    for at, row in enumerate(rows.tolist()):
+        if gaps[at] != gap:
+            kept, gap = shifts[at], gaps[at]
+        elif _apart(toolpath, row, shifts[at], kept):
+            found.append(row)
+            is_alone = at + 1 < len(rows) and not _apart(toolpath, row, shifts[at + 1], kept)
+            kept = kept if is_alone else shifts[at]
+    return found
+
+
+def is_misprint(toolpath: Toolpath, row: int) -> bool | None:
+    """Whether the end printed beside a row is wrong and not its block: the next printed end is as the ones before.
+
+    None where no printed end follows that could tell.
+    """
+    rows, off = _shifts(toolpath)
+    at = int(np.searchsorted(rows, row)) + 1
+    return not _apart(toolpath, row, off[at + 1].tolist(), off[at - 1].tolist()) if at + 1 < len(off) else None
+
+
+def _shifts(toolpath: Toolpath) -> tuple[Ints, Floats]:
+    """Rows (m,) with printed ends, and (m + 1, 2) µm by which they lie off the decoded ones, from the start on."""
+    rows = np.flatnonzero(~np.isnan(toolpath.printed_end_um[:, 0]))
+    return rows, np.concatenate([np.zeros((1, 2)), toolpath.printed_end_um[rows] - toolpath.end_um[rows]])
+
+
+def _may_be_apart(off: Floats) -> NDArray[np.bool_]:
+    may: NDArray[np.bool_] = np.hypot(off[:, 0], off[:, 1]) >= _HALF_DIGITS * _FINEST_HALF_DIGIT_UM - _ROUNDING_UM
+    return may
+
+
+def _apart(toolpath: Toolpath, row: int, one: Sequence[float], other: Sequence[float]) -> bool:
+    """Whether two shifts differ by more than the rounding of the end printed beside a row."""
+    off = math.hypot(one[0] - other[0], one[1] - other[1])
+    if off < _HALF_DIGITS * _FINEST_HALF_DIGIT_UM - _ROUNDING_UM:
+        return False
+    return off >= _HALF_DIGITS * _half_digit_um(toolpath, row) - _ROUNDING_UM
+
+
+def _half_digit_um(toolpath: Toolpath, row: int) -> float:
+    """Half of the last digit to which the end beside a row is printed; of the coarser number of the two."""
+    match = _print(toolpath, row)
+    decimals = min(len(digits or "") for digits in match.groups()[1:]) if match else 3
+    return max(UM_PER_MM / 2.0 / 10.0**decimals, _FINEST_HALF_DIGIT_UM)
+
+
+def _print(toolpath: Toolpath, row: int) -> re.Match[str] | None:
+    past = int(toolpath.source.span[row, 1])
+    return _PRINT.match(narrow(toolpath.source.text[past : past + _LONGEST_PRINT]))
+
+
+def _print_span(toolpath: Toolpath, row: int) -> tuple[int, int]:
+    """Characters of the end printed beside a row; of its block where it is too long to be looked at."""
+    first, past = toolpath.source.span[row].tolist()
+    match = _print(toolpath, row)
+    return (past + match.start(1), past + match.end(1)) if match else (first, past)
+
+
+def print_change(toolpath: Toolpath, row: int) -> Floats:
+    """(2,) µm by which the end printed beside a row lies off from where the row leads to from the end printed before.
+
+    Without an end printed before, from where the program starts.
+    """
+    rows, off = _shifts(toolpath)
+    at = int(np.searchsorted(rows, row)) + 1
+    change: Floats = off[at] - off[at - 1]
+    return change
+
+
+def ends_as_printed(toolpath: Toolpath, row: int) -> bool:
+    """Whether a row leads to the end printed beside it from the one printed before; False where none is printed."""
+    if np.isnan(toolpath.printed_end_um[row]).any():
+        return False
+    return not _apart(toolpath, row, print_change(toolpath, row).tolist(), (0.0, 0.0))
+
+
+def _misprinted(toolpath: Toolpath, lines: LineIndex, missing: Ints) -> Iterator[Finding]:
+    for row in _misprinted_rows(toolpath, missing):
+        (px, py), (x, y) = toolpath.printed_end_um[row].tolist(), toolpath.end_um[row].tolist()
+        off = float(np.hypot(px - x, py - y))
+        yield lines.finding("3B207", _print_span(toolpath, row), row + 1, px=px, py=py, x=x, y=y, off=off)
+
+
+def _wrong_lengths(toolpath: Toolpath, header: Header, lines: LineIndex) -> Iterator[Finding]:
+    cut = np.where(toolpath.is_jump, 0.0, toolpath.length_um)
+    runs = [np.concatenate([[0.0], np.cumsum(column)]) for column in (cut, toolpath.length_um)]
+    stops = [*(stop.after for stop in toolpath.stops), len(toolpath)]
+    for length in header.lengths:
+        after = int(np.searchsorted(toolpath.source.span[:, 0], length.span[0]))
+        past = stops[min(bisect_right(stops, after), len(stops) - 1)]
+        meant = _lengths(runs, after, past)
+        off = np.abs(meant - length.um)
+        if off.min() > length.half_digit_um + _LENGTH_UM_PER_BLOCK * len(toolpath):
+            nearest = float(meant[np.argmin(off)])
+            yield lines.finding("3B108", length.span, header=length.um, decoded=nearest)
+
+
+def _lengths(runs: list[Floats], after: int, past: int) -> Floats:
+    """Lengths that a header may mean, µm: the cut or the whole way, of all, of what follows it, of its own figure.
+
+    `runs` are the lengths of both before each row and after the last.
+    """
+    meant = [(run[-1], run[-1] - run[after], run[past] - run[after]) for run in runs]
+    return np.array(meant).ravel()

@@ -1,0 +1,139 @@
+"""Program text to records: blocks as columns of raw words, marks, start nodes, headers, and what could not be read.
+
+One pass of one pattern over the whole text; what stands between its matches is looked at only where it is not blank.
+"""
+
+import re
+from bisect import bisect_left
+from operator import itemgetter
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from parser.findings.findings import Finding, file_order
+from parser.text.encoding import narrow
+from parser.text.lines import LineIndex
+from parser.threeb.columns import MAX_WORD_UM, RawBlocks, columns_of, read_mm
+from parser.threeb.damage import Damage, damages
+from parser.threeb.grammar import (
+    FOREIGN_ENDS,
+    GROUPS,
+    HIDDEN_BLOCK,
+    LIKE_A_BLOCK,
+    STANDARD_MARKS,
+    Marks,
+    token_pattern,
+)
+from parser.threeb.header import Header, HeaderLength, read_header, read_length
+from parser.threeb.stolen_numbers import left_out, misfits, without_strays
+
+_AT = {name: place for place, name in enumerate(GROUPS)}
+_MARK, _PASSED = _AT["mark"], _AT["passed"]
+
+_LINE = re.compile(r"[^\r\n]+")
+
+
+class Mark(NamedTuple):
+    """``D``, ``DD`` or a start node, standing after `after` blocks; `x_um`, `y_um` are the node's place.
+
+    `word` is the mark as written, in capitals; of a node it is empty.
+    """
+
+    kind: Literal["pause", "end", "node"]
+    after: int
+    line: int
+    span: tuple[int, int]
+    word: str = ""
+    x_um: float = 0.0
+    y_um: float = 0.0
+
+
+class Records(NamedTuple):
+    """All that was read of one text."""
+
+    text: str
+    lines: LineIndex
+    blocks: RawBlocks
+    marks: tuple[Mark, ...]
+    header: Header
+    damages: tuple[Damage, ...]
+    findings: tuple[Finding, ...]
+
+
+def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
+    """Read a whole program text.
+
+    Text that is no block, mark, header or remark becomes finding 3B101, a damaged block 3B106, a word over
+    `MAX_WORD_UM` 3B206; nothing is raised.
+    """
+    folded = narrow(text)
+    lines = LineIndex(folded)
+    words: list[str | None] = []  # one flat list: a hundred thousand tuples would keep the garbage collector busy
+    spans: list[int] = []
+    found: list[Mark] = []
+    passed: list[tuple[int, int]] = []
+    lengths: list[HeaderLength] = []
+    covered = [0]
+    block = _AT["block"] + 1
+    for match in token_pattern(marks).finditer(folded):
+        span, groups = match.span(), match.groups()
+        covered += span
+        if groups[block - 1]:
+            words += groups
+            spans += match.span(block)
+        elif groups[_PASSED]:
+            if folded[span[0]] not in "/(":
+                passed.append(span)
+        else:
+            found.append(_mark(groups, span, len(spans) // 2, lines.line(span[0]), marks))
+            lengths += read_length(folded, span)
+    covered.append(len(folded))
+    raw = columns_of(words, np.array(spans, dtype=np.int64).reshape(-1, 2), lines)
+    raw, covered = without_strays(raw, covered, folded)
+    damaged_rows = misfits(raw)
+    if damaged_rows:
+        raw, covered = left_out(raw, covered, damaged_rows)
+        found = [mark._replace(after=mark.after - bisect_left(damaged_rows, mark.after)) for mark in found]
+    damaged = damages(
+        folded, _gaps(covered, lines, first_block=int(raw.span[0, 0]) if len(raw.line) else len(folded)), raw.span[:, 0]
+    )
+    outside = [*passed, *(mark.span for mark in found if mark.kind == "node")]
+    findings = [
+        *(lines.finding("3B104", hidden) for span in outside for hidden in _hidden(folded, span)),
+        *_too_large(raw, found, lines),
+        *(lines.finding(damage.code, damage.span, 0, **damage.values) for damage in damaged),
+    ]
+    header = read_header(folded, [span for span in passed if folded[span[0]] != ";"], lengths)
+    return Records(text, lines, raw, tuple(found), header, damaged, tuple(sorted(findings, key=file_order)))
+
+
+def _mark(groups: tuple[str | None, ...], span: tuple[int, int], after: int, line: int, marks: Marks) -> Mark:
+    word, x, y = groups[_MARK : _MARK + 3]
+    if not word:
+        return Mark("node", after, line, span, "", read_mm(x or ""), read_mm(y or ""))
+    word = word.upper()
+    ends = word in {"DD", *marks.end} or (word in FOREIGN_ENDS and word not in marks.pause)
+    return Mark("end" if ends else "pause", after, line, span, word)
+
+
+def _hidden(folded: str, span: tuple[int, int]) -> list[tuple[int, int]]:
+    """Span of the first whole block in a header line or in a remark after ``;``."""
+    block = HIDDEN_BLOCK.search(folded, *span)
+    return [block.span()] if block else []
+
+
+def _too_large(raw: RawBlocks, marks: list[Mark], lines: LineIndex) -> list[Finding]:
+    worst = np.maximum.reduce([raw.x_um, raw.y_um, raw.count_um, raw.radius_um])
+    rows = np.flatnonzero(worst > MAX_WORD_UM).tolist()
+    places: list[tuple[tuple[int, int], int]] = [(tuple(raw.span[row].tolist()), row + 1) for row in rows]
+    places += [(mark.span, 0) for mark in marks if max(abs(mark.x_um), abs(mark.y_um)) > MAX_WORD_UM]
+    return [lines.finding("3B206", span, block, what="number-too-large", limit=MAX_WORD_UM) for span, block in places]
+
+
+def _gaps(covered: list[int], lines: LineIndex, first_block: int) -> list[tuple[int, int]]:
+    """What no token covers and is not blank. Before the first block, lines that do not look like one are header."""
+    edges = np.array(covered, dtype=np.int64).reshape(-1, 2)
+    inked: list[tuple[int, int]] = edges[lines.has_ink(edges[:, 0], edges[:, 1])].tolist()
+    behind = bisect_left(inked, first_block, key=itemgetter(0))
+    header = (line.span() for gap in inked[:behind] for line in _LINE.finditer(lines.text, *gap))
+    return [*(span for span in header if LIKE_A_BLOCK.search(lines.text, *span)), *inked[behind:]]

@@ -1,0 +1,102 @@
+"""Certain mends written into a program file: nothing else in it changes."""
+
+import difflib
+import re
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from parser.findings.catalogue import Language
+from parser.findings.errors import ProgramError
+from parser.findings.findings import Edit, Finding, Severity
+from parser.program import Program, load_program
+from parser.text.encoding import encode_text, printable
+from parser.text.excerpt import place
+from sim.check.engine import check_program
+from sim.check.fixes import Choice, choices, with_edits
+from sim.check.settings import CheckSettings
+from sim.files import replace_file
+
+_LINE_END = re.compile(r"\r\n|\r|\n")
+
+
+_LEFT: dict[Language, str] = {
+    "en": "{place}: {code} is left as it is; more than one mend is possible: {choices}\n",
+    "zh": "{place}: {code} 未改动，可能的改法不止一种：{choices}\n",
+}
+_CHOICE: dict[Language, str] = {"en": "block {block} with {text}", "zh": "第 {block} 段改为 {text}"}
+_OR: dict[Language, str] = {"en": " or ", "zh": " 或 "}
+
+
+class Unmended(NamedTuple):
+    """A finding with several possible mends, none of which was made; as they would stand in the program."""
+
+    finding: Finding
+    choices: tuple[Choice, ...]
+
+
+class Fixing(NamedTuple):
+    """What `fix_file` did: a unified diff, empty where it changed nothing; and what it left for a person to decide."""
+
+    diff: str
+    unmended: tuple[Unmended, ...]
+
+
+def fix_file(path: Path, name: str, settings: CheckSettings) -> Fixing:
+    """Mend in the file what is certain, keeping encoding, line ends and all else.
+
+    A file that cannot be read stays as it is, and so does one in which a mend would bring a new error. Raises
+    FileUnreadableError where the file cannot be written; then it is as it was.
+    """
+    try:
+        program = load_program(path.read_bytes(), name, settings.marks)
+    except (ProgramError, OSError):
+        return Fixing("", ())
+    findings = with_edits(program, check_program(program, settings.demands))
+    shown = tuple(finding for finding in findings if settings.shows(finding.code))
+    left = tuple(Unmended(f, possible) for f in shown if len(possible := choices(program, f, findings)) > 1)
+    text = apply(program.text, [edit for finding in shown for edit in finding.edits])
+    mended = encode_text(text, program.encoding)
+    if text == program.text or _errors(load_program(mended, name, settings.marks), settings) - _errors(
+        program, settings
+    ):
+        return Fixing("", left)
+    replace_file(path, mended)
+    return Fixing(_diff(program, text), left)
+
+
+def told(fixing: Fixing, name: str, language: Language) -> str:
+    """What was done, for people."""
+    left = "".join(
+        _LEFT[language].format(
+            place=place(printable(name), unmended.finding.line, unmended.finding.column),
+            code=unmended.finding.code,
+            choices=_OR[language].join(_CHOICE[language].format(**choice._asdict()) for choice in unmended.choices),
+        )
+        for unmended in fixing.unmended
+    )
+    return fixing.diff + left
+
+
+def apply(text: str, edits: Sequence[Edit]) -> str:
+    """Text with edits made; of two that touch the same characters the first counts."""
+    parts, at = [], 0
+    for edit in sorted(set(edits)):
+        if edit.first < at:
+            continue
+        parts += [text[at : edit.first], edit.text]
+        at = edit.past
+    return "".join([*parts, text[at:]])
+
+
+def _errors(program: Program, settings: CheckSettings) -> Counter[tuple[str, int]]:
+    """Errors by code and line; mends neither add lines before others nor take any away."""
+    findings = check_program(program, settings.demands).findings
+    return Counter((finding.code, finding.line) for finding in findings if finding.severity is Severity.ERROR)
+
+
+def _diff(program: Program, text: str) -> str:
+    """Unified diff for people: line ends of any kind as newlines, other control characters as U+FFFD."""
+    before, after = ([printable(line) + "\n" for line in _LINE_END.split(version)] for version in (program.text, text))
+    return "".join(difflib.unified_diff(before, after, f"{program.name}", f"{program.name} (mended)", n=1))

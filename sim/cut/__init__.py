@@ -1,0 +1,1 @@
+"""What the wire leaves of the work; what crosses the border is `Remains`."""

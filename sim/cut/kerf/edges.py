@@ -1,0 +1,144 @@
+"""The edges of the kerf beside each block: how far it reaches to the left and to the right of the ideal path.
+
+Measured along the normals of stations on the path: a disc about a place of the wire reaches as far as the normal runs
+in it. A block's own discs alone count, since at an inner corner those of its neighbour cut on beyond its edge.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.geometry.along import headings_along, places_at
+from parser.geometry.boxes import reach_um
+from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.directions import headings, to_left
+from sim.cut.kerf.ways import Passage
+
+_SPACING_UM = 20.0  # a fifth of the usual offset: discs smooth the edge over more than that
+_MOST_STATIONS = 20_000  # in a block, 400 mm: longer ones have them farther apart
+
+
+class Edges(NamedTuple):
+    """The kerf at m stations along the blocks.
+
+    Attributes
+    ----------
+    row
+        (m,) int64, never falling.
+    place_um, left
+        (m, 2) float64, the station on the ideal path, and the unit normal to the left of it.
+    left_um, right_um
+        (m,) float64, how far the kerf reaches to both sides; NaN where no disc of the block comes.
+    inner
+        (m,) True on stations an offset and more from both ends of their block, the middle ones in short blocks: the
+        ends are shaped by the corner.
+    """
+
+    row: Ints
+    place_um: Floats
+    left: Floats
+    left_um: Floats
+    right_um: Floats
+    inner: NDArray[np.bool_]
+
+
+class Range(NamedTuple):
+    """Mean, least and greatest, each (n,) float64 µm by row; NaN where the wire did not cut."""
+
+    mean_um: Floats
+    min_um: Floats
+    max_um: Floats
+
+
+class _Stations(NamedTuple):
+    """Rows (m,) and places (m, 2); of the rows (n,): the first, how many, and how far apart."""
+
+    row: Ints
+    place_um: Floats
+    left: Floats
+    first: Ints
+    number: Ints
+    spacing_um: Floats
+
+
+def edges_of(curves: Curves, cut: NDArray[np.bool_], passages: tuple[Passage, ...], offset_um: float) -> Edges:
+    """Edges beside the rows that are `cut` (n,), by where the wire went."""
+    stations = _stations(curves, np.flatnonzero(cut))
+    left, right = np.full((2, len(stations.row)), -np.inf)
+    if passages:
+        row, place = (
+            np.concatenate(column) for column in zip(*((one.row, one.place_um) for one in passages), strict=True)
+        )
+        _reach(curves, stations, (row, place), offset_um, (left, right))
+    left[np.isinf(left)], right[np.isinf(right)] = np.nan, np.nan
+    return Edges(stations.row, stations.place_um, stations.left, left, right, _inner(stations, offset_um))
+
+
+def ranges(edges: Edges, value_um: Floats, rows: int) -> Range:
+    """Range of values (m,) at the inner stations of each of n rows."""
+    counted = edges.inner & ~np.isnan(value_um)
+    row, value = edges.row[counted], value_um[counted]
+    mean, low, high = np.full((3, rows), np.nan)
+    first = np.flatnonzero(np.diff(row, prepend=-1))
+    if len(first):
+        at = row[first]
+        mean[at] = np.add.reduceat(value, first) / np.diff(first, append=len(row))
+        low[at], high[at] = np.minimum.reduceat(value, first), np.maximum.reduceat(value, first)
+    return Range(mean, low, high)
+
+
+def _stations(curves: Curves, rows: Ints) -> _Stations:
+    length = reach_um(curves)  # a second turn runs where the first one ran
+    number, spacing = np.zeros(len(curves), dtype=np.int64), np.ones(len(curves))
+    number[rows] = np.clip(np.ceil(length[rows] / _SPACING_UM), 1.0, _MOST_STATIONS).astype(np.int64) + 1
+    spacing[rows] = np.maximum(length[rows], 1e-9) / (number[rows] - 1)
+    first = np.cumsum(number) - number
+    row = np.repeat(np.arange(len(curves)), number)
+    along = (np.arange(len(row)) - first[row]) * spacing[row]
+    heading = headings_along(curves, row, along)
+    return _Stations(row, places_at(curves, row, along), to_left(heading), first, number, spacing)
+
+
+def _reach(
+    curves: Curves, stations: _Stations, places: tuple[Ints, Floats], offset_um: float, into: tuple[Floats, Floats]
+) -> None:
+    """Raise the reach at each block's stations to that of the discs about its places: rows (m,) and places (m, 2)."""
+    row, place = places
+    nearest = np.rint(_along_um(curves, row, place) / stations.spacing_um[row]).astype(np.int64)
+    # Where there are more stations than two, they are farther apart than half the usual spacing.
+    most = int(np.ceil(2.0 * offset_um / _SPACING_UM)) + 1
+    for by in range(-most, most + 1):
+        near = np.flatnonzero((nearest + by >= 0) & (nearest + by < stations.number[row]))
+        at = stations.first[row[near]] + nearest[near] + by
+        out = place[near] - stations.place_um[at]
+        normal = stations.left[at]
+        aside = out[:, 0] * normal[:, 1] - out[:, 1] * normal[:, 0]
+        met = np.flatnonzero(np.abs(aside) <= offset_um)
+        half = np.sqrt(offset_um**2 - aside[met] ** 2)
+        beside = (out[met] * normal[met]).sum(axis=1)
+        np.maximum.at(into[0], at[met], half + beside)
+        np.maximum.at(into[1], at[met], half - beside)
+
+
+def _along_um(curves: Curves, row: Ints, place_um: Floats) -> Floats:
+    """How far along their blocks (m,) places (m, 2) stand: beside a line, or by their angle about an arc's centre."""
+    heading = headings(curves, row, np.zeros(len(row)))
+    out = np.where(curves.is_arc[row][:, None], place_um - curves.center_um[row], place_um - curves.start_um[row])
+    sweep = curves.sweep_rad[row]
+    turned = (np.arctan2(out[:, 1], out[:, 0]) - curves.start_angle_rad[row]) * np.sign(sweep)
+    reach = np.minimum(np.abs(sweep), 2.0 * np.pi)
+    # Past either end, the nearer end counts.
+    before = -0.5 * (2.0 * np.pi - reach)
+    angle = np.mod(turned - before, 2.0 * np.pi) + before
+    return np.where(curves.is_arc[row], angle * curves.radius_um[row], (out * heading).sum(axis=1))
+
+
+def _inner(stations: _Stations, offset_um: float) -> NDArray[np.bool_]:
+    row = stations.row
+    after = np.arange(len(row)) - stations.first[row]
+    from_end = np.minimum(after, stations.number[row] - 1 - after)
+    # Whole stations, so that the two middle ones of an even number count both.
+    needed = np.minimum(np.ceil(offset_um / stations.spacing_um[row]), (stations.number[row] - 1) // 2)
+    inner: NDArray[np.bool_] = from_end >= needed
+    return inner

@@ -1,0 +1,61 @@
+"""The kerf of a run: the region that the wire removed, and how wide it is beside each block."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import shapely
+
+from parser.shape.contours import Contour
+from parser.toolpath import Toolpath
+from sim.cut.kerf.edges import Edges, Range, edges_of, ranges
+from sim.cut.kerf.swept import Region, Swath, swath
+from sim.cut.kerf.ways import passages
+from sim.table.trace import Trace
+
+
+class Kerf(NamedTuple):
+    """What the wire removed, c contours and n blocks.
+
+    Attributes
+    ----------
+    offset_um
+        Half the width that the wire cuts: its radius plus the spark gap.
+    swaths
+        What each contour removed, with its polygon `region_um`.
+    region_um
+        All of it: a shapely polygon or multipolygon.
+    area_mm2
+        Its area.
+    edges
+        Both edges at stations along the blocks.
+    left, right, width
+        How far the kerf reaches from the ideal path, and both together, by block.
+    """
+
+    offset_um: float
+    swaths: tuple[Swath, ...]
+    region_um: Region
+    area_mm2: float
+    edges: Edges
+    left: Range
+    right: Range
+    width: Range
+
+
+def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], offset_um: float) -> Kerf:
+    """Kerf of a run by where the wire really was, an offset above 0 to all sides of it."""
+    ways = passages(trace, contours, offset_um)
+    swaths = tuple(swath(toolpath, way, offset_um) for way in ways)
+    region = shapely.union_all([one.region_um for one in swaths])
+    edges = edges_of(toolpath, ~toolpath.is_jump, ways, offset_um)
+    left, right = edges.left_um, edges.right_um
+    return Kerf(
+        offset_um=offset_um,
+        swaths=swaths,
+        region_um=region,
+        area_mm2=region.area * 1e-6,
+        edges=edges,
+        left=ranges(edges, left, len(toolpath)),
+        right=ranges(edges, right, len(toolpath)),
+        width=ranges(edges, left + right, len(toolpath)),
+    )

@@ -1,0 +1,1 @@
+"""Workpiece, clamps and arm: what touches them, and where the wire leaves the work; gives findings."""

@@ -1,0 +1,70 @@
+"""Bodies that stand still, as convex shapes of pymunk: clamps grown by what moves past them, and the work."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+import pymunk
+
+from parser.geometry.curves import Floats
+from sim.cut.obstacles.triangles import triangles
+from sim.setup.obstacles import Outline
+
+ALL = pymunk.ShapeFilter()
+_ON_UM = 1e-3  # the engine counts what is nearer than this: a point on a seam between two pieces is inside
+
+Place = tuple[float, float]
+
+
+class Pieces(NamedTuple):
+    """Shapes of one body in a space of their own, and the boxes (m, 2, 2) µm round them, lowest and highest (x, y)."""
+
+    space: pymunk.Space
+    boxes_um: Floats
+
+    def near(self, low: Place, high: Place) -> list[pymunk.Shape]:
+        """Shapes whose boxes meet a box."""
+        return self.space.bb_query(pymunk.BB(*low, *high), ALL)
+
+    def hold(self, place: Place) -> bool:
+        """Whether a place lies in the body or on its edge."""
+        return bool(self.space.point_query(place, _ON_UM, ALL))
+
+    def entered_at(self, start: Place, end: Place) -> float:
+        """Share of the way from outside to inside at which the body begins."""
+        hit = self.space.segment_query_first(start, end, 0.0, ALL)
+        return hit.alpha if hit is not None else 1.0
+
+
+def grown(outline_um: Outline, radius_um: float) -> Pieces:
+    """Where the centre of a circle stands when it touches an outline: the outline, grown by the radius."""
+    return _pieces(triangles(outline_um), radius_um)
+
+
+def swept(outline_um: Outline, moving_um: Outline) -> Pieces:
+    """Where the origin of a moving outline stands when it touches an outline that stands still.
+
+    That is the Minkowski sum of the one and the other mirrored at the origin (M. de Berg et al., "Computational
+    Geometry", 3rd ed. 2008, 13.2); of two convex pieces it is the hull of the differences of their corners.
+    """
+    still, moving = triangles(outline_um), triangles(moving_um)
+    return _pieces((one[:, None] - other for one in still for other in moving), 0.0)
+
+
+def sides(outline_um: Outline, radius_um: float) -> Pieces:
+    """All places within a radius of the sides of an outline.
+
+    As polygons of two corners: a query along a line misses the round ends of pymunk's own segments.
+    """
+    corners = np.array(outline_um)
+    return _pieces(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), radius_um)
+
+
+def _pieces(hulls: Iterable[Floats], radius_um: float) -> Pieces:
+    """Pieces of the hulls of points (…, 2)."""
+    space = pymunk.Space()
+    corners = ([(x, y) for x, y in hull.reshape(-1, 2).tolist()] for hull in hulls)
+    shapes = [pymunk.Poly(space.static_body, hull, radius=radius_um) for hull in corners]
+    space.add(*shapes)
+    boxes = np.array([(shape.bb.left, shape.bb.bottom, shape.bb.right, shape.bb.top) for shape in shapes])
+    return Pieces(space, boxes.reshape(-1, 2, 2))

@@ -1,0 +1,100 @@
+"""The last uncut bridge of a piece: where the wire closes on to an older kerf, and how long the piece still held."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from parser.geometry.curves import Floats
+from parser.toolpath import Point
+from sim.cut.kerf.ways import Passage
+
+_FRESH = 3.0  # offsets of way behind the wire that are the kerf it is cutting, not one it closes on to
+_ON_IT = 0.1  # offsets: a start this near to the loop lies on it, and is no lead-in
+_NOTCH = 1.5  # offsets that an outline grows and shrinks by, which closes notches two offsets wide
+_COARSE_UM = 1.0
+_LAST_UM = 1000.0  # of way before a piece comes free, at which it is still held well
+
+
+class Bridge(NamedTuple):
+    """What held a piece last.
+
+    Attributes
+    ----------
+    place_um
+        Half the way from the wire to the older place of it that it closes on to.
+    closes_on_block
+        Block number of the older kerf; None where there is none, at the edge of the work.
+    left_um
+        How far the wire had to go at the begin of the block that freed the piece.
+    last_mm_block, last_mm_t_s
+        Block number and time one millimetre before it came free; at the begin of a shorter contour.
+    """
+
+    place_um: Point
+    closes_on_block: int | None
+    left_um: float
+    last_mm_block: int
+    last_mm_t_s: float
+
+
+class Older(NamedTuple):
+    """An older place of the wire: index of its contour and on the passage, and its distance."""
+
+    contour: int
+    at: int
+    off_um: float
+
+
+def older_place(
+    passages: Sequence[Passage], earlier: Sequence[int], contour: int, at: int, offset_um: float
+) -> Older | None:
+    """The place, of earlier contours or this one, that the wire closes on to; None at the edge of the work."""
+    passage = passages[contour]
+    wire = passage.place_um[at]
+    fresh = int(np.searchsorted(passage.along_um, passage.along_um[at] - _FRESH * offset_um))
+    ways = [(index, passages[index].place_um) for index in earlier] + [(contour, passage.place_um[:fresh])]
+    older = [_nearest(way, wire, index) for index, way in ways if len(way)]
+    nearest = min(older, key=lambda one: one.off_um, default=None)
+    # Discs that touch are two offsets apart; a place farther off has no part in it.
+    return nearest if nearest is not None and nearest.off_um < _FRESH * offset_um else None
+
+
+def bridge_of(passages: Sequence[Passage], contour: int, at: int, older: Older | None) -> Bridge:
+    """The bridge that the wire cuts at a place of a contour, on to an older place."""
+    passage = passages[contour]
+    wire = passage.place_um[at]
+    other = None if older is None else passages[older.contour]
+    x, y = (wire if other is None or older is None else 0.5 * (wire + other.place_um[older.at])).tolist()
+    begin = int(np.searchsorted(passage.row, passage.row[at]))
+    last = int(np.searchsorted(passage.along_um, passage.along_um[at] - _LAST_UM))
+    return Bridge(
+        place_um=Point(x, y),
+        closes_on_block=None if other is None or older is None else int(other.row[older.at]) + 1,
+        left_um=float(passage.along_um[at] - passage.along_um[begin]),
+        last_mm_block=int(passage.row[last]) + 1,
+        last_mm_t_s=float(passage.t_s[last]),
+    )
+
+
+def came_from_inside(passage: Passage, begin: int, end: int, offset_um: float) -> bool:
+    """Whether a passage starts inside the loop that it makes from one place to another, by index, and not on it."""
+    if end - begin < 3:
+        return False
+    loop = shapely.Polygon(passage.place_um[begin : end + 1])
+    start = shapely.Point(passage.place_um[0])
+    return bool(loop.contains(start) and loop.exterior.distance(start) > _ON_IT * offset_um)
+
+
+def began_in(passage: Passage, piece_um: shapely.Polygon, offset_um: float) -> bool:
+    """Whether a passage starts within the outline of a piece, or in the notch that its lead-in left in there."""
+    outline = shapely.simplify(shapely.Polygon(piece_um.exterior), _COARSE_UM)
+    closed = outline.buffer(_NOTCH * offset_um).buffer(-_NOTCH * offset_um)
+    return bool(closed.contains(shapely.Point(passage.place_um[0])))
+
+
+def _nearest(way: Floats, wire: Floats, contour: int) -> Older:
+    off = np.hypot(way[:, 0] - wire[0], way[:, 1] - wire[1])
+    at = int(np.argmin(off))
+    return Older(contour, at, float(off[at]))

@@ -1,0 +1,189 @@
+"""The pieces that the kerf leaves: what each is, which contour frees it and when, and what held it last."""
+
+from typing import Literal, NamedTuple
+
+import numpy as np
+import shapely
+
+from parser.toolpath import Point
+from sim.cut.kerf.region import Kerf
+from sim.cut.kerf.ways import Passage, behind
+from sim.cut.pieces.bridges import Bridge, Older, began_in, bridge_of, came_from_inside, older_place
+from sim.cut.pieces.cut_on import cut_on_um
+from sim.cut.pieces.frees import Moment, Question, moment_of, parted
+from sim.setup.obstacles import Outline
+
+_CRUMB_MM2 = 0.001  # some 30 µm square, or cusps where the wire leaves its kerf: nothing that anyone picks up
+_BESIDE_UM = 1.0  # from a part to the kerfs that bound it: far more than their regions are inexact by
+_EARLY = 2.0  # kerfs cut on in a piece that is free
+
+
+class Material(NamedTuple):
+    """Thickness of the work, and its density: 7.85 g/cm³ of steel, 8.0 of tool steels."""
+
+    thickness_mm: float
+    density_g_cm3: float
+
+    def mass_g(self, area_mm2: float) -> float:
+        """Mass of a piece of the work."""
+        return area_mm2 * self.thickness_mm * self.density_g_cm3 * 1e-3
+
+
+class Freed(NamedTuple):
+    """When a piece comes free: contour and block numbers, from 1, time, and where the wire's centre is then."""
+
+    contour: int
+    block: int
+    t_s: float
+    wire_um: Point
+
+
+class Piece(NamedTuple):
+    """What comes free of the frame.
+
+    Attributes
+    ----------
+    kind
+        ``slug`` where the wire came from inside of it, a die's waste, else ``part``.
+    outline_um
+        Shapely polygon, with holes.
+    area_mm2, mass_g, center_um
+        Of the piece; its centre of gravity.
+    freed
+        When and by what.
+    bridge
+        What held it last.
+    cut_after_um
+        How far the wire goes on to cut in it: the contour that freed it, and in a part those after it.
+    early
+        Whether that is more than two kerfs, in a slug besides a lead-out as long as its lead-in: it comes free before
+        the wire has left it.
+    """
+
+    kind: Literal["part", "slug"]
+    outline_um: shapely.Polygon
+    area_mm2: float
+    mass_g: float
+    center_um: Point
+    freed: Freed
+    bridge: Bridge
+    cut_after_um: float
+    early: bool
+
+
+class Frame(NamedTuple):
+    """What stays: its polygon, area and mass where the outline of the work is known, and the openings in it."""
+
+    outline_um: shapely.Polygon | None
+    area_mm2: float | None
+    mass_g: float | None
+    openings_um: tuple[shapely.Polygon, ...]
+
+
+class Pieces(NamedTuple):
+    """All that is left: the frame, pieces in the order they come free, and how many crumbs under 0.001 mm² besides."""
+
+    frame: Frame
+    freed: tuple[Piece, ...]
+    crumbs: int
+
+
+def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material) -> Pieces:
+    """Pieces that a kerf leaves of the work, or of a plane without end where its outline is not known."""
+    stock = stock_of(kerf, work_um)
+    parts = parted(stock, kerf.region_um)
+    frame = _frame(parts, stock)
+    others = [part for part in parts if part is not frame]
+    whole = [part for part in others if part.area * 1e-6 >= _CRUMB_MM2]
+    held = shapely.point_on_surface(frame)
+    kerfs = shapely.STRtree([swath.region_um for swath in kerf.swaths])
+    found = [_piece(kerf, kerfs, part, Question(stock, part.representative_point(), held), material) for part in whole]
+    pieces = sorted((piece for piece in found if piece is not None), key=lambda piece: piece.freed.t_s)
+    return Pieces(_as_frame(frame, work_um, material), tuple(pieces), len(others) - len(whole))
+
+
+def stock_of(kerf: Kerf, work_um: Outline | None) -> shapely.Polygon:
+    """Polygon of the work, or a box round the kerf for a plane without end."""
+    if work_um is not None:
+        return shapely.Polygon(work_um)
+    if shapely.is_empty(kerf.region_um):
+        return shapely.Polygon()
+    low_x, low_y, high_x, high_y = kerf.region_um.bounds
+    margin = 10.0 * kerf.offset_um
+    return shapely.box(low_x - margin, low_y - margin, high_x + margin, high_y + margin)
+
+
+def _frame(parts: list[shapely.Polygon], stock: shapely.Polygon) -> shapely.Polygon:
+    """The largest part that has some of the stock's own edge: what the clamps hold."""
+    edged = [part for part in parts if part.intersects(stock.exterior)]
+    return max(edged or parts, key=lambda part: part.area, default=shapely.Polygon())
+
+
+def _as_frame(frame: shapely.Polygon, work_um: Outline | None, material: Material) -> Frame:
+    openings = tuple(shapely.Polygon(ring) for ring in frame.interiors)
+    if work_um is None:
+        return Frame(None, None, None, openings)
+    area = frame.area * 1e-6
+    return Frame(frame, area, material.mass_g(area), openings)
+
+
+def _piece(
+    kerf: Kerf, kerfs: shapely.STRtree, part: shapely.Polygon, question: Question, material: Material
+) -> Piece | None:
+    """A part as a piece; None where the contours that have a share in its outer edge do not free it."""
+    contours = _round(kerfs, part)
+    moment = moment_of(question, kerf.swaths, contours, kerf.offset_um)
+    if moment is None:
+        return None
+    contour, at = moment.contour, moment.at
+    passages = [swath.passage for swath in kerf.swaths]
+    earlier = [index for index in contours if index < contour]
+    older = older_place(passages, earlier, contour, at, kerf.offset_um)
+    is_slug = _is_slug(kerf, part, contours, moment, older)
+    lead_um = float(passages[contour].along_um[older.at]) if is_slug and older and older.contour == contour else 0.0
+    area = part.area * 1e-6
+    after = cut_on_um(moment.piece_um, _ways_after(kerf, kerfs, question, moment, is_slug), kerf.offset_um)
+    return Piece(
+        kind="slug" if is_slug else "part",
+        outline_um=part,
+        area_mm2=area,
+        mass_g=material.mass_g(area),
+        center_um=Point(part.centroid.x, part.centroid.y),
+        freed=_freed(passages[contour], moment),
+        bridge=bridge_of(passages, contour, at, older),
+        cut_after_um=after,
+        early=after > _EARLY * 2.0 * kerf.offset_um + lead_um,
+    )
+
+
+def _is_slug(kerf: Kerf, part: shapely.Polygon, contours: list[int], moment: Moment, older: Older | None) -> bool:
+    """Whether the wire came from inside of a part; it never did where the edge of the work parts it."""
+    if older is None:
+        return False
+    if older.contour == moment.contour:
+        return came_from_inside(kerf.swaths[moment.contour].passage, older.at, moment.at, kerf.offset_um)
+    # Several contours went round it, as round a bridge that was left: the first of them tells.
+    return began_in(kerf.swaths[contours[0]].passage, part, kerf.offset_um)
+
+
+def _freed(passage: Passage, moment: Moment) -> Freed:
+    x, y = passage.place_um[moment.at].tolist()
+    return Freed(moment.contour + 1, int(passage.row[moment.at]) + 1, float(passage.t_s[moment.at]), Point(x, y))
+
+
+def _round(kerfs: shapely.STRtree, part: shapely.Polygon) -> list[int]:
+    """Contours whose kerfs have a share in the outer edge of a part: they enclose it, with the edge of the work."""
+    near: list[int] = np.sort(kerfs.query(part.exterior, predicate="dwithin", distance=_BESIDE_UM)).tolist()
+    return near
+
+
+def _ways_after(kerf: Kerf, kerfs: shapely.STRtree, question: Question, moment: Moment, is_slug: bool) -> list[Passage]:
+    """Ways that may cut in a piece once it is free.
+
+    A slug is taken out before the next contour; and what has some of the work's own edge may be held there by a clamp.
+    """
+    rest = behind(kerf.swaths[moment.contour].passage, moment.at)
+    if is_slug or moment.piece_um.intersects(question.stock_um.exterior):
+        return [rest]
+    met = np.sort(kerfs.query(moment.piece_um, predicate="intersects"))
+    return [rest, *(kerf.swaths[at].passage for at in met[met > moment.contour].tolist())]

@@ -1,0 +1,1 @@
+"""How far a free piece can move before it touches."""

@@ -1,0 +1,83 @@
+"""What a cut leaves: its kerf, the pieces that come free and how they can move, and the sizes of what is kept."""
+
+from dataclasses import dataclass
+
+from parser.findings.findings import Finding
+from parser.program import Program
+from parser.shape.contours import Contour
+from parser.threeb.at_block import at_block
+from parser.units import mm
+from sim.cut.kerf.region import Kerf, kerf_of
+from sim.cut.pieces.pieces import Material, Piece, Pieces, pieces_of
+from sim.cut.play.freedom import Play, plays_of
+from sim.cut.sizes.sizes import Sizes, sizes_of
+from sim.setup.scenario import Scenario
+from sim.table.trace import Trace
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Remains:
+    """What a run leaves of the work.
+
+    Attributes
+    ----------
+    kerf
+        What the wire removed.
+    pieces
+        The frame, and what came free of it.
+    plays
+        How each of the pieces can move once it is free.
+    sizes
+        Of what is kept, as cut and nominal.
+    """
+
+    kerf: Kerf
+    pieces: Pieces
+    plays: tuple[Play, ...]
+    sizes: Sizes
+
+
+def remains_of(program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario) -> Remains:
+    """Kerf, pieces and sizes by where the wire really was."""
+    kerf = kerf_of(program.toolpath, trace, contours, scenario.wire.offset_um)
+    pieces = _pieces(kerf, scenario)
+    return Remains(
+        kerf=kerf,
+        pieces=pieces,
+        plays=plays_of(pieces, scenario.wire.radius_um),
+        sizes=sizes_of(program.toolpath, kerf, pieces, scenario.work_um),
+    )
+
+
+def pieces_left(
+    remains: Remains | None, program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario
+) -> Pieces:
+    """Pieces of a run: those of what it leaves, worked out from the rest where nobody had asked for that."""
+    if remains is not None:
+        return remains.pieces
+    return _pieces(kerf_of(program.toolpath, trace, contours, scenario.wire.offset_um), scenario)
+
+
+def _pieces(kerf: Kerf, scenario: Scenario) -> Pieces:
+    return pieces_of(kerf, scenario.work_um, Material(scenario.thickness_mm, scenario.density_g_cm3))
+
+
+def early_findings(program: Program, remains: Remains) -> list[Finding]:
+    """Finding 3B406 for each piece that comes free before its cut is done."""
+    return [_early(program, piece) for piece in remains.pieces.freed if piece.early]
+
+
+def _early(program: Program, piece: Piece) -> Finding:
+    freed = piece.freed
+    return at_block(
+        program.toolpath,
+        program.lines,
+        "3B406",
+        freed.block - 1,
+        kind=piece.kind,
+        area_mm2=piece.area_mm2,
+        cut_after=piece.cut_after_um,
+        t_s=freed.t_s,
+        x_mm=mm(freed.wire_um.x),
+        y_mm=mm(freed.wire_um.y),
+    )

@@ -1,0 +1,1 @@
+"""The sizes of what is kept, beside their nominal ones."""

@@ -1,0 +1,172 @@
+"""Output files of a run: made aside and moved into their folder whole, or not at all."""
+
+import os
+import shutil
+import tempfile
+import zipfile
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any, Self
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from controller.stepping.pulses import Pulses
+from parser.findings.errors import FileUnreadableError
+
+
+@contextmanager
+def staged(target: Path, names: Sequence[str]) -> Iterator[Path]:
+    """Empty folder whose files `names` move into `target` at the end of a block that raised nothing.
+
+    What the block did not make is not there afterwards either: no file of an earlier run stands beside those of this.
+    The folder lies inside the target, so that the moves stay on one file system; folders made for it go again where the
+    block raises. FileUnreadableError where the target is no folder or cannot be written.
+    """
+    try:
+        made = _make_folders(target)
+        with _removed_on_error(made), tempfile.TemporaryDirectory(prefix=".drycut-", dir=target) as folder:
+            for name in names:
+                _refuse_other_than_file(target / name)
+            yield Path(folder)
+            for name in names:
+                _move(Path(folder) / name, target / name)
+    except FileUnreadableError:
+        raise
+    except OSError as error:
+        raise FileUnreadableError(f"{target}: cannot be written: {error.strerror or error}") from None
+
+
+def _move(made: Path, target: Path) -> None:
+    if made.exists():
+        made.replace(target)
+    else:
+        target.unlink(missing_ok=True)
+
+
+def _refuse_other_than_file(path: Path) -> None:
+    """FileUnreadableError where a folder, a device or a pipe has the name of a file that is to be written."""
+    if path.exists() and not path.is_file():
+        kind = "a folder" if path.is_dir() else "no plain file"
+        raise FileUnreadableError(f"{path}: is {kind}; a file of this name is to be written")
+
+
+def _make_folders(target: Path) -> list[Path]:
+    """Make a folder with its parents; those that were missing, innermost first."""
+    if target.exists() and not target.is_dir():
+        raise FileUnreadableError(f"{target}: is a file; a folder of this name is to be written into")
+    missing = [folder for folder in (target, *target.parents) if not folder.exists()]
+    with _removed_on_error(missing):
+        target.mkdir(parents=True, exist_ok=True)
+    return missing
+
+
+@contextmanager
+def _removed_on_error(folders: list[Path]) -> Iterator[None]:
+    try:
+        yield
+    except BaseException:
+        for folder in folders:
+            with suppress(OSError):
+                folder.rmdir()
+        raise
+
+
+class StepFiles:
+    """Arrays of all steps, streamed to files as the pulses come; a `PulseSink`.
+
+    The arrays are ``step_x_um`` and ``step_y_um`` (int32, one more than there are steps, the start first),
+    ``step_block`` (int32) and ``step_t_s`` (float64), one entry a step.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._files: dict[str, IO[bytes]] = {}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        """Close the files; their heads now tell how many entries there are."""
+        for file in self._files.values():
+            if error is None:
+                _finish_head(file)
+            file.close()
+
+    @property
+    def paths(self) -> dict[str, Path]:
+        """Array name to its finished ``.npy`` file."""
+        return {name: self._folder / f"{name}.npy" for name in self._files}
+
+    def open(self, origin_um: tuple[int, int]) -> None:
+        """Make the files, and write the start."""
+        for name in ("step_x_um", "step_y_um", "step_block", "step_t_s"):
+            self._files[name] = (self._folder / f"{name}.npy").open("w+b")
+            _write_head(self._files[name], np.float64 if name == "step_t_s" else np.int32, 0)
+        self._append(step_x_um=np.array(origin_um[:1]), step_y_um=np.array(origin_um[1:]))
+
+    def take(self, pulses: Pulses) -> None:
+        """Append pulses."""
+        self._append(step_x_um=pulses.x_um, step_y_um=pulses.y_um, step_block=pulses.row + 1)
+        self._files["step_t_s"].write(pulses.t_s.tobytes())
+
+    def _append(self, **columns: NDArray[np.integer]) -> None:
+        for name, column in columns.items():
+            self._files[name].write(column.astype("<i4").tobytes())
+
+
+def _write_head(file: IO[bytes], dtype: DTypeLike, length: int) -> None:
+    descr = np.lib.format.dtype_to_descr(np.dtype(dtype))
+    np.lib.format.write_array_header_1_0(file, {"descr": descr, "fortran_order": False, "shape": (length,)})
+
+
+def _finish_head(file: IO[bytes]) -> None:
+    """Write the length into a head: numpy leaves room in it for a first axis that grows."""
+    file.seek(0)
+    np.lib.format.read_magic(file)
+    dtype = np.lib.format.read_array_header_1_0(file)[2]
+    head = file.tell()
+    length = (file.seek(0, os.SEEK_END) - head) // dtype.itemsize
+    file.seek(0)
+    _write_head(file, dtype, length)
+
+
+def write_npz(path: Path, files: Mapping[str, Path], arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Write an uncompressed ``.npz`` of finished ``.npy`` files, which are removed, and of arrays.
+
+    The same input gives the same bytes.
+    """
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED, allowZip64=True) as archive:
+        for name, source in files.items():
+            with source.open("rb") as file, archive.open(_member(name), "w", force_zip64=True) as member:
+                shutil.copyfileobj(file, member, 1 << 20)
+            source.unlink()
+        for name, array in arrays.items():
+            with archive.open(_member(name), "w", force_zip64=True) as member:
+                np.lib.format.write_array(member, np.ascontiguousarray(array), allow_pickle=False)
+
+
+def _member(name: str) -> zipfile.ZipInfo:
+    return zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
+
+
+def replace_file(path: Path, data: bytes) -> None:
+    """Put `data` in place of a file's content, whole or not at all; its permissions stay, a link is followed.
+
+    Raises FileUnreadableError where it cannot be written.
+    """
+    target = path.resolve()
+    try:
+        with tempfile.NamedTemporaryFile(prefix=".drycut-", dir=target.parent, delete=False) as file:
+            try:
+                file.write(data)
+                file.close()
+                shutil.copymode(target, file.name)
+                Path(file.name).replace(target)
+            except BaseException:
+                Path(file.name).unlink(missing_ok=True)
+                raise
+    except OSError as error:
+        raise FileUnreadableError(f"{path}: cannot be written: {error.strerror or error}") from None

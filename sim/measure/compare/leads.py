@@ -1,0 +1,83 @@
+"""Lead-ins and lead-outs that cut into the part: how deep their kerf reaches past the edge."""
+
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from parser.geometry.along import places
+from parser.geometry.curves import Curves, Floats, Ints
+from parser.toolpath import Point
+from sim.measure.compare.edge import Edge, Gouge
+from sim.measure.compare.nearest import Index, indexed, nearest
+from sim.measure.compare.rings import orientation, polygon
+
+_LEAST_UM = 1.0  # shallower, it is the rounding of the program's ends
+_RIGHT_TO_UM = 0.5
+
+
+class _Part(NamedTuple):
+    """The edge with its loops as polygons, and of each whether the part lies inside, and where it is known."""
+
+    nearest: Index
+    loop: Ints
+    shapes: shapely.STRtree
+    inside: Ints
+    known: Ints
+
+
+def gouges(edge: Edge, leads: Curves, block: Ints, offset_um: float) -> tuple[Gouge, ...]:
+    """Gouges of leads (m,) made by blocks (m,), each deepest place right to 0.5 µm, by block.
+
+    The kerf reaches the offset past the wire's centre: a wire that stands d inside of the part has cut d and the
+    offset deep, one that stands d outside the offset less d.
+    """
+    if not len(leads) or not len(edge.curves):
+        return ()
+    part = _part(edge)
+    deepest, where = _deepest(part, leads, offset_um)
+    found = [
+        Gouge(int(block[at]), Point(*where[at].tolist()), float(deepest[at]))
+        for at in np.flatnonzero(deepest > _LEAST_UM).tolist()
+    ]
+    return tuple(sorted(found))
+
+
+def _part(edge: Edge) -> _Part:
+    loops = [edge.curves.picked(edge.loop == of) for of in range(int(edge.loop.max()) + 1)]
+    sides = edge.part_side[np.searchsorted(edge.loop, np.arange(len(loops)))]
+    inside = sides == np.array([orientation(loop) for loop in loops])
+    shapes = shapely.STRtree([polygon(loop) for loop in loops])
+    return _Part(indexed(edge.curves), edge.loop, shapes, inside.astype(np.int64), (sides != 0).astype(np.int64))
+
+
+def _depth(part: _Part, place_um: Floats, offset_um: float) -> Floats:
+    """How deep (m,) µm a wire at places (m, 2) cuts into the part, negative by how far it stays off."""
+    near = nearest(part.nearest, place_um)
+    loop = part.loop[near.row]
+    place, within = part.shapes.query(shapely.points(place_um), predicate="within")
+    inside = np.zeros(len(place_um), dtype=np.int64)
+    inside[place[within == loop[place]]] = 1
+    into = np.where(inside == part.inside[loop], near.distance_um, -near.distance_um)
+    return np.where(part.known[loop] == 1, offset_um + into, -np.inf)
+
+
+def _deepest(part: _Part, leads: Curves, offset_um: float) -> tuple[Floats, Floats]:
+    """The largest depth (m,) along each lead, and its place (m, 2); the depth changes no faster than the wire goes."""
+    row = np.arange(len(leads))
+    begin, end = np.zeros(len(row)), np.ones(len(row))
+    at_begin, at_end = (_depth(part, places(leads, row, share), offset_um) for share in (begin, end))
+    best, fraction = np.maximum(at_begin, at_end), np.where(at_end > at_begin, 1.0, 0.0)
+    while len(row):
+        bound = 0.5 * (at_begin + at_end + leads.length_um[row] * (end - begin))
+        deep = np.flatnonzero(bound > np.maximum(best[row], _LEAST_UM) + _RIGHT_TO_UM)
+        row = row[deep]
+        begin, end, at_begin, at_end = (column[deep] for column in (begin, end, at_begin, at_end))
+        middle = 0.5 * (begin + end)
+        depth = _depth(part, places(leads, row, middle), offset_um)
+        order = np.argsort(depth, kind="stable")  # the deepest is entered last
+        order = order[depth[order] > best[row[order]]]
+        best[row[order]], fraction[row[order]] = depth[order], middle[order]
+        row, begin, end = np.tile(row, 2), np.append(begin, middle), np.append(middle, end)
+        at_begin, at_end = np.append(at_begin, depth), np.append(depth, at_end)
+    return best, places(leads, np.arange(len(leads)), fraction)

@@ -1,0 +1,122 @@
+"""Deviation by cause: what each stage from the plan to the wire adds across the path, each by itself."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from controller.motion.path import Path, path_of
+from controller.motion.plan import Plan
+from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Toolpath
+from sim.measure.deviation.across import where
+from sim.measure.deviation.deviation import Deviation, Where
+from sim.table.trace import Trace
+
+
+class Part(NamedTuple):
+    """What one cause adds: the most, µm, and where it was met first; None where it adds nothing."""
+
+    max_um: float
+    where: Where | None
+
+
+NOTHING = Part(0.0, None)
+
+
+class Causes(NamedTuple):
+    """Parts of the deviation.
+
+    Attributes
+    ----------
+    interpolation
+        Rounding to steps.
+    carried
+        What the blocks before missed.
+    planning
+        Chords between the places at which the plan's motion is sampled; nothing where each step is made for the path.
+    table
+        Of the table against its command.
+    wire
+        Of the wire against the table.
+    """
+
+    interpolation: Part
+    carried: Part
+    planning: Part
+    table: Part
+    wire: Part
+
+
+def whole(deviation: Deviation) -> Part:
+    """All of a deviation as one part."""
+    return Part(deviation.max_um, deviation.where) if deviation.max_um > 0.0 else NOTHING
+
+
+def added(trace: Trace, place_um: Floats, across_um: Floats, before_um: Floats) -> Part:
+    """What places (m, 2) add that lie (m,) across the path, to what lay (m,) `before_um` across it."""
+    return _largest(trace, place_um, np.abs(across_um - before_um))
+
+
+def carried(toolpath: Toolpath, trace: Trace, drift_um: Floats, along_um: Floats) -> Part:
+    """What the drifts (n, 2) of the steps before each block come to across the path; `along_um` (m,) of the samples."""
+    if not drift_um.any():
+        return NOTHING
+    path = path_of(toolpath)
+    since = np.clip(along_um - path.before_um[trace.row], 0.0, path.length_um[trace.row])
+    toward, drift = path.direction(trace.row, since), drift_um[trace.row]
+    return _largest(trace, trace.commanded_um, np.abs(toward[:, 0] * drift[:, 1] - toward[:, 1] * drift[:, 0]))
+
+
+def _largest(trace: Trace, place_um: Floats, away_um: Floats) -> Part:
+    at = int(np.argmax(away_um))
+    return Part(float(away_um[at]), where(trace, place_um, at)) if away_um[at] > 0.0 else NOTHING
+
+
+def cut_off(toolpath: Toolpath, trace: Trace, plan: Plan, period_s: float) -> Part:
+    """What chords between the places planned for the ends of periods leave of the path: of arcs, and of corners."""
+    path = path_of(toolpath)
+    on_arcs = trace.t_s[path.curvature[trace.row] > 0.0]
+    at_corners = plan.time_at(path.before_um[1:-1])
+    time = np.concatenate([on_arcs, at_corners])
+    away = np.concatenate([_arcs_cut_off(path, plan, on_arcs, period_s), _corners_cut_off(path, plan, period_s)])
+    if not away.any():
+        return NOTHING
+    at = int(np.argmax(away))
+    row, place = _planned(path, plan.at(time[at : at + 1]).along_um)
+    x, y = place[0].tolist()
+    return Part(float(away[at]), Where(int(row[0]) + 1, x, y, float(time[at])))
+
+
+def _arcs_cut_off(path: Path, plan: Plan, t_s: Floats, period_s: float) -> Floats:
+    """Sagitta of the way of one period on arcs at times (m,): 1 − cos, without loss for small angles."""
+    instant = plan.at(t_s)
+    row = _row(path, instant.along_um)
+    bend = path.curvature[row]
+    way = np.minimum(instant.speed_um_s * period_s, path.length_um[row])
+    sagitta = 2.0 * np.sin(np.minimum(bend * way, 2.0 * np.pi) / 4.0) ** 2
+    return np.divide(sagitta, bend, out=np.zeros_like(bend), where=bend > 0.0)
+
+
+def _corners_cut_off(path: Path, plan: Plan, period_s: float) -> Floats:
+    """How far the chord over each inner border of rows stays away from the path there.
+
+    With a way a before a corner of angle γ and b after it the chord is at most a b sin γ / (a + b) off both sides:
+    where it crosses the line that halves the angle.
+    """
+    before = path.before_um[1:-1]
+    period = np.floor(plan.time_at(before) / period_s)
+    low, high = (plan.at(end * period_s).along_um for end in (period, period + 1.0))
+    start, end = _planned(path, low)[1], _planned(path, high)[1]
+    corner, by = path.start_um[1:] - start, end - start
+    twice_the_area = np.abs(by[:, 0] * corner[:, 1] - by[:, 1] * corner[:, 0])
+    return np.divide(twice_the_area, high - low, out=np.zeros_like(before), where=high > low)
+
+
+def _planned(path: Path, along_um: Floats) -> tuple[Ints, Floats]:
+    """Rows (m,) and places (m, 2) at lengths along the path."""
+    row = _row(path, along_um)
+    return row, path.place(row, np.minimum(along_um - path.before_um[row], path.length_um[row]))
+
+
+def _row(path: Path, along_um: Floats) -> Ints:
+    return np.clip(np.searchsorted(path.before_um, along_um, side="right") - 1, 0, len(path) - 1)

@@ -1,0 +1,111 @@
+"""Meters on the pulses of a run: how far the steps lie from the ideal geometry, and from where the plan wants them."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from controller.host.entries import Drive
+from controller.motion.path import path_of
+from controller.stepping.equal_time import chord_error_um
+from controller.stepping.pulses import Pulses
+from parser.geometry.curves import Bools, Floats
+from sim.measure.deviation.deviation import Deviation, DeviationMeter
+
+PERIOD_ROUNDING = 1e-3
+"""Share of a period by which rounding may move its end: 10⁻⁷ s over months of cutting."""
+
+
+class Sampling(NamedTuple):
+    """What interpolating at equal times costs.
+
+    Attributes
+    ----------
+    axis_um
+        Largest distance in X and in Y of the place commanded at the end of a servo period from the planned one.
+    chord_um
+        Largest distance of an arc from the chord between two such ends.
+    rounding
+        Deviation of the places commanded at those ends.
+    """
+
+    axis_um: tuple[float, float]
+    chord_um: float
+    rounding: Deviation
+
+
+class StepMeters:
+    """Deviation of the steps where they are, and of each block from where it began.
+
+    Parameters
+    ----------
+    drive
+        What is run.
+    drift_um
+        (n, 2) how far the steps are off before each block: what the blocks before missed, of an interpolator that
+        starts blocks where the steps of the one before ended, and what the start lies beside whole µm.
+    """
+
+    def __init__(self, drive: Drive, drift_um: Floats) -> None:
+        self._placed = DeviationMeter(drive.toolpath)
+        self._own = DeviationMeter(drive.toolpath) if drift_um.any() else self._placed
+        self._drift = drift_um
+
+    def take(self, pulses: Pulses) -> None:
+        """Take the next pulses."""
+        settled = at_rest_between(pulses)
+        row, t_s = pulses.row[settled], pulses.t_s[settled]
+        x, y = pulses.x_um[settled].astype(np.float64), pulses.y_um[settled].astype(np.float64)
+        self._placed.add(row, x, y, t_s)
+        if self._own is self._placed:
+            return
+        self._own.add(row, x - self._drift[:, 0][row], y - self._drift[:, 1][row], t_s)
+
+    @property
+    def placed(self) -> Deviation:
+        """Of the steps where they are."""
+        return self._placed.result()
+
+    @property
+    def own(self) -> Deviation:
+        """Of the steps without what the blocks before missed."""
+        return self._own.result()
+
+
+class SamplingMeter:
+    """How far the places commanded at equal times are from the planned ones."""
+
+    def __init__(self, drive: Drive, period_s: float) -> None:
+        self._drive, self._period_s = drive, period_s
+        self._path = path_of(drive.toolpath)
+        self._before = self._path.before_um
+        self._shift = np.array(drive.origin_um) - drive.toolpath.start_um[:1]
+        self._most = np.zeros(2)
+        self._rounding = DeviationMeter(drive.toolpath)
+
+    def take(self, pulses: Pulses) -> None:
+        """Take the next pulses."""
+        settled = self._ends_period(pulses.t_s)
+        along = self._drive.plan.at(pulses.t_s[settled]).along_um
+        row = np.minimum(np.searchsorted(self._before, along, side="right") - 1, len(self._path) - 1)
+        wanted = self._path.place(row, along - self._before[row]) + self._shift
+        place = np.stack([pulses.x_um[settled], pulses.y_um[settled]], axis=1)
+        self._most = np.maximum(self._most, np.abs(place - wanted).max(axis=0, initial=0.0))
+        own = place - self._shift
+        self._rounding.add(pulses.row[settled], own[:, 0], own[:, 1], pulses.t_s[settled])
+
+    def _ends_period(self, t_s: Floats) -> Bools:
+        """Whether the pulse is the last at the end of a servo period; motion begins with one."""
+        periods = t_s / self._period_s
+        return (np.abs(periods - np.rint(periods)) < PERIOD_ROUNDING) & (np.diff(t_s, append=np.inf) > 0.0)
+
+    def result(self) -> Sampling:
+        """Of all pulses so far."""
+        x, y = self._most.tolist()
+        chord_um = chord_error_um(self._path, self._drive.plan, self._period_s)
+        return Sampling((x, y), chord_um, self._rounding.result())
+
+
+def at_rest_between(pulses: Pulses) -> slice | Bools:
+    """The pulses after which some time passes: of two axes that are pulsed at once, the place is that after both."""
+    last: Bools = np.diff(pulses.t_s, append=np.inf) > 0.0
+    return slice(None) if last.all() else last

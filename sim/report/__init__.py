@@ -1,6 +1,0 @@
-"""``report.json``: the run as data, schema ``drycut.report/1`` (docs/report.md)."""
-
-from sim.report.document import SCHEMA, build_report
-from sim.report.text import report_text
-
-__all__ = ["SCHEMA", "build_report", "report_text"]

@@ -1,5 +1,0 @@
-"""``report.html``: the run as one page for people, in English and Chinese (docs/report.md)."""
-
-from sim.report_page.page import report_page
-
-__all__ = ["report_page"]

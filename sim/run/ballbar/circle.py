@@ -1,0 +1,164 @@
+"""The circular test itself: the circle as a 3B program, run in both directions on card and table."""
+
+from dataclasses import dataclass
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from controller.motion.limits import Feeds
+from controller.stepping.pulses import Pulses
+from parser.findings.errors import SettingsError
+from parser.program import parse_program
+from parser.units import from_mm, mm
+from sim.run.ballbar.figures import Figures, circularity, figures_of
+from sim.run.ballbar.held import HeldSteps
+from sim.run.ballbar.parts import Parts, parts_of
+from sim.run.ballbar.turn import NAMES, SENSES, Sense, Turn
+from sim.setup.machine.machine import Machine
+from sim.setup.toml.reader import Bound, number
+from sim.table.motion import Motion, Progress, motion_of, simulate
+from sim.table.physics.motor import Motors
+from sim.table.record.losses import Loss
+
+FEED_MM_MIN: Final = Bound(0.1, 100_000.0)
+LEAST_RADIUS_MM: Final = 0.1
+_SPACING_UM: Final = 5.0  # of samples along the circle
+Both = tuple[Turn, Turn]
+"""Turns counter-clockwise and clockwise."""
+
+_WORDS: Final[dict[Sense, str]] = {1: "NR1", -1: "SR4"}
+
+
+class CircleTest(NamedTuple):
+    """What is run: a circle of a whole number of µm about the middle of the travel, at a feed along the path."""
+
+    machine: Machine
+    radius_um: int
+    feed_um_s: float
+
+
+class Measured(NamedTuple):
+    """What two turns that go round tell.
+
+    Attributes
+    ----------
+    figures, parts
+        Of both directions.
+    interpolation_um
+        Circular deviation G of the steps as they were commanded, the larger of both directions.
+    """
+
+    figures: Figures
+    parts: Parts
+    interpolation_um: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ballbar:
+    """A circular test and what came of it.
+
+    Attributes
+    ----------
+    test
+        What was run.
+    run_um_s
+        Feed as planned: less than asked for where the acceleration of the machine does not bend the path so fast.
+    turns
+        Measured turns, counter-clockwise and clockwise.
+    losses
+        What the drives lost in either direction, run-in and run-out included.
+    measured
+        None where a turn does not go round.
+    """
+
+    test: CircleTest
+    run_um_s: float
+    turns: tuple[Turn, Turn]
+    losses: tuple[tuple[Sense, Loss], ...]
+    measured: Measured | None
+
+    def passes(self, tolerance_um: float | None) -> bool:
+        """Whether nothing was lost, the turns go round, and the circularity keeps to the tolerance, if there is one."""
+        if self.losses or self.measured is None:
+            return False
+        return tolerance_um is None or self.measured.figures.circularity_um <= tolerance_um
+
+
+def circle_test(machine: Machine, radius_um: float, feed_um_s: float | None) -> CircleTest:
+    """Test of a radius, at the feed of the machine's jumps where none is given.
+
+    Raises SettingsError where the radius is no whole number of µm or does not fit the travel, or the feed is absurd.
+    """
+    table = machine.table
+    most_mm = min(table.travel_x_mm, table.travel_y_mm) / 2.0
+    number(mm(radius_um), Bound(LEAST_RADIUS_MM, most_mm), f"--radius in mm (travel of {machine.name})")
+    if radius_um != int(radius_um):
+        raise SettingsError(f"--radius is a whole number of µm, as 3B counts them; found {radius_um:g} µm")
+    if feed_um_s is None:
+        feed_um_s = from_mm(machine.controller.jump_feed_mm_s)
+    number(mm(feed_um_s) * 60.0, FEED_MM_MIN, "--feed in mm/min")
+    return CircleTest(machine, int(radius_um), feed_um_s)
+
+
+def run_test(test: CircleTest, progress: Progress) -> Ballbar:
+    """Run the circle in both directions and measure it."""
+    ccw, cw = (_run(test, sense, progress) for sense in SENSES)
+    return Ballbar(
+        test=test,
+        run_um_s=ccw.feed_um_s,
+        turns=(ccw.table, cw.table),
+        losses=tuple((sense, loss) for sense, run in zip(SENSES, (ccw, cw), strict=True) for loss in run.losses),
+        measured=measure((ccw.table, cw.table), (ccw.motors, cw.motors), (ccw.steps, cw.steps), test.radius_um),
+    )
+
+
+def measure(turns: Both, motors: Both, steps: Both, radius_um: float) -> Measured | None:
+    """What two turns tell that were driven by these turns of the motors, and those by these steps, on a radius."""
+    if not all(turn.goes_round for turn in turns):
+        return None
+    return Measured(figures_of(*turns, radius_um), parts_of(turns, motors), max(map(circularity, steps)))
+
+
+class _Run(NamedTuple):
+    """One direction: the measured turn of the table, of its motors, and the steps of it; planned feed, and losses."""
+
+    table: Turn
+    motors: Turn
+    steps: Turn
+    feed_um_s: float
+    losses: tuple[Loss, ...]
+
+
+def _run(test: CircleTest, sense: Sense, progress: Progress) -> _Run:
+    """Run two turns and keep the middle one, so that both its ends are run through."""
+    motion = _motion(test, sense)
+    plan = motion.drive.plan
+    start_s, middle_s, end_s = plan.time_at(np.array([1.0, 2.0, 3.0]) * np.pi * test.radius_um).tolist()
+    held = HeldSteps(start_s, end_s)
+    motors = Motors(motion.table.model.motor.step_time_s, motion.drive.origin_um)
+
+    def take(pulses: Pulses) -> None:
+        held.take(pulses)
+        motors.take(pulses, start_s)
+
+    def told(stage: str, done: int, total: int) -> None:
+        progress(f"{stage}, {NAMES[sense]}", done, total)
+
+    trace, losses, *_ = simulate(motion, take, told)
+    measured = (trace.t_s >= start_s) & (trace.t_s <= end_s)
+    center_um = trace.commanded_um[0] - (test.radius_um, 0.0)
+    return _Run(
+        table=Turn(sense, trace.table_um[measured] - center_um),
+        motors=Turn(sense, motors.at_um(trace.t_s[measured]) - center_um),
+        steps=Turn(sense, held.places_um() - center_um),
+        feed_um_s=float(plan.at(middle_s).speed_um_s),
+        losses=losses,
+    )
+
+
+def _motion(test: CircleTest, sense: Sense) -> Motion:
+    """Two turns from +X about the middle of the travel; 3B counts 4R in a turn."""
+    radius, table = test.radius_um, test.machine.table
+    toolpath = parse_program(f"B{radius}B0B{8 * radius}GY{_WORDS[sense]}DD").toolpath
+    start_um = from_mm(table.travel_x_mm / 2.0) + radius, from_mm(table.travel_y_mm / 2.0)
+    return motion_of(toolpath, Feeds(test.feed_um_s, test.feed_um_s), test.machine, start_um, _SPACING_UM)

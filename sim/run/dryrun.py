@@ -1,0 +1,216 @@
+"""The dry run: one program through controller, card and table, and what came of it."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from controller.card.log import CardLog
+from controller.motion.plan import Plan
+from controller.stepping.pulses import Pulses
+from parser.drawing.model import Drawing
+from parser.findings.findings import Finding, Severity, file_order
+from parser.geometry.curves import Floats
+from parser.program import Program
+from parser.shape.contours import Contour, find_contours
+from parser.toolpath import Toolpath
+from sim.check.result import Coverage
+from sim.cut.obstacles.findings import obstacle_findings
+from sim.cut.remains import Remains, early_findings, remains_of
+from sim.cut.wire_lag import bowed
+from sim.measure.compare.findings import drawing_findings, held_against
+from sim.measure.compare.result import Comparison
+from sim.measure.deviation.measured import Deviations, Meters
+from sim.measure.deviation.stepped import Stepped
+from sim.run.offsetting import Offsetting
+from sim.run.prepare import prepare
+from sim.setup.part import DrawingAsked
+from sim.setup.scenario import Scenario
+from sim.table.findings import loss_findings
+from sim.table.motion import Motion, Progress, motion_of, simulate
+from sim.table.record.history import History
+from sim.table.record.losses import Loss
+from sim.table.record.peaks import Peak
+from sim.table.trace import Trace
+
+
+class PulseSink(Protocol):
+    """Takes the pulses of a run as they are handed out."""
+
+    def open(self, origin_um: tuple[int, int]) -> None:
+        """Get ready for pulses that start from here."""
+
+    def take(self, pulses: Pulses) -> None:
+        """Take the next pulses, in program coordinates."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DryRun:
+    """All that is known after a run.
+
+    Attributes
+    ----------
+    program, scenario
+        What was run: the toolpath of the program is the one that ran.
+    offset
+        What the controller's compensation made of the program; None where it ran as written.
+    stepped, plan, trace
+        What the controller made of it, and table and wire.
+    losses, peaks
+        What the drives lost, and how near they came to their limits.
+    history
+        How the table moved over time.
+    deviations
+        Of steps, table and wire.
+    contours
+        Contours with their closures.
+    block_time_s
+        (n,) float64, planned time in each block.
+    remains
+        Kerf, pieces and sizes; None where nobody asked for them or for a drawing.
+    comparison
+        The cut edge beside its drawing; None where there is no drawing, or no edge.
+    findings
+        Of program and run, in file order.
+    coverage
+        How far their checks came.
+    """
+
+    program: Program
+    scenario: Scenario
+    offset: Offsetting | None
+    stepped: Stepped
+    plan: Plan
+    trace: Trace
+    losses: tuple[Loss, ...]
+    peaks: tuple[Peak, ...]
+    history: History
+    deviations: Deviations
+    contours: tuple[Contour, ...]
+    block_time_s: Floats
+    remains: Remains | None
+    comparison: Comparison | None
+    findings: tuple[Finding, ...]
+    coverage: Coverage
+
+    @property
+    def tripped(self) -> Loss | None:
+        """Where a drive tripped; None where none did."""
+        return next((loss for loss in self.losses if loss.kind == "trip"), None)
+
+    @property
+    def ran_s(self) -> float:
+        """How long the machine ran: until a drive tripped, else as planned."""
+        return self.plan.duration_s if self.tripped is None else self.tripped.t_s
+
+    @property
+    def cut(self) -> Trace:
+        """The trace as far as the machine ran: after a trip it stands, and cuts nothing of what follows."""
+        return _cut(self.trace, self.losses)
+
+    @property
+    def toolpath(self) -> Toolpath:
+        """The exact geometry that was run, the offset added."""
+        return self.program.toolpath
+
+
+def verdict(findings: tuple[Finding, ...]) -> str:
+    """``fail`` where any finding is an error, else ``pass``."""
+    return "fail" if any(finding.severity is Severity.ERROR for finding in findings) else "pass"
+
+
+def dry_run(
+    program: Program,
+    scenario: Scenario,
+    progress: Progress,
+    sink: PulseSink | None = None,
+    log: CardLog | None = None,
+) -> DryRun:
+    """Run a program on the machine of a scenario; its pulses go to `sink`, the calls to its card to `log`.
+
+    Raises ProgramError where the program asks for more than any table can do, and DrawingError where the scenario's
+    drawing cannot be read.
+    """
+    drawing = _drawing(scenario.drawing)
+    ready = prepare(program, scenario)
+    program, toolpath = ready.program, ready.program.toolpath
+    motion = _motion(toolpath, scenario)
+    meters = Meters(motion, ready.steps)
+    sinks = [meters.take]
+    if sink is not None:
+        sink.open(motion.drive.origin_um)
+        sinks.append(sink.take)
+
+    def take(pulses: Pulses) -> None:
+        for taker in sinks:
+            taker(pulses)
+
+    moved = simulate(motion, take, progress, log)
+    trace = bowed(moved.trace, toolpath, scenario.wire_lag_um)
+    stepped = meters.tally.result()
+    contours = find_contours(toolpath, stepped.corner_um)
+    met = obstacle_findings(program, trace, contours, scenario)
+    lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
+    plan = motion.drive.plan
+    cut = _cut(trace, moved.losses)
+    remains, comparison, left = _left(program, cut, contours, scenario, drawing)
+    return DryRun(
+        program=program,
+        scenario=scenario,
+        offset=ready.offset,
+        stepped=stepped,
+        plan=plan,
+        trace=trace,
+        losses=moved.losses,
+        peaks=moved.peaks,
+        history=moved.history,
+        deviations=meters.deviations(cut),
+        contours=contours,
+        block_time_s=_block_times(plan, ready.steps.along_um),
+        remains=remains,
+        comparison=comparison,
+        findings=tuple(sorted([*ready.findings, *met, *lost, *left], key=file_order)),
+        coverage=ready.coverage,
+    )
+
+
+def _drawing(held: DrawingAsked | None) -> Drawing | None:
+    if held is None:
+        return None
+    from parser.drawing.read import read_drawing  # noqa: PLC0415 - most runs have no drawing, and ezdxf loads for 0.3 s
+
+    return read_drawing(held.file, layer=held.layer, gap_um=held.gap_um)
+
+
+def _left(
+    program: Program, cut: Trace, contours: tuple[Contour, ...], scenario: Scenario, drawing: Drawing | None
+) -> tuple[Remains | None, Comparison | None, list[Finding]]:
+    """What the cut leaves, beside the drawing, with findings; as far as the scenario asks for it."""
+    held = scenario.drawing
+    if not scenario.kerf and held is None:
+        return None, None, []
+    remains = remains_of(program, cut, contours, scenario)
+    found = early_findings(program, remains)
+    if held is None or drawing is None:
+        return remains, None, found
+    comparison = held_against(program, remains.pieces, scenario.wire.offset_um, drawing, held)
+    return remains, comparison, [*found, *drawing_findings(program, comparison)]
+
+
+def _cut(trace: Trace, losses: tuple[Loss, ...]) -> Trace:
+    """The trace as far as the machine ran: after a trip it stands, and cuts nothing of what follows."""
+    trip = next((loss for loss in losses if loss.kind == "trip"), None)
+    return trace.until(trip.t_s) if trip else trace
+
+
+def _block_times(plan: Plan, before_um: Floats) -> Floats:
+    """Planned time (n,) s in each block, which add up to the whole."""
+    reached = plan.time_at(before_um)
+    reached[-1] = plan.duration_s
+    return np.diff(reached)
+
+
+def _motion(toolpath: Toolpath, scenario: Scenario) -> Motion:
+    machine = scenario.machine
+    feeds = machine.feeds(scenario.thickness_mm)
+    return motion_of(toolpath, feeds, machine, scenario.start_um, scenario.trace_spacing_um)

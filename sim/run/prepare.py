@@ -1,0 +1,79 @@
+"""Before anything moves: a program checked, and the offset added where the controller is to add one."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from controller.stepping.point_by_point import interpolate
+from controller.stepping.steps import Steps
+from parser.findings.errors import ProgramError
+from parser.findings.findings import Finding
+from parser.program import Program
+from sim.check.engine import Demands, check_program, too_many_steps
+from sim.check.result import CheckState, Coverage
+from sim.check.travel import travel_findings
+from sim.run.offsetting import Offsetting, offsetting
+from sim.setup.quiz import refuse_unanswerable
+from sim.setup.scenario import Scenario
+
+
+class Prepared(NamedTuple):
+    """A program that is ready to run.
+
+    Attributes
+    ----------
+    program
+        The program, its toolpath the one that runs.
+    steps
+        Of that toolpath, point by point.
+    offset
+        What the offset made of the program; None where it runs as written.
+    findings, coverage
+        Of the program as it was read, and of its offset; and how far their checks came.
+    """
+
+    program: Program
+    steps: Steps
+    offset: Offsetting | None
+    findings: tuple[Finding, ...]
+    coverage: Coverage
+
+
+def prepare(program: Program, scenario: Scenario) -> Prepared:
+    """Check a program, and add the offset of the scenario.
+
+    ProgramError where no table can do what it asks for, SettingsError where the scenario asks about a block that the
+    program does not have.
+    """
+    refuse_unanswerable(scenario.quiz, program.toolpath)
+    checked = check_program(program, _demands(scenario))
+    if checked.steps is None:
+        raise _refusal(program, checked.findings)
+    if scenario.offset is None:
+        return Prepared(program, checked.steps, None, checked.findings, checked.coverage)
+    offset = offsetting(program, scenario.offset)
+    steps = interpolate(offset.program.toolpath)
+    beyond = too_many_steps(offset.program, steps)
+    if beyond:
+        raise _refusal(program, beyond)
+    travel = travel_findings(offset.program, steps, scenario.machine.table, scenario.start_um)
+    coverage = _looked_at(checked.coverage, ("check-corners", "check-travel"))
+    return Prepared(offset.program, steps, offset, (*checked.findings, *offset.findings, *travel), coverage)
+
+
+def _demands(scenario: Scenario) -> Demands:
+    """What the program is held against; with an offset, corners and travel are those of the offset path."""
+    if scenario.offset is not None:
+        return Demands(may_stay_open=scenario.may_stay_open)
+    return Demands(scenario.machine.table, scenario.start_um, scenario.wire.offset_um, scenario.may_stay_open)
+
+
+def _looked_at(coverage: Coverage, names: Sequence[str]) -> Coverage:
+    """The coverage with some checks done after all."""
+    states = (CheckState(state.name) if state.name in names else state for state in coverage.checks)
+    return coverage._replace(checks=tuple(states))
+
+
+def _refusal(program: Program, findings: Sequence[Finding]) -> ProgramError:
+    """Error of a program that asks for more than any table can do."""
+    finding = next(finding for finding in findings if finding.code == "3B206")
+    return ProgramError(finding, excerpt=program.excerpt(finding.line))

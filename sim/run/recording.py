@@ -1,0 +1,80 @@
+"""A recorded run: the run and every step of it, which pictures, report and replay are made of."""
+
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from controller.stepping.pulses import Pulses
+from parser.program import Program
+from sim.cut.pieces.pieces import Frame, Pieces
+from sim.cut.remains import pieces_left
+from sim.files import StepFiles
+from sim.run.dryrun import DryRun, dry_run
+from sim.run.judge import check_expectations
+from sim.setup.scenario import Scenario
+from sim.table.motion import Progress
+
+NO_PIECES = Pieces(Frame(None, None, None, ()), (), 0)
+MOST_PASSES = 6.0
+"""A contour cut once makes 0.8 of a pass, with three trim cuts 3. 1,900 turns on circles of 0.14 mm make 10 passes, and
+their kerf takes 85 s."""
+
+
+class Recording(NamedTuple):
+    """A run and all its steps.
+
+    Attributes
+    ----------
+    run
+        What came of it.
+    pieces
+        What the cut leaves of the work; none where nobody asked for it and it would take minutes.
+    steps
+        Every pulse, in program coordinates, in arrays that lie in files: take slices of them. The place before the
+        first one is `sim.table.motion.origin_um` of the toolpath.
+    """
+
+    run: DryRun
+    pieces: Pieces
+    steps: Pulses
+
+
+def recording_of(run: DryRun, files: Mapping[str, Path], progress: Progress) -> Recording:
+    """The recording of a run from the finished files of its steps, which must stay where they are."""
+    x, y, block, t_s = (
+        np.load(files[f"step_{name}"], mmap_mode="r", allow_pickle=False) for name in ("x_um", "y_um", "block", "t_s")
+    )
+    progress("working out the pieces", 0, 1)
+    return Recording(run, pieces_of_run(run), Pulses(t_s, x[1:], y[1:], block - 1))
+
+
+@contextmanager
+def recorded(program: Program, scenario: Scenario, progress: Progress) -> Iterator[Recording]:
+    """Dry-run a program and keep its steps in files for as long as the context lasts; raises what `dry_run` does."""
+    with tempfile.TemporaryDirectory(prefix="drycut-") as folder:
+        with StepFiles(Path(folder)) as files:
+            run = check_expectations(dry_run(program, scenario, progress, files))
+        yield recording_of(run, files.paths, progress)
+
+
+def pieces_of_run(run: DryRun) -> Pieces:
+    """What the cut leaves of the work.
+
+    Where the run was not asked for it, it is worked out for those who look; nothing where the path runs so often over
+    itself that this would take minutes.
+    """
+    if run.remains is None and _passes(run) > MOST_PASSES:
+        return NO_PIECES
+    return pieces_left(run.remains, run.program, run.cut, run.contours, run.scenario)
+
+
+def _passes(run: DryRun) -> float:
+    """How often the wire runs through each place, by the squares as wide as the kerf that it meets."""
+    kerf_um = run.scenario.wire.kerf_um
+    column, row = np.floor(run.cut.wire_um / kerf_um).astype(np.int64).T
+    met = len(np.unique(column * (1 << 32) + row))
+    return float(run.toolpath.length_um[~run.toolpath.is_jump].sum()) / (met * kerf_um)

@@ -1,0 +1,58 @@
+"""Entries of the report on each block."""
+
+from typing import Any
+
+import numpy as np
+
+from parser.geometry.curves import Kind
+from parser.toolpath import Axis, Toolpath
+from sim.run.dryrun import DryRun
+from sim.run.report.rounded import DEG_DIGITS, column, points, rows
+
+_CURVES = (None, "convex", "concave")
+
+
+def block_entries(run: DryRun) -> list[dict[str, Any]]:
+    """All of ``blocks[]``."""
+    toolpath = run.toolpath
+    columns = {
+        "block": list(range(1, len(toolpath) + 1)),
+        "line": toolpath.source.line.tolist(),
+        "label": [label or None for label in toolpath.source.label],
+        "text": [toolpath.source.text[low:high] for low, high in toolpath.source.span.tolist()],
+        "kind": [Kind(kind).name.lower() for kind in toolpath.kind.tolist()],
+        "count_um": toolpath.words.count_um.tolist(),
+        "radius_um": [None if radius < 0 else radius for radius in toolpath.words.radius_um.tolist()],
+        "curve": [_CURVES[curve] for curve in toolpath.words.curve.tolist()],
+        "count_axis": [Axis(axis).name for axis in toolpath.words.count_axis.tolist()],
+        "exact": rows(_exact(toolpath)),
+        "stepped": rows(_stepped(run)),
+        "table": rows({"max_deviation_um": column(run.deviations.table.by_row_um)}),
+        "printed_end_um": points(toolpath.printed_end_um),
+    }
+    return rows(columns)
+
+
+def _exact(toolpath: Toolpath) -> dict[str, list[Any]]:
+    arc = toolpath.is_arc
+    degrees = np.where(arc, np.degrees(toolpath.sweep_rad), np.nan)
+    return {
+        "start_um": points(toolpath.start_um),
+        "end_um": points(toolpath.end_um),
+        "center_um": points(toolpath.center_um),
+        "radius_um": column(toolpath.radius_um),
+        "sweep_deg": column(degrees, DEG_DIGITS),
+        "start_angle_deg": column(np.degrees(toolpath.start_angle_rad), DEG_DIGITS),
+        "end_angle_deg": column(np.degrees(toolpath.end_angle_rad), DEG_DIGITS),
+        "is_major": toolpath.is_major.tolist(),
+        "length_um": column(toolpath.length_um),
+    }
+
+
+def _stepped(run: DryRun) -> dict[str, list[Any]]:
+    return {
+        "end_um": run.stepped.corner_um[1:].tolist(),
+        "steps": run.stepped.count.tolist(),
+        "max_deviation_um": column(run.deviations.steps.by_row_um),
+        "interpolation_um": column(run.deviations.interpolation.by_row_um),
+    }

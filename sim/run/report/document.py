@@ -1,0 +1,142 @@
+"""The whole report of a run."""
+
+from typing import Any
+
+from parser.findings.catalogue import term, texts
+from parser.findings.findings import Finding
+from parser.geometry.curves import Floats
+from parser.shape.contours import Contour
+from parser.threeb.header import Header
+from sim import __version__
+from sim.check.result import CheckState, Coverage
+from sim.measure.compare.result import Comparison
+from sim.run.dryrun import DryRun, verdict
+from sim.run.report.blocks import block_entries
+from sim.run.report.drawing import comparison_document
+from sim.run.report.figures import deviation_entries, limit_entry, loss_entry
+from sim.run.report.offset import offset_entry
+from sim.run.report.remains import remains_entry
+from sim.run.report.rounded import column, known, rounded
+
+SCHEMA = "drycut.report/1"
+
+
+def build_report(run: DryRun) -> dict[str, Any]:
+    """Report of a run as plain lists, dicts, numbers and None; the order of keys is fixed."""
+    scenario, toolpath = run.scenario, run.toolpath
+    return {
+        "schema": SCHEMA,
+        "drycut": __version__,
+        "verdict": verdict(run.findings),
+        "program": {
+            "name": run.program.name,
+            "title": scenario.title,
+            "provenance": scenario.provenance,
+            "encoding": run.program.encoding,
+            "dialect": run.program.reading.dialect,
+            "header": _header(run.program.header),
+        },
+        "machine": {"name": scenario.machine.name, "start_um": [rounded(place) for place in scenario.start_um]},
+        "wire": {
+            "diameter_um": rounded(scenario.wire.diameter_um),
+            "spark_gap_um": rounded(scenario.wire.spark_gap_um),
+            "kerf_um": rounded(scenario.wire.kerf_um),
+            "lag_um": rounded(scenario.wire_lag_um),
+        },
+        "work": {"thickness_mm": scenario.thickness_mm, "density_g_cm3": scenario.density_g_cm3},
+        "offset": offset_entry(run),
+        "summary": {
+            "blocks": len(toolpath),
+            "length_um": rounded(float(toolpath.length_um.sum())),
+            "steps": len(run.stepped),
+        },
+        "time_s": {"total": rounded(run.plan.duration_s), "by_block": column(run.block_time_s)},
+        "contours": [_contour(contour, run.block_time_s) for contour in run.contours],
+        "interpolator": _interpolator(run),
+        "deviation": deviation_entries(run.deviations),
+        "limits": [limit_entry(peak) for peak in run.peaks],
+        "losses": [loss_entry(loss) for loss in run.losses],
+        "remains": remains_entry(run.remains),
+        "drawing": _drawing(run.comparison),
+        "coverage": _coverage(run.coverage),
+        "findings": [_finding(finding) for finding in run.findings],
+        "stops": [{"kind": s.kind, "after_block": s.after, "line": s.line} for s in toolpath.stops],
+        "blocks": block_entries(run),
+    }
+
+
+def _drawing(comparison: Comparison | None) -> dict[str, Any] | None:
+    """``drawing``: the comparison as ``drycut compare --json`` has it, without what the report or the kerf says."""
+    if comparison is None:
+        return None
+    return {
+        key: value
+        for key, value in comparison_document(comparison).items()
+        if key not in ("schema", "drycut", "offset_um")
+    }
+
+
+def _finding(finding: Finding) -> dict[str, Any]:
+    """One entry of ``findings[]``, its texts in English."""
+    said = texts(finding)
+    return {
+        "code": finding.code,
+        "severity": str(finding.severity),
+        "title": said.title,
+        "found": said.found,
+        "expected": said.expected,
+        "machine": said.machine,
+        "hint": said.hint,
+        "line": finding.line or None,
+        "column": finding.column or None,
+        "block": finding.block or None,
+    }
+
+
+def _header(header: Header) -> dict[str, Any]:
+    return {
+        "version": header.version or None,
+        "name": header.name or None,
+        "corner_radius_um": known(header.corner_radius_um),
+        "offset_um": known(header.offset_um),
+        "lengths_um": [rounded(length.um) for length in header.lengths],
+    }
+
+
+def _coverage(coverage: Coverage) -> dict[str, Any]:
+    return {
+        "blocks": {
+            "found": coverage.found,
+            "read": coverage.read,
+            "decoded": coverage.decoded,
+            "stepped": coverage.stepped,
+        },
+        "checks": [
+            {"check": check.name.removeprefix("check-"), "state": check.state, "reason": _reason(check)}
+            for check in coverage.checks
+        ],
+    }
+
+
+def _reason(check: CheckState) -> str | None:
+    return term(check.reason) if check.reason else None
+
+
+def _interpolator(run: DryRun) -> dict[str, Any]:
+    controller, sampling = run.scenario.machine.controller, run.deviations.sampling
+    return {
+        "name": controller.interpolation,
+        "servo_period_s": None if sampling is None else controller.servo_period_s,
+        "axis_um": None if sampling is None else [rounded(axis) for axis in sampling.axis_um],
+        "chord_um": None if sampling is None else rounded(sampling.chord_um),
+    }
+
+
+def _contour(contour: Contour, block_time_s: Floats) -> dict[str, Any]:
+    return {
+        "first_block": contour.first,
+        "last_block": contour.last,
+        "closure_exact_um": rounded(contour.closure_exact_um),
+        "closure_stepped_um": rounded(contour.closure_stepped_um),
+        "time_s": rounded(float(block_time_s[contour.first - 1 : contour.last].sum())),
+    }

@@ -1,0 +1,99 @@
+"""What a scenario expects of its report: paths into ``report.json`` with a value, or a lowest and highest one."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from parser.findings.errors import SettingsError
+from parser.findings.findings import Finding
+
+_OF_STEPS = {"stepped", "closure_stepped_um", "interpolator"}
+
+
+class Expectation(NamedTuple):
+    """One expected entry.
+
+    Attributes
+    ----------
+    path
+        Keys and list indices from the top of the report, joined with dots: ``contours.0.closure_exact_um``.
+    value
+        The value itself (text, truth, count, list of these), or a (low, high) range of numbers, both included.
+    is_range
+        Which of the two `value` is.
+    """
+
+    path: str
+    value: Any
+    is_range: bool
+
+
+def read_expectation(table: Mapping[str, Any], where: str) -> tuple[Expectation, ...]:
+    """Expectations of an ``[expect]`` table: ``"path" = value`` or ``"path" = {min = …, max = …}``.
+
+    SettingsError where a range has other keys or is no range of numbers.
+    """
+    found = []
+    for path, value in table.items():
+        if not isinstance(value, Mapping):
+            found.append(Expectation(path, value, is_range=False))
+            continue
+        low, high = value.get("min", -math.inf), value.get("max", math.inf)
+        if not value or set(value) - {"min", "max"} or not (_is_number(low) and _is_number(high) and low <= high):
+            raise SettingsError(
+                f"{where}: {path} is a value or {{min = …, max = …}}, and a path with dots stands in quotes, "
+                f'"{path}.…"; found {dict(value)!r}'
+            )
+        found.append(Expectation(path, (float(low), float(high)), is_range=True))
+    return tuple(found)
+
+
+def not_of_steps(expected: tuple[Expectation, ...]) -> tuple[Expectation, ...]:
+    """The expectations but those of figures that each interpolator makes its own: counts and ends of steps."""
+    return tuple(e for e in expected if e.path != "summary.steps" and not _OF_STEPS & set(e.path.split(".")))
+
+
+def compare(report: Mapping[str, Any], expected: tuple[Expectation, ...]) -> list[Finding]:
+    """A finding 3B490 for each expectation that the report does not meet."""
+    return [
+        Finding("3B490", {"path": e.path, "found": _show(found), "wanted": _wanted(e)})
+        for e in expected
+        if not _meets(found := _look_up(report, e.path), e)
+    ]
+
+
+def _look_up(report: Any, path: str) -> Any:
+    """Entry under a path; None where there is none. A list answers its own keys as a list of theirs."""
+    here = report
+    for key in path.split("."):
+        if isinstance(here, list) and key.isdigit():
+            here = here[int(key)] if int(key) < len(here) else None
+        elif isinstance(here, list):
+            here = [entry.get(key) for entry in here]
+        else:
+            here = here.get(key) if isinstance(here, Mapping) else None
+    return here
+
+
+def _meets(found: Any, expectation: Expectation) -> bool:
+    if not expectation.is_range:
+        return isinstance(found, bool) == isinstance(expectation.value, bool) and bool(found == expectation.value)
+    low, high = expectation.value
+    return _is_number(found) and low <= found <= high
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _wanted(expectation: Expectation) -> str:
+    if not expectation.is_range:
+        return _show(expectation.value)
+    low, high = expectation.value
+    if low == -math.inf:
+        return f"at most {high:g}"
+    return f"at least {low:g}" if high == math.inf else f"{low:g} to {high:g}"
+
+
+def _show(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)

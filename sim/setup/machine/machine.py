@@ -1,0 +1,66 @@
+"""Machine files: table, controller and cutting rates of one machine, from TOML with units in the key names."""
+
+from importlib import resources
+from pathlib import Path
+from typing import NamedTuple
+
+from controller.host.entries import Interpolation
+from controller.motion.limits import Feeds
+from parser.findings.errors import SettingsError
+from parser.units import from_mm
+from sim.setup.machine.controller_model import ControllerModel, read_controller
+from sim.setup.machine.table_model import TableModel, read_table
+from sim.setup.obstacles import Outline, read_arm
+from sim.setup.toml.reader import Bound, load_toml, numbers, refuse_unknown, section, text
+
+_CUTTING = {"area_rate_mm2_min": Bound(0.1, 1e4)}
+
+
+class Machine(NamedTuple):
+    """One machine as its file gives it; units as named. `arm_um` is the outline of the arm round the wire, if known."""
+
+    name: str
+    table: TableModel
+    controller: ControllerModel
+    area_rate_mm2_min: float
+    arm_um: Outline | None = None
+
+    def stepping_by(self, interpolation: Interpolation) -> "Machine":
+        """The machine with another interpolator."""
+        return self._replace(controller=self.controller._replace(interpolation=interpolation))
+
+    def feeds(self, thickness_mm: float) -> Feeds:
+        """Feeds in a work of this thickness: area rate over thickness, no faster than one step a tick of the limit."""
+        by_area = from_mm(self.area_rate_mm2_min / thickness_mm / 60.0)
+        return Feeds(
+            cut_um_s=min(by_area, self.controller.cut_step_limit_hz),
+            jump_um_s=from_mm(self.controller.jump_feed_mm_s),
+        )
+
+
+def load_machine(name: str, beside: Path | None = None) -> Machine:
+    """Machine of a shipped name such as ``dk7740``, or of a ``.toml`` file (relative to the folder `beside`).
+
+    Raises FileUnreadableError and SettingsError with the file and the key.
+    """
+    if name.endswith(".toml"):
+        return _read(Path(beside or "") / name)
+    shipped = resources.files("sim.setup.machine")
+    known = sorted(entry.name.removesuffix(".toml") for entry in shipped.iterdir() if entry.name.endswith(".toml"))
+    if name not in known:
+        raise SettingsError(f"machine {name!r} is not shipped; known: {', '.join(known)}, or give a .toml file")
+    with resources.as_file(shipped / f"{name}.toml") as path:
+        return _read(path)
+
+
+def _read(path: Path) -> Machine:
+    content, where = load_toml(path), str(path)
+    refuse_unknown(content, ("name", "table", "motor", "controller", "cutting", "arm"), where)
+    parts = {key: section(content, key, where) for key in ("table", "motor", "controller", "cutting")}
+    return Machine(
+        name=text(content, "name", where),
+        table=read_table(parts["table"], parts["motor"], where),
+        controller=read_controller(parts["controller"], f"{where}: [controller]"),
+        **numbers(parts["cutting"], _CUTTING, f"{where}: [cutting]"),
+        arm_um=read_arm(content, where),
+    )

@@ -1,0 +1,170 @@
+"""Scenarios: a program with its machine, wire, work and what is expected of the dry run.
+
+A folder holds ``scenario.toml`` and the program it names; a program alone is a scenario with the defaults.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from parser.findings.errors import FileUnreadableError, SettingsError
+from parser.text.encoding import printable
+from parser.units import from_mm
+from sim.setup.expectations import Expectation, read_expectation
+from sim.setup.machine.controller_model import interpolation
+from sim.setup.machine.machine import Machine, load_machine
+from sim.setup.obstacles import Clamp, Outline, read_clamps, read_outline
+from sim.setup.part import (
+    DEFAULT_DENSITY_G_CM3,
+    DENSITY_G_CM3,
+    DrawingAsked,
+    Offset,
+    read_drawing_asked,
+    read_offset,
+)
+from sim.setup.quiz import Question, read_quiz
+from sim.setup.toml.reader import Bound, load_toml, number, numbers, pair, refuse_unknown, section, text, truth
+from sim.setup.wire import DEFAULT_WIRE, Wire, read_wire
+
+THICKNESS_MM = Bound(0.01, 2000.0)
+TRACE_SPACING_UM = Bound(0.1, 1e4)
+DEFAULT_THICKNESS_MM = 40.0
+_WORK = {"thickness_mm": THICKNESS_MM, "density_g_cm3": DENSITY_G_CM3}
+_OF_WORK = {"thickness_mm": DEFAULT_THICKNESS_MM, "density_g_cm3": DEFAULT_DENSITY_G_CM3}
+_KEYS = (
+    "title",
+    "provenance",
+    "program",
+    "machine",
+    "interpolator",
+    "start_mm",
+    "open",
+    "trace_spacing_um",
+    "kerf",
+    "clamps",
+    "quiz",
+    "drawing",
+    "offset",
+    "wire",
+    "work",
+    "expect",
+)
+
+DEFAULT_MACHINE = "dk7740"
+DEFAULT_TRACE_SPACING_UM = 5.0
+"""On an arc of 100 µm radius the chord of it is 0.03 µm off."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scenario:
+    """One case to dry-run. SettingsError where the wire cannot be bowed so in work of this thickness.
+
+    Attributes
+    ----------
+    title
+        Title line of pictures and tables.
+    program
+        Program file.
+    machine, wire, thickness_mm
+        What it is cut on, with and through.
+    start_mm
+        Place of the program's start on the table, (x, y) from the corner of the travel; the centre where None.
+    provenance
+        Where the program comes from.
+    may_stay_open
+        Whether contours may end away from their own path; else that is a finding.
+    trace_spacing_um
+        Path between two samples of the trace.
+    clamps, work_um
+        What stands beside the path, and the outline of the workpiece, if known; in the program's coordinates.
+    offset
+        What the controller adds to the program; None where it runs as written.
+    kerf
+        Whether the kerf and the pieces that it leaves are worked out.
+    drawing
+        What the cut is held against, if anything.
+    density_g_cm3
+        Density of the work.
+    quiz
+        What the replay asks a trainee.
+    expect
+        What the scenario promises of its report; checked after the run.
+    """
+
+    title: str
+    program: Path
+    machine: Machine
+    wire: Wire = DEFAULT_WIRE
+    thickness_mm: float = DEFAULT_THICKNESS_MM
+    start_mm: tuple[float, float] | None = None
+    provenance: str = "not given"
+    may_stay_open: bool = False
+    trace_spacing_um: float = DEFAULT_TRACE_SPACING_UM
+    clamps: tuple[Clamp, ...] = ()
+    work_um: Outline | None = None
+    offset: Offset | None = None
+    kerf: bool = False
+    drawing: DrawingAsked | None = None
+    density_g_cm3: float = DEFAULT_DENSITY_G_CM3
+    quiz: tuple[Question, ...] = ()
+    expect: tuple[Expectation, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Check that the wire has a lag in this work."""
+        self.wire.lag_um(self.thickness_mm)
+
+    @property
+    def wire_lag_um(self) -> float:
+        """How far the wire bows back behind its guides."""
+        return self.wire.lag_um(self.thickness_mm)
+
+    @property
+    def start_um(self) -> tuple[float, float]:
+        """Place of the program's start on the table, µm."""
+        travel = self.machine.table.travel_x_mm / 2.0, self.machine.table.travel_y_mm / 2.0
+        x, y = self.start_mm or travel
+        return from_mm(x), from_mm(y)
+
+
+def load_scenario(path: Path) -> Scenario:
+    """Scenario of a folder with a ``scenario.toml``, or of a program file with the defaults.
+
+    Raises FileUnreadableError or SettingsError with file and key.
+    """
+    try:
+        is_folder = path.is_dir()
+    except OSError as error:
+        raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
+    if not is_folder:
+        return Scenario(printable(path.name), path, load_machine(DEFAULT_MACHINE))
+    file = path / "scenario.toml"
+    if not file.exists():
+        raise SettingsError(f"{path}: is a folder without scenario.toml; give a 3B file or a scenario folder")
+    content, where = load_toml(file), str(file)
+    refuse_unknown(content, _KEYS, where)
+    machine = load_machine(text(content, "machine", where, default=DEFAULT_MACHINE), beside=path)
+    if "interpolator" in content:
+        machine = machine.stepping_by(interpolation(text(content, "interpolator", where), f"{where}: interpolator"))
+    work = section(content, "work", where)
+    refuse_unknown(work, (*_WORK, "outline_mm"), f"{where}: [work]")
+    given = {key: value for key, value in work.items() if key in _WORK}
+    work_numbers = numbers(given, _WORK, f"{where}: [work]", _OF_WORK)
+    return Scenario(
+        title=printable(text(content, "title", where, default=path.resolve().name)),
+        program=path / text(content, "program", where, default="program.3b"),
+        machine=machine,
+        wire=read_wire(section(content, "wire", where), f"{where}: [wire]"),
+        start_mm=pair(content, "start_mm", where),
+        provenance=text(content, "provenance", where, default="not given"),
+        may_stay_open=truth(content, "open", where),
+        trace_spacing_um=number(
+            content.get("trace_spacing_um", DEFAULT_TRACE_SPACING_UM), TRACE_SPACING_UM, f"{where}: trace_spacing_um"
+        ),
+        clamps=read_clamps(content, where),
+        work_um=read_outline(work, f"{where}: [work]") if "outline_mm" in work else None,
+        offset=read_offset(content, where),
+        kerf=truth(content, "kerf", where),
+        drawing=read_drawing_asked(content, where, path),
+        quiz=read_quiz(content, where),
+        expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
+        **work_numbers,
+    )

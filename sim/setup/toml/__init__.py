@@ -1,0 +1,1 @@
+"""TOML files read strictly and written again; what crosses the border is a table of plain values."""

@@ -1,0 +1,108 @@
+"""TOML settings read strictly: every key known, every number in its bounds, every complaint names file and key."""
+
+import math
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from parser.findings.errors import FileUnreadableError, SettingsError
+
+
+class Bound(NamedTuple):
+    """Lowest and highest value a number may take, both included."""
+
+    low: float
+    high: float
+
+
+_PLACE_MM = Bound(-1e5, 1e5)
+
+
+def load_toml(path: Path) -> dict[str, Any]:
+    """Content of a TOML file. FileUnreadableError where it cannot be read, SettingsError where it is no TOML."""
+    try:
+        import tomllib  # noqa: PLC0415 - most checks have no settings file
+
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
+    except ValueError as error:  # TOMLDecodeError, UnicodeDecodeError, and integers of thousands of digits
+        raise SettingsError(f"{path}: is no TOML: {error}") from None
+
+
+def refuse_unknown(table: Mapping[str, Any], known: Iterable[str], where: str) -> None:
+    """SettingsError for the first key that is not known, with the nearest known one."""
+    names = sorted(known)
+    for key in table:
+        if key not in names:
+            import difflib  # noqa: PLC0415 - few keys are misspelt
+
+            near = difflib.get_close_matches(key, names, n=1)
+            hint = f"did you mean {near[0]}?" if near else f"known keys: {', '.join(names)}"
+            raise SettingsError(f"{where}: unknown key {key!r}; {hint}")
+
+
+def section(table: Mapping[str, Any], key: str, where: str) -> Mapping[str, Any]:
+    """Sub-table `key`, empty where there is none. SettingsError where it is no table."""
+    value = table.get(key, {})
+    if not isinstance(value, Mapping):
+        raise SettingsError(f"{where}: {key} is a table, [{key}]; found {value!r}")
+    return value
+
+
+def text(table: Mapping[str, Any], key: str, where: str, default: str | None = None) -> str:
+    """Text `key`; the default where it is left out. SettingsError where it is missing or no text."""
+    value = table.get(key, default)
+    if not isinstance(value, str) or not value:
+        raise SettingsError(f"{where}: {key} is a text and must be given; found {value!r}")
+    return value
+
+
+def truth(table: Mapping[str, Any], key: str, where: str, *, default: bool = False) -> bool:
+    """Truth `key`; the default where it is left out. SettingsError where it is something else."""
+    value = table.get(key, default)
+    if not isinstance(value, bool):
+        raise SettingsError(f"{where}: {key} is true or false; found {value!r}")
+    return value
+
+
+def number(value: object, bound: Bound, where: str) -> float:
+    """A number in its bounds. SettingsError otherwise."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise SettingsError(f"{where} is a number; found {value!r}")
+    if isinstance(value, int) and abs(value) > 1e300:
+        value = math.inf if value > 0 else -math.inf
+    if not bound.low <= value <= bound.high:  # also refuses NaN
+        raise SettingsError(f"{where} is {value:g}; it must lie between {bound.low:g} and {bound.high:g}")
+    return float(value)
+
+
+def numbers(
+    table: Mapping[str, Any],
+    bounds: Mapping[str, Bound],
+    where: str,
+    defaults: Mapping[str, float] | None = None,
+    optional: Mapping[str, Bound] | None = None,
+) -> dict[str, float]:
+    """Numbers of a table that holds nothing else, each in its bounds; SettingsError for what is missing or unknown.
+
+    Of the `optional` ones, those that are given; a default is not held to the bounds.
+    """
+    refuse_unknown(table, (*bounds, *(optional or {})), where)
+    bounds = {**bounds, **{key: bound for key, bound in (optional or {}).items() if key in table}}
+    given = {**(defaults or {}), **table}
+    for key in bounds:
+        if key not in given:
+            raise SettingsError(f"{where}: {key} is missing")
+    return {key: number(given[key], bound, f"{where}: {key}") for key, bound in bounds.items()}
+
+
+def pair(table: Mapping[str, Any], key: str, where: str) -> tuple[float, float] | None:
+    """Place [x, y] on the table in mm; None where it is left out. SettingsError where it is no pair of numbers."""
+    if key not in table:
+        return None
+    value = table[key]
+    if not isinstance(value, list) or len(value) != 2:
+        raise SettingsError(f"{where}: {key} is [x, y] on the table; found {value!r}")
+    x, y = (number(place, _PLACE_MM, f"{where}: {key}") for place in value)
+    return x, y

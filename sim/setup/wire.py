@@ -1,0 +1,134 @@
+"""The wire at the table: what it removes round its centre, and how far it bows back behind its guides."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from parser.findings.errors import SettingsError
+from parser.units import from_mm, mm
+from sim.setup.toml.reader import Bound, numbers
+
+WIRE_DIAMETER_MM = Bound(0.01, 1.0)
+SPARK_GAP_MM = Bound(-0.05, 0.5)
+WIRE_LAG_UM = Bound(0.0, 1000.0)
+_LAG = "lag_um"
+_FORCES = {
+    "tension_n": Bound(0.1, 100.0),
+    "pressure_n_mm": Bound(0.0, 10.0),
+    "guide_span_mm": Bound(0.01, 5000.0),
+}
+WIRE_KEYS = {"diameter_mm": WIRE_DIAMETER_MM, "spark_gap_mm": SPARK_GAP_MM, _LAG: WIRE_LAG_UM, **_FORCES}
+"""Keys of ``[wire]`` with their bounds."""
+
+
+class WireForces(NamedTuple):
+    """What bows the wire: discharges press it back evenly over the thickness of the work, its tension holds it.
+
+    Attributes
+    ----------
+    tension_n
+        Tension of the wire.
+    pressure_n_mm
+        Force of the discharges on each mm of wire within the work.
+    guide_span_mm
+        Distance of the guides, with the work midway; that of the work's thickness where None.
+    """
+
+    tension_n: float
+    pressure_n_mm: float
+    guide_span_mm: float | None = None
+
+    def lag_um(self, thickness_mm: float) -> float:
+        """How far the middle of the wire stands behind its guides. SettingsError where the work is thicker than these.
+
+        A string of tension T under q per length over the middle h of its span L is a parabola within the load and
+        straight outside: T w'' = −q, so w = q h (2 L − h) / (8 T) in the middle, q h² / (8 T) with L = h
+        (S. Timoshenko, Strength of Materials; a wire lag from gap force and tension: S. Sarkar et al., Precision
+        Engineering 35 (2011) 339).
+        """
+        span_mm = thickness_mm if self.guide_span_mm is None else self.guide_span_mm
+        if span_mm < thickness_mm:
+            raise SettingsError(
+                f"the work is {thickness_mm:g} mm thick and the guides are {span_mm:g} mm apart; "
+                "[wire] guide_span_mm must be no less than the thickness"
+            )
+        return from_mm(self.pressure_n_mm * thickness_mm * (2.0 * span_mm - thickness_mm) / (8.0 * self.tension_n))
+
+
+@dataclass(frozen=True, slots=True)
+class Wire:
+    """A wire and its spark gap, µm. SettingsError where they leave no kerf.
+
+    Attributes
+    ----------
+    diameter_um
+        Molybdenum wire of 100 to 200 µm, 180 usual (docs/3b.md §7).
+    spark_gap_um
+        Gap on one side; may be negative in some shops' books (docs/3b.md §5).
+    lag
+        How far the wire bows back behind its guides, µm, or the forces that tell; 0 for a wire that stays straight.
+    """
+
+    diameter_um: float
+    spark_gap_um: float
+    lag: float | WireForces = 0.0
+
+    def __post_init__(self) -> None:
+        """Check that the wire cuts a kerf."""
+        if self.kerf_um <= 0.0:
+            raise SettingsError(
+                f"a wire of {self.diameter_um:g} µm with a spark gap of {self.spark_gap_um:g} µm cuts no kerf; "
+                "the diameter and twice the gap must come to more than 0"
+            )
+
+    @property
+    def radius_um(self) -> float:
+        """Radius of the wire itself."""
+        return self.diameter_um / 2.0
+
+    @property
+    def offset_um(self) -> float:
+        """Distance of the cut edge from the wire's centre: radius plus spark gap."""
+        return self.radius_um + self.spark_gap_um
+
+    @property
+    def kerf_um(self) -> float:
+        """Width of the slot that the wire leaves."""
+        return 2.0 * self.offset_um
+
+    def lag_um(self, thickness_mm: float) -> float:
+        """Lag in work of this thickness. SettingsError where forces bow the wire by more than a lag may be."""
+        if not isinstance(self.lag, WireForces):
+            return self.lag
+        lag_um = self.lag.lag_um(thickness_mm)
+        if lag_um > WIRE_LAG_UM.high:
+            raise SettingsError(
+                f"{self.lag.pressure_n_mm:g} N/mm on {thickness_mm:g} mm of a wire under {self.lag.tension_n:g} N bow "
+                f"it by {lag_um:g} µm; it must be no more than {WIRE_LAG_UM.high:g}"
+            )
+        return lag_um
+
+
+DEFAULT_WIRE = Wire(diameter_um=180.0, spark_gap_um=10.0)
+"""Usual wire, with the gap that the trade's offset of 0.1 mm leaves it (docs/3b.md §5)."""
+
+
+def read_wire(table: Mapping[str, Any], where: str) -> Wire:
+    """Wire of a ``[wire]`` table. SettingsError names the file and the key."""
+    defaults = {"diameter_mm": mm(DEFAULT_WIRE.diameter_um), "spark_gap_mm": mm(DEFAULT_WIRE.spark_gap_um)}
+    lag = {key: bound for key, bound in WIRE_KEYS.items() if key not in defaults}
+    value = numbers(table, {key: WIRE_KEYS[key] for key in defaults}, where, defaults, optional=lag)
+    return Wire(from_mm(value["diameter_mm"]), from_mm(value["spark_gap_mm"]), _lag(value, where))
+
+
+def _lag(value: Mapping[str, float], where: str) -> float | WireForces:
+    """Lag as it is set: an amount, or forces."""
+    forces = {key: value[key] for key in _FORCES if key in value}
+    if not forces:
+        return value.get(_LAG, 0.0)
+    if _LAG in value:
+        raise SettingsError(f"{where}: {_LAG} is given, or {' and '.join(forces)} that tell it; found both")
+    for key in ("tension_n", "pressure_n_mm"):
+        if key not in forces:
+            raise SettingsError(f"{where}: {next(iter(forces))} needs {key}, which is missing")
+    return WireForces(**forces)

@@ -1,0 +1,78 @@
+"""The drawing surface, as pictures know it: strokes, areas and text in px of the page, in paints that a theme colours.
+
+Pictures say what is drawn where; a backend makes pixels (`sim.show.draw.raster`) or SVG (`sim.show.draw.svg`) of it.
+"""
+
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from itertools import pairwise
+from typing import Protocol
+
+import numpy as np
+
+from parser.geometry.curves import Floats
+from sim.show.draw.layout import Box
+from sim.show.draw.paints import Paint
+
+
+class Canvas(Protocol):
+    """An empty page; all coordinates and sizes are px of it, y downwards."""
+
+    @property
+    def width_px(self) -> int:
+        """Width of the page."""
+
+    @property
+    def height_px(self) -> int:
+        """Height of the page."""
+
+    def polyline(self, points: Floats, paint: Paint, width: float) -> None:
+        """Stroke a line through `points`, (n, 2) with n ≥ 1, with round corners and ends."""
+
+    def dashed(self, points: Floats, paint: Paint, width: float, dash: float, gap: float) -> None:
+        """Stroke each chord of `points`, (n, 2), with dashes of length `dash` and gaps of length `gap`."""
+
+    def ring(self, center: Floats, radius: float, paint: Paint, width: float) -> None:
+        """Stroke a circle; `radius` is that of its middle line."""
+
+    def disc(self, center: Floats, radius: float, paint: Paint) -> None:
+        """Fill a circle."""
+
+    def arrow(self, tip: Floats, direction: Floats, size: float, paint: Paint) -> None:
+        """Fill an arrow head of length `size`; `direction` has length 1."""
+
+    def polygon(self, corners: Floats, paint: Paint) -> None:
+        """Fill a polygon of `corners`, (n, 2) with n ≥ 3."""
+
+    def region(self, rings: Sequence[Floats], paint: Paint) -> None:
+        """Fill what lies inside of an odd number of rings, each (n, 2) with n ≥ 3: outlines with their holes."""
+
+    def box(self, box: Box, fill: Paint, edge: Paint, width: float) -> None:
+        """Fill a rectangle and stroke its border inwards."""
+
+    def clipped(self, box: Box) -> AbstractContextManager[None]:
+        """Draw nothing outside a rectangle for as long as the context lasts; not to be nested."""
+
+    def text(self, at: tuple[float, float], text: str, size: float, paint: Paint, align: float = 0.0) -> None:
+        """Write a line, vertically centred on `at`; `align` of its width lies to the left of `at`."""
+
+    def text_width(self, text: str, size: float) -> float:
+        """Width that `text` takes, px."""
+
+
+def arrow_head(tip: Floats, direction: Floats, size: float) -> Floats:
+    """Corners (4, 2) of an arrow head."""
+    side = np.array([-direction[1], direction[0]])
+    back = tip - size * direction
+    return np.array([tip, back + 0.36 * size * side, tip - 0.75 * size * direction, back - 0.36 * size * side])
+
+
+def dashes(points: Floats, dash: float, gap: float) -> list[Floats]:
+    """Dashes (2, 2) along each chord of `points`, (n, 2)."""
+    made: list[Floats] = []
+    for first, last in pairwise(points):
+        length = float(np.hypot(*(last - first)))
+        for start in np.arange(0.0, length, dash + gap):
+            ends = np.array([[start], [min(start + dash, length)]]) / length
+            made.append(first + ends * (last - first))
+    return made

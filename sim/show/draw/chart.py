@@ -1,0 +1,134 @@
+"""Charts: a frame with a scale on each axis, and lines, bands and levels in it."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Floats
+from sim.show.draw import style
+from sim.show.draw.canvas import Canvas
+from sim.show.draw.layout import Box, nice_below, ticks
+from sim.show.draw.paints import Paint
+from sim.show.draw.simplify import simplify
+
+CHORD_PX = 0.15
+"""How far a drawn line may leave the true one."""
+
+
+class Range(NamedTuple):
+    """Lowest and highest value of an axis, in its unit; low < high."""
+
+    low: float
+    high: float
+
+    def wider(self, share: float) -> "Range":
+        """The range with a share of its width more at both ends."""
+        more = share * (self.high - self.low)
+        return Range(self.low - more, self.high + more)
+
+
+class Chart(NamedTuple):
+    """A frame on a page, px, with the values that its sides stand for."""
+
+    frame: Box
+    x: Range
+    y: Range
+    unit: float
+
+    def x_px(self, x: Floats | float) -> Floats:
+        """Where values of the X axis fall."""
+        share = (np.asarray(x) - self.x.low) / (self.x.high - self.x.low)
+        return np.asarray(self.frame.left + share * (self.frame.right - self.frame.left), dtype=np.float64)
+
+    def y_px(self, y: Floats | float) -> Floats:
+        """Where values of the Y axis fall."""
+        share = (np.asarray(y) - self.y.low) / (self.y.high - self.y.low)
+        return np.asarray(self.frame.bottom - share * (self.frame.bottom - self.frame.top), dtype=np.float64)
+
+    def to_px(self, points: Floats) -> Floats:
+        """Places (n, 2) px of points (n, 2) in the units of the axes."""
+        return np.stack([self.x_px(points[:, 0]), self.y_px(points[:, 1])], axis=-1)
+
+
+def range_of(*values: Floats, least: float = 0.0) -> Range:
+    """Range of all finite values, no narrower than `least`; that around 0 where there are none."""
+    finite = np.concatenate([[np.nan], *(np.ravel(part) for part in values)])
+    finite = finite[np.isfinite(finite)]
+    low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
+    missing = max(least - (high - low), 0.0)
+    return Range(low - missing / 2.0, high + missing / 2.0)
+
+
+def draw_chart(  # noqa: PLR0913 - all but the first two are named
+    canvas: Canvas,
+    chart: Chart,
+    *,
+    x_name: str = "",
+    y_name: str = "",
+    x_values: bool = True,
+    tolerance: Range | None = None,
+) -> None:
+    """Draw the frame with its grid, the values at its sides, and the names of its axes inside their ends.
+
+    A tolerance band of the Y axis lies under the grid.
+    """
+    frame, unit, size = chart.frame, chart.unit, style.TICK * chart.unit
+    canvas.box(frame, Paint.PAGE, Paint.FRAME, style.GRID_WIDTH * unit)
+    if tolerance is not None:
+        _draw_tolerance(canvas, chart, tolerance)
+    for value, text in tick_texts(chart.x, (frame.right - frame.left) / (1.5 * style.TICK_SPACING * unit)):
+        x = float(chart.x_px(value))
+        canvas.polyline(np.array([[x, frame.top], [x, frame.bottom]]), Paint.GRID, style.GRID_WIDTH * unit)
+        if x_values:
+            canvas.text((x, frame.bottom + 0.8 * size), text, size, Paint.GREY, align=0.5)
+    for value, text in tick_texts(chart.y, (frame.bottom - frame.top) / (0.28 * style.TICK_SPACING * unit)):
+        y = float(chart.y_px(value))
+        canvas.polyline(np.array([[frame.left, y], [frame.right, y]]), Paint.GRID, style.GRID_WIDTH * unit)
+        canvas.text((frame.left - 0.4 * size, y), text, size, Paint.GREY, align=1.0)
+    if x_name:
+        canvas.text((frame.right - 0.5 * size, frame.bottom - 0.8 * size), x_name, size, Paint.GREY, align=1.0)
+    if y_name:
+        canvas.text((frame.left + 0.5 * size, frame.top + 0.8 * size), y_name, size, Paint.GREY)
+
+
+def _draw_tolerance(canvas: Canvas, chart: Chart, tolerance: Range) -> None:
+    """Fill a band across the frame, and draw those of its edges that lie inside."""
+    ends = np.clip(np.array(tolerance), chart.y.low, chart.y.high)
+    draw_band(canvas, chart, np.array(chart.x), np.broadcast_to(ends, (2, 2)), Paint.BAND)
+    for edge in tolerance:
+        draw_level(canvas, chart, edge, Paint.BAND_EDGE, style.GRID_WIDTH * 1.5)
+
+
+def tick_texts(values: Range, most: float) -> list[tuple[float, str]]:
+    """Round values of a range, no more than `most` and one, with what is written beside them."""
+    step = nice_below(2.5 * (values.high - values.low) / max(most, 1.0))
+    decimals = max(0, -math.floor(math.log10(step) + 1e-9))
+    at = ticks(values.low, values.high, step).tolist()
+    return [(value, f"{value + 0.0:,.{decimals}f}".replace("-", "−")) for value in at]
+
+
+def draw_line(canvas: Canvas, chart: Chart, values: Floats, paint: Paint, width: float) -> None:
+    """Draw a line through points (n, 2), cut off at the frame; where a value is NaN it is broken."""
+    points = chart.to_px(values)
+    known = np.isfinite(points).all(axis=1)
+    with canvas.clipped(chart.frame):
+        for run in np.split(points, np.flatnonzero(np.diff(known)) + 1):
+            if np.isfinite(run[0]).all():
+                canvas.polyline(simplify(run, CHORD_PX), paint, width * chart.unit)
+
+
+def draw_band(canvas: Canvas, chart: Chart, x: Floats, ends: Floats, paint: Paint) -> None:
+    """Fill between the two values (n, 2) over each of (n,), n ≥ 2, all finite, cut off at the frame."""
+    low, high = (simplify(chart.to_px(np.stack([x, ends[:, side]], axis=1)), CHORD_PX) for side in (0, 1))
+    outline = np.concatenate([low, high[::-1]])
+    with canvas.clipped(chart.frame):
+        canvas.polygon(outline, paint)
+
+
+def draw_level(canvas: Canvas, chart: Chart, y: float, paint: Paint, width: float) -> None:
+    """Draw a dashed level across the frame; nothing where it lies outside."""
+    if chart.y.low <= y <= chart.y.high:
+        at = float(chart.y_px(y))
+        line = np.array([[chart.frame.left, at], [chart.frame.right, at]])
+        canvas.dashed(line, paint, width * chart.unit, style.DASH * chart.unit, style.DASH_GAP * chart.unit)

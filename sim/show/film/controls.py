@@ -1,0 +1,131 @@
+"""What keys and mouse do in the window."""
+
+import os
+from collections.abc import Callable, Mapping
+from typing import Final
+
+from parser.geometry.curves import Floats
+from sim.show.draw.layout import Box
+from sim.show.film.playback import Playback
+from sim.show.film.screen import Screen
+from sim.show.film.views import centred, shifted, zoomed
+
+os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would go to stdout, among our data
+import pygame
+
+ZOOM: Final = 1.25
+CALM: Final = 0.25
+"""Share of the plot at each side which a wire that is followed keeps out of."""
+
+
+class Controls:
+    """The state of the window beside that of the run.
+
+    Attributes
+    ----------
+    playback
+        The run.
+    view
+        What the plot shows.
+    follows, helps, quits
+        Whether the plot follows the wire, whether the keys are shown, and whether the window is to close.
+    """
+
+    def __init__(self, playback: Playback, screen: Screen) -> None:
+        self.playback = playback
+        self.follows = self.helps = self.quits = False
+        self._drags = ""
+        self._keys = self._meanings()
+        self.fit(screen)
+
+    def fit(self, screen: Screen) -> None:
+        """Show the whole on a screen, from now on."""
+        self._screen, self.view, self.follows = screen, screen.whole, False
+
+    def refit(self, screen: Screen) -> None:
+        """Go on with a screen of another size: what was the middle of the plot stays there."""
+        was, is_whole = self._screen, self.view == self._screen.whole
+        middle = was.layout.plot
+        self._screen = screen
+        if is_whole:
+            self.view = screen.whole
+        else:
+            place = self.view.range_um(middle).mean(axis=0)
+            self.view = centred(place, self.view.px_per_um, screen.layout.plot)
+
+    def handle(self, event: pygame.event.Event) -> None:
+        """Do what an event asks for."""
+        if event.type == pygame.QUIT:
+            self.quits = True
+        elif event.type == pygame.KEYDOWN:
+            self._keys.get(event.key, lambda: None)()
+        elif event.type == pygame.MOUSEWHEEL:
+            self._zoom(ZOOM**event.y, pygame.mouse.get_pos())
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
+            self._press(event.pos)
+        elif event.type == pygame.MOUSEBUTTONUP and event.button == 1:
+            self._drags = ""
+        elif event.type == pygame.MOUSEMOTION and self._drags:
+            self._drag(event.pos, event.rel)
+
+    def follow(self, wire_um: Floats) -> None:
+        """Keep the wire in the middle of the plot, if it is to be followed."""
+        plot = self._screen.layout.plot
+        x, y = self.view.to_px(wire_um).tolist()
+        margin_x, margin_y = CALM * (plot.right - plot.left), CALM * (plot.bottom - plot.top)
+        calm = Box(plot.left + margin_x, plot.top + margin_y, plot.right - margin_x, plot.bottom - margin_y)
+        if self.follows and not calm.holds(Box(x, y, x, y)):
+            self.view = centred(wire_um, self.view.px_per_um, plot)
+
+    def _meanings(self) -> Mapping[int, Callable[[], None]]:
+        play = self.playback
+        quicker, slower = (lambda faster=faster: play.change_speed(faster) for faster in (True, False))
+        return {
+            pygame.K_SPACE: play.toggle,
+            pygame.K_RIGHT: lambda: self._step(forward=True),
+            pygame.K_LEFT: lambda: self._step(forward=False),
+            pygame.K_HOME: lambda: play.seek(0.0),
+            pygame.K_END: lambda: play.seek(play.course.duration_s),
+            **dict.fromkeys((pygame.K_PLUS, pygame.K_EQUALS, pygame.K_KP_PLUS, pygame.K_UP), quicker),
+            **dict.fromkeys((pygame.K_MINUS, pygame.K_KP_MINUS, pygame.K_DOWN), slower),
+            pygame.K_f: lambda: self.fit(self._screen),
+            pygame.K_w: self._toggle_follow,
+            pygame.K_h: self._toggle_help,
+            pygame.K_ESCAPE: self._quit,
+        }
+
+    def _step(self, *, forward: bool) -> None:
+        """By a block, with shift by a single step."""
+        by = self.playback.by_step if pygame.key.get_mods() & pygame.KMOD_SHIFT else self.playback.by_block
+        by(forward)
+
+    def _toggle_follow(self) -> None:
+        self.follows = not self.follows
+
+    def _toggle_help(self) -> None:
+        self.helps = not self.helps
+
+    def _quit(self) -> None:
+        self.quits = True
+
+    def _zoom(self, factor: float, at: tuple[int, int]) -> None:
+        self.view = zoomed(self.view, factor, at, self._screen.whole)
+
+    def _press(self, at: tuple[int, int]) -> None:
+        if at[1] >= self._screen.layout.strip.top:
+            self._drags = "strip"
+            self._drag(at, (0, 0))
+        elif _holds(self._screen.layout.plot, at):
+            self._drags = "plot"
+
+    def _drag(self, at: tuple[int, int], by: tuple[int, int]) -> None:
+        if self._drags == "strip":
+            strip = self._screen.layout.strip
+            share = (at[0] - strip.left) / (strip.right - strip.left)
+            self.playback.seek(share * self.playback.course.duration_s)
+        else:
+            self.view, self.follows = shifted(self.view, by), False
+
+
+def _holds(box: Box, at: tuple[int, int]) -> bool:
+    return box.left <= at[0] < box.right and box.top <= at[1] < box.bottom

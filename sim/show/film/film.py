@@ -1,0 +1,63 @@
+"""Write a film of a run."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Final
+
+from parser.findings.errors import SettingsError
+from sim.files import staged
+from sim.run.recording import Recording
+from sim.show.film.clock import Clock
+from sim.show.film.course import course_of
+from sim.show.film.plate import Pixels
+from sim.show.film.screen import Look, Screen
+from sim.show.film.writers import FORMATS, MOST_HELD_PX, Format, Frames, encoder
+from sim.table.motion import Progress
+
+FORMAT_NAMES: Final = ", ".join(FORMATS)
+
+
+def format_of(path: Path, seconds: float, fps: int, look: Look) -> Format:
+    """How a file of this name is written; SettingsError where a film of this length and size cannot be."""
+    suffix = path.suffix.lower()
+    if suffix not in FORMATS:
+        raise SettingsError(f"{path}: films are {FORMAT_NAMES}, told by the end of the name")
+    found = FORMATS[suffix]
+    if fps > found.most_fps:
+        raise SettingsError(f"a {suffix} shows {found.most_fps} frames a second at most, not {fps}; write an .mp4")
+    pixels = round(seconds * fps) * look.width_px * look.height_px
+    if found.holds_frames and pixels > MOST_HELD_PX:
+        raise SettingsError(
+            f"a {suffix} of {round(seconds * fps):,} frames of {look.width_px}x{look.height_px} would need "
+            f"{2 * pixels / 1e9:.1f} GB of memory; make it shorter or smaller, or write an .mp4"
+        )
+    if not found.holds_frames and (look.width_px % 2 or look.height_px % 2):
+        raise SettingsError(f"an {suffix} has an even number of pixels both ways, not {look.width_px}x{look.height_px}")
+    if suffix == ".mp4":
+        encoder()
+    return found
+
+
+def write_film(  # noqa: PLR0913, PLR0917 - a file, what it shows, and how
+    path: Path, recording: Recording, seconds: float, fps: int, look: Look, progress: Progress
+) -> None:
+    """Write a film of a recorded run, whole or not at all; its end stands for a second.
+
+    SettingsError where there can be no such film, FileUnreadableError where the file cannot be written.
+    """
+    chosen = format_of(path, seconds, fps, look)
+    course = course_of(recording)
+    clock = Clock(seconds, fps, course.duration_s)
+    screen = Screen(course, look)
+
+    def shown(t_s: float) -> Pixels:
+        return screen.frame(t_s, screen.whole, clock.speed)
+
+    def made() -> Iterator[Pixels]:
+        for number, t_s in enumerate(clock.times_s.tolist()):
+            progress("drawing the film", number, clock.frames)
+            yield shown(t_s)
+
+    with staged(path.parent, [path.name]) as stage:
+        samples = tuple(shown(share * course.duration_s) for share in (1.0, 0.5, 0.0))
+        chosen.write(stage / path.name, Frames(made(), samples), clock)

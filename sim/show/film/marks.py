@@ -1,0 +1,37 @@
+"""What moves on the plot: the wire where it is, and the place that the steps have asked for."""
+
+from typing import Final
+
+import numpy as np
+
+from parser.geometry.curves import Floats
+from sim.show.draw import style
+from sim.show.draw.canvas import Canvas
+from sim.show.draw.paints import Paint
+
+WIRE: Final = 5.0
+"""Least radius of the wire's mark, so that it can be seen."""
+RING_MOST: Final = 130.0
+"""A larger wire is left out around its mark."""
+ARM: Final = (9.0, 19.0)
+"""From the place that was asked for, arms of a cross begin and end so far away: the wire's mark lies between them."""
+
+
+def reach(radius: float, unit: float) -> float:
+    """How far the marks reach from their places, px, about a wire of that radius, px."""
+    ring = radius if radius <= RING_MOST * unit else 0.0
+    return max(ring, ARM[1] * unit) + style.MARK_WIDTH * unit
+
+
+def draw_wire(canvas: Canvas, center: Floats, radius: float, unit: float) -> None:
+    """Mark the wire at a place (2,) px, with its true outline, `radius` px, where that shows."""
+    canvas.disc(center, WIRE * unit, Paint.ACTUAL)
+    if WIRE * unit < radius <= RING_MOST * unit:
+        canvas.ring(center, radius, Paint.ACTUAL, style.JUMP_WIDTH * unit)
+
+
+def draw_commanded(canvas: Canvas, center: Floats, unit: float) -> None:
+    """Mark the commanded place (2,) px with a cross that is open in its middle."""
+    for along in ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)):
+        arm = center + np.outer(ARM, along) * unit
+        canvas.polyline(arm, Paint.INK, style.JUMP_WIDTH * unit)

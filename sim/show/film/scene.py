@@ -1,0 +1,105 @@
+"""The plot of a run in one view, at any moment."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from sim.cut.pieces.pieces import Piece
+from sim.show.draw import style
+from sim.show.draw.layout import Page, View
+from sim.show.draw.paints import Theme
+from sim.show.film.course import Course, Moment
+from sim.show.film.cut_map import FULL, CutMap, Levels, Span, discs_of
+from sim.show.film.ground import Fate, draw_behind, draw_ground, draw_path
+from sim.show.film.layout import AXIS, Layout
+from sim.show.film.plate import Pixels, Plate
+
+FALL_S: Final = 0.7
+"""So long a piece that came free lies grey before it is gone, in seconds of the film."""
+
+TIP_MOST_PX: Final = 150.0
+"""A larger kerf grows disc by disc: its front lies far from the wire, mostly outside of the plot."""
+NOTHING: Final = Span(0, 0, 0, 0)
+
+
+class Scene:
+    """Pictures of the plot before and behind the wire, mixed by what is cut.
+
+    Parameters
+    ----------
+    course
+        The run.
+    layout
+        Where the plot stands on the frame.
+    view
+        What it shows.
+    theme
+        Colours.
+    """
+
+    def __init__(self, course: Course, layout: Layout, view: View, theme: Theme) -> None:
+        unit = layout.unit
+        wide = round(layout.plot.right + style.EDGE * unit / 2)
+        self._page = Page(wide, round(layout.plot.bottom + AXIS * unit), unit, layout.plot, view)
+        self._course, self._theme = course, theme
+        scenario = course.run.scenario
+        self._radius = max(scenario.wire.kerf_um * view.px_per_um, style.KERF_WIDTH_MIN * unit) / 2.0
+        self._map = CutMap(
+            discs_of(course.trace, course.run.toolpath.is_jump, view, layout.plot, self._radius), layout.plot
+        )
+        left, top, right, bottom = (round(side) for side in layout.plot)
+        self._plot = (slice(top, bottom), slice(left, right))
+        behind = Plate(self._page.width_px, self._page.height_px, theme)
+        draw_behind(behind, self._page)
+        draw_path(behind, self._page, course)
+        self._behind = behind.pixels()[self._plot]
+        self._fates: Sequence[Fate] | None = None
+        self._before = self._image = np.empty((0, 0, 3), dtype=np.uint8)
+        self._front, self._tip = 0, NOTHING
+
+    @property
+    def view(self) -> View:
+        """What the plot shows."""
+        return self._page.view
+
+    def at(self, moment: Moment, fates: Sequence[Fate]) -> Pixels:
+        """The plot with its axes, from the corner of the frame on, at a moment, with what has become of each piece.
+
+        The array changes with the next call.
+        """
+        if fates != self._fates:
+            self._begin(fates)
+        front = self._map.front(moment.t_s)
+        for span in (self._map.changed(self._front, front), self._tip):
+            self._mix(span, self._map.levels(front, span))
+        self._front, self._tip = front, NOTHING
+        if moment.cuts and self._radius <= TIP_MOST_PX:
+            self._tip, levels = self._map.tip(self.view.to_px(moment.wire_um))
+            self._mix(self._tip, np.maximum(self._map.levels(front, self._tip), levels))
+        return self._image
+
+    def _begin(self, fates: Sequence[Fate]) -> None:
+        """Begin anew with a plot that is not cut."""
+        canvas = Plate(self._page.width_px, self._page.height_px, self._theme)
+        draw_ground(canvas, self._page, self._course, fates)
+        draw_path(canvas, self._page, self._course)
+        self._fates, self._before = fates, canvas.pixels()
+        self._image = self._before.copy()
+        self._front, self._tip = 0, NOTHING
+
+    def _mix(self, span: Span, levels: Levels) -> None:
+        """Show a span as far as it is cut."""
+        plot = span.of
+        shown, before = self._image[self._plot][plot], self._before[self._plot][plot]
+        shown[...] = before
+        cut = levels > 0
+        share = levels[cut].astype(np.uint16)[:, None]
+        shown[cut] = (before[cut] * (FULL - share) + self._behind[plot][cut] * share) // FULL
+
+
+def fate(piece: Piece, t_s: float, speed: float) -> Fate:
+    """What has become of a piece; `speed` is seconds of the run in each second of the film."""
+    if t_s < piece.freed.t_s:
+        return "held"
+    return "free" if t_s < piece.freed.t_s + FALL_S * speed else "gone"

@@ -1,0 +1,113 @@
+"""Films as files: animated pictures through pillow, mp4 through the encoder of imageio-ffmpeg."""
+
+import importlib
+from collections.abc import Callable, Iterator, Mapping
+from itertools import chain
+from pathlib import Path
+from types import ModuleType
+from typing import Final, NamedTuple
+
+from PIL import Image
+
+from parser.findings.errors import FileUnreadableError, SettingsError
+from sim.show.film.clock import Clock
+from sim.show.film.plate import Pixels
+
+COLOURS: Final = 256
+MOST_HELD_PX: Final = 600_000_000
+"""All frames of an animated picture are held at once, and pillow holds them again: two bytes to each pixel."""
+GIF_GRAIN_MS: Final = 10
+GIF_FPS: Final = 50
+"""Readers of GIFs take shorter delays than two grains for a mistake, and wait 0.1 s."""
+CRF: Final = 18
+"""Quality of x264: thin lines and text stay sharp."""
+
+
+class Frames(NamedTuple):
+    """Frames as they are made, each (h, w, 3), with some of them beforehand that show what colours there are."""
+
+    made: Iterator[Pixels]
+    samples: tuple[Pixels, ...]
+
+
+class Format(NamedTuple):
+    """How a film is written, and how many frames a second it can have."""
+
+    write: Callable[[Path, Frames, Clock], None]
+    most_fps: int
+    holds_frames: bool
+
+
+def write_gif(path: Path, frames: Frames, clock: Clock) -> None:
+    """Write a GIF."""
+    _write_animated(path, frames, "GIF", duration=clock.delays_ms(GIF_GRAIN_MS), optimize=False)
+
+
+def write_webp(path: Path, frames: Frames, clock: Clock) -> None:
+    """Write an animated WebP, without loss: that keeps lines sharp, and is smaller here."""
+    _write_animated(
+        path, frames, "WEBP", duration=clock.delays_ms(1), lossless=True, quality=30, method=1, kmin=30, kmax=60
+    )
+
+
+def write_apng(path: Path, frames: Frames, clock: Clock) -> None:
+    """Write an animated PNG."""
+    _write_animated(path, frames, "PNG", duration=clock.delays_ms(1))
+
+
+def write_mp4(path: Path, frames: Frames, clock: Clock) -> None:
+    """Write H.264. FileUnreadableError where the encoder could not."""
+    library = encoder()
+    first = next(frames.made)
+    tall, wide = first.shape[:2]
+    sink = library.write_frames(
+        str(path),
+        (wide, tall),
+        fps=clock.fps,
+        codec="libx264",
+        quality=None,
+        macro_block_size=1,  # any even size: players have long not needed more
+        ffmpeg_log_level="error",
+        output_params=["-crf", str(CRF), "-preset", "fast", "-movflags", "+faststart"],
+    )
+    try:
+        sink.send(None)
+        for frame in chain([first], frames.made):
+            sink.send(frame.tobytes())
+    except OSError:
+        raise FileUnreadableError(f"{path.name}: the encoder could not write the film") from None
+    finally:
+        sink.close()
+    if not path.exists() or not path.stat().st_size:
+        raise FileUnreadableError(f"{path.name}: the encoder wrote no film")
+
+
+FORMATS: Final[Mapping[str, Format]] = {
+    ".gif": Format(write_gif, GIF_FPS, holds_frames=True),
+    ".webp": Format(write_webp, 60, holds_frames=True),
+    ".apng": Format(write_apng, 60, holds_frames=True),
+    ".mp4": Format(write_mp4, 60, holds_frames=False),
+}
+
+
+def _write_animated(path: Path, frames: Frames, kind: str, **options: object) -> None:
+    """Write all frames in the 256 colours that fit the samples best; the picture repeats for ever."""
+    palette = _palette(frames.samples)
+    images = [Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames.made]
+    images[0].save(path, format=kind, save_all=True, append_images=images[1:], loop=0, **options)
+
+
+def _palette(samples: tuple[Pixels, ...]) -> Image.Image:
+    wide, tall = samples[0].shape[1], samples[0].shape[0]
+    sheet = Image.new("RGB", (wide, tall * len(samples)))
+    for number, sample in enumerate(samples):
+        sheet.paste(Image.fromarray(sample), (0, number * tall))
+    return sheet.quantize(COLOURS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+
+
+def encoder() -> ModuleType:
+    """The library with the encoder, an extra for this format alone. SettingsError where it is not installed."""
+    try:
+        return importlib.import_module("imageio_ffmpeg")
+    except ImportError:
+        raise SettingsError("an .mp4 needs an encoder: pip install 'drycut[film]'; or write a .webp") from None

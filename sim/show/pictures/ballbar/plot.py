@@ -1,0 +1,121 @@
+"""The polar plot of a circular test."""
+
+from dataclasses import replace
+from typing import Final, NamedTuple
+
+import numpy as np
+from PIL import Image
+
+from parser.geometry.curves import Floats
+from sim.run.ballbar.circle import Ballbar, Measured
+from sim.run.ballbar.parts import Reversal
+from sim.run.ballbar.rows import FIGURES, PARTS, figure_rows, part_rows, setup_rows, um
+from sim.run.ballbar.turn import Sense
+from sim.show.draw import style
+from sim.show.draw.canvas import Canvas
+from sim.show.draw.dial import Dial, draw_ring_values, draw_rings, ring_for
+from sim.show.draw.furniture import draw_header
+from sim.show.draw.layout import Box, Page, View
+from sim.show.draw.paints import Paint
+from sim.show.draw.raster import Raster
+from sim.show.pictures.ballbar.dial import draw_band, draw_curve, draw_zone_edge
+from sim.show.pictures.ballbar.panel import Panel
+from sim.show.pictures.ballbar.reversal_marks import mark_spike, write_reversals
+
+CELLS: Final = 1440
+CELL_RAD: Final = np.asarray((np.arange(CELLS) + 0.5) * (2.0 * np.pi / CELLS), dtype=np.float64)
+"""Quarters of a degree, over which the drawn curves are means, as a ball bar's filter makes them."""
+ASPECT: Final = 0.72
+"""Height over width."""
+CENTER: Final = (572.0, 638.0)
+"""Middle of the dial."""
+
+
+def draw_ballbar(ballbar: Ballbar, measured: Measured, width_px: int = 1600) -> Image.Image:
+    """Draw both paths about their common least-squares centre, deviations magnified, with figures and parts.
+
+    The same test gives the same pixels. ValueError where the picture would be narrower than 600 px.
+    """
+    if width_px < style.LEAST_WIDTH:
+        raise ValueError(f"a picture is at least {style.LEAST_WIDTH} px wide, not {width_px}")
+    unit = width_px / style.BASE_WIDTH
+    curves = [_curve(ballbar, measured, row) for row in (0, 1)]
+    lowest = min(float(curve.ends_um.min()) for curve in curves)
+    highest = max(float(curve.ends_um.max()) for curve in curves)
+    dial = Dial(unit, ring_for(max(-lowest, highest)), (CENTER[0] * unit, CENTER[1] * unit), unit)
+    canvas = Raster(width_px, round(ASPECT * width_px))
+    _write_head(canvas, unit, width_px, ballbar, measured)
+    for curve in curves:
+        draw_band(canvas, dial, curve.sense, CELL_RAD, curve.ends_um)
+    draw_rings(canvas, dial)
+    for edge in (lowest, highest):
+        draw_zone_edge(canvas, dial, edge)
+    for curve in curves:
+        draw_curve(canvas, dial, curve.sense, CELL_RAD, curve.mean_um)
+    draw_ring_values(canvas, dial)
+    _write_middle(canvas, dial, measured)
+    write_reversals(canvas, dial, measured.parts.reversals)
+    for reversal in measured.parts.reversals:
+        _mark(canvas, dial, reversal, curves[0 if reversal.sense == 1 else 1])
+    _write_panel(canvas, dial, width_px, ballbar, measured)
+    return canvas.image()
+
+
+class _Curve(NamedTuple):
+    """Deviations of a path about the common centre, in `CELLS` cells: mean (CELLS,), lowest and highest (CELLS, 2)."""
+
+    sense: Sense
+    mean_um: Floats
+    ends_um: Floats
+
+
+def _curve(ballbar: Ballbar, measured: Measured, row: int) -> _Curve:
+    turn, center = ballbar.turns[row], np.array(measured.figures.center_um)
+    about = replace(turn, points_um=turn.points_um - center)
+    origin = np.zeros(2)
+    mean = about.radii_on_grid(origin).reshape(CELLS, -1).mean(axis=1) - ballbar.test.radius_um
+    cell = np.minimum(about.angles_rad() * (CELLS / (2.0 * np.pi)), CELLS - 1).astype(np.int64)
+    off = about.radii_um(origin) - ballbar.test.radius_um
+    ends = np.stack([mean, mean], axis=1)
+    np.minimum.at(ends[:, 0], cell, off)
+    np.maximum.at(ends[:, 1], cell, off)
+    return _Curve(turn.sense, mean, ends)
+
+
+def _write_head(canvas: Canvas, unit: float, width_px: int, ballbar: Ballbar, measured: Measured) -> None:
+    machine, *rest = setup_rows(ballbar)
+    page = Page(width_px, round(ASPECT * width_px), unit, Box(0.0, 0.0, 0.0, 0.0), View(1.0, 0.0, 0.0))
+    radius, feed = rest[0], rest[1]
+    note = f"{machine.value} · R {radius.value} · {feed.value} · G(b) {um(measured.figures.circularity_um)}"
+    draw_header(canvas, page, "Circular test ISO 230-4, about the least-squares centre", note)
+
+
+def _write_middle(canvas: Canvas, dial: Dial, measured: Measured) -> None:
+    x, y = dial.center.tolist()
+    unit = dial.unit
+    canvas.text((x, y - 30.0 * unit), "G(b)", style.NOTE * unit, Paint.GREY, align=0.5)
+    value = um(measured.figures.circularity_um)
+    canvas.text((x, y + 16.0 * unit), value, style.TITLE * unit, Paint.INK, align=0.5)
+
+
+def _mark(canvas: Canvas, dial: Dial, reversal: Reversal, curve: _Curve) -> None:
+    """Ring the top of a spike, where there is one."""
+    if reversal.spike_deg is not None:
+        cell = min(int(reversal.spike_deg * (CELLS / 360.0)), CELLS - 1)
+        place = dial.to_px(CELL_RAD[cell], curve.mean_um[cell])
+        mark_spike(canvas, place, reversal, dial.unit)
+
+
+def _write_panel(canvas: Canvas, dial: Dial, width_px: int, ballbar: Ballbar, measured: Measured) -> None:
+    magnified = f"{dial.magnification(ballbar.test.radius_um):,.0f}"
+    panel = Panel(canvas, dial.unit, width_px)
+    panel.legend(
+        [
+            "ccw, mean over ¼°; pale: all places",
+            "cw, likewise",
+            f"nominal circle; deviation × {magnified}",
+            "zone of G(b), holds both paths",
+        ]
+    )
+    panel.table(FIGURES, figure_rows(measured.figures))
+    panel.table(PARTS, part_rows(measured.parts, measured.interpolation_um))

@@ -1,0 +1,87 @@
+"""What is stroked: the kerf, the path, the contour it is made from, where the wire was, and jumps."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Toolpath
+from sim.show.draw import style
+from sim.show.draw.canvas import Canvas
+from sim.show.draw.flatten import bounds_um, cut_runs, flatten
+from sim.show.draw.layout import View
+from sim.show.draw.paints import Paint
+from sim.show.draw.simplify import simplify
+from sim.show.pictures.cut.subject import Cut
+
+CHORD_PX: Final = 0.15
+"""How far a drawn line may leave the true one."""
+
+
+class Lines(NamedTuple):
+    """Lines on the page, px: stretches (k, 2) and jumps, each (2, 2).
+
+    Without a trace `actual` is empty and the kerf follows the path.
+    """
+
+    ideal: list[Floats]
+    actual: list[Floats]
+    contour: list[Floats]
+    jumps: list[Floats]
+
+    @property
+    def kerf(self) -> list[Floats]:
+        """What the kerf lies around."""
+        return self.actual or self.ideal
+
+
+def path_bounds_um(cut: Cut) -> Floats:
+    """Box around path, contour and kerf, (2, 2)."""
+    boxes = [bounds_um(toolpath) for toolpath in (cut.toolpath, cut.contour) if toolpath is not None]
+    if cut.trace is not None:
+        boxes.append(np.stack([cut.trace.wire_um.min(axis=0), cut.trace.wire_um.max(axis=0)]))
+    low, high = np.min([box[0] for box in boxes], axis=0), np.max([box[1] for box in boxes], axis=0)
+    return np.asarray(np.stack([low, high]) + cut.kerf_um / 2 * np.array([[-1.0], [1.0]]), dtype=np.float64)
+
+
+def shown_bounds_um(cut: Cut) -> Floats:
+    """Box around the path and the bodies near it, (2, 2), at least four kerfs and 0.1 mm wide."""
+    box = path_bounds_um(cut)
+    missing = max(4 * cut.kerf_um, 100.0) - float((box[1] - box[0]).max())
+    return cut.bodies.around(box + max(missing / 2, 0.0) * np.array([[-1.0, 0.0], [1.0, 0.0]]))
+
+
+def lines_of(cut: Cut, view: View) -> Lines:
+    """The lines of a cut in a view."""
+    toolpath, trace = cut.toolpath, cut.trace
+    jumps = np.stack([toolpath.start_um, toolpath.end_um], axis=1)[toolpath.is_jump]
+    return Lines(
+        ideal=_path_px(toolpath, view),
+        actual=[] if trace is None else _runs_px(trace.wire_um, trace.row, toolpath, view),
+        contour=[] if cut.contour is None else _path_px(cut.contour, view),
+        jumps=list(view.to_px(jumps)),
+    )
+
+
+def _path_px(toolpath: Toolpath, view: View) -> list[Floats]:
+    return _runs_px(*flatten(toolpath, CHORD_PX / view.px_per_um), toolpath, view)
+
+
+def _runs_px(points_um: Floats, row: Ints, toolpath: Toolpath, view: View) -> list[Floats]:
+    runs = cut_runs(points_um, row, toolpath.is_jump)
+    return [simplify(view.to_px(run), CHORD_PX) for run in runs]
+
+
+def draw_lines(canvas: Canvas, unit: float, lines: Lines, kerf_px: float) -> None:
+    """Draw all lines, the kerf `kerf_px` wide below them."""
+    strokes = (
+        (lines.kerf, Paint.KERF, kerf_px),
+        (lines.contour, Paint.CONTOUR, style.CONTOUR_WIDTH * unit),
+        (lines.actual, Paint.ACTUAL, style.ACTUAL_WIDTH * unit),
+        (lines.ideal, Paint.IDEAL, style.IDEAL_WIDTH * unit),
+    )
+    for runs, paint, width in strokes:
+        for run in runs:
+            canvas.polyline(run, paint, width)
+    for jump in lines.jumps:
+        canvas.dashed(jump, Paint.JUMP, style.JUMP_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)

@@ -1,0 +1,163 @@
+"""What stands around a picture of deviation: title and figures above it, the legend below."""
+
+from collections.abc import Callable, Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Floats
+from sim.show.draw import style
+from sim.show.draw.canvas import Canvas
+from sim.show.draw.chart import Chart
+from sim.show.draw.furniture import draw_header, elide
+from sim.show.draw.layout import Box, Page, View
+from sim.show.draw.letters import Letters
+from sim.show.draw.paints import Paint
+from sim.show.draw.sheet import AnyCanvas, Sheet
+from sim.show.pictures.deviation.samples import Samples
+from sim.show.words.pictures import Words
+
+COLUMN_GAP: Final = 44.0
+
+
+class Entry(NamedTuple):
+    """A line of a legend: what draws its sample into a box, and its text."""
+
+    draw: Callable[[Canvas, Box], None]
+    text: str
+
+
+class Legend(NamedTuple):
+    """Entries in rows, each as full as the page is wide; sizes are px."""
+
+    rows: list[list[tuple[float, Entry]]]
+    unit: float
+
+    @property
+    def height(self) -> float:
+        """What it takes of the page."""
+        return (len(self.rows) + 0.4) * style.LEGEND_ROW * self.unit
+
+
+def legend_of(entries: Sequence[Entry], width_px: float, unit: float) -> Legend:
+    """Lay out a legend on a page of a width."""
+    letters, start = Letters(), style.EDGE * unit
+    rows: list[list[tuple[float, Entry]]] = [[]]
+    left = start
+    for entry in entries:
+        wide = (style.SAMPLE + style.LEGEND_GAP) * unit + letters.width(entry.text, style.TEXT * unit)
+        if rows[-1] and left + wide > width_px - start:
+            rows.append([])
+            left = start
+        rows[-1].append((left, entry))
+        left += wide + COLUMN_GAP * unit
+    return Legend(rows, unit)
+
+
+def draw_legend(canvas: Canvas, legend: Legend) -> None:
+    """Draw a legend at the foot of the page."""
+    row_px, unit = style.LEGEND_ROW * legend.unit, legend.unit
+    for at, row in enumerate(legend.rows):
+        top = canvas.height_px - legend.height + at * row_px
+        for left, entry in row:
+            entry.draw(canvas, Box(left, top, left + style.SAMPLE * unit, top + row_px))
+            x = left + (style.SAMPLE + style.LEGEND_GAP) * unit
+            canvas.text((x, top + row_px / 2.0), entry.text, style.TEXT * unit, Paint.INK)
+
+
+def stroke(paint: Paint, width: float) -> Callable[[Canvas, Box], None]:
+    """A sample that is a line, `width` px wide."""
+    return lambda canvas, box: canvas.polyline(_across(box), paint, width)
+
+
+def dashes(paint: Paint, width: float, unit: float) -> Callable[[Canvas, Box], None]:
+    """A sample that is a dashed line."""
+    dash, gap = style.DASH * unit, style.DASH_GAP * unit
+    return lambda canvas, box: canvas.dashed(_across(box), paint, width, dash, gap)
+
+
+def swatch(fill: Paint, edge: Paint, width: float) -> Callable[[Canvas, Box], None]:
+    """A sample that is a filled rectangle with an edge, `width` px wide."""
+
+    def draw(canvas: Canvas, box: Box) -> None:
+        inset = 0.22 * (box.bottom - box.top)
+        canvas.box(box._replace(top=box.top + inset, bottom=box.bottom - inset), fill, edge, width)
+
+    return draw
+
+
+def ring(paint: Paint, unit: float) -> Callable[[Canvas, Box], None]:
+    """A sample that is the ring around a place."""
+    return lambda canvas, box: canvas.ring(_across(box).mean(axis=0), style.MARK * unit, paint, style.MARK_WIDTH * unit)
+
+
+def _across(box: Box) -> Floats:
+    y = (box.top + box.bottom) / 2.0
+    return np.array([[box.left, y], [box.right, y]])
+
+
+def titled(sheet: Sheet[AnyCanvas], samples: Samples, title: str, height_px: float, note: str = "") -> AnyCanvas:
+    """An empty page with a title, and the figures of the run below it, or another note.
+
+    ValueError where the sheet is narrower than 600 px.
+    """
+    if sheet.width_px < style.LEAST_WIDTH:
+        raise ValueError(f"a picture is at least {style.LEAST_WIDTH} px wide, not {sheet.width_px}")
+    canvas = sheet.page(round(height_px))
+    nowhere = Box(0.0, 0.0, 0.0, 0.0)
+    page = Page(sheet.width_px, round(height_px), sheet.unit, nowhere, View(1.0, 0.0, 0.0))
+    scenario = samples.run.scenario.title
+    draw_header(canvas, page, f"{title} · {scenario}", note or figures_text(sheet.say, samples))
+    return canvas
+
+
+def write_names(canvas: Canvas, chart: Chart, x_name: str, y_name: str) -> None:
+    """Write the names of the axes inside their ends, on the page's own colour: nothing runs through them."""
+    frame, size = chart.frame, style.TICK * chart.unit
+    for name, align, y in ((x_name, 1.0, frame.bottom - 0.9 * size), (y_name, 0.0, frame.top + 0.9 * size)):
+        wide = canvas.text_width(name, size)
+        left = frame.left + 0.5 * size if align == 0.0 else frame.right - 0.5 * size - wide
+        plate = Box(left - 0.2 * size, y - 0.65 * size, left + wide + 0.2 * size, y + 0.65 * size)
+        canvas.box(plate, Paint.PAGE, Paint.PAGE, 0.0)
+        canvas.text((left, y), name, size, Paint.GREY)
+
+
+def mark_place(canvas: Canvas, frame: Box, place: Floats, text: str, unit: float) -> None:
+    """Ring a place (2,) px and write beside it, on the side where the frame has more room."""
+    canvas.ring(place, style.MARK * unit, Paint.ERROR, style.MARK_WIDTH * unit)
+    size, gap = style.TEXT * unit, 2.0 * style.MARK * unit
+    wide, (x, y) = canvas.text_width(text, size) + 0.8 * size, place.tolist()
+    left = x - gap - wide if x > (frame.left + frame.right) / 2.0 else x + gap
+    canvas.box(Box(left, y - 0.75 * size, left + wide, y + 0.75 * size), Paint.PAGE, Paint.ERROR, unit)
+    canvas.text((left + wide / 2.0, y), text, size, Paint.INK, align=0.5)
+
+
+def write_caption(canvas: Canvas, box: Box, lines: tuple[str, str], unit: float, *, align: float = 0.0) -> None:
+    """Write two lines into a box, the middle of what is too long left out; `align` as that of a text."""
+    looks = ((lines[0], style.TEXT, 0.28, Paint.INK), (lines[1], style.NUMBER, 0.72, Paint.GREY))
+    for text, size, share, paint in looks:
+        line = elide(canvas, text, size * unit, box.right - box.left)
+        at = box.left + align * (box.right - box.left), box.top + share * (box.bottom - box.top)
+        canvas.text(at, line, size * unit, paint, align=align)
+
+
+def figures_text(say: Words, samples: Samples) -> str:
+    """The figures of a run in a line: the largest deviation of its wire, where it was, and what 95 % keep to."""
+    at = samples.worst
+    if at is None:
+        return say("deviation_nothing_cut")
+    most = say("deviation_most", most=um(samples.max_um), block=samples.where(at).block)
+    return f"{most} · {say('deviation_p95', p95=um(samples.p95_um))}"
+
+
+def tolerance_text(say: Words, samples: Samples) -> str:
+    """What the legend says of the tolerance."""
+    key = "deviation_tolerance_default" if samples.run.scenario.drawing is None else "deviation_tolerance"
+    return say(key, tolerance=f"{samples.tolerance_um:g}")
+
+
+def um(length_um: float, *, signed: bool = False) -> str:
+    """A deviation in µm: two decimals, fewer where it is large, never −0."""
+    decimals = 2 if abs(length_um) < 100.0 else 1
+    value = round(length_um, decimals) + 0.0
+    return f"{value:{'+' if signed and value else ''},.{decimals}f} µm".replace("-", "−")

@@ -1,0 +1,100 @@
+"""Events on the time axis: borders of blocks with their numbers, pauses, and what the drives lost."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Floats
+from sim.run.dryrun import DryRun
+from sim.show.draw import style
+from sim.show.draw.canvas import Canvas
+from sim.show.draw.chart import Chart
+from sim.show.draw.labels import MOST_NUMBERS, number_stride
+from sim.show.draw.paints import Paint
+
+ROW: Final = 30.0
+"""Height of a row of numbers or signs."""
+TICK: Final = 9.0
+LINE_WIDTH: Final = 1.5
+_LOSSES: Final = {"lost-steps": ("motion_lost", "3B402"), "trip": ("motion_trip", "3B403")}
+
+
+class Mark(NamedTuple):
+    """What happened at a time: the key of its name, its sign, and what it is drawn in."""
+
+    t_s: float
+    name: str
+    sign: str
+    paint: Paint
+
+
+class _Label(NamedTuple):
+    """A text that is centred on a place of the time axis, px."""
+
+    x: float
+    text: str
+    paint: Paint
+
+
+def marks_of(run: DryRun) -> list[Mark]:
+    """Losses of a run, with the codes of their findings and the axes, and pauses."""
+    ends_s, stops = _borders_s(run), run.toolpath.stops
+    pauses = [
+        Mark(float(ends_s[stop.after]), "motion_pause", "D", Paint.PAUSE) for stop in stops if stop.kind == "pause"
+    ]
+    losses = [
+        Mark(loss.t_s, _LOSSES[loss.kind][0], f"{_LOSSES[loss.kind][1]} {loss.axis.name}", Paint.ERROR)
+        for loss in run.losses
+    ]
+    until_s = run.history.t_s[-1]
+    return [mark for mark in (*losses, *pauses) if mark.t_s <= until_s]
+
+
+def draw_blocks(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> None:
+    """Draw ticks at borders of blocks and numbers between, above a chart whose X axis counts `unit_s`.
+
+    Of many blocks some are shown, and of numbers that would overlap the roundest, or those of the longest blocks.
+    """
+    stride, top, unit = number_stride(len(run.toolpath)), chart.frame.top, chart.unit
+    borders = chart.x_px(_borders_s(run) / unit_s)
+    for x in borders[::stride].tolist():
+        canvas.polyline(np.array([[x, top - TICK * unit], [x, top]]), Paint.GREY, LINE_WIDTH * unit)
+    rows = np.arange(stride - 1, len(run.toolpath), stride)
+    round_by = sum((rows + 1) % (times * stride) == 0 for times in (2, 5, 10)) if stride > 1 else np.zeros(len(rows))
+    best = rows[np.lexsort((-run.block_time_s[rows], -round_by))]
+    middle = (borders[best] + borders[best + 1]) / 2.0
+    labels = [_Label(x, f"{row + 1}", Paint.GREY) for x, row in zip(middle.tolist(), best.tolist(), strict=True)]
+    _draw_labels(canvas, chart, labels, top - (TICK + 0.5 * ROW) * unit)
+
+
+def draw_marks(canvas: Canvas, charts: list[Chart], marks: list[Mark], unit_s: float, y: float) -> None:
+    """Draw a line through all charts at each mark, and its sign at the height `y` as far as there is room.
+
+    Of two in one place the first one shows.
+    """
+    unit = charts[0].unit
+    x = charts[0].x_px(np.array([mark.t_s for mark in marks]) / unit_s).tolist()
+    lines = {round(at): mark.paint for at, mark in reversed(list(zip(x, marks, strict=True)))}
+    for at, paint in lines.items():
+        for frame in (chart.frame for chart in charts):
+            line = np.array([[at, frame.top], [at, frame.bottom]], dtype=np.float64)
+            canvas.dashed(line, paint, LINE_WIDTH * unit, 0.5 * style.DASH * unit, 0.5 * style.DASH_GAP * unit)
+    labels = [_Label(at, mark.sign, mark.paint) for at, mark in zip(x, marks, strict=True)]
+    _draw_labels(canvas, charts[0], labels, y)
+
+
+def _borders_s(run: DryRun) -> Floats:
+    return np.concatenate([[0.0], np.cumsum(run.block_time_s)])
+
+
+def _draw_labels(canvas: Canvas, chart: Chart, labels: list[_Label], y: float) -> None:
+    """Write those labels that find room beside one another within the width of a chart; earlier ones choose first."""
+    size = style.NUMBER * chart.unit
+    taken: list[tuple[float, float]] = []
+    for label in labels[:MOST_NUMBERS]:
+        half = canvas.text_width(label.text, size) / 2.0
+        x = min(max(label.x, chart.frame.left + half), chart.frame.right - half)
+        begin, end = x - half - 0.4 * size, x + half + 0.4 * size
+        if all(end <= left or right <= begin for left, right in taken):
+            taken.append((begin, end))
+            canvas.text((x, y), label.text, size, label.paint, align=0.5)

@@ -1,0 +1,73 @@
+"""Panels: what each shows of a run's history, in units for people, and over which range."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Floats, Ints
+from parser.units import mm
+from sim.run.dryrun import DryRun
+from sim.show.draw.chart import Range, range_of
+from sim.show.pictures.motion.levels import Level, feed_levels, limit_levels
+from sim.table.record.bins import Envelope
+from sim.table.record.history import History
+
+ROOM: Final = 0.08
+"""Share of its range that a panel leaves free at either side."""
+REACH: Final = 0.3
+"""Share of the range by which a panel grows to show a level."""
+
+
+class Panel(NamedTuple):
+    """What a panel shows: the key of its name, an envelope and levels in its unit, and the least range."""
+
+    name: str
+    envelope: Envelope
+    levels: list[Level]
+    least: float
+
+    @property
+    def range(self) -> Range:
+        """From the lowest to the highest, and to levels just outside."""
+        shown = range_of(self.envelope.low, self.envelope.high, least=self.least)
+        reach, levels = shown.wider(REACH), np.array([level.value for level in self.levels])
+        both = np.concatenate([levels, -levels])
+        near = both[(both >= reach.low) & (both <= reach.high)]
+        return range_of(np.array(shown), near).wider(ROOM)
+
+
+def panels_of(run: DryRun, most: int) -> tuple[Floats, list[Panel]]:
+    """Times (b + 1,) s of up to `most` bins, and the panels from above, with those bins."""
+    motor = run.scenario.machine.table.motor
+    history = run.history
+    t_s, pooled = _pooled(history, most)
+    lag = limit_levels(run, "lag", "motion_pull_out" if motor.kind == "stepper" else "motion_servo_limit")
+    speed = [*feed_levels(run), *limit_levels(run, "speed", "motion_speed_limit", mm(1.0))]
+    return t_s, [
+        Panel("motion_velocity", _in_mm(pooled[0]), speed, least=0.01),
+        Panel("motion_acceleration", _in_mm(pooled[1]), [], least=1.0),
+        Panel("motion_error", pooled[2], lag, least=1.0),
+        Panel("motion_force", pooled[3], limit_levels(run, "force", "motion_force_limit"), least=1.0),
+    ]
+
+
+def _in_mm(envelope: Envelope) -> Envelope:
+    return Envelope._make(mm(column) for column in envelope)
+
+
+def _pooled(history: History, most: int) -> tuple[Floats, list[Envelope]]:
+    """The history in no more than `most` bins, none too narrow to be seen: nothing that is short gets lost."""
+    bins = len(history.t_s) - 1
+    first = np.unique(np.arange(min(most, bins)) * bins // min(most, bins))
+    t_s = np.append(history.t_s[first], history.t_s[-1])
+    shown = (history.velocity_um_s, history.acceleration_um_s2, history.following_error_um, history.force_n)
+    return t_s, [_pool(envelope, first, np.diff(history.t_s)) for envelope in shown]
+
+
+def _pool(envelope: Envelope, first: Ints, width_s: Floats) -> Envelope:
+    area = np.add.reduceat(envelope.mean * width_s[:, None], first, axis=0)
+    return Envelope(
+        low=np.minimum.reduceat(envelope.low, first, axis=0),
+        high=np.maximum.reduceat(envelope.high, first, axis=0),
+        mean=area / np.add.reduceat(width_s, first)[:, None],
+    )

@@ -1,0 +1,167 @@
+"""The picture of a run's motion: four panels over one time axis."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from parser.toolpath import Axis
+from sim.run.dryrun import DryRun
+from sim.show.draw import style
+from sim.show.draw.canvas import Canvas
+from sim.show.draw.chart import Chart, Range, draw_chart, draw_level
+from sim.show.draw.furniture import draw_header
+from sim.show.draw.labels import number_stride
+from sim.show.draw.layout import Box, Page, View
+from sim.show.draw.paints import Paint
+from sim.show.draw.sheet import AnyCanvas, Sheet
+from sim.show.pictures.motion.curves import draw_envelope
+from sim.show.pictures.motion.events import ROW, TICK, draw_blocks, draw_marks, marks_of
+from sim.show.pictures.motion.legend import draw_legend, legend_rows
+from sim.show.pictures.motion.levels import Level
+from sim.show.pictures.motion.panels import Panel, panels_of
+from sim.show.words.pictures import Words
+from sim.units import clock
+
+HEIGHT: Final = 0.13
+"""Height of a panel over the width of the picture."""
+LEAST_HEIGHT: Final = 150.0
+NAME_ROW: Final = 40.0
+TIME_ROWS: Final = 84.0
+BIN: Final = 2.0
+"""Width of the narrowest bin."""
+LEVEL_WIDTH: Final = 1.6
+SAMPLE: Final = 49.0
+"""Length of a level's sample beside its text: three dashes."""
+_TIMES: Final = ((7200.0, 3600.0, "motion_time_h"), (120.0, 60.0, "motion_time_min"), (0.0, 1.0, "motion_time_s"))
+
+
+class _Layout(NamedTuple):
+    """Where things stand on the page, px from the top.
+
+    Attributes
+    ----------
+    frames, names
+        Frames of the panels, and the middle of the row with the name of each.
+    signs, legend, height
+        Middle of the row with the signs of marks, top of the legend, height of the page.
+    """
+
+    frames: list[Box]
+    names: list[float]
+    signs: float
+    legend: float
+    height: int
+
+
+class _Time(NamedTuple):
+    """The time axis: how long it is and the unit that it counts, both in s, and the key of its name."""
+
+    whole_s: float
+    unit_s: float
+    name: str
+
+
+def draw_motion(sheet: Sheet[AnyCanvas], run: DryRun) -> AnyCanvas:
+    """Draw velocity, acceleration, following error and force of both axes over the time of a run."""
+    unit, say = sheet.unit, sheet.say
+    marks = marks_of(run)
+    rows = legend_rows(marks, number_stride(len(run.toolpath)), say, sheet.width_px, unit)
+    layout = _layout(sheet, bool(marks), len(rows))
+    canvas = sheet.page(layout.height)
+    page = Page(canvas.width_px, canvas.height_px, unit, layout.frames[0], View(1.0, 0.0, 0.0))
+    draw_header(canvas, page, run.scenario.title, _note(run, say))
+    time = _time_of(run)
+    charts = _draw_panels(canvas, layout, run, time, sheet)
+    draw_blocks(canvas, charts[0], run, time.unit_s)
+    draw_marks(canvas, charts, marks, time.unit_s, layout.signs)
+    frame, size = charts[-1].frame, style.TICK * unit
+    canvas.text((frame.right, frame.bottom + 2.1 * size), say(time.name), size, Paint.GREY, align=1.0)
+    draw_legend(canvas, rows, layout.legend, unit)
+    return canvas
+
+
+def _layout(sheet: Sheet[AnyCanvas], marks: bool, rows: int) -> _Layout:
+    unit = sheet.unit
+    above = (TICK + ROW + ROW * marks) * unit
+    height, name = max(HEIGHT * sheet.width_px, LEAST_HEIGHT * unit), NAME_ROW * unit
+    first = style.HEAD * unit + name + above
+    tops = [first, *(first + number * (height + name) for number in range(1, 4))]
+    frames = [Box(style.LEFT * unit, top, sheet.width_px - style.EDGE * unit, top + height) for top in tops]
+    names = [top - 0.5 * name - above * (top == first) for top in tops]
+    legend = frames[-1].bottom + TIME_ROWS * unit
+    return _Layout(
+        frames, names, first - (TICK + 1.5 * ROW) * unit, legend, round(legend + (rows + 0.4) * style.LEGEND_ROW * unit)
+    )
+
+
+def _time_of(run: DryRun) -> _Time:
+    whole_s = float(max(run.plan.duration_s, run.history.t_s[-1]))
+    unit_s, name = next((unit_s, name) for least_s, unit_s, name in _TIMES if whole_s >= least_s)
+    return _Time(whole_s, unit_s, name)
+
+
+def _note(run: DryRun, say: Words) -> str:
+    count = len(run.toolpath)
+    blocks = say("motion_blocks_one") if count == 1 else say("motion_blocks", count=count)
+    return say("motion_note", blocks=blocks, time=clock(run.ran_s), machine=run.scenario.machine.name)
+
+
+def _draw_panels(canvas: Canvas, layout: _Layout, run: DryRun, time: _Time, sheet: Sheet[AnyCanvas]) -> list[Chart]:
+    """Draw all panels; the charts in their frames."""
+    frame, across = layout.frames[0], Range(0.0, time.whole_s / time.unit_s)
+    t_s, panels = panels_of(run, round((frame.right - frame.left) / (BIN * sheet.unit)))
+    charts = [Chart(frame, across, panel.range, sheet.unit) for frame, panel in zip(layout.frames, panels, strict=True)]
+    for chart, panel, name in zip(charts, panels, layout.names, strict=True):
+        draw_chart(canvas, chart, x_values=chart is charts[-1])
+        if run.tripped:
+            _draw_standing(canvas, chart, t_s[-1] / time.unit_s, sheet.say)
+        draw_envelope(canvas, chart, t_s / time.unit_s, panel.envelope, (Axis.X, Axis.Y))
+        for level in panel.levels:
+            draw_level(canvas, chart, level.value, level.paint, LEVEL_WIDTH)
+            draw_level(canvas, chart, -level.value, level.paint, LEVEL_WIDTH)
+        _draw_name(canvas, chart, panel, sheet.say, name)
+    return charts
+
+
+def _draw_standing(canvas: Canvas, chart: Chart, since: float, say: Words) -> None:
+    """Shade a panel from the time on at which the machine tripped."""
+    frame, size = chart.frame, style.TEXT * chart.unit
+    left = float(chart.x_px(since))
+    canvas.box(frame._replace(left=left), Paint.GRID, Paint.FRAME, style.GRID_WIDTH * chart.unit)
+    text = say("motion_stands")
+    if canvas.text_width(text, size) < frame.right - left:
+        middle = (left + frame.right) / 2.0, (frame.top + frame.bottom) / 2.0
+        canvas.text(middle, text, size, Paint.GREY, align=0.5)
+
+
+class _Told(NamedTuple):
+    """A level beside the name of its panel: its text, its width with a sample, and whether it shows at all."""
+
+    level: Level
+    text: str
+    width: float
+    inside: bool
+
+
+def _told(canvas: Canvas, chart: Chart, level: Level, say: Words) -> _Told:
+    size = style.TICK * chart.unit
+    inside = any(chart.y.low <= value <= chart.y.high for value in (level.value, -level.value))
+    text = level.text(say) if inside else say("motion_outside", limit=level.text(say))
+    return _Told(level, text, canvas.text_width(text, size) + (SAMPLE * chart.unit + 0.4 * size) * inside, inside)
+
+
+def _draw_name(canvas: Canvas, chart: Chart, panel: Panel, say: Words, y: float) -> None:
+    """Write the name of a panel, and its levels at the right where there is room for all of them."""
+    frame, unit, size = chart.frame, chart.unit, style.TICK * chart.unit
+    name = say(panel.name)
+    canvas.text((frame.left, y), name, size, Paint.INK)
+    told = [_told(canvas, chart, level, say) for level in panel.levels]
+    left = frame.right + size - sum(one.width + size for one in told)
+    if left < frame.left + canvas.text_width(name, size) + size:
+        return
+    for one in told:
+        canvas.text((left + one.width, y), one.text, size, Paint.GREY, align=1.0)
+        if one.inside:
+            line = np.array([[left, y], [left + SAMPLE * unit, y]])
+            canvas.dashed(line, one.level.paint, LEVEL_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
+        left += one.width + size

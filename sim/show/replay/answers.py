@@ -1,0 +1,158 @@
+"""Questions about a block with their answers, the wrong ones too, worked out from what it is and does."""
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from parser.geometry.curves import Floats
+from sim.setup.quiz import About, Said, Written
+from sim.show.replay.asked_block import AskedBlock, in_mm, plain, signed, way
+from sim.show.words.quiz import alike, said
+
+_WRONG = 3
+"""Wrong answers beside the right one, where there are as many."""
+_APART_UM = 20.0
+"""Wrong ends lie farther from the right one than steps ever end from it (docs/3b.md §3)."""
+_EITHER_UM = 2
+"""An arc that ends as near to one axis as to the other, to rounding, may count on either."""
+
+
+def written_out(about: About, block: AskedBlock) -> Written | None:
+    """A question about a block that makes a step; None where it has no wrong answers to offer.
+
+    Only arcs are asked about their turn.
+    """
+    return _ABOUT[about](block)
+
+
+def _quadrant(block: AskedBlock) -> Written:
+    label = f"{block.sense}{block.motion}"
+    from_x, from_y = (plain(um) for um in _from_center(block, block.start_um))
+    why = said(
+        f"quadrant.{block.kind}.why", label=label, turn=_turn(block), from_x=from_x, from_y=from_y, **_moves(block)
+    )
+    return _among([f"{block.sense}{digit}" for digit in range(1, 5)], label, _ask(f"quadrant.{block.kind}", block), why)
+
+
+def _count_axis(block: AskedBlock) -> Written:
+    return _among(["GX", "GY"], f"G{block.axis}", _ask("count_axis", block), _why_axis(block))
+
+
+def _why_axis(block: AskedBlock) -> Said:
+    """Why the block counts on its axis by the rule of docs/3b.md §1, or that it does not keep to it."""
+    wide, high = block.extent_um
+    to_x, to_y = _from_center(block, block.end_um)
+    key, rule = _axis_of_arc(to_x, to_y, block.axis) if block.is_arc else _axis_of_line(block)
+    key = key if rule == block.axis else "written"
+    near = "Y" if rule == "X" else "X"
+    values = {"wide": wide, "high": high, "to_x": plain(to_x), "to_y": plain(to_y), "near": near, "axis": block.axis}
+    return said(f"count_axis.{key}.why", **values)
+
+
+def _axis_of_line(block: AskedBlock) -> tuple[str, str]:
+    """Which rule tells the counted axis, and the axis."""
+    wide, high = block.extent_um
+    if wide == high:
+        return "diagonal", "Y" if block.quadrant % 2 else "X"
+    return "line", "X" if wide > high else "Y"
+
+
+def _axis_of_arc(to_x: int, to_y: int, written: str) -> tuple[str, str]:
+    if abs(abs(to_x) - abs(to_y)) <= _EITHER_UM:
+        return "either", written
+    return "arc", "Y" if abs(to_x) > abs(to_y) else "X"
+
+
+def _turning(block: AskedBlock) -> Written:
+    answers = [said("turn.answer", turn=said(key), word=word) for key, word in _SENSES]
+    why = said("turn.why", label=block.label)
+    return Written(_ask("turn", block), tuple(answers), int(block.turn > 0), why)
+
+
+_SENSES = (("clockwise", "SR"), ("counter-clockwise", "NR"))
+
+
+def _count_length(block: AskedBlock) -> Written:
+    axis = "XY".index(block.axis)
+    others = (block.steps, abs(block.by_um[axis]), block.length_um, abs(block.by_um[1 - axis]), block.count_um * 2)
+    wrong = [round(float(other)) for other in others if other >= 1]
+    ask = said("count_length", block=block.number, axis=block.axis)
+    why = said(f"count_length.{block.kind}.why", count=block.count_um, axis=block.axis)
+    answers = sorted({block.count_um, *_some(wrong, block.count_um)})
+    return _among([str(answer) for answer in answers], str(block.count_um), ask, why)
+
+
+def _next_step(block: AskedBlock) -> Written:
+    right = way(block.first_step)
+    why = said(f"next_step.{block.kind}.why", way=right, label=f"{block.sense}{block.motion}")
+    return _among(["+X", "−X", "+Y", "−Y"], right, _ask("next_step", block), why)
+
+
+def _end(block: AskedBlock) -> Written | None:
+    right = _place(block.end_um)
+    answers = sorted({right, *_some([_place(place) for place in _other_ends(block)], right)})
+    if len(answers) == 1:
+        return None
+    center_x, center_y = (in_mm(place) if block.is_arc else "" for place in block.center_um.tolist())
+    start_x, start_y = (in_mm(place) for place in block.start_um.tolist())
+    values = {"start_x": start_x, "start_y": start_y, "center_x": center_x, "center_y": center_y}
+    why = said(
+        f"end.{block.kind}.why", turn=_turn(block), count=block.count_um, axis=block.axis, **values, **_moves(block)
+    )
+    return Written(_ask("end", block), tuple(answers), answers.index(right), why)
+
+
+def _other_ends(block: AskedBlock) -> list[Floats]:
+    """Ends that a slip of reading gives: mirrored about the start, on an arc about its centre."""
+    about = block.center_um if block.is_arc else block.start_um
+    from_it = block.end_um - about
+    flipped = [about + from_it * flip for flip in np.array([[-1, 1], [1, -1], [-1, -1]])]
+    others = [*flipped, about + from_it[::-1], about - from_it[::-1], about + 2.0 * from_it]
+    return [other for other in others if np.hypot(*(other - block.end_um)) >= _APART_UM]
+
+
+def _place(place_um: Floats) -> Said:
+    x, y = (in_mm(place) for place in place_um.tolist())
+    return said("end.place", x=x, y=y)
+
+
+def _some(wrong: Iterable[Any], right: object) -> list[Any]:
+    """The first few wrong answers that differ from the right one and from each other."""
+    return [answer for answer in dict.fromkeys(wrong) if answer != right][:_WRONG]
+
+
+def _among(answers: list[str], right: str, ask: Said, why: Said) -> Written:
+    """A question whose answers need no words, in their order."""
+    return Written(ask, tuple(alike(answer) for answer in answers), answers.index(right), why)
+
+
+def _ask(key: str, block: AskedBlock) -> Said:
+    return said(key, block=block.number)
+
+
+def _turn(block: AskedBlock) -> Said:
+    return said("counter-clockwise" if block.turn > 0 else "clockwise")
+
+
+def _moves(block: AskedBlock) -> dict[str, str]:
+    by_x, by_y = block.by_um.tolist()
+    return {"by_x": signed(by_x), "by_y": signed(by_y)}
+
+
+def _from_center(block: AskedBlock, place_um: Floats) -> tuple[int, int]:
+    """Place from the centre in whole µm; (0, 0) on a line."""
+    if not block.is_arc:
+        return 0, 0
+    x, y = np.rint(place_um - block.center_um).astype(int).tolist()
+    return x, y
+
+
+_ABOUT: Mapping[About, Callable[[AskedBlock], Written | None]] = {
+    "quadrant": _quadrant,
+    "count_axis": _count_axis,
+    "turn": _turning,
+    "count_length": _count_length,
+    "next_step": _next_step,
+    "end": _end,
+}

@@ -1,0 +1,83 @@
+"""Columns of a replay's document: the blocks, exact and in words, and the plan along them."""
+
+from typing import Any
+
+import numpy as np
+
+from controller.motion.plan import Plan
+from parser.geometry.curves import Floats, Kind
+from parser.program import Program
+from parser.toolpath import Axis, Toolpath, Words
+from sim.run.dryrun import DryRun
+from sim.run.report.rounded import column
+
+_ANGLE_DIGITS = 12
+"""On a radius of a metre they tell a place to 10⁻⁶ µm, as its own digits do."""
+
+
+def block_columns(run: DryRun, steps: int) -> dict[str, list[Any]]:
+    """Columns of n blocks, one entry a block; `place_*`, `first_step` and `border_s` have n + 1.
+
+    Only so many `steps` were made.
+    """
+    before = np.concatenate([[0], np.cumsum(run.stepped.count)])
+    begins = np.concatenate([[0.0], np.cumsum(run.block_time_s)])
+    return {
+        **_exact(run.toolpath),
+        **_words(run.toolpath.words),
+        **_source(run.program),
+        "first_step": np.minimum(before, steps).tolist(),
+        "border_s": column(begins),
+    }
+
+
+def plan_columns(plan: Plan) -> dict[str, list[Any] | None]:
+    """Columns of p phases, `t_s` and `along_um` with p + 1; no `jerk_um_s3` where there is none."""
+    return {
+        "t_s": column(plan.time_s, 9),
+        "along_um": column(plan.along_um),
+        "speed_um_s": column(plan.speed_um_s),
+        "acceleration_um_s2": column(plan.acceleration_um_s2),
+        "jerk_um_s3": column(plan.jerk_um_s3) if plan.jerk_um_s3.any() else None,
+    }
+
+
+def _exact(toolpath: Toolpath) -> dict[str, list[Any]]:
+    place = np.concatenate([toolpath.start_um[:1], toolpath.end_um])
+    return {
+        "kind": [Kind(kind).name.lower() for kind in toolpath.kind.tolist()],
+        **_pairs("place", place),
+        **_pairs("center", toolpath.center_um),
+        "radius_um": column(toolpath.radius_um),
+        "start_angle_rad": column(toolpath.start_angle_rad, _ANGLE_DIGITS),
+        "sweep_rad": column(toolpath.sweep_rad, _ANGLE_DIGITS),
+        "length_um": column(toolpath.length_um),
+    }
+
+
+def _pairs(name: str, place_um: Floats) -> dict[str, list[float | None]]:
+    return {f"{name}_{axis}_um": column(place_um[:, at]) for at, axis in enumerate("xy")}
+
+
+def _words(words: Words) -> dict[str, list[Any]]:
+    return {
+        "word_x_um": words.x_um.tolist(),
+        "word_y_um": words.y_um.tolist(),
+        "count_um": words.count_um.tolist(),
+        "count_axis": [Axis(axis).name for axis in words.count_axis.tolist()],
+        "quadrant": words.quadrant.tolist(),
+        "turn": words.turn.tolist(),
+    }
+
+
+def _source(program: Program) -> dict[str, list[Any]]:
+    """Where each block stands: its number in the program, line from 1, first character of it from 0, and length."""
+    source = program.toolpath.source
+    _, first = program.lines.places(source.span[:, 0])
+    return {
+        "number": source.block.tolist(),
+        "line": source.line.tolist(),
+        "character": (first - 1).tolist(),
+        "characters": (source.span[:, 1] - source.span[:, 0]).tolist(),
+        "label": list(source.label),
+    }

@@ -1,0 +1,114 @@
+"""The tape of a replay: every step with its time, and the samples of table and wire, packed for the page.
+
+Steps are coded one byte each by the way they go. The time from the step before is nearly that of the last step of the
+same way, since a staircase repeats itself, and only the difference is kept, in whole ticks since the start: nothing
+adds up. Places of the table are kept from where the steps command it, those of the wire from the table.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from controller.stepping.pulses import Pulses
+from parser.geometry.curves import Floats, Ints
+from sim.show.replay.packed import Packer
+from sim.table.trace import Trace
+
+TICK_S = 1e-5
+"""Times are rounded to it."""
+GRAIN_UM = 0.01
+"""Places of table and wire are rounded to it."""
+_AT_ONCE = 1 << 18
+"""Steps worked on at once, in little memory."""
+_WAYS = 9
+"""Ways of a step: by −1, 0 or +1 in X and in Y."""
+
+
+class _Before(NamedTuple):
+    """What the coding of steps goes on from: place, ticks, and the ticks (9,) that the last step of each way took."""
+
+    x_um: int
+    y_um: int
+    ticks: int
+    took: Ints
+
+
+def tape(steps: Pulses, origin_um: tuple[int, int], trace: Trace) -> dict[str, Any]:
+    """Steps from an origin and samples as a page reads them, texts in base64 and numbers.
+
+    The columns of `steps` may be mapped from files; they are gone through once, in bounded memory.
+    """
+    moves, times = Packer(), Packer()
+    sampled = np.rint(trace.t_s / TICK_S).astype(np.int64)
+    done = np.zeros(len(sampled), dtype=np.int64)
+    before = _Before(*origin_um, 0, np.zeros(_WAYS, dtype=np.int64))
+    for since in range(0, len(steps.t_s), _AT_ONCE):
+        part = steps.part(since, since + _AT_ONCE)
+        ticks = np.rint(part.t_s / TICK_S).astype(np.int64)
+        before = _pack(part, ticks, before, moves, times)
+        first, past = np.searchsorted(sampled, ticks[[0, -1]])
+        done[first:past] += np.searchsorted(ticks, sampled[first:past], side="right")
+        done[past:] += len(ticks)
+    return {
+        "tick_s": TICK_S,
+        "grain_um": GRAIN_UM,
+        "origin_um": list(origin_um),
+        "steps": len(steps.t_s),
+        "moves": moves.text(),
+        "step_ticks": times.text(),
+        "samples": len(sampled),
+        "sample_ticks": _packed(np.diff(sampled, n=2, prepend=[0, 0])),
+        **_places(trace, _commanded(steps, origin_um, done)),
+    }
+
+
+def _pack(part: Pulses, ticks: Ints, before: _Before, moves: Packer, times: Packer) -> _Before:
+    """Pack some steps behind those before. ValueError where one of them moves an axis by more than a pulse."""
+    dx = np.diff(part.x_um, prepend=np.int32(before.x_um))
+    dy = np.diff(part.y_um, prepend=np.int32(before.y_um))
+    longest = max(np.abs(dx).max(), np.abs(dy).max())
+    if longest > 1:
+        raise ValueError(f"a step moves an axis by 1 µm at most, not by {longest}")
+    way = (3 * (dx + 1) + dy + 1).astype(np.uint8)
+    took = np.diff(ticks, prepend=before.ticks)
+    more, latest = np.empty_like(took), before.took.copy()
+    for one in range(_WAYS):
+        of = np.flatnonzero(way == one)
+        if len(of):
+            more[of] = np.diff(took[of], prepend=latest[one])
+            latest[one] = took[of[-1]]
+    moves.bytes(way)
+    times.numbers(more)
+    return _Before(int(part.x_um[-1]), int(part.y_um[-1]), int(ticks[-1]), latest)
+
+
+def _commanded(steps: Pulses, origin_um: tuple[int, int], done: Ints) -> Floats:
+    """Places (m, 2) µm commanded once so many steps are done."""
+    begun = np.flatnonzero(done)
+    places = np.tile(np.array(origin_um, dtype=np.float64), (len(done), 1))
+    places[begun, 0], places[begun, 1] = steps.x_um[done[begun] - 1], steps.y_um[done[begun] - 1]
+    return places
+
+
+def _places(trace: Trace, commanded_um: Floats) -> dict[str, str | None]:
+    """Table and wire by axis; None for a wire that stays with the table."""
+    table = np.rint((trace.table_um - commanded_um) / GRAIN_UM).astype(np.int64)
+    placed = commanded_um + table * GRAIN_UM
+    wire = np.rint((trace.wire_um - placed) / GRAIN_UM).astype(np.int64)
+    bows = trace.wire_um is not trace.table_um
+    return {
+        "table_x": _changes(table[:, 0]),
+        "table_y": _changes(table[:, 1]),
+        "wire_x": _changes(wire[:, 0]) if bows else None,
+        "wire_y": _changes(wire[:, 1]) if bows else None,
+    }
+
+
+def _changes(column: Ints) -> str:
+    return _packed(np.diff(column, prepend=0))
+
+
+def _packed(column: Ints) -> str:
+    packer = Packer()
+    packer.numbers(column)
+    return packer.text()

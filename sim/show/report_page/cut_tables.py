@@ -1,0 +1,98 @@
+"""Tables of what a cut leaves: pieces, their sizes, and the worst places beside the drawing."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from sim.show.report_page.tables import (
+    Column,
+    Table,
+    column_of,
+    counted,
+    micrometres,
+    millimetres,
+    timed,
+    worded,
+    yes_or_no,
+)
+from sim.show.words.report import said
+
+
+def piece_table(entries: list[dict[str, Any]]) -> Table:
+    """Pieces in the order in which they come free."""
+    return Table(
+        "pieces",
+        (
+            counted("number", list(range(1, len(entries) + 1))),
+            worded("kind", column_of(entries, "kind")),
+            Column(said("area"), column_of(entries, "area_mm2"), unit="mm²", digits=3),
+            Column(said("mass"), column_of(entries, "mass_g"), unit="g", digits=3),
+            counted("freed-block", column_of(entries, "freed.block")),
+            timed("freed-after", column_of(entries, "freed.t_s")),
+            micrometres("cut-after", column_of(entries, "cut_after_um")),
+            yes_or_no("early", column_of(entries, "early")),
+            yes_or_no("pinches", column_of(entries, "play.pinch.pinches")),
+        ),
+    )
+
+
+def size_tables(sizes: Mapping[str, list[dict[str, Any]]]) -> list[Table]:
+    """Widths, radii and distances of what is kept, as cut and nominal."""
+    boxes, radii, distances = sizes["boxes"], sizes["radii"], sizes["distances"]
+    return [
+        Table("boxes", (*_of_what(boxes), counted("piece", column_of(boxes, "piece")), *_widths(boxes))),
+        Table(
+            "radii",
+            (
+                *_of_what(radii),
+                counted("block", column_of(radii, "block")),
+                millimetres("as-cut", column_of(radii, "cut_um")),
+                millimetres("nominal", column_of(radii, "nominal_um")),
+                _apart(radii),
+                micrometres("form", column_of(radii, "form_um")),
+            ),
+        ),
+        Table(
+            "distances",
+            (
+                *_of_what(distances),
+                counted("block", column_of(distances, "blocks.0")),
+                counted("other-block", column_of(distances, "blocks.1")),
+                millimetres("as-cut", column_of(distances, "cut_um")),
+                millimetres("nominal", column_of(distances, "nominal_um")),
+                _apart(distances),
+            ),
+        ),
+    ]
+
+
+def worst_table(entries: list[dict[str, Any]]) -> Table:
+    """Where edge and drawing are farthest apart."""
+    return Table(
+        "worst",
+        (
+            worded("measured-from", column_of(entries, "from")),
+            micrometres("distance", column_of(entries, "max_um"), digits=3),
+            millimetres("at-x", column_of(entries, "where_um.0")),
+            millimetres("at-y", column_of(entries, "where_um.1")),
+            counted("block", column_of(entries, "block")),
+            counted("entity", column_of(entries, "entity")),
+        ),
+    )
+
+
+def _of_what(entries: list[dict[str, Any]]) -> tuple[Column, ...]:
+    return (worded("what", column_of(entries, "what")),)
+
+
+def _widths(boxes: list[dict[str, Any]]) -> list[Column]:
+    """As cut and nominal, along X and along Y."""
+    return [
+        millimetres(f"{head}-{axis}", column_of(boxes, f"{key}.{at}"))
+        for at, axis in enumerate("xy")
+        for head, key in (("as-cut", "cut_um"), ("nominal", "nominal_um"))
+    ]
+
+
+def _apart(entries: list[dict[str, Any]]) -> Column:
+    """As cut less nominal."""
+    return micrometres("apart", [entry["cut_um"] - entry["nominal_um"] for entry in entries])

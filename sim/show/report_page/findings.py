@@ -1,0 +1,107 @@
+"""Findings for the page: their texts in both languages, and the source line with a caret."""
+
+from collections.abc import Iterable
+from typing import Final, NamedTuple
+
+from markupsafe import Markup
+
+from parser.findings.catalogue import LANGUAGES, page, texts
+from parser.findings.findings import Finding
+from parser.program import Program
+from parser.text.excerpt import caret_lines
+from sim.run.dryrun import DryRun
+from sim.setup.quiz import Said
+from sim.show.report_page.prose import prose
+from sim.show.words.report import said
+
+MOST: Final = 200
+"""Findings that the page shows; report.json has them all."""
+
+PARTS: Final = ("found", "expected", "machine", "hint")
+
+
+class Shown(NamedTuple):
+    """A finding as the page shows it.
+
+    Attributes
+    ----------
+    address
+        Its address in the page.
+    code, severity, word, title
+        What it is: its severity as a key and as a word.
+    line, column, block
+        Where it is; 0 where that is not meant.
+    texts
+        What was found and expected, what the machine does, and how to mend it, each by its key; only those there are.
+    source
+        The source line and the carets under it; None without a line.
+    """
+
+    address: str
+    code: str
+    severity: str
+    word: Said
+    title: Said
+    line: int
+    column: int
+    block: int
+    texts: tuple[tuple[str, Said], ...]
+    source: tuple[str, str] | None
+
+
+class Explained(NamedTuple):
+    """The page of a code: why it is a fault, and how to mend it."""
+
+    code: str
+    title: Said
+    why: tuple[Markup, Markup]
+    mend: tuple[Markup, Markup]
+
+
+def shown_findings(run: DryRun) -> list[Shown]:
+    """The findings that the page shows, in file order."""
+    return [_shown(run.program, finding, address(at)) for at, finding in enumerate(run.findings[:MOST])]
+
+
+def address(at: int) -> str:
+    """Address in the page of a finding, counted from 0: of its own, or that of the list where it is not shown."""
+    return f"finding-{at + 1}" if at < MOST else "findings"
+
+
+def explained(findings: Iterable[Finding]) -> list[Explained]:
+    """Pages of the codes that occur, in their order."""
+    return [_explained(code) for code in sorted({finding.code for finding in findings})]
+
+
+def _shown(program: Program, finding: Finding, address: str) -> Shown:
+    english, chinese = (texts(finding, language)._asdict() for language in LANGUAGES)
+    return Shown(
+        address=address,
+        code=finding.code,
+        severity=str(finding.severity),
+        word=said(str(finding.severity)),
+        title=Said(english["title"], chinese["title"]),
+        line=finding.line,
+        column=finding.column,
+        block=finding.block,
+        texts=tuple((part, Said(english[part], chinese[part])) for part in PARTS if english[part]),
+        source=_source(program, finding),
+    )
+
+
+def _source(program: Program, finding: Finding) -> tuple[str, str] | None:
+    if not finding.line:
+        return None
+    width = finding.span[1] - finding.span[0]
+    line, carets = caret_lines(program.excerpt(finding.line), max(finding.column, 1), width)
+    return line, carets if finding.column else ""
+
+
+def _explained(code: str) -> Explained:
+    pages = page(code, "en"), page(code, "zh")
+    return Explained(
+        code,
+        Said(pages[0].title, pages[1].title),
+        (prose(pages[0].why), prose(pages[1].why)),
+        (prose(pages[0].mend), prose(pages[1].mend)),
+    )

@@ -1,0 +1,97 @@
+"""The whole page of a run."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Final
+
+from markupsafe import Markup
+
+from sim.run.dryrun import DryRun
+from sim.setup.expectations import Expectation
+from sim.setup.scenario_file import wanted
+from sim.setup.toml.writer import toml_value
+from sim.show.draw.paints import DARK
+from sim.show.html.environment import rendered
+from sim.show.pictures.inline import Inline
+from sim.show.report_page.blocks import block_table
+from sim.show.report_page.cut_tables import piece_table, size_tables, worst_table
+from sim.show.report_page.figures import key_figures, time_figures
+from sim.show.report_page.findings import explained, shown_findings
+from sim.show.report_page.judgement import why
+from sim.show.report_page.prose import inline
+from sim.show.report_page.recolour import recoloured
+from sim.show.report_page.reproduce import reproduction
+from sim.show.report_page.results import (
+    cause_table,
+    check_table,
+    contour_table,
+    deviation_table,
+    limit_table,
+    loss_table,
+)
+from sim.show.report_page.settings import setting_groups
+from sim.show.report_page.tables import Column, Table, yes_or_no
+from sim.show.words.report import said
+
+_ASSETS: Final = Path(__file__).with_name("assets")
+
+
+def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inline]) -> str:
+    """``report.html`` of a run; `report` is its ``report.json``, whose figures the page shows.
+
+    Everything that comes from a program, a file name or a scenario stands escaped. The same run gives the same bytes.
+    """
+    findings = shown_findings(run)
+    tables = [table for table in _tables(run, report) if table.rows]
+    return rendered(
+        _ASSETS,
+        "report.html.j2",
+        title=run.scenario.title,
+        program=run.program.name,
+        inline=inline,
+        verdict=report["verdict"],
+        verdict_word=said(report["verdict"]),
+        why=why(run),
+        figures=key_figures(run, report),
+        times=time_figures(report),
+        findings=findings,
+        unshown=len(run.findings) - len(findings),
+        explained=explained(run.findings),
+        pictures=[(picture.name, {name: Markup(svg) for name, svg in picture.svg.items()}) for picture in pictures],  # noqa: S704 - escaped by `sim.show.draw.svg`
+        tables={table.name: table for table in tables},
+        tables_data=[table.data() for table in tables],
+        groups=setting_groups(run.scenario, run.program),
+        machine=report["machine"]["name"],
+        reproduction=reproduction(run),
+        dark_pictures=recoloured(DARK),
+    )
+
+
+def _tables(run: DryRun, report: Mapping[str, Any]) -> list[Table]:
+    remains, drawing = report["remains"], report["drawing"]
+    return [
+        contour_table(run, report),
+        deviation_table(report),
+        cause_table(report),
+        limit_table(report),
+        loss_table(report),
+        *([piece_table(remains["pieces"]), *size_tables(remains["sizes"])] if remains else []),
+        *([worst_table(drawing["worst"])] if drawing else []),
+        block_table(run, report),
+        check_table(run),
+        _expectation_table(run),
+    ]
+
+
+def _expectation_table(run: DryRun) -> Table:
+    """What the scenario expects, and whether the run meets it: those that it does not are findings."""
+    expected: tuple[Expectation, ...] = run.scenario.expect
+    missed = {finding.values["path"] for finding in run.findings if finding.code == "3B490"}
+    return Table(
+        "expectations",
+        (
+            Column(said("path"), [one.path for one in expected], "code"),
+            Column(said("wanted"), [toml_value(wanted(one)) for one in expected], "code"),
+            yes_or_no("met", [one.path not in missed for one in expected]),
+        ),
+    )

@@ -1,0 +1,57 @@
+"""What it takes to run the same again: versions, the program's check sum, and the files beside it."""
+
+import hashlib
+import platform
+from importlib import metadata
+from typing import Final, NamedTuple
+
+from parser.text.encoding import encode_text
+from sim import __version__
+from sim.run.dryrun import DryRun
+from sim.setup.machine.machine_file import machine_sections
+from sim.setup.scenario_file import MACHINE_FILE, scenario_sections
+from sim.setup.toml.writer import toml_text
+
+_PACKAGES: Final = ("numpy", "shapely", "pymunk", "ezdxf", "pygame-ce", "pillow", "jinja2", "click", "rich")
+
+
+class Reproduction(NamedTuple):
+    """How to run the same again.
+
+    Attributes
+    ----------
+    command
+        The command line, for a folder that holds the program and the files.
+    program, sha256
+        Name of the program, and the check sum of its bytes.
+    files
+        Name and content of the files beside the program.
+    versions
+        Of drycut, Python and the packages.
+    """
+
+    command: str
+    program: str
+    sha256: str
+    files: tuple[tuple[str, str], ...]
+    versions: tuple[tuple[str, str], ...]
+
+
+def reproduction(run: DryRun) -> Reproduction:
+    """What makes the same run again."""
+    data = encode_text(run.program.text, run.program.encoding)
+    scenario = run.scenario
+    return Reproduction(
+        command="drycut run . -o out",
+        program=run.program.name,
+        sha256=hashlib.sha256(data).hexdigest(),
+        files=(
+            ("scenario.toml", toml_text(scenario_sections(scenario))),
+            (MACHINE_FILE, toml_text(machine_sections(scenario.machine))),
+        ),
+        versions=(
+            ("drycut", __version__),
+            ("Python", platform.python_version()),
+            *((name, metadata.version(name)) for name in _PACKAGES),
+        ),
+    )

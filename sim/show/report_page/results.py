@@ -1,0 +1,121 @@
+"""Tables of what a run came to: contours, deviations, limits and losses of the drives, checks, expectations."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from parser.shape.contours import Contour
+from sim.run.dryrun import DryRun
+from sim.show.report_page.tables import (
+    Column,
+    Table,
+    column_of,
+    counted,
+    micrometres,
+    millimetres,
+    named,
+    timed,
+    worded,
+)
+from sim.show.words.report import catalogued, said
+
+_STAGES = ("interpolation", "steps", "table", "wire")
+
+
+def contour_table(run: DryRun, report: Mapping[str, Any]) -> Table:
+    """Contours with their closures and times."""
+    entries = report["contours"]
+    return Table(
+        "contours",
+        (
+            counted("number", list(range(1, len(entries) + 1))),
+            counted("first-block", column_of(entries, "first_block")),
+            counted("last-block", column_of(entries, "last_block")),
+            worded("state", [_state(contour) for contour in run.contours]),
+            micrometres("exact-closure", column_of(entries, "closure_exact_um")),
+            micrometres("stepped-closure", column_of(entries, "closure_stepped_um")),
+            timed("seconds", column_of(entries, "time_s")),
+        ),
+    )
+
+
+def _state(contour: Contour) -> str:
+    if not contour.encloses:
+        return "parting"
+    return "open" if contour.is_open else "closed"
+
+
+def deviation_table(report: Mapping[str, Any]) -> Table:
+    """Deviation of steps, table and wire."""
+    entries = [report["deviation"][stage] for stage in _STAGES]
+    return Table(
+        "deviation",
+        (
+            worded("of", _STAGES, "of"),
+            micrometres("largest", column_of(entries, "max_um")),
+            micrometres("rms", column_of(entries, "rms_um")),
+            micrometres("p95", column_of(entries, "p95_um")),
+            *_met(entries, "where."),
+        ),
+    )
+
+
+def cause_table(report: Mapping[str, Any]) -> Table:
+    """What each cause adds to the deviation."""
+    causes = report["deviation"]["by_cause"]
+    entries = list(causes.values())
+    largest = micrometres("largest", column_of(entries, "max_um"))
+    return Table("causes", (worded("cause", tuple(causes), "by"), largest, *_met(entries, "where.")))
+
+
+def limit_table(report: Mapping[str, Any]) -> Table:
+    """How near the drives came to their limits."""
+    entries = report["limits"]
+    return Table(
+        "limits",
+        (
+            worded("quantity", column_of(entries, "quantity")),
+            named("axis", column_of(entries, "axis")),
+            Column(said("value"), column_of(entries, "value"), digits=2),
+            Column(said("limit"), column_of(entries, "limit"), digits=2),
+            named("unit", [{"force": "N", "speed": "µm/s", "lag": "µm"}[entry["quantity"]] for entry in entries]),
+            Column(said("share"), column_of(entries, "share"), unit="%", per=0.01, digits=1),
+            *_met(entries),
+        ),
+    )
+
+
+def loss_table(report: Mapping[str, Any]) -> Table:
+    """What the drives lost."""
+    entries = report["losses"]
+    what = worded("what", column_of(entries, "kind"))
+    amount = micrometres("amount", column_of(entries, "amount_um"))
+    return Table("losses", (what, named("axis", column_of(entries, "axis")), amount, *_met(entries)))
+
+
+def check_table(run: DryRun) -> Table:
+    """How far each check came."""
+    checks = run.coverage.checks
+    names, reasons = [check.name for check in checks], [check.reason for check in checks]
+    return Table(
+        "checks",
+        (
+            _terms("check", names),
+            worded("state", [check.state.replace(" ", "-") for check in checks]),
+            _terms("reason", reasons),
+        ),
+    )
+
+
+def _terms(head: str, keys: list[str]) -> Column:
+    """Terms of the catalogue; nothing for an empty key."""
+    return Column(said(head), keys, "word", words={key: catalogued(key) for key in dict.fromkeys(keys)})
+
+
+def _met(entries: list[Any], where: str = "") -> tuple[Column, ...]:
+    """Block, place and time of what was met."""
+    return (
+        counted("block", column_of(entries, f"{where}block")),
+        millimetres("at-x", column_of(entries, f"{where}x_um")),
+        millimetres("at-y", column_of(entries, f"{where}y_um")),
+        timed("at-time", column_of(entries, f"{where}t_s")),
+    )

@@ -1,0 +1,111 @@
+"""Tables of the page: columns of values as the report has them, which the page shows, sorts and turns over."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Literal, NamedTuple
+
+from sim.setup.quiz import Said
+from sim.show.words.report import said
+
+Kind = Literal["number", "text", "code", "word", "codes"]
+
+
+class Column(NamedTuple):
+    """One column of a table.
+
+    Attributes
+    ----------
+    head
+        Its name; `unit` stands beside it.
+    values
+        One a row, as the report has them; None shows as a dash. Of ``codes`` lists of (code, address in the page).
+    kind
+        ``number``; ``text`` as people write it; ``code`` as a program has it; ``word``, a key of `words`; ``codes``.
+    per, digits
+        A number shows divided by `per`, with so many digits.
+    words
+        What the keys of a column of words say.
+    """
+
+    head: Said
+    values: Sequence[Any]
+    kind: Kind = "number"
+    unit: str = ""
+    per: float = 1.0
+    digits: int = 0
+    words: Mapping[str, Said] = {}
+
+
+class Table(NamedTuple):
+    """A table: its name in the page, and what stands in it."""
+
+    name: str
+    columns: tuple[Column, ...]
+
+    @property
+    def title(self) -> Said:
+        """Its heading."""
+        return said(f"table-{self.name}")
+
+    @property
+    def rows(self) -> int:
+        """How many rows it has."""
+        return len(self.columns[0].values)
+
+    def data(self) -> dict[str, Any]:
+        """The table for the page's script."""
+        return {"name": self.name, "columns": [_data(column) for column in self.columns]}
+
+
+def counted(head: str, values: Sequence[Any]) -> Column:
+    """Whole numbers."""
+    return Column(said(head), values)
+
+
+def micrometres(head: str, values: Sequence[Any], digits: int = 2) -> Column:
+    """Lengths in µm."""
+    return Column(said(head), values, unit="µm", digits=digits)
+
+
+def millimetres(head: str, values: Sequence[Any]) -> Column:
+    """Lengths in µm, shown in mm to the µm."""
+    return Column(said(head), values, unit="mm", per=1000.0, digits=3)
+
+
+def timed(head: str, values: Sequence[Any]) -> Column:
+    """Times in s."""
+    return Column(said(head), values, unit="s", digits=2)
+
+
+def worded(head: str, values: Sequence[str], prefix: str = "is") -> Column:
+    """Words of the page, by their keys without the prefix."""
+    return Column(said(head), values, "word", words={key: said(f"{prefix}-{key}") for key in dict.fromkeys(values)})
+
+
+def yes_or_no(head: str, values: Iterable[bool]) -> Column:
+    """Whether something is so."""
+    answers = ["yes" if value else "no" for value in values]
+    return Column(said(head), answers, "word", words={key: said(key) for key in ("yes", "no")})
+
+
+def named(head: str, values: Sequence[str | None]) -> Column:
+    """Texts as people write them."""
+    return Column(said(head), values, "text")
+
+
+def column_of(entries: Iterable[Mapping[str, Any]], path: str) -> list[Any]:
+    """What entries have under keys joined with dots; None where there is nothing on the way."""
+    return [reached(entry, path) for entry in entries]
+
+
+def reached(entry: Any, path: str) -> Any:
+    """What lies under keys and list indices joined with dots; None where there is nothing on the way."""
+    for key in path.split("."):
+        if entry is None:
+            return None
+        entry = entry[int(key)] if isinstance(entry, list) else entry[key]
+    return entry
+
+
+def _data(column: Column) -> dict[str, Any]:
+    words = {key: text._asdict() for key, text in column.words.items()}
+    return column._asdict() | {"head": column.head._asdict(), "words": words}

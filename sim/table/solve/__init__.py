@@ -1,0 +1,1 @@
+"""The table over a whole run, many stretches of time at once."""

@@ -1,0 +1,123 @@
+"""The GitHub action and the hook of pre-commit, as far as they run without their hosts; drycut is a stub."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from places import ROOT
+
+CHECK = ROOT / ".github" / "action-check.sh"
+BASH = shutil.which("bash")
+pytestmark = pytest.mark.skipif(BASH is None, reason="the action's scripts are for bash")
+
+STUB = """#!{python}
+import json, os, sys
+with open(os.environ["CALLS"], "a") as calls:
+    calls.write(json.dumps(sys.argv[1:]) + "\\n")
+print("::error::from a program")
+sys.exit(int(os.environ["STATUS"]))
+"""
+NONE = {
+    f"INPUT_{name}": ""
+    for name in ("FAIL_ON", "MACHINE", "WIRE_DIAMETER", "GAP", "SELECT", "IGNORE", "SARIF_FILE", "FILES")
+}
+
+
+class Action:
+    def __init__(self, folder: Path) -> None:
+        self.calls, self.output, self.folder = folder / "calls", folder / "output", folder
+        stub = folder / "drycut stub"
+        stub.write_text(STUB.format(python=sys.executable), encoding="utf-8")
+        stub.chmod(0o755)
+        self.env = {**os.environ, **NONE, "INPUT_LANG": "en", "INPUT_FORMAT": "github", "STATUS": "0"}
+        self.env |= {"DRYCUT": str(stub), "CALLS": str(self.calls), "GITHUB_OUTPUT": str(self.output)}
+
+    def run(self, **inputs: str) -> subprocess.CompletedProcess[str]:
+        command = [str(BASH), str(CHECK)]
+        env = self.env | inputs
+        return subprocess.run(command, check=False, cwd=self.folder, env=env, capture_output=True, text=True)
+
+    def called(self) -> list[list[str]]:
+        return [json.loads(line) for line in self.calls.read_text("utf-8").splitlines()]
+
+
+@pytest.fixture
+def action(tmp_path: Path) -> Action:
+    return Action(tmp_path)
+
+
+def test_inputs_left_empty_give_no_options(action: Action) -> None:
+    assert action.run().returncode == 0
+    assert action.called() == [["check", "--format=github", "--lang=en", "--", "."]]
+
+
+def test_inputs_are_never_code(action: Action) -> None:
+    evil = "$(touch evil) `touch evil`; touch evil #"
+    done = action.run(
+        INPUT_FILES=f"a b.3b\n\n*.3b\r\n--help\n{evil}\n",
+        INPUT_MACHINE=evil,
+        INPUT_FAIL_ON="--help",
+        INPUT_WIRE_DIAMETER="0.18mm",
+        INPUT_GAP="10um",
+        INPUT_SELECT="3B2,3B3",
+        INPUT_IGNORE="3B102",
+    )
+    assert done.returncode == 0
+    assert action.called() == [
+        [
+            *("check", "--format=github", "--lang=en", "--fail-on=--help", f"--machine={evil}"),
+            *("--wire-diameter=0.18mm", "--gap=10um", "--select=3B2,3B3", "--ignore=3B102", "--"),
+            *("a b.3b", "*.3b", "--help", evil),
+        ]
+    ]
+    assert not (action.folder / "evil").exists()
+
+
+@pytest.mark.parametrize("status", [0, 1, 2])
+def test_the_step_ends_as_the_check_does(action: Action, status: int) -> None:
+    done = action.run(STATUS=str(status), INPUT_SARIF_FILE="out put.sarif")
+    assert done.returncode == status
+    assert [call[1] for call in action.called()] == ["--format=github", "--format=sarif"]
+    assert (action.folder / "out put.sarif").read_text("utf-8") == "::error::from a program\n"
+    first, path, last = action.output.read_text("utf-8").splitlines()
+    assert path == "out put.sarif"
+    assert first == f"sarif-file<<{last}"
+
+
+def test_a_sarif_file_that_cannot_be_written_fails_the_step(action: Action) -> None:
+    assert action.run(INPUT_SARIF_FILE="no folder/out.sarif").returncode != 0
+    assert not action.output.exists()
+
+
+def test_programs_in_the_log_are_no_commands(action: Action) -> None:
+    first, shown, last = action.run(INPUT_FORMAT="text").stdout.splitlines()
+    word = first.removeprefix("::stop-commands::")
+    assert (shown, last) == ("::error::from a program", f"::{word}::")
+    assert len(word) > 30
+    assert word not in action.run(INPUT_FORMAT="text").stdout
+    assert action.run().stdout == "::error::from a program\n"
+
+
+def test_every_input_is_handed_over_and_none_is_in_a_script() -> None:
+    text = (ROOT / "action.yml").read_text("utf-8")
+    inputs = re.findall(r"^  ([a-z-]+):$", text.split("\noutputs:")[0].split("\ninputs:")[1], re.MULTILINE)
+    assert len(inputs) == 11
+    script = CHECK.read_text("utf-8")
+    for name in set(inputs) - {"python-version"}:
+        variable = f"INPUT_{name.upper().replace('-', '_')}"
+        assert f"{variable}: ${{{{ inputs.{name} }}}}\n" in text
+        assert f"${variable}" in script
+    assert not [line for line in text.splitlines() if "run:" in line and "${{" in line]
+
+
+def test_the_hook_takes_programs_alone() -> None:
+    hooks = (ROOT / ".pre-commit-hooks.yaml").read_text("utf-8")
+    pattern = re.search(r"files: (.*)", hooks)
+    assert pattern
+    for name, taken in {"a.3b": True, "dir/A.3B": True, "零件.4B": True, "a.3b.bak": False, "a3b": False}.items():
+        assert bool(re.search(pattern[1], name)) is taken

@@ -1,0 +1,84 @@
+"""The packages install, hold what they need, and own their names."""
+
+import os
+import subprocess
+import sys
+import tarfile
+import tomllib
+import zipfile
+from importlib import metadata
+from pathlib import Path
+
+from places import ROOT
+
+from parser.findings.findings import SEVERITIES
+from sim import __version__
+
+
+def test_no_other_distribution_owns_our_names() -> None:
+    owners = metadata.packages_distributions()
+    for name in ("parser", "controller", "sim"):
+        assert set(owners.get(name, ["drycut"])) == {"drycut"}, name
+
+
+def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
+    code = f"from hatchling.build import build_wheel; print(build_wheel({str(tmp_path)!r}))"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    name = done.stdout.splitlines()[-1]
+    assert __version__ in name
+    with zipfile.ZipFile(tmp_path / name) as wheel:
+        names = wheel.namelist()
+    assert {path.split("/")[0] for path in names} == {"parser", "controller", "sim", f"drycut-{__version__}.dist-info"}
+    for needed in (
+        "sim/setup/machine/dk7740.toml",
+        "sim/show/draw/fonts/OFL.txt",
+        "parser/program.py",
+        "sim/cli/run.py",
+    ):
+        assert needed in names
+    files = [path for folder in ("parser", "controller", "sim") for path in (ROOT / folder).rglob("*.*")]
+    ours = {path.relative_to(ROOT).as_posix() for path in files if "__pycache__" not in path.parts}
+    assert ours - set(names) == set()
+    assert sum(path.startswith("parser/findings/pages/") for path in names) > len(SEVERITIES)
+    assert any(path.startswith("sim/show/draw/fonts/") and path.endswith(".otf") for path in names)
+    assert any(path.endswith("licenses/LICENSE") for path in names)
+
+
+def test_source_package_holds_what_tests_and_documents_need(tmp_path: Path) -> None:
+    code = f"from hatchling.build import build_sdist; print(build_sdist({str(tmp_path)!r}))"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    with tarfile.open(tmp_path / done.stdout.splitlines()[-1]) as package:
+        names = {name.partition("/")[2] for name in package.getnames()}
+    here = [path for folder in ("parser", "tests", "docs", "scenarios") for path in (ROOT / folder).rglob("*.*")]
+    made = {"__pycache__", "failures"}
+    wanted = {path.relative_to(ROOT).as_posix() for path in here if path.is_file() and not made & set(path.parts)}
+    assert {"action.yml", ".pre-commit-hooks.yaml", ".github/action-check.sh", *wanted} - names == set()
+
+
+def test_the_benchmark_runs_and_prints_its_figures() -> None:
+    done = subprocess.run(
+        [sys.executable, "tests/tools/bench.py", "--blocks", "60"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )
+    for figure in ("60 blocks", "blocks/s", "ns per step", "plain loop", "peak memory"):
+        assert figure in done.stdout
+
+
+def test_types_are_shipped() -> None:
+    for name in ("parser", "controller", "sim"):
+        assert (ROOT / name / "py.typed").exists(), name
+
+
+def test_every_dependency_is_locked() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    wanted = [
+        *project["dependencies"],
+        *(name for extra in project["optional-dependencies"].values() for name in extra),
+    ]
+    locked = {line.split("==")[0] for line in (ROOT / "requirements-lock.txt").read_text("utf-8").splitlines()}
+    for requirement in wanted:
+        assert requirement.split(">=")[0] in locked, requirement

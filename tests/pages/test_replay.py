@@ -1,0 +1,713 @@
+"""The replay's page in a browser: played, stepped, scrubbed, asked, in both languages, with mouse, keys and fingers."""
+
+import base64
+import functools
+import io
+import re
+from dataclasses import replace
+from itertools import combinations, pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+import page_checks
+import pytest
+from browser import OpenPage
+from golden_pictures import assert_golden_screen
+from PIL import Image
+from places import SCENARIOS
+from replayed import recording_of
+from runs import plain_scenario, silent
+
+from controller.stepping.pulses import Pulses, time_steps
+from parser.program import parse_program, read_program
+from sim.measure.deviation.stepped import StepTally
+from sim.run.dryrun import DryRun
+from sim.run.prepare import prepare
+from sim.run.recording import Recording, recorded
+from sim.setup.quiz import Question, Said, Written
+from sim.setup.scenario import load_scenario
+from sim.show.replay.page import replay_page
+from sim.table.motion import motion_of, origin_um
+from sim.table.trace import Trace
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+EVIL = "</script><script>window.owned = 1</script><img src=x onerror='window.owned = 1'>"
+PART = """\
+N1: B0 B600 B600 GY L4 //<script>window.owned = 1</script>
+N2: B1000 B0 B1000 GX L1
+N3: B0 B400 B400 GY L2
+N4: B1000 B0 B2000 GY NR1
+N5: B0 B400 B400 GY L4
+N6: B1000 B0 B1000 GX L4
+N7: B0 B600 B600 GY L2
+N8: DD
+"""
+"""A half round of 2 mm, cut from inside; block 6 bears the label of the next quadrant, which is a finding."""
+STEPS = 8001  # with the stray one of block 6
+WHY = Said("because", "因为")
+QUIZ = (
+    Question(2, "quadrant", "test"),
+    Question(4, Written(Said("Ready?", "好了吗？"), (Said("Yes", "好了"), Said("No", "没有")), 0, WHY), "test"),
+)
+ZIGZAG = "B100000B97000B100000GXL1 B97000B100000B100000GYL2 B100000B97000B100000GXL3 B97000B100000B100000GYL4"
+
+
+@functools.cache
+def part_page(title: str = "A half round") -> str:
+    scenario = plain_scenario(title=title, quiz=QUIZ)
+    with recorded(parse_program(PART, "half <b>round</b>.3b"), scenario, silent) as recording:
+        return replay_page(recording)
+
+
+def opened(open_page: OpenPage, page: str | None = None, width: int = 1000, height: int = 700, **how: object) -> "Page":
+    """A page that has read its document and drawn it."""
+    shown = open_page(part_page() if page is None else page, width, height, **how).page
+    shown.evaluate("Drycut.player.ready")
+    drawn(shown)
+    return shown
+
+
+def drawn(page: "Page") -> None:
+    """Wait until what was asked for is drawn."""
+    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+def until(page: "Page", condition: str) -> None:
+    """Wait for something; what Playwright has for that evaluates texts, which the page forbids."""
+    page.evaluate(f"async () => {{ while (!({condition})) await new Promise(requestAnimationFrame); }}")
+
+
+def state(page: "Page") -> dict:
+    found: dict = page.evaluate("Drycut.player.state()")
+    return found
+
+
+def out(page: "Page", name: str) -> str:
+    drawn(page)
+    return page.locator(f'[data-out="{name}"]').inner_text()
+
+
+def do(page: "Page", script: str) -> None:
+    page.evaluate(f"() => {{ {script} }}")
+    drawn(page)
+
+
+def canvas(page: "Page") -> np.ndarray:
+    """What the table shows, (height, width, 3) levels."""
+    drawn(page)
+    picture = page.evaluate("document.getElementById('table').toDataURL()")
+    drawing = Image.open(io.BytesIO(base64.b64decode(picture.partition(",")[2])))
+    return np.asarray(drawing.convert("RGB"), dtype=int)
+
+
+def colour(page: "Page", x_um: float, y_um: float) -> list[int]:
+    """Colour that a place has on the table."""
+    px, py = page.evaluate(f"[Drycut.player.view.toX({x_um}), Drycut.player.view.toY({y_um})]")
+    levels: list[int] = canvas(page)[round(py), round(px)].tolist()
+    return levels
+
+
+def named(page: "Page", name: str) -> list[int]:
+    """A colour of the style sheet."""
+    text = page.evaluate(f"getComputedStyle(document.documentElement).getPropertyValue('--{name}').trim()")
+    return [int(text[at : at + 2], 16) for at in (1, 3, 5)]
+
+
+def near(one: list[int], other: list[int], levels: int = 12) -> bool:
+    return max(abs(a - b) for a, b in zip(one, other, strict=True)) <= levels
+
+
+def test_it_plays_stops_and_ends_at_the_end(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    page.get_by_role("button", name=re.compile("Play")).click()
+    until(page, "Drycut.player.state().t > 0.2")
+    page.keyboard.press("Space")
+    stopped = state(page)
+    drawn(page)
+    assert not stopped["playing"]
+    assert state(page)["t"] == stopped["t"]
+    do(page, "Drycut.player.setSpeed(10000); Drycut.player.play()")
+    until(page, "!Drycut.player.state().playing")
+    end = state(page)
+    assert (end["step"], end["block"]) == (STEPS, 6)
+    assert out(page, "left") == "0 GY"
+    assert out(page, "remaining") == "00:00.00"
+
+
+def test_time_goes_by_at_the_speed_that_is_set(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    for speed in (0.01, 2.0):
+        took, went = page.evaluate(
+            """async (speed) => {
+                Drycut.player.seek(10);
+                Drycut.player.setSpeed(speed);
+                const frame = () => new Promise(requestAnimationFrame);
+                Drycut.player.play();
+                await frame();
+                const first = await frame();
+                const since = Drycut.player.state().t;
+                let [took, last] = [0, first];
+                while (last < first + 300) {
+                    const now = await frame();
+                    took += Math.min(now - last, 250) / 1000;  // longer frames are cut off
+                    last = now;
+                }
+                return [took, Drycut.player.state().t - since];
+            }""",
+            speed,
+        )
+        assert went == pytest.approx(speed * took, rel=0.1, abs=speed * 0.02)
+
+
+def test_steps_and_blocks_go_on_and_back_one_by_one(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    do(page, "Drycut.player.seekBlock(3)")
+    assert (state(page)["step"], out(page, "left")) == (2000, "2,000 GY")
+    assert out(page, "f") == "F = 0 ≥ 0 → −X"
+    page.keyboard.press("ArrowRight")
+    assert (state(page)["step"], out(page, "x"), out(page, "left")) == (2001, "0.999", "2,000 GY")
+    assert out(page, "f") == "F = −1,999 < 0 → +Y"
+    assert "999² + 0² − 1,000,000" in out(page, "formula")
+    page.keyboard.press("ArrowRight")
+    assert (out(page, "y"), out(page, "left")) == ("−0.199", "1,999 GY")
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("ArrowUp")
+    assert (state(page)["step"], state(page)["block"]) == (2000, 3)
+    page.keyboard.press("ArrowUp")
+    assert (state(page)["step"], state(page)["block"]) == (1600, 2)
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("ArrowDown")
+    assert state(page)["block"] == 4
+    drawn(page)  # what is read out is written with the next frame
+    assert page.locator("#live").inner_text() == "Block 5 of 7 · N5 · line"
+
+
+def test_scrubbing_leads_to_the_time_under_the_pointer(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    bar = page.locator("#bar").bounding_box()
+    assert bar
+    duration = page.evaluate("Drycut.player.duration")
+    page.mouse.move(bar["x"] + bar["width"] / 4, bar["y"] + 10)
+    page.mouse.down()
+    assert state(page)["t"] == pytest.approx(duration / 4, rel=0.01)
+    page.mouse.move(bar["x"] + bar["width"] * 3 / 4, bar["y"] + 60)
+    page.mouse.up()
+    assert state(page)["t"] == pytest.approx(duration * 3 / 4, rel=0.01)
+    assert float(page.locator("#bar").get_attribute("aria-valuenow") or 0) == pytest.approx(duration * 3 / 4, rel=0.01)
+
+
+def test_a_click_on_a_block_leads_there_and_marks_it(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    page.get_by_text("B1000 B0 B2000 GY NR1").click()
+    assert (state(page)["block"], out(page, "block")) == (3, "4 / 7")
+    running = page.locator('#program [aria-selected="true"]')
+    assert running.count() == 1
+    assert "N4:" in running.inner_text()
+
+
+def test_hovering_a_block_tells_its_geometry_and_outlines_it(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    before = canvas(page)
+    page.get_by_text("B1000 B0 B2000 GY NR1").hover()
+    said = page.locator("#tip").inner_text().replace("\n", " ")
+    for part in ("arc, counter-clockwise", "centre X 0.000, Y −0.200 mm", "radius 1.000 mm", "sweep 180.000°", "Z NR1"):
+        assert part in said
+    assert (np.abs(canvas(page) - before).max(axis=2) > 60).sum() > 500
+    page.mouse.move(200, 300)
+    assert not page.locator("#tip").is_visible()
+    assert np.array_equal(canvas(page), before)
+
+
+def test_findings_stand_in_the_time_line_and_lead_to_their_block(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    page.get_by_role("tab", name="Findings (1)").click()
+    assert "block 6, line 6" in page.locator("#findings").inner_text()
+    page.locator("#finding-marks button").click()
+    assert state(page)["block"] == 5
+    do(page, "Drycut.player.seek(0)")
+    page.locator("#findings button").click()
+    assert state(page)["block"] == 5
+
+
+def test_a_finding_of_a_block_that_never_moves_leads_to_that_block(open_page: OpenPage) -> None:
+    page = opened(open_page, replay_page(recording_of("B900B0B900GXL1 B0B0B0GXL1 B0B500B500GYL2 DD")))
+    page.locator("#finding-marks button").click()
+    assert out(page, "block") == "2 / 3"
+
+
+@functools.cache
+def many_findings() -> str:
+    with recorded(parse_program("B99B7B7GYL1 B99B7B7GYL3 " * 200 + "DD"), plain_scenario(), silent) as recording:
+        return replay_page(recording)
+
+
+def test_marks_of_many_findings_lie_apart_and_name_each_kind_once(open_page: OpenPage) -> None:
+    page = opened(open_page, many_findings())
+    marks = page.locator("#finding-marks button")
+    lefts = marks.evaluate_all("all => all.map(mark => mark.getBoundingClientRect().left)")
+    assert len(lefts) > 20
+    assert all(right - left >= 18 for left, right in pairwise(lefts))
+    name = marks.nth(3).get_attribute("aria-label") or ""
+    assert name.count("3B204") == 1
+    assert re.search(r" ×\d+$", name)
+
+
+def test_numbers_of_blocks_that_have_no_room_are_not_measured(open_page: OpenPage) -> None:
+    page = opened(open_page, many_findings())
+    measured = page.evaluate("""() => {
+        const measure = CanvasRenderingContext2D.prototype.measureText;
+        let count = 0;
+        CanvasRenderingContext2D.prototype.measureText = function (text) { count++; return measure.call(this, text); };
+        Drycut.player.setLoop("from", 1);
+        CanvasRenderingContext2D.prototype.measureText = measure;
+        return count;
+    }""")
+    assert measured == 0  # 400 blocks on a bar of 600 px
+
+
+def test_the_number_of_a_block_of_very_many_is_not_cut_off(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    do(
+        page,
+        """
+        const doc = JSON.parse(document.getElementById("document").textContent);
+        doc.blocks.kind = Array(100000).fill("line");
+        const outs = Drycut.readouts(document.body, doc, { decision: () => null });
+        outs.show({ ...Drycut.player.state(), block: 45456 });
+        """,
+    )
+    cell = page.locator("dd", has=page.locator('[data-out="block"]'))
+    assert cell.inner_text() == "45,457"
+    assert cell.evaluate("cell => cell.scrollWidth <= cell.clientWidth")
+
+
+def test_the_language_changes_and_is_kept(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    assert page.get_by_role("button", name="Block on").is_visible()
+    page.get_by_role("button", name="中文").click()
+    assert page.locator("html").get_attribute("lang") == "zh-CN"
+    assert page.get_by_role("button", name="下一段").is_visible()
+    assert page.get_by_role("tab", name="问题").is_visible()
+    assert not page.get_by_text("J left").is_visible()
+    page.reload()
+    assert page.locator("html").get_attribute("lang") == "zh-CN"
+
+
+def test_the_page_speaks_the_language_of_the_browser(open_page: OpenPage) -> None:
+    assert opened(open_page, lang="zh").locator("html").get_attribute("lang") == "zh-CN"
+
+
+KEYS = {
+    "Space": "playing", "ArrowRight": "step", "ArrowLeft": "step", "ArrowDown": "block", "ArrowUp": "step",
+    "PageDown": "step", "PageUp": "step", "End": "t", "Home": "t", "]": "speed", "[": "speed", "a": "loop", "b": "loop",
+    "l": "loop", "+": "scale", "-": "scale", "9": "scale", "z": "scale", "Shift+ArrowLeft": "center",
+    "Shift+ArrowRight": "center", "Shift+ArrowUp": "center", "Shift+ArrowDown": "center", "f": "follow", "m": "times",
+    "?": "help", "g": "lang", "q": "quiz",
+}  # fmt: skip
+SEEN = """() => ({
+    ...Drycut.player.state(), scale: Drycut.player.view.scale, center: Drycut.player.view.center,
+    follow: document.querySelector('[data-do="follow"]').getAttribute("aria-pressed"),
+    times: document.getElementById("magnify").value, help: document.getElementById("help").open,
+    lang: document.documentElement.lang, quiz: document.getElementById("quiz-on").getAttribute("aria-pressed"),
+})"""
+
+
+def test_every_key_does_what_it_says(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    for key, what in KEYS.items():
+        do(page, "Drycut.player.pause(); Drycut.player.seekStep(4100); document.getElementById('help').close()")
+        before = page.evaluate(SEEN)
+        page.keyboard.press(key)
+        drawn(page)
+        after = page.evaluate(SEEN)
+        assert after[what] != before[what], key
+    page.keyboard.press("0")
+
+
+def test_the_list_of_keys_has_the_keyboard_for_itself(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    page.keyboard.press("?")
+    for key in ("ArrowRight", "l", "?", "q"):
+        page.keyboard.press(key)
+    drawn(page)
+    assert (state(page)["step"], state(page)["loop"]["isOn"], state(page)["playing"]) == (0, False, False)
+    page.keyboard.press("Escape")
+    assert not page.locator("#help").is_visible()
+    page.keyboard.press("?")
+    page.keyboard.press("Space")  # on its button
+    assert not page.locator("#help").is_visible()
+
+
+def test_a_loop_that_is_shorter_than_a_frame_is_seen_in_all_its_parts(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    times = page.evaluate("""async () => {
+        Drycut.player.setLoop("from", 20);
+        Drycut.player.setLoop("to", 30.7);
+        Drycut.player.seek(20);
+        Drycut.player.setSpeed(10000);
+        Drycut.player.play();
+        const times = [];
+        for (let frame = 0; frame < 40; frame++) {
+            await new Promise(requestAnimationFrame);
+            times.push(Drycut.player.state().t);
+        }
+        return times;
+    }""")
+    assert all(20 <= t <= 30.7 for t in times)  # no part of the 167 s of an even frame, which would show few places
+    assert len({round(t, 3) for t in times}) > 5
+
+
+def test_the_loop_goes_round(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    do(page, "Drycut.player.seek(20); Drycut.player.setSpeed(100)")
+    page.keyboard.press("a")
+    do(page, "Drycut.player.seek(30)")
+    page.keyboard.press("b")
+    do(page, "Drycut.player.seek(22); Drycut.player.play()")
+    times = page.evaluate("""async () => {
+        const times = [];
+        for (let frame = 0; frame < 40; frame++) {
+            await new Promise(requestAnimationFrame);
+            times.push(Drycut.player.state().t);
+        }
+        return times;
+    }""")
+    assert all(20 <= t <= 30 for t in times)
+    assert any(later < earlier for earlier, later in pairwise(times))
+
+
+def test_wheel_drag_and_two_fingers_move_the_view(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    box = page.locator("#table").bounding_box()
+    assert box
+    x, y = 160, 300
+    place = f"Drycut.player.view.placeOf({x - box['x']}, {y - box['y']})"
+    before, scale = page.evaluate(f"[{place}, Drycut.player.view.scale]")
+    page.mouse.move(x, y)
+    page.mouse.wheel(0, -400)
+    until(page, f"Drycut.player.view.scale > {1.5 * scale}")
+    assert page.evaluate(place) == pytest.approx(before, abs=1e-6)
+    page.mouse.down()
+    page.mouse.move(x + 40, y + 30, steps=3)
+    page.mouse.up()
+    moved = f"Drycut.player.view.placeOf({x + 40 - box['x']}, {y + 30 - box['y']})"
+    assert page.evaluate(moved) == pytest.approx(before, abs=1e-6)
+    wide = page.evaluate("""() => {
+        const table = document.getElementById("table");
+        table.setPointerCapture = () => {};
+        const box = table.getBoundingClientRect();
+        const touch = (name, pointerId, x, y) => table.dispatchEvent(new PointerEvent(name, {
+            pointerId, pointerType: "touch", clientX: box.x + x, clientY: box.y + y, bubbles: true }));
+        const before = Drycut.player.view.scale;
+        touch("pointerdown", 1, 200, 300);
+        touch("pointerdown", 2, 300, 300);
+        touch("pointermove", 1, 150, 300);
+        touch("pointermove", 2, 350, 300);
+        touch("pointerup", 1, 150, 300);
+        touch("pointerup", 2, 350, 300);
+        return Drycut.player.view.scale / before;
+    }""")
+    assert wide == pytest.approx(2.0)
+
+
+def test_a_turned_phone_shows_the_whole_path_unless_the_view_was_moved(open_page: OpenPage) -> None:
+    def scale(width: int, height: int) -> float:
+        page.set_viewport_size({"width": width, "height": height})
+        drawn(page)
+        drawn(page)
+        found: float = page.evaluate("Drycut.player.view.scale")
+        return found
+
+    page = opened(open_page, width=390, height=844)
+    upright = scale(390, 844)
+    turned = scale(844, 390)
+    assert turned < upright  # the path is no wider than the table is high now
+    assert scale(390, 844) == pytest.approx(upright)
+    page.get_by_role("button", name="Zoom in").click()
+    assert scale(844, 390) == pytest.approx(1.5 * upright)
+
+
+def test_controls_answer_to_a_tap(open_page: OpenPage) -> None:
+    page = opened(open_page, width=390, height=844, has_touch=True)
+    page.get_by_role("button", name="Block on").tap()
+    assert state(page)["block"] == 1
+    page.get_by_text("B0 B400 B400 GY L4").tap()
+    assert state(page)["block"] == 4
+
+
+def test_the_kerf_opens_behind_the_wire_and_closes_when_it_goes_back(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    kerf = named(page, "kerf")
+    beside = (500.0, -540.0)  # 60 µm off block 2, in its kerf of 200 µm
+    assert not near(colour(page, *beside), kerf)
+    do(page, "Drycut.player.seekBlock(3)")
+    assert near(colour(page, *beside), kerf)
+    assert not near(colour(page, 500.0, -480.0), kerf)  # 120 µm off it
+    do(page, "Drycut.player.seekBlock(0)")
+    assert not near(colour(page, *beside), kerf)
+
+
+def test_a_kerf_drawn_bit_by_bit_is_the_kerf_drawn_at_once(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    do(page, "for (let t = 0; t < 100; t += 0.7) Drycut.player.seek(t)")
+    page.evaluate("""async () => {
+        for (let t = 0; t < 120; t += 1.7) {
+            Drycut.player.seek(t);
+            await new Promise(requestAnimationFrame);
+        }
+        Drycut.player.seek(120);
+    }""")
+    grown = canvas(page)
+    do(page, "const v = Drycut.player.view; v.zoomAt(0, 0, 2); Drycut.player.seek(0)")
+    do(page, "const v = Drycut.player.view; v.zoomAt(0, 0, 0.5); Drycut.player.seek(120)")
+    different = np.abs(canvas(page) - grown).max(axis=2) > 90
+    assert different.mean() < 2e-4  # edges that are smoothed twice are a little darker
+
+
+@pytest.mark.parametrize(("motion", "speed"), [("no-preference", 1000), ("no-preference", 10000), ("reduce", 1000)])
+def test_a_piece_that_is_free_drops_and_leaves_a_hole(open_page: OpenPage, motion: str, speed: int) -> None:
+    page = opened(open_page, reduced_motion=motion)
+    gone, middle = named(page, "gone"), (-500.0, 300.0)
+    do(page, "Drycut.player.seekBlock(5)")
+    assert near(colour(page, *middle), named(page, "table"))
+    do(page, f"Drycut.player.setSpeed({speed})")  # the fastest is at the end before it has dropped
+    seen = page.evaluate(
+        """async ([px, py]) => {
+            const copy = Object.assign(document.createElement("canvas"), { width: 1, height: 1 });
+            const pen = copy.getContext("2d", { willReadFrequently: true });
+            const seen = [];
+            Drycut.player.play();
+            for (let since = performance.now(); performance.now() < since + 1500; ) {
+                await new Promise(requestAnimationFrame);
+                pen.drawImage(document.getElementById("table"), -Math.round(px), -Math.round(py));
+                seen.push([...pen.getImageData(0, 0, 1, 1).data.slice(0, 3)]);
+            }
+            return seen;
+        }""",
+        page.evaluate(f"[Drycut.player.view.toX({middle[0]}), Drycut.player.view.toY({middle[1]})]"),
+    )
+    assert near(seen[-1], gone)
+    between = [levels for levels in seen if not near(levels, named(page, "table"), 4) and not near(levels, gone, 4)]
+    assert bool(between) == (motion == "no-preference")
+
+
+def test_single_steps_show_their_decisions_and_no_text_covers_another(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    page.evaluate("""() => {
+        window.texts = [];
+        const write = CanvasRenderingContext2D.prototype.fillText;
+        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+            if (/^F = |×[0-9]/.test(text)) texts.push([text, x, y - 10, x + this.measureText(text).width, y + 2]);
+            return write.call(this, text, x, y);
+        };
+    }""")
+    page.keyboard.press("m")
+    for step in (2004, 2600, 3300, 4020):  # steep, 45° and flat stretches of the arc
+        do(page, f"Drycut.player.seekStep({step})")
+        page.keyboard.press("z")
+        do(page, f"texts.length = 0; Drycut.player.seekStep({step})")
+        texts = page.evaluate("texts")
+        shown = [text for text, *_ in texts]
+        assert len(texts) >= 7
+        assert shown[0] == out(page, "f")
+        assert shown[-1].endswith("µm ×1")
+        for (_, *one), (_, *other) in combinations(texts, 2):
+            assert one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
+
+
+def test_lines_of_many_points_are_thinned_by_no_more_than_is_said(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    off = page.evaluate("""() => {
+        const n = 3000, x = new Float64Array(n), y = new Float64Array(n);
+        let seed = 1, toward = 0;
+        const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
+        for (let at = 1; at < n; at++) {
+            if (random() < 0.02) toward += random() < 0.3 ? Math.PI : random() * 6;  // it also comes back on itself
+            toward += (random() - 0.5) * 0.02;
+            x[at] = x[at - 1] + 5 * Math.cos(toward);
+            y[at] = y[at - 1] + 5 * Math.sin(toward);
+        }
+        const line = Drycut.detail(x, y, new Uint8Array(n));
+        const everywhere = { left: -1e9, right: 1e9, bottom: -1e9, top: 1e9 };
+        return [0.3, 0.03, 0.003].map((scale) => {
+            const kept = [];
+            line.visit(scale, 0, n - 1, everywhere, (points, at, past) => kept.push(...points.slice(at, past)));
+            let worst = 0;
+            for (let at = 0; at + 1 < kept.length; at++) {
+                const [a, b] = [kept[at], kept[at + 1]];
+                for (let between = a + 1; between < b; between++) {
+                    const [ux, uy] = [x[b] - x[a], y[b] - y[a]], [px, py] = [x[between] - x[a], y[between] - y[a]];
+                    const share = Math.min(1, Math.max(0, (ux * px + uy * py) / (ux * ux + uy * uy || 1)));
+                    worst = Math.max(worst, Math.hypot(px - share * ux, py - share * uy));
+                }
+            }
+            return [worst * scale, kept.length, kept[kept.length - 1]];
+        });
+    }""")
+    counts = [count for _, count, _ in off]
+    assert all(worst <= 0.6 and last == 2999 for worst, _, last in off)  # px; 0.3 a level, and those below it
+    assert counts[0] > counts[1] > counts[2]
+    assert counts[2] < 1000
+
+
+def test_the_quiz_asks_weighs_and_counts(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    page.get_by_role("button", name="Quiz").click()
+    do(page, "Drycut.player.setSpeed(10000)")
+    panel = page.locator("#quiz")
+    panel.wait_for()
+    stopped = state(page)
+    assert (stopped["block"], stopped["step"], stopped["playing"]) == (1, 600, False)
+    assert out(page, "f") == "–"  # no help from the read-outs
+    answers = panel.locator(".answer").all_inner_texts()
+    right = next(at for at, text in enumerate(answers, 1) if text.endswith("L1"))
+    page.keyboard.press(str(right))
+    assert "Right." in panel.inner_text()
+    page.keyboard.press("Enter")
+    page.get_by_text("Ready?").wait_for()
+    panel.get_by_role("button", name="No").click()
+    assert "No; the right answer is marked. because" in panel.inner_text()
+    panel.get_by_role("button", name="Continue").click()
+    page.get_by_text("1 of 2 answers were right.").wait_for()
+    assert state(page)["step"] == STEPS
+    page.get_by_role("button", name="中文").click()
+    assert "共答 2 题，答对 1 题" in panel.inner_text()
+
+
+def test_nothing_of_a_program_or_a_scenario_becomes_a_part_of_the_page(open_page: OpenPage) -> None:
+    page = opened(open_page, part_page(EVIL))
+    assert page.evaluate("window.owned") is None
+    assert page.locator("h1").inner_text() == EVIL
+    assert EVIL in page.title()
+    assert "<script>window.owned = 1</script>" in page.locator("#program").inner_text()
+    assert "half <b>round</b>.3b" in page.locator(".about").inner_text()
+    assert EVIL not in part_page(EVIL)
+
+
+def test_after_a_trip_the_replay_ends_there_and_says_so(open_page: OpenPage) -> None:
+    scenario = load_scenario(SCENARIOS / "servo-trip")
+    with recorded(read_program(scenario.program), scenario, silent) as recording:
+        page = opened(open_page, replay_page(recording))
+    assert page.get_by_text("A drive tripped: the replay ends there.").is_visible()
+    do(page, "Drycut.player.seek(1e9)")
+    assert state(page)["block"] == 4
+    assert out(page, "remaining") == "00:00.00"
+
+
+@pytest.mark.parametrize(("lang", "dark"), [("en", False), ("zh", True)])
+def test_anyone_can_use_it(open_page: OpenPage, lang: str, dark: bool) -> None:
+    page = opened(open_page, lang=lang, dark=dark)
+    page.get_by_role("tab").last.click()
+    assert page_checks.complaints(page) == []
+
+
+def test_a_phone_shows_table_controls_and_text_one_below_the_other(open_page: OpenPage) -> None:
+    page = opened(open_page, width=390, height=844)
+    tops = [page.locator(part).bounding_box() for part in ("#stage", "#transport", ".readouts", "#program")]
+    assert all(one and other and one["y"] + one["height"] <= other["y"] for one, other in pairwise(tops))
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+@functools.cache
+def million_steps() -> str:
+    """Page of a million steps on a table that stands where it is told: dry-running one takes half a minute."""
+    small = recording_of("B0B300B300GYL2 B300B200B300GXL4 B300B100B300GXL3 DD")
+    program = parse_program(f"{ZIGZAG} {ZIGZAG} DD")
+    scenario = plain_scenario(may_stay_open=True)
+    ready = prepare(program, scenario)
+    motion = motion_of(program.toolpath, scenario.machine.feeds(40.0), scenario.machine, scenario.start_um, 5.0)
+    timed = [time_steps(chunk, motion.drive.plan) for chunk in ready.steps.chunks()]
+    pulses = Pulses._make(np.concatenate(column) for column in zip(*timed, strict=True))
+    return replay_page(Recording(_ran(small.run, program, motion.drive.plan, pulses), small.pieces, pulses))
+
+
+def _ran(run: DryRun, program: object, plan: object, pulses: Pulses) -> DryRun:
+    tally = StepTally(len(program.toolpath), origin_um(program.toolpath))
+    tally.take(pulses)
+    stepped = tally.result()
+    ends = np.cumsum(stepped.count) - 1
+    border = np.concatenate([[0.0], pulses.t_s[ends][:-1], [plan.duration_s]])
+    every = np.arange(0, len(pulses.t_s), 5)
+    place = np.column_stack([pulses.x_um[every], pulses.y_um[every]]).astype(float)
+    t = np.concatenate([[0.0], pulses.t_s[every] + 1e-3])
+    place, row = np.vstack([[[0.0, 0.0]], place]), np.concatenate([[0], pulses.row[every]]).astype(np.int64)
+    wobble = np.column_stack([np.sin(t * 3.0), np.cos(t * 2.0)])
+    trace = Trace(t, place, place + wobble, place + wobble, row)
+    return replace(
+        run,
+        program=program,
+        plan=plan,
+        stepped=stepped,
+        trace=trace,
+        block_time_s=np.diff(border),
+        findings=(),
+        contours=(),
+    )
+
+
+def test_a_million_steps_load_soon_and_play_smoothly(open_page: OpenPage) -> None:
+    text = million_steps()
+    assert len(text.encode()) < 5e6
+    page = opened(open_page, text)
+    loaded_s = page.evaluate("performance.now() / 1000")  # since the page began to load
+    assert page.evaluate("Drycut.player.seekStep(1e9), Drycut.player.state().step") > 1_000_000
+    empty, played, script = page.evaluate("""async () => {
+        const frame = () => new Promise(requestAnimationFrame);
+        const spans = async (count) => {
+            const found = [];
+            let last = await frame();
+            for (let at = 0; at < count; at++) {
+                const now = await frame();
+                found.push(now - last);
+                last = now;
+            }
+            return found;
+        };
+        const middle = (list) => list.sort((a, b) => a - b)[list.length >> 1];
+        const pen = document.createElement("canvas").getContext("2d");
+        pen.fillRect(0, 0, 1, 1);
+        const empty = middle(await spans(40));
+        const ask = window.requestAnimationFrame;
+        const spent = [];
+        window.requestAnimationFrame = (call) => ask((now) => {
+            const since = performance.now();
+            call(now);
+            spent.push(performance.now() - since);
+        });
+        Drycut.player.seek(5000);
+        Drycut.player.setSpeed(1000);
+        Drycut.player.play();
+        const played = middle(await spans(60));
+        window.requestAnimationFrame = ask;
+        return [empty, played, middle(spent)];
+    }""")
+    print(f"loaded in {loaded_s:.2f} s; frames of {played:.1f} ms, empty {empty:.1f} ms, script {script:.1f} ms")
+    assert loaded_s < 5.0
+    assert script < 16.0  # half of all frames; measured 2 ms
+    assert played < 3 * empty + 1
+
+
+def test_many_blocks_keep_few_lines_in_the_page(open_page: OpenPage) -> None:
+    page = opened(open_page, million_steps())
+    page.locator("#program").evaluate("box => box.scrollTop = 0")
+    assert page.locator("#program .line").count() < 60
+
+
+LOOKS = {
+    "replay-whole": (1000, 700, "en", False, "Drycut.player.seek(120)"),
+    "replay-steps": (1000, 700, "zh", True, "Drycut.player.seekStep(2600)"),
+    "replay-phone": (390, 844, "zh", False, "Drycut.player.seek(60)"),
+}
+
+
+@pytest.mark.parametrize("name", LOOKS)
+def test_it_looks_as_it_did(open_page: OpenPage, name: str) -> None:
+    width, height, lang, dark, script = LOOKS[name]
+    page = opened(open_page, width=width, height=height, lang=lang, dark=dark, shipped_font=True)
+    do(page, script)
+    if name == "replay-steps":
+        page.keyboard.press("z")
+    drawn(page)
+    assert_golden_screen(page, f"{name}.png")

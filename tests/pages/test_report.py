@@ -1,0 +1,255 @@
+"""report.html in a real browser: what it shows, how it sorts, what it prints, and that nothing runs but its own."""
+
+import re
+from typing import TYPE_CHECKING
+
+import pytest
+from browser import OpenPage
+from golden_pictures import assert_golden_screen
+from page_checks import complaints
+from report_pages import HOSTILE, HOSTILE_TITLE, PART, Made, hostile, made, staircase
+
+from sim.show.report_page.tables import reached
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+BLOCKS = '[data-table="blocks"]'
+MM_PX = 96.0 / 25.4
+
+
+@pytest.fixture(scope="module")
+def part() -> Made:
+    return made(PART, kerf=True, title="A square and a circle")
+
+
+@pytest.fixture(scope="module")
+def bad() -> Made:
+    return hostile()
+
+
+@pytest.fixture(scope="module")
+def many() -> Made:
+    return made(staircase(5000), may_stay_open=True)
+
+
+def cells(page: "Page", head: str, table: str = BLOCKS) -> list[str]:
+    """Texts of a column."""
+    heads = page.locator(f"{table} thead th").evaluate_all(
+        "all => all.map(th => th.querySelector('[lang=en]').textContent)"
+    )
+    return page.locator(f"{table} tbody tr > :nth-child({heads.index(head) + 1})").all_inner_texts()
+
+
+def head(page: "Page", name: str) -> "Page":
+    return page.locator(f"{BLOCKS} thead button", has_text=re.compile(f"^{name}"))
+
+
+def numbers(texts: list[str]) -> list[float]:
+    return [float(text.replace(",", "")) for text in texts if text != "–"]
+
+
+def test_what_others_wrote_shows_as_text(open_page: OpenPage, bad: Made) -> None:
+    page = open_page(bad.html).page
+    assert page.evaluate("window.hacked") is None
+    assert page.locator("img, main b").count() == 0
+    assert page.locator("h1").inner_text() == HOSTILE_TITLE
+    sources = page.locator(".source .row:first-child").all_inner_texts()
+    shown = "\n".join(sources)
+    for line in HOSTILE.splitlines()[1:4]:
+        assert line in shown
+    assert "<script>window.hacked=5</script>" in page.locator(".groups").inner_text()
+
+
+@pytest.mark.parametrize(("lang", "dark"), [("en", False), ("zh", True)])
+def test_nobody_has_to_complain_of_the_page(open_page: OpenPage, bad: Made, lang: str, dark: bool) -> None:
+    assert complaints(open_page(bad.html, lang=lang, dark=dark).page) == []
+
+
+def test_the_switch_changes_the_language_of_every_text(open_page: OpenPage, bad: Made) -> None:
+    page = open_page(bad.html).page
+    assert page.locator(".verdict .word").inner_text() == "Fail"
+    assert cells(page, "kind")[0] == "line"
+    picture = page.locator("#picture-cut svg[aria-label]:visible")
+    english = picture.get_attribute("aria-label")
+    page.locator("[data-language-switch]").click()
+    assert page.locator(".verdict .word").inner_text() == "不通过"
+    assert cells(page, "kind")[0] == "直线"
+    assert picture.get_attribute("aria-label") != english
+    assert page.locator("a.replay").get_attribute("href") == "replay.html#lang=zh-CN"
+    left = page.evaluate("""() => [...document.querySelectorAll('h2, h3, thead button, dt')]
+        .map(el => el.innerText.trim()).filter(text => text && !/[\\u4e00-\\u9fff]/.test(text))""")
+    assert set(left) <= {"95 %\nµm"}, "words that stand in English alone"
+
+
+@pytest.mark.parametrize(
+    ("column", "entry", "unit_um"),
+    [
+        ("J", "count_um", 1.0),
+        ("to X", "exact.end_um.0", 1000.0),
+        ("radius", "exact.radius_um", 1000.0),
+        ("length", "exact.length_um", 1000.0),
+        ("deviation, table", "table.max_deviation_um", 1.0),
+    ],
+)
+def test_cells_show_the_figures_of_the_report(
+    open_page: OpenPage, part: Made, column: str, entry: str, unit_um: float
+) -> None:
+    values = [reached(block, entry) for block in part.report["blocks"]]
+    shown = cells(open_page(part.html).page, column)
+    digits = {len(text.partition(".")[2]) for text in shown if text != "–"}
+    assert digits == {{"J": 0, "deviation, table": 2}.get(column, 3)}
+    half = 0.5001 * 10.0 ** -digits.pop()
+    expected = ["–" if value is None else pytest.approx(value / unit_um, abs=half) for value in values]
+    assert ["–" if text == "–" else float(text.replace(",", "")) for text in shown] == expected
+
+
+def test_a_head_sorts_up_then_down_and_says_so(open_page: OpenPage, part: Made) -> None:
+    page = open_page(part.html).page
+    before = numbers(cells(page, "length"))
+    assert before != sorted(before)
+    head(page, "length").click()
+    assert numbers(cells(page, "length")) == sorted(before)
+    assert page.locator(f"{BLOCKS} [aria-sort=ascending]").inner_text().startswith("length")
+    page.keyboard.press("Enter")
+    assert numbers(cells(page, "length")) == sorted(before, reverse=True)
+    assert page.locator(f"{BLOCKS} [aria-sort=descending]").count() == 1
+    head(page, "kind").focus()
+    page.keyboard.press("Space")
+    assert cells(page, "kind") == sorted(cells(page, "kind"))
+    assert page.locator(f"{BLOCKS} [aria-sort=descending]").count() == 0
+
+
+@pytest.mark.parametrize("clicks", [1, 2])
+def test_rows_without_a_value_stand_last_either_way(open_page: OpenPage, part: Made, clicks: int) -> None:
+    page = open_page(part.html).page
+    for _ in range(clicks):
+        head(page, "radius").click()
+    assert cells(page, "radius") == ["0.500"] + ["–"] * 10
+
+
+def test_the_worst_of_many_blocks_is_two_clicks_away(open_page: OpenPage, many: Made) -> None:
+    page = open_page(many.html).page
+    assert page.locator(f"{BLOCKS} tbody tr").count() == 200
+    assert page.locator(f"{BLOCKS} .count").inner_text() == "rows 1–200 of 5,000"
+    button = head(page, "deviation, table")
+    took_ms = button.evaluate("""button => {
+        const before = performance.now();
+        button.click(); button.click();
+        document.body.getBoundingClientRect();
+        return performance.now() - before;
+    }""")
+    worst = max(many.report["blocks"], key=lambda block: block["table"]["max_deviation_um"])
+    assert cells(page, "deviation, table")[0] == f"{worst['table']['max_deviation_um']:.2f}"
+    assert took_ms < 1500.0, "sorting 5,000 blocks twice"
+
+
+def test_pages_of_a_long_table_are_turned(open_page: OpenPage, many: Made) -> None:
+    page = open_page(many.html).page
+    turn = {
+        name: page.locator(f"{BLOCKS} .turning button", has_text=name) for name in ("First", "Back", "Next", "Last")
+    }
+    turn["Next"].click()
+    assert cells(page, "block")[:2] == ["201", "202"]
+    turn["Last"].click()
+    assert cells(page, "block")[-1] == "5,000"
+    assert turn["Next"].is_disabled()
+    turn["Back"].click()
+    assert page.locator(f"{BLOCKS} .count").inner_text() == "rows 4,601–4,800 of 5,000"
+    turn["First"].click()
+    assert turn["Back"].is_disabled()
+    assert cells(page, "block")[0] == "1"
+
+
+def test_a_code_opens_its_explanation(open_page: OpenPage, bad: Made) -> None:
+    page = open_page(bad.html).page
+    code = page.locator(".findings .head a").first
+    explained = page.locator(f"#code-{code.inner_text()}")
+    assert explained.get_attribute("open") is None
+    code.click()
+    assert explained.get_attribute("open") is not None
+    assert "How to mend it" in explained.inner_text()
+    assert "如何改正" not in explained.inner_text()
+
+
+def test_a_code_of_a_block_leads_to_its_finding(open_page: OpenPage, bad: Made) -> None:
+    page = open_page(bad.html).page
+    link = page.locator(f"{BLOCKS} .codes a").first
+    link.click()
+    assert page.locator(":target .head a").inner_text() == link.inner_text()
+    assert page.locator(":target").evaluate("el => el.getBoundingClientRect().top") > page.locator(".bar").evaluate(
+        "el => el.getBoundingClientRect().bottom"
+    ), "not hidden below the bar"
+
+
+def test_carets_stand_below_what_they_mean(open_page: OpenPage, bad: Made) -> None:
+    page = open_page(bad.html).page
+    apart = page.evaluate("""() => {
+        const left = (row, text) => {
+            const walk = document.createTreeWalker(row, NodeFilter.SHOW_TEXT);
+            for (let node = walk.nextNode(); node; node = walk.nextNode()) {
+                const at = node.data.indexOf(text);
+                const range = document.createRange();
+                if (at < 0) continue;
+                range.setStart(node, at);
+                range.setEnd(node, at + 1);
+                return range.getBoundingClientRect().left;
+            }
+        };
+        const source = [...document.querySelectorAll('.findings li')].find(li => li.innerText.includes('3B208'));
+        const [line, carets] = source.querySelectorAll('.row');
+        return left(line, '490 GYL4') - left(carets, '^');
+    }""")
+    assert abs(apart) < 1.0, "px"
+
+
+def test_a_phone_scrolls_wide_tables_in_their_own_box_alone(open_page: OpenPage, bad: Made) -> None:
+    page = open_page(bad.html, 390, 844, lang="zh").page
+    assert page.evaluate("document.scrollingElement.scrollWidth") == 390
+    assert page.locator(f"{BLOCKS} .box").evaluate("box => box.scrollWidth > box.clientWidth")
+
+
+def test_pictures_take_the_colours_of_the_desk_and_are_light_on_paper(open_page: OpenPage, part: Made) -> None:
+    page = open_page(part.html, dark=True).page
+    ground = "getComputedStyle(document.querySelector('.picture div[lang=en] .f-page')).fill"
+    body = "getComputedStyle(document.body).backgroundColor"
+    assert page.evaluate(ground) == "rgb(22, 24, 28)"
+    page.emulate_media(media="print")
+    assert page.evaluate(ground) == "rgb(255, 255, 255)"
+    assert page.evaluate(body) == "rgb(255, 255, 255)"
+
+
+def sheets(pdf: bytes) -> list[tuple[int, int]]:
+    """Sizes of the sheets of a PDF, mm."""
+    boxes = re.findall(rb"/MediaBox\s*\[\s*0\s+0\s+([\d.]+)\s+([\d.]+)\s*\]", pdf)
+    return [(round(float(w) / 72 * 25.4), round(float(h) / 72 * 25.4)) for w, h in boxes]
+
+
+def test_it_prints_on_a_few_sheets_of_a4(open_page: OpenPage, many: Made) -> None:
+    page = open_page(many.html).page
+    printed = sheets(page.pdf(prefer_css_page_size=True))
+    assert {(210, 297), (297, 210)} == set(printed)
+    assert len(printed) < 20, "of 5,000 blocks the rows that are seen"
+    page.emulate_media(media="print")
+    assert page.locator(f"{BLOCKS} .rest").is_visible()
+    assert "report.json" in page.locator(f"{BLOCKS} .rest").inner_text()
+
+
+@pytest.mark.parametrize(("sheet_mm", "where"), [(210 - 24, "main > :not(.wide)"), (297 - 20, ".wide *")])
+def test_nothing_is_cut_off_at_the_edge_of_the_paper(
+    open_page: OpenPage, bad: Made, sheet_mm: float, where: str
+) -> None:
+    page = open_page(bad.html, int(sheet_mm * MM_PX), 1000).page
+    page.emulate_media(media="print")
+    right = page.locator(where).evaluate_all(
+        "all => Math.max(...all.map(el => el.getBoundingClientRect().left + el.scrollWidth))"
+    )
+    assert right <= sheet_mm * MM_PX + 0.5
+
+
+def test_the_page_looks_as_it_should_in_english(open_page: OpenPage, part: Made) -> None:
+    assert_golden_screen(open_page(part.html, 1280, 720, shipped_font=True).page, "report-en.png")
+
+
+def test_the_page_looks_as_it_should_in_chinese_and_dark(open_page: OpenPage, bad: Made) -> None:
+    assert_golden_screen(open_page(bad.html, 390, 844, lang="zh", dark=True, shipped_font=True).page, "report-zh.png")

@@ -1,0 +1,192 @@
+"""The catalogue: every code has its page in both languages, and its templates fill from the values it is given."""
+
+import re
+import string
+import tomllib
+from importlib import resources
+from typing import get_args
+
+import pytest
+
+from parser.findings.catalogue import LANGUAGES, Language, Page, Texts, example, instant, page, texts
+from parser.findings.findings import SEVERITIES, Finding, Value
+
+PAGES = resources.files("parser.findings") / "pages"
+TEMPLATES = ("found", "expected", "machine", "hint")
+LINE = 110
+NO_EXAMPLE = {
+    *("3B100", "3B303", "3B402", "3B403", "3B404", "3B405", "3B406", "3B490"),
+    *("3B501", "3B502", "3B503", "3B504", "3B601", "3B602"),
+}
+
+VALUES: dict[str, dict[str, Value]] = {
+    "3B100": {"what": "unreadable-file", "detail": "Permission denied"},
+    "3B101": {"text": "second {cut}"},
+    "3B102": {},
+    "3B103": {"blocks": 4, "mark": "DD"},
+    "3B104": {},
+    "3B105": {"mark": "E"},
+    "3B106": {"field": "field-axis", "found": "nothing", "wanted": "wanted-axis"},
+    "3B107": {"label": "N2", "line": 2},
+    "3B108": {"header": 65437.0, "decoded": 82003.53},
+    "3B109": {"three": 3, "four": 1},
+    "3B110": {"blocks": 3},
+    "3B201": {"x": 0, "y": 0},
+    "3B202": {"axis": "Y", "other": "X"},
+    "3B203": {"written": "L1", "ruled": "L2", "way": "+Y"},
+    "3B204": {"axis": "X", "ruled": "Y", "cost": 140.0, "right": 0.0, "count": 39600},
+    "3B205": {},
+    "3B206": {"what": "number-too-large", "limit": 999_999_999},
+    "3B207": {"px": 9900.0, "py": -0.0, "x": 9800.0, "y": 0.0, "off": 100.0},
+    "3B208": {"count": 9990, "extent": 9900, "axis": "X", "off": 90.0, "goes": "too-far", "by": 90.0},
+    "3B209": {"count": 19800, "extent": 9900, "axis": "X", "times": 2},
+    "3B210": {"count": 79200, "full": 39600, "turns": 2.0},
+    "3B211": {"written": "SR", "other": "NR", "sweep": 270, "minor": 90},
+    "3B212": {"radius": 9990, "decoded": 9900.0},
+    "3B301": {"first": 1, "last": 4, "gap": 6929.65},
+    "3B302": {"first": 1, "last": 12, "gap": 35.2, "limit": 26.7},
+    "3B303": {"miss": 12.5, "limit": 12.0},
+    "3B304": {"first": 1, "last": 6, "field": "field-sense", "written": "L4", "other": "L2"},
+    "3B305": {"radius": 50.0, "offset": 100.0},
+    "3B306": {"written": "SR", "other": "NR"},
+    "3B307": {"crossing": 7, "other": 4, "x": -2000.0, "y": 2000.0, "more": 0},
+    "3B308": {},
+    "3B309": {"length": 30000.0},
+    "3B310": {"length": 30000.0},
+    "3B311": {"first": 1, "last": 7, "gap": 1414.2},
+    "3B401": {"x_mm": 400.0, "y_mm": 500.0, "axis": "X", "by": 10000.0},
+    "3B402": {"axis": "X", "lost": 18.0, "last": 12, "t_s": 11524.25, "x_mm": 12.5, "y_mm": -0.0001},
+    "3B403": {"axis": "Y", "lag": 100.2, "limit": 100.0, "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B404": {"body": "arm", "name": "left clamp", "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B405": {"t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B406": {"kind": "slug", "area_mm2": 12.5, "cut_after": 5000.0, "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B490": {"path": "summary.steps", "found": "99000", "wanted": "at most 5"},
+    "3B501": {"radius": 50.0, "offset": 100.0, "left": 20.7, "x_mm": 12.5, "y_mm": 0.0},
+    "3B502": {"offset": 100.0, "left": 3.2, "x_mm": 12.5, "y_mm": 0.0},
+    "3B503": {"other": 9, "depth": 110.0, "offset": 100.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B504": {"loops": 2, "offset": 100.0},
+    "3B601": {"what": "edge-off", "off": 7.0, "tolerance": 5.0, "x_mm": 12.5, "y_mm": 0.0, "entity": "ARC 2F"},
+    "3B602": {"what": "wrong-side"},
+}
+
+
+def written(name: str) -> dict[str, dict[str, str]]:
+    return tomllib.loads((PAGES / f"{name}.toml").read_text(encoding="utf-8"))
+
+
+def placeholders(template: str) -> set[tuple[str, str]]:
+    return {(name, spec or "") for _, name, spec, _ in string.Formatter().parse(template) if name is not None}
+
+
+def columns(line: str) -> int:
+    return sum(1 if ord(letter) < 0x2E80 else 2 for letter in line)
+
+
+def test_every_code_has_a_page_and_every_page_a_code() -> None:
+    names = {entry.name.removesuffix(".toml") for entry in PAGES.iterdir() if entry.name.endswith(".toml")}
+    assert names - {"terms"} == set(SEVERITIES) == set(VALUES)
+    assert get_args(Language) == LANGUAGES
+
+
+@pytest.mark.parametrize("code", sorted(SEVERITIES))
+def test_a_page_has_all_keys_and_no_others(code: str) -> None:
+    content = written(code)
+    assert set(content) - {"example"} == set(LANGUAGES)
+    for language in LANGUAGES:
+        assert set(content[language]) == set(Page._fields)
+        assert all(text.strip() for text in page(code, language))
+    assert set(content.get("example", {})) <= {"program", "mended", "options"}
+
+
+@pytest.mark.parametrize("code", sorted(SEVERITIES))
+def test_templates_are_one_line_without_a_stop_and_the_same_in_both_languages(code: str) -> None:
+    for name in ("title", *TEMPLATES):
+        english, chinese = (getattr(page(code, language), name) for language in LANGUAGES)
+        for text in (english, chinese):
+            assert text == text.strip()
+            assert "\n" not in text
+            assert text[-1] not in ".。;；"
+        assert placeholders(english) == placeholders(chinese)
+        assert {field for field, _ in placeholders(english)} <= set(VALUES[code])
+    assert not placeholders(page(code).title)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("code", sorted(SEVERITIES))
+def test_texts_fill_and_join(code: str, language: Language) -> None:
+    filled = texts(Finding(code, VALUES[code]), language)
+    joints = {"en": ("; expected ", "; "), "zh": ("；应为", "；")}[language]
+    assert filled.message == filled.found + joints[0] + filled.expected + joints[1] + filled.machine
+    assert not re.search(r"应为[!-~]", filled.message), "a Latin letter or a digit stands off from Chinese"
+    for text in filled:
+        assert "\n" not in text
+        assert "  " not in text
+    if code != "3B101":  # its text is the program's own, and may hold anything
+        assert "{" not in "".join(filled)
+    assert len(filled) == len(Texts._fields)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("code", sorted(SEVERITIES))
+def test_markdown_is_wrapped_and_in_its_language(code: str, language: Language) -> None:
+    for text in page(code, language)[-2:]:
+        assert all(columns(line) <= LINE for line in text.splitlines())
+        assert any(ord(letter) >= 0x4E00 for letter in text) == (language == "zh")
+
+
+@pytest.mark.parametrize("code", sorted(SEVERITIES))
+def test_an_example_is_two_programs(code: str) -> None:
+    shown = example(code)
+    assert (shown is None) == (code in NO_EXAMPLE)
+    if shown:
+        assert shown.program != shown.mended
+        assert all(text.endswith("\n") and not text.startswith("\n") for text in (shown.program, shown.mended))
+
+
+def test_terms_have_the_same_keys_in_both_languages() -> None:
+    terms = written("terms")
+    assert set(terms) == set(LANGUAGES)
+    assert set(terms["en"]) == set(terms["zh"])
+    assert all(text and text == text.strip() for language in LANGUAGES for text in terms[language].values())
+
+
+def test_lengths_terms_and_asides() -> None:
+    assert texts(Finding("3B301", {"first": 1, "last": 4, "gap": 999.0})).found.startswith(
+        "the contour of blocks 1 to 4 ends 999.00 µm"
+    )
+    values = VALUES["3B207"] | {"px": -0.2}
+    assert texts(Finding("3B207", values)).found.startswith("the printed end is 0.000, 0.000 mm, 100.00 µm")
+    unknown = VALUES["3B106"] | {"field": "field-y", "found": "O"}
+    assert texts(Finding("3B106", unknown)).found == "Y after the second B: `O`"
+    assert texts(Finding("3B106", VALUES["3B106"]), "zh").found == "计数方向 G：空缺"
+    assert texts(Finding("3B100", {"what": "empty", "detail": ""})).found == "the file is empty"
+    assert texts(Finding("3B100", VALUES["3B100"])).found == "the file cannot be read (Permission denied)"
+    assert texts(Finding("3B402", VALUES["3B402"])).found == (
+        "the X motor slips at 12.500, 0.000 mm, 3:12:04.25 into the run, and loses 18.00 µm up to block 12"
+    )
+    for body, english, chinese in (("wire", "the wire touches", "钼丝碰到"), ("arm", "the arm touches", "丝架碰到")):
+        values = VALUES["3B404"] | {"body": body}
+        assert texts(Finding("3B404", values)).found.startswith(f"{english} `left clamp`")
+        assert texts(Finding("3B404", values), "zh").found.startswith(f"{chinese} `left clamp`")
+
+
+@pytest.mark.parametrize(
+    ("t_s", "text"),
+    [
+        (0.0, "0:00:00.00"),
+        (9.876, "0:00:09.88"),
+        (59.996, "0:01:00.00"),
+        (3599.996, "1:00:00.00"),
+        (360_000.5, "100:00:00.50"),
+    ],
+)
+def test_a_time_into_a_run_is_hours_minutes_and_seconds(t_s: float, text: str) -> None:
+    assert instant(t_s) == text
+
+
+@pytest.mark.parametrize("code", ["3B111", "3B999", "terms", "../findings", ""])
+def test_an_unknown_code_is_a_key_error(code: str) -> None:
+    with pytest.raises(KeyError):
+        page(code)
+    with pytest.raises(KeyError):
+        example(code)

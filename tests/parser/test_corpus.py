@@ -1,0 +1,95 @@
+"""Programs on file: the real ones are sound, every spelling is read, every fault is named at its place.
+
+Beside the files stand the expectations, worked out from docs/3b.md: ``spellings/expected.json`` with the words
+``X Y J axis Z`` of each file, ``faults/expected.json`` with the findings ``[code, line, column, block]``.
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from places import CORPUS
+
+from parser.findings.findings import SEVERITIES
+from parser.program import Program, read_program
+from sim.check.batch import Job, check_file
+from sim.check.settings import CheckSettings
+from sim.setup.machine.machine import load_machine
+
+SPELLINGS: dict[str, dict[str, Any]] = json.loads((CORPUS / "spellings/expected.json").read_text(encoding="utf-8"))
+FAULTS: dict[str, dict[str, Any]] = json.loads((CORPUS / "faults/expected.json").read_text(encoding="utf-8"))
+_SENSES = {0: "L", 1: "NR", -1: "SR"}
+_OF_A_RUN = {code for code in SEVERITIES if code > "3B401"}
+_NEEDS_MORE = {"3B303"} | _OF_A_RUN  # a block that no search has found yet; what a check cannot see
+
+
+def words(program: Program) -> list[str]:
+    of = program.toolpath.words
+    columns = zip(of.x_um, of.y_um, of.count_um, of.count_axis, of.turn, of.quadrant, strict=True)
+    return [f"{x} {y} {j} {'XY'[axis]} {_SENSES[int(turn)]}{quadrant}" for x, y, j, axis, turn, quadrant in columns]
+
+
+def facts(program: Program) -> dict[str, Any]:
+    """All that a spelling may say about its program."""
+    toolpath, header = program.toolpath, program.header
+    return {
+        "encoding": program.encoding,
+        "dialect": program.reading.dialect,
+        "words": words(program),
+        "radius_um": toolpath.words.radius_um.tolist(),
+        "curve": toolpath.words.curve.tolist(),
+        "labels": list(toolpath.source.label),
+        "lines": toolpath.source.line.tolist(),
+        "ends_um": [[round(x, 3), round(y, 3)] for x, y in toolpath.end_um.tolist()],
+        "printed_um": toolpath.printed_end_um.tolist(),
+        "jumps": [block.number for block in toolpath if toolpath.is_jump[block.number - 1]],
+        "stops": [[stop.kind, stop.after] for stop in toolpath.stops],
+        "header": {
+            "version": header.version,
+            "name": header.name,
+            "corner_radius_um": header.corner_radius_um,
+            "offset_um": header.offset_um,
+            "lengths_um": [round(length.um, 3) for length in header.lengths],
+        },
+    }
+
+
+def findings(file: Path, settings: CheckSettings = CheckSettings()) -> list[list[Any]]:  # noqa: B008 - frozen
+    result = check_file(Job(file.name, file, settings))
+    return [[finding.code, finding.line, finding.column, finding.block] for finding in result.findings]
+
+
+@pytest.mark.parametrize("name", ["keyhole.3b", "round-hole.3b"])
+def test_real_programs_are_sound(name: str) -> None:
+    assert [code for code, *_ in findings(CORPUS / "real" / name)] == (["3B102"] if name == "round-hole.3b" else [])
+    scenario = CORPUS.parents[1] / "scenarios" / name.removesuffix(".3b") / "program.3b"
+    assert (CORPUS / "real" / name).read_bytes() == scenario.read_bytes()
+
+
+@pytest.mark.parametrize("name", SPELLINGS)
+def test_every_spelling_is_read(name: str) -> None:
+    program, expected = read_program(CORPUS / "spellings" / name), dict(SPELLINGS[name])
+    codes, header = expected.pop("codes"), expected.pop("header", {})
+    found = facts(program)
+    assert {key: found[key] for key in expected} == expected
+    assert {key: found["header"][key] for key in header} == header
+    assert [code for code, *_ in findings(CORPUS / "spellings" / name)] == codes
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_every_fault_is_named_at_its_place(name: str) -> None:
+    expected = FAULTS[name]
+    known = dict(expected.get("settings", {}))
+    machine = {"machine": load_machine(known.pop("machine"))} if "machine" in known else {}
+    assert findings(CORPUS / "faults" / name, CheckSettings(**known, **machine)) == expected["findings"]
+
+
+def test_every_file_has_its_expectation() -> None:
+    for folder, expected in (("spellings", SPELLINGS), ("faults", FAULTS)):
+        files = {file.name for file in (CORPUS / folder).iterdir() if file.suffix != ".json"}
+        assert files == set(expected)
+
+
+def test_every_code_has_a_fault_on_file() -> None:
+    assert {name.partition("-")[0] for name in FAULTS} == set(SEVERITIES) - _NEEDS_MORE

@@ -1,0 +1,78 @@
+"""Any input gets an answer: what `tests/tools/fuzz.py` tries on many, on a few; and programs bad on purpose."""
+
+import time
+
+import pytest
+from fuzz import MOST_S, SEED, broken_promises, fuzz_input
+from fuzz_inputs import SEEDS
+from hostile import HOSTILE
+
+from parser.findings.findings import Severity
+from sim.check.batch import Job, check_file
+from sim.check.settings import CheckSettings
+
+SLOWEST_S = 10.0
+"""Each takes less than 0.5 s on one core; machines of build servers may be slow and busy."""
+
+
+@pytest.mark.parametrize("part", range(4))
+def test_any_input_gets_an_answer(part: int) -> None:
+    begin = time.perf_counter()
+    for number in range(part, 2000, 4):
+        data = fuzz_input(SEED, number)
+        assert broken_promises(data, number) == [], (number, data)
+    assert time.perf_counter() - begin < 500 * MOST_S
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_programs_end_in_bounded_time(name: str) -> None:
+    begin = time.perf_counter()
+    result = check_file(Job("hostile.3b", HOSTILE[name](10_000).encode(), CheckSettings()))
+    assert time.perf_counter() - begin < SLOWEST_S
+    assert result.coverage.checks
+
+
+@pytest.mark.parametrize("text", SEEDS)
+def test_the_programs_that_are_fuzzed_are_read_to_their_last_block(text: str) -> None:
+    cover = check_file(Job("seed.3b", text.encode(), CheckSettings())).coverage
+    assert cover.read == cover.found > 0
+
+
+def test_a_hidden_finding_still_keeps_a_mend_from_being_certain() -> None:
+    # The second side of an open square counts on the wrong axis as well: how far it should go is not known.
+    text = b"B10000B0B10000GXL1\nB9000B8000B8000GYL2\nB10000B0B10000GXL3\nB0B5000B5000GYL4\nDD\n"
+    shown = check_file(Job("a.3b", text, CheckSettings(ignore=("3B301",))))
+    everything = check_file(Job("a.3b", text, CheckSettings()))
+    assert everything.count(Severity.ERROR) > 0
+    edits = {finding.code: finding.edits for finding in everything.findings}
+    assert all(edits[finding.code] == finding.edits for finding in shown.findings)
+
+
+def test_a_4b_block_behind_a_damaged_block_keeps_its_radius() -> None:
+    text = b"B10B0B10GXL1\nB10B0B10GXL3\nB9900B0B395\nB0B5000B10000B5000DGXNR4\nDD\n"
+    assert broken_promises(text) == []
+
+
+@pytest.mark.parametrize(
+    ("bad", "named"),
+    [
+        ("N2: B0 B10000 B10000 GYL2;10.000,1.000", {"3B207"}),  # its printed end alone is wrong
+        ("N2: B0 B10000 B10090 GYL2;10.000,10.000", {"3B207", "3B208"}),
+    ],
+)
+def test_a_printed_end_accuses_one_block(bad: str, named: set[str]) -> None:
+    text = (
+        f"N1: B10000 B0 B10000 GXL1;10.000,0.000\n{bad}\n"
+        "N3: B10000 B0 B10000 GXL3;0.000,10.000\nN4: B0 B10000 B10000 GYL4;0.000,0.000\nDD\n"
+    )
+    findings = check_file(Job("a.3b", text.encode(), CheckSettings())).findings
+    assert named <= {finding.code for finding in findings}
+    assert {finding.line for finding in findings if finding.code == "3B207"} == {2}
+    assert broken_promises(text.encode()) == []
+    if named == {"3B207"}:
+        assert [finding.edits for finding in findings] == [()]
+
+
+def test_a_length_behind_the_end_code_is_no_fault_of_the_program() -> None:
+    text = f"{SEEDS[0]}{SEEDS[0]}Start Point = 0.0 , 0.0 ; Length = 40.0\n{SEEDS[0]}".encode()
+    assert broken_promises(text) == []

@@ -1,0 +1,73 @@
+"""Every page of the catalogue: its example shows the finding, and mended it is sound."""
+
+import pytest
+
+from parser.findings.catalogue import LANGUAGES, Example, Language, example, page
+from parser.findings.findings import SEVERITIES, Severity
+from sim.check.batch import Job, check_file
+from sim.check.pages import page_text, severity_word, titles_text
+from sim.check.result import CheckResult
+from sim.check.settings import CheckSettings
+from sim.setup.machine.machine import load_machine
+from sim.show.findings.wording import word
+
+OF_A_RUN = {code for code in SEVERITIES if code > "3B401"}
+WITHOUT_EXAMPLE = {"3B100", "3B303"} | OF_A_RUN
+"""No program; no arc known that misses so far on the right axis; what a check cannot see."""
+EXAMPLES = {code: shown for code in sorted(SEVERITIES) if (shown := example(code))}
+ALSO = {
+    "3B304": {"3B301"},  # the contour that it is a suspect of
+    "3B109": {"3B110"},  # a 4B block is in both
+    "3B212": {"3B110"},
+}
+
+
+def checked(text: str, options: tuple[str, ...]) -> CheckResult:
+    given = dict(zip(options[::2], options[1::2], strict=True))
+    settings = CheckSettings(
+        machine=load_machine(given["--machine"]) if "--machine" in given else None,
+        wire_diameter_um=180.0 if "--wire-diameter" in given else None,
+    )
+    return check_file(Job("example.3b", text.lstrip("\n").encode(), settings))
+
+
+def test_every_finding_that_a_program_can_show_has_an_example() -> None:
+    assert set(SEVERITIES) - set(EXAMPLES) == WITHOUT_EXAMPLE
+
+
+@pytest.mark.parametrize(("code", "shown"), EXAMPLES.items(), ids=EXAMPLES)
+def test_the_example_gives_its_finding_alone(code: str, shown: Example) -> None:
+    found = {finding.code for finding in checked(shown.program, shown.options).findings}
+    assert found == {code} | ALSO.get(code, set())
+
+
+@pytest.mark.parametrize(("code", "shown"), EXAMPLES.items(), ids=EXAMPLES)
+def test_the_mended_example_is_sound(code: str, shown: Example) -> None:
+    found = checked(shown.mended, shown.options).findings
+    assert [finding.code for finding in found if finding.severity is not Severity.NOTE] == []
+    assert code not in {finding.code for finding in found} or code in ("3B110",)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_pages_call_severities_what_a_check_calls_them(language: Language) -> None:
+    assert {code: severity_word(code, language) for code in SEVERITIES} == {
+        code: word(severity, language) for code, severity in SEVERITIES.items()
+    }
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_list_has_every_code_with_its_title_below_its_layer(language: Language) -> None:
+    layers = [part.splitlines()[1:] for part in titles_text(language).split("\n\n")]
+    assert [{line.split()[0][2] for line in lines} for lines in layers] == [{layer} for layer in "123456"]
+    listed = {line.split()[0]: line.split(maxsplit=2)[2] for lines in layers for line in lines}
+    assert listed == {code: page(code, language).title for code in SEVERITIES}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("code", sorted(SEVERITIES))
+def test_a_page_reads_well_in_a_terminal(code: str, language: Language) -> None:
+    text = page_text(code, language)
+    assert text.startswith(f"# {code}")
+    assert text.endswith("\n")
+    assert "\n\n\n" not in text
+    assert text.count("```") % 2 == 0

@@ -1,0 +1,142 @@
+"""Reversed arcs: sound shapes are silent, and the same with one arc the other way round name that arc."""
+
+import math
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from paths import Pen
+from runs import codes, run_text
+
+from parser.shape.rows import contour_rows
+from sim.check.shape.senses import ReversedArcs, reversed_arcs
+
+HALF = math.pi / 2
+
+
+def found(pen: Pen) -> ReversedArcs:
+    path = pen.path()
+    return reversed_arcs(path, contour_rows(path))
+
+
+def rounded(reverse: int | None = None, lead: bool = True, back: bool = True) -> Pen:
+    """A square of 10 mm with corners R 2, counter-clockwise; its corner number `reverse` runs the other way round."""
+    pen = Pen(5000, 3000, cam=True) if lead else Pen(5000, 0, cam=True)
+    if lead:
+        pen.to(5000, 0)
+    for i, (x, y, cx, cy, ex, ey) in enumerate(
+        [
+            (8000, 0, 8000, 2000, 10000, 2000),
+            (10000, 8000, 8000, 8000, 8000, 10000),
+            (2000, 10000, 2000, 8000, 0, 8000),
+            (0, 2000, 2000, 2000, 2000, 0),
+        ]
+    ):
+        pen.to(x, y).arc_to(ex, ey, cx, cy, -1 if i == reverse else 1)
+    pen.to(5000, 0)
+    return pen.to(5000, 3000) if lead and back else pen
+
+
+@pytest.mark.parametrize("lead", [True, False])
+@pytest.mark.parametrize("corner", range(4))
+def test_a_reversed_corner_is_named(corner: int, lead: bool) -> None:
+    arcs = found(rounded(corner, lead))
+    assert arcs.row.tolist() == [2 * corner + 1 + lead]
+    assert arcs.is_major.tolist() == [True]
+    assert arcs.sweep_rad == pytest.approx([-3 * HALF], abs=1e-2)
+    assert arcs.other_sweep_rad == pytest.approx([HALF], abs=1e-2)
+
+
+@given(st.floats(0.3, 6.0), st.floats(0.3, 6.0), st.floats(50, 9000), st.integers(0, 1), st.booleans())
+def test_an_arc_between_tangents(turned: float, heading: float, radius: float, which: int, left: bool) -> None:
+    """Line, arc, line, all smooth: silent; the arc the other way round: named."""
+    assume(abs(turned - math.pi) > 0.1)
+    side = 1 if left else -1
+    pen = Pen().to(3000 * math.cos(heading), 3000 * math.sin(heading))
+    normal = heading + side * HALF
+    center = pen.x + radius * math.cos(normal), pen.y + radius * math.sin(normal)
+    sweep = side * turned
+    pen.arc(*center, sweep - side * 2 * math.pi if which else sweep)
+    pen.to(pen.x + 2500 * math.cos(heading + sweep), pen.y + 2500 * math.sin(heading + sweep))
+    assert found(pen).row.tolist() == ([1] if which else [])
+
+
+def half_circles() -> Pen:
+    return Pen(0, 0).to(5000, 0).arc(0, 0, math.pi).arc(0, 0, math.pi).to(0, 0)
+
+
+def astroid() -> Pen:
+    pen = Pen(0, 0).to(5000, 0)
+    for x, y, cx, cy in (
+        (0, 5000, 5000, 5000),
+        (-5000, 0, -5000, 5000),
+        (0, -5000, -5000, -5000),
+        (5000, 0, 5000, -5000),
+    ):
+        pen.arc_to(x, y, cx, cy, -1)
+    return pen
+
+
+def tangent_lead(back: bool) -> Pen:
+    """A half disc, entered by an arc at its corner and left along the same arc."""
+    pen = Pen(-1000, -1000).arc(-1000, 0, HALF).to(0, 4000)  # arrives going up
+    pen.arc(0, 2000, -math.pi)
+    return pen.arc(-1000, 0, -HALF) if back else pen
+
+
+@pytest.mark.parametrize(
+    "pen",
+    [
+        rounded(),
+        rounded(lead=False),
+        rounded(back=False),
+        half_circles(),
+        astroid(),
+        astroid().to(0, 0),
+        tangent_lead(back=False),
+        tangent_lead(back=True),
+        Pen().arc(1000, 0, 1.0).arc(1000, 0, -1.0),  # slit along an arc
+        Pen().arc(1000, 0, 2 * math.pi),
+        Pen().to(1000, 0).to(0, 0),
+        Pen().to(1000, 0).jump(0, 0),
+    ],
+)
+def test_sound_shapes_are_silent(pen: Pen) -> None:
+    assert found(pen).row.tolist() == []
+
+
+def test_the_minor_arc_for_the_major_one() -> None:
+    # A teardrop whose round end bulges inward.
+    angle = math.radians(30)
+    x, y = 1000 * math.sin(angle), 1000 * math.cos(angle)
+    pen = Pen(2000, 0).to(x, y).arc_to(x, -y, 0, 0, -1).to(2000, 0)
+    assert found(pen).row.tolist() == [1]
+    assert found(pen).is_major.tolist() == [False]
+    assert found(Pen(2000, 0).to(x, y).arc_to(x, -y, 0, 0, 1).to(2000, 0)).row.tolist() == []
+
+
+LEAD, BACK = "B9900B0B9900GXL1", "B9900B0B9900GXL3"
+
+
+@pytest.mark.parametrize(
+    ("arcs", "block"),
+    [
+        ("B9900B0B19800GYSR4 B9900B0B19800GYNR3", 3),
+        ("B9900B0B9900GXNR1 B0B9900B9900GYNR2 B9900B0B9900GXSR2 B0B9900B9900GYSR1", 4),
+    ],
+)
+def test_a_hole_of_which_one_half_is_cut_there_and_back_is_named(arcs: str, block: int) -> None:
+    findings = [f for f in run_text(f"{LEAD} {arcs} {BACK} DD").findings if f.code == "3B306"]
+    assert [f.block for f in findings] == [block]
+
+
+@pytest.mark.parametrize(
+    "arcs",
+    [
+        "B9900B0B39600GYNR1 B9900B0B39600GYSR4",
+        "B9900B0B19800GYNR1 B9900B0B19800GYNR3 B9900B0B19800GYSR4 B9900B0B19800GYSR2",
+        "B9900B0B9900GXNR1 B0B9900B9900GYSR1",  # a slit
+    ],
+)
+def test_a_second_pass_back_and_a_slit_are_silent(arcs: str) -> None:
+    assert codes(run_text(f"{LEAD} {arcs} {BACK} DD")) == []

@@ -1,0 +1,158 @@
+"""Files of a run: whole or not at all, the same bytes every time, and in memory that does not grow with the steps."""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from places import ROOT
+from runs import plain_scenario, silent
+
+from parser.findings.errors import FileUnreadableError, ProgramError
+from parser.program import parse_program
+from sim.cli.run_into import run_into
+from sim.files import staged
+
+TEXT = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 D B3000B0B3000GXL2 D B50B0B50GXL1 DD"
+NAMES = ["cut.png", "replay.html", "report.html", "report.json", "trace.npz"]
+
+
+def digests(folder: Path) -> dict[str, str]:
+    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(folder.iterdir())}
+
+
+def test_trace_holds_every_step_from_the_start(tmp_path: Path) -> None:
+    run = run_into(tmp_path / "out", parse_program(TEXT), plain_scenario(), silent)
+    trace = np.load(tmp_path / "out" / "trace.npz")
+    n = len(run.stepped)
+    assert {name: (trace[name].dtype.str, trace[name].shape) for name in trace if name.startswith("step")} == {
+        "step_x_um": ("<i4", (n + 1,)),
+        "step_y_um": ("<i4", (n + 1,)),
+        "step_block": ("<i4", (n,)),
+        "step_t_s": ("<f8", (n,)),
+    }
+    x, y = trace["step_x_um"], trace["step_y_um"]
+    assert (x[0], y[0]) == (0, 0)
+    assert [x[-1], y[-1]] == run.stepped.corner_um[-1].tolist()
+    assert np.array_equal(np.abs(np.diff(x)) + np.abs(np.diff(y)), np.ones(n))
+    assert np.array_equal(np.bincount(trace["step_block"], minlength=6)[1:], run.stepped.count)
+    assert trace["step_t_s"][-1] == pytest.approx(run.plan.duration_s)
+    assert trace["t_s"][0] == 0.0
+    assert trace["t_s"].shape == trace["x_um"].shape == trace["y_um"].shape == trace["block"].shape
+
+
+def test_two_runs_give_the_same_bytes(tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        run_into(tmp_path / name, parse_program(TEXT), plain_scenario(), silent)
+    assert digests(tmp_path / "a") == digests(tmp_path / "b")
+    assert sorted(digests(tmp_path / "a")) == NAMES
+
+
+def test_a_refused_run_writes_nothing(tmp_path: Path) -> None:
+    with pytest.raises(ProgramError):
+        run_into(tmp_path / "new" / "out", parse_program("B0B0B1000000000000GXL1"), plain_scenario(), silent)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_run_that_breaks_leaves_the_last_one_whole(tmp_path: Path) -> None:
+    run_into(tmp_path / "out", parse_program(TEXT), plain_scenario(), silent)
+    before = digests(tmp_path / "out")
+
+    def broken(stage: str, done: int, total: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_into(tmp_path / "out", parse_program("B10B0B10GXL1"), plain_scenario(), broken)
+    assert digests(tmp_path / "out") == before
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
+def test_other_files_of_the_folder_are_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "mine.txt").write_text("mine", "utf-8")
+    run_into(tmp_path, parse_program("B10B0B10GXL1"), plain_scenario(), silent)
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted([*NAMES, "mine.txt"])
+
+
+def test_a_file_in_the_folders_place_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "out").write_text("", "utf-8")
+    with pytest.raises(FileUnreadableError, match="is a file"), staged(tmp_path / "out", NAMES):
+        pass
+
+
+def test_a_folder_in_a_files_place_is_refused_before_anything_changes(tmp_path: Path) -> None:
+    run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent)
+    (tmp_path / "report.json").unlink()
+    (tmp_path / "report.json").mkdir()
+    before = (tmp_path / "cut.png").read_bytes()
+    with pytest.raises(FileUnreadableError, match=r"report\.json: is a folder"):
+        run_into(tmp_path, parse_program("B10B0B10GXL1"), plain_scenario(), silent)
+    assert (tmp_path / "cut.png").read_bytes() == before
+    assert sorted(path.name for path in tmp_path.iterdir()) == NAMES
+
+
+def test_folders_made_for_a_run_that_breaks_go_again(tmp_path: Path) -> None:
+    def broken(stage: str, done: int, total: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    with pytest.raises(FileUnreadableError, match="cannot be written: No space left"):
+        run_into(tmp_path / "a" / "b", parse_program(TEXT), plain_scenario(), broken)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_output_goes_through_a_link(tmp_path: Path) -> None:
+    (tmp_path / "real").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "real")
+    run_into(tmp_path / "link", parse_program("B10B0B10GXL1"), plain_scenario(), silent)
+    assert sorted(path.name for path in (tmp_path / "real").iterdir()) == NAMES
+
+
+def test_written_files_can_be_read_by_others(tmp_path: Path) -> None:
+    """A staging folder is private; what is moved out of it must not be."""
+    run_into(tmp_path / "out", parse_program("B10B0B10GXL1"), plain_scenario(), silent)
+    umask = os.umask(0)
+    os.umask(umask)
+    for path in (tmp_path / "out").iterdir():
+        assert path.stat().st_mode & 0o777 == 0o666 & ~umask, path.name
+
+
+def test_report_is_json_without_nan(tmp_path: Path) -> None:
+    run_into(tmp_path, parse_program("B5B5B0GXL1 B10B0B10GXL1 DD"), plain_scenario(), silent)
+
+    def refuse(constant: str) -> None:
+        raise AssertionError(constant)
+
+    report = json.loads((tmp_path / "report.json").read_text("utf-8"), parse_constant=refuse)
+    assert report["blocks"][0]["stepped"]["max_deviation_um"] is None
+    assert [block["block"] for block in report["blocks"]] == [1, 2]
+
+
+STREAM = """
+import re, sys
+from pathlib import Path
+from runs import plain_scenario, silent
+from parser.program import parse_program
+from sim.cli.run_into import run_into
+text = "B100B100B10000GXNR1" * 520  # 18 turns each
+run = run_into(Path(sys.argv[1]), parse_program(text), plain_scenario(), silent)
+print(len(run.stepped), re.search(r"VmHWM:\\s+(\\d+) kB", Path("/proc/self/status").read_text())[1])
+"""
+
+
+# VmHWM, since ru_maxrss begins with what the process had that started this one: a worker that ran many tests.
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux tells the peak of a process in /proc")
+def test_ten_million_steps_stream_in_less_than_a_gigabyte(tmp_path: Path) -> None:
+    path = os.pathsep.join([str(ROOT / "tests" / "tools"), str(ROOT)])
+    done = subprocess.run(
+        [sys.executable, "-c", STREAM, str(tmp_path / "out")],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "PYTHONPATH": path},
+    )
+    steps, peak_kib = map(int, done.stdout.split())
+    assert steps > 10_000_000
+    assert peak_kib < 1_000_000

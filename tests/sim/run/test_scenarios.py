@@ -1,0 +1,83 @@
+"""Every scenario of the project runs and is as it expects."""
+
+from pathlib import Path
+
+import pytest
+from places import SCENARIOS
+from runs import codes, run_folder
+
+from parser.findings.catalogue import texts
+from sim.setup.expectations import compare, read_expectation
+from sim.setup.scenario import load_scenario
+
+FOLDERS = sorted(path for path in SCENARIOS.iterdir() if path.is_dir())
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_scenario_is_as_it_expects(folder: Path) -> None:
+    run = run_folder(folder)
+    assert [finding for finding in run.findings if finding.code == "3B490"] == []
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_scenario_says_where_it_comes_from_and_what_it_expects(folder: Path) -> None:
+    scenario = load_scenario(folder)
+    assert scenario.provenance != "not given"
+    assert any(expectation.path == "verdict" for expectation in scenario.expect)
+
+
+@pytest.mark.parametrize(
+    ("name", "x_mm"),
+    [
+        ("clamp-hit", 2.0 + 0.18 / 2),  # edge of the clamp, and the wire's radius before it
+        ("arm-hit", 20.0 - 15.0),  # edge of the clamp, and the arm's reach before it
+        ("leaves-work", 2.0),  # edge of the work
+    ],
+)
+def test_things_in_the_way_are_met_where_their_edges_stand(name: str, x_mm: float) -> None:
+    (finding,) = run_folder(SCENARIOS / name).findings
+    assert finding.values["x_mm"] == pytest.approx(x_mm, abs=0.0005)
+
+
+def test_an_expectation_that_is_not_met_fails_the_run(tmp_path: Path) -> None:
+    (tmp_path / "program.3b").write_text("B100B0B100GXL1 DD", "utf-8")
+    (tmp_path / "scenario.toml").write_text('[expect]\n"summary.steps" = 99', "utf-8")
+    run = run_folder(tmp_path)
+    assert codes(run) == ["3B490"]
+    assert "`summary.steps` is 100; expected 99;" in texts(run.findings[0]).message
+
+
+def test_a_scenario_may_leave_its_contour_open(tmp_path: Path) -> None:
+    (tmp_path / "program.3b").write_text("B0B100B100GYL2 B100B0B100GXL1 B0B100B100GYL4 DD", "utf-8")
+    (tmp_path / "scenario.toml").write_text("", "utf-8")
+    assert codes(run_folder(tmp_path)) == ["3B301"]
+    (tmp_path / "scenario.toml").write_text("open = true", "utf-8")
+    assert codes(run_folder(tmp_path)) == []
+
+
+REPORT = {"a": {"b": 2.5, "c": True, "d": "x"}, "rows": [{"n": 1}, {"n": 2}], "none": []}
+
+
+@pytest.mark.parametrize(
+    ("expect", "met"),
+    [
+        ({"a.b": 2.5}, True),
+        ({"a.b": 2.6}, False),
+        ({"a.b": {"min": 2.5, "max": 2.5}}, True),
+        ({"a.b": {"min": 2.6}}, False),
+        ({"a.b": {"max": 2.4}}, False),
+        ({"a.c": True}, True),
+        ({"a.c": 1}, False),
+        ({"a.c": {"min": 0}}, False),
+        ({"a.d": "x"}, True),
+        ({"a.d": {"min": 0}}, False),
+        ({"rows.1.n": 2}, True),
+        ({"rows.2.n": 2}, False),
+        ({"rows.n": [1, 2]}, True),
+        ({"rows.n": [1]}, False),
+        ({"a.nowhere": 0}, False),
+        ({"none": []}, True),
+    ],
+)
+def test_expectations_can_be_met_and_missed(expect: dict, met: bool) -> None:
+    assert (compare(REPORT, read_expectation(expect, "test")) == []) is met

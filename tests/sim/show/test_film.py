@@ -1,0 +1,533 @@
+"""Frames of films and of the window: what they show against the run itself, and what keys and mouse do."""
+
+import os
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+import pygame
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+from places import SCENARIOS
+from runs import plain_scenario, silent
+
+from parser.findings.errors import SettingsError
+from parser.program import parse_program, read_program
+from sim.run.recording import recorded
+from sim.setup.scenario import load_scenario
+from sim.show.draw.layout import Box, View
+from sim.show.draw.paints import LIGHT, Paint
+from sim.show.film.clock import Clock
+from sim.show.film.controls import Controls
+from sim.show.film.course import Course, course_of
+from sim.show.film.cut_map import FULL, CutMap, Discs, Span, discs_of
+from sim.show.film.layout import layout_for
+from sim.show.film.playback import SPEEDS, Playback
+from sim.show.film.readout import read_out, told
+from sim.show.film.screen import Look, Screen
+from sim.show.film.strip import bar_of
+from sim.show.film.views import FINEST_PX_PER_UM, centred, near_runs, zoomed
+from sim.show.film.window import LEAST_PX, NO_DISPLAY, Window, open_display
+from sim.show.words.pictures import Words
+from sim.table.trace import Trace
+
+PART = """
+B300 B0 B300 GX L1
+B0 B300 B300 GY L2
+B600 B0 B600 GX L3
+B0 B600 B600 GY L4
+B600 B0 B600 GX L1
+B0 B300 B300 GY L2
+B300 B0 B300 GX L3
+D
+B1200 B0 B1200 GX L1
+D
+B400 B0 B400 GX L1
+DD
+"""
+"""A square that a slug comes free of, a pause, a jump, a pause, and a slot."""
+
+LOOK = Look(640, 400, "light", "en")
+SPEED = 20.0
+
+
+@pytest.fixture(scope="module")
+def course() -> Iterator[Course]:
+    with recorded(parse_program(PART), plain_scenario(), silent) as recording:
+        yield course_of(recording)
+
+
+@pytest.fixture(scope="module")
+def tripped() -> Iterator[Course]:
+    scenario = load_scenario(SCENARIOS / "servo-trip")
+    with recorded(read_program(scenario.program), scenario, silent) as recording:
+        yield course_of(recording)
+
+
+@pytest.fixture
+def screen(course: Course) -> Screen:
+    return Screen(course, LOOK)
+
+
+def shown(screen: Screen, t_s: float) -> np.ndarray:
+    return screen.frame(t_s, screen.whole, SPEED)
+
+
+def like(frame: np.ndarray, paint: Paint, most: int = 3) -> np.ndarray:
+    """(h, w) True where a pixel has about this colour."""
+    return np.abs(frame.astype(int) - LIGHT[paint]).max(axis=2) <= most
+
+
+def inside(frame: np.ndarray, screen: Screen) -> np.ndarray:
+    left, top, right, bottom = (round(side) for side in screen.layout.plot)
+    return frame[top:bottom, left:right]
+
+
+def swept(course: Course, until_s: float) -> shapely.Geometry:
+    """What the wire has cut by a time: its way as lines with half a kerf on all sides, jumps left out."""
+    trace = course.trace.until(until_s)
+    way, cuts = trace.wire_um, ~course.run.toolpath.is_jump[trace.row[1:]]
+    lines = shapely.line_merge(shapely.union_all(shapely.linestrings(np.stack([way[:-1], way[1:]], axis=1)[cuts])))
+    return shapely.buffer(shapely.simplify(lines, 0.5), course.run.scenario.wire.offset_um, quad_segs=16)
+
+
+def depth_px(region: shapely.Geometry, screen: Screen) -> np.ndarray:
+    """(h, w) px from the middle of every third pixel of the plot to the border of a region, above 0 inside of it."""
+    plot, view = screen.layout.plot, screen.whole
+    x, y = np.meshgrid(np.arange(plot.left, plot.right, 3.0) + 0.5, np.arange(plot.top, plot.bottom, 3.0) + 0.5)
+    places = shapely.points((x - view.x_px) / view.px_per_um, (view.y_px - y) / view.px_per_um)
+    shapely.prepare(region)
+    away = shapely.distance(shapely.boundary(region), places) * view.px_per_um
+    return np.where(shapely.contains(region, places), away, -away)
+
+
+@pytest.mark.parametrize(("seconds", "fps"), [(10.0, 25), (0.5, 1), (3.3, 30), (600.0, 60)])
+def test_a_film_lasts_as_long_as_asked_and_holds_its_end(seconds: float, fps: int) -> None:
+    clock = Clock(seconds, fps, 1234.5)
+    times = clock.times_s
+    assert clock.frames == max(round(seconds * fps), 2)
+    assert times[0] == 0.0
+    assert np.diff(times) == pytest.approx(clock.speed / fps)
+    held = min(1.0, seconds / 10.0)
+    assert clock.speed * (seconds - held) == pytest.approx(1234.5)
+    assert abs((times >= 1234.5).sum() / fps - held) <= 1.0 / fps + 1e-9
+
+
+@given(st.integers(1, 60), st.floats(0.5, 60.0), st.sampled_from([1, 10]))
+def test_delays_add_up_to_the_film(fps: int, seconds: float, grain_ms: int) -> None:
+    clock = Clock(seconds, fps, 10.0)
+    delays = clock.delays_ms(grain_ms)
+    assert len(delays) == clock.frames
+    assert all(delay % grain_ms == 0 and abs(delay - 1000 / fps) < grain_ms for delay in delays)
+    assert sum(delays) == pytest.approx(1000 * clock.frames / fps, abs=grain_ms)
+
+
+def test_a_moment_is_what_trace_and_steps_say(course: Course) -> None:
+    trace, steps = course.trace, course.steps
+    for sample in range(0, len(trace), 97):
+        moment = course.at(float(trace.t_s[sample]))
+        assert moment.wire_um == pytest.approx(trace.wire_um[sample])
+        done = int((steps.t_s <= moment.t_s).sum())
+        place = (steps.x_um[done - 1], steps.y_um[done - 1]) if done else (0, 0)
+        assert tuple(moment.commanded_um) == place
+        if course.begins_s[moment.row] + 0.1 < moment.t_s:
+            assert moment.row == trace.row[sample]
+        assert moment.cuts == (moment.row != 7)
+    x, y = course.at(course.begins_s[1] / 2.0).wire_um  # on its way along +X from the origin
+    assert course.at(course.begins_s[1] / 2.0).deviation_um == pytest.approx(abs(y), abs=1e-9)
+    assert 100.0 < x < 200.0
+
+
+def test_times_past_the_ends_are_the_ends(course: Course) -> None:
+    assert course.at(-5.0).t_s == 0.0
+    assert course.at(1e9).t_s == course.duration_s
+    assert course.at(1e9).row == len(course.run.toolpath) - 1
+
+
+@pytest.mark.parametrize("share", [0.0, 0.2, 0.55, 0.8, 0.95, 1.0])
+def test_kerf_shows_where_the_wire_was_and_nowhere_else(course: Course, screen: Screen, share: float) -> None:
+    t_s = share * course.duration_s
+    plot = inside(shown(screen, t_s), screen)
+    kerf, deep = like(plot, Paint.KERF)[::3, ::3], depth_px(swept(course, t_s), screen)
+    wire = screen.whole.to_px(course.at(t_s).wire_um) - screen.layout.plot[:2]
+    y, x = 3.0 * np.mgrid[: kerf.shape[0], : kerf.shape[1]] + 0.5
+    clear = np.hypot(x - wire[0], y - wire[1]) > 30.0  # of the marks
+    assert not kerf[(deep < -1.0) & clear].any()
+    if share:
+        covered = (deep > 1.0) & clear
+        assert kerf[covered].mean() > 0.9  # but for the lines of the path
+
+
+def test_the_last_frame_shows_the_whole_kerf_and_no_slug(course: Course, screen: Screen) -> None:
+    plot = inside(shown(screen, course.duration_s + SPEED), screen)
+    deep = depth_px(swept(course, course.duration_s), screen)
+    x, y = screen.whole.to_px(np.array([-100.0, 150.0])) - screen.layout.plot[:2]
+    assert not like(plot, Paint.KERF)[::3, ::3][deep < -1.0].any()
+    assert (plot[round(y), round(x)] == LIGHT[Paint.PAGE]).all()
+
+
+def test_a_piece_turns_grey_and_is_gone(course: Course, screen: Screen) -> None:
+    (piece,) = course.pieces
+    x, y = (round(at) for at in screen.whole.to_px(np.array([-100.0, 150.0])).tolist())
+    seen = [tuple(shown(screen, piece.freed.t_s + after)[y, x]) for after in (-0.01, 0.01, 0.69 * SPEED, 0.71 * SPEED)]
+    assert seen == [LIGHT[paint] for paint in (Paint.WORK, Paint.SLUG, Paint.SLUG, Paint.PAGE)]
+
+
+@pytest.mark.parametrize(
+    "order",
+    [
+        (0.9, 0.1),
+        (0.1, 0.9),
+        (0.99, 0.0),
+        (0.4, 0.41),
+    ],
+)
+def test_a_frame_does_not_depend_on_those_before(course: Course, screen: Screen, order: tuple[float, float]) -> None:
+    for share in order:
+        last = shown(screen, share * course.duration_s)
+    assert (last == shown(Screen(course, LOOK), order[-1] * course.duration_s)).all()
+
+
+def test_a_wire_that_goes_back_leaves_no_kerf_ahead(course: Course, screen: Screen) -> None:
+    begin_s = 0.5 * course.duration_s
+    view = centred(course.at(begin_s).wire_um, 1.0, screen.layout.plot)
+    for back_s in (0.0, 0.15, 0.3, 0.45):
+        last = screen.frame(begin_s - back_s, view, SPEED)
+        assert (last == Screen(course, LOOK).frame(begin_s - back_s, view, SPEED)).all()
+
+
+@pytest.mark.parametrize("share", [0.1, 0.33, 0.7, 0.9])
+def test_the_wire_is_marked_where_it_is(course: Course, screen: Screen, share: float) -> None:
+    moment = course.at(share * course.duration_s)
+    marked = np.argwhere(like(inside(shown(screen, moment.t_s), screen), Paint.ACTUAL))
+    place = screen.whole.to_px(moment.wire_um) - screen.layout.plot[:2]
+    assert marked.mean(axis=0)[::-1] + 0.5 == pytest.approx(place, abs=1.5)
+
+
+def test_the_commanded_place_is_marked_apart(course: Course, screen: Screen) -> None:
+    view = View(20.0, 0.0, 0.0)
+    moment = course.at(0.1 * course.duration_s)
+    plot = screen.layout.plot
+    middle = np.array([(plot.left + plot.right) / 2, (plot.top + plot.bottom) / 2])
+    x, y = (middle - view.to_px(moment.commanded_um)).tolist()
+    frame = screen.frame(moment.t_s, View(20.0, x, y), SPEED)
+    dark = np.argwhere(like(frame, Paint.INK, most=40)[round(plot.top) : round(plot.bottom), : round(plot.right)])
+    near = dark[(np.abs(dark[:, ::-1] - (middle - (0, round(plot.top)))) < 12).all(axis=1)]
+    assert near.mean(axis=0)[::-1] + 0.5 + (0, round(plot.top)) == pytest.approx(middle, abs=1.0)
+
+
+def test_the_strip_is_filled_up_to_the_moment(course: Course, screen: Screen) -> None:
+    bar = bar_of(screen.layout.strip, screen.layout.unit)
+    for share in (0.0, 0.25, 0.75, 1.0):
+        line = shown(screen, share * course.duration_s)[round((bar.top + bar.bottom) / 2)]
+        done = (np.abs(line.astype(int) - LIGHT[Paint.KERF]).max(axis=1) <= 3).sum()
+        assert done == pytest.approx(share * (bar.right - bar.left), abs=25)  # borders of blocks, and the cursor
+
+
+def test_read_outs_tell_block_place_and_times(course: Course) -> None:
+    moment = course.at(0.2 * course.duration_s)
+    en, zh = ([line.value for line in read_out(course, moment, SPEED, Words(lang))] for lang in ("en", "zh"))
+    assert en[:2] == [f"block {moment.row + 1} of 9", "B600 B0 B600 GX L3"]
+    assert zh[0] == f"程序段 {moment.row + 1} / 9"
+    assert en[2] == f"{moment.wire_um[0] / 1000:.3f} mm".replace("-", "−")
+    assert len(en) == len(zh) == len(read_out(course, course.at(0.0), SPEED, Words("en")))
+
+
+def test_what_happens_is_told_when_it_does(course: Course) -> None:
+    say = Words("en")
+    (piece,) = course.pieces
+    assert told(course, piece.freed.t_s + 0.01, 0.1, say).value == "a slug comes free"
+    pause_s = float(course.begins_s[7])
+    assert told(course, pause_s + 0.01, 0.001, say).value == ""
+    assert "pause" in told(course, pause_s + 0.001, 0.001, say).value
+    assert told(course, course.duration_s, SPEED, say).value == "end of the program"
+
+
+def test_a_trip_ends_the_run_and_says_so(tripped: Course) -> None:
+    trip = tripped.run.tripped
+    assert trip is not None
+    assert tripped.duration_s == trip.t_s < tripped.run.plan.duration_s
+    assert tripped.steps.t_s[-1] <= trip.t_s
+    assert told(tripped, tripped.duration_s, 1.0, Words("en")).value == "the X servo tripped: the run ends here"
+    assert "X 轴" in told(tripped, tripped.duration_s, 1.0, Words("zh")).value
+
+
+def brute(discs: Discs, plot: Box) -> np.ndarray:
+    """(h, w, k) px from the middle of each pixel to the middle of each disc."""
+    x, y = np.meshgrid(np.arange(plot.left, plot.right) + 0.5, np.arange(plot.top, plot.bottom) + 0.5)
+    return np.hypot(x[..., None] - discs.centers[:, 0], y[..., None] - discs.centers[:, 1])
+
+
+@given(st.integers(0, 2**32 - 1), st.floats(1.0, 9.0))
+def test_a_pixel_is_cut_once_the_first_disc_covers_it(seed: int, radius: float) -> None:
+    rng = np.random.default_rng(seed)
+    plot = Box(10.0, 20.0, 50.0, 45.0)
+    discs = Discs(np.sort(rng.uniform(0, 9, 12)), rng.uniform((0, 10), (60, 55), (12, 2)), radius)
+    cut_map, away = CutMap(discs, plot), brute(discs, plot)
+    for front in (0, 1, 5, 12):
+        levels = cut_map.levels(front, cut_map.whole)
+        assert (levels[(away[..., :front] < radius - 1.4).any(axis=2)] == FULL).all()
+        assert (levels[(away[..., :front] > radius + 1.4).all(axis=2)] == 0).all()
+    box = cut_map.changed(3, 7)
+    differ = cut_map.levels(3, cut_map.whole) != cut_map.levels(7, cut_map.whole)
+    differ[box.of] = False
+    assert not differ.any()
+    assert cut_map.changed(4, 4) == Span(0, 0, 0, 0)
+
+
+@pytest.mark.parametrize("radius", [2.0, 30.0, 400.0])
+def test_discs_lie_on_the_way_and_leave_nothing_between_them(radius: float) -> None:
+    way = np.array([[0.0, 0.0], [100.0, 0.0], [100.0, 80.0], [20.0, 80.0]])
+    trace = Trace(np.array([0.0, 10.0, 20.0, 30.0]), way, way, way, np.array([0, 0, 1, 2]))
+    discs = discs_of(trace, np.array([False, True, False]), View(1.0, 0.0, 100.0), Box(0.0, 0.0, 120.0, 120.0), radius)
+    x, y = discs.centers.T
+    assert (((y == 100.0) & (x <= 100.0)) | (y == 20.0)).all()  # and none on the jump
+    assert discs.t_s == pytest.approx(np.where(y == 100.0, x / 10.0, 20.0 + (100.0 - x) / 8.0))
+    gaps = np.diff(x[y == 100.0])
+    assert (gaps**2 / (8.0 * radius)).max() <= max(0.1, 1.0 / (8.0 * radius)) + 1e-9
+
+
+@given(st.integers(320, 3840), st.integers(240, 2160))
+def test_boxes_of_a_frame_lie_in_it_and_apart(width: int, height: int) -> None:
+    layout = layout_for(width, height)
+    boxes = [layout.head, layout.plot, layout.panel, layout.strip]
+    assert all(Box(0.0, 0.0, width, height).holds(box) for box in boxes)
+    assert all(box.right - box.left > 30 and box.bottom - box.top > 15 for box in boxes)
+    assert not any(one.meets(other) for one in boxes for other in boxes if one is not other)
+
+
+@given(st.floats(1e-3, 5.0), st.floats(0.3, 3.0), st.tuples(st.floats(0, 900), st.floats(0, 600)))
+def test_zooming_keeps_the_place_under_the_pointer(scale: float, factor: float, at: tuple[float, float]) -> None:
+    view, whole = View(scale, 100.0, 300.0), View(scale, 0.0, 0.0)
+    place = (np.array(at) - (view.x_px, view.y_px)) / (scale, -scale)
+    assert zoomed(view, factor, at, whole).to_px(place) == pytest.approx(np.array(at), abs=1e-6)
+    assert zoomed(view, 1e9, at, whole).px_per_um == FINEST_PX_PER_UM
+
+
+@given(st.lists(st.tuples(st.integers(-50, 150), st.integers(-50, 150)), min_size=2, max_size=12))
+def test_chords_that_may_show_are_kept_in_order(points: list[tuple[int, int]]) -> None:
+    box = Box(0.0, 0.0, 100.0, 100.0)
+    line = np.array(points, dtype=np.float64)
+    kept = [tuple(map(tuple, chord)) for run in near_runs(line, box) for chord in pairwise(run)]
+    near = [c for c in pairwise(line) if (np.maximum(*c) >= 0).all() and (np.minimum(*c) <= 100).all()]
+    assert kept == [(tuple(first), tuple(last)) for first, last in near]
+
+
+def test_steps_are_gone_through_one_by_one_and_back(course: Course) -> None:
+    play = Playback(course, 1.0)
+    there = []
+    for _ in range(400):
+        play.by_step(forward=True)
+        there.append(tuple(course.at(play.t_s).commanded_um))
+    steps = course.steps
+    assert there == list(zip(steps.x_um[:400].tolist(), steps.y_um[:400].tolist(), strict=True))
+    assert not play.playing
+    for place in reversed(there[:-1]):
+        play.by_step(forward=False)
+        assert tuple(course.at(play.t_s).commanded_um) == place
+    play.by_step(forward=False)
+    assert play.t_s == 0.0
+
+
+def test_blocks_are_gone_through_to_both_ends(course: Course) -> None:
+    play, begins = Playback(course, 1.0), [*course.begins_s.tolist(), course.duration_s]
+    for t_s in [*begins[1:], course.duration_s]:
+        play.by_block(forward=True)
+        assert play.t_s == t_s
+    for t_s in [*reversed(begins[:-1]), 0.0]:
+        play.by_block(forward=False)
+        assert play.t_s == t_s
+
+
+def test_speed_goes_by_1_2_5_between_its_bounds(course: Course) -> None:
+    play = Playback(course, 37.0)
+    speeds = []
+    for _ in range(9):
+        play.change_speed(faster=True)
+        speeds.append(play.speed)
+    assert speeds == [50, 100, 200, 500, 1000, 2000, 5000, 10_000, 10_000]
+    for _ in range(30):
+        play.change_speed(faster=False)
+    assert play.speed == pytest.approx(SPEEDS[0])
+
+
+def test_time_passes_while_it_plays_and_stops_at_the_end(course: Course) -> None:
+    play = Playback(course, 10.0)
+    play.pass_time(0.5)
+    assert play.t_s == 5.0
+    play.toggle()
+    play.pass_time(0.5)
+    assert play.t_s == 5.0
+    play.toggle()
+    play.pass_time(1e6)
+    assert not play.playing
+    play.toggle()
+    assert (play.playing, play.t_s) == (True, 0.0)
+
+
+@pytest.fixture
+def window(course: Course, monkeypatch: pytest.MonkeyPatch) -> Iterator[Window]:
+    monkeypatch.setitem(os.environ, "SDL_VIDEODRIVER", "dummy")
+    open_display()
+    yield Window(course, LOOK, SPEED)
+    pygame.display.quit()
+
+
+def press(controls: Controls, key: int, mod: int = 0) -> None:
+    pygame.key.set_mods(mod)
+    controls.handle(pygame.event.Event(pygame.KEYDOWN, key=key, mod=mod))
+    pygame.key.set_mods(0)
+
+
+def pointed(kind: int, at: tuple[float, float], **more: object) -> pygame.event.Event:
+    return pygame.event.Event(kind, pos=(round(at[0]), round(at[1])), button=1, **more)
+
+
+def test_keys_do_what_they_are_to(window: Window, course: Course) -> None:
+    controls, play = window.controls, window.controls.playback
+    press(controls, pygame.K_SPACE)
+    assert not play.playing
+    press(controls, pygame.K_RIGHT)
+    assert play.t_s == course.begins_s[1]
+    press(controls, pygame.K_RIGHT, pygame.KMOD_SHIFT)
+    assert course.steps_by(play.t_s) == 301
+    press(controls, pygame.K_LEFT)
+    press(controls, pygame.K_LEFT)
+    assert play.t_s == 0.0
+    press(controls, pygame.K_END)
+    assert play.t_s == course.duration_s
+    press(controls, pygame.K_PLUS)
+    assert play.speed == 50.0
+    press(controls, pygame.K_MINUS)
+    assert play.speed == 20.0
+    press(controls, pygame.K_h)
+    assert controls.helps
+    press(controls, pygame.K_w)
+    assert controls.follows
+    press(controls, pygame.K_F5)
+    press(controls, pygame.K_ESCAPE)
+    assert controls.quits
+
+
+def test_the_mouse_scrubs_drags_and_zooms(window: Window, course: Course) -> None:
+    controls, layout = window.controls, layout_for(*LOOK[:2])
+    middle = ((layout.strip.left + layout.strip.right) / 2, layout.strip.top + 20)
+    controls.handle(pointed(pygame.MOUSEBUTTONDOWN, middle))
+    assert controls.playback.t_s == pytest.approx(course.duration_s / 2, rel=0.01)
+    controls.handle(pointed(pygame.MOUSEMOTION, (layout.strip.right + 50, 0), rel=(1, 1)))
+    assert controls.playback.t_s == course.duration_s
+    controls.handle(pointed(pygame.MOUSEBUTTONUP, middle))
+    whole = controls.view
+    controls.handle(pointed(pygame.MOUSEMOTION, (100, 100), rel=(9, 9)))
+    assert controls.view == whole
+    controls.handle(pointed(pygame.MOUSEBUTTONDOWN, (layout.plot.left + 50, layout.plot.top + 50)))
+    controls.handle(pointed(pygame.MOUSEMOTION, (100, 100), rel=(12, -7)))
+    assert controls.view == whole._replace(x_px=whole.x_px + 12, y_px=whole.y_px - 7)
+    controls.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=2, x=0))
+    assert controls.view.px_per_um == pytest.approx(whole.px_per_um * 1.25**2)
+    press(controls, pygame.K_f)
+    assert controls.view == whole
+
+
+def on_screen() -> np.ndarray:
+    return pygame.surfarray.array3d(pygame.display.get_surface()).transpose(1, 0, 2)
+
+
+def test_the_window_shows_the_frame_of_its_moment(window: Window, course: Course) -> None:
+    window.controls.playback.seek(0.4 * course.duration_s)
+    window.show(1.0)
+    assert (on_screen() == Screen(course, LOOK).frame(0.4 * course.duration_s, window.controls.view, SPEED)).all()
+
+
+def test_a_moving_view_is_drawn_anew_once_it_rests(window: Window, course: Course) -> None:
+    window.show(1.0)
+    window.controls.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=3, x=0))
+    window.show(1.01)
+    moving = on_screen()
+    window.show(1.5)
+    rested = on_screen()
+    expected = Screen(course, LOOK).frame(0.0, window.controls.view, SPEED)
+    assert (rested == expected).all()
+    assert (moving != expected).any()
+    assert np.abs(moving.astype(int) - expected).mean() < 6.0  # grey levels: the same plot, blurred, with old axes
+
+
+def test_a_wire_that_is_followed_stays_near_the_middle(window: Window, course: Course) -> None:
+    controls, plot = window.controls, layout_for(*LOOK[:2]).plot
+    for _ in range(12):
+        controls.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=1, x=0))
+    press(controls, pygame.K_w)
+    for share in (0.1, 0.3, 0.6, 0.9):
+        wire = course.at(share * course.duration_s).wire_um
+        controls.follow(wire)
+        x, y = controls.view.to_px(wire)
+        assert plot.left + 0.2 * (plot.right - plot.left) < x < plot.right - 0.2 * (plot.right - plot.left)
+        assert plot.top + 0.2 * (plot.bottom - plot.top) < y < plot.bottom - 0.2 * (plot.bottom - plot.top)
+
+
+def test_another_size_of_the_window_lays_the_frame_out_anew(window: Window) -> None:
+    pygame.display.set_mode((900, 700), pygame.RESIZABLE)
+    window._surface = pygame.display.get_surface()
+    window._fit_window()
+    window.show(1.0)
+    assert window._screen.layout.width_px == 900
+    window._surface = pygame.display.set_mode((100, 100), pygame.RESIZABLE)
+    window._fit_window()
+    window.show(2.0)
+    assert window._screen.layout[:2] == LEAST_PX
+
+
+def test_the_keys_are_shown_over_the_frame_in_both_languages(course: Course, window: Window) -> None:
+    window.controls.playback.playing = False
+    window.show(1.0)
+    plain = on_screen()
+    press(window.controls, pygame.K_h)
+    window.show(1.0)
+    changed = np.argwhere((on_screen() != plain).any(axis=2))
+    assert len(changed) > 5000
+    assert changed.min() > 0
+    assert changed.max(axis=0)[0] < LOOK.height_px
+
+
+def test_playing_ends_when_the_window_is_closed(window: Window, monkeypatch: pytest.MonkeyPatch) -> None:
+    events = iter([[], [], [pygame.event.Event(pygame.QUIT)]])
+    monkeypatch.setattr(pygame.event, "get", lambda: next(events))
+    window.play()
+    assert next(events, None) is None
+    assert window.controls.playback.t_s > 0.0
+
+
+def test_without_a_display_there_is_no_window(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr("sys.platform", "linux")
+    with pytest.raises(SettingsError, match="no display: write a film"):
+        open_display()
+    monkeypatch.setenv("SDL_VIDEODRIVER", "none such")
+    with pytest.raises(SettingsError) as told_so:
+        open_display()
+    assert str(told_so.value) == NO_DISPLAY
+
+
+def test_a_display_that_does_not_answer_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    pygame.display.quit()
+    for name in ("WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("DISPLAY", ":4711")
+    monkeypatch.setattr(pygame.display, "get_driver", lambda: "offscreen")  # what SDL takes then
+    with pytest.raises(SettingsError, match="no display: write a film"):
+        open_display()
+    assert not pygame.display.get_init()
+
+
+def test_pieces_are_drawn_up_into_their_kerf_and_no_further() -> None:
+    scenario = load_scenario(SCENARIOS / "drops-early")
+    with recorded(read_program(scenario.program), scenario, silent) as recording:
+        course = course_of(recording)
+    (piece,), (drawn,) = course.pieces, course.outlines_um
+    kerf = swept(course, course.duration_s)
+    assert drawn.buffer(1e-6).contains(piece.outline_um)
+    assert drawn.difference(piece.outline_um.buffer(1.0)).difference(kerf.buffer(1.0)).area < 1.0
+    assert drawn.contains(shapely.Point(0.0, 5000.0))  # of the slot that is cut when the piece is free

@@ -1,0 +1,165 @@
+"""Ticks: fine where the drives are shaken, long where nothing happens, and the table as in fine ticks all the way."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from plans import plan_toolpath
+from table_runs import MODEL, Drawn, draw, even_ticks, farthest_um, fixed, motion, moved, pulses_of
+
+from controller.motion.limits import Feeds, MotionLimits
+from parser.program import parse_program
+from sim.setup.machine.machine import load_machine
+from sim.setup.machine.table_model import TableModel
+from sim.table import follow
+from sim.table.motion import Moved, motion_of
+from sim.table.solve import passes
+from sim.table.when.rhythm import STEP_RAD, rhythm
+from sim.table.when.ticks import Ticks, choose_ticks
+
+BEATS = rhythm(MODEL._replace(drive_damping_ratio=0.7))
+
+
+def ticks_of(text: str, feeds: Feeds, limits: MotionLimits, spacing_um: float = 5.0) -> tuple[Ticks, np.ndarray]:
+    """Ticks of a program, and the times at which its blocks end."""
+    toolpath = parse_program(f"{text} DD").toolpath
+    plan = plan_toolpath(toolpath, feeds, limits)
+    return choose_ticks(toolpath, plan, BEATS, spacing_um, every_step=False), plan.time_at(
+        np.cumsum(toolpath.length_um)
+    )
+
+
+def test_ticks_rise_sample_the_end_of_every_block_and_keep_their_spacing() -> None:
+    text = "B1000B0B1000GXL1 B0B333B333GYL2 B100B0B400GYNR1"
+    ticks, borders = ticks_of(text, Feeds(50.0, 10_000.0), MotionLimits(100_000.0))
+    sampled = ticks.t_s[ticks.sampled]
+    assert np.diff(ticks.t_s, prepend=0.0).min() > 0.0
+    assert np.abs(sampled[:, None] - borders).min(axis=0).max() < 1e-6
+    assert np.diff(sampled[sampled < borders[-1]]).max() <= 5.0 / 50.0 * 1.01
+    assert np.array_equal(np.unique(ticks.row), [0, 1, 2])
+    assert sampled[-1] == ticks.t_s[-1] == pytest.approx(borders[-1] + BEATS.died_s)
+
+
+def test_slow_cutting_is_left_to_long_ticks_but_for_as_long_before_a_sample_as_a_step_is_felt() -> None:
+    ticks, _ = ticks_of("B9000B0B9000GXL1", Feeds(20.0, 20.0), MotionLimits(100_000.0), spacing_um=50.0)
+    length = np.diff(ticks.t_s, prepend=0.0)
+    assert length[ticks.long].sum() > 0.95 * ticks.t_s[-1]
+    late = ticks.sampled & (ticks.t_s < 9000.0 / 20.0)
+    assert not ticks.long[late].any()
+    assert ticks.tick_s[~ticks.long].max() <= STEP_RAD / BEATS.frequency
+    assert ticks.parts.sum() < 9000 // 50 * 80
+
+
+@pytest.mark.parametrize(
+    ("text", "fine"),
+    [
+        ("B90000B0B90000GXL1 B90000B0B90000GXL1", False),  # straight on
+        ("B90000B0B90000GXL1 B0B9000B9000GXSR1", False),  # into a clockwise arc without a corner
+        ("B90000B0B90000GXL1 B0B90000B90000GYL2", True),  # round a corner
+        ("B90000B0B90000GXL1 B0B9000B9000GXSR3", True),  # into a clockwise arc, straight back
+    ],
+)
+def test_ticks_are_finest_at_corners_alone(text: str, fine: bool) -> None:
+    ticks, borders = ticks_of(text, Feeds(1000.0, 1000.0), MotionLimits(100.0))
+    after = (ticks.t_s > borders[0] + 1e-6) & (ticks.t_s < borders[0] + BEATS.died_s)
+    assert (ticks.tick_s[after].max() < 0.9 * STEP_RAD / BEATS.frequency) is np.bool_(fine)
+
+
+SQUARE = "B300B0B300GXL1 B0B300B300GYL2 B300B0B300GXL3 B0B300B300GYL4 B100B0B400GYNR1 DD"
+RAPID = "B3000B0B3000GXL1 B0B2000B2000GYL2 B1000B1000B2000GYNR4 B2500B0B2500GXL3 B700B1900B1900GYL1 DD"
+WANDERING = """B37B11B37GXL1 B41B29B41GXL1 B23B44B44GYL1 B18B50B50GYL2 B51B13B51GXL2
+B33B40B40GYL3 B60B7B60GXL3 B12B45B45GYL4 B55B20B55GXL4 B47B31B47GXL1 DD"""
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "feed_um_s"),
+    [
+        ("dk7732", SQUARE, 180.0),
+        ("dk7740", SQUARE, 180.0),
+        ("dk7750", WANDERING, 180.0),
+        ("dk7750", RAPID, 500.0),
+        ("dk7740", WANDERING, 43.75),
+        ("dk7740", RAPID, 500.0),
+        ("servo-400x500", WANDERING, 180.0),
+        ("servo-400x500", RAPID, 10_000.0),
+    ],
+)
+def test_chosen_ticks_leave_the_trace_within_a_tenth_of_a_um_of_fine_ticks_all_the_way(
+    name: str, text: str, feed_um_s: float
+) -> None:
+    chosen = motion(text, load_machine(name), Feeds(feed_um_s, feed_um_s))
+    assert farthest_um(moved(chosen), moved(fixed(chosen))) < 0.1
+
+
+LOOSE = MODEL._replace(
+    friction_n=(30.0, 20.0), viscous_n_s_mm=(2.0, 1.5), backlash_um=(3.0, 2.0), drive_damping_ratio=0.7
+)
+WEAK = LOOSE._replace(motor=LOOSE.motor._replace(force_curve=((0.0, 150.0),)))
+WAVES = pulses_of(lambda t: 400.0 * np.sin(20.0 * t), lambda t: 300.0 * np.sin(31.0 * t), 0.5)
+TICKS = even_ticks(0.48)
+
+
+@pytest.mark.parametrize("model", [LOOSE, WEAK])
+@pytest.mark.parametrize(
+    ("start_um", "within_um"),
+    [
+        ((200_000.0, 250_000.0), 0.02),
+        ((150.0, 150.0), 0.2),  # where a table runs against a stop at up to 9 mm/s, a tick sooner or later
+    ],
+)
+def test_lanes_side_by_side_agree_with_one_table_that_runs_all_of_it(
+    model: TableModel, start_um: tuple[float, float], within_um: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    many = draw(model, WAVES, TICKS, start_um)
+    monkeypatch.setattr(passes, "LANE_TICKS", 1 << 30)
+    one = draw(model, WAVES, TICKS, start_um)
+    assert many.at_um == pytest.approx(one.at_um, abs=within_um)
+    assert [loss[:3] for loss in many.moved.losses] == [loss[:3] for loss in one.moved.losses]
+    assert [loss.amount_um for loss in many.moved.losses] == [loss.amount_um for loss in one.moved.losses]
+
+
+def test_slabs_agree_with_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    one = draw(WEAK, WAVES, TICKS)
+    monkeypatch.setattr(follow, "SLAB_TICKS", 700)
+    assert draw(WEAK, WAVES, TICKS).at_um == pytest.approx(one.at_um, abs=0.02)  # µm
+
+
+def in_parts(parts: int) -> Drawn:
+    following = follow.Following(follow.Setup(WEAK, (200_000.0, 250_000.0), (0, 0)), TICKS)
+    borders = np.linspace(0, len(WAVES.t_s), parts + 1).astype(int).tolist()
+    for since, until in pairwise(borders):
+        following.take(WAVES.part(since, until))
+    moved = Moved(*following.finish())
+    assert moved.losses
+    return Drawn(moved.trace.t_s, moved.trace.table_um, moved)
+
+
+def test_the_run_is_the_same_to_the_byte_however_its_pulses_are_cut(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(follow, "SLAB_TICKS", 700)
+    whole = in_parts(1)
+    assert in_parts(1).at_um.tobytes() == whole.at_um.tobytes()
+    for parts in (2, 7, 60):
+        assert in_parts(parts).at_um == pytest.approx(whole.at_um, abs=1e-6)  # µm: places of motors are summed anew
+        assert [loss[:5] for loss in in_parts(parts).moved[1]] == [loss[:5] for loss in whole.moved[1]]
+
+
+def test_axes_do_not_pull_at_one_another() -> None:
+    both = draw(LOOSE, WAVES, TICKS, (200_000.0, 250_000.0)).at_um
+    none = np.zeros_like(WAVES.x_um)
+    alone = [draw(LOOSE, WAVES._replace(**{other: none}), TICKS).at_um for other in ("y_um", "x_um")]
+    assert both[:, 0] == pytest.approx(alone[0][:, 0], abs=0.01)  # µm
+    assert both[:, 1] == pytest.approx(alone[1][:, 1], abs=0.01)  # µm
+    assert not alone[0][:, 1].any()
+    assert not alone[1][:, 0].any()
+
+
+def test_at_a_stop_as_much_is_lost_in_chosen_ticks_as_in_fine_ones() -> None:
+    machine, beyond = load_machine("dk7740"), "B500B0B500GXL1 B500B0B500GXL3 DD"
+    toolpath, feeds = parse_program(beyond).toolpath, machine.feeds(40.0)
+    chosen = motion_of(toolpath, feeds, machine, (399_950.0, 250_000.0), 5.0)  # 50 µm from the stop
+    run, fine = moved(chosen), moved(fixed(chosen))
+    assert [(loss.row, loss.amount_um) for loss in run.losses] == [(loss.row, loss.amount_um) for loss in fine.losses]
+    assert sum(loss.amount_um for loss in run.losses) == 132.0
+    apart = np.abs(run.trace.table_um - fine.trace.table_um)
+    assert apart[-1] == pytest.approx([0.0, 0.0], abs=0.1)  # µm
+    assert apart.max() < 0.5  # µm, where it meets the stop

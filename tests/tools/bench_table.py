@@ -1,0 +1,139 @@
+"""The table at work: hours of cutting and a rapid run, against the time they take, fine ticks, and a trace's memory.
+
+The contour is 300 mm of lines and arcs, a rounded square in whole µm, in 40 mm steel. All of it in ticks of 0.1 ms is
+70 million of them: a smaller contour is compared with its fine run.
+"""
+
+import argparse
+import math
+import resource
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+from controller.motion.limits import Feeds
+from controller.stepping.pulses import Pulses
+from parser.program import parse_program
+from sim.setup.machine.machine import Machine, load_machine
+from sim.table.motion import Motion, Moved, motion_of, simulate
+
+FINE_TICK_S = 1e-4
+THICKNESS_MM = 40.0
+RADIUS_UM = 5_000
+RAPID_UM_S = 10_000.0
+STEPPER, SERVO = "dk7740", "servo-400x500"
+
+
+def contour(length_mm: float) -> str:
+    """A rounded square about so long, counter-clockwise, its corners quarter circles."""
+    side = round((length_mm * 1e3 - 2.0 * math.pi * RADIUS_UM) / 4.0)
+    r = RADIUS_UM
+    lines = (f"B{side}B0B{side}GXL1", f"B0B{side}B{side}GYL2", f"B{side}B0B{side}GXL3", f"B0B{side}B{side}GYL4")
+    arcs = (f"B0B{r}B{r}GYNR4", f"B{r}B0B{r}GXNR1", f"B0B{r}B{r}GYNR2", f"B{r}B0B{r}GXNR3")
+    return " ".join(block for pair in zip(lines, arcs, strict=True) for block in pair) + " DD"
+
+
+def corners(count: int) -> str:
+    """Lines of 5 to 10 mm that meet at sharp corners."""
+    sides = [(10_000, 0, 1), (3000, 7000, 2), (8000, 2000, 3), (1000, 6000, 4)]
+    return " ".join(f"B{x}B{y}B{max(x, y)}G{'X' if x >= y else 'Y'}L{q}" for x, y, q in sides * count) + " DD"
+
+
+def motion(text: str, machine: Machine, feeds: Feeds, spacing_um: float = 5.0) -> Motion:
+    """Motion of a program from the middle of the travel."""
+    middle = machine.table.travel_x_mm * 500.0, machine.table.travel_y_mm * 500.0
+    return motion_of(parse_program(text).toolpath, feeds, machine, middle, spacing_um)
+
+
+def cutting(length_mm: float, spacing_um: float = 5.0) -> Motion:
+    """The contour in 40 mm steel."""
+    machine = load_machine(STEPPER)
+    return motion(contour(length_mm), machine, machine.feeds(THICKNESS_MM), spacing_um)
+
+
+def rapid() -> Motion:
+    """Sharp corners at 10 mm/s."""
+    return motion(corners(3), load_machine(SERVO), Feeds(RAPID_UM_S, RAPID_UM_S))
+
+
+def timed(run: Motion) -> tuple[float, Moved]:
+    """Seconds to simulate, and what came of it."""
+    began = time.perf_counter()
+    moved = simulate(run, _drop, _silent)
+    return time.perf_counter() - began, moved
+
+
+def fine(run: Motion) -> Motion:
+    """The same in ticks of 0.1 ms all the way, sampled at the same times."""
+    return run._replace(ticks=run.ticks._replace(tick_s=np.full(len(run.ticks.t_s), FINE_TICK_S)))
+
+
+def _drop(pulses: Pulses) -> None:
+    """Nobody looks at them here."""
+
+
+def _silent(stage: str, done: int, total: int) -> None:
+    """Nobody watches."""
+
+
+def apart_um(one: Moved, other: Moved) -> float:
+    """Largest distance between two runs sampled at the same times."""
+    return float(np.hypot(*(one.trace.table_um - other.trace.table_um).T).max())
+
+
+def speed_line(name: str, run: Motion, least: float) -> str:
+    """How much faster than real time a run is."""
+    taken, moved = timed(run)
+    simulated = float(moved.trace.t_s[-1])
+    times = simulated / taken
+    return f"{name:<20}{taken:.2f} s   {simulated:,.0f} s of it, {times:,.0f} times real time (asked for {least:,.0f})"
+
+
+def truth_line(name: str, run: Motion, what: str) -> str:
+    """How far a run is from the same in fine ticks."""
+    _, chosen = timed(run)
+    taken, whole = timed(fine(run))
+    return f"{name:<20}{apart_um(chosen, whole):.3f} µm from ticks of 0.1 ms ({what}, {taken:.0f} s)"
+
+
+def peak_mib(spacing_um: float, length_mm: float) -> float:
+    """Peak memory of a process that simulates the contour with samples so far apart."""
+    options = [sys.executable, __file__, "--memory", str(spacing_um), "--length", str(length_mm)]
+    done = subprocess.run(options, capture_output=True, check=True, text=True)
+    return float(done.stdout)
+
+
+def table_lines(length_mm: float, part_mm: float) -> list[str]:
+    """All that is measured, in lines to print."""
+    memory = ", ".join(f"{peak_mib(spacing, length_mm):.0f} MiB at {spacing:g} µm" for spacing in (5.0, 50.0))
+    return [
+        speed_line("table, cutting", cutting(length_mm), 1000.0),
+        truth_line("table, cutting", cutting(part_mm), f"{part_mm:g} mm of {length_mm:g}"),
+        speed_line("table, rapid", rapid(), 20.0),
+        truth_line("table, rapid", rapid(), "all of it"),
+        f"{'table, memory':<20}{memory} of trace spacing",
+    ]
+
+
+def add_options(options: argparse.ArgumentParser) -> None:
+    """How much is run."""
+    options.add_argument("--length", type=float, default=300.0, help="mm of contour")
+    options.add_argument("--part", type=float, default=36.0, help="mm of a smaller contour to compare with fine ticks")
+
+
+def main() -> None:
+    options = argparse.ArgumentParser(description=__doc__)
+    add_options(options)
+    options.add_argument("--memory", type=float, help="simulate with this spacing, and print the peak memory in MiB")
+    given = options.parse_args()
+    if given.memory:
+        timed(cutting(given.length, given.memory))
+        print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0)
+        return
+    print("\n".join(table_lines(given.length, given.part)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,37 @@
+"""Replay documents of small runs, and a page that answers questions about one by the replay's own scripts."""
+
+from typing import TYPE_CHECKING, Any
+
+from browser import OpenPage
+from places import ROOT
+from runs import plain_scenario, silent
+
+from parser.program import parse_program
+from sim.run.recording import Recording, recorded
+from sim.show.replay.document import replay_document
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+ASSETS = ROOT / "sim" / "show" / "replay" / "assets"
+SCRIPTS = ("decode", "decisions", "nearest", "model")
+
+
+def recording_of(text: str, **changes: object) -> Recording:
+    """A run of a program; its steps stay mapped from files that are gone."""
+    with recorded(parse_program(text), plain_scenario(**changes), silent) as recording:
+        return recording
+
+
+def document_of(text: str, **changes: object) -> dict[str, Any]:
+    return replay_document(recording_of(text, **changes))
+
+
+def replay_of(open_page: OpenPage, document: dict[str, Any]) -> "Page":
+    """A page with the `replay` of a document and the `model` of it."""
+    scripts = "".join(f"<script>{(ASSETS / f'{name}.js').read_text('utf-8')}</script>" for name in SCRIPTS)
+    page = open_page(f"<!doctype html><html lang=en><title>replay</title>{scripts}").page
+    page.evaluate(
+        "async (doc) => { window.replay = await Drycut.decode(doc); window.model = Drycut.model(replay); }", document
+    )
+    return page

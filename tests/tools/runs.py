@@ -1,0 +1,53 @@
+"""Dry runs for tests."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from lawful import assert_plan_is_lawful
+
+from controller.motion.limits import row_limits
+from parser.program import parse_program, read_program
+from sim.run.dryrun import DryRun, dry_run
+from sim.run.judge import check_expectations
+from sim.setup.machine.machine import Machine, load_machine
+from sim.setup.scenario import Scenario, load_scenario
+
+
+def silent(stage: str, done: int, total: int) -> None:
+    """Progress that nobody watches."""
+
+
+def plain_scenario(**changes: object) -> Scenario:
+    return replace(Scenario("test", Path("test.3b"), load_machine("dk7740")), **changes)
+
+
+def machine(**table: object) -> Machine:
+    """The shipped machine with some values of its table changed."""
+    shipped = load_machine("dk7740")
+    return shipped._replace(table=shipped.table._replace(**table))
+
+
+def run_text(text: str, **changes: object) -> DryRun:
+    return lawful(dry_run(parse_program(text), plain_scenario(**changes), silent))
+
+
+def lawful(run: DryRun) -> DryRun:
+    """The run, whose plan keeps its limits in the least time."""
+    machine = run.scenario.machine
+    limits = row_limits(run.toolpath, machine.feeds(run.scenario.thickness_mm), machine.controller.limits)
+    assert_plan_is_lawful(run.plan, limits, jerk_um_s3=machine.controller.limits.jerk_um_s3)
+    return run
+
+
+def run_folder(folder: Path) -> DryRun:
+    scenario = load_scenario(folder)
+    return check_expectations(lawful(dry_run(read_program(scenario.program), scenario, silent)))
+
+
+def codes(run: DryRun) -> list[str]:
+    return [finding.code for finding in run.findings]
+
+
+def closure_codes(run: DryRun) -> list[str]:
+    """Codes of what is said about whether contours close, without their suspects."""
+    return [code for code in codes(run) if code in ("3B301", "3B302")]
