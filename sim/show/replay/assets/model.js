@@ -3,7 +3,7 @@
   "use strict";
   const Drycut = (root.Drycut = root.Drycut || {});
 
-  /** Blocks to look back at for the deviation of a wire that trails, as sim/across.py does. */
+  /** Blocks to look back at for the deviation of a wire that trails, as sim/measure/deviation/across.py does. */
   const MOST_BACK = 50;
   /** Another block counts where it is nearer by more than rounding: of two as near, the one that is running. */
   const NEARER_UM = 1e-6;
