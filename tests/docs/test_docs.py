@@ -16,11 +16,12 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 from places import MACHINES, ROOT
+from sim.show.findings.checks import CHECK_OF
 
 from controller.stepping.point_by_point import interpolate
 from parser.findings.catalogue import Language
 from parser.findings.catalogue import page as catalogue_page
-from parser.findings.findings import SEVERITIES
+from parser.findings.codes import CODES
 from parser.program import read_program
 from parser.text.encoding import encode_text
 from sim.check import settings as check_settings
@@ -34,7 +35,6 @@ from sim.setup import part, scenario, wire
 from sim.setup.machine import controller_model, machine, table_model
 from sim.setup.scenario import load_scenario
 from sim.show.findings.catalogue_document import NAMES, anchor, findings_document
-from sim.show.findings.checks import CHECK_OF
 
 DOCS = ROOT / "docs"
 PAGES = sorted([*ROOT.glob("*.md"), *DOCS.glob("*.md")])
@@ -308,7 +308,7 @@ def test_shipped_machines_are_documented_with_their_figures() -> None:
 def test_findings_are_documented_with_severity_and_title() -> None:
     rows = [row.split("|") for row in read(DOCS / "findings.md").splitlines() if row.startswith("| [3B")]
     written = {code[2:7]: (severity.strip(), title.strip()) for _, code, severity, title, *_ in rows}
-    assert written == {code: (str(severity), catalogue_page(code).title) for code, severity in SEVERITIES.items()}
+    assert written == {code: (str(severity), catalogue_page(code).title) for code, severity in CODES.items()}
 
 
 def rows_of(page: Path, beginning: str) -> list[list[str]]:
@@ -374,7 +374,7 @@ def test_shown_output_is_what_is_printed(tmp_path: Path, page: Path, command: st
 
 
 def test_outputs_and_the_number_of_codes_are_shown() -> None:
-    assert f"There are {len(SEVERITIES)} codes" in " ".join(read(ROOT / "README.md").split())
+    assert f"There are {len(CODES)} codes" in " ".join(read(ROOT / "README.md").split())
     assert {"check part.3b", "check part.3b --fix"} <= {command for _, command, _ in SHOWN}
 
 

@@ -17,7 +17,8 @@ from recorder import Recorder, recording_sheet
 from runs import run_folder
 from traced import F, kerf_along, pieces_along, square, trace_of
 
-from parser.findings.findings import SEVERITIES, Finding
+from parser.findings.codes import CODES
+from parser.findings.findings import Finding
 from parser.toolpath import Stop, Toolpath
 from sim.cut.sizes.sizes import sizes_of
 from sim.run.recording import pieces_of_run
@@ -33,7 +34,7 @@ from sim.show.pictures.cut.plan import plan_of
 from sim.show.pictures.cut.sizes import length_text, sizes_of_cut
 from sim.show.pictures.cut.subject import Cut
 
-CODES = sorted(code for code in SEVERITIES if code.startswith("3B2"))
+CODES = sorted(code for code in CODES if code.startswith("3B2"))
 
 
 def punch(side: float = 10_000.0, lead: float = 3000.0) -> Toolpath:
@@ -240,7 +241,7 @@ def test_findings_of_one_place_are_counted() -> None:
 def test_many_codes_are_summed_up() -> None:
     findings = [finding(1 + at % 6, code) for at, code in enumerate(CODES)]
     texts = recorded(cut_of(punch(), findings=findings)).texts
-    errors = sum(SEVERITIES[code] == "error" for code in CODES)
+    errors = sum(CODES[code].severity == "error" for code in CODES)
     assert f"{errors} errors, {len(CODES) - errors} warnings, 0 notes" in texts
 
 
