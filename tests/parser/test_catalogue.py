@@ -15,10 +15,7 @@ from parser.findings.findings import Finding, Value
 PAGES = resources.files("parser.findings") / "pages"
 TEMPLATES = ("found", "expected", "machine", "hint")
 LINE = 110
-NO_EXAMPLE = {
-    *("3B100", "3B303", "3B402", "3B403", "3B404", "3B405", "3B406", "3B490"),
-    *("3B501", "3B502", "3B503", "3B504", "3B601", "3B602"),
-}
+NO_EXAMPLE = {"3B100", "3B303"} | {code for code, of in CODES.items() if of.check is None}
 
 VALUES: dict[str, dict[str, Value]] = {
     "3B100": {"what": "unreadable-file", "detail": "Permission denied"},
@@ -87,6 +84,11 @@ def test_every_code_has_a_page_and_every_page_a_code() -> None:
     names = {entry.name.removesuffix(".toml") for entry in PAGES.iterdir() if entry.name.endswith(".toml")}
     assert names - {"terms"} == set(CODES) == set(VALUES)
     assert get_args(Language) == LANGUAGES
+
+
+def test_a_code_is_placed_where_its_findings_name_a_place() -> None:
+    with_lengths = {code for code, values in VALUES.items() if {"x_mm", "y_mm"} <= set(values)}
+    assert {code for code, of in CODES.items() if of.placed} == with_lengths - {"3B401"}  # there they are the travel
 
 
 @pytest.mark.parametrize("code", sorted(CODES))

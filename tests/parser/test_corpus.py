@@ -20,7 +20,7 @@ from sim.setup.machine.machine import load_machine
 SPELLINGS: dict[str, dict[str, Any]] = json.loads((CORPUS / "spellings/expected.json").read_text(encoding="utf-8"))
 FAULTS: dict[str, dict[str, Any]] = json.loads((CORPUS / "faults/expected.json").read_text(encoding="utf-8"))
 _SENSES = {0: "L", 1: "NR", -1: "SR"}
-_OF_A_RUN = {code for code in CODES if code > "3B401"}
+_OF_A_RUN = {code for code, of in CODES.items() if of.check is None}
 _NEEDS_MORE = {"3B303"} | _OF_A_RUN  # a block that no search has found yet; what a check cannot see
 
 

@@ -13,11 +13,9 @@ import xmlschema
 from check_results import AXIS, CHECKS, COUNTED, HOSTILE, hostile, kind, parsed, result, unknown
 from jsonschema import Draft202012Validator
 from places import ROOT
-from sim.show.findings.checks import CHECK_OF
-from sim.show.findings.checks import CHECKS as CHECK_NAMES
 
 from parser.findings.catalogue import LANGUAGES, Language, term, texts
-from parser.findings.codes import CODES, Severity
+from parser.findings.codes import CODES, Check, Severity
 from parser.findings.findings import Finding
 from sim.check.result import CheckResult, Coverage
 from sim.show.findings import FORMATS, render
@@ -321,8 +319,8 @@ def test_a_failed_check_that_is_also_incomplete_fails_and_says_so() -> None:
 
 def test_every_code_of_a_check_belongs_to_one() -> None:
     of_a_run = {code for code in CODES if code > "3B401"}
-    assert set(CHECK_OF) == set(CODES) - of_a_run
-    for name in CHECK_NAMES:
+    assert {code for code, of in CODES.items() if of.check} == set(CODES) - of_a_run
+    for name in Check:
         assert not term(name).startswith("`")
 
 
