@@ -187,7 +187,7 @@ def test_a_time_into_a_run_is_hours_minutes_and_seconds(t_s: float, text: str) -
     assert instant(t_s) == text
 
 
-@pytest.mark.parametrize("code", ["3B111", "3B999", "terms", "../findings", ""])
+@pytest.mark.parametrize("code", ["3B000", "3B999", "terms", "../findings", ""])
 def test_an_unknown_code_is_a_key_error(code: str) -> None:
     with pytest.raises(KeyError):
         page(code)
