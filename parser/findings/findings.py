@@ -65,7 +65,7 @@ class Finding(NamedTuple):
             return None
         return float(self.values["x_mm"]), float(self.values["y_mm"])
 
-    def telling(self, fact: Fact) -> "Finding":
+    def with_fact(self, fact: Fact) -> "Finding":
         """The finding with a fact for later checks and mends."""
         return self._replace(fact=fact)
 

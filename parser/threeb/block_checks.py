@@ -85,7 +85,7 @@ def _neighbour_labels(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]
         way = (int(ruled[row]) - 1 + (words.turn[row] < 0)) % 4
         values = {"written": f"{sense}{words.quadrant[row]}", "ruled": f"{sense}{ruled[row]}", "way": _WAYS[way]}
         found = at_block(toolpath, lines, "3B203", row, TokenKind.DIRECTION, **values)
-        yield found.telling(WrongLabel(values["ruled"]))
+        yield found.with_fact(WrongLabel(values["ruled"]))
 
 
 def _line_counts(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
@@ -103,7 +103,7 @@ def _line_counts(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
             by = abs(count - extent)
             values |= {"goes": goes, "by": by}
             found = at_block(toolpath, lines, "3B208", row, TokenKind.COUNT, **values)
-            yield found.telling(CountedElsewhere())
+            yield found.with_fact(CountedElsewhere())
         else:
             values["times"] = int(times[row])
             yield at_block(toolpath, lines, "3B209", row, TokenKind.COUNT, **values)

@@ -55,7 +55,7 @@ class Damage(NamedTuple):
     def finding(self, lines: LineIndex) -> Finding:
         """Finding 3B106 of a damaged block, 3B101 of other text."""
         if self.is_block:
-            return lines.finding("3B106", self.span, 0, **self.values).telling(DamagedBlock())
+            return lines.finding("3B106", self.span, 0, **self.values).with_fact(DamagedBlock())
         return lines.finding("3B101", self.span, 0, **self.values)
 
 

@@ -61,7 +61,7 @@ def _span(records: Records, block: int) -> tuple[int, int]:
 def _no_end(records: Records) -> list[Finding]:
     if any(mark.kind == "end" for mark in records.marks):
         return []
-    return [records.lines.finding("3B102", _span(records, -1)).telling(NoEnd())]
+    return [records.lines.finding("3B102", _span(records, -1)).with_fact(NoEnd())]
 
 
 def _foreign_ends(records: Records, marks: Marks) -> Iterator[Finding]:

@@ -132,7 +132,7 @@ def _misprinted(toolpath: Toolpath, lines: LineIndex, missing: Ints) -> Iterator
         (px, py), (x, y) = toolpath.printed_end_um[row].tolist(), toolpath.end_um[row].tolist()
         off = float(np.hypot(px - x, py - y))
         found = lines.finding("3B207", _print_span(toolpath, row), row + 1, px=px, py=py, x=x, y=y, off=off)
-        yield found.telling(PrintedElsewhere())
+        yield found.with_fact(PrintedElsewhere())
 
 
 def _wrong_lengths(toolpath: Toolpath, header: Header, lines: LineIndex) -> Iterator[Finding]:

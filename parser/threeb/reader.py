@@ -129,7 +129,7 @@ def _too_large(raw: RawBlocks, marks: list[Mark], lines: LineIndex) -> list[Find
     places: list[tuple[tuple[int, int], int]] = [(tuple(raw.span[row].tolist()), row + 1) for row in rows]
     places += [(mark.span, 0) for mark in marks if max(abs(mark.x_um), abs(mark.y_um)) > MAX_WORD_UM]
     return [
-        lines.finding("3B206", span, block, what="number-too-large", limit=MAX_WORD_UM).telling(TooLarge())
+        lines.finding("3B206", span, block, what="number-too-large", limit=MAX_WORD_UM).with_fact(TooLarge())
         for span, block in places
     ]
 

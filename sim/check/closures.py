@@ -116,7 +116,7 @@ def stepped_limit_um(contour: Contour) -> float:
 def _open(program: Program, contour: Contour) -> Finding:
     values = _ends_of(contour) | {"gap": contour.closure_exact_um}
     found = at_block(program.toolpath, program.lines, "3B301", contour.last - 1, **values)
-    return found.telling(OpenContour(contour.first))
+    return found.with_fact(OpenContour(contour.first))
 
 
 def _ends_of(contour: Contour) -> dict[str, Value]:
@@ -144,4 +144,4 @@ def _suspect(program: Program, contour: Contour, one: "Suspect") -> Finding:
         field=term,
         written=one.written,
         other=one.other,
-    ).telling(Suspected(contour.first, one))
+    ).with_fact(Suspected(contour.first, one))

@@ -53,14 +53,14 @@ def stepped_end_findings(program: Program, steps: Steps) -> list[Finding]:
             cost=float(off[row]),
             right=float(best),
             count=count,
-        ).telling(WrongAxis(Axis(int(ruled[row])), count))
+        ).with_fact(WrongAxis(Axis(int(ruled[row])), count))
         for row, best, count in zip(*(c[costly].tolist() for c in (wrong, right, counts)), strict=True)
     ]
     limits = STEPPED_END_UM * turns
     missed = off > limits
     missed[wrong[costly]] = False
     return found + [
-        at_block(toolpath, program.lines, "3B303", row, miss=float(off[row]), limit=float(limits[row])).telling(
+        at_block(toolpath, program.lines, "3B303", row, miss=float(off[row]), limit=float(limits[row])).with_fact(
             WrongBlock()
         )
         for row in np.flatnonzero(missed).tolist()

@@ -99,7 +99,7 @@ def too_many_steps(program: Program, steps: Steps) -> list[Finding]:
     row = int(np.argmax(steps.count))
     of = program.toolpath, program.lines
     found = at_block(*of, "3B206", row, TokenKind.COUNT, what="too-many-steps", limit=MAX_STEPS)
-    return [found.telling(TooLarge())]
+    return [found.with_fact(TooLarge())]
 
 
 class _PathChecks:

@@ -50,13 +50,13 @@ def _stretches(losses: Iterable[Loss]) -> list[list[Loss]]:
 def _lost(program: Program, stretch: list[Loss]) -> Finding:
     loss, last, lost_um = stretch[0], stretch[-1].row + 1, sum(abs(loss.amount_um) for loss in stretch)
     found = at_block(program.toolpath, program.lines, "3B402", loss.row, **_where(loss), lost=lost_um, last=last)
-    return found.telling(Lost(loss.kind))
+    return found.with_fact(Lost(loss.kind))
 
 
 def _trip(program: Program, loss: Loss, motor: Motor) -> Finding:
     lag_um, limit_um = abs(loss.amount_um), motor.following_error_limit_um
     found = at_block(program.toolpath, program.lines, "3B403", loss.row, **_where(loss), lag=lag_um, limit=limit_um)
-    return found.telling(Lost(loss.kind))
+    return found.with_fact(Lost(loss.kind))
 
 
 def _where(loss: Loss) -> dict[str, Value]:

@@ -20,7 +20,8 @@ _LEAST_CUSP_RAD = np.radians(172.0)
 _ROUNDING_UM = 3.0  # by which ends and centres in whole µm tilt the tangents of short blocks
 _NO_WORSE_RAD = np.radians(85.0)
 _SAME_CIRCLE_UM = 10.0
-_SLACK_UM, _SLACK_RAD = 20.0, 0.1  # at most; whole µm may miss as much where the counted axis stands still
+# Of circles cut there and back, at most: whole µm may miss as much where the counted axis stands still.
+_SLACK_UM, _SLACK_RAD = 20.0, 0.1
 
 
 class ReversedArcs(NamedTuple):
