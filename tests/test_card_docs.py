@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from controller.card.codes import LATCHED, AxisSts, Code, CrdSts
-from controller.card.settings import CardSettings
+from controller.card.core.codes import LATCHED, AxisSts, Code, CrdSts
+from controller.card.core.settings import CardSettings
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "card.md").read_text(encoding="utf-8")

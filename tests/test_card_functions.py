@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from controller import GECard
-from controller.card.codes import Code
+from controller.card.core.codes import Code
 from controller.card.lookahead.data import TLookAheadMsg, TLookData
 
 TABLE = Path(__file__).parent / "data" / "ge-functions.csv"

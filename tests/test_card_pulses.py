@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from watched import IDLE, Watched
 
 from controller import GECard
+from controller.card.core.settings import CardSettings
 from controller.card.engine import making, motion_list
 from controller.card.engine.entries import ORIGIN, Pace, Stepped
 from controller.card.engine.making import make_stretch
 from controller.card.engine.speeds import speeds_of
 from controller.card.engine.stretch import Start
-from controller.card.settings import CardSettings
 from controller.motion.path import Path
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping.point_by_point import interpolate_words

@@ -10,7 +10,7 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 from plain import PlainBlock, plain_steps
 from watched import EMPTY, IDLE, Watched
 
-from controller.card.settings import Switches
+from controller.card.core.settings import Switches
 
 PERIOD_S = 200e-6
 AXES = range(1, 5)

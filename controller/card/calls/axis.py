@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from controller.card.base import CardBase
-from controller.card.call import Double, Function, UShort, gt
-from controller.card.codes import AxisSts, Code, Refused
+from controller.card.calls.base import CardBase
+from controller.card.core.call import Double, Function, UShort, gt
+from controller.card.core.codes import AxisSts, Code, Refused
 
 
 class AxisCalls(CardBase):

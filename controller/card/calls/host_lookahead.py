@@ -7,14 +7,14 @@ blocks are kept at most, and coordinates are in units of `con` pulses.
 
 from typing import Any
 
-from controller.card.call import Char, Double, Int, Long, Short, gt
 from controller.card.calls.open import OpenCalls
-from controller.card.codes import Code, Refused
+from controller.card.core.call import Char, Double, Int, Long, Short, gt
+from controller.card.core.codes import Code, Refused
+from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.card.engine.entries import Place
 from controller.card.engine.speeds import checked
 from controller.card.lookahead.data import FIRST, TLookData, checked_data, segment_of
 from controller.card.lookahead.host import HostBlock, HostLookAhead, HostRules
-from controller.card.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 
 
 class HostLookAheadCalls(OpenCalls):

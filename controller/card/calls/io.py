@@ -1,8 +1,8 @@
 """Inputs and outputs that act at once: 16 of each, active low, bit numbers from 0; an open input reads 1."""
 
-from controller.card.base import CardBase
-from controller.card.call import UShort, gt
-from controller.card.codes import AxisSts, Code, Refused
+from controller.card.calls.base import CardBase
+from controller.card.core.call import UShort, gt
+from controller.card.core.codes import AxisSts, Code, Refused
 
 BITS = 16
 PROBE_INPUT = 15

@@ -1,8 +1,8 @@
 """Functions that open, fill and run the list, apart from the path itself."""
 
-from controller.card.base import CardBase
-from controller.card.call import Long, Short, UShort, gt
-from controller.card.codes import Code, Refused
+from controller.card.calls.base import CardBase
+from controller.card.core.call import Long, Short, UShort, gt
+from controller.card.core.codes import Code, Refused
 from controller.card.engine.entries import Output, Wait
 
 _ALL = 0xFFFF

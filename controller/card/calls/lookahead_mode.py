@@ -1,21 +1,21 @@
 """The look-ahead mode of the library: path calls go through the look-ahead into the list (grade C, as all of it).
 
-For the meaning of the numbers see `host_lookahead_calls`; coordinates are in units of `con` pulses from the axis' zero.
+For the meaning of the numbers see `host_lookahead`; coordinates are in units of `con` pulses from the axis' zero.
 """
 
 from typing import Any
 
-from controller.card.call import Double, Short, UShort, gt
 from controller.card.calls.host_lookahead import HostLookAheadCalls, rules_of
 from controller.card.calls.paths import PathBase, with_length
-from controller.card.codes import LIST_FULL, Code, Refused
+from controller.card.core.call import Double, Short, UShort, gt
+from controller.card.core.codes import LIST_FULL, Code, Refused
+from controller.card.core.units import UM_S_PER_PULSE_MS
 from controller.card.engine.entries import Output, Pace, Place, Segment, Wait, four, line
 from controller.card.engine.shapes import arc_about, arc_by_radius, check_size, checked_line
 from controller.card.engine.speeds import checked
 from controller.card.lookahead.data import TLookAheadMsg
 from controller.card.lookahead.host import HostBlock
 from controller.card.lookahead.list import ListLookAhead
-from controller.card.units import UM_S_PER_PULSE_MS
 
 _NO_CEILING = 1e9
 """pulse/ms; the feed of each block limits its speed."""

@@ -5,13 +5,13 @@ one before it ends. Refused with 1 are axes that the card lacks, what cannot run
 full list; with 2 to 7 what is wrong with the path (`shapes`).
 """
 
-from controller.card.call import Double, Long, Short, gt
 from controller.card.calls.paths import PathBase
-from controller.card.codes import Code, Refused
+from controller.card.core.call import Double, Long, Short, gt
+from controller.card.core.codes import Code, Refused
+from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.card.engine.entries import Pace, line
 from controller.card.engine.shapes import XY, YZ, ZX
 from controller.card.engine.speeds import in_pulses
-from controller.card.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 
 
 class MoveCalls(PathBase):

@@ -1,7 +1,7 @@
 """What path functions share: coordinates to pulses, and a segment into the list or run at once."""
 
-from controller.card.base import CardBase
-from controller.card.codes import Code, Refused
+from controller.card.calls.base import CardBase
+from controller.card.core.codes import Code, Refused
 from controller.card.engine.entries import NO_LENGTH, Pace, Place, Segment, Stepped, four
 from controller.card.engine.shapes import arc_about, arc_by_radius, check_size, checked_line
 

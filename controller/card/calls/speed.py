@@ -4,11 +4,11 @@ Speeds of entries are stored in order: they hold for the entries pushed afterwar
 Ceiling, start speed and overrides hold for a running motion at once, which is planned anew (grade C but for overrides).
 """
 
-from controller.card.base import CardBase
-from controller.card.call import Double, gt
-from controller.card.codes import Code, Refused
+from controller.card.calls.base import CardBase
+from controller.card.core.call import Double, gt
+from controller.card.core.codes import Code, Refused
+from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.card.engine.speeds import in_pulses
-from controller.card.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 
 _OVERRIDE = 2.0
 """Overrides are below this; grade B."""

@@ -1,10 +1,10 @@
 """Status of axes and their switches. The levels are raw: 1 where a switch is idle."""
 
-from controller.card.base import CardBase
-from controller.card.call import UShort, gt
-from controller.card.codes import LATCHED, AxisSts
-from controller.card.settings import AXES
-from controller.card.state import AxisState
+from controller.card.calls.base import CardBase
+from controller.card.core.call import UShort, gt
+from controller.card.core.codes import LATCHED, AxisSts
+from controller.card.core.settings import AXES
+from controller.card.core.state import AxisState
 
 
 class StatusCalls(CardBase):

@@ -1,9 +1,9 @@
 """Functions that stop and resume, and tell where the motion is."""
 
-from controller.card.base import CardBase
-from controller.card.call import gt
+from controller.card.calls.base import CardBase
+from controller.card.core.call import gt
+from controller.card.core.units import UM_S_PER_PULSE_MS
 from controller.card.engine.entries import Place, four
-from controller.card.units import UM_S_PER_PULSE_MS
 
 _POINT = (0.0, 0.0, 0.0, 0.0)
 

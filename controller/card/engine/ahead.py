@@ -3,12 +3,12 @@
 import math
 from typing import NamedTuple
 
-from controller.card.codes import AxisSts
+from controller.card.core.codes import AxisSts
+from controller.card.core.settings import CardSettings, Switches
+from controller.card.core.state import AxisState, CardState
 from controller.card.engine.edges import heads_beyond, heads_short, rises_through
 from controller.card.engine.entries import Output
 from controller.card.engine.stretch import Stretch
-from controller.card.settings import CardSettings, Switches
-from controller.card.state import AxisState, CardState
 from controller.motion.path import Path
 
 

@@ -17,7 +17,7 @@ next one begins or the list is started.
 
 import math
 
-from controller.card.codes import LIST_FULL, Code, Refused
+from controller.card.core.codes import LIST_FULL, Code, Refused
 from controller.card.engine.entries import Entry, Place, Segment, four, line
 from controller.card.engine.running import RunningMotion
 from controller.card.engine.speeds import speeds_of

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from enum import Enum
 from typing import NamedTuple, TypeAlias
 
-from controller.card.settings import AXES
+from controller.card.core.settings import AXES
 
 Place: TypeAlias = tuple[float, float, float, float]
 

@@ -5,14 +5,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from controller.card.codes import AxisSts, CrdSts
+from controller.card.core.codes import AxisSts, CrdSts
+from controller.card.core.settings import CardSettings
+from controller.card.core.state import AxisState, CardState
 from controller.card.engine.ahead import Ahead
 from controller.card.engine.entries import ORIGIN, Entry, Place
 from controller.card.engine.motion_list import MotionList
 from controller.card.engine.speeds import speeds_of
 from controller.card.engine.stretch import Stretch
-from controller.card.settings import CardSettings
-from controller.card.state import AxisState, CardState
 from controller.stepping.interpolators import EqualTime
 from controller.stepping.pulses import Pulses
 

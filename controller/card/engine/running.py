@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from controller.card.codes import AxisSts
+from controller.card.core.codes import AxisSts
 from controller.card.engine.ahead import look_ahead
 from controller.card.engine.entries import Entry, Kind, Output, Segment, Stepped
 from controller.card.engine.making import make_stretch

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
-from controller.card.codes import Code, Refused
+from controller.card.core.codes import Code, Refused
+from controller.card.core.settings import SPEEDS, CardSettings
+from controller.card.core.state import CardState
+from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.card.engine.entries import Pace
-from controller.card.settings import SPEEDS, CardSettings
-from controller.card.state import CardState
-from controller.card.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 
 _SLOWEST_UM_S = SPEEDS[0] * UM_S_PER_PULSE_MS
 """No override makes an entry slower: a pulse in three hours."""

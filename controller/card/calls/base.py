@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from controller.card.call import Function, read_arguments
-from controller.card.codes import Code, Refused
+from controller.card.core.call import Function, read_arguments
+from controller.card.core.codes import Code, Refused
+from controller.card.core.settings import CardSettings
+from controller.card.core.state import AxisState, CardState
 from controller.card.engine.engine import Engine
-from controller.card.settings import CardSettings
-from controller.card.state import AxisState, CardState
 from controller.stepping.pulses import Pulses
 
 LONGEST_S = 1e9

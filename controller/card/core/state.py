@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Any
 
-from controller.card.settings import AXES
+from controller.card.core.settings import AXES
 
 
 @dataclass(slots=True)
