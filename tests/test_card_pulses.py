@@ -176,7 +176,7 @@ def test_velocity_points_along_the_path():
     watched.load((0.0, 500.0, 360.0))
     watched.card.GT_StrtMtn()
     watched.card.sleep(1000.0)
-    engine = watched.card._engine
+    engine = watched.card._engine.motion
     x, y, *_ = engine.place()
     vx, vy, *_ = engine.velocity()
     assert math.hypot(vx, vy) == pytest.approx(1000.0)

@@ -56,7 +56,7 @@ class ListCalls(CardBase):
 
     def _listed(self, output: Output) -> None:
         if not self._engine.list.is_open:
-            self._engine.set_output(output)
+            self._state.set_outputs(*output)
             return
         self._engine.check_room()
         self._engine.push(output)

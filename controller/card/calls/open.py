@@ -34,7 +34,7 @@ class OpenCalls(CardBase):
     def _reset(self) -> None:
         self._engine.reset()
         self._state.power_on()
-        for axis, pulses in zip(self._state.axes, self._engine.pulses_out(), strict=True):
+        for axis, pulses in zip(self._state.axes, self._engine.motion.pulses_out(), strict=True):
             axis.zero = axis.encoder_zero = pulses
 
     @gt(when_closed=True)

@@ -42,7 +42,7 @@ class MoveCalls(PathBase):
             raise Refused(Code.COMMAND)
         speed = in_pulses(vel, self.settings, self._state) * UM_S_PER_PULSE_MS
         acceleration = in_pulses(accel, self.settings, self._state) * UM_S2_PER_PULSE_MS2
-        start = engine.list_end() if engine.list.is_open else engine.place()
+        start = engine.list_end() if engine.list.is_open else engine.motion.place()
         end = self._pulses(values, start)
         pace = Pace(speed, acceleration, end_um_s=speeds.end_um_s)
         self._submit(line(0, pace, start, end))

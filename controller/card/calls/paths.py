@@ -25,7 +25,7 @@ class PathBase(CardBase):
     def _next(self, *, rapid: bool = False) -> tuple[int, Pace, Place]:
         """Number, pace and start of the entry that comes next."""
         engine = self._engine
-        start = engine.list_end() if engine.list.is_open else engine.place()
+        start = engine.list_end() if engine.list.is_open else engine.motion.place()
         return max(1, engine.list.number), engine.speeds.pace(rapid=rapid), start
 
     def _submit(self, entry: Segment | Stepped) -> None:

@@ -19,6 +19,10 @@ NO_LENGTH = 1e-9
 """A path no longer than this, in pulses, has no length; grade C."""
 
 
+NO_NUMBER = -1
+"""Of an entry that runs at once, outside the list."""
+
+
 class Kind(Enum):
     """Who moves the axes: the card's own interpolator, or point-by-point comparison."""
 

@@ -47,7 +47,21 @@ def make_stretch(
     interpolator, end = _interpolator(rows, steps, path, plan, start, settings)
     if not rows and len(ends) and not deceleration_um_s2:
         end = float(ends[-1])
-    return Stretch(start, entries, rows, row_of, path, before, plan, deceleration_um_s2, ends, end, steps, interpolator)
+    return Stretch(
+        start=start,
+        entries=entries,
+        rows=rows,
+        numbers=np.array([row.number for row in rows], dtype=np.int32),
+        row_of=row_of,
+        path=path,
+        before_um=before,
+        plan=plan,
+        deceleration_um_s2=deceleration_um_s2,
+        ends_s=ends,
+        end_s=end,
+        steps=steps,
+        interpolator=interpolator,
+    )
 
 
 def _braking(limits: RowLimits, speed_um_s: float, deceleration_um_s2: float) -> tuple[Plan, float]:

@@ -1,6 +1,6 @@
 """Speeds and accelerations of the card: what the calls that set them change, µm/s and µm/s² inside."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 from controller.card.core.codes import Code, Refused
 from controller.card.core.settings import SPEEDS, CardSettings
@@ -26,6 +26,11 @@ class Speeds:
     end_um_s: float | None = None
     override: float = 1.0
     override_rapid: float = 1.0
+
+    def become(self, others: "Speeds") -> None:
+        """Take all values of others."""
+        for key in fields(self):
+            setattr(self, key.name, getattr(others, key.name))
 
     def pace(self, *, rapid: bool) -> Pace:
         """Of an entry pushed now."""
