@@ -5,7 +5,7 @@ one before it ends. Refused with 1 are axes that the card lacks, what cannot run
 full list; with 2 to 7 what is wrong with the path (`shapes`).
 """
 
-from controller.card.calls.paths import PathBase
+from controller.card.calls.path_base import PathBase
 from controller.card.core.call import Double, Long, Short, gt
 from controller.card.core.codes import Code, Refused
 from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS

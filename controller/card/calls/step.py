@@ -2,7 +2,7 @@
 
 import math
 
-from controller.card.calls.paths import PathBase
+from controller.card.calls.path_base import PathBase
 from controller.card.core.call import Double, Long, gt
 from controller.card.core.codes import Code, Refused
 from controller.card.engine.entries import Stepped
