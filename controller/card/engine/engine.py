@@ -146,7 +146,7 @@ class Engine:
     def restore(self) -> None:
         """Go on with what was stopped last. Refused with 1 unless something is left of it and the axes stand there."""
         state = self.motion.state
-        if not isinstance(state, BrokenList | BrokenMove) or not self.motion.is_near(self.motion.break_place):
+        if not isinstance(state, BrokenList | BrokenMove) or not self.motion.is_near(state.place):
             raise Refused(Code.COMMAND)
         self._card.command_status = 0
         if isinstance(state, BrokenMove):

@@ -7,7 +7,7 @@ import numpy as np
 from controller.card.core.settings import AXES
 from controller.card.core.state import AxisState
 from controller.card.engine.entries import ORIGIN, Place, four
-from controller.card.engine.states import BrokenList, Idle, Moving, Resting, State, without_move
+from controller.card.engine.states import BrokenList, BrokenMove, Idle, Moving, Resting, State, without_move
 from controller.card.engine.stretch import Stretch
 from controller.stepping.interpolators import EqualTime
 from controller.stepping.pulses import Pulses
@@ -93,15 +93,15 @@ class CardMotion:
         return all(abs(a - b) <= _NEAR for a, b in zip(self._rest_place, place, strict=True))
 
     def rest(self, state: Resting, place: Place) -> None:
-        """Come to rest at a place."""
+        """Come to rest at a place; of what is broken then, the place is the break point."""
         self.state, self._rest_place = state, place
+        if isinstance(state, BrokenList | BrokenMove):
+            self.break_place = state.place
 
     def forget_move(self, state: Resting) -> Idle | BrokenList:
         """Forget a move that was stopped: the break point is that of the list again, where it has one."""
         forgotten = without_move(state)
-        self.state = forgotten
-        if isinstance(forgotten, BrokenList):
-            self.break_place = forgotten.place
+        self.rest(forgotten, self._rest_place)
         return forgotten
 
     def snap(self, axis: int) -> None:
