@@ -1,5 +1,8 @@
 """The engine of one card: what calls ask of its motion, refused where it cannot be.
 
+It is made of three: the list (`MotionList`), the clock with the state and the pulses (`CardMotion`), and what leads the
+motion from state to state as time passes (`Sequencer`).
+
 The list (`motion_list`) holds entries (`entries`): lines, arcs, stepped blocks, waits, outputs. What runs is a
 `Stretch`: the entries from the front of the list that one interpolator runs without rest in between, made into a path,
 its limits and a plan from where the axes are. Nothing is stepped through time: place, speed and pulses at any instant

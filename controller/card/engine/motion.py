@@ -26,7 +26,7 @@ class CardMotion:
     state
         What the axes do; see `states`.
     break_place
-        Where the motion came to rest when it was last stopped.
+        Where the motion came to rest when it was last stopped; while something is broken, the place of that.
     at_um
         Pulses handed out to each axis so far; `pulses_out` hands out those due by now first.
     """

@@ -1,9 +1,21 @@
 """The states of one card's motion, and what becomes of one by a stop, an end, a list opened afresh.
 
-At rest `Idle`, `Waiting`, `BrokenList` or `BrokenMove`; on the way `Running` or `Braking`. What moves is either the
-list (`ListRun`) or an immediate move (`Move`), under which the list keeps its own rest: a list that was stopped can be
-gone on with after any number of moves. So a motion that brakes has a deceleration, one that rests has no stretch, and
-only what was stopped has something left.
+==========  =================  ===============================================================
+from        by                 to
+==========  =================  ===============================================================
+rest        start, push, move  `Running`; `Waiting` where the list is started empty
+`Running`   stop, limit        `Braking`
+`Running`   its end            the list: `Waiting`; a move: how the list rests beneath it
+`Braking`   standing still     the list: `BrokenList`, or `Idle` where nothing is left of it;
+                               a move: `BrokenMove`, or how the list rests beneath it
+a break     restore            `Running`
+rest        opening the list   `Idle`; what is left of a move stays
+any         reset              `Idle`
+==========  =================  ===============================================================
+
+What moves is either the list (`ListRun`) or an immediate move (`Move`), beneath which the list keeps its own rest: a
+list that was stopped can be gone on with after any number of moves. A motion that brakes has a deceleration, one that
+rests has no stretch, and only what was stopped has something left: nothing else can be written down.
 """
 
 from collections.abc import Collection
