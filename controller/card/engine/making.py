@@ -34,34 +34,27 @@ def make_stretch(
     row_of = np.cumsum([0, *(isinstance(e, Segment | Stepped) and e.kind is not None for e in entries)])
     waits = np.array([e.seconds if isinstance(e, Wait) else 0.0 for e in entries])
     limits = limits_of(rows, np.bincount(row_of[1:], waits, len(rows) + 1).astype(np.float64), path, speeds, settings)
-    if deceleration_um_s2:
-        limits.border_um_s[limits.wait_s > 0.0] = 0.0  # a stop runs through no wait
-        plan, deceleration_um_s2 = _braking(limits, start.speed_um_s, deceleration_um_s2)
-    else:
-        # A jerk-limited plan begins without acceleration; from any other state the rest is planned without the limit.
-        steady = abs(start.acceleration_um_s2) <= _STEADY * limits.acceleration_um_s2.max(initial=0.0)
-        jerk = settings.jerk_pulse_ms3 * UM_S3_PER_PULSE_MS3 if steady else math.inf
-        plan = plan_rows(limits, start.speed_um_s or None, jerk)
+    plan, deceleration_um_s2 = _planned(limits, start, settings, deceleration_um_s2)
     before = path.before_um
     ends = _ends(waits, row_of, before, plan, deceleration_um_s2 > 0.0) + start.clock_s
     interpolator, end = _interpolator(rows, steps, path, plan, start, settings)
     if not rows and len(ends) and not deceleration_um_s2:
         end = float(ends[-1])
+    numbers = np.array([row.number for row in rows], dtype=np.int32)
     return Stretch(
-        start=start,
-        entries=entries,
-        rows=rows,
-        numbers=np.array([row.number for row in rows], dtype=np.int32),
-        row_of=row_of,
-        path=path,
-        before_um=before,
-        plan=plan,
-        deceleration_um_s2=deceleration_um_s2,
-        ends_s=ends,
-        end_s=end,
-        steps=steps,
-        interpolator=interpolator,
+        start, entries, rows, numbers, row_of, path, before, plan, deceleration_um_s2, ends, end, steps, interpolator
     )
+
+
+def _planned(limits: RowLimits, start: Start, settings: CardSettings, deceleration_um_s2: float) -> tuple[Plan, float]:
+    """Plan of the rows, and the deceleration that a stop takes; 0 where none is asked for."""
+    if deceleration_um_s2:
+        limits.border_um_s[limits.wait_s > 0.0] = 0.0  # a stop runs through no wait
+        return _braking(limits, start.speed_um_s, deceleration_um_s2)
+    # A jerk-limited plan begins without acceleration; from any other state the rest is planned without the limit.
+    steady = abs(start.acceleration_um_s2) <= _STEADY * limits.acceleration_um_s2.max(initial=0.0)
+    jerk = settings.jerk_pulse_ms3 * UM_S3_PER_PULSE_MS3 if steady else math.inf
+    return plan_rows(limits, start.speed_um_s or None, jerk), 0.0
 
 
 def _braking(limits: RowLimits, speed_um_s: float, deceleration_um_s2: float) -> tuple[Plan, float]:
