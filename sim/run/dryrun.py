@@ -5,7 +5,7 @@ from typing import Protocol
 
 import numpy as np
 
-from controller.card.log import CardLog
+from controller.card.log.writer import CardLog
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
 from parser.drawing.model import Drawing

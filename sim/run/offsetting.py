@@ -12,8 +12,8 @@ from controller.offset.path import Made, OffsetPath
 from controller.offset.reach import reach
 from controller.offset.sections import Section
 from controller.offset.shifted import closed_contour
-from controller.offset.toolpath import offset_toolpath
 from controller.offset.uncut import uncut_um
+from controller.offset.words import offset_toolpath
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Curves, Floats
 from parser.program import Program
