@@ -6,9 +6,9 @@ from typing import Final
 
 from parser.geometry.curves import Floats
 from sim.show.draw.layout import Box
+from sim.show.film.layout import centred, shifted, zoomed
 from sim.show.film.playback import Playback
 from sim.show.film.screen import Screen
-from sim.show.film.views import centred, shifted, zoomed
 
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would go to stdout, among our data
 import pygame

@@ -15,7 +15,7 @@ from sim.show.draw.layout import Box, Page, View
 from sim.show.draw.paints import Paint
 from sim.show.draw.simplify import simplify
 from sim.show.film.course import Course
-from sim.show.film.views import near_runs
+from sim.show.film.layout import near_runs
 from sim.show.pictures.cut.marks import draw_start
 from sim.show.pictures.cut.outlines import Bodies, draw_bodies
 

@@ -13,7 +13,7 @@ from sim.show.draw.furniture import elide
 from sim.show.draw.layout import Box, View
 from sim.show.draw.paints import THEMES, Paint, ThemeName
 from sim.show.film.course import Course, Moment
-from sim.show.film.layout import layout_for
+from sim.show.film.layout import fitted, layout_for
 from sim.show.film.legend import Shown, draw_legend
 from sim.show.film.marks import draw_commanded, draw_wire, reach
 from sim.show.film.panel import Panel
@@ -21,7 +21,6 @@ from sim.show.film.plate import Pixels, Plate, plate_over
 from sim.show.film.readout import read_out
 from sim.show.film.scene import Scene, fate
 from sim.show.film.strip import bar_of, draw_strip, x_px
-from sim.show.film.views import fitted
 from sim.show.pictures.cut.outlines import Bodies
 from sim.show.words.pictures import Words
 

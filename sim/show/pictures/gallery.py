@@ -7,7 +7,7 @@ from parser.findings.catalogue import Language
 from sim.run.recording import Recording
 from sim.show.draw import style
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.pictures.cut.of_run import cut_picture
+from sim.show.pictures.cut.picture import draw_cut_of_run
 from sim.show.pictures.deviation.along import draw_along
 from sim.show.pictures.deviation.histogram import draw_histogram
 from sim.show.pictures.deviation.polar import draw_polar
@@ -50,7 +50,7 @@ class Picture(NamedTuple):
 
 
 def _cut(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:
-    return cut_picture(sheet, subject.recording.run, subject.recording.pieces)
+    return draw_cut_of_run(sheet, subject.recording.run, subject.recording.pieces)
 
 
 def _along(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:

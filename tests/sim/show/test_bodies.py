@@ -16,8 +16,7 @@ from sim.show.draw.layout import Box
 from sim.show.draw.paints import LIGHT, Paint
 from sim.show.draw.sheet import pixels
 from sim.show.pictures.cut.outlines import Bodies, _hatching, _within
-from sim.show.pictures.cut.picture import draw_cut
-from sim.show.pictures.cut.plan import plan_of
+from sim.show.pictures.cut.picture import draw_cut, plan_of
 from sim.show.pictures.cut.subject import NOTHING, Cut
 
 SQUARE = "B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B10000GXL3 B0B10000B10000GYL4 DD"

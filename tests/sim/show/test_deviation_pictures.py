@@ -32,12 +32,11 @@ from sim.show.draw.paints import DARK, LIGHT, Paint
 from sim.show.draw.sheet import drawing, pixels
 from sim.show.pictures.deviation import inset
 from sim.show.pictures.deviation.along import draw_along
-from sim.show.pictures.deviation.circles import circles_of
 from sim.show.pictures.deviation.feet import feet_um
 from sim.show.pictures.deviation.histogram import bins_of, draw_histogram, path_of_each, shares
 from sim.show.pictures.deviation.inset import STEPS, inset_of
 from sim.show.pictures.deviation.places import APART_UM, worst_places
-from sim.show.pictures.deviation.polar import draw_polar
+from sim.show.pictures.deviation.polar import circles_of, draw_polar
 from sim.show.pictures.deviation.samples import Samples, samples_of
 from sim.show.pictures.deviation.whiskers import APART, draw_whiskers
 from sim.show.pictures.deviation.worst import draw_worst

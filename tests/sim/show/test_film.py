@@ -23,12 +23,11 @@ from sim.show.film.clock import Clock
 from sim.show.film.controls import Controls
 from sim.show.film.course import Course, course_of
 from sim.show.film.cut_map import FULL, CutMap, Discs, Span, discs_of
-from sim.show.film.layout import layout_for
+from sim.show.film.layout import FINEST_PX_PER_UM, centred, layout_for, near_runs, zoomed
 from sim.show.film.playback import SPEEDS, Playback
 from sim.show.film.readout import read_out, told
 from sim.show.film.screen import Look, Screen
 from sim.show.film.strip import bar_of
-from sim.show.film.views import FINEST_PX_PER_UM, centred, near_runs, zoomed
 from sim.show.film.window import LEAST_PX, NO_DISPLAY, Window, open_display
 from sim.show.words.pictures import Words
 from sim.table.trace import Trace

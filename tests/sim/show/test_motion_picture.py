@@ -16,7 +16,7 @@ from sim.show.draw.labels import MOST_NUMBERS
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import DARK, Paint
 from sim.show.draw.sheet import SIZES_PX, drawing, pixels
-from sim.show.pictures.motion.levels import three_figures
+from sim.show.pictures.motion.panels import three_figures
 from sim.show.pictures.motion.picture import draw_motion
 from sim.table.record.bins import Envelope
 from sim.table.record.history import History

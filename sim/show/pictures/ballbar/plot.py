@@ -18,9 +18,8 @@ from sim.show.draw.furniture import draw_header
 from sim.show.draw.layout import Box, Page, View
 from sim.show.draw.paints import Paint
 from sim.show.draw.raster import Raster
-from sim.show.pictures.ballbar.dial import draw_band, draw_curve, draw_zone_edge
+from sim.show.pictures.ballbar.dial import draw_band, draw_curve, draw_zone_edge, mark_spike, write_reversals
 from sim.show.pictures.ballbar.panel import Panel
-from sim.show.pictures.ballbar.reversal_marks import mark_spike, write_reversals
 
 CELLS: Final = 1440
 CELL_RAD: Final = np.asarray((np.arange(CELLS) + 0.5) * (2.0 * np.pi / CELLS), dtype=np.float64)

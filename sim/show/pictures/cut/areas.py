@@ -14,7 +14,7 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box, Page, View, box_around
 from sim.show.draw.paints import Paint
 from sim.show.draw.simplify import simplify
-from sim.show.pictures.cut.board import Board
+from sim.show.pictures.cut.subject import Board
 from sim.show.words.pictures import Words
 
 CHORD_PX: Final = 0.15

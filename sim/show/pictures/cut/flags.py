@@ -16,7 +16,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box, box_around
 from sim.show.draw.paints import Paint
-from sim.show.pictures.cut.board import Board
+from sim.show.pictures.cut.subject import Board
 
 PLACED: Final = frozenset(("3B402", "3B403", "3B404", "3B405", "3B406", "3B501", "3B502", "3B503", "3B601"))
 """Codes whose findings say themselves where they are."""

@@ -12,8 +12,8 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import along
 from sim.show.draw.layout import Box, Margins, Page, box_around
 from sim.show.draw.paints import Paint
-from sim.show.pictures.cut.board import Board
 from sim.show.pictures.cut.sizes import Round, Shown, length_text
+from sim.show.pictures.cut.subject import Board
 
 MOST_ROUNDS: Final = 6
 _ROUND_AT: Final = (0.62, 0.38, 0.75, 0.25, 0.5, 0.87, 0.13)

@@ -1,4 +1,4 @@
-"""What stands around a picture of deviation: title and figures above it, the legend below."""
+"""What the pictures of deviation share: title and figures above them, legend below, marks, scale and texts."""
 
 from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple
@@ -8,7 +8,7 @@ import numpy as np
 from parser.geometry.curves import Floats
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import Chart
+from sim.show.draw.chart import Chart, Range, range_of
 from sim.show.draw.furniture import draw_header, elide
 from sim.show.draw.layout import Box, Page, View
 from sim.show.draw.letters import Letters
@@ -18,6 +18,9 @@ from sim.show.pictures.deviation.samples import Samples
 from sim.show.words.pictures import Words
 
 COLUMN_GAP: Final = 44.0
+LEAST_UM: Final = 0.5
+SEEN: Final = 0.25
+"""A tolerance shows where deviations come to this share of it; a wider one would flatten them to a line."""
 
 
 class Entry(NamedTuple):
@@ -109,6 +112,15 @@ def titled(sheet: Sheet[AnyCanvas], samples: Samples, title: str, height_px: flo
     scenario = samples.run.scenario.title
     draw_header(canvas, page, f"{title} · {scenario}", note or figures_text(sheet.say, samples))
     return canvas
+
+
+def range_shown(samples: Samples) -> Range:
+    """Range of the deviations of wire and steps in the cut, of 0, and of the tolerance where they come near it."""
+    shown = [samples.wire_um[samples.cutting], samples.steps_um[samples.cutting], np.zeros(1)]
+    reached = max(float(np.abs(one).max(initial=0.0)) for one in shown)
+    if reached >= SEEN * samples.tolerance_um:
+        shown.append(samples.tolerance_um * np.array([-1.0, 1.0]))
+    return range_of(*shown, least=LEAST_UM)
 
 
 def write_names(canvas: Canvas, chart: Chart, x_name: str, y_name: str) -> None:

@@ -16,6 +16,7 @@ from sim.show.pictures.deviation.frame import (
     dashes,
     draw_legend,
     legend_of,
+    range_shown,
     stroke,
     swatch,
     titled,
@@ -23,7 +24,6 @@ from sim.show.pictures.deviation.frame import (
     um,
 )
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.pictures.deviation.scale import range_shown
 from sim.show.words.pictures import Words
 
 HEIGHT: Final = 0.5

@@ -7,7 +7,7 @@ import numpy as np
 from controller.stepping.pulses import Pulses
 from parser.geometry.along import places_at
 from parser.geometry.curves import Bools, Floats
-from sim.show.draw.pixel_columns import stretches
+from sim.show.draw.chart import stretches
 from sim.show.pictures.deviation.feet import feet_um
 from sim.show.pictures.deviation.samples import Samples
 from sim.table.motion import origin_um

@@ -4,18 +4,17 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Bools, Floats
+from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import CHORD_PX
+from sim.show.draw.chart import CHORD_PX, Columns, in_cells
 from sim.show.draw.dial import NOMINAL_WIDTH, RIM, Dial, draw_ring_values, draw_rings, ring_for
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import Paint
-from sim.show.draw.pixel_columns import Columns, in_cells
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.simplify import simplify
-from sim.show.pictures.deviation.circles import Circle, circles_of
 from sim.show.pictures.deviation.frame import (
     Entry,
     draw_legend,
@@ -42,6 +41,20 @@ CELL: Final = 4.0
 """Cells of a dial, px: of more samples the lowest and the highest show."""
 WIRE_WIDTH: Final = 2.2
 STEPS_WIDTH: Final = 1.0
+LEAST_RADIUS_UM: Final = 20.0
+LEAST_SWEEP_RAD: Final = 1.5 * np.pi
+SAME_UM: Final = 2.5
+"""Arcs of one circle whose words are rounded to whole µm differ by less in centre and radius."""
+
+
+class Circle(NamedTuple):
+    """Rows of one circle, `first` to `last`, its centre (2,) and radius µm, and 1 counter-clockwise, −1 clockwise."""
+
+    first: int
+    last: int
+    center_um: Floats
+    radius_um: float
+    turn: int
 
 
 class Around(NamedTuple):
@@ -86,6 +99,31 @@ def draw_polar(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas | None:
         _draw_dial(canvas, dial, around)
     draw_legend(canvas, legend)
     return canvas
+
+
+def circles_of(toolpath: Toolpath) -> list[Circle]:
+    """All circles of a program, more than three quarters of them cut, in its order; empty where there is none."""
+    group = np.cumsum(~_goes_on(toolpath))
+    first = np.flatnonzero(np.diff(group, prepend=-1))
+    last = np.append(first[1:], len(group)) - 1
+    swept = np.add.reduceat(np.abs(toolpath.sweep_rad), first)
+    round_ = toolpath.is_arc[first] & (swept > LEAST_SWEEP_RAD)
+    round_[round_] &= toolpath.radius_um[first[round_]] >= LEAST_RADIUS_UM
+    return [_circle(toolpath, *rows) for rows in zip(first[round_].tolist(), last[round_].tolist(), strict=True)]
+
+
+def _goes_on(toolpath: Toolpath) -> Bools:
+    """Whether each block (n,) goes on around the circle of the block before it."""
+    with np.errstate(invalid="ignore"):  # lines have no centre
+        by = np.diff(toolpath.center_um, axis=0)
+        same = (np.hypot(by[:, 0], by[:, 1]) < SAME_UM) & (np.abs(np.diff(toolpath.radius_um)) < SAME_UM)
+    onward = toolpath.sweep_rad[1:] * toolpath.sweep_rad[:-1] > 0.0
+    return np.concatenate([[False], same & onward])
+
+
+def _circle(toolpath: Toolpath, first: int, last: int) -> Circle:
+    turn = 1 if toolpath.sweep_rad[first] > 0.0 else -1
+    return Circle(first, last, toolpath.center_um[first], float(toolpath.radius_um[first]), turn)
 
 
 def around_of(samples: Samples, circle: Circle) -> Around | None:

@@ -17,8 +17,7 @@ from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.motion.curves import draw_envelope
 from sim.show.pictures.motion.events import ROW, TICK, draw_blocks, draw_marks, marks_of
 from sim.show.pictures.motion.legend import draw_legend, legend_rows
-from sim.show.pictures.motion.levels import Level
-from sim.show.pictures.motion.panels import Panel, panels_of
+from sim.show.pictures.motion.panels import Level, Panel, panels_of
 from sim.show.words.pictures import Words
 from sim.units import clock
 

@@ -30,7 +30,7 @@ SIZE_WIDTH: Final = 2.0
 SIZE_ARROW: Final = 14.0
 
 
-def draw_close_up(canvas: Canvas, box: Box, inset: Inset, unit: float) -> None:
+def draw_inset(canvas: Canvas, box: Box, inset: Inset, unit: float) -> None:
     """Draw an inset into a square box."""
     view = view_of(box, inset)
     canvas.box(box, Paint.PAGE, Paint.FRAME, style.GRID_WIDTH * unit)
