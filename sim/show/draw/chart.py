@@ -10,10 +10,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box, nice_below, ticks
 from sim.show.draw.paints import Paint
-from sim.show.draw.simplify import simplify
-
-CHORD_PX = 0.15
-"""How far a drawn line may leave the true one."""
+from sim.show.draw.simplify import CHORD_PX, simplify
 
 
 class Range(NamedTuple):

@@ -5,8 +5,8 @@ from collections.abc import Callable, Mapping
 from typing import Final
 
 from parser.geometry.curves import Floats
-from sim.show.draw.layout import Box
-from sim.show.film.layout import centred, shifted, zoomed
+from sim.show.draw.layout import Box, centred
+from sim.show.film.layout import shifted, zoomed
 from sim.show.film.playback import Playback
 from sim.show.film.screen import Screen
 

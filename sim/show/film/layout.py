@@ -1,10 +1,7 @@
-"""Where things stand on a frame: title, plot, read-outs and strip; and which part of the plane the plot shows."""
+"""Where things stand on a frame: title, plot, read-outs and the strip of the run; and other views of the plot."""
 
 from typing import Final, NamedTuple
 
-import numpy as np
-
-from parser.geometry.curves import Floats
 from sim.show.draw import style
 from sim.show.draw.layout import Box, View
 
@@ -66,19 +63,6 @@ def _whole(box: Box) -> Box:
     return Box(*(float(round(side)) for side in box))
 
 
-def fitted(bounds_um: Floats, plot: Box, pad: float) -> View:
-    """The view that shows a box (2, 2) µm in the middle of a plot, with `pad` px free at its sides."""
-    wide_um, tall_um = np.maximum(bounds_um[1] - bounds_um[0], 1e-9).tolist()
-    wide, tall = plot.right - plot.left - 2.0 * pad, plot.bottom - plot.top - 2.0 * pad
-    return centred(bounds_um.mean(axis=0), min(wide / wide_um, tall / tall_um), plot)
-
-
-def centred(place_um: Floats, px_per_um: float, plot: Box) -> View:
-    """The view of a scale with a place (2,) µm in the middle of a plot."""
-    x, y = (place_um * px_per_um).tolist()
-    return View(px_per_um, (plot.left + plot.right) / 2 - x, (plot.top + plot.bottom) / 2 + y)
-
-
 def zoomed(view: View, factor: float, at: tuple[float, float], whole: View) -> View:
     """The view enlarged about a place on the page, px, between the coarsest and the finest scale."""
     scale = min(max(view.px_per_um * factor, COARSEST * whole.px_per_um), FINEST_PX_PER_UM)
@@ -89,11 +73,3 @@ def zoomed(view: View, factor: float, at: tuple[float, float], whole: View) -> V
 def shifted(view: View, by: tuple[float, float]) -> View:
     """The view moved on the page, px."""
     return view._replace(x_px=view.x_px + by[0], y_px=view.y_px + by[1])
-
-
-def near_runs(points: Floats, box: Box) -> list[Floats]:
-    """Stretches of a line (n, 2) px whose chords may meet a box, each (k, 2) with k ≥ 2."""
-    low, high = np.minimum(points[:-1], points[1:]), np.maximum(points[:-1], points[1:])
-    meets = ((high >= (box.left, box.top)) & (low <= (box.right, box.bottom))).all(axis=1)
-    edges = np.flatnonzero(np.diff(meets, prepend=False, append=False))
-    return [points[first : past + 1] for first, past in edges.reshape(-1, 2).tolist()]

@@ -10,11 +10,11 @@ from parser.geometry.curves import Floats
 from sim.show.draw import style
 from sim.show.draw.flatten import bounds_um
 from sim.show.draw.furniture import elide
-from sim.show.draw.layout import Box, View
+from sim.show.draw.layout import Box, View, fitted
 from sim.show.draw.paints import THEMES, Paint, ThemeName
 from sim.show.film.course import Course, Moment
-from sim.show.film.layout import fitted, layout_for
-from sim.show.film.legend import Shown, draw_legend
+from sim.show.film.layout import layout_for
+from sim.show.film.legend import draw_film_legend, film_entries
 from sim.show.film.marks import draw_commanded, draw_wire, reach
 from sim.show.film.panel import Panel
 from sim.show.film.plate import Pixels, Plate, plate_over
@@ -82,7 +82,7 @@ class Screen:
             box = layout.panel._replace(top=self._panel.foot)
             kerf_px = self._course.run.scenario.wire.kerf_um * self.whole.px_per_um
             wider = kerf_px < style.KERF_WIDTH_MIN * unit
-            draw_legend(canvas, box, unit, self._say, Shown(wider, bool(self._course.pieces)))
+            draw_film_legend(canvas, box, unit, film_entries(self._say, wider=wider, pieces=bool(self._course.pieces)))
         return canvas.pixels()
 
     def _strip(self, *, done: bool) -> Pixels:

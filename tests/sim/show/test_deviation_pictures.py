@@ -103,6 +103,21 @@ ALL: dict[str, Callable[..., Any]] = {
 }
 
 
+@pytest.mark.parametrize("name", ALL)
+def test_lines_are_as_wide_as_the_sheet_asks_for(name: str) -> None:
+    """At twice the width every line is twice as wide."""
+    texts = RING_TEXT if name == "polar" else SLOT
+    small, large = (
+        {
+            (one.what, one.paint, round(one.more[0] / factor, 6))
+            for what in ("polyline", "dashed")
+            for one in ALL[name](recording_sheet(1600 * factor), samples(texts)).of(what)
+        }
+        for factor in (1, 2)
+    )
+    assert small == large
+
+
 # --- numbers
 
 

@@ -17,13 +17,14 @@ from parser.findings.errors import SettingsError
 from parser.program import parse_program, read_program
 from sim.run.recording import recorded
 from sim.setup.scenario import load_scenario
-from sim.show.draw.layout import Box, View
+from sim.show.draw.layout import Box, View, centred
 from sim.show.draw.paints import LIGHT, Paint
 from sim.show.film.clock import Clock
 from sim.show.film.controls import Controls
 from sim.show.film.course import Course, course_of
 from sim.show.film.cut_map import FULL, CutMap, Discs, Span, discs_of
-from sim.show.film.layout import FINEST_PX_PER_UM, centred, layout_for, near_runs, zoomed
+from sim.show.film.ground import near_runs
+from sim.show.film.layout import FINEST_PX_PER_UM, layout_for, zoomed
 from sim.show.film.playback import SPEEDS, Playback
 from sim.show.film.readout import read_out, told
 from sim.show.film.screen import Look, Screen

@@ -12,7 +12,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.dial import RIM, Dial
 from sim.show.draw.paints import Paint
-from sim.show.draw.simplify import simplify
+from sim.show.draw.simplify import CHORD_PX, simplify
 
 COLOURS: Final[dict[Sense, Paint]] = {1: Paint.CCW, -1: Paint.CW}
 """Blue and vermilion of Okabe and Ito; in grey the clockwise curve is told by its dashes."""
@@ -28,7 +28,6 @@ ZONE_DASHES: Final = 120
 ARROW: Final = 30.0
 ARROWS_RAD: Final = np.radians([135.0, 315.0])
 ARROWS_APART_RAD: Final = np.radians(6.0)
-CHORD_PX: Final = 0.15
 LINE: Final = 27.0
 GAP: Final = 14.0
 SPIKE: Final = 8.0

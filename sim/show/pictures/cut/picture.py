@@ -10,10 +10,11 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.furniture import draw_axes, draw_frame, draw_header
 from sim.show.draw.labels import Ink, Room
 from sim.show.draw.layout import BESIDE_PLOT, IN_PLOT, Box, Margins, Page, page_for
+from sim.show.draw.legend import Entry
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.areas import draw_labels, draw_pieces
 from sim.show.pictures.cut.flags import draw_flags, flag_reach, flags_of
-from sim.show.pictures.cut.legend import Entry, Seen, draw_legend, entries, finding_entries, rows_for
+from sim.show.pictures.cut.legend import Seen, draw_legends, entries, finding_entries, rows_for
 from sim.show.pictures.cut.lines import Lines, draw_lines, lines_of, path_bounds_um, shown_bounds_um
 from sim.show.pictures.cut.marks import draw_arrows, draw_ends, draw_pauses
 from sim.show.pictures.cut.numbers import draw_numbers
@@ -88,7 +89,7 @@ def _full(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
     draw_lines(canvas, page.unit, lines, seen.kerf_px)
     sized = [*plan.extents.lines(page)] if plan.extents else []
     numbers = _draw_above(Board(canvas, page, _room(page, lines, sized, names), say), cut, plan)
-    draw_legend(canvas, page, entries(cut, page, say, seen, numbers), plan.codes)
+    draw_legends(canvas, page, entries(cut, page, say, seen, numbers), plan.codes)
     return canvas
 
 
@@ -121,7 +122,7 @@ def kerf_px(cut: Cut, page: Page) -> float:
 
 def _draw_head(canvas: Canvas, page: Page, say: Words, cut: Cut, lines: Lines) -> None:
     beside = 0.0 if cut.travel_um is None else draw_table(canvas, page, say, cut.travel_um, lines.ideal)
-    draw_header(canvas, page, cut.title, cut.note, beside_px=beside)
+    draw_header(canvas, page.unit, cut.title, cut.note, beside_px=beside)
 
 
 def _draw_below(canvas: Canvas, page: Page, cut: Cut) -> None:

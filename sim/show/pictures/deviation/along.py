@@ -12,21 +12,10 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import Chart, Range, columns_of, draw_band, draw_chart, draw_line, stretches
 from sim.show.draw.labels import number_stride
 from sim.show.draw.layout import Box
+from sim.show.draw.legend import Entry, draw_at_foot, in_rows, stroke, swatch
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.pictures.deviation.frame import (
-    Entry,
-    draw_legend,
-    legend_of,
-    mark_place,
-    range_shown,
-    stroke,
-    swatch,
-    titled,
-    tolerance_text,
-    um,
-    write_names,
-)
+from sim.show.pictures.deviation.frame import mark_place, range_shown, titled, tolerance_text, um, write_names
 from sim.show.pictures.deviation.samples import Samples
 from sim.show.words.pictures import Words
 
@@ -52,8 +41,8 @@ def draw_along(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     foot = HEIGHT * sheet.width_px - 1.8 * style.TICK * unit
     frame = Box(style.LEFT * unit, (style.HEAD + STRIP) * unit, sheet.width_px - style.EDGE * unit, foot)
     chart = _chart(samples, frame, unit)
-    legend = legend_of(_entries(say, samples, chart), sheet.width_px, unit)
-    canvas = titled(sheet, samples, say("deviation_along"), HEIGHT * sheet.width_px + legend.height)
+    legend = in_rows(_entries(say, samples, chart), sheet.width_px, unit)
+    canvas = titled(sheet, samples, say("deviation_along"), HEIGHT * sheet.width_px + legend.foot)
     tolerance = Range(-samples.tolerance_um, samples.tolerance_um)
     draw_chart(canvas, chart, tolerance=tolerance)
     draw_borders(canvas, chart, samples.run.toolpath, STRIP * unit)
@@ -61,20 +50,20 @@ def draw_along(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     for stretch in stretches(np.flatnonzero(samples.cutting)):
         _draw_stretch(canvas, chart, samples, stretch)
     _mark_worst(canvas, chart, samples, say)
-    draw_legend(canvas, legend)
+    draw_at_foot(canvas, legend)
     return canvas
 
 
 def _entries(say: Words, samples: Samples, chart: Chart) -> list[Entry]:
-    unit, toolpath = chart.unit, samples.run.toolpath
+    toolpath = samples.run.toolpath
     border = "deviation_border" if all_show(chart, toolpath) else "deviation_some_borders"
-    jump = Entry(stroke(Paint.JUMP, 0.15 * STRIP * unit), say("deviation_jump"))
-    wire = swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, WIRE_WIDTH * unit)
+    jump = Entry(stroke(Paint.JUMP, 0.15 * STRIP), say("deviation_jump"))
+    wire = swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, WIRE_WIDTH)
     return [
         Entry(wire, say("deviation_wire_band")),
-        Entry(swatch(Paint.STEPS_PALE, Paint.STEPS, STEPS_WIDTH * unit), say("deviation_steps_band")),
-        Entry(swatch(Paint.BAND, Paint.BAND_EDGE, style.GRID_WIDTH * unit), tolerance_text(say, samples)),
-        Entry(stroke(Paint.FRAME, BORDER_WIDTH * unit), say(border)),
+        Entry(swatch(Paint.STEPS_PALE, Paint.STEPS, STEPS_WIDTH), say("deviation_steps_band")),
+        Entry(swatch(Paint.BAND, Paint.BAND_EDGE, style.GRID_WIDTH), tolerance_text(say, samples)),
+        Entry(stroke(Paint.FRAME, BORDER_WIDTH), say(border)),
         *[jump] * bool(toolpath.is_jump.any()),
     ]
 

@@ -9,20 +9,10 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import Chart, Range, draw_band, tick_texts
 from sim.show.draw.layout import Box
+from sim.show.draw.legend import Entry, dashes, draw_at_foot, in_rows, stroke, swatch
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.pictures.deviation.frame import (
-    Entry,
-    dashes,
-    draw_legend,
-    legend_of,
-    range_shown,
-    stroke,
-    swatch,
-    titled,
-    tolerance_text,
-    um,
-)
+from sim.show.pictures.deviation.frame import range_shown, titled, tolerance_text, um
 from sim.show.pictures.deviation.samples import Samples
 from sim.show.words.pictures import Words
 
@@ -42,8 +32,8 @@ def draw_histogram(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     ValueError where the sheet is narrower than 600 px.
     """
     say, unit = sheet.say, sheet.unit
-    legend = legend_of(_entries(say, samples, unit), sheet.width_px, unit)
-    canvas = titled(sheet, samples, say("deviation_histogram"), HEIGHT * sheet.width_px + legend.height)
+    legend = in_rows(_entries(say, samples), sheet.width_px, unit)
+    canvas = titled(sheet, samples, say("deviation_histogram"), HEIGHT * sheet.width_px + legend.foot)
     size = style.TICK * unit
     foot = HEIGHT * sheet.width_px - 3.0 * size
     frame = Box(1.1 * style.LEFT * unit, style.HEAD * unit + 1.4 * size, sheet.width_px - style.EDGE * unit, foot)
@@ -56,7 +46,7 @@ def draw_histogram(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     _draw_bars(canvas, chart, bins, wire)
     canvas.polyline(chart.to_px(_outline(chart, bins, steps)), Paint.STEPS, EDGE_WIDTH * unit)
     _draw_limits(canvas, chart, samples)
-    draw_legend(canvas, legend)
+    draw_at_foot(canvas, legend)
     return canvas
 
 
@@ -136,15 +126,15 @@ def _draw_limits(canvas: Canvas, chart: Chart, samples: Samples) -> None:
             canvas.dashed(line, paint, EDGE_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
 
 
-def _entries(say: Words, samples: Samples, unit: float) -> list[Entry]:
-    wire = swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, EDGE_WIDTH * unit)
-    tolerance = swatch(Paint.BAND, Paint.BAND_EDGE, style.GRID_WIDTH * unit)
+def _entries(say: Words, samples: Samples) -> list[Entry]:
+    wire = swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, EDGE_WIDTH)
+    tolerance = swatch(Paint.BAND, Paint.BAND_EDGE, style.GRID_WIDTH)
     p95 = say("deviation_p95_mark", p95=um(samples.p95_um))
     most = say("deviation_largest_mark", most=um(samples.max_um))
     return [
         Entry(wire, say("deviation_wire")),
-        Entry(stroke(Paint.STEPS, EDGE_WIDTH * unit), say("deviation_steps")),
-        Entry(dashes(Paint.INK, EDGE_WIDTH * unit, unit), p95),
-        Entry(dashes(Paint.ERROR, EDGE_WIDTH * unit, unit), most),
+        Entry(stroke(Paint.STEPS, EDGE_WIDTH), say("deviation_steps")),
+        Entry(dashes(Paint.INK, EDGE_WIDTH), p95),
+        Entry(dashes(Paint.ERROR, EDGE_WIDTH), most),
         Entry(tolerance, tolerance_text(say, samples)),
     ]

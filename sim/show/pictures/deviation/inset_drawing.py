@@ -7,10 +7,9 @@ import numpy as np
 from parser.geometry.curves import Floats
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import CHORD_PX
-from sim.show.draw.layout import Box, View, box_around, nice_below, ticks
+from sim.show.draw.layout import Box, View, box_around, centred, nice_below, ticks
 from sim.show.draw.paints import Paint
-from sim.show.draw.simplify import simplify
+from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.deviation.frame import um
 from sim.show.pictures.deviation.inset import Inset
 
@@ -47,9 +46,7 @@ def draw_inset(canvas: Canvas, box: Box, inset: Inset, unit: float) -> None:
 
 def view_of(box: Box, inset: Inset) -> View:
     """Scale of an inset in a square box."""
-    scale = (box.right - box.left) / inset.side_um
-    x, y = (inset.center_um * scale).tolist()
-    return View(scale, (box.left + box.right) / 2.0 - x, (box.top + box.bottom) / 2.0 + y)
+    return centred(inset.center_um, (box.right - box.left) / inset.side_um, box)
 
 
 def _drawn(view: View, points_um: Floats) -> Floats:

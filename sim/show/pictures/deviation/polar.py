@@ -9,23 +9,14 @@ from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import CHORD_PX, Columns, in_cells
+from sim.show.draw.chart import Columns, in_cells
 from sim.show.draw.dial import NOMINAL_WIDTH, RIM, Dial, draw_ring_values, draw_rings, ring_for
 from sim.show.draw.layout import Box
+from sim.show.draw.legend import Entry, draw_at_foot, in_rows, ring, stroke, swatch
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.draw.simplify import simplify
-from sim.show.pictures.deviation.frame import (
-    Entry,
-    draw_legend,
-    legend_of,
-    ring,
-    stroke,
-    swatch,
-    titled,
-    um,
-    write_caption,
-)
+from sim.show.draw.simplify import CHORD_PX, simplify
+from sim.show.pictures.deviation.frame import titled, um, write_caption
 from sim.show.pictures.deviation.samples import Samples
 from sim.show.words.pictures import Words
 
@@ -83,13 +74,13 @@ def draw_polar(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas | None:
     if not found:
         return None
     kept = sorted(sorted(found, key=lambda around: -around.most_um)[:MOST], key=lambda around: around.circle.first)
-    legend = legend_of(_entries(say, unit), sheet.width_px, unit)
+    legend = in_rows(_entries(say), sheet.width_px, unit)
     columns, rows = min(len(kept), 2), (len(kept) + 1) // 2
     wide = (sheet.width_px - GAP * unit) / columns
     size = min((wide - GAP * unit) / (2.0 * RIM), LARGEST * unit)
     tall = 2.0 * RIM * size + (CAPTION + GAP) * unit
     some = say("deviation_some_circles", shown=len(kept), all=len(found)) if len(found) > len(kept) else ""
-    canvas = titled(sheet, samples, say("deviation_polar"), style.HEAD * unit + rows * tall + legend.height, some)
+    canvas = titled(sheet, samples, say("deviation_polar"), style.HEAD * unit + rows * tall + legend.foot, some)
     for at, around in enumerate(kept):
         x = (at % columns + 0.5) * wide + GAP * unit / 2.0
         top = style.HEAD * unit + at // columns * tall
@@ -97,7 +88,7 @@ def draw_polar(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas | None:
         above = Box(x - wide / 2.0, top, x + wide / 2.0, top + CAPTION * unit)
         write_caption(canvas, above, _caption(say, around), unit, align=0.5)
         _draw_dial(canvas, dial, around)
-    draw_legend(canvas, legend)
+    draw_at_foot(canvas, legend)
     return canvas
 
 
@@ -192,10 +183,10 @@ def _caption(say: Words, around: Around) -> tuple[str, str]:
     return name, say("deviation_outward", low=low, high=high)
 
 
-def _entries(say: Words, unit: float) -> list[Entry]:
+def _entries(say: Words) -> list[Entry]:
     return [
-        Entry(swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, WIRE_WIDTH * unit), say("deviation_wire_band")),
-        Entry(swatch(Paint.STEPS_PALE, Paint.STEPS, STEPS_WIDTH * unit), say("deviation_steps_band")),
-        Entry(stroke(Paint.INK, NOMINAL_WIDTH * unit), say("deviation_nominal")),
-        Entry(ring(Paint.START, unit), say("deviation_circle_start")),
+        Entry(swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, WIRE_WIDTH), say("deviation_wire_band")),
+        Entry(swatch(Paint.STEPS_PALE, Paint.STEPS, STEPS_WIDTH), say("deviation_steps_band")),
+        Entry(stroke(Paint.INK, NOMINAL_WIDTH), say("deviation_nominal")),
+        Entry(ring(Paint.START), say("deviation_circle_start")),
     ]

@@ -7,24 +7,15 @@ import numpy as np
 from parser.geometry.curves import Floats, Ints
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import CHORD_PX
 from sim.show.draw.flatten import bounds_um, cut_runs, flatten
 from sim.show.draw.furniture import draw_axes, draw_frame
-from sim.show.draw.layout import Box, Page, View, nice_below
+from sim.show.draw.layout import Box, Page, fitted, nice_below
+from sim.show.draw.legend import Entry, draw_at_foot, in_rows, stroke
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.draw.simplify import simplify
+from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.deviation.feet import feet_um
-from sim.show.pictures.deviation.frame import (
-    Entry,
-    draw_legend,
-    legend_of,
-    mark_place,
-    stroke,
-    titled,
-    tolerance_text,
-    um,
-)
+from sim.show.pictures.deviation.frame import mark_place, titled, tolerance_text, um
 from sim.show.pictures.deviation.places import worst_of
 from sim.show.pictures.deviation.samples import Samples
 from sim.show.words.pictures import Words
@@ -59,17 +50,17 @@ def draw_whiskers(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     """
     say, unit = sheet.say, sheet.unit
     bounds = _bounds_um(samples)
-    legend_px = legend_of(_entries(say, samples, unit, LONGEST, 1.0), sheet.width_px, unit).height
+    legend_px = in_rows(_entries(say, samples, unit, LONGEST, 1.0), sheet.width_px, unit).foot
     page = _page(bounds, sheet.width_px, unit, legend_px)
     times = magnification(samples, page)
-    legend = legend_of(_entries(say, samples, unit, times, page.view.px_per_um), sheet.width_px, unit)
+    legend = in_rows(_entries(say, samples, unit, times, page.view.px_per_um), sheet.width_px, unit)
     canvas = titled(sheet, samples, say("deviation_whiskers"), page.height_px)
     draw_frame(canvas, page)
     draw_axes(canvas, page)
     whiskers = _whiskers(samples, page, times)
     _draw(canvas, page, samples, whiskers)
     _mark_worst(canvas, page, samples, whiskers, say)
-    draw_legend(canvas, legend)
+    draw_at_foot(canvas, legend)
     return canvas
 
 
@@ -95,10 +86,7 @@ def _page(bounds: Floats, width_px: int, unit: float, legend_px: float) -> Page:
     height = min(max((right - left) * tall / wide, low), high)
     plot = Box(left, top, right, top + height)
     room = ROOM * max(right - left, height)
-    scale = min((right - left - 2.0 * room) / wide, (height - 2.0 * room) / tall)
-    middle_x, middle_y = (bounds.mean(axis=0) * scale).tolist()
-    view = View(scale, (plot.left + plot.right) / 2.0 - middle_x, (plot.top + plot.bottom) / 2.0 + middle_y)
-    return Page(width_px, round(plot.bottom + foot), unit, plot, view)
+    return Page(width_px, round(plot.bottom + foot), unit, plot, fitted(bounds, plot, room))
 
 
 def _whiskers(samples: Samples, page: Page, times: float) -> _Whiskers:
@@ -161,7 +149,7 @@ def _entries(say: Words, samples: Samples, unit: float, times: float, px_per_um:
     size_um = nice_below(style.SAMPLE * unit / (times * px_per_um))
     scale_px = size_um * times * px_per_um
 
-    def scale(canvas: Canvas, box: Box) -> None:
+    def scale(canvas: Canvas, box: Box, unit: float) -> None:
         y, tick = (box.top + box.bottom) / 2.0, 0.2 * style.LEGEND_ROW * unit
         line = np.array([[box.right - scale_px, y], [box.right, y]])
         canvas.polyline(line, Paint.INK, WIDTH * unit)
@@ -170,7 +158,7 @@ def _entries(say: Words, samples: Samples, unit: float, times: float, px_per_um:
 
     return [
         Entry(scale, say("deviation_magnified", size=f"{size_um:g}", times=f"{times:,.0f}")),
-        Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH * unit), say("deviation_ideal")),
-        Entry(stroke(Paint.ACTUAL, WIDTH * unit), say("deviation_inside")),
-        Entry(stroke(Paint.ERROR, WIDTH * unit), say("deviation_outside", tolerance=tolerance_text(say, samples))),
+        Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say("deviation_ideal")),
+        Entry(stroke(Paint.ACTUAL, WIDTH), say("deviation_inside")),
+        Entry(stroke(Paint.ERROR, WIDTH), say("deviation_outside", tolerance=tolerance_text(say, samples))),
     ]

@@ -11,14 +11,14 @@ from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import CHORD_PX
 from sim.show.draw.flatten import bounds_um, cut_runs, flatten
 from sim.show.draw.labels import Ink, Room
-from sim.show.draw.layout import Box, View, box_around
+from sim.show.draw.layout import Box, View, box_around, centred
+from sim.show.draw.legend import Entry, draw_at_foot, in_rows, stroke
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.draw.simplify import simplify
-from sim.show.pictures.deviation.frame import Entry, draw_legend, legend_of, stroke, titled, write_caption
+from sim.show.draw.simplify import CHORD_PX, simplify
+from sim.show.pictures.deviation.frame import titled, write_caption
 from sim.show.pictures.deviation.inset import inset_of
 from sim.show.pictures.deviation.inset_drawing import (
     IDEAL_WIDTH,
@@ -65,8 +65,8 @@ def draw_worst(sheet: Sheet[AnyCanvas], samples: Samples, steps: Pulses) -> AnyC
     insets = [inset_of(samples, steps, at) for at in worst_places(samples).tolist()]
     cells = _cells(len(insets), sheet.width_px, unit)
     bows = samples.trace.wire_um is not samples.trace.table_um
-    legend = legend_of(_entries(say, unit, bows=bows), sheet.width_px, unit)
-    canvas = titled(sheet, samples, say("deviation_worst"), cells.bottom + legend.height + 0.3 * GAP * unit)
+    legend = in_rows(_entries(say, bows=bows), sheet.width_px, unit)
+    canvas = titled(sheet, samples, say("deviation_worst"), cells.bottom + legend.foot + 0.3 * GAP * unit)
     for number, (box, inset) in enumerate(zip(cells.insets, insets, strict=True), start=1):
         above = Box(box.left, box.top - CAPTION * unit, box.right, box.top)
         draw_badge(canvas, np.array([box.left + BADGE * unit, (above.top + above.bottom) / 2.0]), number, unit)
@@ -78,7 +78,7 @@ def draw_worst(sheet: Sheet[AnyCanvas], samples: Samples, steps: Pulses) -> AnyC
     draw_key_map(canvas, cells.key_map, samples.run.toolpath, places, unit)
     name = (cells.key_map.left, cells.key_map.top - 0.3 * CAPTION * unit)
     canvas.text(name, say("deviation_key_map"), style.TEXT * unit, Paint.INK)
-    draw_legend(canvas, legend)
+    draw_at_foot(canvas, legend)
     return canvas
 
 
@@ -107,14 +107,14 @@ def _caption(say: Words, samples: Samples, at: int, grid: float) -> tuple[str, s
     )
 
 
-def _entries(say: Words, unit: float, *, bows: bool) -> list[Entry]:
+def _entries(say: Words, *, bows: bool) -> list[Entry]:
     looks = [
         (Paint.IDEAL, IDEAL_WIDTH, "deviation_ideal"),
         (Paint.STEPS, STEPS_WIDTH, "deviation_staircase"),
         (Paint.ACTUAL, WIRE_WIDTH, "deviation_wire_samples"),
         *[(Paint.GREY, TABLE_WIDTH, "deviation_table")] * bows,
     ]
-    return [Entry(stroke(paint, width * unit), say(key)) for paint, width, key in looks]
+    return [Entry(stroke(paint, width), say(key)) for paint, width, key in looks]
 
 
 def draw_key_map(canvas: Canvas, box: Box, toolpath: Toolpath, places_um: Floats, unit: float) -> None:
@@ -133,8 +133,7 @@ def draw_key_map(canvas: Canvas, box: Box, toolpath: Toolpath, places_um: Floats
 def _view(box: Box, bounds: Floats, pad: float) -> View:
     wide, tall = np.maximum(bounds[1] - bounds[0], 1.0).tolist()
     scale = min((box.right - box.left - 2.0 * pad) / wide, (box.bottom - box.top - 2.0 * pad) / tall)
-    x, y = (bounds.mean(axis=0) * scale).tolist()
-    return View(scale, (box.left + box.right) / 2.0 - x, (box.top + box.bottom) / 2.0 + y)
+    return centred(bounds.mean(axis=0), scale, box)
 
 
 def _draw_number(canvas: Canvas, room: Room, place: Floats, number: int, unit: float) -> None:

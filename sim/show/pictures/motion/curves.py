@@ -9,9 +9,9 @@ from parser.geometry.curves import Floats
 from parser.toolpath import Axis
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import CHORD_PX, Chart, draw_band, draw_line
+from sim.show.draw.chart import Chart, draw_band, draw_line
 from sim.show.draw.paints import Paint
-from sim.show.draw.simplify import simplify
+from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.table.record.bins import Envelope
 
 MEAN_WIDTH: Final = 2.4
