@@ -4,7 +4,6 @@ It draws larger, three times up to a width of 2400 px and else twice, and takes 
 every edge.
 """
 
-import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Final
@@ -18,9 +17,7 @@ from sim.show.draw.canvas import arrow_head, dashes
 from sim.show.draw.layout import Box
 from sim.show.draw.letters import Letters
 from sim.show.draw.paints import LIGHT, Paint, Theme
-
-os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would go to stdout, among our data
-import pygame
+from sim.show.draw.silent_pygame import pygame
 
 FINEST: Final = 3
 COARSER_FROM_PX: Final = 2400  # an A3 page at 300 dpi, drawn three times as large, would take 470 MB

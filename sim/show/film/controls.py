@@ -1,17 +1,14 @@
 """What keys and mouse do in the window."""
 
-import os
 from collections.abc import Callable, Mapping
 from typing import Final
 
 from parser.geometry.curves import Floats
 from sim.show.draw.layout import Box, centred
+from sim.show.draw.silent_pygame import pygame
 from sim.show.film.layout import shifted, zoomed
 from sim.show.film.playback import Playback
 from sim.show.film.screen import Screen
-
-os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would go to stdout, among our data
-import pygame
 
 ZOOM: Final = 1.25
 CALM: Final = 0.25

@@ -16,7 +16,7 @@ from sim.show.film.course import Course, Moment
 from sim.show.film.layout import layout_for
 from sim.show.film.legend import draw_film_legend, film_entries
 from sim.show.film.marks import draw_commanded, draw_wire, reach
-from sim.show.film.panel import Panel
+from sim.show.film.panel import ReadoutPanel
 from sim.show.film.plate import Pixels, Plate, plate_over
 from sim.show.film.readout import read_out
 from sim.show.film.scene import Scene, fate
@@ -46,7 +46,7 @@ class Screen:
         self._course, self._look = course, look
         self._theme, self._say = THEMES[look.theme], Words(look.language)
         first = read_out(course, course.at(0.0), 1.0, self._say)
-        self._panel = Panel(self.layout, self._theme, len(first))
+        self._panel = ReadoutPanel(self.layout, self._theme, len(first))
         self._scene: Scene | None = None
         self._page = self._furniture()
         self._top = round(self.layout.head.bottom - style.TICK * self.layout.unit / 2)

@@ -7,15 +7,13 @@ from typing import Final
 
 from parser.findings.errors import SettingsError
 from sim.show.draw.paints import THEMES
+from sim.show.draw.silent_pygame import pygame
 from sim.show.film.controls import Controls
 from sim.show.film.course import Course
 from sim.show.film.help import draw_help
 from sim.show.film.plate import Pixels
 from sim.show.film.playback import Playback
 from sim.show.film.screen import Look, Screen
-
-os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would go to stdout, among our data
-import pygame
 
 FPS: Final = 60
 LEAST_PX: Final = (480, 320)

@@ -18,7 +18,7 @@ from sim.cut.pieces.pieces import Piece
 from sim.measure.deviation.deviation import Where
 from sim.run.dryrun import DryRun, verdict
 from sim.table.record.peaks import Peak
-from sim.units import clock
+from sim.units import clock, three_figures
 
 _COLOURS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 _INTERPOLATORS = {"point-by-point": "point by point", "card": "by the card at equal times"}
@@ -199,7 +199,7 @@ def _limits(peaks: tuple[Peak, ...]) -> list[Row]:
 
 def _limit(peak: Peak) -> str:
     scale, unit = _UNITS[peak.quantity]
-    met = f"{peak.quantity} {peak.axis.name} {_percent(peak.share)} of {_three_figures(peak.limit * scale)} {unit}"
+    met = f"{peak.quantity} {peak.axis.name} {_percent(peak.share)} of {three_figures(peak.limit * scale)} {unit}"
     return f"{met}, block {peak.row + 1:,} at {_mm(peak.x_um, 1)}, {_mm(peak.y_um, 1)} mm"
 
 
@@ -210,8 +210,3 @@ def _mm(length_um: float, digits: int = 3) -> str:
 
 def _percent(share: float) -> str:
     return "<1 %" if share < 0.01 else f"{100.0 * share:.0f} %"
-
-
-def _three_figures(value: float) -> str:
-    """A limit, to no more figures than it is known by."""
-    return f"{round(value, 2 - math.floor(math.log10(value))):,g}"

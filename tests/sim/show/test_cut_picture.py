@@ -27,7 +27,7 @@ from sim.show.draw.layout import Box, Page
 from sim.show.draw.paints import DARK, Paint
 from sim.show.draw.sheet import drawing, pixels
 from sim.show.pictures.cut.flags import flag_reach, flags_of, places_um
-from sim.show.pictures.cut.picture import draw_cut, draw_cut_of_run, plan_of
+from sim.show.pictures.cut.picture import draw_cut, draw_cut_of_run, layout_of
 from sim.show.pictures.cut.sizes import length_text, sizes_of_cut
 from sim.show.pictures.cut.subject import Cut
 
@@ -79,7 +79,7 @@ def recorded(cut: Cut, width_px: int = 1600, language: str = "en") -> Recorder:
 
 
 def page_of(cut: Cut, width_px: int = 1600) -> Page:
-    return plan_of(recording_sheet(width_px), cut).page
+    return layout_of(recording_sheet(width_px), cut).page
 
 
 def finding(block: int, code: str = "3B203", **values: float) -> Finding:

@@ -17,10 +17,10 @@ from sim.show.draw.labels import MOST_NUMBERS
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import DARK, Paint
 from sim.show.draw.sheet import SIZES_PX, drawing, pixels
-from sim.show.pictures.motion.panels import three_figures
 from sim.show.pictures.motion.picture import draw_motion
 from sim.table.record.bins import Envelope
 from sim.table.record.history import History
+from sim.units import three_figures
 
 TEXT = "B800B0B800GXL1 D B0B500B500GYL2 B300B0B300GXL3 DD"
 

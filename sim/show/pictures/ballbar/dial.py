@@ -32,7 +32,7 @@ LINE: Final = 27.0
 GAP: Final = 14.0
 SPIKE: Final = 8.0
 SPIKE_WIDTH: Final = 2.5
-Lines = list[tuple[str, Paint]]
+ColouredLines = list[tuple[str, Paint]]
 
 
 def draw_zone_edge(canvas: Canvas, dial: Dial, off_um: float) -> None:
@@ -90,12 +90,12 @@ def _name(reversal: Reversal) -> str:
     return f"{reversal.side.replace('-', '−')}{reversal.axis.name}, {reversal.axis.name} reverses"
 
 
-def _beside(here: tuple[Reversal, ...]) -> Lines:
+def _beside(here: tuple[Reversal, ...]) -> ColouredLines:
     """Short lines, a figure each."""
     return [(text, COLOURS[reversal.sense]) for reversal in here for text in _texts(reversal)]
 
 
-def _above(here: tuple[Reversal, ...]) -> Lines:
+def _above(here: tuple[Reversal, ...]) -> ColouredLines:
     """A line for each direction."""
     return [(", ".join(_texts(reversal)), COLOURS[reversal.sense]) for reversal in here]
 
@@ -105,7 +105,7 @@ def _texts(reversal: Reversal) -> list[str]:
     return [step] + [f"spike {um(reversal.spike_um)}"] * (reversal.spike_deg is not None)
 
 
-def _write(canvas: Canvas, dial: Dial, quarter: int, lines: Lines) -> None:
+def _write(canvas: Canvas, dial: Dial, quarter: int, lines: ColouredLines) -> None:
     """Write lines outward of the rim: beside it in the middle of their height, else above or below it."""
     unit = dial.unit
     x, y = dial.at(np.array(quarter * np.pi / 2.0), (RIM + GAP) * unit).tolist()

@@ -27,7 +27,7 @@ SAMPLES: Final = (
 """Counter-clockwise and clockwise curve, nominal circle and zone."""
 
 
-class Panel:
+class FiguresPanel:
     """Rows from top to bottom, in a column from `LEFT` to the edge of the page."""
 
     def __init__(self, canvas: Canvas, unit: float, width_px: int) -> None:

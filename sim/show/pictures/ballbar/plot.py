@@ -18,7 +18,7 @@ from sim.show.draw.furniture import draw_header
 from sim.show.draw.paints import Paint
 from sim.show.draw.raster import Raster
 from sim.show.pictures.ballbar.dial import draw_band, draw_curve, draw_zone_edge, mark_spike, write_reversals
-from sim.show.pictures.ballbar.panel import Panel
+from sim.show.pictures.ballbar.panel import FiguresPanel
 
 CELLS: Final = 1440
 CELL_RAD: Final = np.asarray((np.arange(CELLS) + 0.5) * (2.0 * np.pi / CELLS), dtype=np.float64)
@@ -105,7 +105,7 @@ def _mark(canvas: Canvas, dial: Dial, reversal: Reversal, curve: _Curve) -> None
 
 def _write_panel(canvas: Canvas, dial: Dial, width_px: int, ballbar: Ballbar, measured: Measured) -> None:
     magnified = f"{dial.magnification(ballbar.test.radius_um):,.0f}"
-    panel = Panel(canvas, dial.unit, width_px)
+    panel = FiguresPanel(canvas, dial.unit, width_px)
     panel.legend(
         [
             "ccw, mean over ¼°; pale: all places",

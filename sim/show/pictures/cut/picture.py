@@ -20,7 +20,7 @@ from sim.show.pictures.cut.marks import draw_arrows, draw_ends, draw_pauses
 from sim.show.pictures.cut.numbers import draw_numbers
 from sim.show.pictures.cut.outlines import clamps_on, draw_bodies, works_on
 from sim.show.pictures.cut.size_lines import Extents, draw_extents, draw_rounds, extents_of
-from sim.show.pictures.cut.sizes import Shown, sizes_of_cut
+from sim.show.pictures.cut.sizes import CutSizes, sizes_of_cut
 from sim.show.pictures.cut.subject import Board, Cut, cut_of_run
 from sim.show.pictures.cut.table import draw_border, draw_table, shows_border
 from sim.show.words.pictures import Words
@@ -30,12 +30,12 @@ _THUMBNAIL: Final = Margins(*(style.THUMBNAIL_PAD,) * 4)
 _FOOT_ROWS: Final = 3  # rows of the legend in `style.FOOT`
 
 
-class Plan(NamedTuple):
+class CutLayout(NamedTuple):
     """The page; what of the surroundings shows on it; the sizes and the lines of the largest; what the codes mean."""
 
     page: Page
     seen: Seen
-    sizes: Shown
+    sizes: CutSizes
     extents: Extents | None
     codes: list[Entry]
 
@@ -77,8 +77,8 @@ def _thumbnail(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
 
 
 def _full(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
-    say, plan = sheet.say, plan_of(sheet, cut)
-    page, seen = plan.page, plan.seen
+    say, layout = sheet.say, layout_of(sheet, cut)
+    page, seen = layout.page, layout.seen
     canvas, lines = sheet.page(page.height_px), lines_of(cut, page.view)
     _draw_head(canvas, page, say, cut, lines)
     draw_frame(canvas, page)
@@ -87,13 +87,13 @@ def _full(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
     if seen.travel and cut.travel_um is not None:
         draw_border(canvas, page, cut.travel_um)
     draw_lines(canvas, page.unit, lines, seen.kerf_px)
-    sized = [*plan.extents.lines(page)] if plan.extents else []
-    numbers = _draw_above(Board(canvas, page, _room(page, lines, sized, names), say), cut, plan)
-    draw_legends(canvas, page, entries(cut, page, say, seen, numbers), plan.codes)
+    sized = [*layout.extents.lines(page)] if layout.extents else []
+    numbers = _draw_above(Board(canvas, page, _room(page, lines, sized, names), say), cut, layout)
+    draw_legends(canvas, page, entries(cut, page, say, seen, numbers), layout.codes)
     return canvas
 
 
-def plan_of(sheet: Sheet[AnyCanvas], cut: Cut) -> Plan:
+def layout_of(sheet: Sheet[AnyCanvas], cut: Cut) -> CutLayout:
     """Lay out a page with room for its legend."""
     sizes, codes = sizes_of_cut(cut), finding_entries(cut, sheet.say)
     extents = extents_of(sizes, path_bounds_um(cut))
@@ -103,7 +103,7 @@ def plan_of(sheet: Sheet[AnyCanvas], cut: Cut) -> Plan:
     rows = rows_for(len(entries(cut, page, sheet.say, seen, "")), len(codes))
     foot = style.FOOT + (rows - _FOOT_ROWS) * style.LEGEND_ROW
     page = page_for(bounds_um, sheet.width_px, BESIDE_PLOT._replace(bottom=foot), inside)
-    return Plan(page, seen._replace(kerf_px=kerf_px(cut, page)), sizes, extents, codes)
+    return CutLayout(page, seen._replace(kerf_px=kerf_px(cut, page)), sizes, extents, codes)
 
 
 def _seen(cut: Cut, page: Page) -> Seen:
@@ -136,16 +136,16 @@ def _room(page: Page, lines: Lines, sized: list[Floats], taken: list[Box]) -> Ro
     return Room(page.plot, ink, taken)
 
 
-def _draw_above(board: Board, cut: Cut, plan: Plan) -> str:
+def _draw_above(board: Board, cut: Cut, layout: CutLayout) -> str:
     """Draw marks, numbers and sizes over the path, those first that must have their place; what the numbers are."""
-    if plan.extents:
-        draw_extents(board, plan.sizes, plan.extents)
+    if layout.extents:
+        draw_extents(board, layout.sizes, layout.extents)
     _draw_marks(board, cut, texts=True)
     draw_arrows(board, cut.toolpath)
-    numbers = draw_numbers(board, cut.toolpath, plan.seen.kerf_px)
+    numbers = draw_numbers(board, cut.toolpath, layout.seen.kerf_px)
     if cut.pieces is not None:
         draw_labels(board, cut.toolpath, cut.pieces)
-    draw_rounds(board, plan.sizes)
+    draw_rounds(board, layout.sizes)
     return numbers.text(board.say)
 
 

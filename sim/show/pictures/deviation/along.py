@@ -9,7 +9,7 @@ from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import Chart, Range, columns_of, draw_band, draw_chart, draw_line, stretches
+from sim.show.draw.chart import AxisRange, Chart, columns_of, draw_band, draw_chart, draw_line, stretches
 from sim.show.draw.labels import number_stride
 from sim.show.draw.layout import Box
 from sim.show.draw.legend import Entry, draw_at_foot, in_rows, stroke, swatch
@@ -43,7 +43,7 @@ def draw_along(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     chart = _chart(samples, frame, unit)
     legend = in_rows(_entries(say, samples, chart), sheet.width_px, unit)
     canvas = titled(sheet, samples, say("deviation_along"), HEIGHT * sheet.width_px + legend.foot)
-    tolerance = Range(-samples.tolerance_um, samples.tolerance_um)
+    tolerance = AxisRange(-samples.tolerance_um, samples.tolerance_um)
     draw_chart(canvas, chart, tolerance=tolerance)
     draw_borders(canvas, chart, samples.run.toolpath, STRIP * unit)
     write_names(canvas, chart, say("path_length"), say("deviation_um"))
@@ -70,7 +70,7 @@ def _entries(say: Words, samples: Samples, chart: Chart) -> list[Entry]:
 
 def _chart(samples: Samples, frame: Box, unit: float) -> Chart:
     length = mm(float(samples.run.toolpath.length_um.sum()))
-    x = Range(0.0, length) if length > 0.0 else Range(0.0, 1.0)
+    x = AxisRange(0.0, length) if length > 0.0 else AxisRange(0.0, 1.0)
     return Chart(frame, x, range_shown(samples).wider(0.14), unit)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from parser.geometry.curves import Floats
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import Chart, Range, range_of
+from sim.show.draw.chart import AxisRange, Chart, range_of
 from sim.show.draw.furniture import draw_header, elide
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import Paint
@@ -33,7 +33,7 @@ def titled(sheet: Sheet[AnyCanvas], samples: Samples, title: str, height_px: flo
     return canvas
 
 
-def range_shown(samples: Samples) -> Range:
+def range_shown(samples: Samples) -> AxisRange:
     """Range of the deviations of wire and steps in the cut, of 0, and of the tolerance where they come near it."""
     shown = [samples.wire_um[samples.cutting], samples.steps_um[samples.cutting], np.zeros(1)]
     reached = max(float(np.abs(one).max(initial=0.0)) for one in shown)

@@ -7,7 +7,7 @@ import numpy as np
 from parser.geometry.curves import Bools, Floats
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import Chart, Range, draw_band, tick_texts
+from sim.show.draw.chart import AxisRange, Chart, draw_band, tick_texts
 from sim.show.draw.layout import Box
 from sim.show.draw.legend import Entry, dashes, draw_at_foot, in_rows, stroke, swatch
 from sim.show.draw.paints import Paint
@@ -39,7 +39,7 @@ def draw_histogram(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     frame = Box(1.1 * style.LEFT * unit, style.HEAD * unit + 1.4 * size, sheet.width_px - style.EDGE * unit, foot)
     bins = bins_of(samples)
     wire, steps = (shares(samples, off, bins) for off in (samples.wire_um, samples.steps_um))
-    chart = Chart(frame, Range(float(bins[0]), float(bins[-1])), _scale(wire, steps), unit)
+    chart = Chart(frame, AxisRange(float(bins[0]), float(bins[-1])), _scale(wire, steps), unit)
     _draw_frame(canvas, chart, samples.tolerance_um)
     canvas.text((frame.left, frame.top - 0.9 * size), say("deviation_share"), size, Paint.GREY)
     canvas.text((frame.right, frame.bottom + 2.0 * size), say("deviation_value"), size, Paint.GREY, align=1.0)
@@ -71,11 +71,11 @@ def path_of_each(along_um: Floats, cutting: Bools) -> Floats:
     return np.asarray((np.append(step, 0.0) + np.append(0.0, step)) / 2.0, dtype=np.float64)
 
 
-def _scale(*shares: Floats) -> Range:
+def _scale(*shares: Floats) -> AxisRange:
     """Powers of ten, from below the least share to the whole."""
     seen = np.concatenate(shares)
     least = float(seen[seen > 0.0].min(initial=0.1))
-    return Range(min(np.floor(np.log10(max(least, LOWEST))), HIGHEST_FOOT), 0.25)
+    return AxisRange(min(np.floor(np.log10(max(least, LOWEST))), HIGHEST_FOOT), 0.25)
 
 
 def _draw_frame(canvas: Canvas, chart: Chart, tolerance_um: float) -> None:

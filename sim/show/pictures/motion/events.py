@@ -19,7 +19,7 @@ LINE_WIDTH: Final = 1.5
 _LOSSES: Final = {"lost-steps": ("motion_lost", "3B402"), "trip": ("motion_trip", "3B403")}
 
 
-class Mark(NamedTuple):
+class TimeMark(NamedTuple):
     """What happened at a time: the key of its name, its sign, and what it is drawn in."""
 
     t_s: float
@@ -36,14 +36,14 @@ class _Label(NamedTuple):
     paint: Paint
 
 
-def marks_of(run: DryRun) -> list[Mark]:
+def marks_of(run: DryRun) -> list[TimeMark]:
     """Losses of a run, with the codes of their findings and the axes, and pauses."""
     ends_s, stops = _borders_s(run), run.toolpath.stops
     pauses = [
-        Mark(float(ends_s[stop.after]), "motion_pause", "D", Paint.PAUSE) for stop in stops if stop.kind == "pause"
+        TimeMark(float(ends_s[stop.after]), "motion_pause", "D", Paint.PAUSE) for stop in stops if stop.kind == "pause"
     ]
     losses = [
-        Mark(loss.t_s, _LOSSES[loss.kind][0], f"{_LOSSES[loss.kind][1]} {loss.axis.name}", Paint.ERROR)
+        TimeMark(loss.t_s, _LOSSES[loss.kind][0], f"{_LOSSES[loss.kind][1]} {loss.axis.name}", Paint.ERROR)
         for loss in run.losses
     ]
     until_s = run.history.t_s[-1]
@@ -67,7 +67,7 @@ def draw_blocks(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> Non
     _draw_labels(canvas, chart, labels, top - (TICK + 0.5 * ROW) * unit)
 
 
-def draw_marks(canvas: Canvas, charts: list[Chart], marks: list[Mark], unit_s: float, y: float) -> None:
+def draw_marks(canvas: Canvas, charts: list[Chart], marks: list[TimeMark], unit_s: float, y: float) -> None:
     """Draw a line through all charts at each mark, and its sign at the height `y` as far as there is room.
 
     Of two in one place the first one shows.

@@ -8,13 +8,13 @@ import numpy as np
 from parser.toolpath import Axis
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import Chart, Range
+from sim.show.draw.chart import AxisRange, Chart
 from sim.show.draw.layout import Box
 from sim.show.draw.legend import Entry, Legend, LegendSizes, in_rows, middle
 from sim.show.draw.letters import Letters
 from sim.show.draw.paints import Paint
 from sim.show.pictures.motion.curves import draw_envelope
-from sim.show.pictures.motion.events import Mark
+from sim.show.pictures.motion.events import TimeMark
 from sim.show.words.pictures import Words
 from sim.table.record.bins import Envelope
 
@@ -23,7 +23,7 @@ CURVE_HEIGHT: Final = 0.72
 """Height of the sample of a curve, of its row."""
 
 
-def legend_of(marks: list[Mark], stride: int, say: Words, width_px: int, unit: float) -> Legend:
+def legend_of(marks: list[TimeMark], stride: int, say: Words, width_px: int, unit: float) -> Legend:
     """The legend on a page of a width."""
     number = say("motion_number") if stride == 1 else say("motion_number_every", stride=stride)
     entries = [
@@ -39,7 +39,7 @@ def _share(sign: str, unit: float) -> float:
     return max(1.0, Letters().width(sign, style.NUMBER * unit) / (SIZES.sample * unit))
 
 
-def _kinds(marks: list[Mark]) -> list[tuple[str, tuple[str, Paint]]]:
+def _kinds(marks: list[TimeMark]) -> list[tuple[str, tuple[str, Paint]]]:
     """Kinds of marks by their names, each with the sign and the paint of the first."""
     first = {mark.name: mark for mark in reversed(marks)}
     return [(name, (first[name].sign, first[name].paint)) for name in sorted(first)]
@@ -48,7 +48,7 @@ def _kinds(marks: list[Mark]) -> list[tuple[str, tuple[str, Paint]]]:
 def _draw_curve(axis: Axis, canvas: Canvas, box: Box, unit: float) -> None:
     free = (1.0 - CURVE_HEIGHT) / 2.0 * (box.bottom - box.top)
     frame = box._replace(top=box.top + free, bottom=box.bottom - free)
-    chart = Chart(frame, Range(0.0, 1.0), Range(-1.0, 1.0), unit)
+    chart = Chart(frame, AxisRange(0.0, 1.0), AxisRange(-1.0, 1.0), unit)
     ones = np.ones((1, 2))
     draw_envelope(canvas, chart, np.array([0.0, 1.0]), Envelope(-ones, ones, 0.0 * ones), [axis])
 

@@ -10,12 +10,13 @@ from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Axis
 from parser.units import mm
 from sim.run.dryrun import DryRun
-from sim.show.draw.chart import Range, range_of
+from sim.show.draw.chart import AxisRange, range_of
 from sim.show.draw.paints import Paint
 from sim.show.words.pictures import Words
 from sim.table.record.bins import Envelope
 from sim.table.record.history import History
 from sim.table.record.peaks import Quantity
+from sim.units import three_figures
 
 ROOM: Final = 0.08
 """Share of its range that a panel leaves free at either side."""
@@ -57,7 +58,7 @@ class Panel(NamedTuple):
     least: float
 
     @property
-    def range(self) -> Range:
+    def range(self) -> AxisRange:
         """From the lowest to the highest, and to levels just outside."""
         shown = range_of(self.envelope.low, self.envelope.high, least=self.least)
         reach, levels = shown.wider(REACH), np.array([level.value for level in self.levels])
@@ -124,8 +125,3 @@ def limit_levels(run: DryRun, quantity: Quantity, key: str, scale: float = 1.0) 
 
 def _axes(axes: Iterable[Axis]) -> str:
     return ", ".join(axis.name for axis in sorted(axes))
-
-
-def three_figures(value: float) -> str:
-    """A value above 0, to three figures."""
-    return f"{round(value, 2 - math.floor(math.log10(value))):,.10g}"

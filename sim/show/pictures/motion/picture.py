@@ -8,7 +8,7 @@ from parser.toolpath import Axis
 from sim.run.dryrun import DryRun
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import Chart, Range, draw_chart, draw_level
+from sim.show.draw.chart import AxisRange, Chart, draw_chart, draw_level
 from sim.show.draw.furniture import draw_header
 from sim.show.draw.labels import number_stride
 from sim.show.draw.layout import Box
@@ -105,7 +105,7 @@ def _note(run: DryRun, say: Words) -> str:
 
 def _draw_panels(canvas: Canvas, layout: _Layout, run: DryRun, time: _Time, sheet: Sheet[AnyCanvas]) -> list[Chart]:
     """Draw all panels; the charts in their frames."""
-    frame, across = layout.frames[0], Range(0.0, time.whole_s / time.unit_s)
+    frame, across = layout.frames[0], AxisRange(0.0, time.whole_s / time.unit_s)
     t_s, panels = panels_of(run, round((frame.right - frame.left) / (BIN * sheet.unit)))
     charts = [Chart(frame, across, panel.range, sheet.unit) for frame, panel in zip(layout.frames, panels, strict=True)]
     for chart, panel, name in zip(charts, panels, layout.names, strict=True):
