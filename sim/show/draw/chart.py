@@ -49,7 +49,7 @@ class Chart(NamedTuple):
 
 
 def range_of(*values: Floats, least: float = 0.0) -> AxisRange:
-    """Range of all finite values, no narrower than `least`; that around 0 where there are none."""
+    """Range of all finite values, no narrower than `least`; around 0 where there are no values."""
     finite = np.concatenate([[np.nan], *(np.ravel(part) for part in values)])
     finite = finite[np.isfinite(finite)]
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)

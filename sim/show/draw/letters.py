@@ -6,7 +6,7 @@ from sim.show.draw import style
 from sim.show.draw.silent_pygame import pygame
 
 MEASURED_AT: Final = 3
-"""Widths are those at three times the size, which the font rounds to whole pixels."""
+"""Texts are measured at so many times their size, because the font rounds widths to whole pixels."""
 
 
 class Letters:

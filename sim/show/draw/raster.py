@@ -1,4 +1,4 @@
-"""Pictures in pixels: the only module that draws with pygame. No display is opened.
+"""Pictures in pixels, drawn with pygame. No display is opened.
 
 It draws larger, three times up to a width of 2400 px and else twice, and takes the mean of those pixels, which smooths
 every edge.
@@ -165,7 +165,7 @@ def _quads(points: Floats, side: Floats) -> Floats:
 
 
 def _sharp(points: Floats, half: float) -> NDArray[np.bool_]:
-    """Mark the ends, and the corners where a round corner reaches half a pixel beyond the sliver."""
+    """Mark the points (n,) that need a disc: both ends, and corners that it rounds by more than half a pixel."""
     heading = np.arctan2(*np.diff(points, axis=0).T[::-1])
     turn = np.abs((np.diff(heading) + np.pi) % (2 * np.pi) - np.pi)
     ends = np.ones(1, dtype=np.bool_)

@@ -12,7 +12,7 @@ from sim.show.film.screen import Screen
 
 ZOOM: Final = 1.25
 CALM: Final = 0.25
-"""Share of the plot at each side which a wire that is followed keeps out of."""
+"""The view moves when a wire that is followed comes into this share of the plot at a side."""
 
 
 class Controls:

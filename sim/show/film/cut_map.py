@@ -1,4 +1,4 @@
-"""When each pixel of the plot was cut: drawn once for a view, then any moment of the run is a comparison away."""
+"""When each pixel of the plot was cut: worked out once for a view; then one comparison tells what is cut by a time."""
 
 import math
 from typing import Final, NamedTuple
@@ -15,7 +15,7 @@ FINE: Final = 3
 """Each pixel is looked at in 3 × 3 places."""
 FULL: Final = FINE * FINE
 """Level of a pixel that is cut wholly."""
-SCALLOP_PX: Final = 0.1  # left standing between two discs one behind the other, d²/8r high
+SCALLOP_PX: Final = 0.1  # height d²/8r of what two discs of radius r, d apart, leave standing between them
 NEVER: Final = 0xFFFFFF
 
 Levels = NDArray[np.uint8]

@@ -48,7 +48,7 @@ class Extents(NamedTuple):
 
 
 def extents_of(sizes: CutSizes, path_um: Floats) -> Extents | None:
-    """Lines outside of all the path, on the side that what they measure is nearer to; None where there is no size."""
+    """Lines outside the whole path, each on the side that the measured box is nearer to; None where there is no box."""
     if sizes.box_um is None:
         return None
     gap = np.abs(path_um - sizes.box_um)

@@ -38,8 +38,8 @@ class Round(NamedTuple):
 class CutSizes(NamedTuple):
     """Sizes to be shown: a box (2, 2) µm, None where there is none, and radii on arcs of `path`, the largest first.
 
-    There is no box where nothing closes, or where all of it goes into the kerf. `of_path` tells that the box is that of
-    the path, for want of a side that the part lies on.
+    There is no box where nothing closes, or where all of it goes into the kerf. With `of_path` the box is that of the
+    path: nothing tells on which side of it the part lies.
     """
 
     box_um: Floats | None
@@ -94,7 +94,7 @@ def _of_path(toolpath: Toolpath, offset_um: float, pieces: Pieces | None) -> Cut
 
 
 def _sides(toolpath: Toolpath, loops: Loops, pieces: Pieces | None) -> Ints:
-    """Side (k,) that the part lies on: as the lead-in says, without one as the piece says that the loop frees."""
+    """Side (k,) that the part lies on: the lead-in tells; without one, the kind of the piece that the loop frees."""
     side, kinds = loops.part_side.copy(), {one.freed.contour - 1: one.kind for one in pieces.freed} if pieces else {}
     for at in np.flatnonzero(side == 0).tolist():
         kind = kinds.get(int(loops.contour[at]))

@@ -27,9 +27,9 @@ WIRE_WIDTH: Final = 2.2
 STEPS_WIDTH: Final = 1.0
 BORDER_WIDTH: Final = 1.5
 LEAST_APART: Final = 12.0
-"""Of borders that are closer together than this in the mean only some show."""
+"""Where borders are closer together than this on average, only some show."""
 APART: Final = 8.0
-"""From number to number, at least."""
+"""Least gap between two numbers."""
 
 
 def draw_along(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
@@ -99,7 +99,7 @@ def _mark_worst(canvas: Canvas, chart: Chart, samples: Samples, say: Words) -> N
 
 
 def all_show(chart: Chart, toolpath: Toolpath) -> bool:
-    """Whether there is room for all borders; else those at the ends of the numbered blocks show."""
+    """Whether there is room for all borders; where there is not, only numbered blocks have one, at their end."""
     return len(toolpath) * LEAST_APART * chart.unit <= chart.frame.right - chart.frame.left
 
 
@@ -120,7 +120,10 @@ def draw_borders(canvas: Canvas, chart: Chart, toolpath: Toolpath, height: float
 
 
 def numbers(canvas: Canvas, x: Floats, unit: float) -> list[tuple[int, float]]:
-    """Rows whose numbers show, and where, px, between borders `x` (n + 1,): long blocks first, none over another."""
+    """Rows whose numbers show, each with the middle of its number, px; `x` (n + 1,) px are the borders of the blocks.
+
+    No number covers another: that of the longer block stays.
+    """
     blocks = len(x) - 1
     stride = number_stride(blocks)
     rows = np.arange(stride - 1, blocks, stride)

@@ -17,7 +17,7 @@ from sim.show.words.pictures import Words
 
 LEAST_UM: Final = 0.5
 SEEN: Final = 0.25
-"""A tolerance shows where deviations come to this share of it; a wider one would flatten them to a line."""
+"""The scale reaches to the tolerance if deviations come to this share of it: else it would make them a flat line."""
 
 
 def titled(sheet: Sheet[AnyCanvas], samples: Samples, title: str, height_px: float, note: str = "") -> AnyCanvas:

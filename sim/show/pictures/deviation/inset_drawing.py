@@ -14,7 +14,7 @@ from sim.show.pictures.deviation.frame import um
 from sim.show.pictures.deviation.inset import Inset
 
 GRID_APART: Final = 7.0
-"""Lines of the grid are single µm unless they came closer together than this."""
+"""Lines of the grid are single µm unless they would come closer together than this."""
 TENTH: Final = 10
 """Every how manyth line of the grid is darker."""
 IDEAL_WIDTH: Final = 2.4
@@ -24,7 +24,7 @@ TABLE_WIDTH: Final = 1.6
 STEP_DOT: Final = 3.6
 WIRE_DOT: Final = 5.5
 APART: Final = 2.7
-"""Dots show while their middles are so many radii apart."""
+"""Dots show where their middles are at least so many radii apart."""
 SIZE_WIDTH: Final = 2.0
 SIZE_ARROW: Final = 14.0
 
@@ -54,7 +54,7 @@ def _drawn(view: View, points_um: Floats) -> Floats:
 
 
 def grid_um(view: View, unit: float) -> float:
-    """From line to line of the grid: whole µm, or more where they came too close."""
+    """From line to line of the grid: 1 µm, or more where lines would come too close."""
     least_um = GRID_APART * unit / view.px_per_um
     return 1.0 if least_um <= 1.0 else nice_below(least_um * 2.5)
 

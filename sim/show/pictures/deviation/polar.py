@@ -29,13 +29,13 @@ CAPTION: Final = 76.0
 LARGEST: Final = 1.25
 """The most that a single dial is enlarged."""
 CELL: Final = 4.0
-"""Cells of a dial, px: of more samples the lowest and the highest show."""
+"""Width of a cell around a dial, px: of its samples the lowest and the highest show."""
 WIRE_WIDTH: Final = 2.2
 STEPS_WIDTH: Final = 1.0
 LEAST_RADIUS_UM: Final = 20.0
 LEAST_SWEEP_RAD: Final = 1.5 * np.pi
 SAME_UM: Final = 2.5
-"""Arcs of one circle whose words are rounded to whole µm differ by less in centre and radius."""
+"""Two arcs differ by less in centre and radius if they are of one circle and rounded to whole µm."""
 
 
 class Circle(NamedTuple):
@@ -153,7 +153,7 @@ def _draw_dial(canvas: Canvas, dial: Dial, around: Around) -> None:
 
 
 def _cells(dial: Dial, turn: int, angle_rad: Floats, off_um: Floats) -> Columns:
-    """Lowest and highest deviation in cells of the way around, over the direction, which goes on past a whole turn."""
+    """Lowest and highest deviation in each cell around a dial; directions go on past a whole turn."""
     travelled = turn * np.maximum.accumulate(turn * np.unwrap(angle_rad))
     cell = np.floor(turn * (travelled - travelled[0]) * dial.ring_px(0) / (CELL * dial.unit)).astype(np.int64)
     return in_cells(cell, travelled, off_um)

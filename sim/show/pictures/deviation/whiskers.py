@@ -21,17 +21,17 @@ from sim.show.pictures.deviation.samples import Samples
 from sim.show.words.pictures import Words
 
 SHARE: Final = 0.06
-"""How long the longest whisker may be, of the plot's longer side."""
+"""Length of the longest whisker, at most, as a share of the plot's longer side."""
 APART: Final = 6.0
 """From whisker to whisker along the path: the worst of each such stretch shows."""
 ROOM: Final = 0.09
-"""Free border of the plot, of its longer side: whiskers have room in it."""
+"""Free border of the plot, as a share of its longer side: whiskers have room in it."""
 FEW: Final = 0.7
-"""Of the way from whisker to whisker, that from sample to sample from which on all show."""
+"""Where samples are on average at least this share of `APART` from each other, each has its whisker."""
 WIDTH: Final = 2.0
 LEAST_UM: Final = 0.01
 LONGEST: Final = 1e6
-"""Magnification whose text takes as much room as any."""
+"""Magnification that is as long to write as any: it tells how many rows the legend takes."""
 LEAST_SIDE_UM: Final = 100.0
 
 
@@ -100,7 +100,10 @@ def _whiskers(samples: Samples, page: Page, times: float) -> _Whiskers:
 
 
 def _uncovered(samples: Samples, at: Ints, lines: Floats) -> Ints:
-    """Of whiskers (k, 2, 2), in their widths, those that no worse one covers, as where a path runs over itself."""
+    """Which whiskers no worse one covers, rising; `lines` are their ends (k, 2, 2), in widths of a whisker.
+
+    Whiskers lie on each other where a path runs over itself.
+    """
     worst_first = np.argsort(-np.abs(samples.wire_um[at]), kind="stable")
     cells = np.rint(lines[worst_first]).astype(np.int64).reshape(len(at), 4)
     _, first = np.unique(cells, axis=0, return_index=True)
@@ -110,7 +113,7 @@ def _uncovered(samples: Samples, at: Ints, lines: Floats) -> Ints:
 def _shown(samples: Samples, apart_um: float) -> Ints:
     """The worst sample in each stretch of the cut, and in each block that is no shorter than that.
 
-    All show where a stretch has few of them: one of two or none would look like gaps.
+    Where there are few samples all of them: one of the two in a stretch, and none in the next, would look like gaps.
     """
     cut = np.flatnonzero(samples.cutting)
     if float(samples.along_um[-1]) >= FEW * apart_um * len(samples):

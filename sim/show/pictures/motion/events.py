@@ -53,7 +53,8 @@ def marks_of(run: DryRun) -> list[TimeMark]:
 def draw_blocks(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> None:
     """Draw ticks at borders of blocks and numbers between, above a chart whose X axis counts `unit_s`.
 
-    Of many blocks some are shown, and of numbers that would overlap the roundest, or those of the longest blocks.
+    Of many blocks only every 2nd, 5th, 10th … has them. Of numbers that would overlap, the roundest is written, and
+    of those that are as round the one of the longest block.
     """
     stride, top, unit = number_stride(len(run.toolpath)), chart.frame.top, chart.unit
     borders = chart.x_px(_borders_s(run) / unit_s)

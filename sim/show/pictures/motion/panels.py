@@ -113,7 +113,7 @@ def feed_levels(run: DryRun) -> list[Level]:
 
 
 def limit_levels(run: DryRun, quantity: Quantity, key: str, scale: float = 1.0) -> list[Level]:
-    """Limits of both axes where they came nearest to them, times `scale`: one level where they are the same."""
+    """Limits of both axes at the moments when the axes came nearest to them, times `scale`; equal ones as one level."""
     limits = [(peak.limit * scale, peak.axis) for peak in run.peaks if peak.quantity == quantity]
     finite = [(three_figures(value), value, axis) for value, axis in limits if math.isfinite(value)]
     same = {figures: value for figures, value, _ in finite}
