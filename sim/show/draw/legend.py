@@ -42,7 +42,7 @@ class LegendSizes(NamedTuple):
 
 
 class _Placed(NamedTuple):
-    """An entry, its row from 0, and from where to where it may reach, px from the left of the legend."""
+    """An entry, its row from 0, and from where to where it may reach, px from where the legend begins."""
 
     entry: Entry
     row: int
@@ -73,14 +73,14 @@ USUAL: Final = LegendSizes()
 
 
 def in_rows(entries: Sequence[Entry], width_px: float, unit: float, sizes: LegendSizes = USUAL) -> Legend:
-    """Lay out entries in rows, each as full as a page of this width allows with both of its edges free."""
-    letters, room = Letters(), width_px - 2.0 * style.EDGE * unit
+    """Lay out entries in rows from the left of a page, each as full as its width allows, with both edges free."""
+    letters, edge = Letters(), style.EDGE * unit
     placed: list[_Placed] = []
-    row, left = 0, 0.0
+    row, left = 0, edge
     for entry in entries:
         wide = _width(letters, entry, unit, sizes)
-        if left > 0.0 and left + wide > room:
-            row, left = row + 1, 0.0
+        if left > edge and left + wide > width_px - edge:
+            row, left = row + 1, edge
         placed.append(_Placed(entry, row, left, np.inf))
         left += wide + sizes.apart * unit
     return Legend(placed, row + 1, unit, sizes)
@@ -118,21 +118,21 @@ def _width(letters: Letters, entry: Entry, unit: float, sizes: LegendSizes) -> f
 
 
 def draw_legend(canvas: Canvas, legend: Legend, left: float, top: float) -> None:
-    """Draw a legend with its upper left corner at a place of the page, px."""
+    """Draw a legend that begins at a place of the page, px: at its upper left corner."""
     unit, sizes = legend.unit, legend.sizes
     row_px, size = sizes.row * unit, sizes.text * unit
     for entry, row, begin, end in legend.placed:
         above = top + row * row_px
         sample = Box(left + begin, above, left + begin + entry.width * sizes.sample * unit, above + row_px)
         entry.draw(canvas, sample, unit)
-        x = sample.right + style.LEGEND_GAP * unit
+        x = sample.left + (entry.width * sizes.sample + style.LEGEND_GAP) * unit
         text = elide(canvas, entry.text, size, left + end - x)
         canvas.text((x, above + row_px / 2.0), text, size, Paint.INK)
 
 
 def draw_at_foot(canvas: Canvas, legend: Legend) -> None:
     """Draw a legend at the foot of the page."""
-    draw_legend(canvas, legend, style.EDGE * legend.unit, canvas.height_px - legend.foot)
+    draw_legend(canvas, legend, 0.0, canvas.height_px - legend.foot)
 
 
 def stroke(paint: Paint, width: float) -> DrawSample:

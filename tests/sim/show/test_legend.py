@@ -34,7 +34,7 @@ def drawn(legend: Legend, left: float = 0.0, top: float = 0.0) -> list[tuple[Box
 def test_a_row_is_as_full_as_the_page_is_wide() -> None:
     texts = [f"entry {number} of the legend" for number in range(9)]
     legend = in_rows(entries(*texts), WIDTH_PX, 1.0)
-    boxes = drawn(legend, left=style.EDGE)
+    boxes = drawn(legend)
     assert [text for _, text in boxes] == texts
     assert legend.rows == 3
     assert max(box.right for box, _ in boxes) <= WIDTH_PX - style.EDGE

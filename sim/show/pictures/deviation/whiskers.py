@@ -9,7 +9,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import bounds_um, cut_runs, flatten
 from sim.show.draw.furniture import draw_axes, draw_frame
-from sim.show.draw.layout import Box, Page, fitted, nice_below
+from sim.show.draw.layout import Box, Page, centred, nice_below
 from sim.show.draw.legend import Entry, draw_at_foot, in_rows, stroke
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
@@ -86,7 +86,8 @@ def _page(bounds: Floats, width_px: int, unit: float, legend_px: float) -> Page:
     height = min(max((right - left) * tall / wide, low), high)
     plot = Box(left, top, right, top + height)
     room = ROOM * max(right - left, height)
-    return Page(width_px, round(plot.bottom + foot), unit, plot, fitted(bounds, plot, room))
+    scale = min((right - left - 2.0 * room) / wide, (height - 2.0 * room) / tall)
+    return Page(width_px, round(plot.bottom + foot), unit, plot, centred(bounds.mean(axis=0), scale, plot))
 
 
 def _whiskers(samples: Samples, page: Page, times: float) -> _Whiskers:

@@ -75,7 +75,7 @@ def draw_motion(sheet: Sheet[AnyCanvas], run: DryRun) -> AnyCanvas:
     draw_marks(canvas, charts, marks, time.unit_s, layout.signs)
     frame, size = charts[-1].frame, style.TICK * unit
     canvas.text((frame.right, frame.bottom + 2.1 * size), say(time.name), size, Paint.GREY, align=1.0)
-    draw_legend(canvas, legend, style.EDGE * unit, layout.legend)
+    draw_legend(canvas, legend, 0.0, layout.legend)
     return canvas
 
 
