@@ -52,9 +52,9 @@ def whole(deviation: Deviation) -> Part:
     return Part(deviation.max_um, deviation.where) if deviation.max_um > 0.0 else NOTHING
 
 
-def added(trace: Trace, place_um: Floats, across_um: Floats, before_um: Floats) -> Part:
-    """What places (m, 2) add that lie (m,) across the path, to what lay (m,) `before_um` across it."""
-    return _largest(trace, place_um, np.abs(across_um - before_um))
+def added(trace: Trace, place_um: Floats, off_um: Floats, before_um: Floats) -> Part:
+    """What a stage adds: its places (m, 2) lie (m,) from the path, those of the stage before it `before_um` (m,)."""
+    return _largest(trace, place_um, np.abs(off_um - before_um))
 
 
 def carried(toolpath: Toolpath, trace: Trace, drift_um: Floats, along_um: Floats) -> Part:
