@@ -94,6 +94,11 @@ class DryRun:
     coverage: Coverage
 
     @property
+    def border_s(self) -> Floats:
+        """(n + 1,) float64, planned times at which the blocks begin, and the end of the last one."""
+        return np.concatenate([[0.0], np.cumsum(self.block_time_s)])
+
+    @property
     def tripped(self) -> Loss | None:
         """Where a drive tripped; None where none did."""
         return next((loss for loss in self.losses if loss.kind == "trip"), None)

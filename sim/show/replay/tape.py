@@ -2,7 +2,8 @@
 
 Steps are coded one byte each by the way they go. The time from the step before is nearly that of the last step of the
 same way, since a staircase repeats itself, and only the difference is kept, in whole ticks since the start: nothing
-adds up. Places of the table are kept from where the steps command it, those of the wire from the table.
+adds up. Places of the table are kept from where the steps command it, those of the wire from the table. For the
+deviation of the wire the tape has the block that each sample is measured from: the page looks for no block itself.
 """
 
 from typing import Any, NamedTuple
@@ -33,9 +34,10 @@ class _Before(NamedTuple):
     took: Ints
 
 
-def tape(steps: Pulses, origin_um: tuple[int, int], trace: Trace) -> dict[str, Any]:
+def tape(steps: Pulses, origin_um: tuple[int, int], trace: Trace, foot_row: Ints) -> dict[str, Any]:
     """Steps from an origin and samples as a page reads them, texts in base64 and numbers.
 
+    `foot_row` (m,) is the row of the block that the wire's deviation is measured from at each of the m samples.
     The columns of `steps` may be mapped from files; they are gone through once, in bounded memory.
     """
     moves, times = Packer(), Packer()
@@ -59,6 +61,7 @@ def tape(steps: Pulses, origin_um: tuple[int, int], trace: Trace) -> dict[str, A
         "samples": len(sampled),
         "sample_ticks": _packed(np.diff(sampled, n=2, prepend=[0, 0])),
         **_places(trace, _commanded(steps, origin_um, done)),
+        "foot_row": _changes(foot_row),
     }
 
 

@@ -4,7 +4,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Floats
+from sim.run.course import stops_of
 from sim.run.dryrun import DryRun
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
@@ -38,10 +38,7 @@ class _Label(NamedTuple):
 
 def marks_of(run: DryRun) -> list[Mark]:
     """Losses of a run, with the codes of their findings and the axes, and pauses."""
-    ends_s, stops = _borders_s(run), run.toolpath.stops
-    pauses = [
-        Mark(float(ends_s[stop.after]), "motion_pause", "D", Paint.PAUSE) for stop in stops if stop.kind == "pause"
-    ]
+    pauses = [Mark(one.t_s, "motion_pause", "D", Paint.PAUSE) for one in stops_of(run) if one.what.kind == "pause"]
     losses = [
         Mark(loss.t_s, _LOSSES[loss.kind][0], f"{_LOSSES[loss.kind][1]} {loss.axis.name}", Paint.ERROR)
         for loss in run.losses
@@ -56,7 +53,7 @@ def draw_blocks(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> Non
     Of many blocks some are shown, and of numbers that would overlap the roundest, or those of the longest blocks.
     """
     stride, top, unit = number_stride(len(run.toolpath)), chart.frame.top, chart.unit
-    borders = chart.x_px(_borders_s(run) / unit_s)
+    borders = chart.x_px(run.border_s / unit_s)
     for x in borders[::stride].tolist():
         canvas.polyline(np.array([[x, top - TICK * unit], [x, top]]), Paint.GREY, LINE_WIDTH * unit)
     rows = np.arange(stride - 1, len(run.toolpath), stride)
@@ -81,10 +78,6 @@ def draw_marks(canvas: Canvas, charts: list[Chart], marks: list[Mark], unit_s: f
             canvas.dashed(line, paint, LINE_WIDTH * unit, 0.5 * style.DASH * unit, 0.5 * style.DASH_GAP * unit)
     labels = [_Label(at, mark.sign, mark.paint) for at, mark in zip(x, marks, strict=True)]
     _draw_labels(canvas, charts[0], labels, y)
-
-
-def _borders_s(run: DryRun) -> Floats:
-    return np.concatenate([[0.0], np.cumsum(run.block_time_s)])
 
 
 def _draw_labels(canvas: Canvas, chart: Chart, labels: list[_Label], y: float) -> None:

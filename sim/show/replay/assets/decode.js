@@ -110,7 +110,7 @@
     return result;
   }
 
-  /** Samples: where the axes were commanded, where the table stood, and where the wire cut. */
+  /** Samples: where axes were commanded, the table stood and the wire cut, and the row its deviation is measured from. */
   function samplesOf(tape, columns, steps) {
     const t = sampleTimes(tape, columns.sample_ticks);
     const { commandedX, commandedY } = commandedAt(t, steps);
@@ -118,13 +118,14 @@
     const tableY = beside(commandedY, columns.table_y, tape.grain_um);
     const wireX = columns.wire_x ? beside(tableX, columns.wire_x, tape.grain_um) : tableX;
     const wireY = columns.wire_y ? beside(tableY, columns.wire_y, tape.grain_um) : tableY;
-    return { t, tableX, tableY, wireX, wireY, commandedX, commandedY };
+    const footRow = beside(new Float64Array(tape.samples), columns.foot_row, 1);
+    return { t, tableX, tableY, wireX, wireY, commandedX, commandedY, footRow };
   }
 
   /** Replay of a document: {doc, steps, x, y, t, xSteps, samples}. */
   async function decode(doc) {
     const tape = doc.tape;
-    const packed = ["sample_ticks", "table_x", "table_y", "wire_x", "wire_y"].filter((name) => tape[name] !== null);
+    const packed = ["sample_ticks", "table_x", "table_y", "wire_x", "wire_y", "foot_row"].filter((name) => tape[name] !== null);
     const [ways, stepTicks, ...rest] = await Promise.all(
       [tape.moves, tape.step_ticks, ...packed.map((name) => tape[name])].map(inflated),
     );

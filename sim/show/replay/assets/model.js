@@ -3,11 +3,6 @@
   "use strict";
   const Drycut = (root.Drycut = root.Drycut || {});
 
-  /** Blocks to look back at for the deviation of a wire that trails, as sim/measure/deviation/across.py does. */
-  const MOST_BACK = 50;
-  /** Another block counts where it is nearer by more than rounding: of two as near, the one that is running. */
-  const NEARER_UM = 1e-6;
-
   /** How many of the entries of a rising column are no more than a value. */
   function countUpTo(column, value) {
     let low = 0;
@@ -23,17 +18,15 @@
   /** A value put between two bounds. */
   const held = (value, low, high) => Math.min(Math.max(value, low), high);
 
-  /** The plan at a time: length done, and speed. */
-  function planned(plan, t) {
+  /** Planned speed at a time. */
+  function plannedSpeed(plan, t) {
     const phases = plan.speed_um_s.length;
-    if (!phases) return { along: 0, speed: 0 };
+    if (!phases || t > plan.t_s[phases]) return 0;
     const at = held(countUpTo(plan.t_s, t) - 1, 0, phases - 1);
-    const dt = held(t, 0, plan.t_s[phases]) - plan.t_s[at];
+    const dt = t - plan.t_s[at];
     const [v, a] = [plan.speed_um_s[at], plan.acceleration_um_s2[at]];
     const j = plan.jerk_um_s3 ? plan.jerk_um_s3[at] : 0;
-    const along = plan.along_um[at] + dt * (v + dt * (a / 2 + (dt * j) / 6));
-    const speed = t > plan.t_s[phases] ? 0 : Math.max(v + dt * (a + (dt * j) / 2), 0);
-    return { along: held(along, plan.along_um[at], plan.along_um[at + 1]), speed };
+    return Math.max(v + dt * (a + (dt * j) / 2), 0);
   }
 
   /** Between which samples a time lies, and how far from the first to the second. */
@@ -53,8 +46,6 @@
     const { doc, samples } = replay;
     const blocks = doc.blocks;
     const rows = blocks.kind.length;
-    const before = new Float64Array(rows + 1);
-    for (let row = 0; row < rows; row++) before[row + 1] = before[row] + blocks.length_um[row];
 
     /** Number of steps done by a time. */
     const stepAt = (t) => Math.max(countUpTo(replay.t, t) - 1, 0);
@@ -79,7 +70,6 @@
       const t = held(time, 0, doc.duration_s);
       const [step, row] = [stepAt(t), blockAt(t)];
       const sample = sampleAt(samples, t);
-      const { along, speed } = planned(doc.plan, t);
       return {
         t,
         step,
@@ -88,34 +78,22 @@
         y: replay.y[step],
         wire: [between(samples.wireX, sample), between(samples.wireY, sample)],
         table: [between(samples.tableX, sample), between(samples.tableY, sample)],
-        feed_um_s: speed,
+        feed_um_s: plannedSpeed(doc.plan, t),
         count_left: countLeft(row, step),
         remaining_s: doc.duration_s - t,
-        along,
       };
     }
 
     /** What the controller looked at before a step: see decisions.js. */
     const decision = (step) => Drycut.decision(replay, step, blockOfStep(step));
 
-    /** First row that a wire so far from its command may still be cutting in. */
-    function earliestRow(row, reach) {
-      const found = reach < before[row] ? countUpTo(before, reach) - 1 : row;
-      return Math.max(found, row - MOST_BACK, 0);
-    }
-
-    /** How far the wire is from the ideal curve of its block: {um, foot, row}. */
+    /** How far the wire is from the ideal path, and from which place on it: {um, foot}; between samples both go straight. */
     function deviation(t) {
-      const { wire, x, y, along, block } = stateAt(t);
-      let best = Drycut.nearest(blocks, block, ...wire);
-      const first = earliestRow(block, along - 2 * Math.hypot(wire[0] - x, wire[1] - y));
-      const others = [held(block + best.beyond, 0, rows - 1)];
-      for (let row = block - 1; row >= first; row--) others.push(row);
-      for (const row of others) {
-        const other = Drycut.nearest(blocks, row, ...wire);
-        if (other.um < best.um - NEARER_UM) best = other;
-      }
-      return { um: best.um, foot: best.foot, row: best.row };
+      const sample = sampleAt(samples, held(t, 0, doc.duration_s));
+      const { wireX, wireY, footRow } = samples;
+      const [here, next] = [sample.at, sample.next].map((at) => Drycut.foot(blocks, footRow[at], wireX[at], wireY[at]));
+      const foot = [0, 1].map((axis) => here[axis] + sample.share * (next[axis] - here[axis]));
+      return { um: Math.hypot(between(wireX, sample) - foot[0], between(wireY, sample) - foot[1]), foot };
     }
 
     const duration = doc.duration_s;
