@@ -9,8 +9,7 @@ from controller.card.log import CardLog
 from parser.program import Program
 from sim.files import StepFiles, staged, write_npz
 from sim.run.dryrun import DryRun, dry_run
-from sim.run.judge import check_expectations
-from sim.run.recording import Recording, recording_of
+from sim.run.recording import Recording, check_expectations, recording_of
 from sim.run.report import build_report, report_text
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels

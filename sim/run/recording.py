@@ -3,6 +3,7 @@
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,7 +15,8 @@ from sim.cut.pieces.pieces import Frame, Pieces
 from sim.cut.remains import pieces_left
 from sim.files import StepFiles
 from sim.run.dryrun import DryRun, dry_run
-from sim.run.judge import check_expectations
+from sim.run.report import build_report
+from sim.setup.expectations import compare
 from sim.setup.scenario import Scenario
 from sim.table.motion import Progress
 
@@ -59,6 +61,12 @@ def recorded(program: Program, scenario: Scenario, progress: Progress) -> Iterat
         with StepFiles(Path(folder)) as files:
             run = check_expectations(dry_run(program, scenario, progress, files))
         yield recording_of(run, files.paths, progress)
+
+
+def check_expectations(run: DryRun) -> DryRun:
+    """The run, with a finding for each expectation of its scenario that it does not meet."""
+    expected = run.scenario.expect
+    return replace(run, findings=(*run.findings, *compare(build_report(run), expected))) if expected else run
 
 
 def pieces_of_run(run: DryRun) -> Pieces:

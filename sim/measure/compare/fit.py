@@ -16,7 +16,7 @@ from parser.geometry.feet import feet
 from sim.measure.compare.nearest import Index, nearest
 from sim.measure.compare.placement import Placement, turning
 from sim.measure.compare.spread import Spread, spread
-from sim.measure.compare.starts import Group, Motion, groups, starts
+from sim.measure.compare.starts import Group, RigidMotion, groups, starts
 
 _NEXT_STARTS, _NEXT_LEAST_TURNED = 6, 2
 _STILL_UM, _STILL = 1e-7, 1e-6  # µm, and of the root mean square where much is left: a step that moves no more
@@ -44,7 +44,7 @@ _MOST_PLACES = 40_000
 class _Fitted(NamedTuple):
     """A motion with the root mean square and the largest of the distances that it leaves."""
 
-    motion: Motion
+    motion: RigidMotion
     rms_um: float
     max_um: float
 
@@ -96,7 +96,7 @@ def _fitted(edge: Curves, edge_loop: Ints, index: Index, drawing_loop: Ints) -> 
     return last
 
 
-def _stepped(index: Index, edge: Curves, motions: list[Motion], stage: _Stage) -> list[_Fitted]:
+def _stepped(index: Index, edge: Curves, motions: list[RigidMotion], stage: _Stage) -> list[_Fitted]:
     """The motions after the steps of a stage, with its places of the edge."""
     number = stage.places
     places = spread(edge, number)
@@ -106,7 +106,7 @@ def _stepped(index: Index, edge: Curves, motions: list[Motion], stage: _Stage) -
     return [_descended(index, places, motion, stage) for motion in motions]
 
 
-def _descended(index: Index, of: Spread, motion: Motion, stage: _Stage) -> _Fitted:
+def _descended(index: Index, of: Spread, motion: RigidMotion, stage: _Stage) -> _Fitted:
     best = _Fitted(motion, np.inf, np.inf)
     for _ in range(stage.steps):
         place = motion.of(of.place_um)
@@ -120,7 +120,7 @@ def _descended(index: Index, of: Spread, motion: Motion, stage: _Stage) -> _Fitt
     return best
 
 
-def _step(curves: Curves, place: Floats, row: Ints, weight: Floats, motion: Motion) -> tuple[Motion, float]:
+def _step(curves: Curves, place: Floats, row: Ints, weight: Floats, motion: RigidMotion) -> tuple[RigidMotion, float]:
     """The motion after one step of least squares, and by how much it moves places, µm."""
     across, distance = _across(curves, row, place)
     middle = weight @ place / weight.sum()
@@ -135,7 +135,7 @@ def _step(curves: Curves, place: Floats, row: Ints, weight: Floats, motion: Moti
     by = -inverse @ (share.T @ distance)
     turn = float(np.clip(by[0] / size, -_LARGEST_TURN_RAD, _LARGEST_TURN_RAD))
     matrix = turning(turn)
-    moved = Motion(matrix @ motion.matrix, matrix @ (motion.shift_um - middle) + middle + by[1:])
+    moved = RigidMotion(matrix @ motion.matrix, matrix @ (motion.shift_um - middle) + middle + by[1:])
     return moved, float(np.abs(by).max())
 
 
@@ -151,7 +151,7 @@ def _across(curves: Curves, row: Ints, place: Floats) -> tuple[Floats, Floats]:
     return way, (way * by).sum(axis=1)
 
 
-def _different(tried: list[_Fitted], drawing: Group) -> list[Motion]:
+def _different(tried: list[_Fitted], drawing: Group) -> list[RigidMotion]:
     """The best motions of different kinds: of those that nearly agree one, turned or not, mirrored or not.
 
     With them the least turned ones: a part that looks the same after many turns fits as well by each, but for rounding.
@@ -173,7 +173,7 @@ def _turned(fitted: _Fitted) -> tuple[bool, float]:
     return fitted.mirror, abs(fitted.turn_rad)
 
 
-def _agree(one: Motion, other: Motion, length_um: float) -> bool:
+def _agree(one: RigidMotion, other: RigidMotion, length_um: float) -> bool:
     apart = np.abs(one.matrix - other.matrix).max() * length_um + np.abs(one.shift_um - other.shift_um).max()
     return bool(apart < 1e-4 * length_um)
 

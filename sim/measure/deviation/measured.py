@@ -10,8 +10,7 @@ from parser.geometry.curves import Floats
 from sim.measure.deviation.across import across_um, summed
 from sim.measure.deviation.causes import NOTHING, Causes, added, carried, cut_off, whole
 from sim.measure.deviation.deviation import Deviation
-from sim.measure.deviation.meters import Sampling, SamplingMeter, StepMeters
-from sim.measure.deviation.stepped import StepTally
+from sim.measure.deviation.meters import Sampling, SamplingMeter, StepMeters, StepTally
 from sim.table.motion import Motion
 from sim.table.trace import Trace
 

@@ -247,6 +247,14 @@ def test_what_happens_is_told_when_it_does(course: Course) -> None:
     assert told(course, course.duration_s, SPEED, say).value == "end of the program"
 
 
+def test_of_what_falls_together_the_finding_is_told() -> None:
+    scenario = load_scenario(SCENARIOS / "drops-early")
+    with recorded(read_program(scenario.program), scenario, silent) as recording:
+        course = course_of(recording)
+    (piece,) = course.pieces
+    assert told(course, piece.t_s + 1e-6, 1.0, Words("en")).value.startswith("3B406")
+
+
 def test_a_trip_ends_the_run_and_says_so(tripped: Course) -> None:
     trip = tripped.run.tripped
     assert trip is not None

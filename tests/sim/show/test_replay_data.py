@@ -32,8 +32,7 @@ from sim.setup.scenario import load_scenario
 from sim.setup.wire import Wire
 from sim.show.replay import tape as tape_module
 from sim.show.replay.document import replay_document
-from sim.show.replay.packed import Packer, varints
-from sim.show.replay.tape import GRAIN_UM, TICK_S, tape
+from sim.show.replay.tape import GRAIN_UM, TICK_S, Packer, tape, varints
 from sim.table.trace import Trace
 
 TRIANGLE = "B0B300B300GYL2 B300B200B300GXL4 B300B100B300GXL3 DD"

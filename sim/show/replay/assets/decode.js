@@ -17,7 +17,7 @@
     return new Uint8Array(await new Response(stream).arrayBuffer());
   }
 
-  /** So many signed numbers of a packed column, seven bits a byte, the lowest first (sim/show/replay/packed.py). */
+  /** So many signed numbers of a packed column, seven bits a byte, the lowest first (sim/show/replay/tape.py). */
   function numbers(bytes, count) {
     const values = new Float64Array(count);
     let at = 0;
