@@ -15,7 +15,7 @@ from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
 from sim.show.pictures.cut.of_run import cut_picture
 from sim.show.pictures.inline import inline_pictures
-from sim.show.replay.page import replay_page
+from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
 from sim.table.motion import Progress
 

@@ -26,7 +26,7 @@ from sim.run.prepare import prepare
 from sim.run.recording import Recording, recorded
 from sim.setup.quiz import Question, Said, Written
 from sim.setup.scenario import load_scenario
-from sim.show.replay.page import replay_page
+from sim.show.replay.document import replay_page
 from sim.table.motion import motion_of, origin_um
 from sim.table.trace import Trace
 

@@ -1,5 +1,6 @@
-"""All that the replay's page needs, as plain data."""
+"""The replay's page: all that it needs as plain data, and one file that plays it with nothing to load or install."""
 
+from pathlib import Path
 from typing import Any
 
 from parser.program import Program
@@ -8,6 +9,7 @@ from sim import __version__
 from sim.run.course import course_of
 from sim.run.dryrun import verdict
 from sim.run.recording import Recording
+from sim.show.html.environment import rendered
 from sim.show.replay.block_columns import block_columns, plan_columns
 from sim.show.replay.happenings import contour_entries, finding_entry, loss_entry, stop_entry
 from sim.show.replay.questions import question_entries
@@ -16,6 +18,20 @@ from sim.show.replay.tape import tape
 from sim.table.motion import origin_um
 
 SCHEMA = "drycut.replay/1"
+
+_ASSETS = Path(__file__).with_name("assets")
+_SCRIPTS = (
+    *("decode.js", "decisions.js", "nearest.js", "model.js"),
+    *("words.js", "view.js", "layer.js", "detail.js", "path.js", "scene.js", "kerf.js", "wire.js", "micro.js"),
+    *("scale_bar.js", "stage.js", "player.js", "program.js", "tip.js", "timeline.js", "readouts.js", "findings.js"),
+    *("quiz.js", "keys.js", "pointer.js", "controls.js", "main.js"),
+)
+"""In the order in which they run: each adds to what those before it gave."""
+
+
+def replay_page(recording: Recording) -> str:
+    """HTML of ``replay.html`` for a recorded run."""
+    return rendered(_ASSETS, "replay.html.j2", document=replay_document(recording), scripts=_SCRIPTS)
 
 
 def replay_document(recording: Recording) -> dict[str, Any]:
