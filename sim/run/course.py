@@ -104,7 +104,7 @@ class Course:
     happenings: tuple[Happening[Event], ...]
 
     def at(self, t_s: float) -> Moment:
-        """What_co goes on at a time; times past either end count as that end.
+        """What goes on at a time; times past either end count as that end.
 
         Between two samples the wire goes straight, and so does the place on the path that its deviation is measured
         from. So no moment deviates more than the worse of the two samples beside it.
@@ -189,5 +189,5 @@ def pieces_freed(pieces: Pieces) -> tuple[Happening[Piece], ...]:
 
 
 def losses_of(run: DryRun) -> tuple[Happening[Loss], ...]:
-    """What_co the drives of a run lost."""
+    """What the drives of a run lost."""
     return tuple(Happening(loss.t_s, loss.row, loss) for loss in run.losses)

@@ -34,7 +34,7 @@ class Recording(NamedTuple):
     run
         What came of it.
     pieces
-        What the cut leaves of the work; none where nobody asked for it and it would take minutes.
+        What the cut leaves of the work (`pieces_of_run`).
     steps
         Every pulse, in program coordinates, in arrays that lie in files: take slices of them. The place before the
         first one is `sim.table.motion.origin_um` of the toolpath.
@@ -70,10 +70,9 @@ def check_expectations(run: DryRun) -> DryRun:
 
 
 def pieces_of_run(run: DryRun) -> Pieces:
-    """What the cut leaves of the work.
+    """What the cut leaves of the work, worked out here where the scenario did not ask for it.
 
-    Where the run was not asked for it, it is worked out for those who look; nothing where the path runs so often over
-    itself that this would take minutes.
+    `NO_PIECES` where it did not, and the path runs over itself so often that this would take minutes.
     """
     if run.remains is None and _passes(run) > MOST_PASSES:
         return NO_PIECES

@@ -27,7 +27,7 @@ _EQUAL_RMS_UM, _EQUAL_MAX_UM = 0.1, 1.0
 
 
 class _Stage(NamedTuple):
-    """How many places and steps are taken, and how many times as much as in the end counts as standing still."""
+    """How many places and steps are taken; a motion stands still that is below `rough` times the bounds of the end."""
 
     places: int
     steps: int
@@ -76,7 +76,7 @@ def fit(edge: Curves, edge_loop: Ints, index: Index, drawing_loop: Ints) -> Fit:
     longest = groups(edge, edge_loop)[1:2]
     if whole.rms_um <= _GROSS_UM or not longest or len(longest[0].curves) == len(edge):
         return Fit(_placement(whole), whole.rms_um)
-    # Something is cut that is not drawn, or drawn elsewhere, and has drawn all the rest off its place.
+    # Something is cut that is not drawn, or is drawn elsewhere: the fit of the whole pulls all the rest off its place.
     outline = longest[0].curves
     by_one = _fitted(outline, np.zeros(len(outline), dtype=np.int64), index, drawing_loop)
     if by_one.rms_um > _FAR_BETTER * whole.rms_um:
@@ -140,7 +140,10 @@ def _step(curves: Curves, place: Floats, row: Ints, weight: Floats, motion: Rigi
 
 
 def _across(curves: Curves, row: Ints, place: Floats) -> tuple[Floats, Floats]:
-    """Unit ways (m, 2) across the nearest curves, past their ends toward the place, and distances (m,) along them."""
+    """Unit vectors (m, 2) across the nearest curves, and the distances (m,) of the places along them.
+
+    Past an end of a curve the vector points from that end to the place.
+    """
     foot = feet(curves, row, place).place_um
     heading = headings_at(curves, row, foot)
     way = to_left(heading)
@@ -152,9 +155,9 @@ def _across(curves: Curves, row: Ints, place: Floats) -> tuple[Floats, Floats]:
 
 
 def _different(tried: list[_Fitted], drawing: Group) -> list[RigidMotion]:
-    """The best motions of different kinds: of those that nearly agree one, turned or not, mirrored or not.
+    """The best motions, only one of those that nearly agree, and the least turned ones.
 
-    With them the least turned ones: a part that looks the same after many turns fits as well by each, but for rounding.
+    A part that looks the same after several turns fits equally well by each, but for rounding: the least is wanted.
     """
     kept: list[_Fitted] = []
     least_turned = sorted(tried, key=_turned)[:_NEXT_LEAST_TURNED]

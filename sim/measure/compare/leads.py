@@ -29,8 +29,8 @@ class _Part(NamedTuple):
 def gouges(edge: Edge, leads: Curves, block: Ints, offset_um: float) -> tuple[LeadGouge, ...]:
     """Gouges of leads (m,) made by blocks (m,), each deepest place right to 0.5 µm, by block.
 
-    The kerf reaches the offset past the wire's centre: a wire that stands d inside of the part has cut d and the
-    offset deep, one that stands d outside the offset less d.
+    The kerf reaches the offset past the wire's centre. So a wire that stands d inside of the part has cut as deep as
+    the offset plus d; one that stands d outside, as the offset less d.
     """
     if not len(leads) or not len(edge.curves):
         return ()

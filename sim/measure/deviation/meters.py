@@ -42,8 +42,8 @@ class StepMeters:
     drive
         What is run.
     drift_um
-        (n, 2) how far the steps are off before each block: what the blocks before missed, of an interpolator that
-        starts blocks where the steps of the one before ended, and what the start lies beside whole µm.
+        (n, 2) how far the steps are off when each block begins. The start point may lie between whole µm; and an
+        interpolator that starts a block where the steps of the one before ended carries on what those missed.
     """
 
     def __init__(self, drive: Drive, drift_um: Floats) -> None:

@@ -1,9 +1,9 @@
 """The tape of a replay: every step with its time, and the samples of table and wire, packed for the page.
 
-Steps are coded one byte each by the way they go. The time from the step before is nearly that of the last step of the
-same way, since a staircase repeats itself, and only the difference is kept, in whole ticks since the start: nothing
-adds up. Places of the table are kept from where the steps command it, those of the wire from the table. For the
-deviation of the wire the tape has the block that each sample is measured from: the page looks for no block itself.
+Each step is one byte: which way it goes. A staircase repeats itself, so a step takes about as long as the last step of
+the same way did: the tape has the difference, in ticks. Times are rounded to ticks since the start, so nothing adds
+up. The table is told by where it lies from its command, and the wire by where it lies from the table. For the deviation
+of the wire the tape has the block that each sample is measured from: the page looks for no block itself.
 
 A column of numbers is text: bytes of variable length (LEB128), deflated, in base64.
 """
