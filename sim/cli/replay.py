@@ -140,8 +140,8 @@ def _show(  # noqa: PLR0913, PLR0917 - a run, where to, and how
 
         write_film(output, recording, seconds, fps, look, progress)
     else:
+        from sim.run.course import course_of
         from sim.show.film.clock import FilmClock
-        from sim.show.film.course import course_of
         from sim.show.film.window import Window
 
         course = course_of(recording)

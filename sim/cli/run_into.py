@@ -9,14 +9,13 @@ from controller.card.log.writer import CardLog
 from parser.program import Program
 from sim.files import StepFiles, staged, write_npz
 from sim.run.dryrun import DryRun, dry_run
-from sim.run.judge import check_expectations
-from sim.run.recording import Recording, recording_of
+from sim.run.recording import Recording, check_expectations, recording_of
 from sim.run.report import build_report, report_text
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
 from sim.show.pictures.cut.picture import draw_cut_of_run
 from sim.show.pictures.inline import inline_pictures
-from sim.show.replay.page import replay_page
+from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
 from sim.table.motion import Progress
 

@@ -6,9 +6,9 @@ from typing import Final
 
 from parser.findings.errors import SettingsError
 from sim.files import staged
+from sim.run.course import course_of
 from sim.run.recording import Recording
 from sim.show.film.clock import FilmClock
-from sim.show.film.course import course_of
 from sim.show.film.plate import Pixels
 from sim.show.film.screen import Look, Screen
 from sim.show.film.writers import FORMATS, MOST_HELD_PX, Format, Frames, encoder

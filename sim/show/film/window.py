@@ -6,10 +6,10 @@ import time
 from typing import Final
 
 from parser.findings.errors import SettingsError
+from sim.run.course import Course
 from sim.show.draw.paints import THEMES
 from sim.show.draw.silent_pygame import pygame
 from sim.show.film.controls import Controls
-from sim.show.film.course import Course
 from sim.show.film.help import draw_help
 from sim.show.film.plate import Pixels
 from sim.show.film.playback import Playback

@@ -32,7 +32,6 @@ from sim.show.draw.paints import DARK, LIGHT, Paint
 from sim.show.draw.sheet import drawing, pixels
 from sim.show.pictures.deviation import inset
 from sim.show.pictures.deviation.along import draw_along
-from sim.show.pictures.deviation.feet import feet_um
 from sim.show.pictures.deviation.histogram import bins_of, draw_histogram, path_of_each, shares
 from sim.show.pictures.deviation.inset import STEPS, inset_of
 from sim.show.pictures.deviation.places import APART_UM, worst_places
@@ -167,7 +166,7 @@ def test_nothing_is_measured_past_a_trip_or_on_a_jump() -> None:
 def test_feet_lie_on_the_path_as_far_away_as_the_deviation(name: str) -> None:
     of = of_scenario(name)
     toolpath, row = of.run.toolpath, of.trace.row
-    foot = feet_um(toolpath, row, of.trace.wire_um, of.wire_um)
+    foot = of.foot_um
     assert np.hypot(*(of.trace.wire_um - foot).T) == pytest.approx(np.abs(of.wire_um), abs=1e-6)
     on = np.min([distance(toolpath, np.full(len(row), at), *foot.T) for at in range(len(toolpath))], axis=0)
     assert on.max() < 1e-6

@@ -8,7 +8,6 @@ from controller.stepping.pulses import Pulses
 from parser.geometry.along import places_at
 from parser.geometry.curves import Bools, Floats
 from sim.show.draw.chart import stretches
-from sim.show.pictures.deviation.feet import feet_um
 from sim.show.pictures.deviation.samples import Samples
 from sim.table.motion import origin_um
 
@@ -59,8 +58,7 @@ class Inset(NamedTuple):
 def inset_of(samples: Samples, steps: Pulses, at: int) -> Inset:
     """The place of a sample close up; of the steps of the run only some around it are read."""
     trace = samples.trace
-    one, place = slice(at, at + 1), trace.wire_um[at]
-    foot = feet_um(samples.run.toolpath, trace.row[one], trace.wire_um[one], samples.wire_um[one])[0]
+    place, foot = trace.wire_um[at], samples.foot_um[at]
     side = max(LEAST_SIDE_UM, SIDES * float(np.hypot(*(place - foot))))
     center = (place + foot) / 2.0
     low, high = _reach_um(samples, foot, at, side)

@@ -14,7 +14,6 @@ from sim.show.draw.legend import Entry, draw_at_foot, in_rows, stroke
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.simplify import CHORD_PX, simplify
-from sim.show.pictures.deviation.feet import feet_um
 from sim.show.pictures.deviation.frame import mark_place, titled, tolerance_text, um
 from sim.show.pictures.deviation.places import worst_of
 from sim.show.pictures.deviation.samples import Samples
@@ -93,8 +92,7 @@ def _page(bounds: Floats, width_px: int, unit: float, legend_px: float) -> Page:
 def _whiskers(samples: Samples, page: Page, times: float) -> _Whiskers:
     """The whiskers that show, in the order of the path."""
     at = _shown(samples, APART * page.unit / page.view.px_per_um)
-    toolpath, place = samples.run.toolpath, samples.trace.wire_um[at]
-    foot = feet_um(toolpath, samples.trace.row[at], place, samples.wire_um[at])
+    place, foot = samples.trace.wire_um[at], samples.foot_um[at]
     tip = foot + times * (place - foot)
     seen = _uncovered(samples, at, page.view.to_px(np.stack([foot, tip], axis=1)) / (WIDTH * page.unit))
     return _Whiskers(at[seen], foot[seen], tip[seen])
