@@ -27,7 +27,7 @@ from sim.measure.deviation.stepped import Stepped
 from sim.run.offsetting import Offsetting
 from sim.run.prepare import prepare
 from sim.setup.expectations import Missed
-from sim.setup.part import DrawingAsked
+from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
 from sim.table.motion import Motion, Progress, motion_of, simulate
@@ -180,26 +180,26 @@ def dry_run(
     )
 
 
-def _drawing(held: DrawingAsked | None) -> Drawing | None:
-    if held is None:
+def _drawing(target: DrawingTarget | None) -> Drawing | None:
+    if target is None:
         return None
     from parser.drawing.read import read_drawing  # noqa: PLC0415 - most runs have no drawing, and ezdxf loads for 0.3 s
 
-    return read_drawing(held.file, layer=held.layer, gap_um=held.gap_um)
+    return read_drawing(target.file, layer=target.layer, gap_um=target.gap_um)
 
 
 def _left(
     program: Program, cut: Trace, contours: tuple[Contour, ...], scenario: Scenario, drawing: Drawing | None
 ) -> tuple[Remains | None, Comparison | None, list[Finding]]:
     """What the cut leaves, beside the drawing, with findings; as far as the scenario asks for it."""
-    held = scenario.drawing
-    if not scenario.kerf and held is None:
+    target = scenario.drawing
+    if not scenario.kerf and target is None:
         return None, None, []
     remains = remains_of(program, cut, contours, scenario)
     found = piece_findings(program, remains.pieces)
-    if held is None or drawing is None:
+    if target is None or drawing is None:
         return remains, None, found
-    comparison = held_against(program, remains.pieces, scenario.wire.offset_um, drawing, held)
+    comparison = held_against(program, remains.pieces, scenario.wire.reach_um, drawing, target)
     return remains, comparison, [*found, *drawing_findings(program, comparison)]
 
 

@@ -39,7 +39,7 @@ class Offset(NamedTuple):
     side: Side
 
 
-class DrawingAsked(NamedTuple):
+class DrawingTarget(NamedTuple):
     """Drawing that the cut is held against.
 
     Attributes
@@ -105,9 +105,9 @@ def read_offset(scenario: Mapping[str, Any], where: str) -> Offset | None:
     return Offset(**OFFSET.read_in(scenario, where)) if "offset" in scenario else None
 
 
-def read_drawing(scenario: Mapping[str, Any], where: str, folder: Path) -> DrawingAsked | None:
+def read_drawing_target(scenario: Mapping[str, Any], where: str, folder: Path) -> DrawingTarget | None:
     """Drawing of ``[drawing]``, None where it is left out; its file lies in the folder. SettingsError names the key."""
     if "drawing" not in scenario:
         return None
-    drawing = DrawingAsked(**DRAWING.read_in(scenario, where))
+    drawing = DrawingTarget(**DRAWING.read_in(scenario, where))
     return drawing._replace(file=folder / drawing.file)

@@ -18,9 +18,9 @@ from sim.setup.part import (
     DENSITY_G_CM3,
     DRAWING,
     OFFSET,
-    DrawingAsked,
+    DrawingTarget,
     Offset,
-    read_drawing,
+    read_drawing_target,
     read_offset,
 )
 from sim.setup.quiz import QUIZ, Question, read_quiz
@@ -88,7 +88,7 @@ class Scenario:
     work_um: Outline | None = None
     offset: Offset | None = None
     kerf: bool = False
-    drawing: DrawingAsked | None = None
+    drawing: DrawingTarget | None = None
     density_g_cm3: float = DEFAULT_DENSITY_G_CM3
     quiz: tuple[Question, ...] = ()
     expect: tuple[Expectation, ...] = ()
@@ -162,7 +162,7 @@ def load_scenario(path: Path) -> Scenario:
         wire=read_wire(section(content, "wire", where), f"{where}: [wire]"),
         clamps=read_clamps(content, where),
         offset=read_offset(content, where),
-        drawing=read_drawing(content, where, path),
+        drawing=read_drawing_target(content, where, path),
         quiz=read_quiz(content, where),
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
         **value,

@@ -81,14 +81,14 @@ class Wire:
         return self.diameter_um / 2.0
 
     @property
-    def offset_um(self) -> float:
+    def reach_um(self) -> float:
         """Distance of the cut edge from the wire's centre: radius plus spark gap."""
         return self.radius_um + self.spark_gap_um
 
     @property
     def kerf_um(self) -> float:
         """Width of the slot that the wire leaves."""
-        return 2.0 * self.offset_um
+        return 2.0 * self.reach_um
 
     def lag_um(self, thickness_mm: float) -> float:
         """Lag in work of this thickness. SettingsError where forces bow the wire by more than a lag may be."""

@@ -18,14 +18,14 @@ from sim.measure.compare.compare import compare
 from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.result import Comparison, Place
 from sim.measure.compare.tables import by_block, by_entity
-from sim.setup.part import DrawingAsked
+from sim.setup.part import DrawingTarget
 
 _WHOLE = ("unit-slip", "mirrored", "wrong-side", "offset-missing")
 """What may be wrong with a whole program; terms of the catalogue."""
 
 
 def held_against(
-    program: Program, pieces: Pieces, offset_um: float, drawing: Drawing, held: DrawingAsked
+    program: Program, pieces: Pieces, offset_um: float, drawing: Drawing, target: DrawingTarget
 ) -> Comparison | None:
     """The edge as cut against the drawing; None where nothing came free, so that there is no edge.
 
@@ -34,11 +34,11 @@ def held_against(
     edge = edge_as_cut(program.toolpath, pieces)
     if edge is None:
         return None
-    found = compare(edge, drawing, held.tolerance_um, fitted=held.fit)
+    found = compare(edge, drawing, target.tolerance_um, fitted=target.fit)
     if found.passes:
         return found
     try:
-        exact = compare_program(program.toolpath, offset_um, drawing, held.tolerance_um, fitted=held.fit)
+        exact = compare_program(program.toolpath, offset_um, drawing, target.tolerance_um, fitted=target.fit)
     except SettingsError:  # no edge of its own
         return found
     known = {named.name for named in found.names}

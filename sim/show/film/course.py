@@ -132,7 +132,7 @@ def course_of(recording: Recording) -> Course:
 
 def _outlines(run: DryRun, pieces: tuple[Piece, ...]) -> tuple[shapely.Polygon, ...]:
     """Outlines of pieces with the kerf round them."""
-    grown_um = INTO_KERF * run.scenario.wire.offset_um
+    grown_um = INTO_KERF * run.scenario.wire.reach_um
     plain = [shapely.simplify(piece.outline_um, PLAIN_UM) for piece in pieces]
     return tuple(shapely.buffer(one, grown_um, quad_segs=4) for one in plain)
 
