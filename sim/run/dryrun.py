@@ -27,7 +27,7 @@ from sim.measure.deviation.meters import BlockSteps
 from sim.run.offsetting import Offsetting
 from sim.run.prepare import prepare
 from sim.setup.expectations import Missed
-from sim.setup.part import DrawingAsked
+from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
 from sim.table.motion import Motion, Progress, motion_of, simulate
@@ -185,7 +185,7 @@ def dry_run(
     )
 
 
-def _drawing(target: DrawingAsked | None) -> Drawing | None:
+def _drawing(target: DrawingTarget | None) -> Drawing | None:
     if target is None:
         return None
     from parser.drawing.read import read_drawing  # noqa: PLC0415 - most runs have no drawing, and ezdxf loads for 0.3 s
@@ -204,7 +204,7 @@ def _left(
     found = piece_findings(program, remains.pieces)
     if target is None or drawing is None:
         return remains, None, found
-    comparison = compare_cut(program, remains.pieces, scenario.wire.offset_um, drawing, target)
+    comparison = compare_cut(program, remains.pieces, scenario.wire.reach_um, drawing, target)
     return remains, comparison, [*found, *drawing_findings(program, comparison)]
 
 

@@ -105,7 +105,7 @@ def _interpolator(  # noqa: PLR0913, PLR0917 - what a stretch is made of
     if steps is not None:
         first, at = rows[0], start.at_um[:2]
         offset = first.offset_um if isinstance(first, Stepped) else 0.0
-        stepped = PointByPoint(steps, plan, start.clock_s, at, done=steps_made(first), offset_um=offset)
+        stepped = PointByPoint(steps, plan, start.clock_s, at, done=steps_made(first), from_um=offset)
         return stepped, start.clock_s + plan.duration_s
     clock = Clock(settings.servo_period_s, start.clock_s)
     last = max(clock.first_from(plan.duration_s), clock.first_after(start.clock_s))

@@ -18,14 +18,14 @@ from sim.measure.compare.compare import compare
 from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.result import Comparison, Place
 from sim.measure.compare.tables import by_block, by_entity
-from sim.setup.part import DrawingAsked
+from sim.setup.part import DrawingTarget
 
 _WHOLE = ("unit-slip", "mirrored", "wrong-side", "offset-missing")
 """What may be wrong with a whole program; terms of the catalogue."""
 
 
 def compare_cut(
-    program: Program, pieces: Pieces, offset_um: float, drawing: Drawing, target: DrawingAsked
+    program: Program, pieces: Pieces, offset_um: float, drawing: Drawing, target: DrawingTarget
 ) -> Comparison | None:
     """The edge as cut beside the drawing; None where nothing came free, so that there is no edge.
 

@@ -41,7 +41,7 @@ class PieceDrawn(NamedTuple):
 
 def outlines_um(course: Course) -> list[shapely.Polygon]:
     """Outlines of the pieces of a run with the kerf round them."""
-    grown_um = INTO_KERF * course.run.scenario.wire.offset_um
+    grown_um = INTO_KERF * course.run.scenario.wire.reach_um
     plain = [shapely.simplify(piece.what.outline_um, PLAIN_UM) for piece in course.pieces]
     return [shapely.buffer(outline, grown_um, quad_segs=4) for outline in plain]
 

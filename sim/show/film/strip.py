@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 
 from parser.findings.codes import Severity
+from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.toolpath import Stop
 from sim.cut.pieces.pieces import Piece

@@ -25,7 +25,7 @@ def scene(run: DryRun) -> dict[str, Any]:
         "machine": scenario.machine.name,
         "interpolator": scenario.machine.controller.interpolation,
         "wire_diameter_um": rounded(scenario.wire.diameter_um),
-        "offset_um": rounded(scenario.wire.offset_um),
+        "offset_um": rounded(scenario.wire.reach_um),
         "thickness_mm": scenario.thickness_mm,
         "travel_um": np.round(setup.room_um, 6).tolist(),
         "work_um": None if scenario.work_um is None else _corners(scenario.work_um),

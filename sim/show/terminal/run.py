@@ -167,10 +167,10 @@ def _piece(piece: Piece) -> str:
 
 def _drawing(run: DryRun) -> list[Row]:
     """How far the cut lies from its drawing."""
-    held, found = run.scenario.drawing, run.comparison
-    if held is None or found is None:
+    target, found = run.scenario.drawing, run.comparison
+    if target is None or found is None:
         return []
-    allowed = f"{held.tolerance_um:g} µm allowed"
+    allowed = f"{target.tolerance_um:g} µm allowed"
     names = [("", named.text) for named in found.names]
     return [(f"off {found.drawing.name}", f"{found.max_um:,.2f} µm at most, {allowed}"), *names]
 

@@ -24,7 +24,7 @@ from parser.program import parse_program, read_program
 from sim.measure.deviation.deviation import distance
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recorded
-from sim.setup.part import DrawingAsked
+from sim.setup.part import DrawingTarget
 from sim.setup.scenario import load_scenario
 from sim.show.draw.dial import NOMINAL, RING, RINGS
 from sim.show.draw.layout import Box
@@ -271,7 +271,7 @@ def test_numbers_of_200_blocks_never_overlap() -> None:
 
 def test_tolerance_is_the_drawing_s_where_there_is_one() -> None:
     of = samples(SLOT)
-    asked = replace(of.run.scenario, drawing=DrawingAsked(Path("part.dxf"), tolerance_um=1.5))
+    asked = replace(of.run.scenario, drawing=DrawingTarget(Path("part.dxf"), tolerance_um=1.5))
     given = replace(of, run=replace(of.run, scenario=asked))
     for drawn, text, tolerance_um in ((of, "±5 µm (default)", 5.0), (given, "±1.5 µm, of the drawing", 1.5)):
         canvas = draw_along(recording_sheet(), drawn)

@@ -91,7 +91,7 @@ def swept(course: Course, until_s: float) -> shapely.Geometry:
     trace = course.trace.until(until_s)
     way, cuts = trace.wire_um, ~course.run.toolpath.is_jump[trace.row[1:]]
     lines = shapely.line_merge(shapely.union_all(shapely.linestrings(np.stack([way[:-1], way[1:]], axis=1)[cuts])))
-    return shapely.buffer(shapely.simplify(lines, 0.5), course.run.scenario.wire.offset_um, quad_segs=16)
+    return shapely.buffer(shapely.simplify(lines, 0.5), course.run.scenario.wire.reach_um, quad_segs=16)
 
 
 def depth_px(region: shapely.Geometry, screen: Screen) -> np.ndarray:
