@@ -10,7 +10,7 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.paints import LIGHT, Theme
 from sim.show.draw.raster import Raster
 from sim.show.draw.svg import Svg
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 AnyCanvas = TypeVar("AnyCanvas", bound=Canvas)
 

@@ -11,7 +11,7 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import Paint
 from sim.show.film.marks import draw_commanded, draw_wire
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 ROW: Final = 38.0
 SAMPLE: Final = 44.0
@@ -56,9 +56,9 @@ def _entries(canvas: Canvas, unit: float, say: Words, shown: Shown) -> list[_Ent
         canvas.polyline(np.concatenate([corners, corners[:1]]), Paint.SLUG_EDGE, style.GRID_WIDTH * unit)
 
     return [
-        _Entry(lambda center: draw_wire(canvas, center, 0.0, unit), say("film_wire")),
-        _Entry(lambda center: draw_commanded(canvas, center, 0.8 * unit), say("film_commanded")),
-        _Entry(across(Paint.KERF, 2.0 * style.KERF_WIDTH_MIN), say("film_kerf_wider" if shown.wider else "film_kerf")),
-        _Entry(across(Paint.GREY, style.IDEAL_WIDTH), say("film_ideal")),
-        *([_Entry(piece, say("film_free_piece"))] if shown.pieces else []),
+        _Entry(lambda center: draw_wire(canvas, center, 0.0, unit), say("film.wire")),
+        _Entry(lambda center: draw_commanded(canvas, center, 0.8 * unit), say("film.commanded")),
+        _Entry(across(Paint.KERF, 2.0 * style.KERF_WIDTH_MIN), say("film.kerf_wider" if shown.wider else "film.kerf")),
+        _Entry(across(Paint.GREY, style.IDEAL_WIDTH), say("film.ideal")),
+        *([_Entry(piece, say("film.free_piece"))] if shown.pieces else []),
     ]

@@ -5,7 +5,7 @@ from typing import NamedTuple
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.labels import Room
 from sim.show.draw.layout import Page
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 
 class Board(NamedTuple):

@@ -21,7 +21,7 @@ from sim.show.pictures.cut.plan import Plan, kerf_px, plan_of
 from sim.show.pictures.cut.size_lines import draw_extents, draw_rounds
 from sim.show.pictures.cut.subject import Cut
 from sim.show.pictures.cut.table import draw_border, draw_table
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 _BARE: Final = Margins(0.0, 0.0, 0.0, 0.0)
 _THUMBNAIL: Final = Margins(*(style.THUMBNAIL_PAD,) * 4)

@@ -15,7 +15,7 @@ from sim.show.draw.letters import Letters
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 COLUMN_GAP: Final = 44.0
 
@@ -145,14 +145,14 @@ def figures_text(say: Words, samples: Samples) -> str:
     """The figures of a run in a line: the largest deviation of its wire, where it was, and what 95 % keep to."""
     at = samples.worst
     if at is None:
-        return say("deviation_nothing_cut")
-    most = say("deviation_most", most=um(samples.max_um), block=samples.where(at).block)
-    return f"{most} · {say('deviation_p95', p95=um(samples.p95_um))}"
+        return say("deviation.nothing_cut")
+    most = say("deviation.most", most=um(samples.max_um), block=samples.where(at).block)
+    return f"{most} · {say('deviation.p95', p95=um(samples.p95_um))}"
 
 
 def tolerance_text(say: Words, samples: Samples) -> str:
     """What the legend says of the tolerance."""
-    key = "deviation_tolerance_default" if samples.run.scenario.drawing is None else "deviation_tolerance"
+    key = "deviation.tolerance_default" if samples.run.scenario.drawing is None else "deviation.tolerance"
     return say(key, tolerance=f"{samples.tolerance_um:g}")
 
 

@@ -27,7 +27,7 @@ from sim.show.pictures.deviation.frame import (
 )
 from sim.show.pictures.deviation.places import worst_of
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 SHARE: Final = 0.06
 """How long the longest whisker may be, of the plot's longer side."""
@@ -63,7 +63,7 @@ def draw_whiskers(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     page = _page(bounds, sheet.width_px, unit, legend_px)
     times = magnification(samples, page)
     legend = legend_of(_entries(say, samples, unit, times, page.view.px_per_um), sheet.width_px, unit)
-    canvas = titled(sheet, samples, say("deviation_whiskers"), page.height_px)
+    canvas = titled(sheet, samples, say("deviation.whiskers"), page.height_px)
     draw_frame(canvas, page)
     draw_axes(canvas, page)
     whiskers = _whiskers(samples, page, times)
@@ -152,7 +152,7 @@ def _mark_worst(canvas: Canvas, page: Page, samples: Samples, whiskers: _Whisker
     if worst is None:
         return
     tip = page.view.to_px(whiskers.tip_um[np.searchsorted(whiskers.at, worst)])
-    text = say("deviation_largest", most=um(samples.wire_um[worst], signed=True), block=samples.where(worst).block)
+    text = say("deviation.largest", most=um(samples.wire_um[worst], signed=True), block=samples.where(worst).block)
     mark_place(canvas, page.plot, tip, text, page.unit)
 
 
@@ -169,8 +169,8 @@ def _entries(say: Words, samples: Samples, unit: float, times: float, px_per_um:
             canvas.polyline(end + np.array([[0.0, -tick], [0.0, tick]]), Paint.INK, WIDTH * unit)
 
     return [
-        Entry(scale, say("deviation_magnified", size=f"{size_um:g}", times=f"{times:,.0f}")),
-        Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH * unit), say("deviation_ideal")),
-        Entry(stroke(Paint.ACTUAL, WIDTH * unit), say("deviation_inside")),
-        Entry(stroke(Paint.ERROR, WIDTH * unit), say("deviation_outside", tolerance=tolerance_text(say, samples))),
+        Entry(scale, say("deviation.magnified", size=f"{size_um:g}", times=f"{times:,.0f}")),
+        Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH * unit), say("deviation.ideal")),
+        Entry(stroke(Paint.ACTUAL, WIDTH * unit), say("deviation.inside")),
+        Entry(stroke(Paint.ERROR, WIDTH * unit), say("deviation.outside", tolerance=tolerance_text(say, samples))),
     ]

@@ -16,7 +16,7 @@ ROW: Final = 30.0
 """Height of a row of numbers or signs."""
 TICK: Final = 9.0
 LINE_WIDTH: Final = 1.5
-_LOSSES: Final = {"lost-steps": ("motion_lost", "3B402"), "trip": ("motion_trip", "3B403")}
+_LOSSES: Final = {"lost-steps": ("motion.lost", "3B402"), "trip": ("motion.trip", "3B403")}
 
 
 class Mark(NamedTuple):
@@ -40,7 +40,7 @@ def marks_of(run: DryRun) -> list[Mark]:
     """Losses of a run, with the codes of their findings and the axes, and pauses."""
     ends_s, stops = _borders_s(run), run.toolpath.stops
     pauses = [
-        Mark(float(ends_s[stop.after]), "motion_pause", "D", Paint.PAUSE) for stop in stops if stop.kind == "pause"
+        Mark(float(ends_s[stop.after]), "motion.pause", "D", Paint.PAUSE) for stop in stops if stop.kind == "pause"
     ]
     losses = [
         Mark(loss.t_s, _LOSSES[loss.kind][0], f"{_LOSSES[loss.kind][1]} {loss.axis.name}", Paint.ERROR)

@@ -15,7 +15,7 @@ from sim.show.draw.letters import Letters
 from sim.show.draw.paints import Paint
 from sim.show.pictures.motion.curves import draw_envelope
 from sim.show.pictures.motion.events import Mark
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 from sim.table.record.bins import Envelope
 
 BETWEEN: Final = 40.0
@@ -43,9 +43,9 @@ def legend_rows(marks: list[Mark], stride: int, say: Words, width_px: int, unit:
         sample = max(style.SAMPLE * unit, letters.width(sign, style.NUMBER * unit))
         return Entry(draw, text, sample, letters.width(text, style.TEXT * unit))
 
-    number = say("motion_number") if stride == 1 else say("motion_number_every", stride=stride)
+    number = say("motion.number") if stride == 1 else say("motion.number_every", stride=stride)
     entries = [
-        *(entry(partial(_axis, axis, unit), say("motion_axis", axis=axis.name)) for axis in (Axis.X, Axis.Y)),
+        *(entry(partial(_axis, axis, unit), say("motion.axis", axis=axis.name)) for axis in (Axis.X, Axis.Y)),
         entry(partial(_sign, "12", Paint.GREY, unit), number),
         *(entry(partial(_sign, sign, paint, unit), say(name), sign) for name, sign, paint in _kinds(marks)),
     ]

@@ -8,7 +8,7 @@ from parser.toolpath import Axis
 from parser.units import mm
 from sim.run.dryrun import DryRun
 from sim.show.draw.paints import Paint
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 from sim.table.record.peaks import Quantity
 
 
@@ -41,7 +41,7 @@ def feed_levels(run: DryRun) -> list[Level]:
     """Feeds of cuts and jumps, mm/s, as far as there are any."""
     feeds = run.scenario.machine.feeds(run.scenario.thickness_mm)
     jumps = run.toolpath.is_jump
-    shown = (("motion_cut_feed", feeds.cut_um_s, not jumps.all()), ("motion_jump_feed", feeds.jump_um_s, jumps.any()))
+    shown = (("motion.cut_feed", feeds.cut_um_s, not jumps.all()), ("motion.jump_feed", feeds.jump_um_s, jumps.any()))
     return [Level(key, mm(feed), "", Paint.GREY) for key, feed, there in shown if there]
 
 

@@ -41,13 +41,13 @@ def panels_of(run: DryRun, most: int) -> tuple[Floats, list[Panel]]:
     motor = run.scenario.machine.table.motor
     history = run.history
     t_s, pooled = _pooled(history, most)
-    lag = limit_levels(run, "lag", "motion_pull_out" if motor.kind == "stepper" else "motion_servo_limit")
-    speed = [*feed_levels(run), *limit_levels(run, "speed", "motion_speed_limit", mm(1.0))]
+    lag = limit_levels(run, "lag", "motion.pull_out" if motor.kind == "stepper" else "motion.servo_limit")
+    speed = [*feed_levels(run), *limit_levels(run, "speed", "motion.speed_limit", mm(1.0))]
     return t_s, [
-        Panel("motion_velocity", _in_mm(pooled[0]), speed, least=0.01),
-        Panel("motion_acceleration", _in_mm(pooled[1]), [], least=1.0),
-        Panel("motion_error", pooled[2], lag, least=1.0),
-        Panel("motion_force", pooled[3], limit_levels(run, "force", "motion_force_limit"), least=1.0),
+        Panel("motion.velocity", _in_mm(pooled[0]), speed, least=0.01),
+        Panel("motion.acceleration", _in_mm(pooled[1]), [], least=1.0),
+        Panel("motion.error", pooled[2], lag, least=1.0),
+        Panel("motion.force", pooled[3], limit_levels(run, "force", "motion.force_limit"), least=1.0),
     ]
 
 
