@@ -6,7 +6,8 @@ from parser.findings.catalogue import Language, length, page
 from parser.findings.findings import SEVERITIES
 from parser.text.excerpt import cells
 from sim.show.findings.totals import Totals
-from sim.show.findings.wording import verdicts, word
+from sim.show.findings.wording import verdicts
+from sim.show.words import Words
 
 _GAP = "  "
 
@@ -18,21 +19,23 @@ def table(totals: Totals, language: Language) -> str:
 
 
 def _codes(totals: Totals, language: Language) -> list[str]:
+    say = Words(language)
     rows = [
-        (code, word(SEVERITIES[code], language), str(count), page(code, language).title)
+        (code, say(f"findings.{SEVERITIES[code]}"), str(count), page(code, language).title)
         for code, count in sorted(totals.codes.items())
     ]
-    head = (word("code", language), word("severity", language), word("count", language), word("title", language))
+    head = (say("findings.code"), say("findings.severity"), say("findings.count"), say("findings.title"))
     return _columns([head, *rows], right=(2,)) if rows else []
 
 
 def _sums(totals: Totals, language: Language) -> list[str]:
+    say = Words(language)
     files, by_verdict = totals.files.total(), verdicts(totals, language)
     rows = [
-        (word("total files", language), f"{files:,} ({by_verdict})" if by_verdict else f"{files:,}"),
-        (word("total blocks", language), word("blocks", language).format(**_numbers(totals))),
-        (word("total steps", language), f"{totals.steps:,}"),
-        (word("total length", language), length(totals.length_um)),
+        (say("findings.total-files"), f"{files:,} ({by_verdict})" if by_verdict else f"{files:,}"),
+        (say("findings.total-blocks"), say("findings.blocks", **_numbers(totals))),
+        (say("findings.total-steps"), f"{totals.steps:,}"),
+        (say("findings.total-length"), length(totals.length_um)),
     ]
     return _columns(rows)
 

@@ -12,7 +12,8 @@ from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import spot
 from sim.show.findings.totals import Totals
-from sim.show.findings.wording import coverage, message, summary, word
+from sim.show.findings.wording import coverage, message, summary
+from sim.show.words import Words
 
 _COLOURS: Mapping[str, str] = {
     Severity.ERROR: "red",
@@ -47,7 +48,7 @@ def _file(result: CheckResult, options: Options) -> Iterator[str]:
 
 def _finding(result: CheckResult, finding: Finding, options: Options) -> Iterator[str]:
     where = _styled(place(printable(result.name), finding.line, finding.column), options, bold=True)
-    severity = word(finding.severity, options.language)
+    severity = Words(options.language)(f"findings.{finding.severity}")
     label = _styled(f"{severity}[{finding.code}]", options, fg=_COLOURS[finding.severity], bold=True)
     yield f"{where}: {label}: {printable(message(finding, options.language))}"
     gutter = " " * len(str(finding.line))
@@ -67,9 +68,9 @@ def _source(result: CheckResult, finding: Finding, gutter: str, options: Options
 
 
 def _hint(finding: Finding, gutter: str, language: Language) -> Iterator[str]:
-    hint = texts(finding, language).hint
+    hint, say = texts(finding, language).hint, Words(language)
     if hint:
-        yield f"  {gutter} = {word('hint', language)}{word('colon', language)}{printable(hint)}"
+        yield f"  {gutter} = {say('findings.hint')}{say('findings.colon')}{printable(hint)}"
 
 
 def _styled(text: str, options: Options, fg: str | None = None, bold: bool | None = None) -> str:
