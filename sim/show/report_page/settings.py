@@ -3,13 +3,14 @@
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
+from parser.findings.catalogue import Said
 from parser.program import Program
 from sim.setup.machine.machine_file import machine_sections
-from sim.setup.quiz import Said
 from sim.setup.scenario import Scenario
 from sim.setup.scenario_file import scenario_sections
 from sim.setup.toml.writer import Section
-from sim.show.words.report import said, same
+from sim.show.words import said
+from sim.show.words.phrases import same
 
 _UNITS = {
     "_mm2_min": "mm²/min",
@@ -70,18 +71,18 @@ def _keyed(sections: Iterable[tuple[str, Section]]) -> list[tuple[str, Section]]
 
 
 def _group(name: str, section: Section) -> Group:
-    return Group(said(f"section-{name}"), tuple(_setting(key, value) for key, value in section.items()))
+    return Group(said(f"report.section-{name}"), tuple(_setting(key, value) for key, value in section.items()))
 
 
 def _setting(key: str, value: Any) -> Setting:
     unit = next((unit for end, unit in _UNITS.items() if key.endswith(end)), "")
-    shown = said(f"value-{value}") if key in _CHOSEN else _value(value)
-    return Setting(said(f"set-{key}"), key, shown, unit)
+    shown = said(f"report.value-{value}") if key in _CHOSEN else _value(value)
+    return Setting(said(f"report.set-{key}"), key, shown, unit)
 
 
 def _value(value: Any) -> Said:
     if isinstance(value, bool):
-        return said("yes" if value else "no")
+        return said("report.yes" if value else "report.no")
     if isinstance(value, list):
         return same("; ".join(", ".join(f"{number:.10g}" for number in pair) for pair in _pairs(value)))
     return same(f"{value:.10g}" if isinstance(value, float) else value)
