@@ -3,6 +3,7 @@
 import math
 
 from controller.offset.path import Made
+from parser.findings.remarks import remark_text
 from parser.units import mm
 from sim.cut.pieces.pieces import Piece
 from sim.measure.deviation.deviation import Where
@@ -124,7 +125,7 @@ def _drawing(run: DryRun) -> list[Row]:
     if held is None or found is None:
         return []
     allowed = f"{held.tolerance_um:g} µm allowed"
-    names = [("", named.text) for named in found.names]
+    names = [("", remark_text(named)) for named in found.names]
     return [(f"off {found.drawing.name}", f"{found.max_um:,.2f} µm at most, {allowed}"), *names]
 
 
