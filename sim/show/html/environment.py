@@ -10,6 +10,7 @@ from markupsafe import Markup
 from sim import __version__
 from sim.show.draw.paints import DARK, LIGHT, Theme
 from sim.show.words import said
+from sim.show.words.words import texts
 
 _SHARED = Path(__file__).with_name("assets")
 _ESCAPED = {ord(character): f"\\u{ord(character):04x}" for character in "<>&\u2028\u2029"}
@@ -19,8 +20,9 @@ def rendered(assets: Path, template: str, **values: Any) -> str:
     """Page of a template in the folder `assets`, which may extend ``base.html.j2`` and import ``words.html.j2``.
 
     In a template ``{{ inlined("page.js") }}`` is a style sheet or script of the folder as it stands,
-    ``{{ value | script_json }}`` data for a script, and ``said("replay.quiz")`` a text in both languages; all else is
-    escaped.
+    ``{{ value | script_json }}`` data for a script, ``said("replay.quiz")`` a text in both languages, and
+    ``script_words("replay_scripts")`` a file of texts for the page's scripts, which find them in the element ``words``;
+    all else is escaped.
     """
     environment = Environment(
         loader=FileSystemLoader([assets, _SHARED]),
@@ -35,6 +37,7 @@ def rendered(assets: Path, template: str, **values: Any) -> str:
         "drycut_version": __version__,
         "inlined": _Inlined(environment),
         "said": said,
+        "script_words": _script_words,
         "theme_css": theme_css,
     }
     return environment.get_template(template).render(**values)
@@ -51,6 +54,11 @@ class _Inlined:
         assert loader is not None  # noqa: S101 - given in `rendered`
         text, *_ = loader.get_source(self._environment, name)
         return Markup(text)  # noqa: S704 - a file of this package, never of a user
+
+
+def _script_words(file: str) -> dict[str, dict[str, str]]:
+    """Templates of a file by their names, each in both languages."""
+    return {name: text._asdict() for name, text in texts(file).items()}
 
 
 def script_json(value: Any) -> Markup:

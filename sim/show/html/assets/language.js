@@ -6,6 +6,7 @@
   const LANGUAGES = ["en", "zh-CN"];
   const page = document.documentElement;
   const listeners = [];
+  let texts = null; // what scripts say, key to {en, zh}, from the element "words"
 
   /** One of LANGUAGES for a language tag, or null. */
   function known(tag) {
@@ -62,6 +63,16 @@
     for (const listener of listeners) listener(language);
   }
 
+  /** The text of a key in both languages, {en, zh}, with values in its places. */
+  function said(key, values = {}) {
+    texts ??= JSON.parse(document.getElementById("words").textContent);
+    const filled = (text) => text.replace(/\{(\w+)\}/g, (_, name) => values[name]);
+    return { en: filled(texts[key].en), zh: filled(texts[key].zh) };
+  }
+
+  /** The text of the page's language of {en, zh}. */
+  const pick = (text) => (page.lang === "zh-CN" ? text.zh : text.en);
+
   Drycut.language = {
     current: () => page.lang,
     isChinese: () => page.lang === "zh-CN",
@@ -72,8 +83,10 @@
     },
     /** Call a function after each change. */
     onChange: (listener) => listeners.push(listener),
-    /** The text of the page's language of {en, zh}. */
-    pick: (text) => (page.lang === "zh-CN" ? text.zh : text.en),
+    pick,
+    said,
+    /** The text of a key in the page's language. */
+    say: (key, values) => pick(said(key, values)),
   };
 
   for (const button of document.querySelectorAll("[data-language-switch]")) {

@@ -5,10 +5,10 @@
 
   /** Where a finding is. */
   function where(finding) {
-    const { pick } = Drycut.words;
+    const { say } = Drycut.language;
     const places = [];
-    if (finding.block) places.push(pick(`block ${finding.block}`, `第 ${finding.block} 段`));
-    if (finding.line) places.push(pick(`line ${finding.line}`, `第 ${finding.line} 行`));
+    if (finding.block) places.push(say("in_block", { block: finding.block }));
+    if (finding.line) places.push(say("in_line", { line: finding.line }));
     return places.join(", ");
   }
 
@@ -33,7 +33,7 @@
   function findings(box, doc, onPick) {
     /** Write the list in the language of the page. */
     function write() {
-      const none = Drycut.element("p", "none", Drycut.words.pick("Nothing was found.", "未发现问题。"));
+      const none = Drycut.element("p", "none", Drycut.language.say("nothing_found"));
       const items = doc.findings.map((finding) => {
         const item = Drycut.element("li", "");
         item.append(entry(finding, onPick));

@@ -153,7 +153,7 @@
     try {
       build(await Drycut.decode(JSON.parse(find("document").textContent)));
     } catch (error) {
-      find("loading").textContent = Drycut.words.pick(`This browser cannot play it: ${error}`, `此浏览器无法播放：${error}`);
+      find("loading").textContent = Drycut.language.say("cannot_play", { error });
       throw error;
     }
   }

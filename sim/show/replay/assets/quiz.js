@@ -11,7 +11,7 @@
     let open = null;
     let chosen = null;
     let score = null; // {right, all} of a quiz that is done
-    const { pick } = Drycut.words;
+    const { pick, say } = Drycut.language;
 
     /** How many were right. */
     const right = () => [...given.values()].filter(Boolean).length;
@@ -25,8 +25,8 @@
     /** Write a question. */
     function writeQuestion() {
       const number = doc.quiz.indexOf(open) + 1;
-      count.textContent = pick(`Question ${number} of ${doc.quiz.length}`, `第 ${number} 题，共 ${doc.quiz.length} 题`);
-      ask.textContent = pick(open.ask.en, open.ask.zh);
+      count.textContent = say("question", { number, all: doc.quiz.length });
+      ask.textContent = pick(open.ask);
       answers.replaceChildren(...open.answers.map((answer, at) => answerButton(answer, at)));
       said.textContent = chosen === null ? "" : verdict();
       said.className = chosen === null ? "" : chosen === open.right ? "right" : "wrong";
@@ -35,14 +35,14 @@
 
     /** Whether the answer was right, and why. */
     function verdict() {
-      const first = chosen === open.right ? pick("Right.", "正确。") : pick("No; the right answer is marked.", "不对，正确答案已标出。");
-      return [first, pick(open.why.en, open.why.zh)].filter(Boolean).join(" ");
+      const first = chosen === open.right ? say("right") : say("wrong");
+      return [first, pick(open.why)].filter(Boolean).join(" ");
     }
 
     /** One answer as a button. */
     function answerButton(answer, at) {
       const button = Drycut.element("button", "answer");
-      button.append(Drycut.element("span", "key", at + 1), pick(answer.en, answer.zh));
+      button.append(Drycut.element("span", "key", at + 1), pick(answer));
       button.type = "button";
       button.disabled = chosen !== null;
       if (chosen !== null && at === open.right) button.classList.add("right");
@@ -71,8 +71,8 @@
 
     /** Write the score. */
     function writeScore() {
-      count.textContent = pick("Quiz finished", "测验结束");
-      ask.textContent = pick(`${score.right} of ${score.all} answers were right.`, `共答 ${score.all} 题，答对 ${score.right} 题。`);
+      count.textContent = say("quiz_finished");
+      ask.textContent = say("score", score);
       answers.replaceChildren();
       said.textContent = "";
       go.hidden = false;

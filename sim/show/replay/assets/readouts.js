@@ -2,16 +2,17 @@
 (function (root) {
   "use strict";
   const Drycut = (root.Drycut = root.Drycut || {});
+  const { say } = Drycut.language;
   const MANY = 10000; // blocks: their number has no room beside that of the running one
 
   /** How F stands for the next step, as the controller works it out. */
   function formula(made) {
-    const { number, pick, way, weighed } = Drycut.words;
+    const { number, way, weighed } = Drycut.words;
     const squared = (value) => (value < 0 ? `(${number(value)})²` : `${number(value)}²`);
     const [x, y] = [number(made.x), number(made.y)];
     const [wordX, wordY] = [number(made.wordX), number(made.wordY)];
     if (made.kind === "arc") {
-      const toward = made.toward === "center" ? pick("toward the centre", "向圆心") : pick("away from the centre", "离圆心");
+      const toward = say(made.toward === "center" ? "toward_center" : "from_center");
       return `F = x² + y² − R² = ${squared(made.x)} + ${squared(made.y)} − ${number(Number(made.rSquared))}; ${weighed(made.f)} → ${way(made)} ${toward}`;
     }
     const terms = made.motion === "L1" || made.motion === "L3"
@@ -35,7 +36,7 @@
     return {
       /** Show a state. */
       show(state) {
-        const { number, mm, clock, pick, weighed, way } = Drycut.words;
+        const { number, mm, clock, weighed, way } = Drycut.words;
         const next = state.isAsked ? null : model.decision(state.step + 1);
         write("x", mm(state.x));
         write("y", mm(state.y));
@@ -47,7 +48,7 @@
         write("remaining", clock(state.remaining_s));
         write("deviation", state.deviation ? number(state.deviation.um, 2) : "–");
         write("f", next ? `${weighed(next.f)} → ${way(next)}` : "–");
-        write("formula", next ? formula(next) : isCard ? pick("The card interpolates: there is no F.", "由运动控制卡插补，没有 F。") : "");
+        write("formula", next ? formula(next) : isCard ? say("no_f") : "");
       },
     };
   }

@@ -1,8 +1,8 @@
-// What the page says of numbers, in both languages; texts that stand still are in the page itself.
+// What the page says of numbers and blocks, in the language of the page.
 (function (root) {
   "use strict";
   const Drycut = (root.Drycut = root.Drycut || {});
-  const pick = (en, zh) => Drycut.language.pick({ en, zh });
+  const { say } = Drycut.language;
   const MINUS = "−";
 
   /** A number with so many decimals and a true minus; no −0. */
@@ -31,9 +31,9 @@
 
   /** What kind a block is. */
   function kind(blocks, row) {
-    if (blocks.kind[row] === "jump") return pick("jump", "空走");
-    if (blocks.kind[row] === "line") return pick("line", "直线");
-    return blocks.sweep_rad[row] > 0 ? pick("arc, counter-clockwise", "逆圆弧") : pick("arc, clockwise", "顺圆弧");
+    if (blocks.kind[row] === "jump") return say("jump");
+    if (blocks.kind[row] === "line") return say("line");
+    return blocks.sweep_rad[row] > 0 ? say("arc_left") : say("arc_right");
   }
 
   /** Z of a block as 3B writes it. */
@@ -42,21 +42,21 @@
   /** Pairs of name and value that describe a block. */
   function geometry(blocks, row) {
     const rows = [
-      [pick("from", "起点"), place(blocks.place_x_um[row], blocks.place_y_um[row])],
-      [pick("to", "终点"), place(blocks.place_x_um[row + 1], blocks.place_y_um[row + 1])],
+      [say("from"), place(blocks.place_x_um[row], blocks.place_y_um[row])],
+      [say("to"), place(blocks.place_x_um[row + 1], blocks.place_y_um[row + 1])],
     ];
     if (blocks.kind[row] === "arc") {
       rows.push(
-        [pick("centre", "圆心"), place(blocks.center_x_um[row], blocks.center_y_um[row])],
-        [pick("radius", "半径"), `${mm(blocks.radius_um[row])} mm`],
-        [pick("sweep", "圆心角"), `${number((Math.abs(blocks.sweep_rad[row]) * 180) / Math.PI, 3)}°`],
+        [say("center"), place(blocks.center_x_um[row], blocks.center_y_um[row])],
+        [say("radius"), `${mm(blocks.radius_um[row])} mm`],
+        [say("sweep"), `${number((Math.abs(blocks.sweep_rad[row]) * 180) / Math.PI, 3)}°`],
       );
     }
-    rows.push([pick("length", "长度"), `${mm(blocks.length_um[row])} mm`]);
+    rows.push([say("length"), `${mm(blocks.length_um[row])} mm`]);
     if (blocks.kind[row] !== "jump") {
       rows.push(
-        [pick("count J", "计数长度 J"), number(blocks.count_um[row])],
-        [pick("axis G", "计数方向 G"), `G${blocks.count_axis[row]}`],
+        [say("count"), number(blocks.count_um[row])],
+        [say("axis"), `G${blocks.count_axis[row]}`],
         ["Z", code(blocks, row)],
       );
     }
@@ -66,7 +66,7 @@
   /** Title of a block, such as “Block 3 of 6 · N3 · line”. */
   function block(blocks, row) {
     const count = blocks.kind.length;
-    const name = pick(`Block ${number(row + 1)} of ${number(count)}`, `第 ${number(row + 1)} 段，共 ${number(count)} 段`);
+    const name = say("block", { number: number(row + 1), count: number(count) });
     return [name, blocks.label[row], kind(blocks, row)].filter(Boolean).join(" · ");
   }
 
@@ -82,12 +82,12 @@
   /** What became free. */
   function piece({ kind: what, mass_g: grams, row }) {
     const mass = grams >= 1000 ? `${number(grams / 1000, 2)} kg` : `${number(grams, grams < 10 ? 2 : 0)} g`;
-    const name = what === "slug" ? pick("slug", "废料") : pick("part", "零件");
-    return pick(`${name} ${mass}, free in block ${row + 1}`, `${name} ${mass}，第 ${row + 1} 段脱落`);
+    const name = say(what === "slug" ? "slug" : "part");
+    return say("freed", { piece: name, mass, block: row + 1 });
   }
 
   /** Texts of a finding. */
   const finding = ({ texts }) => Drycut.language.pick(texts);
 
-  Drycut.words = { pick, number, mm, clock, speed, place, kind, code, geometry, block, weighed, way, decision, piece, finding };
+  Drycut.words = { number, mm, clock, speed, place, kind, code, geometry, block, weighed, way, decision, piece, finding };
 })(globalThis);

@@ -2,6 +2,7 @@
 // Tables of the page: shown from their data, sorted by a column, turned over by pages.
 (function (global) {
   const Drycut = (global.Drycut = global.Drycut || {});
+  const { said } = Drycut.language;
   const MOST_ROWS = 200;
   const LONG = 25; // rows of a table that may be parted between two sheets of paper
 
@@ -95,20 +96,20 @@
         button.addEventListener("click", () => this.turnTo(Math.min(last, Math.max(0, to()))));
         return button;
       };
-      this.back = turn({ en: "Back", zh: "上一页" }, () => this.first - MOST_ROWS);
-      this.next = turn({ en: "Next", zh: "下一页" }, () => this.first + MOST_ROWS);
-      this.start = turn({ en: "First", zh: "首页" }, () => 0);
-      this.end = turn({ en: "Last", zh: "末页" }, () => last);
+      this.back = turn(said("back"), () => this.first - MOST_ROWS);
+      this.next = turn(said("next"), () => this.first + MOST_ROWS);
+      this.start = turn(said("first"), () => 0);
+      this.end = turn(said("last"), () => last);
       this.count = make("span", { className: "count" });
       this.count.setAttribute("aria-live", "polite");
-      const rest = make("p", { className: "rest" }, ...both({ en: "All rows are in report.json.", zh: "全部数据见 report.json。" }));
+      const rest = make("p", { className: "rest" }, ...both(said("rest")));
       return make("div", {}, make("div", { className: "turning" }, this.start, this.back, this.count, this.next, this.end), rest);
     }
 
     /** Say which rows are to be seen. */
     tellPlace(end) {
       const [first, last, all] = [this.first + 1, end, this.rows.length].map((n) => n.toLocaleString("en-US"));
-      this.count.replaceChildren(...both({ en: `rows ${first}–${last} of ${all}`, zh: `第 ${first}–${last} 行，共 ${all} 行` }));
+      this.count.replaceChildren(...both(said("rows", { first, last, all })));
       this.start.disabled = this.back.disabled = this.first === 0;
       this.next.disabled = this.end.disabled = end === this.rows.length;
     }
