@@ -3,7 +3,7 @@
 import click
 
 from parser.findings.findings import SEVERITIES
-from sim.cli.language import chosen
+from sim.cli.scenario_options import chosen
 
 
 @click.command()

@@ -9,6 +9,7 @@ from markupsafe import Markup
 
 from sim import __version__
 from sim.show.draw.paints import DARK, LIGHT, Theme
+from sim.show.html.bundle import joined
 from sim.show.words import said
 from sim.show.words.words import texts
 
@@ -19,10 +20,10 @@ _ESCAPED = {ord(character): f"\\u{ord(character):04x}" for character in "<>&\u20
 def rendered(assets: Path, template: str, **values: Any) -> str:
     """Page of a template in the folder `assets`, which may extend ``base.html.j2`` and import ``words.html.j2``.
 
-    In a template ``{{ inlined("page.js") }}`` is a style sheet or script of the folder as it stands,
-    ``{{ value | script_json }}`` data for a script, ``said("replay.quiz")`` a text in both languages, and
-    ``script_words("replay_scripts")`` a file of texts for the page's scripts, which find them in the element ``words``;
-    all else is escaped.
+    In a template ``{{ inlined("page.css") }}`` is a style sheet of the folder as it stands, ``{{ joined("main.js") }}``
+    its module with all that this imports (see `sim.show.html.bundle`), ``{{ value | script_json }}`` data for a script,
+    ``{{ script_words("replay_scripts") | script_json }}`` a file of texts for scripts, which look for them in the
+    element ``words``, and ``said("replay.quiz")`` a text in both languages; all else is escaped.
     """
     environment = Environment(
         loader=FileSystemLoader([assets, _SHARED]),
@@ -36,6 +37,7 @@ def rendered(assets: Path, template: str, **values: Any) -> str:
     environment.globals |= {
         "drycut_version": __version__,
         "inlined": _Inlined(environment),
+        "joined": lambda name: Markup(joined(assets / name)),  # noqa: S704 - as in _Inlined
         "said": said,
         "script_words": _script_words,
         "theme_css": theme_css,

@@ -67,6 +67,14 @@ def test_every_text_is_used() -> None:
     assert not unused, unused
 
 
+@pytest.mark.parametrize("page", ["replay", "report"])
+def test_scripts_ask_for_texts_that_their_page_hands_over(page: str) -> None:
+    folder = ROOT / "sim" / "show" / {"replay": "replay", "report": "report_page"}[page] / "assets"
+    source = "\n".join(path.read_text(encoding="utf-8") for path in sorted(folder.glob("*.js")))
+    asked = re.findall(r"""\b(?:say|said)\((?:[^()]*\? )?"(\w+)"(?: : "(\w+)")?""", source)
+    assert {key for keys in asked for key in keys if key} == set(texts(f"{page}_scripts"))
+
+
 def test_no_chinese_stands_in_code() -> None:
     found = [
         f"{path.relative_to(ROOT)}:{number}: {line.strip()}"
