@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.findings.errors import FileUnreadableError, ProgramError
+from parser.findings.facts import TooLarge, telling
 from parser.findings.findings import Finding, file_order
 from parser.text.encoding import decode_text, no_program, printable
 from parser.text.lines import LineIndex
@@ -116,7 +117,7 @@ def parse_program(text: str, name: str = "program", encoding: str = "utf-8", mar
     toolpath = decode(records)
     damaged = np.array([damage.span[0] for damage in records.damages], dtype=np.int64)
     findings = [*records.findings, *after_end, *order_findings(records, toolpath, marks)]
-    if not any(finding.code == "3B206" for finding in findings):
+    if not any(telling(findings, TooLarge)):
         findings += block_findings(toolpath, records.lines)
         findings += print_findings(toolpath, records.header, records.lines, damaged)
     ordered = tuple(sorted(findings, key=file_order))

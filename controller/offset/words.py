@@ -1,11 +1,34 @@
-"""Words that a controller steps an offset path by: each block from where the steps of the one before it ended."""
+"""An offset path as a toolpath, to be stepped like any other.
+
+Its words are those that a controller steps it by: each block from where the steps of the one before it ended.
+"""
+
+from dataclasses import fields
 
 import numpy as np
 
+from controller.offset.path import Made, OffsetPath
 from controller.stepping.point_by_point import interpolate_words
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.threeb.words import chosen, words_of_arcs, words_of_lines
-from parser.toolpath import Words
+from parser.toolpath import Toolpath, Words
+
+
+def offset_toolpath(toolpath: Toolpath, path: OffsetPath) -> Toolpath:
+    """Toolpath of the offset `path` of a `toolpath`: its exact curves, and words of whole µm to step them by.
+
+    Every row bears the source of the block that it comes from, stops stand where they stood among these. Printed ends
+    are those of blocks without offset alone.
+    """
+    row = path.source_row
+    as_it_is = (path.made == Made.AS_IT_IS)[:, None]
+    return Toolpath(
+        **{field.name: getattr(path.curves, field.name) for field in fields(Curves)},
+        printed_end_um=np.where(as_it_is, toolpath.printed_end_um[row], np.nan),
+        words=stepped_words(path.curves),
+        source=toolpath.source.picked(row),
+        stops=tuple(stop._replace(after=int(np.searchsorted(row, stop.after))) for stop in toolpath.stops),
+    )
 
 
 def stepped_words(curves: Curves) -> Words:

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from parser.findings.facts import NoEnd
 from parser.findings.findings import Finding
 from parser.threeb.at_block import at_block
 from parser.threeb.figures import ends_closed, placed_marks
@@ -60,7 +61,7 @@ def _span(records: Records, block: int) -> tuple[int, int]:
 def _no_end(records: Records) -> list[Finding]:
     if any(mark.kind == "end" for mark in records.marks):
         return []
-    return [records.lines.finding("3B102", _span(records, -1))]
+    return [records.lines.finding("3B102", _span(records, -1)).with_fact(NoEnd())]
 
 
 def _foreign_ends(records: Records, marks: Marks) -> Iterator[Finding]:

@@ -7,6 +7,8 @@ import numpy as np
 
 from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
+from parser.findings.codes import Check
+from parser.findings.facts import DoubtfulEnd, TooLarge, telling
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
 from parser.program import Program
@@ -15,7 +17,7 @@ from parser.shape.rows import contour_rows
 from parser.threeb.at_block import at_block
 from parser.threeb.decode import endless
 from parser.threeb.tokens import TokenKind
-from sim.check.closures import contour_findings
+from sim.check.closures import OpenContour, contour_findings
 from sim.check.count_axes import stepped_end_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
 from sim.check.result import CheckState, Coverage, State
@@ -28,8 +30,8 @@ if TYPE_CHECKING:  # most checks know no machine
 MAX_STEPS = 300_000_000
 """Steps that one run takes: 240 m of path, two months of cutting; a word damaged to nine digits asks for more."""
 
-PARSER_CHECKS = ("check-grammar", "check-order", "check-blocks", "check-printed-ends", "check-header")
-PATH_CHECKS = ("check-steps", "check-contours", "check-senses", "check-crossings", "check-corners", "check-travel")
+PARSER_CHECKS = (Check.GRAMMAR, Check.ORDER, Check.BLOCKS, Check.PRINTED_ENDS, Check.HEADER)
+PATH_CHECKS = (Check.STEPS, Check.CONTOURS, Check.SENSES, Check.CROSSINGS, Check.CORNERS, Check.TRAVEL)
 
 
 class Demands(NamedTuple):
@@ -75,7 +77,7 @@ class Checked(NamedTuple):
 
 def check_program(program: Program, demands: Demands) -> Checked:
     """Run every check on a program."""
-    if any(finding.code == "3B206" for finding in program.findings):
+    if any(telling(program.findings, TooLarge)):
         return _without_path(program, "reason-too-large")
     steps = interpolate(program.toolpath)
     excess = too_many_steps(program, steps)
@@ -96,7 +98,8 @@ def too_many_steps(program: Program, steps: Steps) -> list[Finding]:
         return []
     row = int(np.argmax(steps.count))
     of = program.toolpath, program.lines
-    return [at_block(*of, "3B206", row, TokenKind.COUNT, what="too-many-steps", limit=MAX_STEPS)]
+    found = at_block(*of, "3B206", row, TokenKind.COUNT, what="too-many-steps", limit=MAX_STEPS)
+    return [found.with_fact(TooLarge())]
 
 
 class _PathChecks:
@@ -115,20 +118,20 @@ class _PathChecks:
         program, demands = self._program, self._demands
         stepped = stepped_end_findings(program, self._steps)
         yield from stepped
-        self._done("check-steps", _stopped(program))
+        self._done(Check.STEPS, _stopped(program))
         passages = passage_findings(program, self._rows)
         yield from passages
         known = (*program.findings, *stepped, *passages)
         closures = contour_findings(program, self.judged, self._rows, known, may_stay_open=demands.may_stay_open)
         yield from closures
-        self._done("check-contours", self._left_out)
+        self._done(Check.CONTOURS, self._left_out)
         rows = _closed(self._rows, closures)  # where an open contour runs follows from why it is open
         open_ones = "" if rows is self._rows else "reason-open"
         yield from _undoubted(sense_findings(program, rows), known)
-        self._done("check-senses", self._left_out or open_ones)
+        self._done(Check.SENSES, self._left_out or open_ones)
         crossings, all_pairs = crossing_findings(program, rows)
         yield from crossings
-        self._done("check-crossings", self._left_out or open_ones if all_pairs else "reason-many")
+        self._done(Check.CROSSINGS, self._left_out or open_ones if all_pairs else "reason-many")
         yield from self._asked_for()
 
     @property
@@ -142,29 +145,29 @@ class _PathChecks:
         """Checks that need to know the wire or the machine."""
         program, demands = self._program, self._demands
         if demands.offset_um is None:
-            self.states.append(CheckState("check-corners", "not asked", "reason-no-wire"))
+            self.states.append(CheckState(Check.CORNERS, "not asked", "reason-no-wire"))
         else:
             yield from corner_findings(program, self._rows, demands.offset_um)
-            self._done("check-corners", self._left_out)
+            self._done(Check.CORNERS, self._left_out)
         if demands.table is None or demands.start_um is None:
-            self.states.append(CheckState("check-travel", "not asked", "reason-no-machine"))
+            self.states.append(CheckState(Check.TRAVEL, "not asked", "reason-no-machine"))
         else:
             yield from travel_findings(program, self._steps, demands.table, demands.start_um)
-            self._done("check-travel", "reason-damaged" if program.reading.damages else _stopped(program))
+            self._done(Check.TRAVEL, "reason-damaged" if program.reading.damages else _stopped(program))
 
-    def _done(self, name: str, reason: str = "") -> None:
+    def _done(self, name: Check, reason: str = "") -> None:
         self.states.append(CheckState(name, *_state(reason)))
 
 
 def _closed(rows: Ints, closures: list[Finding]) -> Ints:
     """The contour column without the contours that are found open; itself where there are none."""
-    ends = np.array([finding.block - 1 for finding in closures if finding.code == "3B301"], dtype=np.int64)
+    ends = np.array([finding.block - 1 for finding, _ in telling(closures, OpenContour)], dtype=np.int64)
     return np.where(np.isin(rows, rows[ends]), -1, rows) if len(ends) else rows
 
 
 def _undoubted(senses: list[Finding], known: tuple[Finding, ...]) -> list[Finding]:
     """Those findings about arcs that no wrong count length or end, of the arc or of a neighbour, explains."""
-    doubtful = {finding.block for finding in known if finding.code in ("3B207", "3B208")}
+    doubtful = {finding.block for finding, _ in telling(known, DoubtfulEnd)}
     return [finding for finding in senses if not doubtful & {finding.block - 1, finding.block, finding.block + 1}]
 
 
@@ -184,17 +187,18 @@ def _stopped(program: Program) -> str:
 
 def _parser_states(program: Program) -> tuple[CheckState, ...]:
     damaged = "reason-damaged" if program.reading.damages else ""
-    beyond = "reason-too-large" if any(finding.code == "3B206" for finding in program.findings) else damaged
-    grammar, order, blocks, prints, header = PARSER_CHECKS
+    beyond = "reason-too-large" if any(telling(program.findings, TooLarge)) else damaged
     has_prints = bool((~np.isnan(program.toolpath.printed_end_um)).any())
     return (
-        CheckState(grammar),
-        CheckState(order, *_state(damaged)),
-        CheckState(blocks, *_state(beyond)),
-        CheckState(prints, *_state(beyond)) if has_prints else CheckState(prints, "not asked", "reason-no-prints"),
-        CheckState(header, *_state(beyond))
+        CheckState(Check.GRAMMAR),
+        CheckState(Check.ORDER, *_state(damaged)),
+        CheckState(Check.BLOCKS, *_state(beyond)),
+        CheckState(Check.PRINTED_ENDS, *_state(beyond))
+        if has_prints
+        else CheckState(Check.PRINTED_ENDS, "not asked", "reason-no-prints"),
+        CheckState(Check.HEADER, *_state(beyond))
         if program.header.lengths
-        else CheckState(header, "not asked", "reason-no-header"),
+        else CheckState(Check.HEADER, "not asked", "reason-no-header"),
     )
 
 

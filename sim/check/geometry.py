@@ -9,8 +9,7 @@ from parser.threeb.at_block import at_block
 from parser.threeb.tokens import TokenKind
 from sim.check.shape.corners import tight_corners
 from sim.check.shape.crossings import find_crossings
-from sim.check.shape.retraced import retraced_arcs
-from sim.check.shape.senses import reversed_arcs
+from sim.check.shape.senses import retraced_arcs, reversed_arcs
 
 _SENSES = {1: "NR", -1: "SR"}
 

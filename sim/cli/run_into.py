@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.card.log import CardLog
+from controller.card.log.writer import CardLog
 from parser.program import Program
 from sim.files import StepFiles, staged, write_npz
 from sim.run.dryrun import DryRun, dry_run

@@ -12,18 +12,16 @@ from controller.offset.path import Made, OffsetPath
 from controller.offset.reach import reach
 from controller.offset.sections import Section
 from controller.offset.shifted import closed_contour
-from controller.offset.toolpath import offset_toolpath
 from controller.offset.uncut import uncut_um
+from controller.offset.words import offset_toolpath
 from parser.findings.findings import Finding, file_order
-from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats
 from parser.program import Program
 from parser.shape.loops import find_loops
 from parser.shape.rows import contour_rows
-from parser.threeb.at_block import at_block
 from parser.threeb.figures import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
-from parser.units import mm
+from sim.check.offset import gouge_findings, loop_findings, uncut_findings
 from sim.setup.part import Offset
 
 
@@ -64,18 +62,23 @@ def offsetting(program: Program, offset: Offset) -> Offsetting:
     sections = sections_of(drawn)
     path = compensate(drawn, sections, offset.by_um, offset.side)
     held = [_held(drawn, path, *one, offset) for one in zip(sections, _beside(path, drawn), strict=True)]
-    result = Offsetting(
+    left_um = np.concatenate([np.zeros(0), *(one.left_um for one in held)])
+    met = tuple(gouge for one in held for gouge in one.gouges)
+    closed = {section: one.loops for section, one in zip(sections, held, strict=True) if one.loops is not None}
+    found = [
+        *uncut_findings(program, offset, path.vanished, left_um),
+        *gouge_findings(program, offset, path, met),
+        *loop_findings(program, offset, closed),
+    ]
+    return Offsetting(
         drawn=drawn,
         program=replace(program, toolpath=offset_toolpath(drawn, path)),
         path=path,
-        left_um=np.concatenate([np.zeros(0), *(one.left_um for one in held)]),
-        gouges=tuple(gouge for one in held for gouge in one.gouges),
-        loops=tuple(one.loops for one in held if one.loops is not None),
-        findings=(),
+        left_um=left_um,
+        gouges=met,
+        loops=tuple(closed.values()),
+        findings=tuple(sorted(found, key=file_order)),
     )
-    closed = [section for section in sections if section.closed]
-    found = sorted(_findings(program, offset, result, closed), key=file_order)
-    return replace(result, findings=tuple(found))
 
 
 class _Held(NamedTuple):
@@ -146,26 +149,3 @@ def sections_of(toolpath: Toolpath) -> tuple[Section, ...]:
         closes = np.hypot(*(toolpath.end_um[last] - toolpath.start_um[first])) <= CLOSED_WITHIN_UM
         found.append(Section(first, end - leads if again else last, closed=bool(closes and not again)))
     return tuple(found)
-
-
-def _findings(program: Program, offset: Offset, made: Offsetting, closed: list[Section]) -> Iterator[Finding]:
-    drawn, lines = program.toolpath, program.lines
-    gone = made.path.vanished
-    middle_mm = mm(places(drawn, gone, np.full(len(gone), 0.5)))
-    for row, left_um, (x_mm, y_mm) in zip(gone.tolist(), made.left_um.tolist(), middle_mm.tolist(), strict=True):
-        values = {"offset": offset.by_um, "left": left_um, "x_mm": x_mm, "y_mm": y_mm}
-        radius_um = float(drawn.radius_um[row])
-        if drawn.is_arc[row] and radius_um <= offset.by_um and drawn.sweep_rad[row] * offset.side > 0.0:
-            yield at_block(drawn, lines, "3B501", row, radius=radius_um, **values)
-        elif left_um > TOLERANCE_UM:
-            yield at_block(drawn, lines, "3B502", row, **values)
-    for gouge in made.gouges:
-        x_mm, y_mm = mm(gouge.place_um.x), mm(gouge.place_um.y)
-        other = int(drawn.source.block[gouge.row])
-        row = int(made.path.source_row[gouge.path_row])
-        yield at_block(
-            drawn, lines, "3B503", row, other=other, depth=gouge.depth_um, offset=offset.by_um, x_mm=x_mm, y_mm=y_mm
-        )
-    for section, loops in zip(closed, made.loops, strict=True):
-        if loops != 1:
-            yield at_block(drawn, lines, "3B504", section.first, loops=loops, offset=offset.by_um)

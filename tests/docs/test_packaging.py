@@ -13,7 +13,7 @@ from pathlib import Path
 
 from places import ROOT
 
-from parser.findings.findings import SEVERITIES
+from parser.findings.codes import CODES
 from sim import __version__
 
 
@@ -41,7 +41,7 @@ def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
     files = [path for folder in ("parser", "controller", "sim") for path in (ROOT / folder).rglob("*.*")]
     ours = {path.relative_to(ROOT).as_posix() for path in files if "__pycache__" not in path.parts}
     assert ours - set(names) == set()
-    assert sum(path.startswith("parser/findings/pages/") for path in names) > len(SEVERITIES)
+    assert sum(path.startswith("parser/findings/pages/") for path in names) > len(CODES)
     assert any(path.startswith("sim/show/draw/fonts/") and path.endswith(".otf") for path in names)
     assert any(path.endswith("licenses/LICENSE") for path in names)
 

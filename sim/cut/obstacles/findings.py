@@ -1,7 +1,6 @@
 """Findings of things in the way: clamps that the wire or its arm touches, and cuts that leave the workpiece."""
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -21,15 +20,6 @@ ASTRAY_UM = 3.0
 """A wire this near to the edge of the work runs along it: steps and table stray from the path by as much."""
 
 
-class _Met(NamedTuple):
-    """Something met on a way: its code, where, and what the finding says besides."""
-
-    code: str
-    way: Way
-    touch: Touch
-    values: dict[str, Value]
-
-
 def obstacle_findings(program: Program, trace: Trace, contours: Sequence[Contour], scenario: Scenario) -> list[Finding]:
     """Findings 3B404 and 3B405 of a run.
 
@@ -41,11 +31,10 @@ def obstacle_findings(program: Program, trace: Trace, contours: Sequence[Contour
         return []
     wire = way_of(trace.wire_um, trace.row)
     cut = wire.kept(~program.toolpath.is_jump[trace.row[wire.ends[:, 1]]])
-    met = [*_touched(trace, cut, scenario), *_left(trace, cut, contours, scenario)]
-    return [_finding(program, trace, one) for one in met]
+    return [*_touched(program, trace, cut, scenario), *_left(program, trace, cut, contours, scenario)]
 
 
-def _touched(trace: Trace, cut: Way, scenario: Scenario) -> Iterator[_Met]:
+def _touched(program: Program, trace: Trace, cut: Way, scenario: Scenario) -> Iterator[Finding]:
     """First touch of each body on each clamp."""
     arm_um = scenario.machine.arm_um
     table = way_of(trace.table_um, trace.row) if arm_um is not None else cut
@@ -55,24 +44,29 @@ def _touched(trace: Trace, cut: Way, scenario: Scenario) -> Iterator[_Met]:
             bodies["arm"] = table, swept(clamp.outline_um, arm_um)
         for body, (way, pieces) in bodies.items():
             for touch in touches(way, pieces):
-                yield _Met("3B404", way, touch, {"body": body, "name": clamp.name})
+                values: dict[str, Value] = {"body": body, "name": clamp.name, **_where(trace, way, touch)}
+                yield at_block(program.toolpath, program.lines, "3B404", _row(trace, touch), **values)
                 break
 
 
-def _left(trace: Trace, cut: Way, contours: Sequence[Contour], scenario: Scenario) -> Iterator[_Met]:
+def _left(
+    program: Program, trace: Trace, cut: Way, contours: Sequence[Contour], scenario: Scenario
+) -> Iterator[Finding]:
     if scenario.work_um is not None:
         for touch in leavings(scenario.work_um, trace, cut, contours):
-            yield _Met("3B405", cut, touch, {})
+            yield at_block(program.toolpath, program.lines, "3B405", _row(trace, touch), **_where(trace, cut, touch))
 
 
-def _finding(program: Program, trace: Trace, met: _Met) -> Finding:
-    """Finding of what was met, with the place of the wire then, mm, and the time, s."""
-    sample, share = met.touch
-    place, time = met.way.place_um[sample - 1 : sample + 1], trace.t_s[sample - 1 : sample + 1]
+def _row(trace: Trace, touch: Touch) -> int:
+    return int(trace.row[touch.sample])
+
+
+def _where(trace: Trace, way: Way, touch: Touch) -> dict[str, float]:
+    """Place of the wire at a touch, mm, and the time, s."""
+    sample, share = touch
+    place, time = way.place_um[sample - 1 : sample + 1], trace.t_s[sample - 1 : sample + 1]
     x, y = mm(place[0] + share * (place[1] - place[0])).tolist()
-    values: dict[str, Value] = {"x_mm": x, "y_mm": y, "t_s": float(time[0] + share * (time[1] - time[0]))}
-    row = int(trace.row[sample])
-    return at_block(program.toolpath, program.lines, met.code, row, **met.values, **values)
+    return {"x_mm": x, "y_mm": y, "t_s": float(time[0] + share * (time[1] - time[0]))}
 
 
 def leavings(outline_um: Outline, trace: Trace, cut: Way, contours: Sequence[Contour]) -> Iterator[Touch]:

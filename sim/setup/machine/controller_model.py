@@ -4,8 +4,8 @@ import math
 from collections.abc import Mapping
 from typing import Any, NamedTuple, cast, get_args
 
-from controller.card.settings import CardSettings
-from controller.card.units import UM_S3_PER_PULSE_MS3
+from controller.card.core.settings import CardSettings
+from controller.card.core.units import UM_S3_PER_PULSE_MS3
 from controller.host.entries import Interpolation
 from controller.motion.junctions import Junction, JunctionDeviation, SlowAt, StopEach, Through
 from controller.motion.limits import MotionLimits

@@ -1,7 +1,7 @@
 """Pages of the catalogue as Markdown, for ``drycut explain`` and for the findings documents."""
 
 from parser.findings.catalogue import Language, example, page
-from parser.findings.findings import SEVERITIES
+from parser.findings.codes import CODES
 from sim.show.words import Words
 
 
@@ -34,20 +34,20 @@ def titles_text(language: Language) -> str:
 
 def layers(language: Language) -> tuple[tuple[str, tuple[str, ...]], ...]:
     """Titles of the layers, each with its codes."""
-    digits = sorted({code[2] for code in SEVERITIES})
+    digits = sorted({code[2] for code in CODES})
     return tuple(
-        (Words(language)(f"findings.layer-{digit}"), tuple(code for code in sorted(SEVERITIES) if code[2] == digit))
+        (Words(language)(f"findings.layer-{digit}"), tuple(code for code in sorted(CODES) if code[2] == digit))
         for digit in digits
     )
 
 
 def severity_word(code: str, language: Language) -> str:
     """Severity of a code, for people."""
-    return Words(language)(f"findings.{SEVERITIES[code]}")
+    return Words(language)(f"findings.{CODES[code].severity}")
 
 
 def _title_line(code: str, language: Language) -> str:
-    width = max(len(severity_word(code, language)) for code in SEVERITIES)
+    width = max(len(severity_word(code, language)) for code in CODES)
     return f"{code}  {severity_word(code, language):{width}}  {page(code, language).title}"
 
 

@@ -1,18 +1,22 @@
-"""Text for people, as a good compiler writes it: place, code, message, the source line with a caret, a hint."""
+"""Text for people, as a good compiler writes it: place, code, message, the source line with a caret, a hint.
 
-from collections.abc import Iterable, Iterator, Mapping
+A table counts what was found in all files together, in plain columns.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import click
 
-from parser.findings.catalogue import Language, texts
-from parser.findings.findings import Finding, Severity
+from parser.findings.catalogue import Language, length, page, texts
+from parser.findings.codes import CODES, Severity
+from parser.findings.findings import Finding
 from parser.text.encoding import printable
-from parser.text.excerpt import caret_lines, place
+from parser.text.excerpt import caret_lines, cells, place
 from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import spot
 from sim.show.findings.totals import Totals
-from sim.show.findings.wording import coverage, message, summary
+from sim.show.findings.wording import coverage, message, summary, verdicts
 from sim.show.words import Words
 
 _COLOURS: Mapping[str, str] = {
@@ -23,6 +27,7 @@ _COLOURS: Mapping[str, str] = {
     "fail": "red",
     "incomplete": "yellow",
 }
+_GAP = "  "  # between the columns of the table
 
 
 def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
@@ -33,9 +38,7 @@ def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
     if totals.files.total() > 1 and not options.quiet:
         yield _styled(summary(totals, options.language), options, bold=True) + "\n"
     if options.stats:
-        from sim.show.findings.stats import table  # noqa: PLC0415 - few ask for it
-
-        yield table(totals, options.language)
+        yield _table(totals, options.language)
 
 
 def _file(result: CheckResult, options: Options) -> Iterator[str]:
@@ -75,3 +78,50 @@ def _hint(finding: Finding, gutter: str, language: Language) -> Iterator[str]:
 
 def _styled(text: str, options: Options, fg: str | None = None, bold: bool | None = None) -> str:
     return click.style(text, fg=fg, bold=bold) if options.colour else text
+
+
+def _table(totals: Totals, language: Language) -> str:
+    """Counts by code with titles, then files, blocks, steps and path; the lines end with a line feed."""
+    lines = [*_codes(totals, language), *_sums(totals, language)]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _codes(totals: Totals, language: Language) -> list[str]:
+    say = Words(language)
+    rows = [
+        (code, say(f"findings.{CODES[code].severity}"), str(count), page(code, language).title)
+        for code, count in sorted(totals.codes.items())
+    ]
+    head = (say("findings.code"), say("findings.severity"), say("findings.count"), say("findings.title"))
+    return _columns([head, *rows], right=(2,)) if rows else []
+
+
+def _sums(totals: Totals, language: Language) -> list[str]:
+    say = Words(language)
+    files, by_verdict = totals.files.total(), verdicts(totals, language)
+    rows = [
+        (say("findings.total-files"), f"{files:,} ({by_verdict})" if by_verdict else f"{files:,}"),
+        (say("findings.total-blocks"), say("findings.blocks", **_numbers(totals))),
+        (say("findings.total-steps"), f"{totals.steps:,}"),
+        (say("findings.total-length"), length(totals.length_um)),
+    ]
+    return _columns(rows)
+
+
+def _numbers(totals: Totals) -> dict[str, str]:
+    return {name: f"{totals.blocks[name]:,}" for name in ("found", "read", "decoded", "stepped")}
+
+
+def _columns(rows: Sequence[tuple[str, ...]], right: tuple[int, ...] = ()) -> list[str]:
+    widths = [max(map(cells, column)) for column in zip(*rows, strict=True)]
+    return [
+        _GAP.join(
+            _padded(text, width, index in right) for index, (text, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in rows
+    ]
+
+
+def _padded(text: str, width: int, right: bool) -> str:
+    blanks = " " * (width - cells(text))
+    return blanks + text if right else text + blanks

@@ -3,7 +3,8 @@
 from collections.abc import Iterable, Mapping
 
 from parser.findings.catalogue import Language, term, texts
-from parser.findings.findings import Finding, Severity
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
 from sim.check.result import CheckResult, CheckState, State
 from sim.show.findings.totals import Totals
 from sim.show.words import Words

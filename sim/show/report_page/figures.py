@@ -5,7 +5,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from parser.findings.catalogue import LANGUAGES, Said, texts
-from parser.findings.findings import Finding, Severity
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
 from parser.units import mm
 from sim.run.dryrun import DryRun, verdict
 from sim.show.report_page.tables import reached

@@ -5,7 +5,7 @@ import math
 from dataclasses import asdict, fields
 from typing import Any
 
-from controller.card.settings import CardSettings, Switches
+from controller.card.core.settings import CardSettings, Switches
 
 
 def settings_text(settings: CardSettings) -> str:

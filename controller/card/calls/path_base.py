@@ -1,7 +1,7 @@
 """What path functions share: coordinates to pulses, and a segment into the list or run at once."""
 
-from controller.card.base import CardBase
-from controller.card.codes import Code, Refused
+from controller.card.calls.base import CardBase
+from controller.card.core.codes import Code, Refused
 from controller.card.engine.entries import NO_LENGTH, Pace, Place, Segment, Stepped, four
 from controller.card.engine.shapes import arc_about, arc_by_radius, check_size, checked_line
 
@@ -25,7 +25,7 @@ class PathBase(CardBase):
     def _next(self, *, rapid: bool = False) -> tuple[int, Pace, Place]:
         """Number, pace and start of the entry that comes next."""
         engine = self._engine
-        start = engine.list_end() if engine.list.is_open else engine.place()
+        start = engine.list_end() if engine.list.is_open else engine.motion.place()
         return max(1, engine.list.number), engine.speeds.pace(rapid=rapid), start
 
     def _submit(self, entry: Segment | Stepped) -> None:

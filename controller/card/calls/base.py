@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from controller.card.call import Function, read_arguments
-from controller.card.codes import Code, Refused
+from controller.card.core.call import Function, read_arguments
+from controller.card.core.codes import Code, Refused
+from controller.card.core.settings import CardSettings
+from controller.card.core.state import AxisState, CardState
 from controller.card.engine.engine import Engine
-from controller.card.settings import CardSettings
-from controller.card.state import AxisState, CardState
 from controller.stepping.pulses import Pulses
 
 LONGEST_S = 1e9
@@ -72,7 +72,7 @@ class CardBase:
             raise ValueError(f"a sleep takes 0 ms or more, up to {LONGEST_S:g} s on the clock, not {ms} ms")
         self._pass(float(ms) / 1000.0)
         for engine in self._engines:
-            engine.hand_out()
+            engine.motion.hand_out_heard()
         self._log(began, "sleep", (ms,), None)
 
     @property
@@ -92,7 +92,7 @@ class CardBase:
     def _pass(self, seconds: float) -> None:
         self._now_s += seconds
         for engine in self._engines:
-            engine.advance(self._now_s)
+            engine.sequencer.advance(self._now_s)
 
     def _called(self, function: Function, given: tuple[Any, ...]) -> Any:
         began = self._now_s

@@ -17,10 +17,10 @@ import json
 import operator
 from typing import Any, TextIO
 
-from controller.card.base import Logged
+from controller.card.calls.base import Logged
+from controller.card.core.settings import CardSettings
 from controller.card.ge import GECard
-from controller.card.settings import CardSettings
-from controller.card.settings_text import settings_text
+from controller.card.log.settings_text import settings_text
 from controller.stepping.pulses import Pulses
 
 FORMAT = "drycut card log 1"

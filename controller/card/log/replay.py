@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from controller.card.base import Logged
+from controller.card.calls.base import Logged
+from controller.card.core.settings import CardSettings
 from controller.card.ge import GECard
-from controller.card.log import call_text, end_text
-from controller.card.log_lines import CardLogError, Damaged, End, call_of, check_format, end_of, settings_of
-from controller.card.settings import CardSettings
+from controller.card.log.lines import CardLogError, Damaged, End, call_of, check_format, end_of, settings_of
+from controller.card.log.writer import call_text, end_text
 from controller.stepping.pulses import Pulses
 from parser.findings.errors import FileUnreadableError
 

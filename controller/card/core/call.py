@@ -11,7 +11,7 @@ from collections.abc import Callable
 from inspect import Parameter, signature
 from typing import Annotated, Any, NamedTuple, get_type_hints
 
-from controller.card.codes import Code, Refused
+from controller.card.core.codes import Code, Refused
 
 
 class CType(NamedTuple):

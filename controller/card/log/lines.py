@@ -6,10 +6,10 @@ import math
 import re
 from typing import Any, NamedTuple
 
-from controller.card.base import Logged
-from controller.card.log import FORMAT
-from controller.card.settings import CardSettings
-from controller.card.settings_text import settings_from
+from controller.card.calls.base import Logged
+from controller.card.core.settings import CardSettings
+from controller.card.log.settings_text import settings_from
+from controller.card.log.writer import FORMAT
 from parser.findings.errors import DrycutError
 
 _CALL = re.compile(r"(\S+) +([0-9a-f]{4,8}) ([A-Za-z]\w*)\((.*)\) = (.*)")
