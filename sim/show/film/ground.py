@@ -13,13 +13,11 @@ from sim.show.draw.flatten import cut_runs, flatten
 from sim.show.draw.furniture import draw_axes, draw_frame
 from sim.show.draw.layout import Box, Page, View
 from sim.show.draw.paints import Paint
-from sim.show.draw.simplify import simplify
+from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.film.course import Course
-from sim.show.film.views import near_runs
 from sim.show.pictures.cut.marks import draw_start
 from sim.show.pictures.cut.outlines import Bodies, draw_bodies
 
-CHORD_PX: Final = 0.15
 STEPS_FROM: Final = 2.0
 """Pixels to the µm from which on the single steps show."""
 TRACE_FROM: Final = 0.5
@@ -79,6 +77,14 @@ def _draw_run(canvas: Canvas, points_um: Floats, page: Page, paint: Paint, width
     if len(points_um) > 1:
         for run in near_runs(page.view.to_px(points_um), page.plot):
             canvas.polyline(simplify(run, CHORD_PX), paint, width * page.unit)
+
+
+def near_runs(points: Floats, box: Box) -> list[Floats]:
+    """Stretches of a line (n, 2) px whose chords may meet a box, each (k, 2) with k ≥ 2."""
+    low, high = np.minimum(points[:-1], points[1:]), np.maximum(points[:-1], points[1:])
+    meets = ((high >= (box.left, box.top)) & (low <= (box.right, box.bottom))).all(axis=1)
+    edges = np.flatnonzero(np.diff(meets, prepend=False, append=False))
+    return [points[first : past + 1] for first, past in edges.reshape(-1, 2).tolist()]
 
 
 def _draw_steps(canvas: Canvas, page: Page, course: Course) -> None:

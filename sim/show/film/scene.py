@@ -19,7 +19,10 @@ FALL_S: Final = 0.7
 """So long a piece that came free lies grey before it is gone, in seconds of the film."""
 
 TIP_MOST_PX: Final = 150.0
-"""A larger kerf grows disc by disc: its front lies far from the wire, mostly outside of the plot."""
+"""Up to this radius the kerf reaches the wire in every frame; a wider one grows disc by disc.
+
+Its front is then far from the wire, mostly outside the plot.
+"""
 NOTHING: Final = Span(0, 0, 0, 0)
 
 

@@ -32,12 +32,11 @@ from sim.show.draw.paints import DARK, LIGHT, Paint
 from sim.show.draw.sheet import drawing, pixels
 from sim.show.pictures.deviation import inset
 from sim.show.pictures.deviation.along import draw_along
-from sim.show.pictures.deviation.circles import circles_of
 from sim.show.pictures.deviation.feet import feet_um
 from sim.show.pictures.deviation.histogram import bins_of, draw_histogram, path_of_each, shares
 from sim.show.pictures.deviation.inset import STEPS, inset_of
 from sim.show.pictures.deviation.places import APART_UM, worst_places
-from sim.show.pictures.deviation.polar import draw_polar
+from sim.show.pictures.deviation.polar import circles_of, draw_polar
 from sim.show.pictures.deviation.samples import Samples, samples_of
 from sim.show.pictures.deviation.whiskers import APART, draw_whiskers
 from sim.show.pictures.deviation.worst import draw_worst
@@ -101,6 +100,21 @@ ALL: dict[str, Callable[..., Any]] = {
     "histogram": draw_histogram,
     "worst": lambda sheet, of: draw_worst(sheet, of, recording(SLOT).steps),
 }
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_lines_are_as_wide_as_the_sheet_asks_for(name: str) -> None:
+    """At twice the width every line is twice as wide."""
+    texts = RING_TEXT if name == "polar" else SLOT
+    small, large = (
+        {
+            (one.what, one.paint, round(one.more[0] / factor, 6))
+            for what in ("polyline", "dashed")
+            for one in ALL[name](recording_sheet(1600 * factor), samples(texts)).of(what)
+        }
+        for factor in (1, 2)
+    )
+    assert small == large
 
 
 # --- numbers

@@ -17,18 +17,18 @@ from parser.findings.errors import SettingsError
 from parser.program import parse_program, read_program
 from sim.run.recording import recorded
 from sim.setup.scenario import load_scenario
-from sim.show.draw.layout import Box, View
+from sim.show.draw.layout import Box, View, centred
 from sim.show.draw.paints import LIGHT, Paint
-from sim.show.film.clock import Clock
+from sim.show.film.clock import FilmClock
 from sim.show.film.controls import Controls
 from sim.show.film.course import Course, course_of
 from sim.show.film.cut_map import FULL, CutMap, Discs, Span, discs_of
-from sim.show.film.layout import layout_for
+from sim.show.film.ground import near_runs
+from sim.show.film.layout import FINEST_PX_PER_UM, layout_for, zoomed
 from sim.show.film.playback import SPEEDS, Playback
 from sim.show.film.readout import read_out, told
 from sim.show.film.screen import Look, Screen
 from sim.show.film.strip import bar_of
-from sim.show.film.views import FINEST_PX_PER_UM, centred, near_runs, zoomed
 from sim.show.film.window import LEAST_PX, NO_DISPLAY, Window, open_display
 from sim.show.words import Words
 from sim.table.trace import Trace
@@ -105,7 +105,7 @@ def depth_px(region: shapely.Geometry, screen: Screen) -> np.ndarray:
 
 @pytest.mark.parametrize(("seconds", "fps"), [(10.0, 25), (0.5, 1), (3.3, 30), (600.0, 60)])
 def test_a_film_lasts_as_long_as_asked_and_holds_its_end(seconds: float, fps: int) -> None:
-    clock = Clock(seconds, fps, 1234.5)
+    clock = FilmClock(seconds, fps, 1234.5)
     times = clock.times_s
     assert clock.frames == max(round(seconds * fps), 2)
     assert times[0] == 0.0
@@ -117,7 +117,7 @@ def test_a_film_lasts_as_long_as_asked_and_holds_its_end(seconds: float, fps: in
 
 @given(st.integers(1, 60), st.floats(0.5, 60.0), st.sampled_from([1, 10]))
 def test_delays_add_up_to_the_film(fps: int, seconds: float, grain_ms: int) -> None:
-    clock = Clock(seconds, fps, 10.0)
+    clock = FilmClock(seconds, fps, 10.0)
     delays = clock.delays_ms(grain_ms)
     assert len(delays) == clock.frames
     assert all(delay % grain_ms == 0 and abs(delay - 1000 / fps) < grain_ms for delay in delays)

@@ -23,7 +23,7 @@ LINE_WIDTH: Final = 1.5
 _NAMES: Final[Mapping[LossKind, str]] = {"lost-steps": "motion.lost", "trip": "motion.trip"}
 
 
-class Mark(NamedTuple):
+class TimeMark(NamedTuple):
     """What happened at a time: the key of its name, its sign, and what it is drawn in."""
 
     t_s: float
@@ -40,15 +40,16 @@ class _Label(NamedTuple):
     paint: Paint
 
 
-def marks_of(run: DryRun) -> list[Mark]:
+def marks_of(run: DryRun) -> list[TimeMark]:
     """Losses of a run, with the codes of their findings and the axes, and pauses."""
     ends_s, stops = _borders_s(run), run.toolpath.stops
     pauses = [
-        Mark(float(ends_s[stop.after]), "motion.pause", "D", Paint.PAUSE) for stop in stops if stop.kind == "pause"
+        TimeMark(float(ends_s[stop.after]), "motion.pause", "D", Paint.PAUSE) for stop in stops if stop.kind == "pause"
     ]
     codes = {fact.kind: finding.code for finding, fact in telling(run.findings, Lost)}
     losses = [
-        Mark(loss.t_s, _NAMES[loss.kind], f"{codes[loss.kind]} {loss.axis.name}", Paint.ERROR) for loss in run.losses
+        TimeMark(loss.t_s, _NAMES[loss.kind], f"{codes[loss.kind]} {loss.axis.name}", Paint.ERROR)
+        for loss in run.losses
     ]
     until_s = run.history.t_s[-1]
     return [mark for mark in (*losses, *pauses) if mark.t_s <= until_s]
@@ -57,7 +58,8 @@ def marks_of(run: DryRun) -> list[Mark]:
 def draw_blocks(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> None:
     """Draw ticks at borders of blocks and numbers between, above a chart whose X axis counts `unit_s`.
 
-    Of many blocks some are shown, and of numbers that would overlap the roundest, or those of the longest blocks.
+    Of many blocks only every 2nd, 5th, 10th … has them. Of numbers that would overlap, the roundest is written, and
+    of those that are as round the one of the longest block.
     """
     stride, top, unit = number_stride(len(run.toolpath)), chart.frame.top, chart.unit
     borders = chart.x_px(_borders_s(run) / unit_s)
@@ -71,7 +73,7 @@ def draw_blocks(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> Non
     _draw_labels(canvas, chart, labels, top - (TICK + 0.5 * ROW) * unit)
 
 
-def draw_marks(canvas: Canvas, charts: list[Chart], marks: list[Mark], unit_s: float, y: float) -> None:
+def draw_marks(canvas: Canvas, charts: list[Chart], marks: list[TimeMark], unit_s: float, y: float) -> None:
     """Draw a line through all charts at each mark, and its sign at the height `y` as far as there is room.
 
     Of two in one place the first one shows.

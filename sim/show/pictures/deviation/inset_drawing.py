@@ -7,15 +7,14 @@ import numpy as np
 from parser.geometry.curves import Floats
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import CHORD_PX
-from sim.show.draw.layout import Box, View, box_around, nice_below, ticks
+from sim.show.draw.layout import Box, View, box_around, centred, nice_below, ticks
 from sim.show.draw.paints import Paint
-from sim.show.draw.simplify import simplify
+from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.deviation.frame import um
 from sim.show.pictures.deviation.inset import Inset
 
 GRID_APART: Final = 7.0
-"""Lines of the grid are single µm unless they came closer together than this."""
+"""Lines of the grid are single µm unless they would come closer together than this."""
 TENTH: Final = 10
 """Every how manyth line of the grid is darker."""
 IDEAL_WIDTH: Final = 2.4
@@ -25,12 +24,12 @@ TABLE_WIDTH: Final = 1.6
 STEP_DOT: Final = 3.6
 WIRE_DOT: Final = 5.5
 APART: Final = 2.7
-"""Dots show while their middles are so many radii apart."""
+"""Dots show where their middles are at least so many radii apart."""
 SIZE_WIDTH: Final = 2.0
 SIZE_ARROW: Final = 14.0
 
 
-def draw_close_up(canvas: Canvas, box: Box, inset: Inset, unit: float) -> None:
+def draw_inset(canvas: Canvas, box: Box, inset: Inset, unit: float) -> None:
     """Draw an inset into a square box."""
     view = view_of(box, inset)
     canvas.box(box, Paint.PAGE, Paint.FRAME, style.GRID_WIDTH * unit)
@@ -47,9 +46,7 @@ def draw_close_up(canvas: Canvas, box: Box, inset: Inset, unit: float) -> None:
 
 def view_of(box: Box, inset: Inset) -> View:
     """Scale of an inset in a square box."""
-    scale = (box.right - box.left) / inset.side_um
-    x, y = (inset.center_um * scale).tolist()
-    return View(scale, (box.left + box.right) / 2.0 - x, (box.top + box.bottom) / 2.0 + y)
+    return centred(inset.center_um, (box.right - box.left) / inset.side_um, box)
 
 
 def _drawn(view: View, points_um: Floats) -> Floats:
@@ -57,7 +54,7 @@ def _drawn(view: View, points_um: Floats) -> Floats:
 
 
 def grid_um(view: View, unit: float) -> float:
-    """From line to line of the grid: whole µm, or more where they came too close."""
+    """From line to line of the grid: 1 µm, or more where lines would come too close."""
     least_um = GRID_APART * unit / view.px_per_um
     return 1.0 if least_um <= 1.0 else nice_below(least_um * 2.5)
 
