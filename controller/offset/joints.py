@@ -1,7 +1,7 @@
 """How the offset of one block goes on into that of the next, by the three types of C-type compensation.
 
-Shortened (缩短型) on the inner side of a corner, lengthened (伸长型) on the outer side up to 90°, and beyond that with
-a bridge inserted (插入型): an arc round the corner. Tangent blocks need none of them.
+Shortened (suōduǎn) on the inner side of a corner, lengthened (shēncháng) on the outer side up to 90°, and beyond that
+with a bridge inserted (chārù): an arc round the corner. Tangent blocks need none of them.
 """
 
 from enum import IntEnum

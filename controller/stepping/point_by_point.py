@@ -1,4 +1,4 @@
-"""Point-by-point comparison (逐点比较法): words to steps, as a 3B controller makes them (docs/3b.md §3)."""
+"""Point-by-point comparison (zhúdiǎn bǐjiào fǎ): words to steps, as a 3B controller makes them (docs/3b.md §3)."""
 
 from typing import TypeVar
 

@@ -1,4 +1,7 @@
-"""Texts of the findings in English and Chinese: one page a code, in ``parser/findings/pages``."""
+"""Texts of the findings in English and Chinese: one page a code, in ``parser/findings/pages``.
+
+Terms, remarks and what joins texts stand there too, each kind in a file.
+"""
 
 import string
 from collections.abc import Mapping
@@ -7,18 +10,20 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 from parser.findings.codes import CODES
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, Value
 from parser.units import UM_PER_MM, mm
 
 Language = Literal["en", "zh"]
 LANGUAGES: tuple[Language, ...] = ("en", "zh")
 
-_JOINTS: Mapping[Language, str] = {
-    "en": "{found}; expected {expected}; {machine}",
-    "zh": "{found}；应为{expected}；{machine}",
-}
 _PAGES = Path(__file__).with_name("pages")
-_ASIDES: Mapping[Language, str] = {"en": " ({})", "zh": "（{}）"}
+
+
+class Said(NamedTuple):
+    """A text in both languages."""
+
+    en: str
+    zh: str
 
 
 class Page(NamedTuple):
@@ -70,10 +75,19 @@ def example(code: str) -> Example | None:
 def texts(finding: Finding, language: Language = "en") -> Texts:
     """Texts of a finding in one language."""
     of = page(finding.code, language)
-    fill = _Filler(language)
     templates = {"found": of.found, "expected": of.expected, "machine": of.machine, "hint": of.hint}
-    parts = {name: fill.vformat(template, (), finding.values) for name, template in templates.items()}
-    return Texts(of.title, **parts, message=_JOINTS[language].format(**parts))
+    parts = {name: filled(template, finding.values, language) for name, template in templates.items()}
+    return Texts(of.title, **parts, message=_read("joints")[language]["message"].format(**parts))
+
+
+def filled(template: str, values: Mapping[str, Value], language: Language = "en") -> str:
+    """A template of a page, its places filled: they know ``{miss:um}``, ``{x:mm}``, ``{what:term}`` and the like."""
+    return _Filler(language).vformat(template, (), values)
+
+
+def remark_template(name: str, language: Language) -> str:
+    """Template of a remark. KeyError where there is no such remark."""
+    return str(_read("remarks")[language][name])
 
 
 def term(key: str, language: Language = "en") -> str:
@@ -111,7 +125,7 @@ class _Filler(string.Formatter):
         if format_spec == "term":
             return term(str(value), self._language)
         if format_spec == "aside":
-            return _ASIDES[self._language].format(value) if value else ""
+            return str(_read("joints")[self._language]["aside"].format(value)) if value else ""
         return str(super().format_field(value, format_spec))
 
 

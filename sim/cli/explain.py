@@ -17,7 +17,7 @@ def explain(code: str | None, lang: str | None) -> None:
     \b
     drycut explain 3B204
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.check.pages import page_text, titles_text
+    from sim.show.findings.pages import page_text, titles_text
 
     language = chosen(lang)
     if code is None:

@@ -18,16 +18,9 @@ from sim.check.engine import check_program
 from sim.check.fixes import Choice, choices, with_edits
 from sim.check.settings import CheckSettings
 from sim.files import replace_file
+from sim.show.words import Words
 
 _LINE_END = re.compile(r"\r\n|\r|\n")
-
-
-_LEFT: dict[Language, str] = {
-    "en": "{place}: {code} is left as it is; more than one mend is possible: {choices}\n",
-    "zh": "{place}: {code} 未改动，可能的改法不止一种：{choices}\n",
-}
-_CHOICE: dict[Language, str] = {"en": "block {block} with {text}", "zh": "第 {block} 段改为 {text}"}
-_OR: dict[Language, str] = {"en": " or ", "zh": " 或 "}
 
 
 class Unmended(NamedTuple):
@@ -69,12 +62,17 @@ def fix_file(path: Path, name: str, settings: CheckSettings) -> Fixing:
 
 def told(fixing: Fixing, name: str, language: Language) -> str:
     """What was done, for people."""
+    say = Words(language)
     left = "".join(
-        _LEFT[language].format(
+        say(
+            "findings.left",
             place=place(printable(name), unmended.finding.line, unmended.finding.column),
             code=unmended.finding.code,
-            choices=_OR[language].join(_CHOICE[language].format(**choice._asdict()) for choice in unmended.choices),
+            choices=say("findings.or").join(
+                say("findings.choice", block=choice.block, text=choice.text) for choice in unmended.choices
+            ),
         )
+        + "\n"
         for unmended in fixing.unmended
     )
     return fixing.diff + left

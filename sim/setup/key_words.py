@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from sim.setup.quiz import Said
+from parser.findings.catalogue import Said
 from sim.setup.toml.keys import Key, Section
 
 _WORDS = Path(__file__).with_name("settings.toml")

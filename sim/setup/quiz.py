@@ -5,6 +5,7 @@ from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
+from parser.findings.catalogue import Said
 from parser.findings.errors import SettingsError
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
@@ -17,13 +18,6 @@ About = Literal["quadrant", "count_axis", "turn", "count_length", "next_step", "
 
 BLOCK = Bound(1, 1e6)
 ANSWERS = Bound(2, 6)
-
-
-class Said(NamedTuple):
-    """A text in both languages."""
-
-    en: str
-    zh: str
 
 
 class Written(NamedTuple):

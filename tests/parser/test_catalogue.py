@@ -11,6 +11,7 @@ import pytest
 from parser.findings.catalogue import LANGUAGES, Language, Page, Texts, example, instant, page, texts
 from parser.findings.codes import CODES
 from parser.findings.findings import Finding, Value
+from parser.findings.remarks import Remark, remark_text
 
 PAGES = resources.files("parser.findings") / "pages"
 TEMPLATES = ("found", "expected", "machine", "hint")
@@ -82,7 +83,7 @@ def columns(line: str) -> int:
 
 def test_every_code_has_a_page_and_every_page_a_code() -> None:
     names = {entry.name.removesuffix(".toml") for entry in PAGES.iterdir() if entry.name.endswith(".toml")}
-    assert names - {"terms"} == set(CODES) == set(VALUES)
+    assert names - {"joints", "remarks", "terms"} == set(CODES) == set(VALUES)
     assert get_args(Language) == LANGUAGES
 
 
@@ -193,3 +194,30 @@ def test_an_unknown_code_is_a_key_error(code: str) -> None:
         page(code)
     with pytest.raises(KeyError):
         example(code)
+
+
+def test_remarks_have_the_same_places_in_both_languages() -> None:
+    remarks = written("remarks")
+    assert set(remarks["en"]) == set(remarks["zh"])
+    for name, text in remarks["en"].items():
+        assert placeholders(text) == placeholders(remarks["zh"][name]), name
+
+
+@pytest.mark.parametrize(
+    ("remark", "english", "chinese"),
+    [
+        (Remark("mirrored"), "the program cuts the mirror image of the drawing", "程序切出的是图纸的镜像"),
+        (
+            Remark("unit-slip", {"times": "25.4", "larger": "unit-inch", "smaller": "unit-mm"}),
+            "the program is 25.4 times the drawing's size: inches and mm are mixed up",
+            "程序是图纸尺寸的 25.4 倍：单位混淆（英寸 / mm）",
+        ),
+        (
+            Remark("lead-in-part", {"block": 7, "depth": 1234.56}),
+            "the lead in block 7 cuts 1,234.6 µm into the part",
+            "第 7 段的引线切入零件 1,234.6 µm",
+        ),
+    ],
+)
+def test_a_remark_is_said_in_both_languages(remark: Remark, english: str, chinese: str) -> None:
+    assert (remark_text(remark), remark_text(remark, "zh")) == (english, chinese)

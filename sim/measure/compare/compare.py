@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from parser.drawing.model import Drawing
+from parser.findings.remarks import Remark
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import headings, headings_at
 from parser.geometry.feet import feet
@@ -13,7 +14,7 @@ from sim.measure.compare.edge import Edge
 from sim.measure.compare.fit import fit
 from sim.measure.compare.nearest import indexed
 from sim.measure.compare.placement import IN_PLACE, Placement, placed
-from sim.measure.compare.result import Comparison, Named
+from sim.measure.compare.result import Comparison
 from sim.measure.compare.slips import unit_slip
 
 _MOST_LAYERS = 8  # named one by one
@@ -28,11 +29,8 @@ def compare(edge: Edge, drawing: Drawing, tolerance_um: float, *, fitted: bool =
     there, back = directed(edge.curves, indexed(laid)), directed(laid, indexed(edge.curves))
     slip = unit_slip(edge.curves, edge.loop, index, loop, as_it_is)
     gouges = tuple(gouge for gouge in edge.gouges if gouge.depth_um > tolerance_um)
-    names = [Named("unit-slip", slip.text)] if slip else _posed(placement, edge.curves, tolerance_um)
-    names += [
-        Named("lead-in-part", f"the lead in block {gouge.block} cuts {gouge.depth_um:,.1f} µm into the part")
-        for gouge in gouges
-    ]
+    names = [slip.remark] if slip else _posed(placement, edge.curves, tolerance_um)
+    names += [Remark("lead-in-part", {"block": gouge.block, "depth": gouge.depth_um}) for gouge in gouges]
     return Comparison(
         edge=edge,
         drawing=drawing,
@@ -47,7 +45,7 @@ def compare(edge: Edge, drawing: Drawing, tolerance_um: float, *, fitted: bool =
         gouges=gouges,
         tolerance_um=tolerance_um,
         names=tuple(names),
-        notes=(*edge.notes, *drawing.notes, *_more_than_a_part(drawing)),
+        notes=(*edge.notes, *_of_drawing(drawing)),
     )
 
 
@@ -59,26 +57,26 @@ def _loop_of_row(drawing: Drawing) -> Ints:
     return loop
 
 
-def _more_than_a_part(drawing: Drawing) -> Iterator[str]:
-    """Signs that a drawing holds more than the contours of a part, such as lines of construction or a frame."""
+def _of_drawing(drawing: Drawing) -> Iterator[Remark]:
+    """What its reader notes, and signs that it holds more than the contours of a part: construction lines, a frame."""
+    yield from (Remark("of-drawing", {"text": note}) for note in drawing.notes)
     loose = sum(not loop.closed for loop in drawing.loops)
     if loose:
-        yield f"the drawing: {loose:,} of {len(drawing.loops):,} chains of curves do not close"
+        yield Remark("open-chains", {"open": loose, "all": len(drawing.loops)})
     layers = sorted({entity.layer for entity in drawing.entities})
     if len(layers) > 1:
-        more = ", …" if len(layers) > _MOST_LAYERS else ""
-        yield f"the drawing: all layers are compared: {', '.join(layers[:_MOST_LAYERS])}{more}; --layer takes one"
+        more = ["…"] if len(layers) > _MOST_LAYERS else []
+        yield Remark("all-layers", {"layers": ", ".join([*layers[:_MOST_LAYERS], *more])})
 
 
-def _posed(placement: Placement, edge: Curves, tolerance_um: float) -> list[Named]:
+def _posed(placement: Placement, edge: Curves, tolerance_um: float) -> list[Remark]:
     """What is to be said of how the drawing had to be laid; a turn that moves no place past the tolerance is none."""
     names = []
     if placement.mirror:
-        names.append(Named("mirrored", "the program cuts the mirror image of the drawing"))
+        names.append(Remark("mirrored"))
     size = float(np.ptp(edge.start_um, axis=0).max())
     if abs(placement.turn_rad) * size > tolerance_um:
-        turned = np.degrees(placement.turn_rad)
-        names.append(Named("turned", f"the program is turned by {turned:.4f}° against the drawing"))
+        names.append(Remark("turned", {"turn_deg": float(np.degrees(placement.turn_rad))}))
     return names
 
 

@@ -4,15 +4,15 @@ from dataclasses import replace
 
 from parser.drawing.model import Drawing
 from parser.findings.errors import SettingsError
+from parser.findings.remarks import Remark
 from parser.geometry.curves import Ints
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.measure.compare.compare import compare
 from sim.measure.compare.program_edge import ProgramEdges, edge_at, program_edges, with_gouges
-from sim.measure.compare.result import Comparison, Named
+from sim.measure.compare.result import Comparison
 
 _FAR_BETTER = 0.25  # of the deviations: what another edge of the same path must come to, to be named
-_SIDE_TRIED = "no lead-in tells on which side of the path the part lies; the side that fits the drawing is taken"
 
 
 def compare_program(
@@ -32,11 +32,11 @@ def compare_program(
     results = [(compare(edge, drawing, tolerance_um, fitted=fitted), sides) for edge, sides in tried]
     best, sides = min(results, key=lambda result: result[0].edge_to_drawing.rms_um)
     if len(of.sides) > 1:
-        best = replace(best, notes=(*best.notes, _SIDE_TRIED))
+        best = replace(best, notes=(*best.notes, Remark("side-tried")))
     return best if best.passes else replace(best, names=(*best.names, *_offset_names(best, of, sides)))
 
 
-def _offset_names(found: Comparison, of: ProgramEdges, sides: Ints) -> list[Named]:
+def _offset_names(found: Comparison, of: ProgramEdges, sides: Ints) -> list[Remark]:
     """Whether another edge of the same path fits the drawing far better: on its other side, or the path itself.
 
     Either way the part loses what the names tell, all along its edge.
@@ -44,15 +44,15 @@ def _offset_names(found: Comparison, of: ProgramEdges, sides: Ints) -> list[Name
     if found.scale != 1.0 or of.offset_um <= found.tolerance_um:
         return []
     lost = (
-        (-of.offset_um, "wrong-side", "the program runs on the wrong side of the contour", 2.0),
-        (0.0, "offset-missing", "the program runs on the drawing's own contour, without offset", 1.0),
+        (-of.offset_um, "wrong-side", 2.0),
+        (0.0, "offset-missing", 1.0),
     )
-    for other_um, name, text, times in lost:
+    for other_um, name, times in lost:
         edge = edge_at(of, sides, other_um)
         if len(edge.curves) and _far_better(
             compare(edge, found.drawing, found.tolerance_um, fitted=found.fitted), found
         ):
-            return [Named(name, f"{text}: its edge lies {mm(times * of.offset_um):g} mm inside the part")]
+            return [Remark(name, {"inside_mm": mm(times * of.offset_um)})]
     return []
 
 

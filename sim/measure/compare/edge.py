@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from parser.findings.remarks import Remark
 from parser.geometry.curves import Curves, Ints
 from parser.toolpath import Point
 
@@ -43,4 +44,4 @@ class Edge:
     part_side: Ints
     offset_um: float | None = None
     gouges: tuple[LeadGouge, ...] = ()
-    notes: tuple[str, ...] = ()
+    notes: tuple[Remark, ...] = ()

@@ -9,6 +9,7 @@ import shapely
 
 from controller.offset.reach import reach
 from controller.offset.sections import Side
+from parser.findings.remarks import Remark
 from parser.geometry.curves import Ints, joined
 from parser.toolpath import Toolpath
 from sim.measure.compare.edge import Edge
@@ -54,9 +55,9 @@ def edge_at(of: ProgramEdges, sides: Ints, offset_um: float) -> Edge:
         made = _moved(ring, side, offset_um)
         if not made:
             first, last = int(ring.block[0]), int(ring.block[-1])
-            notes.append(f"blocks {first}–{last}: no edge lies {offset_um:g} µm beside them on the side of the part")
+            notes.append(Remark("no-edge-beside", {"first": first, "last": last, "offset": offset_um}))
         loops += made
-    notes += [f"blocks {first}–{last} close no loop and have no edge" for first, last in of.rings.open_blocks]
+    notes += [Remark("no-loop", {"first": first, "last": last}) for first, last in of.rings.open_blocks]
     if not loops:
         nothing = np.empty(0, dtype=np.int64)
         return Edge(of.rings.leads.picked(nothing), nothing, nothing, nothing, offset_um, notes=tuple(notes))

@@ -4,18 +4,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from parser.drawing.model import Drawing
+from parser.findings.remarks import Remark
 from parser.geometry.curves import Curves, Floats
 from parser.toolpath import Point
 from sim.measure.compare.directed import Directed
 from sim.measure.compare.edge import Edge, LeadGouge
 from sim.measure.compare.placement import Placement
-
-
-class Named(NamedTuple):
-    """A cause that the whole of a deviation has, by its name, and told to people."""
-
-    name: str
-    text: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,8 +53,8 @@ class Comparison:
     drawing_side: Floats
     gouges: tuple[LeadGouge, ...]
     tolerance_um: float
-    names: tuple[Named, ...]
-    notes: tuple[str, ...]
+    names: tuple[Remark, ...]
+    notes: tuple[Remark, ...]
 
     @property
     def deepest(self) -> LeadGouge | None:

@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from parser.findings.remarks import Remark
 from parser.geometry.curves import Curves, Ints
 from sim.measure.compare.fit import Fit, fit
 from sim.measure.compare.nearest import Index, indexed
@@ -9,12 +10,12 @@ from sim.measure.compare.placement import scaled
 from sim.measure.compare.starts import Group, groups
 
 _UNITS = {
-    1000.0: ("mm", "µm"),
-    25.4: ("inches", "mm"),
-    10.0: ("cm", "mm"),
-    2.54: ("inches", "cm"),
-    100.0: ("m", "cm"),
-    39.37: ("m", "inches"),
+    1000.0: ("unit-mm", "unit-um"),
+    25.4: ("unit-inch", "unit-mm"),
+    10.0: ("unit-cm", "unit-mm"),
+    2.54: ("unit-inch", "unit-cm"),
+    100.0: ("unit-m", "unit-cm"),
+    39.37: ("unit-m", "unit-inch"),
 }
 """Ratios of units in use; 39.37 inches make a metre (1 inch = 25.4 mm, ISO 80000-3)."""
 _ALIKE = 0.01  # of a ratio
@@ -22,17 +23,17 @@ _SAME_SHAPE = 0.01  # of the size: root mean square of the distances once scaled
 
 
 class UnitSlip(NamedTuple):
-    """The program is `scale` times as large as the drawing; two units in that ratio."""
+    """The program is `scale` times as large as the drawing; two units in that ratio, terms of the catalogue."""
 
     scale: float
     larger: str
     smaller: str
 
     @property
-    def text(self) -> str:
-        """What is wrong, for people."""
+    def remark(self) -> Remark:
+        """What is wrong, to be said."""
         times = f"{self.scale:g}" if self.scale > 1.0 else f"1/{round(1.0 / self.scale, 2):g}"
-        return f"the program is {times} times the drawing's size: {self.larger} and {self.smaller} are mixed up"
+        return Remark("unit-slip", {"times": times, "larger": self.larger, "smaller": self.smaller})
 
 
 def unit_slip(

@@ -1,4 +1,4 @@
-"""A comparison as data, schema ``drycut.compare/1`` (docs/compare.md)."""
+"""A comparison as data, schema ``drycut.compare/1`` (docs/compare.md); what is said of it is in English."""
 
 import json
 from collections.abc import Sequence
@@ -6,6 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from parser.findings.remarks import remark_text
 from sim import __version__
 from sim.measure.compare.result import Comparison, Place
 from sim.measure.compare.tables import by_block, by_entity, worst_places
@@ -37,12 +38,12 @@ def comparison_document(of: Comparison) -> dict[str, Any]:
             "mirror": placement.mirror,
             "scale": _round(of.scale),
         },
-        "names": [named._asdict() for named in of.names],
+        "names": [{"name": named.name, "text": remark_text(named)} for named in of.names],
         "worst": [_place(place) for place in worst_places(of)],
         "blocks": [_place(place) for place in blocks],
         "entities": [{**_entity(of, place.entity), **_place(place)} for place in entities],
         "drawing": {"name": drawing.name, "version": drawing.version, "unit": drawing.unit},
-        "notes": list(of.notes),
+        "notes": [remark_text(note) for note in of.notes],
     }
 
 

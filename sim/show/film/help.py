@@ -10,7 +10,7 @@ from sim.show.draw.layout import Box, box_around
 from sim.show.draw.paints import Paint, Theme
 from sim.show.film.layout import Layout
 from sim.show.film.plate import Pixels, plate_over
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 KEYS: Final = (
     ("key_space", "play"),
@@ -43,7 +43,7 @@ def draw_help(frame: Pixels, theme: Theme, language: Language, layout: Layout) -
     row = (own.bottom - own.top) / (len(KEYS) + 1)
     for number, (pressed, does) in enumerate(KEYS):
         y, size = (number + 1.0) * row, min(style.TEXT * unit, 0.7 * row)
-        name = say(f"film_{pressed}") if pressed.startswith("key_") else pressed
+        name = say(f"film.{pressed}") if pressed.startswith("key_") else pressed
         plate.text((0.05 * own.right, y), name, size, Paint.INK)
-        plate.text((0.38 * own.right, y), say(f"film_does_{does}"), size, Paint.GREY)
+        plate.text((0.38 * own.right, y), say(f"film.does_{does}"), size, Paint.GREY)
     frame[top:bottom, left:right] = plate.pixels()

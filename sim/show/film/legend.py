@@ -10,7 +10,7 @@ from sim.show.draw.layout import Box
 from sim.show.draw.legend import Entry, LegendSizes, draw_legend, in_columns, middle, stroke
 from sim.show.draw.paints import Paint
 from sim.show.film.marks import draw_commanded, draw_wire
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 SIZES: Final = LegendSizes(row=38.0, sample=44.0, text=0.9 * style.TEXT)
 
@@ -26,11 +26,11 @@ def draw_film_legend(canvas: Canvas, box: Box, unit: float, entries: list[Entry]
 def film_entries(say: Words, *, wider: bool, pieces: bool) -> list[Entry]:
     """What a frame shows: the kerf, `wider` than it is where it would not show, and maybe `pieces` that come free."""
     return [
-        Entry(_wire, say("film_wire")),
-        Entry(_commanded, say("film_commanded")),
-        Entry(stroke(Paint.KERF, 2.0 * style.KERF_WIDTH_MIN), say("film_kerf_wider" if wider else "film_kerf")),
-        Entry(stroke(Paint.GREY, style.IDEAL_WIDTH), say("film_ideal")),
-        *([Entry(_piece, say("film_free_piece"))] if pieces else []),
+        Entry(_wire, say("film.wire")),
+        Entry(_commanded, say("film.commanded")),
+        Entry(stroke(Paint.KERF, 2.0 * style.KERF_WIDTH_MIN), say("film.kerf_wider" if wider else "film.kerf")),
+        Entry(stroke(Paint.GREY, style.IDEAL_WIDTH), say("film.ideal")),
+        *([Entry(_piece, say("film.free_piece"))] if pieces else []),
     ]
 
 

@@ -9,7 +9,7 @@ from sim.cut.pieces.pieces import Piece
 from sim.run.course import Course, Event, Moment
 from sim.show.draw.paints import Paint
 from sim.show.film.strip import paint_of
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 _TOLD_S = 2.5
 """So long something that happened stays written, in seconds of the film."""
@@ -26,19 +26,19 @@ class Line(NamedTuple):
 def read_out(course: Course, moment: Moment, speed: float, say: Words) -> list[Line]:
     """Lines of a moment, always as many; `speed` is seconds of the run in each second of the film."""
     x, y = (f"{round(mm(float(place)), 3) + 0.0:.3f} mm".replace("-", "−") for place in moment.wire_um)
-    feed = say("film_feed_value", value=f"{mm(moment.feed_um_s) * 60.0:.2f}")
+    feed = say("film.feed_value", value=f"{mm(moment.feed_um_s) * 60.0:.2f}")
     toolpath = course.run.toolpath
     first, past = toolpath.source.span[moment.row].tolist()
     return [
-        Line("", say("film_block", number=f"{moment.row + 1:,}", count=f"{len(toolpath):,}")),
+        Line("", say("film.block", number=f"{moment.row + 1:,}", count=f"{len(toolpath):,}")),
         Line("", toolpath.source.text[first:past], Paint.GREY),
         Line("X", x),
         Line("Y", y),
-        Line(say("film_feed"), feed if moment.cuts else f"{say('film_jump')} {feed}"),
-        Line(say("film_deviation"), f"{moment.deviation_um:.2f} µm" if moment.cuts else "–"),
-        Line(say("film_elapsed"), instant(moment.t_s)),
-        Line(say("film_remaining"), instant(max(course.duration_s - moment.t_s, 0.0))),
-        Line(say("film_speed"), f"× {_speed(speed)}"),
+        Line(say("film.feed"), feed if moment.cuts else f"{say('film.jump')} {feed}"),
+        Line(say("film.deviation"), f"{moment.deviation_um:.2f} µm" if moment.cuts else "–"),
+        Line(say("film.elapsed"), instant(moment.t_s)),
+        Line(say("film.remaining"), instant(max(course.duration_s - moment.t_s, 0.0))),
+        Line(say("film.speed"), f"× {_speed(speed)}"),
         told(course, moment.t_s, speed, say),
     ]
 
@@ -48,8 +48,8 @@ def told(course: Course, t_s: float, speed: float, say: Words) -> Line:
     if t_s >= course.duration_s:
         tripped = course.run.tripped
         if tripped is not None:
-            return Line("", say("film_tripped", axis=tripped.axis.name), Paint.ERROR)
-        return Line("", say("film_end"))
+            return Line("", say("film.tripped", axis=tripped.axis.name), Paint.ERROR)
+        return Line("", say("film.end"))
     late = (one for one in course.happenings if t_s - _TOLD_S * speed <= one.t_s <= t_s)
     shown = [(one, paint) for one in late if (paint := paint_of(one.what)) is not None]
     if not shown:
@@ -62,11 +62,11 @@ def _named(event: Event, say: Words) -> str:
     """Words for something that a film shows."""
     match event:
         case Finding():
-            return say("film_finding", code=event.code, title=page(event.code, say.language).title)
+            return say("film.finding", code=event.code, title=page(event.code, say.language).title)
         case Piece():
-            return say(f"film_free_{event.kind}")
+            return say(f"film.free_{event.kind}")
         case _:
-            return say("film_pause")
+            return say("film.pause")
 
 
 def _speed(speed: float) -> str:

@@ -23,7 +23,7 @@ from sim.show.film.readout import read_out
 from sim.show.film.scene import Scene, fate
 from sim.show.film.strip import bar_of, draw_strip, x_px
 from sim.show.pictures.cut.outlines import Bodies
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 LEAST_UM = 100.0
 """Narrowest path that fills the plot."""

@@ -10,7 +10,8 @@ from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import posix, spot
 from sim.show.findings.totals import Totals
-from sim.show.findings.wording import reasons, summary, with_hint, word
+from sim.show.findings.wording import reasons, summary, with_hint
+from sim.show.words import Words
 
 _LEVELS: Mapping[Severity, str] = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "notice"}
 
@@ -28,7 +29,7 @@ def _file(result: CheckResult, language: Language) -> Iterator[str]:
         properties = _properties(result, finding, language)
         yield _command(_LEVELS[finding.severity], properties, with_hint(finding, language))
     for reason in reasons(result.coverage.checks, language):
-        yield _command("warning", {"file": _name(result), "title": word("incomplete", language)}, reason)
+        yield _command("warning", {"file": _name(result), "title": Words(language)("findings.incomplete")}, reason)
 
 
 def _properties(result: CheckResult, finding: Finding, language: Language) -> dict[str, str]:

@@ -18,7 +18,8 @@ from sim import __version__
 from sim.check.result import CheckResult, CheckState
 from sim.show.findings.options import Options
 from sim.show.findings.totals import BLOCKS
-from sim.show.findings.wording import message, reason, with_hint, word
+from sim.show.findings.wording import message, reason, with_hint
+from sim.show.words import Words
 
 # What XML 1.0 can hold, section 2.2; a line of text needs no other controls.
 _NO_XML = re.compile("[^\t\n\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -124,7 +125,8 @@ def _passed_over(result: CheckResult, language: Language) -> str:
 
 def _line(finding: Finding, result: CheckResult, language: Language) -> str:
     where = place(result.name, finding.line, finding.column)
-    return f"{where}: {word(finding.severity, language)}[{finding.code}]: {with_hint(finding, language)}"
+    severity = Words(language)(f"findings.{finding.severity}")
+    return f"{where}: {severity}[{finding.code}]: {with_hint(finding, language)}"
 
 
 def _text(text: str) -> str:

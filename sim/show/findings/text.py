@@ -16,7 +16,8 @@ from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import spot
 from sim.show.findings.totals import Totals
-from sim.show.findings.wording import coverage, message, summary, verdicts, word
+from sim.show.findings.wording import coverage, message, summary, verdicts
+from sim.show.words import Words
 
 _COLOURS: Mapping[str, str] = {
     Severity.ERROR: "red",
@@ -50,7 +51,7 @@ def _file(result: CheckResult, options: Options) -> Iterator[str]:
 
 def _finding(result: CheckResult, finding: Finding, options: Options) -> Iterator[str]:
     where = _styled(place(printable(result.name), finding.line, finding.column), options, bold=True)
-    severity = word(finding.severity, options.language)
+    severity = Words(options.language)(f"findings.{finding.severity}")
     label = _styled(f"{severity}[{finding.code}]", options, fg=_COLOURS[finding.severity], bold=True)
     yield f"{where}: {label}: {printable(message(finding, options.language))}"
     gutter = " " * len(str(finding.line))
@@ -70,9 +71,9 @@ def _source(result: CheckResult, finding: Finding, gutter: str, options: Options
 
 
 def _hint(finding: Finding, gutter: str, language: Language) -> Iterator[str]:
-    hint = texts(finding, language).hint
+    hint, say = texts(finding, language).hint, Words(language)
     if hint:
-        yield f"  {gutter} = {word('hint', language)}{word('colon', language)}{printable(hint)}"
+        yield f"  {gutter} = {say('findings.hint')}{say('findings.colon')}{printable(hint)}"
 
 
 def _styled(text: str, options: Options, fg: str | None = None, bold: bool | None = None) -> str:
@@ -86,21 +87,23 @@ def _table(totals: Totals, language: Language) -> str:
 
 
 def _codes(totals: Totals, language: Language) -> list[str]:
+    say = Words(language)
     rows = [
-        (code, word(CODES[code].severity, language), str(count), page(code, language).title)
+        (code, say(f"findings.{CODES[code].severity}"), str(count), page(code, language).title)
         for code, count in sorted(totals.codes.items())
     ]
-    head = (word("code", language), word("severity", language), word("count", language), word("title", language))
+    head = (say("findings.code"), say("findings.severity"), say("findings.count"), say("findings.title"))
     return _columns([head, *rows], right=(2,)) if rows else []
 
 
 def _sums(totals: Totals, language: Language) -> list[str]:
+    say = Words(language)
     files, by_verdict = totals.files.total(), verdicts(totals, language)
     rows = [
-        (word("total files", language), f"{files:,} ({by_verdict})" if by_verdict else f"{files:,}"),
-        (word("total blocks", language), word("blocks", language).format(**_numbers(totals))),
-        (word("total steps", language), f"{totals.steps:,}"),
-        (word("total length", language), length(totals.length_um)),
+        (say("findings.total-files"), f"{files:,} ({by_verdict})" if by_verdict else f"{files:,}"),
+        (say("findings.total-blocks"), say("findings.blocks", **_numbers(totals))),
+        (say("findings.total-steps"), f"{totals.steps:,}"),
+        (say("findings.total-length"), length(totals.length_um)),
     ]
     return _columns(rows)
 

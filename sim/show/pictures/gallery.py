@@ -16,7 +16,7 @@ from sim.show.pictures.deviation.samples import Samples, samples_of
 from sim.show.pictures.deviation.whiskers import draw_whiskers
 from sim.show.pictures.deviation.worst import draw_worst
 from sim.show.pictures.motion.picture import draw_motion
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 
 class Subject(NamedTuple):
@@ -100,4 +100,4 @@ PICTURES: Final[Mapping[str, Picture]] = {
 
 def label(name: str, subject: Subject, language: Language) -> str:
     """What a picture is, for those who cannot see it."""
-    return f"{subject.title}: {Words(language)(f'picture_{name}')}"
+    return f"{subject.title}: {Words(language)(f'common.picture_{name}')}"

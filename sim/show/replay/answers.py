@@ -5,10 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from parser.findings.catalogue import Said
 from parser.geometry.curves import Floats
-from sim.setup.quiz import About, Said, Written
+from sim.setup.quiz import About, Written
 from sim.show.replay.asked_block import AskedBlock, in_mm, plain, signed, way
-from sim.show.words.quiz import alike, said
+from sim.show.words import said
+from sim.show.words.phrases import same
 
 _WRONG = 3
 """Wrong answers beside the right one, where there are as many."""
@@ -30,13 +32,15 @@ def _quadrant(block: AskedBlock) -> Written:
     label = f"{block.sense}{block.motion}"
     from_x, from_y = (plain(um) for um in _from_center(block, block.start_um))
     why = said(
-        f"quadrant.{block.kind}.why", label=label, turn=_turn(block), from_x=from_x, from_y=from_y, **_moves(block)
+        f"quiz.quadrant_{block.kind}_why", label=label, turn=_turn(block), from_x=from_x, from_y=from_y, **_moves(block)
     )
-    return _among([f"{block.sense}{digit}" for digit in range(1, 5)], label, _ask(f"quadrant.{block.kind}", block), why)
+    return _among(
+        [f"{block.sense}{digit}" for digit in range(1, 5)], label, _ask(f"quiz.quadrant_{block.kind}", block), why
+    )
 
 
 def _count_axis(block: AskedBlock) -> Written:
-    return _among(["GX", "GY"], f"G{block.axis}", _ask("count_axis", block), _why_axis(block))
+    return _among(["GX", "GY"], f"G{block.axis}", _ask("quiz.count_axis", block), _why_axis(block))
 
 
 def _why_axis(block: AskedBlock) -> Said:
@@ -47,7 +51,7 @@ def _why_axis(block: AskedBlock) -> Said:
     key = key if rule == block.axis else "written"
     near = "Y" if rule == "X" else "X"
     values = {"wide": wide, "high": high, "to_x": plain(to_x), "to_y": plain(to_y), "near": near, "axis": block.axis}
-    return said(f"count_axis.{key}.why", **values)
+    return said(f"quiz.count_axis_{key}_why", **values)
 
 
 def _axis_of_line(block: AskedBlock) -> tuple[str, str]:
@@ -65,28 +69,28 @@ def _axis_of_arc(to_x: int, to_y: int, written: str) -> tuple[str, str]:
 
 
 def _turning(block: AskedBlock) -> Written:
-    answers = [said("turn.answer", turn=said(key), word=word) for key, word in _SENSES]
-    why = said("turn.why", label=block.label)
-    return Written(_ask("turn", block), tuple(answers), int(block.turn > 0), why)
+    answers = [said("quiz.turn_answer", turn=said(f"quiz.{key}"), word=word) for key, word in _SENSES]
+    why = said("quiz.turn_why", label=block.label)
+    return Written(_ask("quiz.turn", block), tuple(answers), int(block.turn > 0), why)
 
 
-_SENSES = (("clockwise", "SR"), ("counter-clockwise", "NR"))
+_SENSES = (("clockwise", "SR"), ("counter_clockwise", "NR"))
 
 
 def _count_length(block: AskedBlock) -> Written:
     axis = "XY".index(block.axis)
     others = (block.steps, abs(block.by_um[axis]), block.length_um, abs(block.by_um[1 - axis]), block.count_um * 2)
     wrong = [round(float(other)) for other in others if other >= 1]
-    ask = said("count_length", block=block.number, axis=block.axis)
-    why = said(f"count_length.{block.kind}.why", count=block.count_um, axis=block.axis)
+    ask = said("quiz.count_length", block=block.number, axis=block.axis)
+    why = said(f"quiz.count_length_{block.kind}_why", count=block.count_um, axis=block.axis)
     answers = sorted({block.count_um, *_some(wrong, block.count_um)})
     return _among([str(answer) for answer in answers], str(block.count_um), ask, why)
 
 
 def _next_step(block: AskedBlock) -> Written:
     right = way(block.first_step)
-    why = said(f"next_step.{block.kind}.why", way=right, label=f"{block.sense}{block.motion}")
-    return _among(["+X", "−X", "+Y", "−Y"], right, _ask("next_step", block), why)
+    why = said(f"quiz.next_step_{block.kind}_why", way=right, label=f"{block.sense}{block.motion}")
+    return _among(["+X", "−X", "+Y", "−Y"], right, _ask("quiz.next_step", block), why)
 
 
 def _end(block: AskedBlock) -> Written | None:
@@ -98,9 +102,14 @@ def _end(block: AskedBlock) -> Written | None:
     start_x, start_y = (in_mm(place) for place in block.start_um.tolist())
     values = {"start_x": start_x, "start_y": start_y, "center_x": center_x, "center_y": center_y}
     why = said(
-        f"end.{block.kind}.why", turn=_turn(block), count=block.count_um, axis=block.axis, **values, **_moves(block)
+        f"quiz.end_{block.kind}_why",
+        turn=_turn(block),
+        count=block.count_um,
+        axis=block.axis,
+        **values,
+        **_moves(block),
     )
-    return Written(_ask("end", block), tuple(answers), answers.index(right), why)
+    return Written(_ask("quiz.end", block), tuple(answers), answers.index(right), why)
 
 
 def _other_ends(block: AskedBlock) -> list[Floats]:
@@ -114,7 +123,7 @@ def _other_ends(block: AskedBlock) -> list[Floats]:
 
 def _place(place_um: Floats) -> Said:
     x, y = (in_mm(place) for place in place_um.tolist())
-    return said("end.place", x=x, y=y)
+    return said("quiz.end_place", x=x, y=y)
 
 
 def _some(wrong: Iterable[Any], right: object) -> list[Any]:
@@ -124,7 +133,7 @@ def _some(wrong: Iterable[Any], right: object) -> list[Any]:
 
 def _among(answers: list[str], right: str, ask: Said, why: Said) -> Written:
     """A question whose answers need no words, in their order."""
-    return Written(ask, tuple(alike(answer) for answer in answers), answers.index(right), why)
+    return Written(ask, tuple(same(answer) for answer in answers), answers.index(right), why)
 
 
 def _ask(key: str, block: AskedBlock) -> Said:
@@ -132,7 +141,7 @@ def _ask(key: str, block: AskedBlock) -> Said:
 
 
 def _turn(block: AskedBlock) -> Said:
-    return said("counter-clockwise" if block.turn > 0 else "clockwise")
+    return said("quiz.counter_clockwise" if block.turn > 0 else "quiz.clockwise")
 
 
 def _moves(block: AskedBlock) -> dict[str, str]:

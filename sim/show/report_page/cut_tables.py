@@ -14,7 +14,7 @@ from sim.show.report_page.tables import (
     worded,
     yes_or_no,
 )
-from sim.show.words.report import said
+from sim.show.words import said
 
 
 def piece_table(entries: list[dict[str, Any]]) -> Table:
@@ -24,8 +24,8 @@ def piece_table(entries: list[dict[str, Any]]) -> Table:
         (
             counted("number", list(range(1, len(entries) + 1))),
             worded("kind", column_of(entries, "kind")),
-            Column(said("area"), column_of(entries, "area_mm2"), unit="mm²", digits=3),
-            Column(said("mass"), column_of(entries, "mass_g"), unit="g", digits=3),
+            Column(said("report.area"), column_of(entries, "area_mm2"), unit="mm²", digits=3),
+            Column(said("report.mass"), column_of(entries, "mass_g"), unit="g", digits=3),
             counted("freed-block", column_of(entries, "freed.block")),
             timed("freed-after", column_of(entries, "freed.t_s")),
             micrometres("cut-after", column_of(entries, "cut_after_um")),

@@ -1,13 +1,17 @@
-"""Key figures of a run: what it is called, its value as the report has it, and a word beside it."""
+"""The verdict in a sentence, and key figures: what each is called, its value in the report, and a word beside it."""
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+from parser.findings.catalogue import LANGUAGES, Said, texts
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
 from parser.units import mm
-from sim.run.dryrun import DryRun
-from sim.setup.quiz import Said
+from sim.run.dryrun import DryRun, verdict
 from sim.show.report_page.tables import reached
-from sim.show.words.report import lasting, numbered, said, same
+from sim.show.words import said
+from sim.show.words.phrases import catalogued, lasting, listed, numbered, same
 
 _NONE = same("")
 
@@ -37,6 +41,11 @@ class Figure(NamedTuple):
     beside: Said = _NONE
 
 
+def why(run: DryRun) -> list[Said]:
+    """Sentences on the verdict, the first of them why it is so."""
+    return [_first(run), *_tripped(run), *_incomplete(run)]
+
+
 def key_figures(run: DryRun, report: Mapping[str, Any]) -> list[Figure]:
     """The figures that stand at the top of the page."""
     return [
@@ -57,35 +66,61 @@ def time_figures(report: Mapping[str, Any]) -> list[Figure]:
     total = report["time_s"]["total"]
     parts = {"cutting-time": total - jumping, "jump-time": jumping}
     return [
-        *(Figure(said(name), "", round(time_s, 6), lasting(time_s)) for name, time_s in parts.items()),
-        Figure(said("total-time"), "time_s.total", total, lasting(total)),
+        *(Figure(said(f"report.{name}"), "", round(time_s, 6), lasting(time_s)) for name, time_s in parts.items()),
+        Figure(said("report.total-time"), "time_s.total", total, lasting(total)),
     ]
+
+
+def _first(run: DryRun) -> Said:
+    if not run.findings:
+        return said("report.nothing-found")
+    if verdict(run.findings) == "pass":
+        return said("report.no-error", counts=_counts(run.findings))
+    first = next(finding for finding in run.findings if finding.severity is Severity.ERROR)
+    title = Said(*(texts(first, language).title for language in LANGUAGES))
+    key = "report.why-failed-in" if first.block else "report.why-failed"
+    return said(key, counts=_counts(run.findings), code=first.code, title=title, block=first.block)
+
+
+def _counts(findings: tuple[Finding, ...]) -> Said:
+    number = Counter(finding.severity for finding in findings)
+    return numbered({severity: number[severity] for severity in Severity})
+
+
+def _tripped(run: DryRun) -> list[Said]:
+    trip = run.tripped
+    return [said("report.tripped", block=trip.row + 1, time=lasting(trip.t_s))] if trip else []
+
+
+def _incomplete(run: DryRun) -> list[Said]:
+    names = [check.name for check in run.coverage.checks if check.state == "incomplete"]
+    return [said("report.incomplete", checks=listed(map(catalogued, names)))] if names else []
 
 
 def _figure(name: str, report: Mapping[str, Any], entry: str, digits: int = 0, per: float = 1.0) -> Figure:
     value = reached(report, entry)
-    return Figure(said(name), entry, value, same(f"{value / per:,.{digits}f}"))
+    return Figure(said(f"report.{name}"), entry, value, same(f"{value / per:,.{digits}f}"))
 
 
 def _size(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     total = report["time_s"]["total"]
-    work = said("in-work", thickness=f"{report['work']['thickness_mm']:g}", machine=report["machine"]["name"])
-    yield Figure(said("time"), "time_s.total", total, lasting(total), beside=work)
+    work = said("report.in-work", thickness=f"{report['work']['thickness_mm']:g}", machine=report["machine"]["name"])
+    yield Figure(said("report.time"), "time_s.total", total, lasting(total), beside=work)
     jumps, arcs = int(run.toolpath.is_jump.sum()), int(run.toolpath.is_arc.sum())
-    kinds = numbered({"lines": len(run.toolpath) - arcs - jumps, "arcs": arcs, "jumps": jumps})
+    kinds = numbered({"line": len(run.toolpath) - arcs - jumps, "arc": arcs, "jump": jumps})
     yield _figure("blocks", report, "summary.blocks")._replace(beside=kinds)
     length = _figure("path-length", report, "summary.length_um", 3, 1000.0)
-    yield length._replace(unit="mm", beside=said("jumps-included") if jumps else _NONE)
+    yield length._replace(unit="mm", beside=said("report.jumps-included") if jumps else _NONE)
 
 
 def _steps(report: Mapping[str, Any]) -> Figure:
-    return _figure("steps", report, "summary.steps")._replace(beside=said(report["interpolator"]["name"]))
+    return _figure("steps", report, "summary.steps")._replace(beside=said(f"report.{report['interpolator']['name']}"))
 
 
 def _worst(report: Mapping[str, Any]) -> Iterator[Figure]:
     where = report["deviation"]["wire"]["where"]
     if where is not None:
-        place = said("at-place", block=where["block"], x=_mm(where["x_um"]), y=_mm(where["y_um"]))
+        place = said("report.at-place", block=where["block"], x=_mm(where["x_um"]), y=_mm(where["y_um"]))
         figure = _figure("worst-deviation", report, "deviation.wire.max_um", 2)
         yield figure._replace(unit="µm", beside=place)
 
@@ -100,26 +135,26 @@ def _closure(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     told: dict[str, object] = {"exact": f"{contour['closure_exact_um']:,.2f}"}
     if len(run.contours) > 1:
         told |= {"n": len(run.contours), "first": contour["first_block"], "last": contour["last_block"]}
-    beside = said("closure-worst" if len(run.contours) > 1 else "closure-exact", **told)
+    beside = said("report.closure-worst" if len(run.contours) > 1 else "report.closure-exact", **told)
     yield _figure("closure", report, f"contours.{at}.closure_stepped_um", 2)._replace(unit="µm", beside=beside)
 
 
 def _pieces(report: Mapping[str, Any]) -> Iterator[Figure]:
     if report["remains"] is not None:
         kinds = [piece["kind"] for piece in report["remains"]["pieces"]]
-        beside = numbered({"parts": kinds.count("part"), "slugs": kinds.count("slug")})
-        yield Figure(said("pieces"), "", len(kinds), same(len(kinds)), beside=beside)
+        beside = numbered({kind: kinds.count(kind) for kind in ("part", "slug")})
+        yield Figure(said("report.pieces"), "", len(kinds), same(len(kinds)), beside=beside)
 
 
 def _drawing(report: Mapping[str, Any]) -> Iterator[Figure]:
     if report["drawing"] is not None:
-        allowed = said("allowed", tolerance=f"{report['drawing']['tolerance_um']:g}")
+        allowed = said("report.allowed", tolerance=f"{report['drawing']['tolerance_um']:g}")
         yield _figure("off-drawing", report, "drawing.max_um", 2)._replace(unit="µm", beside=allowed)
 
 
 def _offset(report: Mapping[str, Any]) -> Iterator[Figure]:
     if report["offset"] is not None:
-        side = said(f"side-{report['offset']['side']}")
+        side = said(f"report.side-{report['offset']['side']}")
         yield _figure("offset-added", report, "offset.by_um", 3, 1000.0)._replace(unit="mm", beside=side)
 
 

@@ -1,23 +1,31 @@
-"""Findings for the page: their texts in both languages, and the source line with a caret."""
+"""Findings for the page: their texts in both languages, the source line with a caret, and the pages of their codes.
 
+Texts hold a little Markdown, which becomes HTML: paragraphs, fenced text, ``code`` and **bold**.
+"""
+
+import re
 from collections.abc import Iterable
 from typing import Final, NamedTuple
 
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
-from parser.findings.catalogue import LANGUAGES, page, texts
+from parser.findings.catalogue import LANGUAGES, Said, page, texts
 from parser.findings.findings import Finding
 from parser.program import Program
 from parser.text.excerpt import caret_lines
 from sim.run.dryrun import DryRun
-from sim.setup.quiz import Said
-from sim.show.report_page.prose import prose
-from sim.show.words.report import said
+from sim.show.words import said
 
 MOST: Final = 200
 """Findings that the page shows; report.json has them all."""
 
 PARTS: Final = ("found", "expected", "machine", "hint")
+
+_FENCED = re.compile(r"^```\w*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_CODE = re.compile(r"`([^`]+)`")
+_JOINT = re.compile(r"(?<=[^\x00-\x7f])\n(?=[^\x00-\x7f])")
+"""A line's end between Chinese characters, which stand without a blank."""
+_BOLD = re.compile(r"\*\*(.+?)\*\*", re.DOTALL)
 
 
 class Shown(NamedTuple):
@@ -79,7 +87,7 @@ def _shown(program: Program, finding: Finding, address: str) -> Shown:
         address=address,
         code=finding.code,
         severity=str(finding.severity),
-        word=said(str(finding.severity)),
+        word=said(f"findings.{finding.severity}"),
         title=Said(english["title"], chinese["title"]),
         line=finding.line,
         column=finding.column,
@@ -105,3 +113,22 @@ def _explained(code: str) -> Explained:
         (prose(pages[0].why), prose(pages[1].why)),
         (prose(pages[0].mend), prose(pages[1].mend)),
     )
+
+
+def prose(markdown: str) -> Markup:
+    """HTML of a text; all that is not Markdown of these kinds is escaped."""
+    parts = _FENCED.split(markdown)  # every second one is fenced
+    return Markup("").join(
+        Markup("<pre>{}</pre>").format(part) if at % 2 else _paragraphs(part) for at, part in enumerate(parts)
+    )
+
+
+def _paragraphs(text: str) -> Markup:
+    paragraphs = filter(None, map(str.strip, text.split("\n\n")))
+    return Markup("").join(Markup("<p>{}</p>").format(inline(paragraph)) for paragraph in paragraphs)
+
+
+def inline(text: str) -> Markup:
+    """HTML of a text without paragraphs."""
+    coded = _CODE.sub(r"<code>\1</code>", _JOINT.sub("", str(escape(text))))
+    return Markup(_BOLD.sub(r"<strong>\1</strong>", coded))  # noqa: S704 - escaped just above

@@ -9,18 +9,15 @@ from markupsafe import Markup
 from sim.run.dryrun import DryRun
 from sim.setup.expectations import Expectation, wanted
 from sim.setup.toml.writer import toml_value
-from sim.show.draw.paints import DARK
+from sim.show.draw.paints import DARK, Theme, hexadecimal
 from sim.show.html.environment import rendered
 from sim.show.pictures.inline import Inline
-from sim.show.report_page.blocks import block_table
 from sim.show.report_page.cut_tables import piece_table, size_tables, worst_table
-from sim.show.report_page.figures import key_figures, time_figures
-from sim.show.report_page.findings import explained, shown_findings
-from sim.show.report_page.judgement import why
-from sim.show.report_page.prose import inline
-from sim.show.report_page.recolour import recoloured
+from sim.show.report_page.figures import key_figures, time_figures, why
+from sim.show.report_page.findings import explained, inline, shown_findings
 from sim.show.report_page.reproduce import reproduction
 from sim.show.report_page.results import (
+    block_table,
     cause_table,
     check_table,
     contour_table,
@@ -30,7 +27,7 @@ from sim.show.report_page.results import (
 )
 from sim.show.report_page.settings import setting_groups
 from sim.show.report_page.tables import Column, Table, yes_or_no
-from sim.show.words.report import said
+from sim.show.words import said
 
 _ASSETS: Final = Path(__file__).with_name("assets")
 
@@ -49,7 +46,7 @@ def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inlin
         program=run.program.name,
         inline=inline,
         verdict=report["verdict"],
-        verdict_word=said(report["verdict"]),
+        verdict_word=said(f"report.{report['verdict']}"),
         why=why(run),
         figures=key_figures(run, report),
         times=time_figures(report),
@@ -62,7 +59,7 @@ def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inlin
         groups=setting_groups(run.scenario, run.program),
         machine=report["machine"]["name"],
         reproduction=reproduction(run),
-        dark_pictures=recoloured(DARK),
+        dark_pictures=_recoloured(DARK),
     )
 
 
@@ -89,8 +86,14 @@ def _expectation_table(run: DryRun) -> Table:
     return Table(
         "expectations",
         (
-            Column(said("path"), [one.path for one in expected], "code"),
-            Column(said("wanted"), [toml_value(wanted(one)) for one in expected], "code"),
+            Column(said("report.path"), [one.path for one in expected], "code"),
+            Column(said("report.wanted"), [toml_value(wanted(one)) for one in expected], "code"),
             yes_or_no("met", [one.path not in missed for one in expected]),
         ),
     )
+
+
+def _recoloured(theme: Theme) -> Markup:
+    """Rules of a style sheet that show pictures in the colours of a theme."""
+    rule = Markup(".f-{0}{{fill:{1}}}.s-{0}{{stroke:{1}}}")
+    return Markup("\n").join(rule.format(paint, hexadecimal(colour)) for paint, colour in theme.items())

@@ -1,10 +1,11 @@
-"""Tables of what a run came to: contours, deviations, limits and losses of the drives, checks, expectations."""
+"""Tables of what a run came to: blocks, contours, deviations, limits and losses of the drives, checks."""
 
 from collections.abc import Mapping
 from typing import Any
 
 from parser.shape.contours import Contour
 from sim.run.dryrun import DryRun
+from sim.show.report_page.findings import address
 from sim.show.report_page.tables import (
     Column,
     Table,
@@ -16,9 +17,52 @@ from sim.show.report_page.tables import (
     timed,
     worded,
 )
-from sim.show.words.report import catalogued, said
+from sim.show.words import said
+from sim.show.words.phrases import catalogued
+
+CodeLink = tuple[str, str]
+"""A code, and the address in the page of the finding that bears it."""
 
 _STAGES = ("interpolation", "steps", "table", "wire")
+
+
+def block_table(run: DryRun, report: Mapping[str, Any]) -> Table:
+    """Every block of the run, as ``blocks[]`` of the report has it."""
+    blocks = report["blocks"]
+
+    def of(path: str) -> list[Any]:
+        return column_of(blocks, path)
+
+    return Table(
+        "blocks",
+        (
+            counted("block", of("block")),
+            counted("line", of("line")),
+            Column(said("report.text"), of("text"), "code"),
+            worded("kind", of("kind"), "kind"),
+            counted("count-length", of("count_um")),
+            Column(said("report.count-axis"), [f"G{axis}" for axis in of("count_axis")], "code"),
+            millimetres("from-x", of("exact.start_um.0")),
+            millimetres("from-y", of("exact.start_um.1")),
+            millimetres("to-x", of("exact.end_um.0")),
+            millimetres("to-y", of("exact.end_um.1")),
+            millimetres("radius", of("exact.radius_um")),
+            millimetres("length", of("exact.length_um")),
+            counted("steps", of("stepped.steps")),
+            timed("seconds", report["time_s"]["by_block"]),
+            micrometres("step-deviation", of("stepped.max_deviation_um")),
+            micrometres("table-off", of("table.max_deviation_um")),
+            Column(said("report.codes"), _codes(run), "codes"),
+        ),
+    )
+
+
+def _codes(run: DryRun) -> list[list[CodeLink]]:
+    """Codes of the findings on each block; findings name blocks of the program, which an offset may have several of."""
+    by_block: dict[int, list[CodeLink]] = {}
+    for at, finding in enumerate(run.findings):
+        by_block.setdefault(finding.block, []).append((finding.code, address(at)))
+    return [by_block.get(block, []) for block in run.toolpath.source.block.tolist()]
 
 
 def contour_table(run: DryRun, report: Mapping[str, Any]) -> Table:
@@ -75,10 +119,10 @@ def limit_table(report: Mapping[str, Any]) -> Table:
         (
             worded("quantity", column_of(entries, "quantity")),
             named("axis", column_of(entries, "axis")),
-            Column(said("value"), column_of(entries, "value"), digits=2),
-            Column(said("limit"), column_of(entries, "limit"), digits=2),
+            Column(said("report.value"), column_of(entries, "value"), digits=2),
+            Column(said("report.limit"), column_of(entries, "limit"), digits=2),
             named("unit", [{"force": "N", "speed": "µm/s", "lag": "µm"}[entry["quantity"]] for entry in entries]),
-            Column(said("share"), column_of(entries, "share"), unit="%", per=0.01, digits=1),
+            Column(said("report.share"), column_of(entries, "share"), unit="%", per=0.01, digits=1),
             *_met(entries),
         ),
     )
@@ -108,7 +152,7 @@ def check_table(run: DryRun) -> Table:
 
 def _terms(head: str, keys: list[str]) -> Column:
     """Terms of the catalogue; nothing for an empty key."""
-    return Column(said(head), keys, "word", words={key: catalogued(key) for key in dict.fromkeys(keys)})
+    return Column(said(f"report.{head}"), keys, "word", words={key: catalogued(key) for key in dict.fromkeys(keys)})
 
 
 def _met(entries: list[Any], where: str = "") -> tuple[Column, ...]:

@@ -3,15 +3,17 @@
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
+from parser.findings.catalogue import Said
 from parser.program import Program
 from sim.setup.expectations import EXPECT
 from sim.setup.key_words import title_of, value_word, words_of
 from sim.setup.machine.machine import machine_sections
-from sim.setup.quiz import QUIZ, Said
+from sim.setup.quiz import QUIZ
 from sim.setup.scenario import Scenario, scenario_sections
 from sim.setup.toml.keys import Key, Section, Written
 from sim.setup.toml.kinds import OneOf
-from sim.show.words.report import said, same
+from sim.show.words import said
+from sim.show.words.phrases import same
 
 
 class Setting(NamedTuple):
@@ -47,16 +49,16 @@ def setting_groups(scenario: Scenario, program: Program) -> list[Group]:
         _found("dialect", program.reading.dialect),
     )
     return [
-        Group(said("section-program"), read),
+        Group(said("report.section-program"), read),
         *_groups(part for part in parts if part.section not in (QUIZ, EXPECT)),
-        Group(said("section-run"), tuple(settings.values())),
+        Group(said("report.section-run"), tuple(settings.values())),
         *_groups(of_machine),
     ]
 
 
 def _found(key: str, value: str) -> Setting:
     """What was found out about the program, beside what was set."""
-    return Setting(said(key), key, same(value), "")
+    return Setting(said(f"report.{key}"), key, same(value), "")
 
 
 def _groups(sections: Iterable[Written]) -> list[Group]:
@@ -74,7 +76,7 @@ def _setting(section: Section, key: Key, value: Any) -> Setting:
 
 def _value(value: Any) -> Said:
     if isinstance(value, bool):
-        return said("yes" if value else "no")
+        return said("report.yes" if value else "report.no")
     if isinstance(value, list):
         return same("; ".join(", ".join(f"{number:.10g}" for number in pair) for pair in _pairs(value)))
     return same(f"{value:.10g}" if isinstance(value, float) else value)

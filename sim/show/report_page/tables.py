@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
-from sim.setup.quiz import Said
-from sim.show.words.report import said
+from parser.findings.catalogue import Said
+from sim.show.words import said
 
 Kind = Literal["number", "text", "code", "word", "codes"]
 
@@ -44,7 +44,7 @@ class Table(NamedTuple):
     @property
     def title(self) -> Said:
         """Its heading."""
-        return said(f"table-{self.name}")
+        return said(f"report.table-{self.name}")
 
     @property
     def rows(self) -> int:
@@ -58,38 +58,39 @@ class Table(NamedTuple):
 
 def counted(head: str, values: Sequence[Any]) -> Column:
     """Whole numbers."""
-    return Column(said(head), values)
+    return Column(said(f"report.{head}"), values)
 
 
 def micrometres(head: str, values: Sequence[Any], digits: int = 2) -> Column:
     """Lengths in µm."""
-    return Column(said(head), values, unit="µm", digits=digits)
+    return Column(said(f"report.{head}"), values, unit="µm", digits=digits)
 
 
 def millimetres(head: str, values: Sequence[Any]) -> Column:
     """Lengths in µm, shown in mm to the µm."""
-    return Column(said(head), values, unit="mm", per=1000.0, digits=3)
+    return Column(said(f"report.{head}"), values, unit="mm", per=1000.0, digits=3)
 
 
 def timed(head: str, values: Sequence[Any]) -> Column:
     """Times in s."""
-    return Column(said(head), values, unit="s", digits=2)
+    return Column(said(f"report.{head}"), values, unit="s", digits=2)
 
 
 def worded(head: str, values: Sequence[str], prefix: str = "is") -> Column:
     """Words of the page, by their keys without the prefix."""
-    return Column(said(head), values, "word", words={key: said(f"{prefix}-{key}") for key in dict.fromkeys(values)})
+    words = {key: said(f"report.{prefix}-{key}") for key in dict.fromkeys(values)}
+    return Column(said(f"report.{head}"), values, "word", words=words)
 
 
 def yes_or_no(head: str, values: Iterable[bool]) -> Column:
     """Whether something is so."""
     answers = ["yes" if value else "no" for value in values]
-    return Column(said(head), answers, "word", words={key: said(key) for key in ("yes", "no")})
+    return Column(said(f"report.{head}"), answers, "word", words={key: said(f"report.{key}") for key in ("yes", "no")})
 
 
 def named(head: str, values: Sequence[str | None]) -> Column:
     """Texts as people write them."""
-    return Column(said(head), values, "text")
+    return Column(said(f"report.{head}"), values, "text")
 
 
 def column_of(entries: Iterable[Mapping[str, Any]], path: str) -> list[Any]:

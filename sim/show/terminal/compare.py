@@ -6,6 +6,7 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
+from parser.findings.remarks import remark_text
 from parser.text.encoding import printable
 from parser.units import mm
 from sim.measure.compare.result import Comparison, Place
@@ -29,10 +30,10 @@ def print_comparison(of: Comparison, program: str, offset: str) -> None:
     console.print(table)
     console.print(_worst(of))
     for note in of.notes:
-        console.print(Text(f"note: {printable(note)}", style="cyan"))
+        console.print(Text(f"note: {printable(remark_text(note))}", style="cyan"))
     for named in of.names:
         console.print(
-            Text(f"{'warning' if of.passes else 'error'}: {named.text}", style="yellow" if of.passes else "red")
+            Text(f"{'warning' if of.passes else 'error'}: {remark_text(named)}", style="yellow" if of.passes else "red")
         )
     verdict = f"verdict: {'pass' if of.passes else 'fail'}, {_um(of.max_um)} of {_um(of.tolerance_um)} allowed"
     console.print(Text(verdict, style="bold green" if of.passes else "bold red"))

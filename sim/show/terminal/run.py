@@ -12,6 +12,7 @@ from controller.offset.path import Made
 from parser.findings.catalogue import texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
+from parser.findings.remarks import remark_text
 from parser.text.encoding import printable
 from parser.text.excerpt import place, with_caret
 from parser.units import mm
@@ -171,7 +172,7 @@ def _drawing(run: DryRun) -> list[Row]:
     if target is None or found is None:
         return []
     allowed = f"{target.tolerance_um:g} µm allowed"
-    names = [("", named.text) for named in found.names]
+    names = [("", remark_text(named)) for named in found.names]
     return [(f"off {found.drawing.name}", f"{found.max_um:,.2f} µm at most, {allowed}"), *names]
 
 

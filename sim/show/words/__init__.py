@@ -1,1 +1,5 @@
-"""Words for people in English and Chinese, from the TOML files beside the modules."""
+"""Words for people in English and Chinese: `said` gives a text in both, `Words` in one; the texts are TOML files."""
+
+from sim.show.words.words import Words, said
+
+__all__ = ["Words", "said"]

@@ -5,11 +5,11 @@ import pytest
 from parser.findings.catalogue import LANGUAGES, Example, Language, example, page
 from parser.findings.codes import CODES, Severity
 from sim.check.batch import Job, check_file
-from sim.check.pages import page_text, severity_word, titles_text
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.setup.machine.machine import load_machine
-from sim.show.findings.wording import word
+from sim.show.findings.pages import page_text, severity_word, titles_text
+from sim.show.words import Words
 
 OF_A_RUN = {code for code, of in CODES.items() if of.check is None}
 WITHOUT_EXAMPLE = {"3B100", "3B303"} | OF_A_RUN
@@ -51,7 +51,7 @@ def test_the_mended_example_is_sound(code: str, shown: Example) -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_pages_call_severities_what_a_check_calls_them(language: Language) -> None:
     assert {code: severity_word(code, language) for code in CODES} == {
-        code: word(of.severity, language) for code, of in CODES.items()
+        code: Words(language)(f"findings.{of.severity}") for code, of in CODES.items()
     }
 
 

@@ -18,6 +18,7 @@ from places import ROOT
 from sound_shapes import SHAPES, Shape, filleted, placed, reverse
 
 from parser.drawing.read import read_drawing
+from parser.findings.remarks import remark_text
 from sim.cli.compare import compare as command
 from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.result import Comparison
@@ -111,7 +112,7 @@ def test_a_lead_in_from_the_middle_of_a_half_circle_is_inside(tmp_path: Path, tu
 def test_an_offset_to_the_wrong_side_is_named(tmp_path: Path, make: object) -> None:
     found = compared(tmp_path, make(L_SHAPE, by=-100.0), L_SHAPE)
     assert names(found) == ["wrong-side"]
-    assert "0.2 mm inside the part" in found.names[0].text
+    assert "0.2 mm inside the part" in remark_text(found.names[0])
     assert found.edge_max_um >= 200.0 - CAM_UM
     assert not found.passes
 
@@ -120,14 +121,14 @@ def test_an_offset_to_the_wrong_side_is_named(tmp_path: Path, make: object) -> N
 def test_a_missing_offset_is_named(tmp_path: Path, make: object) -> None:
     found = compared(tmp_path, make(L_SHAPE, by=0.0), L_SHAPE)
     assert names(found) == ["offset-missing"]
-    assert "0.1 mm inside the part" in found.names[0].text
+    assert "0.1 mm inside the part" in remark_text(found.names[0])
 
 
 def test_without_a_lead_in_the_side_that_fits_is_taken(tmp_path: Path) -> None:
     for by in (100.0, -100.0):
         found = compared(tmp_path, text_of(path_beside(L_SHAPE, by)), L_SHAPE)
         assert found.passes
-        assert any("no lead-in" in note for note in found.notes)
+        assert any(note.name == "side-tried" for note in found.notes)
 
 
 def test_a_lead_in_the_part_counts_and_one_in_the_waste_does_not(tmp_path: Path) -> None:
@@ -192,7 +193,7 @@ def test_a_layer_is_chosen(tmp_path: Path) -> None:
 def test_a_drawing_that_does_not_close_is_said(tmp_path: Path) -> None:
     loose = Shape("line", (0.0, 0.0), [Line((0.0, 3000.0))], 1.0)
     found = compared(tmp_path, punch(L_SHAPE), L_SHAPE, loose)
-    assert found.notes == ("the drawing: 1 of 2 chains of curves do not close",)
+    assert [remark_text(note) for note in found.notes] == ["the drawing: 1 of 2 chains of curves do not close"]
 
 
 def test_the_tolerance_decides_the_exit_code(tmp_path: Path) -> None:

@@ -1,10 +1,7 @@
 """What pictures are drawn on: areas, SVG that any reader takes, paints in both themes, and texts in both languages."""
 
-import re
-import string
 import xml.etree.ElementTree as ET
 from itertools import combinations
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,14 +9,12 @@ import shapely
 from everything import everything, square
 from recorder import Recorder
 
-import sim
 from sim.show.draw.chart import AxisRange, Chart, draw_band, draw_chart, draw_level, draw_line, range_of, tick_texts
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import DARK, LIGHT, THEMES, Paint, Theme
 from sim.show.draw.raster import Raster
 from sim.show.draw.sheet import drawing, pixels
 from sim.show.draw.svg import Svg
-from sim.show.words.pictures import texts
 
 SVG = "{http://www.w3.org/2000/svg}"
 STAR = [np.array([[50 + 45 * np.sin(turn), 50 - 45 * np.cos(turn)] for turn in np.arange(5) * 4 * np.pi / 5])]
@@ -143,22 +138,6 @@ def lab(rgb: np.ndarray) -> np.ndarray:
     return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
 
 
-def test_every_text_stands_in_both_languages_with_the_same_fields() -> None:
-    for key, of in texts().items():
-        assert set(of) == {"en", "zh"}, key
-        fields = [sorted(name or "" for _, name, _, _ in string.Formatter().parse(text)) for text in of.values()]
-        assert [name for name in fields[0] if name] == [name for name in fields[1] if name], key
-
-
-def test_every_text_is_used() -> None:
-    folder = Path(sim.__file__).parent
-    source = "\n".join(file.read_text(encoding="utf-8") for file in folder.rglob("*.py"))
-    literals = set(re.findall(r"""["']([a-z_0-9]+)["']""", source))
-    stems = tuple(re.findall(r"""f["']([a-z_]+)\{""", source))
-    unused = [key for key in texts() if key not in literals and not key.startswith(stems)]
-    assert unused == []
-
-
 def test_a_chart_puts_values_where_its_scale_says() -> None:
     chart = Chart(Box(100.0, 50.0, 500.0, 250.0), AxisRange(-10.0, 10.0), AxisRange(0.0, 4.0), 1.0)
     canvas = Recorder(600, 300)
@@ -199,6 +178,6 @@ def test_a_range_holds_all_finite_values() -> None:
 def test_both_kinds_of_sheet_speak_the_language_and_wear_the_theme() -> None:
     for sheet in (pixels(800, DARK, "zh"), drawing(800, DARK, "zh")):
         assert (sheet.page(300).width_px, sheet.page(300).height_px, sheet.unit) == (800, 300, 0.5)
-        assert sheet.say("block", number=3) == "第 3 段"
+        assert sheet.say("common.block", number=3) == "第 3 段"
     assert pixels(10, DARK).page(10).image().getpixel((5, 5)) == DARK[Paint.PAGE]
     assert 'fill="#16181c"' in drawing(10, DARK).page(10).fragment("x")

@@ -39,7 +39,6 @@ from sim.show.pictures.deviation.polar import circles_of, draw_polar
 from sim.show.pictures.deviation.samples import Samples, samples_of
 from sim.show.pictures.deviation.whiskers import APART, draw_whiskers
 from sim.show.pictures.deviation.worst import draw_worst
-from sim.show.words.pictures import texts
 from sim.table.trace import Trace
 
 SQUARE = "B900 B0 B900 GX L1 B0 B700 B700 GY L2 B900 B0 B900 GX L3 B0 B700 B700 GY L4 DD"
@@ -571,11 +570,3 @@ def test_a_run_that_cut_nothing_says_so(name: str) -> None:
 def test_too_narrow_a_page_is_named(name: str) -> None:
     with pytest.raises(ValueError, match="600 px"):
         ALL[name](recording_sheet(599), samples(SLOT))
-
-
-def test_texts_have_the_same_fields_in_both_languages() -> None:
-    own = {key: pair for key, pair in texts().items() if key.startswith("deviation_")}
-    assert len(own) > 20
-    for pair in own.values():
-        fields = [sorted(part.split("}")[0] for part in pair[language].split("{")[1:]) for language in ("en", "zh")]
-        assert fields[0] == fields[1]

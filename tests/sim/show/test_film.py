@@ -31,7 +31,7 @@ from sim.show.film.readout import read_out, told
 from sim.show.film.screen import Look, Screen
 from sim.show.film.strip import bar_of
 from sim.show.film.window import LEAST_PX, NO_DISPLAY, Window, open_display
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 from sim.table.trace import Trace
 
 PART = """
@@ -273,7 +273,7 @@ def test_no_frame_shows_more_deviation_than_the_report(name: str) -> None:
     shown = []
     for moment in map(course.at, clock.times_s.tolist()):
         assert moment.deviation_um <= most_um + 5e-7, moment  # µm: half of the report's last digit
-        (line,) = (one for one in read_out(course, moment, clock.speed, say) if one.name == say("film_deviation"))
+        (line,) = (one for one in read_out(course, moment, clock.speed, say) if one.name == say("film.deviation"))
         shown.append(0.0 if line.value == "–" else float(line.value.removesuffix(" µm")))
     assert max(shown) <= round(most_um, 2)
     if most_um > 1.0:  # where the servo trips it is 0.07 µm, for a moment

@@ -7,7 +7,7 @@ from places import ROOT
 
 from sim.cli.draw import draw
 from sim.show.pictures.gallery import PICTURES
-from sim.show.words.pictures import texts
+from sim.show.words.words import texts
 
 COUNTS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]
 
@@ -15,12 +15,12 @@ COUNTS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", 
 @pytest.mark.parametrize("name", PICTURES)
 def test_a_picture_has_a_name_for_those_who_cannot_see_it(name: str) -> None:
     key = f"picture_{name}"
-    assert key in texts(), f"sim/show/words/common.toml has no {key}: what the picture is, in both languages"
-    assert all(texts()[key].values())
+    assert key in texts("common"), f"sim/show/words/common.toml has no {key}: what the picture is, in both languages"
+    assert all(texts("common")[key])
 
 
 def test_no_name_is_left_of_a_picture_that_there_is_not() -> None:
-    named = {key.removeprefix("picture_") for key in texts() if key.startswith("picture_")}
+    named = {key.removeprefix("picture_") for key in texts("common") if key.startswith("picture_")}
     assert named - {*PICTURES} == set(), "sim/show/words/common.toml names pictures that are not in PICTURES"
 
 

@@ -7,10 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from jinja2 import UndefinedError
 
+from parser.findings.catalogue import Said
 from sim.show.draw.paints import DARK, LIGHT, Paint
-from sim.show.html.environment import rendered
-from sim.show.html.script_json import script_json
-from sim.show.html.theme import theme_css
+from sim.show.html.environment import rendered, script_json, theme_css
 
 EVIL = "</script><script>alert(1)</script><!-- & \u2028\u2029 ]]>"
 
@@ -35,9 +34,9 @@ def _page(folder, body, **values):
 def test_a_page_escapes_values_in_texts_attributes_and_data(tmp_path):
     body = """
         {% block title %}{{ said }}{% endblock %}
-        {% block body %}{{ words.both(said, said) }}<button {{ words.label(said, said) }}></button>
+        {% block body %}{{ words.both(text) }}<button {{ words.label(text) }}></button>
         <script type="application/json">{{ said | script_json }}</script>{% endblock %}"""
-    page = _page(tmp_path, body, said=EVIL + "\"'")
+    page = _page(tmp_path, body, said=EVIL + "\"'", text=Said(EVIL, EVIL + "\"'"))
     assert "alert(1)" in page
     assert "<script>alert" not in page
     assert "</script><!--" not in page

@@ -18,13 +18,14 @@ from strategies import blocks, program_text
 
 from controller.offset.sections import Side
 from controller.stepping.pulses import Pulses
+from parser.findings.catalogue import Said
 from parser.findings.errors import SettingsError
 from parser.program import parse_program, read_program
 from sim.measure.deviation.meters import BlockSteps
 from sim.setup import quiz
 from sim.setup.machine.machine import load_machine
 from sim.setup.part import Offset
-from sim.setup.quiz import About, Question, Said, Written, read_quiz, refuse_unanswerable
+from sim.setup.quiz import About, Question, Written, read_quiz, refuse_unanswerable
 from sim.setup.scenario import load_scenario
 from sim.show.replay.answers import written_out
 from sim.show.replay.asked_block import AskedBlock, in_mm

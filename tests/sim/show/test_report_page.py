@@ -16,22 +16,22 @@ from places import ROOT, SCENARIOS
 from report_pages import PART, SMALL, Made, Outline, hostile, made, staircase
 from runs import run_folder, run_text
 
+from parser.findings.catalogue import Said
 from parser.program import load_program, read_program
 from sim.run.report import build_report, report_text
 from sim.setup.expectations import EXPECT, read_expectation
 from sim.setup.machine.machine import machine_sections
 from sim.setup.part import SIDES, Offset
-from sim.setup.quiz import QUIZ, Said
+from sim.setup.quiz import QUIZ
 from sim.setup.scenario import MACHINE_FILE, Scenario, load_scenario, scenario_sections
 from sim.setup.toml.writer import toml_text, toml_value
 from sim.show.report_page import report_page
-from sim.show.report_page.findings import MOST
-from sim.show.report_page.judgement import why
-from sim.show.report_page.prose import prose
+from sim.show.report_page.figures import why
+from sim.show.report_page.findings import MOST, prose
 from sim.show.report_page.reproduce import reproduction
 from sim.show.report_page.settings import setting_groups
 from sim.show.report_page.tables import reached
-from sim.show.words.report import lasting, texts
+from sim.show.words.phrases import lasting
 
 
 @pytest.fixture(scope="module")
@@ -387,12 +387,6 @@ def test_prose_of_the_catalogue_becomes_paragraphs() -> None:
         "<p>One <code>&lt;a&gt;</code> <strong>b\nc</strong></p><p>two</p>"
         "<pre>x = 1\n</pre><p>圆弧终点 <code>G</code></p>"
     )
-
-
-def test_every_text_is_there_in_both_languages_with_the_same_places() -> None:
-    for key, text in texts().items():
-        assert text.keys() == {"en", "zh"}, key
-        assert set(re.findall(r"{(\w+)}", text["en"])) == set(re.findall(r"{(\w+)}", text["zh"])), key
 
 
 def test_the_page_names_every_key_of_its_tables(part: Made) -> None:

@@ -1,5 +1,5 @@
 // The language of the page: of the address (#lang=zh-CN), else as chosen before, else of the browser.
-import { elements } from "./elements.js";
+import { element, elements } from "./elements.js";
 
 /** @typedef {"en" | "zh-CN"} Language */
 
@@ -14,6 +14,8 @@ const KEY = "drycut.lang";
 const page = document.documentElement;
 /** @type {(() => void)[]} */
 const listeners = [];
+/** @type {Record<string, Said> | null} */
+let texts = null;
 
 /**
  * The language of a tag such as zh-Hans, if the page has it.
@@ -116,6 +118,28 @@ export function onChange(listener) {
  */
 export function pick(text) {
   return isChinese() ? text.zh : text.en;
+}
+
+/**
+ * The text of a key in both languages, with values in its places: one of those that the page hands over to its scripts.
+ * @param {string} key
+ * @param {Record<string, string | number>} values
+ * @returns {Said}
+ */
+export function said(key, values = {}) {
+  texts ??= /** @type {Record<string, Said>} */ (JSON.parse(element("#words", HTMLElement).textContent));
+  /** @param {string} text */
+  const filled = (text) => text.replace(/\{(\w+)\}/g, (_, name) => String(values[name]));
+  return { en: filled(texts[key].en), zh: filled(texts[key].zh) };
+}
+
+/**
+ * The text of a key in the page's language.
+ * @param {string} key
+ * @param {Record<string, string | number>} values
+ */
+export function say(key, values = {}) {
+  return pick(said(key, values));
 }
 
 /** Show the page in its language, and let the button and the address change it. */

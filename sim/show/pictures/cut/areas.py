@@ -15,7 +15,7 @@ from sim.show.draw.layout import Box, Page, View, box_around
 from sim.show.draw.paints import Paint
 from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.cut.subject import Board
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 MOST_LABELS: Final = 40
 _TRIES: Final = 9  # places for a label along each side of a piece
@@ -76,9 +76,9 @@ def _label(board: Board, choices: list[list[str]], outline_um: shapely.Polygon) 
 
 def _texts(say: Words, toolpath: Toolpath, piece: Piece) -> Iterator[list[str]]:
     """What may be written on a piece, most first."""
-    what, area = say(f"cut_{piece.kind}"), area_text(piece.area_mm2)
+    what, area = say(f"cut.{piece.kind}"), area_text(piece.area_mm2)
     number = int(toolpath.source.block[piece.freed.block - 1])
-    yield [what, area, say("cut_freed", number=number)]
+    yield [what, area, say("cut.freed", number=number)]
     yield [what, area]
     yield [f"{what} {area}"]
     yield [what]

@@ -29,7 +29,7 @@ from sim.show.pictures.cut.marks import draw_end, draw_pause, draw_start, pauses
 from sim.show.pictures.cut.numbers import draw_number, number_size
 from sim.show.pictures.cut.outlines import draw_clamp, draw_work
 from sim.show.pictures.cut.subject import Cut
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 COLUMNS: Final = 3
 FINDING_COLUMNS: Final = 2
@@ -52,30 +52,30 @@ def scale_bar_um(page: Page) -> float:
 
 def entries(cut: Cut, page: Page, say: Words, seen: Seen, numbers: str) -> list[Entry]:
     """All that a legend explains, in its order."""
-    kerf = say("cut_kerf" if cut.trace else "cut_kerf_programmed", width=f"{mm(cut.kerf_um):.3f}")
+    kerf = say("cut.kerf" if cut.trace else "cut.kerf_programmed", width=f"{mm(cut.kerf_um):.3f}")
     wider = seen.kerf_px > cut.kerf_um * page.view.px_per_um
     bar_um = scale_bar_um(page)
     bar = bar_um * page.view.px_per_um / (style.SAMPLE * page.unit)
     kinds = {piece.kind for piece in cut.pieces.freed} if cut.pieces else set()
     found = (
-        (True, Entry(_kerf(seen.kerf_px), say("cut_kerf_wider", kerf=kerf) if wider else kerf)),
+        (True, Entry(_kerf(seen.kerf_px), say("cut.kerf_wider", kerf=kerf) if wider else kerf)),
         (
             True,
-            Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say("cut_offset_path" if cut.contour else "cut_programmed")),
+            Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say("cut.offset_path" if cut.contour else "cut.programmed")),
         ),
-        (cut.contour, Entry(stroke(Paint.CONTOUR, style.CONTOUR_WIDTH), say("cut_contour"))),
-        (cut.trace, Entry(stroke(Paint.ACTUAL, style.ACTUAL_WIDTH), say("cut_actual"))),
-        (cut.toolpath.is_jump.any(), Entry(dashes(Paint.JUMP, style.JUMP_WIDTH), say("cut_jump"))),
-        (True, Entry(_arrow, say("cut_direction"))),
-        (True, Entry(lambda canvas, box, unit: draw_start(canvas, middle(box), unit), say("cut_start"))),
-        (True, Entry(lambda canvas, box, unit: draw_end(canvas, middle(box), unit), say("cut_end"))),
-        (pauses(cut.toolpath), Entry(_pause, say("cut_pause"))),
+        (cut.contour, Entry(stroke(Paint.CONTOUR, style.CONTOUR_WIDTH), say("cut.contour"))),
+        (cut.trace, Entry(stroke(Paint.ACTUAL, style.ACTUAL_WIDTH), say("cut.actual"))),
+        (cut.toolpath.is_jump.any(), Entry(dashes(Paint.JUMP, style.JUMP_WIDTH), say("cut.jump"))),
+        (True, Entry(_arrow, say("cut.direction"))),
+        (True, Entry(lambda canvas, box, unit: draw_start(canvas, middle(box), unit), say("cut.start"))),
+        (True, Entry(lambda canvas, box, unit: draw_end(canvas, middle(box), unit), say("cut.end"))),
+        (pauses(cut.toolpath), Entry(_pause, say("cut.pause"))),
         (True, Entry(_number, numbers)),
-        ("part" in kinds, Entry(_piece(Paint.PART, Paint.PART_EDGE), say("cut_part"))),
-        ("slug" in kinds, Entry(_piece(Paint.SLUG, Paint.SLUG_EDGE), say("cut_slug"))),
-        (seen.work, Entry(_body(draw_work), say("cut_work"))),
-        (seen.clamps, Entry(_body(draw_clamp), say("cut_clamp"))),
-        (seen.travel, Entry(dashes(Paint.TRAVEL, 1.5 * style.JUMP_WIDTH), say("cut_travel_border"))),
+        ("part" in kinds, Entry(_piece(Paint.PART, Paint.PART_EDGE), say("cut.part"))),
+        ("slug" in kinds, Entry(_piece(Paint.SLUG, Paint.SLUG_EDGE), say("cut.slug"))),
+        (seen.work, Entry(_body(draw_work), say("cut.work"))),
+        (seen.clamps, Entry(_body(draw_clamp), say("cut.clamp"))),
+        (seen.travel, Entry(dashes(Paint.TRAVEL, 1.5 * style.JUMP_WIDTH), say("cut.travel_border"))),
         (True, Entry(_scale_bar, mm_text(bar_um, bar_um) + " mm", bar)),
     )
     return [entry for is_there, entry in found if is_there]
@@ -88,13 +88,13 @@ def finding_entries(cut: Cut, say: Words) -> list[Entry]:
         by = {
             severity: sum(count for code, count in counts if CODES[code].severity is severity) for severity in Severity
         }
-        text = say("cut_count", errors=by[Severity.ERROR], warnings=by[Severity.WARNING], notes=by[Severity.NOTE])
+        text = say("cut.count", errors=by[Severity.ERROR], warnings=by[Severity.WARNING], notes=by[Severity.NOTE])
         return [Entry(_flag(CODES[counts[0][0]].severity), text)]
     return [
         Entry(
             _flag(CODES[code].severity),
             say(
-                "cut_finding",
+                "cut.finding",
                 code=code if count == 1 else f"{code} ×{count}",
                 title=page_of(code, say.language).title,
             ),

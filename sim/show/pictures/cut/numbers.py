@@ -13,7 +13,7 @@ from sim.show.draw.labels import Anchors, number_stride, place_numbers
 from sim.show.draw.layout import Box, View
 from sim.show.draw.paints import Paint
 from sim.show.pictures.cut.subject import Board
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 NUMBERS_AT: Final = (0.5, 0.4, 0.6, 0.3, 0.7)
 """Where along a block its number may stand, best first."""
@@ -27,9 +27,9 @@ class Numbers(NamedTuple):
 
     def text(self, say: Words) -> str:
         """What the numbers are, such as ``every 100th block number``."""
-        key = f"cut_numbers_{self.stride}" if self.stride <= 2 else "cut_numbers"
+        key = f"cut.numbers_{self.stride}" if self.stride <= 2 else "cut.numbers"
         numbers = say(key, stride=self.stride)
-        return numbers if self.complete else say("cut_numbers_fit", numbers=numbers)
+        return numbers if self.complete else say("cut.numbers_fit", numbers=numbers)
 
 
 def draw_numbers(board: Board, toolpath: Toolpath, kerf_px: float) -> Numbers:

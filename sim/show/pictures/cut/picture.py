@@ -23,7 +23,7 @@ from sim.show.pictures.cut.size_lines import Extents, draw_extents, draw_rounds,
 from sim.show.pictures.cut.sizes import CutSizes, sizes_of_cut
 from sim.show.pictures.cut.subject import Board, Cut, cut_of_run
 from sim.show.pictures.cut.table import draw_border, draw_table, shows_border
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 _BARE: Final = Margins(0.0, 0.0, 0.0, 0.0)
 _THUMBNAIL: Final = Margins(*(style.THUMBNAIL_PAD,) * 4)

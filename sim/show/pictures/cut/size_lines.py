@@ -62,7 +62,7 @@ def draw_extents(board: Board, sizes: CutSizes, extents: Extents) -> None:
     corner = page.view.to_px(extents.box_um)[extents.sides, (0, 1)]
     for axis, line in enumerate(extents.lines(page)):
         length = length_text(float(extents.box_um[1, axis] - extents.box_um[0, axis]))
-        text = board.say("cut_path_size", size=length) if sizes.of_path else length
+        text = board.say("cut.path_size", size=length) if sizes.of_path else length
         _draw_limits(board.canvas, page.unit, line, float(corner[1 - axis]))
         board.room.block(_draw_size(board.canvas, page.unit, line, text))
 

@@ -17,7 +17,7 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.labels import Room
 from sim.show.draw.layout import Page
 from sim.show.pictures.cut.outlines import Bodies
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 from sim.table.motion import origin_um
 from sim.table.trace import Trace
 from sim.units import clock
@@ -102,11 +102,11 @@ def _note(run: DryRun, say: Words) -> str:
     """Verdict, blocks, length of the path and time in one line."""
     count, offset = len(run.toolpath), run.scenario.offset
     parts = [
-        say(f"cut_verdict_{verdict(run.findings)}"),
-        say("cut_blocks_1" if count == 1 else "cut_blocks", count=count),
+        say(f"findings.{verdict(run.findings)}"),
+        say("cut.blocks_1" if count == 1 else "cut.blocks", count=count),
         f"{mm(float(run.toolpath.length_um.sum())):.1f} mm",
         clock(run.ran_s),
     ]
     if offset is not None:
-        parts.append(say(f"cut_offset_{offset.side.name.lower()}", by=f"{mm(offset.by_um):g}"))
+        parts.append(say(f"cut.offset_{offset.side.name.lower()}", by=f"{mm(offset.by_um):g}"))
     return " · ".join(parts)

@@ -9,7 +9,7 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box, Page, View
 from sim.show.draw.paints import Paint
 from sim.show.draw.simplify import simplify
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 
 def draw_border(canvas: Canvas, page: Page, travel_um: Floats) -> None:
@@ -46,7 +46,7 @@ def draw_table(canvas: Canvas, page: Page, say: Words, travel_um: Floats, runs_p
     start = view.to_px(page.view.to_um(runs_px[0][0])) if runs_px else corners[0]
     canvas.disc(start, 0.2 * style.MARK * unit, Paint.START)
     x_mm, y_mm = mm(travel_um[1] - travel_um[0]).tolist()
-    text = say("cut_travel", x=f"{x_mm:g}", y=f"{y_mm:g}")
+    text = say("cut.travel", x=f"{x_mm:g}", y=f"{y_mm:g}")
     left = right - float((high - low)[0]) * scale - style.LEGEND_GAP * unit
     canvas.text((left, 0.72 * style.HEAD * unit), text, size, Paint.GREY, align=1.0)
     return page.width_px - style.EDGE * unit - left + canvas.text_width(text, size) + style.LEGEND_GAP * unit

@@ -17,7 +17,7 @@ from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.deviation.frame import mark_place, range_shown, titled, tolerance_text, um, write_names
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 HEIGHT: Final = 0.52
 """Of the page, over its width."""
@@ -42,11 +42,11 @@ def draw_along(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     frame = Box(style.LEFT * unit, (style.HEAD + STRIP) * unit, sheet.width_px - style.EDGE * unit, foot)
     chart = _chart(samples, frame, unit)
     legend = in_rows(_entries(say, samples, chart), sheet.width_px, unit)
-    canvas = titled(sheet, samples, say("deviation_along"), HEIGHT * sheet.width_px + legend.foot)
+    canvas = titled(sheet, samples, say("deviation.along"), HEIGHT * sheet.width_px + legend.foot)
     tolerance = AxisRange(-samples.tolerance_um, samples.tolerance_um)
     draw_chart(canvas, chart, tolerance=tolerance)
     draw_borders(canvas, chart, samples.run.toolpath, STRIP * unit)
-    write_names(canvas, chart, say("path_length"), say("deviation_um"))
+    write_names(canvas, chart, say("common.path_length"), say("deviation.um"))
     for stretch in stretches(np.flatnonzero(samples.cutting)):
         _draw_stretch(canvas, chart, samples, stretch)
     _mark_worst(canvas, chart, samples, say)
@@ -56,12 +56,12 @@ def draw_along(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
 
 def _entries(say: Words, samples: Samples, chart: Chart) -> list[Entry]:
     toolpath = samples.run.toolpath
-    border = "deviation_border" if all_show(chart, toolpath) else "deviation_some_borders"
-    jump = Entry(stroke(Paint.JUMP, 0.15 * STRIP), say("deviation_jump"))
+    border = "deviation.border" if all_show(chart, toolpath) else "deviation.some_borders"
+    jump = Entry(stroke(Paint.JUMP, 0.15 * STRIP), say("deviation.jump"))
     wire = swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, WIRE_WIDTH)
     return [
-        Entry(wire, say("deviation_wire_band")),
-        Entry(swatch(Paint.STEPS_PALE, Paint.STEPS, STEPS_WIDTH), say("deviation_steps_band")),
+        Entry(wire, say("deviation.wire_band")),
+        Entry(swatch(Paint.STEPS_PALE, Paint.STEPS, STEPS_WIDTH), say("deviation.steps_band")),
         Entry(swatch(Paint.BAND, Paint.BAND_EDGE, style.GRID_WIDTH), tolerance_text(say, samples)),
         Entry(stroke(Paint.FRAME, BORDER_WIDTH), say(border)),
         *[jump] * bool(toolpath.is_jump.any()),
@@ -94,7 +94,7 @@ def _mark_worst(canvas: Canvas, chart: Chart, samples: Samples, say: Words) -> N
     if at is None:
         return
     place = chart.to_px(np.array([[mm(samples.along_um[at]), samples.wire_um[at]]]))[0]
-    text = say("deviation_largest", most=um(samples.wire_um[at], signed=True), block=samples.where(at).block)
+    text = say("deviation.largest", most=um(samples.wire_um[at], signed=True), block=samples.where(at).block)
     mark_place(canvas, chart.frame, place, text, chart.unit)
 
 

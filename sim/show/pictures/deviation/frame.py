@@ -13,7 +13,7 @@ from sim.show.draw.layout import Box
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 LEAST_UM: Final = 0.5
 SEEN: Final = 0.25
@@ -76,14 +76,14 @@ def figures_text(say: Words, samples: Samples) -> str:
     """The figures of a run in a line: the largest deviation of its wire, where it was, and what 95 % keep to."""
     at = samples.worst
     if at is None:
-        return say("deviation_nothing_cut")
-    most = say("deviation_most", most=um(samples.max_um), block=samples.where(at).block)
-    return f"{most} · {say('deviation_p95', p95=um(samples.p95_um))}"
+        return say("deviation.nothing_cut")
+    most = say("deviation.most", most=um(samples.max_um), block=samples.where(at).block)
+    return f"{most} · {say('deviation.p95', p95=um(samples.p95_um))}"
 
 
 def tolerance_text(say: Words, samples: Samples) -> str:
     """What the legend says of the tolerance."""
-    key = "deviation_tolerance_default" if samples.run.scenario.drawing is None else "deviation_tolerance"
+    key = "deviation.tolerance_default" if samples.run.scenario.drawing is None else "deviation.tolerance"
     return say(key, tolerance=f"{samples.tolerance_um:g}")
 
 

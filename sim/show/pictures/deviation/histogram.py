@@ -14,7 +14,7 @@ from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.deviation.frame import range_shown, titled, tolerance_text, um
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 HEIGHT: Final = 0.5
 """Of the page, over its width."""
@@ -33,7 +33,7 @@ def draw_histogram(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     """
     say, unit = sheet.say, sheet.unit
     legend = in_rows(_entries(say, samples), sheet.width_px, unit)
-    canvas = titled(sheet, samples, say("deviation_histogram"), HEIGHT * sheet.width_px + legend.foot)
+    canvas = titled(sheet, samples, say("deviation.histogram"), HEIGHT * sheet.width_px + legend.foot)
     size = style.TICK * unit
     foot = HEIGHT * sheet.width_px - 3.0 * size
     frame = Box(1.1 * style.LEFT * unit, style.HEAD * unit + 1.4 * size, sheet.width_px - style.EDGE * unit, foot)
@@ -41,8 +41,8 @@ def draw_histogram(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     wire, steps = (shares(samples, off, bins) for off in (samples.wire_um, samples.steps_um))
     chart = Chart(frame, AxisRange(float(bins[0]), float(bins[-1])), _scale(wire, steps), unit)
     _draw_frame(canvas, chart, samples.tolerance_um)
-    canvas.text((frame.left, frame.top - 0.9 * size), say("deviation_share"), size, Paint.GREY)
-    canvas.text((frame.right, frame.bottom + 2.0 * size), say("deviation_value"), size, Paint.GREY, align=1.0)
+    canvas.text((frame.left, frame.top - 0.9 * size), say("deviation.share"), size, Paint.GREY)
+    canvas.text((frame.right, frame.bottom + 2.0 * size), say("deviation.value"), size, Paint.GREY, align=1.0)
     _draw_bars(canvas, chart, bins, wire)
     canvas.polyline(chart.to_px(_outline(chart, bins, steps)), Paint.STEPS, EDGE_WIDTH * unit)
     _draw_limits(canvas, chart, samples)
@@ -129,11 +129,11 @@ def _draw_limits(canvas: Canvas, chart: Chart, samples: Samples) -> None:
 def _entries(say: Words, samples: Samples) -> list[Entry]:
     wire = swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, EDGE_WIDTH)
     tolerance = swatch(Paint.BAND, Paint.BAND_EDGE, style.GRID_WIDTH)
-    p95 = say("deviation_p95_mark", p95=um(samples.p95_um))
-    most = say("deviation_largest_mark", most=um(samples.max_um))
+    p95 = say("deviation.p95_mark", p95=um(samples.p95_um))
+    most = say("deviation.largest_mark", most=um(samples.max_um))
     return [
-        Entry(wire, say("deviation_wire")),
-        Entry(stroke(Paint.STEPS, EDGE_WIDTH), say("deviation_steps")),
+        Entry(wire, say("deviation.wire")),
+        Entry(stroke(Paint.STEPS, EDGE_WIDTH), say("deviation.steps")),
         Entry(dashes(Paint.INK, EDGE_WIDTH), p95),
         Entry(dashes(Paint.ERROR, EDGE_WIDTH), most),
         Entry(tolerance, tolerance_text(say, samples)),

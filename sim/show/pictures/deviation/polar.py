@@ -18,7 +18,7 @@ from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.deviation.frame import titled, um, write_caption
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 MOST: Final = 4
 """Dials in a picture."""
@@ -79,8 +79,8 @@ def draw_polar(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas | None:
     wide = (sheet.width_px - GAP * unit) / columns
     size = min((wide - GAP * unit) / (2.0 * RIM), LARGEST * unit)
     tall = 2.0 * RIM * size + (CAPTION + GAP) * unit
-    some = say("deviation_some_circles", shown=len(kept), all=len(found)) if len(found) > len(kept) else ""
-    canvas = titled(sheet, samples, say("deviation_polar"), style.HEAD * unit + rows * tall + legend.foot, some)
+    some = say("deviation.some_circles", shown=len(kept), all=len(found)) if len(found) > len(kept) else ""
+    canvas = titled(sheet, samples, say("deviation.polar"), style.HEAD * unit + rows * tall + legend.foot, some)
     for at, around in enumerate(kept):
         x = (at % columns + 0.5) * wide + GAP * unit / 2.0
         top = style.HEAD * unit + at // columns * tall
@@ -177,16 +177,16 @@ def _caption(say: Words, around: Around) -> tuple[str, str]:
     """Which circle it is, and from what to what the wire is off."""
     circle = around.circle
     radius, first, last = f"{mm(circle.radius_um):.3f}", circle.first + 1, circle.last + 1
-    key = "deviation_circle" if first == last else "deviation_circle_blocks"
+    key = "deviation.circle" if first == last else "deviation.circle_blocks"
     low, high = (um(float(end), signed=True) for end in (around.wire_um.min(), around.wire_um.max()))
     name = say(key, block=first, first=first, last=last, radius=radius)
-    return name, say("deviation_outward", low=low, high=high)
+    return name, say("deviation.outward", low=low, high=high)
 
 
 def _entries(say: Words) -> list[Entry]:
     return [
-        Entry(swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, WIRE_WIDTH), say("deviation_wire_band")),
-        Entry(swatch(Paint.STEPS_PALE, Paint.STEPS, STEPS_WIDTH), say("deviation_steps_band")),
-        Entry(stroke(Paint.INK, NOMINAL_WIDTH), say("deviation_nominal")),
-        Entry(ring(Paint.START), say("deviation_circle_start")),
+        Entry(swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, WIRE_WIDTH), say("deviation.wire_band")),
+        Entry(swatch(Paint.STEPS_PALE, Paint.STEPS, STEPS_WIDTH), say("deviation.steps_band")),
+        Entry(stroke(Paint.INK, NOMINAL_WIDTH), say("deviation.nominal")),
+        Entry(ring(Paint.START), say("deviation.circle_start")),
     ]

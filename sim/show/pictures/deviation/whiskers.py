@@ -17,7 +17,7 @@ from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.deviation.frame import mark_place, titled, tolerance_text, um
 from sim.show.pictures.deviation.places import worst_of
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 
 SHARE: Final = 0.06
 """Length of the longest whisker, at most, as a share of the plot's longer side."""
@@ -53,7 +53,7 @@ def draw_whiskers(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     page = _page(bounds, sheet.width_px, unit, legend_px)
     times = magnification(samples, page)
     legend = in_rows(_entries(say, samples, unit, times, page.view.px_per_um), sheet.width_px, unit)
-    canvas = titled(sheet, samples, say("deviation_whiskers"), page.height_px)
+    canvas = titled(sheet, samples, say("deviation.whiskers"), page.height_px)
     draw_frame(canvas, page)
     draw_axes(canvas, page)
     whiskers = _whiskers(samples, page, times)
@@ -142,7 +142,7 @@ def _mark_worst(canvas: Canvas, page: Page, samples: Samples, whiskers: _Whisker
     if worst is None:
         return
     tip = page.view.to_px(whiskers.tip_um[np.searchsorted(whiskers.at, worst)])
-    text = say("deviation_largest", most=um(samples.wire_um[worst], signed=True), block=samples.where(worst).block)
+    text = say("deviation.largest", most=um(samples.wire_um[worst], signed=True), block=samples.where(worst).block)
     mark_place(canvas, page.plot, tip, text, page.unit)
 
 
@@ -159,8 +159,8 @@ def _entries(say: Words, samples: Samples, unit: float, times: float, px_per_um:
             canvas.polyline(end + np.array([[0.0, -tick], [0.0, tick]]), Paint.INK, WIDTH * unit)
 
     return [
-        Entry(scale, say("deviation_magnified", size=f"{size_um:g}", times=f"{times:,.0f}")),
-        Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say("deviation_ideal")),
-        Entry(stroke(Paint.ACTUAL, WIDTH), say("deviation_inside")),
-        Entry(stroke(Paint.ERROR, WIDTH), say("deviation_outside", tolerance=tolerance_text(say, samples))),
+        Entry(scale, say("deviation.magnified", size=f"{size_um:g}", times=f"{times:,.0f}")),
+        Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say("deviation.ideal")),
+        Entry(stroke(Paint.ACTUAL, WIDTH), say("deviation.inside")),
+        Entry(stroke(Paint.ERROR, WIDTH), say("deviation.outside", tolerance=tolerance_text(say, samples))),
     ]

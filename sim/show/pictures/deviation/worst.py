@@ -31,7 +31,7 @@ from sim.show.pictures.deviation.inset_drawing import (
 )
 from sim.show.pictures.deviation.places import worst_places
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 from sim.units import clock
 
 MAP: Final = 0.24
@@ -66,7 +66,7 @@ def draw_worst(sheet: Sheet[AnyCanvas], samples: Samples, steps: Pulses) -> AnyC
     cells = _cells(len(insets), sheet.width_px, unit)
     bows = samples.trace.wire_um is not samples.trace.table_um
     legend = in_rows(_entries(say, bows=bows), sheet.width_px, unit)
-    canvas = titled(sheet, samples, say("deviation_worst"), cells.bottom + legend.foot + 0.3 * GAP * unit)
+    canvas = titled(sheet, samples, say("deviation.worst"), cells.bottom + legend.foot + 0.3 * GAP * unit)
     for number, (box, inset) in enumerate(zip(cells.insets, insets, strict=True), start=1):
         above = Box(box.left, box.top - CAPTION * unit, box.right, box.top)
         draw_badge(canvas, np.array([box.left + BADGE * unit, (above.top + above.bottom) / 2.0]), number, unit)
@@ -77,7 +77,7 @@ def draw_worst(sheet: Sheet[AnyCanvas], samples: Samples, steps: Pulses) -> AnyC
     places = np.array([inset.foot_um for inset in insets]).reshape(-1, 2)
     draw_key_map(canvas, cells.key_map, samples.run.toolpath, places, unit)
     name = (cells.key_map.left, cells.key_map.top - 0.3 * CAPTION * unit)
-    canvas.text(name, say("deviation_key_map"), style.TEXT * unit, Paint.INK)
+    canvas.text(name, say("deviation.key_map"), style.TEXT * unit, Paint.INK)
     draw_at_foot(canvas, legend)
     return canvas
 
@@ -102,17 +102,17 @@ def _caption(say: Words, samples: Samples, at: int, grid: float) -> tuple[str, s
     """The block of a sample and when it was cut; where it lies, and the grid, µm, of its inset."""
     where = samples.where(at)
     x, y = (f"{mm(value):.3f}".replace("-", "−") for value in (where.x_um, where.y_um))
-    return f"{say('block', number=where.block)} · {clock(where.t_s)}", say(
-        "deviation_place", x=x, y=y, grid=f"{grid:g}"
+    return f"{say('common.block', number=where.block)} · {clock(where.t_s)}", say(
+        "deviation.place", x=x, y=y, grid=f"{grid:g}"
     )
 
 
 def _entries(say: Words, *, bows: bool) -> list[Entry]:
     looks = [
-        (Paint.IDEAL, IDEAL_WIDTH, "deviation_ideal"),
-        (Paint.STEPS, STEPS_WIDTH, "deviation_staircase"),
-        (Paint.ACTUAL, WIRE_WIDTH, "deviation_wire_samples"),
-        *[(Paint.GREY, TABLE_WIDTH, "deviation_table")] * bows,
+        (Paint.IDEAL, IDEAL_WIDTH, "deviation.ideal"),
+        (Paint.STEPS, STEPS_WIDTH, "deviation.staircase"),
+        (Paint.ACTUAL, WIRE_WIDTH, "deviation.wire_samples"),
+        *[(Paint.GREY, TABLE_WIDTH, "deviation.table")] * bows,
     ]
     return [Entry(stroke(paint, width), say(key)) for paint, width, key in looks]
 

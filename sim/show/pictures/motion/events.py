@@ -20,7 +20,7 @@ ROW: Final = 30.0
 """Height of a row of numbers or signs."""
 TICK: Final = 9.0
 LINE_WIDTH: Final = 1.5
-_NAMES: Final[Mapping[LossKind, str]] = {"lost-steps": "motion_lost", "trip": "motion_trip"}
+_NAMES: Final[Mapping[LossKind, str]] = {"lost-steps": "motion.lost", "trip": "motion.trip"}
 
 
 class TimeMark(NamedTuple):
@@ -42,7 +42,7 @@ class _Label(NamedTuple):
 
 def marks_of(run: DryRun) -> list[TimeMark]:
     """Losses of a run, with the codes of their findings and the axes, and pauses."""
-    pauses = [TimeMark(one.t_s, "motion_pause", "D", Paint.PAUSE) for one in stops_of(run) if one.what.kind == "pause"]
+    pauses = [TimeMark(one.t_s, "motion.pause", "D", Paint.PAUSE) for one in stops_of(run) if one.what.kind == "pause"]
     codes = {fact.kind: finding.code for finding, fact in telling(run.findings, Lost)}
     losses = [
         TimeMark(loss.t_s, _NAMES[loss.kind], f"{codes[loss.kind]} {loss.axis.name}", Paint.ERROR)

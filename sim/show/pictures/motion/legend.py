@@ -15,7 +15,7 @@ from sim.show.draw.letters import Letters
 from sim.show.draw.paints import Paint
 from sim.show.pictures.motion.curves import draw_envelope
 from sim.show.pictures.motion.events import TimeMark
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 from sim.table.record.bins import Envelope
 
 SIZES: Final = LegendSizes(apart=40.0)
@@ -25,9 +25,9 @@ CURVE_HEIGHT: Final = 0.72
 
 def legend_of(marks: list[TimeMark], stride: int, say: Words, width_px: int, unit: float) -> Legend:
     """The legend on a page of a width."""
-    number = say("motion_number") if stride == 1 else say("motion_number_every", stride=stride)
+    number = say("motion.number") if stride == 1 else say("motion.number_every", stride=stride)
     entries = [
-        *(Entry(partial(_draw_curve, axis), say("motion_axis", axis=axis.name)) for axis in (Axis.X, Axis.Y)),
+        *(Entry(partial(_draw_curve, axis), say("motion.axis", axis=axis.name)) for axis in (Axis.X, Axis.Y)),
         Entry(partial(_draw_sign, "12", Paint.GREY), number),
         *(Entry(partial(_draw_sign, *looks), say(name), _share(looks[0], unit)) for name, looks in _kinds(marks)),
     ]

@@ -12,7 +12,7 @@ from parser.units import mm
 from sim.run.dryrun import DryRun
 from sim.show.draw.chart import AxisRange, range_of
 from sim.show.draw.paints import Paint
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 from sim.table.record.bins import Envelope
 from sim.table.record.history import History
 from sim.table.record.peaks import Quantity
@@ -72,13 +72,13 @@ def panels_of(run: DryRun, most: int) -> tuple[Floats, list[Panel]]:
     motor = run.scenario.machine.table.motor
     history = run.history
     t_s, pooled = _pooled(history, most)
-    lag = limit_levels(run, "lag", "motion_pull_out" if motor.kind == "stepper" else "motion_servo_limit")
-    speed = [*feed_levels(run), *limit_levels(run, "speed", "motion_speed_limit", mm(1.0))]
+    lag = limit_levels(run, "lag", "motion.pull_out" if motor.kind == "stepper" else "motion.servo_limit")
+    speed = [*feed_levels(run), *limit_levels(run, "speed", "motion.speed_limit", mm(1.0))]
     return t_s, [
-        Panel("motion_velocity", _in_mm(pooled[0]), speed, least=0.01),
-        Panel("motion_acceleration", _in_mm(pooled[1]), [], least=1.0),
-        Panel("motion_error", pooled[2], lag, least=1.0),
-        Panel("motion_force", pooled[3], limit_levels(run, "force", "motion_force_limit"), least=1.0),
+        Panel("motion.velocity", _in_mm(pooled[0]), speed, least=0.01),
+        Panel("motion.acceleration", _in_mm(pooled[1]), [], least=1.0),
+        Panel("motion.error", pooled[2], lag, least=1.0),
+        Panel("motion.force", pooled[3], limit_levels(run, "force", "motion.force_limit"), least=1.0),
     ]
 
 
@@ -108,7 +108,7 @@ def feed_levels(run: DryRun) -> list[Level]:
     """Feeds of cuts and jumps, mm/s, as far as there are any."""
     feeds = run.scenario.machine.feeds(run.scenario.thickness_mm)
     jumps = run.toolpath.is_jump
-    shown = (("motion_cut_feed", feeds.cut_um_s, not jumps.all()), ("motion_jump_feed", feeds.jump_um_s, jumps.any()))
+    shown = (("motion.cut_feed", feeds.cut_um_s, not jumps.all()), ("motion.jump_feed", feeds.jump_um_s, jumps.any()))
     return [Level(key, mm(feed), "", Paint.GREY) for key, feed, there in shown if there]
 
 

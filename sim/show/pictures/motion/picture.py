@@ -19,7 +19,7 @@ from sim.show.pictures.motion.curves import draw_envelope
 from sim.show.pictures.motion.events import ROW, TICK, draw_blocks, draw_marks, marks_of
 from sim.show.pictures.motion.legend import legend_of
 from sim.show.pictures.motion.panels import Level, Panel, panels_of
-from sim.show.words.pictures import Words
+from sim.show.words import Words
 from sim.units import clock
 
 HEIGHT: Final = 0.13
@@ -32,7 +32,7 @@ BIN: Final = 2.0
 LEVEL_WIDTH: Final = 1.6
 SAMPLE: Final = 49.0
 """Length of a level's sample beside its text: three dashes."""
-_TIMES: Final = ((7200.0, 3600.0, "motion_time_h"), (120.0, 60.0, "motion_time_min"), (0.0, 1.0, "motion_time_s"))
+_TIMES: Final = ((7200.0, 3600.0, "motion.time_h"), (120.0, 60.0, "motion.time_min"), (0.0, 1.0, "motion.time_s"))
 
 
 class _Layout(NamedTuple):
@@ -99,8 +99,8 @@ def _time_of(run: DryRun) -> _Time:
 
 def _note(run: DryRun, say: Words) -> str:
     count = len(run.toolpath)
-    blocks = say("motion_blocks_one") if count == 1 else say("motion_blocks", count=count)
-    return say("motion_note", blocks=blocks, time=clock(run.ran_s), machine=run.scenario.machine.name)
+    blocks = say("motion.blocks_one") if count == 1 else say("motion.blocks", count=count)
+    return say("motion.note", blocks=blocks, time=clock(run.ran_s), machine=run.scenario.machine.name)
 
 
 def _draw_panels(canvas: Canvas, layout: _Layout, run: DryRun, time: _Time, sheet: Sheet[AnyCanvas]) -> list[Chart]:
@@ -125,7 +125,7 @@ def _draw_standing(canvas: Canvas, chart: Chart, since: float, say: Words) -> No
     frame, size = chart.frame, style.TEXT * chart.unit
     left = float(chart.x_px(since))
     canvas.box(frame._replace(left=left), Paint.GRID, Paint.FRAME, style.GRID_WIDTH * chart.unit)
-    text = say("motion_stands")
+    text = say("motion.stands")
     if canvas.text_width(text, size) < frame.right - left:
         middle = (left + frame.right) / 2.0, (frame.top + frame.bottom) / 2.0
         canvas.text(middle, text, size, Paint.GREY, align=0.5)
@@ -143,7 +143,7 @@ class _Told(NamedTuple):
 def _told(canvas: Canvas, chart: Chart, level: Level, say: Words) -> _Told:
     size = style.TICK * chart.unit
     inside = any(chart.y.low <= value <= chart.y.high for value in (level.value, -level.value))
-    text = level.text(say) if inside else say("motion_outside", limit=level.text(say))
+    text = level.text(say) if inside else say("motion.outside", limit=level.text(say))
     return _Told(level, text, canvas.text_width(text, size) + (SAMPLE * chart.unit + 0.4 * size) * inside, inside)
 
 

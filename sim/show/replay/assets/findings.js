@@ -1,5 +1,6 @@
 // The findings of the run as a list; one that is about a block leads there.
 import { make } from "../../html/assets/elements.js";
+import { say } from "../../html/assets/language.js";
 import { isTimed } from "./document.js";
 import * as words from "./words.js";
 
@@ -11,8 +12,8 @@ import * as words from "./words.js";
  */
 function where(finding) {
   const places = [];
-  if (finding.block) places.push(words.pick(`block ${finding.block}`, `第 ${finding.block} 段`));
-  if (finding.line) places.push(words.pick(`line ${finding.line}`, `第 ${finding.line} 行`));
+  if (finding.block) places.push(say("in_block", { block: finding.block }));
+  if (finding.line) places.push(say("in_line", { line: finding.line }));
   return places.join(", ");
 }
 
@@ -45,7 +46,7 @@ function entry(finding, onPick) {
 export function findingsIn(box, doc, onPick) {
   /** Write the list in the language of the page. */
   function write() {
-    const none = make("p", { className: "none" }, words.pick("Nothing was found.", "未发现问题。"));
+    const none = make("p", { className: "none" }, say("nothing_found"));
     const items = doc.findings.map((finding) => make("li", {}, entry(finding, onPick)));
     box.replaceChildren(items.length ? make("ul", {}, ...items) : none);
   }

@@ -4,7 +4,6 @@ import * as language from "../../html/assets/language.js";
 import { decode } from "./decode.js";
 import { readDocument } from "./document.js";
 import { buildPage } from "./page.js";
-import { pick } from "./words.js";
 
 /**
  * What tests and other scripts may call.
@@ -21,7 +20,7 @@ async function start() {
     const page = buildPage(await decode(readDocument()));
     Object.assign(player, publicPart(page));
   } catch (error) {
-    element("#loading", HTMLElement).textContent = pick(`This browser cannot play it: ${error}`, `此浏览器无法播放：${error}`);
+    element("#loading", HTMLElement).textContent = language.say("cannot_play", { error: String(error) });
     throw error;
   }
 }

@@ -1,7 +1,6 @@
 // Quiz: before some blocks the replay stops and asks; the answer is weighed, and the replay goes on and shows it.
 import { element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
-import { pick } from "./words.js";
 
 /**
  * @import { Said } from "../../html/assets/language.js"
@@ -46,7 +45,7 @@ export function quizIn({ panel, count, ask, answers, said, go }, doc, player) {
    */
   function writeQuestion(question) {
     const number = doc.quiz.indexOf(question) + 1;
-    count.textContent = pick(`Question ${number} of ${doc.quiz.length}`, `第 ${number} 题，共 ${doc.quiz.length} 题`);
+    count.textContent = language.say("question", { number, all: doc.quiz.length });
     ask.textContent = language.pick(question.ask);
     answers.replaceChildren(...question.answers.map((answer, at) => answerButton(question, answer, at)));
     said.textContent = chosen === null ? "" : verdict(question);
@@ -59,7 +58,7 @@ export function quizIn({ panel, count, ask, answers, said, go }, doc, player) {
    * @param {Question} question
    */
   function verdict(question) {
-    const first = chosen === question.right ? pick("Right.", "正确。") : pick("No; the right answer is marked.", "不对，正确答案已标出。");
+    const first = chosen === question.right ? language.say("right") : language.say("wrong");
     return [first, language.pick(question.why)].filter(Boolean).join(" ");
   }
 
@@ -108,8 +107,8 @@ export function quizIn({ panel, count, ask, answers, said, go }, doc, player) {
    * @param {Score} reached
    */
   function writeScore(reached) {
-    count.textContent = pick("Quiz finished", "测验结束");
-    ask.textContent = pick(`${reached.right} of ${reached.all} answers were right.`, `共答 ${reached.all} 题，答对 ${reached.right} 题。`);
+    count.textContent = language.say("quiz_finished");
+    ask.textContent = language.say("score", reached);
     answers.replaceChildren();
     said.textContent = "";
     go.hidden = false;

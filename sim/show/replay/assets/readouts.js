@@ -1,6 +1,7 @@
 // The read-outs beside the table; a text is set only where it has changed.
 import { elements } from "../../html/assets/elements.js";
-import { clock, mm, number, pick, way, weighed } from "./words.js";
+import { say } from "../../html/assets/language.js";
+import { clock, mm, number, way, weighed } from "./words.js";
 
 /**
  * @import { Decision } from "./decisions.js"
@@ -21,7 +22,7 @@ function formula(made) {
   const [x, y] = [number(made.x), number(made.y)];
   const [wordX, wordY] = [number(made.wordX), number(made.wordY)];
   if (made.kind === "arc") {
-    const toward = made.toward === "center" ? pick("toward the centre", "向圆心") : pick("away from the centre", "离圆心");
+    const toward = say(made.toward === "center" ? "toward_center" : "from_center");
     return `F = x² + y² − R² = ${squared(made.x)} + ${squared(made.y)} − ${number(Number(made.rSquared))}; ${weighed(made.f)} → ${way(made)} ${toward}`;
   }
   const terms = made.motion === "L1" || made.motion === "L3"
@@ -68,7 +69,7 @@ export function readoutsIn(page, doc, model) {
       write("remaining", clock(moment.remaining_s));
       write("deviation", number(moment.deviation.um, 2));
       write("f", next ? `${weighed(next.f)} → ${way(next)}` : "–");
-      write("formula", next ? formula(next) : isCard ? pick("The card interpolates: there is no F.", "由运动控制卡插补，没有 F。") : "");
+      write("formula", next ? formula(next) : isCard ? say("no_f") : "");
     },
   };
 }

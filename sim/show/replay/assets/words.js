@@ -1,5 +1,5 @@
-// What the page says of numbers, in both languages; texts that stand still are in the page itself.
-import * as language from "../../html/assets/language.js";
+// What the page says of numbers and blocks, in its language.
+import { pick, say } from "../../html/assets/language.js";
 
 /**
  * @import { Decision } from "./decisions.js"
@@ -8,13 +8,6 @@ import * as language from "../../html/assets/language.js";
 
 const MINUS = "−";
 const TURNS = { 1: "NR", "-1": "SR", 0: "L" };
-
-/**
- * The text of the page's language.
- * @param {string} en
- * @param {string} zh
- */
-export const pick = (en, zh) => language.pick({ en, zh });
 
 /**
  * A number with so many decimals and a true minus; no −0.
@@ -64,9 +57,9 @@ export const place = (x, y) => `X ${mm(x)}, Y ${mm(y)} mm`;
  * @param {number} row
  */
 export function kind(blocks, row) {
-  if (blocks.kind[row] === "jump") return pick("jump", "空走");
-  if (blocks.kind[row] === "line") return pick("line", "直线");
-  return blocks.sweep_rad[row] > 0 ? pick("arc, counter-clockwise", "逆圆弧") : pick("arc, clockwise", "顺圆弧");
+  if (blocks.kind[row] === "jump") return say("jump");
+  if (blocks.kind[row] === "line") return say("line");
+  return blocks.sweep_rad[row] > 0 ? say("arc_left") : say("arc_right");
 }
 
 /**
@@ -84,21 +77,21 @@ export const code = (blocks, row) => `${TURNS[blocks.turn[row]]}${blocks.quadran
 export function geometry(blocks, row) {
   /** @type {[name: string, value: string][]} */
   const rows = [
-    [pick("from", "起点"), place(blocks.place_x_um[row], blocks.place_y_um[row])],
-    [pick("to", "终点"), place(blocks.place_x_um[row + 1], blocks.place_y_um[row + 1])],
+    [say("from"), place(blocks.place_x_um[row], blocks.place_y_um[row])],
+    [say("to"), place(blocks.place_x_um[row + 1], blocks.place_y_um[row + 1])],
   ];
   if (blocks.kind[row] === "arc") {
     rows.push(
-      [pick("centre", "圆心"), place(blocks.center_x_um[row], blocks.center_y_um[row])],
-      [pick("radius", "半径"), `${mm(blocks.radius_um[row])} mm`],
-      [pick("sweep", "圆心角"), `${number((Math.abs(blocks.sweep_rad[row]) * 180) / Math.PI, 3)}°`],
+      [say("center"), place(blocks.center_x_um[row], blocks.center_y_um[row])],
+      [say("radius"), `${mm(blocks.radius_um[row])} mm`],
+      [say("sweep"), `${number((Math.abs(blocks.sweep_rad[row]) * 180) / Math.PI, 3)}°`],
     );
   }
-  rows.push([pick("length", "长度"), `${mm(blocks.length_um[row])} mm`]);
+  rows.push([say("length"), `${mm(blocks.length_um[row])} mm`]);
   if (blocks.kind[row] !== "jump") {
     rows.push(
-      [pick("count J", "计数长度 J"), number(blocks.count_um[row])],
-      [pick("axis G", "计数方向 G"), `G${blocks.count_axis[row]}`],
+      [say("count"), number(blocks.count_um[row])],
+      [say("axis"), `G${blocks.count_axis[row]}`],
       ["Z", code(blocks, row)],
     );
   }
@@ -112,7 +105,7 @@ export function geometry(blocks, row) {
  */
 export function block(blocks, row) {
   const count = blocks.kind.length;
-  const name = pick(`Block ${number(row + 1)} of ${number(count)}`, `第 ${number(row + 1)} 段，共 ${number(count)} 段`);
+  const name = say("block", { number: number(row + 1), count: number(count) });
   return [name, blocks.label[row], kind(blocks, row)].filter(Boolean).join(" · ");
 }
 
@@ -140,12 +133,12 @@ export const decision = (made) => `${weighed(made.f)} → ${way(made)}`;
  */
 export function piece({ kind: what, mass_g: grams, row }) {
   const mass = grams >= 1000 ? `${number(grams / 1000, 2)} kg` : `${number(grams, grams < 10 ? 2 : 0)} g`;
-  const name = what === "slug" ? pick("slug", "废料") : pick("part", "零件");
-  return pick(`${name} ${mass}, free in block ${row + 1}`, `${name} ${mass}，第 ${row + 1} 段脱落`);
+  const name = say(what === "slug" ? "slug" : "part");
+  return say("freed", { piece: name, mass, block: row + 1 });
 }
 
 /**
  * Texts of a finding.
  * @param {Finding} found
  */
-export const finding = ({ texts }) => language.pick(texts);
+export const finding = ({ texts }) => pick(texts);

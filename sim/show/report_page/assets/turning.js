@@ -1,5 +1,6 @@
 // What turns the pages of a long table, and says which rows are to be seen.
 import { both, make } from "../../html/assets/elements.js";
+import { said } from "../../html/assets/language.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
 
@@ -24,13 +25,13 @@ export function turningOf(rows, most, turnTo) {
     return button;
   }
 
-  const back = turn({ en: "Back", zh: "上一页" }, () => shown - most);
-  const next = turn({ en: "Next", zh: "下一页" }, () => shown + most);
-  const start = turn({ en: "First", zh: "首页" }, () => 0);
-  const end = turn({ en: "Last", zh: "末页" }, () => last);
+  const back = turn(said("back"), () => shown - most);
+  const next = turn(said("next"), () => shown + most);
+  const start = turn(said("first"), () => 0);
+  const end = turn(said("last"), () => last);
   const count = make("span", { className: "count" });
   count.setAttribute("aria-live", "polite");
-  const rest = make("p", { className: "rest" }, ...both({ en: "All rows are in report.json.", zh: "全部数据见 report.json。" }));
+  const rest = make("p", { className: "rest" }, ...both(said("rest")));
   const box = make("div", {}, make("div", { className: "turning" }, start, back, count, next, end), rest);
 
   /**
@@ -41,7 +42,7 @@ export function turningOf(rows, most, turnTo) {
   function tell(first, past) {
     shown = first;
     const [from, to, all] = [first + 1, past, rows].map((number) => number.toLocaleString("en-US"));
-    count.replaceChildren(...both({ en: `rows ${from}–${to} of ${all}`, zh: `第 ${from}–${to} 行，共 ${all} 行` }));
+    count.replaceChildren(...both(said("rows", { first: from, last: to, all })));
     start.disabled = back.disabled = first === 0;
     next.disabled = end.disabled = past === rows;
   }

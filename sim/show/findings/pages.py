@@ -1,0 +1,55 @@
+"""Pages of the catalogue as Markdown, for ``drycut explain`` and for the findings documents."""
+
+from parser.findings.catalogue import Language, example, page
+from parser.findings.codes import CODES
+from sim.show.words import Words
+
+
+def page_text(code: str, language: Language, level: int = 1) -> str:
+    """Page of a code as Markdown, its title a heading of this level. KeyError where there is no such code."""
+    of, say = page(code, language), Words(language)
+    mend = f"{say('findings.page-mend')}\n{of.mend.strip()}"
+    parts = [f"{'#' * level} {page_title(code, language)}", of.why.strip(), mend]
+    shown = example(code)
+    if shown:
+        key = "findings.page-example-with" if shown.options else "findings.page-example"
+        head = say(key, options=" ".join(shown.options))
+        parts += [f"{head}\n{_fenced(shown.program)}", f"{say('findings.page-mended')}\n{_fenced(shown.mended)}"]
+    return "\n\n".join(parts) + "\n"
+
+
+def page_title(code: str, language: Language) -> str:
+    """``3B204: wrong count axis (error)``."""
+    title, severity = page(code, language).title, severity_word(code, language)
+    return Words(language)("findings.page-title", code=code, title=title, severity=severity)
+
+
+def titles_text(language: Language) -> str:
+    """Every code with its severity and title, one a line, by layer."""
+    return "\n".join(
+        "".join([f"{title}\n", *(f"  {_title_line(code, language)}\n" for code in codes)])
+        for title, codes in layers(language)
+    )
+
+
+def layers(language: Language) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    """Titles of the layers, each with its codes."""
+    digits = sorted({code[2] for code in CODES})
+    return tuple(
+        (Words(language)(f"findings.layer-{digit}"), tuple(code for code in sorted(CODES) if code[2] == digit))
+        for digit in digits
+    )
+
+
+def severity_word(code: str, language: Language) -> str:
+    """Severity of a code, for people."""
+    return Words(language)(f"findings.{CODES[code].severity}")
+
+
+def _title_line(code: str, language: Language) -> str:
+    width = max(len(severity_word(code, language)) for code in CODES)
+    return f"{code}  {severity_word(code, language):{width}}  {page(code, language).title}"
+
+
+def _fenced(program: str) -> str:
+    return f"```\n{program.strip()}\n```"

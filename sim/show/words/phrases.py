@@ -1,0 +1,38 @@
+"""Texts put together in both languages: names and numbers, lists, counts, durations."""
+
+from collections.abc import Iterable, Mapping
+
+from parser.findings.catalogue import LANGUAGES, Said, term
+from sim.show.words.words import said
+from sim.units import clock
+
+_UNITS_OF_TIME = {" h": "phrases.hours", " min": "phrases.minutes", " s": "phrases.seconds"}
+
+
+def same(text: object) -> Said:
+    """A text that is the same in both: a name, a number."""
+    return Said(str(text), str(text))
+
+
+def listed(texts: Iterable[Said]) -> Said:
+    """Texts one after the other."""
+    parts, comma = list(texts), said("phrases.comma")
+    return Said(comma.en.join(part.en for part in parts), comma.zh.join(part.zh for part in parts))
+
+
+def catalogued(key: str) -> Said:
+    """A term of the catalogue, such as the name of a check; nothing for an empty key."""
+    return Said(*(term(key, language) for language in LANGUAGES)) if key else same("")
+
+
+def numbered(number: Mapping[str, int]) -> Said:
+    """How many there are of each, such as ``2 errors, 1 note``; without those of which there is none."""
+    return listed(said(f"phrases.{'one' if n == 1 else 'some'}-{key}", n=f"{n:,}") for key, n in number.items() if n)
+
+
+def lasting(seconds: float) -> Said:
+    """A duration, such as ``2 h 27 min``."""
+    english = chinese = clock(seconds)
+    for unit, key in _UNITS_OF_TIME.items():
+        chinese = chinese.replace(unit, said(key).zh)
+    return Said(english, chinese)

@@ -1,0 +1,50 @@
+"""The one loader of words: texts in English and Chinese, side by side in the TOML files beside this module.
+
+A key is ``file.text``: ``cut.kerf`` is the text `kerf` of ``cut.toml``. A file is read when one of its texts is first
+asked for.
+"""
+
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Final, NamedTuple
+
+from parser.findings.catalogue import LANGUAGES, Language, Said
+
+FOLDER: Final = Path(__file__).parent
+
+
+class Words(NamedTuple):
+    """The texts in one language."""
+
+    language: Language
+
+    def __call__(self, key: str, /, **values: object) -> str:
+        """Text of a key, its places filled; of a value that is `Said` the text of the language is taken.
+
+        KeyError where there is no such text.
+        """
+        file, _, name = key.partition(".")
+        template = getattr(texts(file)[name], self.language)
+        filled: str = template.format(**{name: _in(value, self.language) for name, value in values.items()})
+        return filled
+
+
+def said(key: str, /, **values: object) -> Said:
+    """Text of a key in both languages, as `Words` gives it in one."""
+    return Said(*(Words(language)(key, **values) for language in LANGUAGES))
+
+
+@cache
+def texts(file: str) -> Mapping[str, Said]:
+    """Templates of a file by their names. KeyError where there is no such file."""
+    import tomllib  # noqa: PLC0415 - a check without findings needs no text
+
+    path = FOLDER / f"{file}.toml"
+    if not path.is_file():
+        raise KeyError(file)
+    return {name: Said(**text) for name, text in tomllib.loads(path.read_text(encoding="utf-8")).items()}
+
+
+def _in(value: object, language: Language) -> object:
+    return getattr(value, language) if isinstance(value, Said) else value
