@@ -7,10 +7,10 @@ import numpy as np
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
 from parser.program import Program
+from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import Contour
 from parser.shape.loops import end_in_waste
 from parser.threeb.at_block import at_block
-from parser.threeb.figures import CLOSED_WITHIN_UM
 from parser.threeb.tokens import TokenKind
 
 if TYPE_CHECKING:

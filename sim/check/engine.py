@@ -10,8 +10,7 @@ from controller.stepping.steps import Steps
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
 from parser.program import Program
-from parser.shape.contours import Contour, find_contours
-from parser.shape.rows import contour_rows
+from parser.shape.contours import Contour, contour_rows, find_contours
 from parser.threeb.at_block import at_block
 from parser.threeb.decode import endless
 from parser.threeb.tokens import TokenKind

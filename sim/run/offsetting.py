@@ -18,10 +18,10 @@ from parser.findings.findings import Finding, file_order
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats
 from parser.program import Program
+from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.contours import contour_rows
 from parser.shape.loops import find_loops
-from parser.shape.rows import contour_rows
 from parser.threeb.at_block import at_block
-from parser.threeb.figures import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.setup.part import Offset

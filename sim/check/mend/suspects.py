@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
-from parser.shape.contours import closure_tolerance_um
+from parser.shape.closing import closure_tolerance_um
 from parser.threeb.decode import Moves
 from parser.toolpath import Toolpath
 from sim.check.mend.likelihood import familiar, joint, obedience, sizes

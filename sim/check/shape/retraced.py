@@ -17,7 +17,7 @@ def retraced_arcs(toolpath: Toolpath, contour_of_row: Ints) -> Ints:
     Parameters
     ----------
     contour_of_row
-        (n,) contour number of each row, −1 on jumps; see `parser.shape.rows`.
+        (n,) contour number of each row, −1 on jumps; see `parser.shape.contours`.
     """
     row = np.flatnonzero(toolpath.is_arc & (contour_of_row >= 0))
     if len(row) < 2:

@@ -10,8 +10,8 @@ import numpy as np
 
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.directions import Directions, directions
+from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.loops import find_loops, is_circle
-from parser.threeb.figures import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
 
 _CUSP_RAD = np.radians(178.0)
