@@ -10,20 +10,16 @@ from controller.offset.compensate import compensate
 from controller.offset.gouges import TOLERANCE_UM, Gouge, gouges
 from controller.offset.path import Made, OffsetPath
 from controller.offset.reach import reach
-from controller.offset.sections import Section
+from controller.offset.sections import Section, sections_of
 from controller.offset.shifted import closed_contour
 from controller.offset.toolpath import offset_toolpath
 from controller.offset.uncut import uncut_um
 from parser.findings.findings import Finding, file_order
-from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats
 from parser.program import Program
-from parser.shape.closing import CLOSED_WITHIN_UM
-from parser.shape.contours import contour_rows
-from parser.shape.loops import find_loops
-from parser.threeb.at_block import at_block
+from parser.shape.contours import runs
 from parser.toolpath import Toolpath
-from parser.units import mm
+from sim.check.offset import gouge_findings, loop_findings, vanished_findings
 from sim.setup.part import Offset
 
 
@@ -74,8 +70,12 @@ def offsetting(program: Program, offset: Offset) -> Offsetting:
         findings=(),
     )
     closed = [section for section in sections if section.closed]
-    found = sorted(_findings(program, offset, result, closed), key=file_order)
-    return replace(result, findings=tuple(found))
+    found = [
+        *vanished_findings(program, offset, path, result.left_um),
+        *gouge_findings(program, offset, path, result.gouges),
+        *loop_findings(program, offset, closed, result.loops),
+    ]
+    return replace(result, findings=tuple(sorted(found, key=file_order)))
 
 
 class _Held(NamedTuple):
@@ -114,58 +114,5 @@ def _is_overhang(contour: Curves, section: Section, gouge: Gouge) -> bool:
 
 def _beside(path: OffsetPath, drawn: Toolpath) -> Iterator[slice]:
     """Rows of the offset path that cut in each contour, one contour after the other."""
-    for begin, past in _contours(drawn):
+    for begin, past in runs(drawn).tolist():
         yield slice(*np.searchsorted(path.source_row, (begin, past)).tolist())
-
-
-def _contours(toolpath: Toolpath) -> list[tuple[int, int]]:
-    """First row of each contour, and one past its last."""
-    is_cut = np.concatenate([[False], ~toolpath.is_jump, [False]])
-    edges: list[list[int]] = np.flatnonzero(is_cut[1:] != is_cut[:-1]).reshape(-1, 2).tolist()
-    return [(begin, past) for begin, past in edges]
-
-
-def sections_of(toolpath: Toolpath) -> tuple[Section, ...]:
-    """The blocks of each contour that run along the drawing: its loop, without the lead-in and the lead-out.
-
-    As many blocks as lead in may lead out behind the loop; more of them run along the contour once more. A contour
-    without a loop, such as a parting cut, is drawn from its first block to its last.
-    """
-    contours = _contours(toolpath)
-    loops = find_loops(toolpath, contour_rows(toolpath), np.arange(len(contours)))
-    loop_of = {number: at for at, number in enumerate(loops.contour.tolist())}
-    found = []
-    for number, (begin, past) in enumerate(contours):
-        end, at = past - 1, loop_of.get(number)
-        if at is None:
-            found.append(Section(begin, end, closed=False))
-            continue
-        first, last = int(loops.first[at]), int(loops.last[at])
-        leads = first - begin
-        again = end - last > max(leads, 1)
-        closes = np.hypot(*(toolpath.end_um[last] - toolpath.start_um[first])) <= CLOSED_WITHIN_UM
-        found.append(Section(first, end - leads if again else last, closed=bool(closes and not again)))
-    return tuple(found)
-
-
-def _findings(program: Program, offset: Offset, made: Offsetting, closed: list[Section]) -> Iterator[Finding]:
-    drawn, lines = program.toolpath, program.lines
-    gone = made.path.vanished
-    middle_mm = mm(places(drawn, gone, np.full(len(gone), 0.5)))
-    for row, left_um, (x_mm, y_mm) in zip(gone.tolist(), made.left_um.tolist(), middle_mm.tolist(), strict=True):
-        values = {"offset": offset.by_um, "left": left_um, "x_mm": x_mm, "y_mm": y_mm}
-        radius_um = float(drawn.radius_um[row])
-        if drawn.is_arc[row] and radius_um <= offset.by_um and drawn.sweep_rad[row] * offset.side > 0.0:
-            yield at_block(drawn, lines, "3B501", row, radius=radius_um, **values)
-        elif left_um > TOLERANCE_UM:
-            yield at_block(drawn, lines, "3B502", row, **values)
-    for gouge in made.gouges:
-        x_mm, y_mm = mm(gouge.place_um.x), mm(gouge.place_um.y)
-        other = int(drawn.source.block[gouge.row])
-        row = int(made.path.source_row[gouge.path_row])
-        yield at_block(
-            drawn, lines, "3B503", row, other=other, depth=gouge.depth_um, offset=offset.by_um, x_mm=x_mm, y_mm=y_mm
-        )
-    for section, loops in zip(closed, made.loops, strict=True):
-        if loops != 1:
-            yield at_block(drawn, lines, "3B504", section.first, loops=loops, offset=offset.by_um)
