@@ -1,20 +1,15 @@
 """Findings about contours: whether they close, exact and stepped, and which block may be why not."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from parser.dialect.at_block import at_block
+from parser.dialect.mender import Suspect
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
 from parser.program import Program
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import Contour
 from parser.shape.loops import end_in_waste
-from parser.threeb.at_block import at_block
-from parser.threeb.tokens import TokenKind
-
-if TYPE_CHECKING:
-    from sim.check.mend.suspects import Suspect
 
 STEPPED_CLOSURE_UM = 12.0
 """A sound arc may end up to 9.9 µm off when stepped (sim/check/count_axes.py)."""
@@ -26,13 +21,6 @@ MOST_SUSPECTED = 50
 """Contours of a program of which the broken block is looked for: where more do not close, it is no slip of a digit."""
 
 _EXPLAIN = ("3B204", "3B207", "3B208", "3B303", "3B310")
-_FIELDS = {
-    "x": (TokenKind.X, "field-x"),
-    "y": (TokenKind.Y, "field-y"),
-    "count": (TokenKind.COUNT, "field-count"),
-    "axis": (TokenKind.AXIS, "field-axis"),
-    "sense": (TokenKind.DIRECTION, "field-sense"),
-}
 
 
 def contour_findings(
@@ -110,23 +98,22 @@ def _at_end(program: Program, code: str, contour: Contour, **values: float) -> F
 
 def _suspects(program: Program, contour: Contour) -> list[Finding]:
     """Notes at blocks of which one changed field would close the contour."""
-    from sim.check.mend.suspects import suspects  # noqa: PLC0415 - most contours are closed
+    if program.mender is None:
+        return []
+    found = program.mender.suspects(program.toolpath, contour.first - 1, contour.last)
+    return [_suspect(program, contour, one) for one in found]
 
-    rows = contour.first - 1, contour.last
-    return [_suspect(program, contour, one) for one in suspects(program.toolpath, *rows)]
 
-
-def _suspect(program: Program, contour: Contour, one: "Suspect") -> Finding:
-    token, term = _FIELDS[one.field]
+def _suspect(program: Program, contour: Contour, one: Suspect) -> Finding:
     return at_block(
         program.toolpath,
         program.lines,
         "3B304",
         one.row,
-        token,
+        one.field,
         first=contour.first,
         last=contour.last,
-        field=term,
+        field=one.field.term,
         written=one.written,
         other=one.other,
     )

@@ -2,10 +2,10 @@
 
 from bisect import bisect_right
 
+from parser.dialect.mender import Mender
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.shape.loops import is_circle
-from parser.threeb.print_checks import ends_as_printed
 from sim.check.engine import Checked
 
 _DOUBT = ("3B207", "3B208")
@@ -14,8 +14,8 @@ _DOUBT = ("3B207", "3B208")
 class Proofs:
     """What is known of the ends of a program's blocks, numbered from 1."""
 
-    def __init__(self, program: Program, checked: Checked) -> None:
-        self._toolpath = program.toolpath
+    def __init__(self, program: Program, mender: Mender, checked: Checked) -> None:
+        self._toolpath, self._mender = program.toolpath, mender
         self._circle = is_circle(program.toolpath)
         self._judged = checked.judged
         # Contours do not overlap and come in order: one search finds the one that a block may be in.
@@ -37,7 +37,7 @@ class Proofs:
             return False
         contour = self._contour(block)
         closed = contour is not None and contour.encloses and contour.returns
-        return closed or bool(self._circle[block - 1]) or ends_as_printed(self._toolpath, block - 1)
+        return closed or bool(self._circle[block - 1]) or self._mender.ends_as_printed(self._toolpath, block - 1)
 
     def label_is_certain(self, block: int) -> bool:
         """Whether nothing suggests that the block was to go another way than its label is read."""

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
+from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
 from parser.program import Program
 from parser.shape.contours import Contour
-from parser.threeb.at_block import at_block
 from parser.units import mm
 from sim.cut.kerf.region import Kerf, kerf_of
 from sim.cut.pieces.pieces import Material, Piece, Pieces, pieces_of

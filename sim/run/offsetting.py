@@ -8,11 +8,10 @@ import numpy as np
 
 from controller.offset.compensate import compensate
 from controller.offset.gouges import TOLERANCE_UM, Gouge, gouges
-from controller.offset.path import Made, OffsetPath
+from controller.offset.path import Made, OffsetPath, offset_toolpath
 from controller.offset.reach import reach
 from controller.offset.sections import Section, sections_of
 from controller.offset.shifted import closed_contour
-from controller.offset.toolpath import offset_toolpath
 from controller.offset.uncut import uncut_um
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Curves, Floats

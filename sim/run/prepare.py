@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
+from controller.stepping.words import interpolate
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
 from parser.program import Program

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 
+from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding, Value, file_order
 from parser.program import Program
-from parser.threeb.at_block import at_block
 from parser.toolpath import Axis
 from parser.units import mm
 from sim.setup.machine.table_model import Motor

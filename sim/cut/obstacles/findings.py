@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding, Value
 from parser.program import Program
 from parser.shape.contours import Contour
-from parser.threeb.at_block import at_block
 from parser.units import mm
 from sim.cut.obstacles.bodies import Pieces, grown, swept
 from sim.cut.obstacles.leaving import leavings

@@ -2,11 +2,11 @@
 
 from typing import Any
 
+from parser.dialect.reader import Fact
 from parser.findings.catalogue import term, texts
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.shape.contours import Contour
-from parser.threeb.header import Header
 from sim import __version__
 from sim.check.result import CheckState, Coverage
 from sim.measure.compare.result import Comparison
@@ -16,7 +16,7 @@ from sim.run.report.drawing import comparison_document
 from sim.run.report.figures import deviation_entries, limit_entry, loss_entry
 from sim.run.report.offset import offset_entry
 from sim.run.report.remains import remains_entry
-from sim.run.report.rounded import column, known, rounded
+from sim.run.report.rounded import column, rounded
 
 SCHEMA = "drycut.report/1"
 
@@ -34,7 +34,7 @@ def build_report(run: DryRun) -> dict[str, Any]:
             "provenance": scenario.provenance,
             "encoding": run.program.encoding,
             "dialect": run.program.reading.dialect,
-            "header": _header(run.program.header),
+            "header": {key: _fact(fact) for key, fact in run.program.facts.items()},
         },
         "machine": {"name": scenario.machine.name, "start_um": [rounded(place) for place in scenario.start_um]},
         "wire": {
@@ -93,14 +93,11 @@ def _finding(finding: Finding) -> dict[str, Any]:
     }
 
 
-def _header(header: Header) -> dict[str, Any]:
-    return {
-        "version": header.version or None,
-        "name": header.name or None,
-        "corner_radius_um": known(header.corner_radius_um),
-        "offset_um": known(header.offset_um),
-        "lengths_um": [rounded(length.um) for length in header.lengths],
-    }
+def _fact(fact: Fact) -> Any:
+    """What a header says of one thing; None where it does not say it."""
+    if isinstance(fact, tuple):
+        return [rounded(one) for one in fact]
+    return rounded(fact) if isinstance(fact, float) else fact or None
 
 
 def _coverage(coverage: Coverage) -> dict[str, Any]:

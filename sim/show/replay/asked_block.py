@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.stepping.quadrants import walk_arcs
+from controller.stepping.words import words_of
 from parser.geometry.curves import Floats
 from parser.toolpath import Axis
 from parser.units import mm
@@ -80,7 +81,7 @@ class AskedBlock(NamedTuple):
 def asked_block(run: DryRun, row: int, first_um: tuple[int, int] | None) -> AskedBlock:
     """The block in a row, whose first step leads to a place."""
     toolpath = run.toolpath
-    words = toolpath.words
+    words = words_of(toolpath)
     from_x, from_y = run.stepped.corner_um[row].tolist()
     to_x, to_y = first_um or (from_x, from_y)
     return AskedBlock(

@@ -18,8 +18,8 @@ from plain import AWAY_X, AWAY_Y, SIGNS, TOWARD_X, TOWARD_Y, PlainBlock, motion_
 from replayed import document_of, recording_of, replay_of
 from strategies import program_text
 
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
+from controller.stepping.words import interpolate
 from parser.geometry.curves import Floats
 from parser.program import parse_program
 from sim.measure.deviation.across import across_um

@@ -1,15 +1,26 @@
-"""Words that a controller steps an offset path by: each block from where the steps of the one before it ended."""
+"""Words that a controller steps a path by: those of its program, or words of its own where the program has none."""
 
 import numpy as np
 
 from controller.stepping.point_by_point import interpolate_words
+from controller.stepping.steps import Steps
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.threeb.words import chosen, words_of_arcs, words_of_lines
-from parser.toolpath import Words
+from parser.toolpath import Toolpath, Words
+from parser.words.telling import chosen, words_of_arcs, words_of_lines
+
+
+def interpolate(toolpath: Toolpath) -> Steps:
+    """Steps of a whole toolpath, each block from where the steps of the one before it ended."""
+    return interpolate_words(words_of(toolpath), toolpath.length_um)
+
+
+def words_of(toolpath: Toolpath) -> Words:
+    """Words to step a toolpath by: exactly those of its program, else such as end each block where it should."""
+    return stepped_words(toolpath) if toolpath.words is None else toolpath.words
 
 
 def stepped_words(curves: Curves) -> Words:
-    """Words of n curves, all places in whole µm from where the first one begins.
+    """Words of n curves, all places in whole µm from where the first one begins; jumps are told as lines.
 
     A controller counts its own pulses, so that rounding does not add up. All blocks are told and stepped at once, as
     if each began at the whole µm next to its start; those that turn out to begin elsewhere are told again. A line ends
