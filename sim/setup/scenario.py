@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError, SettingsError
+from parser.program import suffixes
 from parser.text.encoding import printable
 from parser.units import from_mm
 from sim.setup.expectations import Expectation, read_expectation
@@ -138,7 +139,7 @@ def load_scenario(path: Path) -> Scenario:
         return Scenario(printable(path.name), path, load_machine(DEFAULT_MACHINE))
     file = path / "scenario.toml"
     if not file.exists():
-        raise SettingsError(f"{path}: is a folder without scenario.toml; give a 3B file or a scenario folder")
+        raise SettingsError(f"{path}: is a folder without scenario.toml; give a program or a scenario folder")
     content, where = load_toml(file), str(file)
     refuse_unknown(content, _KEYS, where)
     machine = load_machine(text(content, "machine", where, default=DEFAULT_MACHINE), beside=path)
@@ -150,7 +151,7 @@ def load_scenario(path: Path) -> Scenario:
     work_numbers = numbers(given, _WORK, f"{where}: [work]", _OF_WORK)
     return Scenario(
         title=printable(text(content, "title", where, default=path.resolve().name)),
-        program=path / text(content, "program", where, default="program.3b"),
+        program=path / text(content, "program", where, default=_usual_name(path)),
         machine=machine,
         wire=read_wire(section(content, "wire", where), f"{where}: [wire]"),
         start_mm=pair(content, "start_mm", where),
@@ -168,3 +169,9 @@ def load_scenario(path: Path) -> Scenario:
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
         **work_numbers,
     )
+
+
+def _usual_name(folder: Path) -> str:
+    """Name of the program in a scenario folder that names none: of the usual ones the first that is there."""
+    names = [f"program{suffix}" for suffix in suffixes()]
+    return next((name for name in names if (folder / name).exists()), names[0])

@@ -31,6 +31,8 @@ class AskedBlock(NamedTuple):
         (2,) which way its first step goes; (0, 0) where it makes none.
     steps
         How many it makes.
+    is_worded
+        Whether its words stand in the program; else they are the controller's own.
     """
 
     number: int
@@ -46,6 +48,7 @@ class AskedBlock(NamedTuple):
     turn: int
     first_step: tuple[int, int]
     steps: int
+    is_worded: bool
 
     @property
     def by_um(self) -> Floats:
@@ -98,6 +101,7 @@ def asked_block(run: DryRun, row: int, first_um: tuple[int, int] | None) -> Aske
         turn=int(words.turn[row]),
         first_step=(to_x - from_x, to_y - from_y),
         steps=int(run.stepped.count[row]),
+        is_worded=toolpath.words is not None,
     )
 
 
