@@ -19,7 +19,7 @@ from parser.toolpath import Toolpath
 _SPELLING = Spelling(clockwise="SR", counter_clockwise="NR", end="DD")
 
 
-class _ThreeB:
+class ThreeB:
     """3B as the trade writes it, and 4B as the trade recalls it (docs/3b.md)."""
 
     name = "3B"
@@ -48,7 +48,7 @@ class _ThreeB:
         return Read(records.lines, _reading(records, toolpath, counts), records.header.facts, toolpath, ordered, MENDER)
 
 
-THREE_B = _ThreeB()
+THREE_B = ThreeB()
 
 
 def _reading(records: Records, toolpath: Toolpath, counts: Counts) -> Reading:
