@@ -1,1 +1,1 @@
-"""Bytes, characters, lines, and the places in them; what crosses the border is text with its `LineIndex`."""
+"""Bytes, characters, lines, and the places in them; the border is text with its `LineIndex` and its blocks' `Source`."""

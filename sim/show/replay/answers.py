@@ -98,9 +98,7 @@ def _end(block: AskedBlock) -> Written | None:
     start_x, start_y = (in_mm(place) for place in block.start_um.tolist())
     values = {"start_x": start_x, "start_y": start_y, "center_x": center_x, "center_y": center_y}
     kind = block.kind if block.is_worded else "line"  # the text on arcs tells how far one counts
-    why = said(
-        f"end.{kind}.why", turn=_turn(block), count=block.count_um, axis=block.axis, **values, **_moves(block)
-    )
+    why = said(f"end.{kind}.why", turn=_turn(block), count=block.count_um, axis=block.axis, **values, **_moves(block))
     return Written(_ask("end", block), tuple(answers), answers.index(right), why)
 
 
