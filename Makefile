@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: demo test lint browser bench steps mutate fuzz golden pages lock clean
+.PHONY: demo test lint scripts browser bench steps mutate fuzz golden pages lock clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
@@ -14,11 +14,18 @@ test: lint browser
 	$(BIN)/pytest -m alone
 	$(BIN)/pytest -m "not alone" --numprocesses auto --dist loadfile
 
-lint: $(READY)
+lint: $(READY) scripts
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-cache
+
+# Types and style of the scripts of pages, where there is node; pages are made without it.
+scripts:
+	@if ! command -v npm >/dev/null; then echo "page scripts were not checked: there is no node with npm"; \
+	elif ! $(MAKE) --no-print-directory --silent node_modules/.package-lock.json; then \
+		echo "page scripts were not checked: npm could not install what checks them"; \
+	else npm run --silent lint; fi
 
 # Chromium, for the tests of pages: installed where it is missing and that can be done, or told how to.
 browser: $(READY)
@@ -54,7 +61,11 @@ lock: $(READY)
 		--upgrade --no-header --output-file requirements-lock.txt pyproject.toml
 
 clean:
-	rm -rf .venv out dist
+	rm -rf .venv node_modules out dist
+
+node_modules/.package-lock.json: package-lock.json .npmrc
+	npm ci --silent --no-audit --no-fund
+	@touch $@
 
 $(READY): pyproject.toml requirements-lock.txt
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "drycut needs Python 3.11 or newer; this is " + sys.version.split()[0])'

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from parser.dialect.mender import Mender
-from parser.dialect.reader import STANDARD_MARKS, Fact, Marks, Reader, Reading
+from parser.dialect.reader import STANDARD_MARKS, HeaderValue, Marks, Reader, Reading
 from parser.findings.errors import FileUnreadableError
 from parser.findings.findings import Finding
 from parser.text.encoding import decode_text, printable
@@ -29,7 +29,7 @@ class Program:
         Encoding of the file.
     text, lines
         The whole text, and the places in it.
-    reading, facts, toolpath, findings, mender
+    reading, header, toolpath, findings, mender
         What its reader made of it; see `parser.dialect.reader.Read`.
     """
 
@@ -38,7 +38,7 @@ class Program:
     text: str
     lines: LineIndex
     reading: Reading
-    facts: Mapping[str, Fact]
+    header: Mapping[str, HeaderValue]
     toolpath: Toolpath
     findings: tuple[Finding, ...]
     mender: Mender | None

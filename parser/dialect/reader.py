@@ -4,12 +4,13 @@ from collections.abc import Mapping
 from typing import NamedTuple, Protocol
 
 from parser.dialect.mender import Mender
+from parser.findings.codes import Check
 from parser.findings.findings import Finding
 from parser.text.lines import LineIndex
 from parser.text.source import Span
 from parser.toolpath import Toolpath
 
-Fact = str | float | tuple[float, ...] | None
+HeaderValue = str | float | tuple[float, ...] | None
 """What a header says of one thing: a text, a number or some; None or empty where it does not say it."""
 
 
@@ -86,7 +87,7 @@ class Reading(NamedTuple):
     damages: tuple[Damage, ...]
     spelling: Spelling
     is_drawing: bool
-    not_asked: Mapping[str, str]
+    not_asked: Mapping[Check, str]
 
 
 class Read(NamedTuple):
@@ -96,7 +97,7 @@ class Read(NamedTuple):
     ----------
     lines
         Places in the text.
-    reading, facts
+    reading, header
         How it was read, and what its header says, by the keys that the report gives them; lengths in µm.
     toolpath
         Exact geometry, up to the end code.
@@ -108,7 +109,7 @@ class Read(NamedTuple):
 
     lines: LineIndex
     reading: Reading
-    facts: Mapping[str, Fact]
+    header: Mapping[str, HeaderValue]
     toolpath: Toolpath
     findings: tuple[Finding, ...]
     mender: Mender | None = None

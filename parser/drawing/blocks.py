@@ -7,7 +7,7 @@ from ezdxf.document import Drawing as Document
 from ezdxf.entities.dxfentity import DXFEntity
 from ezdxf.entities.insert import Insert
 
-from parser.drawing.placing import behind, of_insert
+from parser.drawing.forms import behind, of_insert
 from parser.findings.errors import DrawingError
 from parser.geometry.curves import Floats
 

@@ -11,8 +11,7 @@ from ezdxf.entities.polyline import Polyline
 from ezdxf.entities.spline import Spline as DXFSpline
 from ezdxf.math import Vec3
 
-from parser.drawing.forms import Read, Spline, circle_form, ellipse_form, line_forms, polyline_forms
-from parser.drawing.placing import of_extrusion
+from parser.drawing.forms import Read, Spline, circle_form, ellipse_form, line_forms, of_extrusion, polyline_forms
 from parser.geometry.curves import Floats
 
 _FRAME = 16  # flag of a vertex that is a control point of a fitted spline, and not on the polyline

@@ -8,6 +8,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from ezdxf.math import OCS, Matrix44, Vec3
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats
@@ -86,3 +87,29 @@ def _bend(forms: Floats, chord: Floats, bulge: Floats, curved: NDArray[np.bool_]
     forms[curved, MINOR] = radius[:, None] * (0.0, 1.0, 0.0)
     forms[curved, BEGIN] = np.arctan2(out[:, 1], out[:, 0])
     forms[curved, SWEEP] = 4.0 * np.arctan(bulge)
+
+
+def scaled(factor: float) -> Floats:
+    """The map that multiplies all lengths."""
+    return np.vstack([factor * np.eye(3), np.zeros(3)])
+
+
+def of_insert(matrix: Matrix44) -> Floats:
+    """The map from a block to where an INSERT places it."""
+    return np.array(list(matrix)).reshape(4, 4)[:, :3]
+
+
+def of_extrusion(extrusion: Vec3) -> Floats | None:
+    """The map from the coordinates of an entity with an extrusion to the world's; None where they are the same.
+
+    The axes are as the DXF reference's arbitrary axis algorithm has them.
+    """
+    system = OCS(extrusion)
+    if not system.transform:
+        return None
+    return np.array([*(tuple(axis) for axis in (system.ux, system.uy, system.uz)), (0.0, 0.0, 0.0)])
+
+
+def behind(inner: Floats, outer: Floats) -> Floats:
+    """The map that goes by `inner` first and by `outer` then."""
+    return np.vstack([inner[:3] @ outer[:3], inner[3] @ outer[:3] + outer[3]])

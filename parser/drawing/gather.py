@@ -12,8 +12,7 @@ from ezdxf.entities.insert import Insert
 from parser.drawing.blocks import Placed
 from parser.drawing.entities import reader_of
 from parser.drawing.flat import Flat, flat_forms, flat_spline, is_slanted
-from parser.drawing.forms import COLUMNS, SAME_WITHIN_UM, Read, Spline
-from parser.drawing.placing import behind
+from parser.drawing.forms import COLUMNS, SAME_WITHIN_UM, Read, Spline, behind
 from parser.geometry.curves import Curves, Floats, Ints, joined
 from parser.text.encoding import printable
 

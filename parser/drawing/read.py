@@ -1,6 +1,7 @@
 """A DXF file to a drawing: `read_drawing`, the one way in."""
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -8,16 +9,18 @@ import numpy as np
 from ezdxf.document import Drawing as Document
 
 from parser.drawing.blocks import Placed, placed_entities
-from parser.drawing.chain import chain
+from parser.drawing.chain import Chained, chain
 from parser.drawing.document import read_document
 from parser.drawing.duplicates import drawn_once
-from parser.drawing.gather import gather
+from parser.drawing.forms import scaled
+from parser.drawing.gather import Gathered, gather
 from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity
-from parser.drawing.notes import notes_of
-from parser.drawing.placing import scaled
-from parser.drawing.units import unit_of
 from parser.findings.errors import DrawingError
 from parser.text.encoding import printable
+from parser.units import UM_PER_MM, mm
+
+_INCH_MM = 25.4
+_MOST_PLACES = 5  # named one by one
 
 
 class _Asked(NamedTuple):
@@ -105,3 +108,69 @@ def _entity(placed: Placed) -> Entity:
     dxf = placed.entity.dxf
     handle, kind = str(dxf.get("handle", "")), placed.entity.dxftype()
     return Entity(kind, printable(handle), printable(placed.layer), printable(placed.block))
+
+
+class Unit(NamedTuple):
+    """A unit of length by its name, and µm in one of it."""
+
+    name: str
+    um: float
+
+
+# Codes as the DXF reference gives them for $INSUNITS.
+_UNITS = {
+    1: Unit("inch", _INCH_MM * UM_PER_MM),
+    2: Unit("foot", 12.0 * _INCH_MM * UM_PER_MM),
+    4: Unit("mm", UM_PER_MM),
+    5: Unit("cm", 10.0 * UM_PER_MM),
+    6: Unit("m", 1000.0 * UM_PER_MM),
+    8: Unit("microinch", _INCH_MM * UM_PER_MM / 1e6),
+    9: Unit("mil", _INCH_MM * UM_PER_MM / 1e3),
+    12: Unit("nm", 1e-3),
+    13: Unit("µm", 1.0),
+    14: Unit("dm", 100.0 * UM_PER_MM),
+}
+
+
+def unit_of(code: object) -> tuple[Unit, str | None]:
+    """The unit that $INSUNITS names, mm where it names none; with a note on what was assumed."""
+    if isinstance(code, int) and code in _UNITS:
+        return _UNITS[code], None
+    said = "names no unit" if code in (None, 0) else f"names a unit that no part is drawn in ($INSUNITS {code})"
+    return _UNITS[4], f"the file {said}; taken as mm"
+
+
+def notes_of(
+    placed: Sequence[Placed], wanted: Sequence[Placed], gathered: Gathered, curves: int, chained: Chained
+) -> Iterator[str]:
+    """Notes, one line each; `curves` is how many are left after what is drawn twice."""
+    counts = gathered.counts
+    if len(wanted) < len(placed):
+        yield f"{len(placed) - len(wanted)} entities on other layers, or on layers that are off or frozen, left out"
+    if counts.no_curves:
+        yield f"left out, as no curves: {_listed(counts.no_curves)}"
+    if counts.unreadable:
+        yield f"left out, as their numbers cannot be: {_listed(counts.unreadable)}"
+    for number, text in (
+        (counts.beyond, "curves left out, as they lie beyond 10 km or nowhere"),
+        (counts.upright, "circles or ellipses left out, as they stand upright and are lines from above"),
+        (counts.slanted, "curves are not level; taken as they are seen from above"),
+        (len(gathered.curves) - curves, "curves left out, as they are drawn twice"),
+    ):
+        if number:
+            yield f"{number} {text}"
+    yield from _of_chain(chained)
+
+
+def _of_chain(chained: Chained) -> Iterator[str]:
+    bridged = [loop.gap_um for loop in chained.loops if loop.gap_um > 0.0]
+    if bridged:
+        yield f"gaps of up to {max(bridged):.3g} µm bridged in {len(bridged)} loops"
+    places = [f"({mm(x):g}, {mm(y):g})" for x, y in chained.branches_um[:_MOST_PLACES].tolist()]
+    if places:
+        more = len(chained.branches_um) - len(places)
+        yield f"more than two ends meet at {', '.join(places)} mm{f' and {more} more places' if more else ''}"
+
+
+def _listed(counts: Counter[str]) -> str:
+    return ", ".join(f"{number} {kind}" for kind, number in sorted(counts.items()))

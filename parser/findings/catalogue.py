@@ -6,7 +6,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
-from parser.findings.findings import SEVERITIES, Finding
+from parser.findings.codes import CODES
+from parser.findings.findings import Finding
 from parser.units import UM_PER_MM, mm
 
 Language = Literal["en", "zh"]
@@ -115,7 +116,7 @@ class _Filler(string.Formatter):
 
 
 def _file(code: str) -> dict[str, Any]:
-    if code not in SEVERITIES:
+    if code not in CODES:
         raise KeyError(code)
     return _read(code)
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parser.dialect.at_block import at_block
+from parser.findings.facts import CountedElsewhere, WrongLabel
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
 from parser.text.lines import LineIndex
@@ -82,16 +83,9 @@ def _neighbour_labels(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]
     for row in np.flatnonzero(ruled != words.quadrant).tolist():
         sense = ("L", "NR", "SR")[words.turn[row]]
         way = (int(ruled[row]) - 1 + (words.turn[row] < 0)) % 4
-        yield at_block(
-            toolpath,
-            lines,
-            "3B203",
-            row,
-            Field.SENSE,
-            written=f"{sense}{words.quadrant[row]}",
-            ruled=f"{sense}{ruled[row]}",
-            way=_WAYS[way],
-        )
+        values = {"written": f"{sense}{words.quadrant[row]}", "ruled": f"{sense}{ruled[row]}", "way": _WAYS[way]}
+        found = at_block(toolpath, lines, "3B203", row, Field.SENSE, **values)
+        yield found.with_fact(WrongLabel(values["ruled"]))
 
 
 def _line_counts(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
@@ -108,7 +102,8 @@ def _line_counts(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
             goes = "too-far" if count > extent else "too-short"
             by = abs(count - extent)
             values |= {"goes": goes, "by": by}
-            yield at_block(toolpath, lines, "3B208", row, Field.COUNT, **values)
+            found = at_block(toolpath, lines, "3B208", row, Field.COUNT, **values)
+            yield found.with_fact(CountedElsewhere())
         else:
             values["times"] = int(times[row])
             yield at_block(toolpath, lines, "3B209", row, Field.COUNT, **values)

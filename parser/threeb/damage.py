@@ -6,7 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.findings.facts import DamagedBlock
+from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
+from parser.text.lines import LineIndex
 from parser.threeb.grammar import FLAGS, LABEL
 
 _INKED_LINE = re.compile(r"[^\s\0-\x1f][^\r\n]*")
@@ -34,25 +37,26 @@ class Unread(NamedTuple):
 
     Attributes
     ----------
-    code
-        3B101 unreadable text, 3B106 a damaged block.
     span
         Characters to point at: of a damaged block the field that is wrong.
     after
         How many whole blocks stand before it.
+    is_block
+        Whether a block stood there.
     values
         Of the finding.
     """
 
-    code: str
     span: tuple[int, int]
     after: int
+    is_block: bool
     values: dict[str, str]
 
-    @property
-    def is_block(self) -> bool:
-        """Whether a block stood there."""
-        return self.code == "3B106"
+    def finding(self, lines: LineIndex) -> Finding:
+        """Finding 3B106 of a damaged block, 3B101 of other text."""
+        if self.is_block:
+            return lines.finding("3B106", self.span, 0, **self.values).with_fact(DamagedBlock())
+        return lines.finding("3B101", self.span, 0, **self.values)
 
 
 def unread(text: str, gaps: Sequence[tuple[int, int]], block_starts: Ints) -> tuple[Unread, ...]:
@@ -83,7 +87,7 @@ def _other_text(text: str, first: int, past: int) -> Iterator[Unread]:
     if _BLOCK_WORD.search(shown):
         yield _wrong(span[0], shown, (0, len(shown)), "field-b", "wanted-b")
     else:
-        yield Unread("3B101", span, 0, {"text": _shortened(shown)})
+        yield Unread(span, 0, is_block=False, values={"text": _shortened(shown)})
 
 
 def _damaged_block(base: int, piece: str) -> Unread:
@@ -141,7 +145,7 @@ def _word_at(piece: str, at: int) -> tuple[int, int]:
 def _wrong(base: int, piece: str, span: tuple[int, int], field: str, wanted: str) -> Unread:
     found = piece[slice(*span)].strip()
     values = {"field": field, "found": _shortened(found) or "nothing", "wanted": wanted}
-    return Unread("3B106", (base + span[0], base + max(span[1], span[0])), 0, values)
+    return Unread((base + span[0], base + max(span[1], span[0])), 0, is_block=True, values=values)
 
 
 def _shortened(text: str) -> str:

@@ -3,7 +3,9 @@
 import numpy as np
 
 from parser.dialect.reader import Counts, Damage, Marks, Read, Reading, Spelling
+from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
+from parser.findings.facts import TooLarge, telling
 from parser.findings.findings import Finding, file_order
 from parser.text.encoding import narrow, no_program
 from parser.threeb.block_checks import block_findings
@@ -39,13 +41,15 @@ class ThreeB:
         found = whole + behind + sum(damage.is_block for damage in records.damages)
         toolpath = decode(records)
         findings = [*records.findings, *after_end, *order_findings(records, toolpath, marks)]
-        if not any(finding.code == "3B206" for finding in findings):
+        if not any(telling(findings, TooLarge)):
             damaged = np.array([damage.span[0] for damage in records.damages], dtype=np.int64)
             findings += block_findings(toolpath, records.lines)
             findings += print_findings(toolpath, records.header, records.lines, damaged)
         counts = Counts(found, whole, len(records.blocks.line))
         ordered = tuple(sorted(findings, key=file_order))
-        return Read(records.lines, _reading(records, toolpath, counts), records.header.facts, toolpath, ordered, MENDER)
+        return Read(
+            records.lines, _reading(records, toolpath, counts), records.header.values, toolpath, ordered, MENDER
+        )
 
 
 THREE_B = ThreeB()
@@ -55,9 +59,9 @@ def _reading(records: Records, toolpath: Toolpath, counts: Counts) -> Reading:
     name = dialect(records)
     not_asked = {}
     if np.isnan(toolpath.printed_end_um).all():
-        not_asked["check-printed-ends"] = "reason-no-prints"
+        not_asked[Check.PRINTED_ENDS] = "reason-no-prints"
     if not records.header.lengths:
-        not_asked["check-header"] = "reason-no-header"
+        not_asked[Check.HEADER] = "reason-no-header"
     return Reading(
         dialect=name,
         counts=counts,

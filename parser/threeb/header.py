@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from parser.dialect.reader import Fact
+from parser.dialect.reader import HeaderValue
 from parser.units import UM_PER_MM, from_mm
 
 _FLAGS = re.IGNORECASE | re.ASCII
@@ -38,8 +38,8 @@ class Header(NamedTuple):
     lengths: tuple[HeaderLength, ...] = ()
 
     @property
-    def facts(self) -> Mapping[str, Fact]:
-        """What it says, as any dialect gives it."""
+    def values(self) -> Mapping[str, HeaderValue]:
+        """What it says, by the keys of the report."""
         return {
             "version": self.version,
             "name": self.name,

@@ -6,6 +6,7 @@ import numpy as np
 
 from parser.dialect.at_block import at_block
 from parser.dialect.reader import Marks
+from parser.findings.facts import NoEnd
 from parser.findings.findings import Finding
 from parser.shape.closing import ends_closed
 from parser.threeb.figures import placed_marks
@@ -62,7 +63,7 @@ def _span(records: Records, block: int) -> tuple[int, int]:
 def _no_end(records: Records) -> list[Finding]:
     if any(mark.kind == "end" for mark in records.marks):
         return []
-    return [records.lines.finding("3B102", _span(records, -1))]
+    return [records.lines.finding("3B102", _span(records, -1)).with_fact(NoEnd())]
 
 
 def _foreign_ends(records: Records, marks: Marks) -> Iterator[Finding]:

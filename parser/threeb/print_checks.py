@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from parser.findings.facts import PrintedElsewhere
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats, Ints
 from parser.text.encoding import narrow
@@ -130,7 +131,8 @@ def _misprinted(toolpath: Toolpath, lines: LineIndex, missing: Ints) -> Iterator
     for row in _misprinted_rows(toolpath, missing):
         (px, py), (x, y) = toolpath.printed_end_um[row].tolist(), toolpath.end_um[row].tolist()
         off = float(np.hypot(px - x, py - y))
-        yield lines.finding("3B207", _print_span(toolpath, row), row + 1, px=px, py=py, x=x, y=y, off=off)
+        found = lines.finding("3B207", _print_span(toolpath, row), row + 1, px=px, py=py, x=x, y=y, off=off)
+        yield found.with_fact(PrintedElsewhere())
 
 
 def _wrong_lengths(toolpath: Toolpath, header: Header, lines: LineIndex) -> Iterator[Finding]:

@@ -11,6 +11,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from parser.dialect.reader import STANDARD_MARKS, Marks
+from parser.findings.facts import TooLarge
 from parser.findings.findings import Finding, file_order
 from parser.text.encoding import narrow
 from parser.text.lines import LineIndex
@@ -100,7 +101,7 @@ def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
     findings = [
         *(lines.finding("3B104", hidden) for span in outside for hidden in _hidden(folded, span)),
         *_too_large(raw, found, lines),
-        *(lines.finding(damage.code, damage.span, 0, **damage.values) for damage in damaged),
+        *(damage.finding(lines) for damage in damaged),
     ]
     header = read_header(folded, [span for span in passed if folded[span[0]] != ";"], lengths)
     return Records(text, lines, raw, tuple(found), header, damaged, tuple(sorted(findings, key=file_order)))
@@ -126,7 +127,10 @@ def _too_large(raw: RawBlocks, marks: list[Mark], lines: LineIndex) -> list[Find
     rows = np.flatnonzero(worst > MAX_WORD_UM).tolist()
     places: list[tuple[tuple[int, int], int]] = [(tuple(raw.span[row].tolist()), row + 1) for row in rows]
     places += [(mark.span, 0) for mark in marks if max(abs(mark.x_um), abs(mark.y_um)) > MAX_WORD_UM]
-    return [lines.finding("3B206", span, block, what="number-too-large", limit=MAX_WORD_UM) for span, block in places]
+    return [
+        lines.finding("3B206", span, block, what="number-too-large", limit=MAX_WORD_UM).with_fact(TooLarge())
+        for span, block in places
+    ]
 
 
 def _gaps(covered: list[int], lines: LineIndex, first_block: int) -> list[tuple[int, int]]:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from parser.findings.errors import ProgramError
+from parser.findings.facts import DamagedBlock, telling
 from parser.findings.findings import Finding
 from parser.program import Program, load_program
 from parser.text.encoding import decode_text, no_program
@@ -32,11 +33,11 @@ def check_file(job: Job) -> CheckResult:
     try:
         data = job.source if isinstance(job.source, bytes) else job.source.read_bytes()
     except OSError as error:
-        return _unreadable(job, b"", no_program("unreadable-file", error.strerror or str(error)))
+        return _unreadable(job, b"", no_program("unreadable-file", error.strerror or str(error)), ())
     try:
         program = load_program(data, job.name, job.settings.marks)
     except ProgramError as error:
-        return _unreadable(job, data, error.finding, *error.others)
+        return _unreadable(job, data, error.finding, error.others)
     return check_loaded(program, job.name, job.settings)
 
 
@@ -82,12 +83,15 @@ def _excerpts(lines: LineIndex, text: str, findings: Iterable[Finding]) -> dict[
     return {line: text[slice(*lines.bounds(line))] for line in numbers}
 
 
-def _unreadable(job: Job, data: bytes, *findings: Finding) -> CheckResult:
+def _unreadable(job: Job, data: bytes, why: Finding, others: tuple[Finding, ...]) -> CheckResult:
+    """Result of a file that holds no program: why not always shows, and of the others what was asked for."""
     excerpts: dict[int, str] = {}
+    findings = (why, *others)
     if any(finding.line for finding in findings):
         text, _ = decode_text(data)
         excerpts = _excerpts(LineIndex(text), text, findings)
     states = tuple(CheckState(name, "incomplete", "reason-unreadable") for name in (*PARSER_CHECKS, *PATH_CHECKS))
-    damaged = sum(finding.code == "3B106" for finding in findings)
-    shown = tuple(finding for finding in findings if job.settings.shows(finding.code))
-    return CheckResult(job.name, "", "", shown, excerpts, Coverage(damaged, 0, 0, 0, states), 0.0, 0)
+    damaged = len(list(telling(others, DamagedBlock)))
+    shown = (why, *(other for other in others if job.settings.shows(other.code)))
+    coverage = Coverage(damaged, 0, 0, 0, states)
+    return CheckResult(job.name, "", "", shown, excerpts, coverage, 0.0, 0, unreadable=True)

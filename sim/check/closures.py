@@ -1,10 +1,13 @@
 """Findings about contours: whether they close, exact and stepped, and which block may be why not."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from parser.dialect.at_block import at_block
 from parser.dialect.mender import Suspect
-from parser.findings.findings import Finding, Value
+from parser.findings.facts import WrongBlock, telling
+from parser.findings.findings import Fact, Finding, Value
 from parser.geometry.curves import Ints
 from parser.program import Program
 from parser.shape.closing import CLOSED_WITHIN_UM
@@ -20,7 +23,20 @@ that is not met by chance."""
 MOST_SUSPECTED = 50
 """Contours of a program of which the broken block is looked for: where more do not close, it is no slip of a digit."""
 
-_EXPLAIN = ("3B204", "3B207", "3B208", "3B303", "3B310")
+
+@dataclass(frozen=True, slots=True)
+class OpenContour(Fact):
+    """The contour whose first block is `first` does not close."""
+
+    first: int
+
+
+@dataclass(frozen=True, slots=True)
+class Suspected(Fact):
+    """The contour whose first block is `first` would close with a field of this block written otherwise."""
+
+    first: int
+    suspect: Suspect
 
 
 def contour_findings(
@@ -34,7 +50,7 @@ def contour_findings(
     run forward, since a triangle with a wrong quadrant does so too; hardly a parting cut has a block that would close
     it.
     """
-    guilty = np.sort(np.array([finding.block for finding in known if finding.code in _EXPLAIN], dtype=np.int64))
+    guilty = np.sort(np.array([finding.block for finding, _ in telling(known, WrongBlock)], dtype=np.int64))
     found: list[Finding] = []
     suspected = 0
     unclosed = [contour for contour in contours if contour.is_open and not may_stay_open]
@@ -47,13 +63,14 @@ def contour_findings(
         explained = bool(low < high)
         gap, limit = contour.closure_stepped_um, stepped_limit_um(contour)
         if contour.is_open and not may_stay_open:
-            found.append(_at_end(program, "3B301", contour, gap=contour.closure_exact_um))
+            found.append(_open(program, contour))
         elif (
             contour.closure_exact_um <= contour.tolerance_um
             and gap - contour.closure_exact_um > limit
             and not explained
         ):
-            found.append(_at_end(program, "3B302", contour, gap=gap, limit=limit))
+            values = _ends_of(contour) | {"gap": gap, "limit": limit}
+            found.append(at_block(program.toolpath, program.lines, "3B302", contour.last - 1, **values))
         may_close = contour.is_open or contour.last - contour.first > 1  # one line or two are no figure
         if may_close and not (contour.returns or explained or may_stay_open) and suspected < MOST_SUSPECTED:
             suspected += 1
@@ -75,7 +92,7 @@ def _left_elsewhere(program: Program, rows: Ints, contours: list[Contour]) -> se
 
 
 def _lead_out(program: Program, contour: Contour, block: int) -> Finding:
-    values: dict[str, Value] = {"first": contour.first, "last": contour.last, "gap": contour.closure_exact_um}
+    values = _ends_of(contour) | {"gap": contour.closure_exact_um}
     return at_block(program.toolpath, program.lines, "3B311", block - 1, **values)
 
 
@@ -84,16 +101,14 @@ def stepped_limit_um(contour: Contour) -> float:
     return float(STEPPED_CLOSURE_UM + STEPPED_CLOSURE_UM_PER_ROOT_ARC * contour.arcs**0.5)
 
 
-def _at_end(program: Program, code: str, contour: Contour, **values: float) -> Finding:
-    return at_block(
-        program.toolpath,
-        program.lines,
-        code,
-        contour.last - 1,
-        first=contour.first,
-        last=contour.last,
-        **values,
-    )
+def _open(program: Program, contour: Contour) -> Finding:
+    values = _ends_of(contour) | {"gap": contour.closure_exact_um}
+    found = at_block(program.toolpath, program.lines, "3B301", contour.last - 1, **values)
+    return found.with_fact(OpenContour(contour.first))
+
+
+def _ends_of(contour: Contour) -> dict[str, Value]:
+    return {"first": contour.first, "last": contour.last}
 
 
 def _suspects(program: Program, contour: Contour) -> list[Finding]:
@@ -116,4 +131,4 @@ def _suspect(program: Program, contour: Contour, one: Suspect) -> Finding:
         field=one.field.term,
         written=one.written,
         other=one.other,
-    )
+    ).with_fact(Suspected(contour.first, one))

@@ -1,12 +1,13 @@
 """Blocks whose steps end elsewhere than their geometry: the cost of the count axis, from a stepped run."""
 
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate, words_of
 from parser.dialect.at_block import at_block
+from parser.findings.facts import WrongBlock
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats, Ints
 from parser.program import Program
@@ -20,6 +21,14 @@ stepped, half of them within 1.0 µm and 95 % within 3.7 µm; the worst found, o
 COST_UM = 2.0
 """A wrong count axis that costs less than the machine's own resolution of 1 µm a side is not named."""
 _EITHER_AXIS_UM = 5.0  # so near 45° rounding decides which axis the rule names, and both end well
+
+
+@dataclass(frozen=True, slots=True)
+class WrongAxis(WrongBlock):
+    """The block counts on the other axis than the one that is `ruled`; on that it would have the J `count_um`."""
+
+    ruled: Axis
+    count_um: int
 
 
 def stepped_end_findings(program: Program, steps: Steps) -> list[Finding]:
@@ -44,14 +53,16 @@ def stepped_end_findings(program: Program, steps: Steps) -> list[Finding]:
             cost=float(off[row]),
             right=float(best),
             count=count,
-        )
+        ).with_fact(WrongAxis(Axis(int(ruled[row])), count))
         for row, best, count in zip(*(c[costly].tolist() for c in (wrong, right, counts)), strict=True)
     ]
     limits = STEPPED_END_UM * turns
     missed = off > limits
     missed[wrong[costly]] = False
     return found + [
-        at_block(toolpath, program.lines, "3B303", row, miss=float(off[row]), limit=float(limits[row]))
+        at_block(toolpath, program.lines, "3B303", row, miss=float(off[row]), limit=float(limits[row])).with_fact(
+            WrongBlock()
+        )
         for row in np.flatnonzero(missed).tolist()
     ]
 

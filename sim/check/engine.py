@@ -8,12 +8,14 @@ import numpy as np
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.dialect.at_block import at_block
+from parser.findings.codes import Check
+from parser.findings.facts import DoubtfulEnd, TooLarge, telling
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
 from parser.program import Program
 from parser.shape.contours import Contour, contour_rows, find_contours
 from parser.text.source import Field
-from sim.check.closures import contour_findings
+from sim.check.closures import OpenContour, contour_findings
 from sim.check.count_axes import stepped_end_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
 from sim.check.result import CheckState, Coverage, State
@@ -26,8 +28,8 @@ if TYPE_CHECKING:  # most checks know no machine
 MAX_STEPS = 300_000_000
 """Steps that one run takes: 240 m of path, two months of cutting; a word damaged to nine digits asks for more."""
 
-PARSER_CHECKS = ("check-grammar", "check-order", "check-blocks", "check-printed-ends", "check-header")
-PATH_CHECKS = ("check-steps", "check-contours", "check-senses", "check-crossings", "check-corners", "check-travel")
+PARSER_CHECKS = (Check.GRAMMAR, Check.ORDER, Check.BLOCKS, Check.PRINTED_ENDS, Check.HEADER)
+PATH_CHECKS = (Check.STEPS, Check.CONTOURS, Check.SENSES, Check.CROSSINGS, Check.CORNERS, Check.TRAVEL)
 
 
 class Demands(NamedTuple):
@@ -73,7 +75,7 @@ class Checked(NamedTuple):
 
 def check_program(program: Program, demands: Demands) -> Checked:
     """Run every check on a program."""
-    if any(finding.code == "3B206" for finding in program.findings):
+    if any(telling(program.findings, TooLarge)):
         return _without_path(program, "reason-too-large")
     steps = interpolate(program.toolpath)
     excess = too_many_steps(program, steps)
@@ -95,7 +97,8 @@ def too_many_steps(program: Program, steps: Steps) -> list[Finding]:
         return []
     row = int(np.argmax(steps.count))
     of = program.toolpath, program.lines
-    return [at_block(*of, "3B206", row, Field.COUNT, what="too-many-steps", limit=MAX_STEPS)]
+    found = at_block(*of, "3B206", row, Field.COUNT, what="too-many-steps", limit=MAX_STEPS)
+    return [found.with_fact(TooLarge())]
 
 
 class _PathChecks:
@@ -119,22 +122,22 @@ class _PathChecks:
         known = (*program.findings, *stepped, *passages)
         closures = contour_findings(program, self.judged, self._rows, known, may_stay_open=demands.may_stay_open)
         yield from closures
-        self._done("check-contours", self._left_out)
+        self._done(Check.CONTOURS, self._left_out)
         rows = _closed(self._rows, closures)  # where an open contour runs follows from why it is open
         open_ones = "" if rows is self._rows else "reason-open"
         yield from _undoubted(sense_findings(program, rows), known)
-        self._done("check-senses", self._left_out or open_ones)
+        self._done(Check.SENSES, self._left_out or open_ones)
         crossings, all_pairs = crossing_findings(program, rows)
         yield from crossings
-        self._done("check-crossings", self._left_out or open_ones if all_pairs else "reason-many")
+        self._done(Check.CROSSINGS, self._left_out or open_ones if all_pairs else "reason-many")
         yield from self._asked_for()
 
     def _stepped(self) -> list[Finding]:
         """Findings about the words that steps are counted by, where the program has such."""
         if self._program.toolpath.words is None:
-            self.states.append(CheckState("check-steps", "not asked", "reason-no-words"))
+            self.states.append(CheckState(Check.STEPS, "not asked", "reason-no-words"))
             return []
-        self._done("check-steps", _stopped(self._program))
+        self._done(Check.STEPS, _stopped(self._program))
         return stepped_end_findings(self._program, self._steps)
 
     @property
@@ -148,29 +151,29 @@ class _PathChecks:
         """Checks that need to know the wire or the machine."""
         program, demands = self._program, self._demands
         if demands.offset_um is None:
-            self.states.append(CheckState("check-corners", "not asked", "reason-no-wire"))
+            self.states.append(CheckState(Check.CORNERS, "not asked", "reason-no-wire"))
         else:
             yield from corner_findings(program, self._rows, demands.offset_um)
-            self._done("check-corners", self._left_out)
+            self._done(Check.CORNERS, self._left_out)
         if demands.table is None or demands.start_um is None:
-            self.states.append(CheckState("check-travel", "not asked", "reason-no-machine"))
+            self.states.append(CheckState(Check.TRAVEL, "not asked", "reason-no-machine"))
         else:
             yield from travel_findings(program, self._steps, demands.table, demands.start_um)
-            self._done("check-travel", "reason-damaged" if program.reading.damages else _stopped(program))
+            self._done(Check.TRAVEL, "reason-damaged" if program.reading.damages else _stopped(program))
 
-    def _done(self, name: str, reason: str = "") -> None:
+    def _done(self, name: Check, reason: str = "") -> None:
         self.states.append(_state_of(self._program, name, reason))
 
 
 def _closed(rows: Ints, closures: list[Finding]) -> Ints:
     """The contour column without the contours that are found open; itself where there are none."""
-    ends = np.array([finding.block - 1 for finding in closures if finding.code == "3B301"], dtype=np.int64)
+    ends = np.array([finding.block - 1 for finding, _ in telling(closures, OpenContour)], dtype=np.int64)
     return np.where(np.isin(rows, rows[ends]), -1, rows) if len(ends) else rows
 
 
 def _undoubted(senses: list[Finding], known: tuple[Finding, ...]) -> list[Finding]:
     """Those findings about arcs that no wrong count length or end, of the arc or of a neighbour, explains."""
-    doubtful = {finding.block for finding in known if finding.code in ("3B207", "3B208")}
+    doubtful = {finding.block for finding, _ in telling(known, DoubtfulEnd)}
     return [finding for finding in senses if not doubtful & {finding.block - 1, finding.block, finding.block + 1}]
 
 
@@ -190,12 +193,13 @@ def _stopped(program: Program) -> str:
 
 def _parser_states(program: Program) -> tuple[CheckState, ...]:
     damaged = "reason-damaged" if program.reading.damages else ""
-    beyond = "reason-too-large" if any(finding.code == "3B206" for finding in program.findings) else damaged
-    reasons = dict(zip(PARSER_CHECKS, ("", damaged, beyond, beyond, beyond), strict=True))
+    beyond = "reason-too-large" if any(telling(program.findings, TooLarge)) else damaged
+    reasons = {Check.GRAMMAR: "", Check.ORDER: damaged}
+    reasons |= dict.fromkeys((Check.BLOCKS, Check.PRINTED_ENDS, Check.HEADER), beyond)
     return tuple(_state_of(program, name, reason) for name, reason in reasons.items())
 
 
-def _state_of(program: Program, name: str, reason: str) -> CheckState:
+def _state_of(program: Program, name: Check, reason: str) -> CheckState:
     """State of a check that stops short for a reason, if any, and was not asked for where the text gives no cause."""
     causeless = program.reading.not_asked.get(name)
     return CheckState(name, "not asked", causeless) if causeless else CheckState(name, *_state(reason))

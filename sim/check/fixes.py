@@ -1,28 +1,29 @@
-"""Certain mends of findings, as edits of the program's text."""
+"""Certain mends of findings, as edits of the program's text; and the possible ones among which a person may choose."""
 
 import re
+from bisect import bisect_right
 from collections import Counter
-from collections.abc import Callable
 from itertools import islice
 from typing import NamedTuple
 
-import numpy as np
-
 from controller.stepping.words import words_of
 from parser.dialect.mender import Mender
+from parser.findings.facts import CountedElsewhere, DoubtfulEnd, NoEnd, PrintedElsewhere, WrongLabel, telling
 from parser.findings.findings import Edit, Finding
 from parser.program import Program
+from parser.shape.contours import Contour
+from parser.shape.loops import is_circle
 from parser.text.source import Field
 from parser.toolpath import Axis
-from sim.check.count_axes import count_on
+from sim.check.closures import OpenContour, Suspected
+from sim.check.count_axes import WrongAxis
 from sim.check.engine import Checked
-from sim.check.proofs import Proofs
 
 _MOST_PRINTED = 50  # printed ends that are mended; where more are wrong, it is not by slips in single blocks
 _LINE_END = re.compile(r"\r\n|\r|\n")
 _SETTLED = (Field.COUNT, Field.AXIS)
 """Fields that a printed end settles: the others shape the path on the way to it too."""
-_LETTERS = {Field.X.term: "X ", Field.Y.term: "Y ", Field.COUNT.term: "J "}
+_LETTERS = {Field.X: "X ", Field.Y: "Y ", Field.COUNT: "J "}
 
 
 class Choice(NamedTuple):
@@ -36,56 +37,75 @@ def with_edits(program: Program, checked: Checked) -> tuple[Finding, ...]:
     """All findings of a program, each with the edits that certainly mend it; one may make another uncertain."""
     if program.mender is None:
         return checked.findings
-    known = _Known(program, program.mender, checked)
-    makers: dict[str, Callable[[Finding], tuple[Edit, ...]]] = {
-        "3B102": known.end_code,
-        "3B203": known.label,
-        "3B204": known.count_axis,
-        "3B207": known.printed_end,
-        "3B208": known.swapped_axis,
-        "3B304": known.suspect,
-    }
-    return tuple(
-        finding._replace(edits=makers[finding.code](finding)) if finding.code in makers else finding
-        for finding in checked.findings
-    )
+    mends = _Mends(program, program.mender, checked)
+    return tuple(finding._replace(edits=mends.of(finding)) for finding in checked.findings)
 
 
 def choices(program: Program, finding: Finding, findings: tuple[Finding, ...]) -> tuple[Choice, ...]:
     """Mends of a finding, each enough alone; one or none leave no choice."""
-    if finding.code == "3B207" and program.mender is not None:
-        misprinted = (f for f in findings if f.code == "3B207")
-        if next(islice(misprinted, _MOST_PRINTED, None), None):
-            return ()
-        possible = program.mender.printed_mends(program.toolpath, finding.block - 1)
-        return tuple(Choice(finding.block, _LETTERS.get(field.term, "") + text) for field, text in possible)
-    if finding.code == "3B203" and not finding.edits:
-        others = [f.values["other"] for f in findings if f.code == "3B304" and _is_at_label(f, finding)]
-        return tuple(Choice(finding.block, str(text)) for text in (finding.values["ruled"], *others))
-    if finding.code == "3B204" and not finding.edits:
-        axis, count = f"G{finding.values['ruled']}", int(finding.values["count"])
-        other = (Choice(finding.block, f"{axis} J {count}"),) if count != _count(program, finding) else ()
-        return (Choice(finding.block, axis), *other)
-    if finding.code == "3B301":
-        suspected = _suspects(finding, findings)
-        return tuple(
-            Choice(f.block, f"{_LETTERS.get(str(f.values['field']), '')}{f.values['other']}") for f in suspected
-        )
+    block = finding.block
+    match finding.fact:
+        case PrintedElsewhere() if program.mender is not None:
+            if next(islice(telling(findings, PrintedElsewhere), _MOST_PRINTED, None), None):
+                return ()
+            possible = program.mender.printed_mends(program.toolpath, block - 1)
+            return tuple(Choice(block, _LETTERS.get(field, "") + text) for field, text in possible)
+        case WrongLabel(ruled) if not finding.edits:
+            here = [one.suspect for other, one in telling(findings, Suspected) if other.block == block]
+            others = [suspect.other for suspect in here if suspect.field is Field.SENSE]
+            return tuple(Choice(block, text) for text in (ruled, *others))
+        case WrongAxis(ruled, count_um) if not finding.edits:
+            axis, written = f"G{ruled.name}", int(words_of(program.toolpath).count_um[block - 1])
+            other = (Choice(block, f"{axis} J {count_um}"),) if count_um != written else ()
+            return (Choice(block, axis), *other)
+        case OpenContour(first):
+            suspected = [
+                (other.block, one.suspect) for other, one in telling(findings, Suspected) if one.first == first
+            ]
+            return tuple(Choice(at, _LETTERS.get(suspect.field, "") + suspect.other) for at, suspect in suspected)
     return ()
 
 
-class _Known:
-    """What is known of a program: where its blocks end for certain, and who is suspected where they do not."""
+class _Mends:
+    """Certain mends of one program: what is known of the ends of its blocks, and who is suspected where they are not.
+
+    Blocks are numbered from 1.
+    """
 
     def __init__(self, program: Program, mender: Mender, checked: Checked) -> None:
-        self._program, self._mender = program, mender
+        self._program, self._mender, self._toolpath = program, mender, program.toolpath
         self._words = words_of(program.toolpath)
-        self._proofs = Proofs(program, mender, checked)
-        self._misprinted = sum(finding.code == "3B207" for finding in checked.findings)
-        self._opens = {finding.values["first"] for finding in checked.findings if finding.code == "3B301"}
-        self._suspects = Counter(f.values["first"] for f in checked.findings if f.code == "3B304")
+        self._circle = is_circle(program.toolpath)
+        self._judged = checked.judged
+        # Contours do not overlap and come in order: one search finds the one that a block may be in.
+        self._firsts = [contour.first for contour in checked.judged]
+        found = checked.findings
+        self._doubtful = {finding.block for finding, _ in telling(found, DoubtfulEnd)}
+        self._misprinted = sum(1 for _ in telling(found, PrintedElsewhere))
+        self._open = {contour.first for _, contour in telling(found, OpenContour)}
+        suspected = [(finding.block, fact) for finding, fact in telling(found, Suspected)]
+        self._suspects = Counter(fact.first for _, fact in suspected)
+        self._other_sense = {block for block, fact in suspected if fact.suspect.field is Field.SENSE}
 
-    def end_code(self, finding: Finding) -> tuple[Edit, ...]:
+    def of(self, finding: Finding) -> tuple[Edit, ...]:
+        """The edits that certainly mend a finding, all together."""
+        edits: tuple[Edit, ...] = ()
+        match finding.fact:
+            case NoEnd():
+                edits = self._end_code()
+            case WrongLabel(ruled):
+                edits = self._label(finding, ruled)
+            case WrongAxis() as wrong:
+                edits = self._count_axis(finding.block, wrong)
+            case PrintedElsewhere():
+                edits = self._printed_end(finding.block)
+            case CountedElsewhere():
+                edits = self._swapped_axis(finding.block)
+            case Suspected() as suspected:
+                edits = self._suspect(finding.block, suspected)
+        return edits
+
+    def _end_code(self) -> tuple[Edit, ...]:
         """The end code on a line of its own behind all that is written, with the line end that the first line has.
 
         Nothing where something unreadable stands behind the last whole block: the program may go on there.
@@ -98,78 +118,77 @@ class _Known:
         newline, end = match[0] if match else "\n", reading.spelling.end
         return (Edit(at, at, f"{end}{newline}" if text[:at].endswith(("\r", "\n")) else f"{newline}{end}"),)
 
-    def label(self, finding: Finding) -> tuple[Edit, ...]:
+    def _label(self, finding: Finding, ruled: str) -> tuple[Edit, ...]:
         """The quadrant digit that the rule names: the path stays the same. Nothing where that path is in doubt."""
-        return (_digit(finding),) if self._proofs.label_is_certain(finding.block) else ()
+        past = finding.span[1]
+        return (Edit(past - 1, past, ruled[-1]),) if self._way_is_certain(finding.block) else ()
 
-    def count_axis(self, finding: Finding) -> tuple[Edit, ...]:
+    def _count_axis(self, block: int, wrong: WrongAxis) -> tuple[Edit, ...]:
         """The other axis, with the J that ends the block where it ends; nothing where that end is not proved."""
-        row = finding.block - 1
-        if not self._proofs.end_is_proved(finding.block):
+        if not self._end_is_proved(block):
             return ()
-        toolpath = self._program.toolpath
-        axis = Axis[str(finding.values["ruled"])]
-        count = int(count_on(toolpath, np.array([row]), np.array([int(axis)]))[0])
-        edits = [self._field(row, Field.AXIS, axis.name)]
-        if count != self._words.count_um[row]:
-            edits.append(self._field(row, Field.COUNT, str(count)))
+        edits = [self._field(block, Field.AXIS, wrong.ruled.name)]
+        if wrong.count_um != self._words.count_um[block - 1]:
+            edits.append(self._field(block, Field.COUNT, str(wrong.count_um)))
         return tuple(edits)
 
-    def printed_end(self, finding: Finding) -> tuple[Edit, ...]:
+    def _printed_end(self, block: int) -> tuple[Edit, ...]:
         """The one count length or count axis with which the block ends where it is printed to end.
 
         Nothing where the printed end may be what is wrong: the next one, or a closed contour, tells.
         """
         if self._misprinted > _MOST_PRINTED:
             return ()
-        misprint = self._mender.is_misprint(self._program.toolpath, finding.block - 1)
+        misprint = self._mender.is_misprint(self._toolpath, block - 1)
         if misprint is None:
-            misprint = not self._proofs.is_open(finding.block)
+            contour = self._contour(block)
+            misprint = contour is None or contour.first not in self._open
         if misprint:
             return ()
-        possible = self._mender.printed_mends(self._program.toolpath, finding.block - 1)
+        possible = self._mender.printed_mends(self._toolpath, block - 1)
         if len(possible) != 1 or possible[0].field not in _SETTLED:
             return ()
         field, text = possible[0]
-        return (self._field(finding.block - 1, field, text.removeprefix("G")),)
+        return (self._field(block, field, text.removeprefix("G")),)
 
-    def swapped_axis(self, finding: Finding) -> tuple[Edit, ...]:
+    def _swapped_axis(self, block: int) -> tuple[Edit, ...]:
         """The other axis, where J is the line's length on that one to the micrometre."""
-        row = finding.block - 1
-        words = self._words
+        row, words = block - 1, self._words
         x, y, count = int(words.x_um[row]), int(words.y_um[row]), int(words.count_um[row])
         other = Axis.Y if words.count_axis[row] == Axis.X else Axis.X
         swapped = count == max(x, y) == (x if other == Axis.X else y)
-        return (self._field(row, Field.AXIS, other.name),) if swapped else ()
+        return (self._field(block, Field.AXIS, other.name),) if swapped else ()
 
-    def suspect(self, finding: Finding) -> tuple[Edit, ...]:
+    def _suspect(self, block: int, suspected: Suspected) -> tuple[Edit, ...]:
         """The count axis of the only suspect of an open contour."""
-        contour = finding.values["first"]
-        alone = self._suspects[contour] == 1 and contour in self._opens
-        if not alone or finding.values["field"] != "field-axis":
+        alone = self._suspects[suspected.first] == 1 and suspected.first in self._open
+        if not alone or suspected.suspect.field is not Field.AXIS:
             return ()
-        return (self._field(finding.block - 1, Field.AXIS, str(finding.values["other"]).removeprefix("G")),)
+        return (self._field(block, Field.AXIS, suspected.suspect.other.removeprefix("G")),)
 
-    def _field(self, row: int, field: Field, text: str) -> Edit:
-        span = self._program.toolpath.source.field(row, field)
+    def _field(self, block: int, field: Field, text: str) -> Edit:
+        span = self._toolpath.source.field(block - 1, field)
         if span is None:
-            raise ValueError(f"row {row} has no {field}")
+            raise ValueError(f"block {block} has no {field}")
         low, high = span
         return Edit(high - 1 if field is Field.AXIS else low, high, text)
 
+    def _end_is_proved(self, block: int) -> bool:
+        """Whether a full turn, a closed contour or a printed end says that the block ends where it is read to end."""
+        if block in self._doubtful:
+            return False
+        contour = self._contour(block)
+        closed = contour is not None and contour.encloses and contour.returns
+        return closed or bool(self._circle[block - 1]) or self._mender.ends_as_printed(self._toolpath, block - 1)
 
-def _digit(finding: Finding) -> Edit:
-    past = finding.span[1]
-    return Edit(past - 1, past, str(finding.values["ruled"])[-1])
+    def _way_is_certain(self, block: int) -> bool:
+        """Whether nothing suggests that the block was to go another way than its label is read."""
+        if block in self._doubtful or block in self._other_sense:
+            return False
+        contour = self._contour(block)
+        return bool(self._toolpath.is_jump[block - 1]) or (contour is not None and not contour.is_open)
 
-
-def _count(program: Program, finding: Finding) -> int:
-    return int(words_of(program.toolpath).count_um[finding.block - 1])
-
-
-def _is_at_label(suspect: Finding, label: Finding) -> bool:
-    return suspect.block == label.block and suspect.values["field"] == "field-sense"
-
-
-def _suspects(contour: Finding, findings: tuple[Finding, ...]) -> list[Finding]:
-    return [f for f in findings if f.code == "3B304" and f.values["first"] == contour.values["first"]]
+    def _contour(self, block: int) -> Contour | None:
+        """The judged contour that the block is in."""
+        at = bisect_right(self._firsts, block) - 1
+        return self._judged[at] if at >= 0 and block <= self._judged[at].last else None

@@ -9,8 +9,7 @@ from parser.program import Program
 from parser.text.source import Field
 from sim.check.shape.corners import tight_corners
 from sim.check.shape.crossings import find_crossings
-from sim.check.shape.retraced import retraced_arcs
-from sim.check.shape.senses import reversed_arcs
+from sim.check.shape.senses import retraced_arcs, reversed_arcs
 
 
 def sense_findings(program: Program, contour: Ints) -> list[Finding]:

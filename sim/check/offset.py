@@ -1,6 +1,6 @@
-"""Findings about the offset that a controller adds: what vanishes, what is cut into, what no longer is one path."""
+"""Findings on the offset that a controller adds: what it leaves uncut, gouges, contours that it closes or divides."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
@@ -10,50 +10,44 @@ from controller.offset.sections import Section
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
 from parser.geometry.along import places
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Floats, Ints
 from parser.program import Program
 from parser.units import mm
 from sim.setup.part import Offset
 
 
-def vanished_findings(program: Program, offset: Offset, path: OffsetPath, left_um: Floats) -> Iterator[Finding]:
-    """Blocks that the offset path has no room for: arcs too tight (3B501), and others where material stays (3B502).
+def uncut_findings(program: Program, offset: Offset, gone: Ints, left_um: Floats) -> Iterator[Finding]:
+    """Findings at the rows `gone` (v,) of a program as read, along which the offset leaves `left_um` (v,) of material.
 
-    `left_um` (v,) is the material that stays at each row that vanished.
+    3B501 at an inner arc no larger than the offset, 3B502 where some material stays along another block.
     """
-    drawn, lines, gone = program.toolpath, program.lines, path.vanished
+    drawn = program.toolpath
     middle_mm = mm(places(drawn, gone, np.full(len(gone), 0.5)))
     for row, left, (x_mm, y_mm) in zip(gone.tolist(), left_um.tolist(), middle_mm.tolist(), strict=True):
         values = {"offset": offset.by_um, "left": left, "x_mm": x_mm, "y_mm": y_mm}
         radius_um = float(drawn.radius_um[row])
         if drawn.is_arc[row] and radius_um <= offset.by_um and drawn.sweep_rad[row] * offset.side > 0.0:
-            yield at_block(drawn, lines, "3B501", row, radius=radius_um, **values)
+            yield at_block(drawn, program.lines, "3B501", row, radius=radius_um, **values)
         elif left > TOLERANCE_UM:
-            yield at_block(drawn, lines, "3B502", row, **values)
+            yield at_block(drawn, program.lines, "3B502", row, **values)
 
 
-def gouge_findings(program: Program, offset: Offset, path: OffsetPath, gouges: Sequence[Gouge]) -> Iterator[Finding]:
-    """Blocks of whose offset path the wire cuts into the contour (3B503)."""
+def gouge_findings(program: Program, offset: Offset, path: OffsetPath, gouges: Iterable[Gouge]) -> Iterator[Finding]:
+    """Finding 3B503 for each place where the wire cuts into the contour of the program as read."""
     drawn = program.toolpath
     for gouge in gouges:
-        yield at_block(
-            drawn,
-            program.lines,
-            "3B503",
-            int(path.source_row[gouge.path_row]),
-            other=int(drawn.source.block[gouge.row]),
-            depth=gouge.depth_um,
-            offset=offset.by_um,
-            x_mm=mm(gouge.place_um.x),
-            y_mm=mm(gouge.place_um.y),
-        )
+        values = {
+            "other": int(drawn.source.block[gouge.row]),
+            "depth": gouge.depth_um,
+            "offset": offset.by_um,
+            "x_mm": mm(gouge.place_um.x),
+            "y_mm": mm(gouge.place_um.y),
+        }
+        yield at_block(drawn, program.lines, "3B503", int(path.source_row[gouge.path_row]), **values)
 
 
-def loop_findings(
-    program: Program, offset: Offset, closed: Sequence[Section], loops: Sequence[int]
-) -> Iterator[Finding]:
-    """Closed sections of the contour that allow no path without a gouge, or more than one (3B504)."""
-    for section, paths in zip(closed, loops, strict=True):
-        if paths != 1:
-            values = {"loops": paths, "offset": offset.by_um}
-            yield at_block(program.toolpath, program.lines, "3B504", section.first, **values)
+def loop_findings(program: Program, offset: Offset, loops: Mapping[Section, int]) -> Iterator[Finding]:
+    """Finding 3B504 at each closed section that does not allow one closed path without a gouge, but none or several."""
+    for section, count in loops.items():
+        if count != 1:
+            yield at_block(program.toolpath, program.lines, "3B504", section.first, loops=count, offset=offset.by_um)

@@ -1,7 +1,7 @@
 """Pages of the catalogue as Markdown, for ``drycut explain`` and for the findings documents."""
 
 from parser.findings.catalogue import Language, example, page
-from parser.findings.findings import SEVERITIES
+from parser.findings.codes import CODES, Severity
 
 _WORDS: dict[Language, dict[str, str]] = {
     "en": {
@@ -66,20 +66,20 @@ def titles_text(language: Language) -> str:
 
 def layers(language: Language) -> tuple[tuple[str, tuple[str, ...]], ...]:
     """Titles of the layers, each with its codes."""
-    digits = sorted({code[2] for code in SEVERITIES})
+    digits = sorted({code[2] for code in CODES})
     return tuple(
-        (_WORDS[language][f"layer {digit}"], tuple(code for code in sorted(SEVERITIES) if code[2] == digit))
+        (_WORDS[language][f"layer {digit}"], tuple(code for code in sorted(CODES) if code[2] == digit))
         for digit in digits
     )
 
 
 def severity_word(code: str, language: Language) -> str:
     """Severity of a code, for people."""
-    return _WORDS[language][SEVERITIES[code]]
+    return _WORDS[language][CODES[code].severity]
 
 
 def _title_line(code: str, language: Language) -> str:
-    width = max(len(_WORDS[language][severity]) for severity in SEVERITIES.values())
+    width = max(len(_WORDS[language][severity]) for severity in Severity)
     return f"{code}  {severity_word(code, language):{width}}  {page(code, language).title}"
 
 

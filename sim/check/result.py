@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from parser.findings.findings import Finding, Severity
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
 
 Verdict = Literal["pass", "fail", "incomplete"]
 State = Literal["complete", "incomplete", "not asked"]
@@ -72,6 +73,8 @@ class CheckResult:
         Length of the exact path, jumps included, and its steps of 1 µm.
     fail_on
         Mildest severity that fails the file.
+    unreadable
+        Whether there was no program to check.
     """
 
     name: str
@@ -83,6 +86,7 @@ class CheckResult:
     length_um: float
     steps: int
     fail_on: Severity = Severity.ERROR
+    unreadable: bool = False
 
     def count(self, severity: Severity) -> int:
         """How many findings are of a severity."""
@@ -104,8 +108,3 @@ class CheckResult:
         if any(self.fails(finding.severity) for finding in self.findings):
             return "fail"
         return "pass" if self.coverage.is_complete else "incomplete"
-
-    @property
-    def unreadable(self) -> bool:
-        """Whether there was no program to check."""
-        return any(finding.code == "3B100" for finding in self.findings)

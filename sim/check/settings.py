@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from parser.dialect.reader import Marks
+from parser.findings.codes import CODES, Severity
 from parser.findings.errors import SettingsError
-from parser.findings.findings import SEVERITIES, Severity
 from parser.units import from_mm
 from sim.check.engine import Demands
 from sim.setup.toml.reader import load_toml, number, pair, refuse_unknown, section, truth
@@ -68,9 +68,9 @@ class CheckSettings:
         return replace(DEFAULT_WIRE, **known).offset_um if known else None
 
     def shows(self, code: str) -> bool:
-        """Whether findings of a code were selected and not ignored; what could not be read at all always shows."""
+        """Whether findings of a code were selected and not ignored."""
         selected = not self.select or code.startswith(self.select)
-        return code == "3B100" or (selected and not (self.ignore and code.startswith(self.ignore)))
+        return selected and not (self.ignore and code.startswith(self.ignore))
 
 
 def settings_near(folder: Path) -> CheckSettings:
@@ -87,7 +87,7 @@ def code_list(value: object, where: str) -> tuple[str, ...]:
         raise SettingsError(f"{where} is a list of codes; found {value!r}")
     codes = tuple(code.strip().upper() for code in value if code.strip())
     for code in codes:
-        if not any(known.startswith(code) for known in SEVERITIES):
+        if not any(known.startswith(code) for known in CODES):
             raise SettingsError(f"{where}: no code begins with {code!r}; they are {_first_last()}")
     return codes
 
@@ -166,5 +166,5 @@ def _words(content: Mapping[str, Any], key: str, where: str) -> tuple[str, ...]:
 
 
 def _first_last() -> str:
-    codes = sorted(SEVERITIES)
+    codes = sorted(CODES)
     return f"{codes[0]} to {codes[-1]}"

@@ -3,6 +3,7 @@
 import numpy as np
 
 from parser.dialect.at_block import at_block
+from parser.findings.facts import WrongBlock
 from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
 from parser.geometry.distance import distance_to_curves
@@ -29,7 +30,7 @@ def passage_findings(program: Program, contour: Ints) -> list[Finding]:
             continue
         if _distance(toolpath, arrival, np.arange(first[here], begin)) > _APART_UM:
             way = float(toolpath.length_um[begin:arrival].sum())
-            found.append(at_block(toolpath, program.lines, "3B310", begin, length=way))
+            found.append(at_block(toolpath, program.lines, "3B310", begin, length=way).with_fact(WrongBlock()))
     return found
 
 

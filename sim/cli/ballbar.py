@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.lengths import Length
+from sim.cli.scenario_options import Length
 
 if TYPE_CHECKING:
     from sim.run.ballbar.circle import Ballbar

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from parser.units import mm
-from sim.cli.language import chosen
-from sim.cli.lengths import Length
+from sim.cli.scenario_options import Length, chosen
 
 if TYPE_CHECKING:
     from parser.findings.catalogue import Language

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.lengths import Length
+from sim.cli.scenario_options import Length
 
 if TYPE_CHECKING:
     from parser.program import Program
@@ -84,7 +84,7 @@ def _offset(given: float | None, program: "Program", scenario: "Scenario") -> tu
 
     if given is not None:
         return given, f"{mm(given):g} mm, as given"
-    told = program.facts.get("offset_um")
+    told = program.header.get("offset_um")
     if isinstance(told, float) and told and scenario.offset is None:
         offset_um = abs(told)
         return offset_um, f"{mm(offset_um):g} mm, of the program's header"

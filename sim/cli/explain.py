@@ -2,8 +2,8 @@
 
 import click
 
-from parser.findings.findings import SEVERITIES
-from sim.cli.language import chosen
+from parser.findings.codes import CODES
+from sim.cli.scenario_options import chosen
 
 
 @click.command()
@@ -24,6 +24,6 @@ def explain(code: str | None, lang: str | None) -> None:
         click.echo(titles_text(language), nl=False)
         return
     known = code.strip().upper()
-    if known not in SEVERITIES:
+    if known not in CODES:
         raise click.UsageError(f"no finding has the code {code!r}; drycut explain lists them all")
     click.echo(page_text(known, language), nl=False)

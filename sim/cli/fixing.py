@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from parser.findings.catalogue import Language
+from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
-from parser.findings.findings import Edit, Finding, Severity
+from parser.findings.findings import Edit, Finding
 from parser.program import Program, load_program
 from parser.text.encoding import encode_text, printable
 from parser.text.excerpt import place

@@ -1,20 +1,44 @@
 """Options of the commands that run a scenario, and what they say where its program cannot be read or run."""
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from parser.findings.catalogue import LANGUAGES, Language
 from parser.findings.errors import ProgramError
 from parser.text.encoding import printable
 from parser.text.excerpt import place, with_caret
-from sim.cli.lengths import Length
 
 if TYPE_CHECKING:
     from sim.setup.scenario import Scenario
 
+
 Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+class Length(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """A length with its unit, in µm."""
+
+    name = "length"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """The length in µm."""
+        from sim.units import parse_length
+
+        return value if isinstance(value, float) else parse_length(value)
+
+
+def chosen(asked: str | None) -> Language:
+    """The language asked for; else Chinese where the locale is, else English (POSIX: LC_ALL, LC_MESSAGES, LANG)."""
+    if asked in LANGUAGES:
+        return asked
+    locale = next((value for name in ("LC_ALL", "LC_MESSAGES", "LANG") if (value := os.environ.get(name))), "")
+    return "zh" if locale.lower().startswith("zh") else "en"
+
+
 _OPTIONS = (
     click.option("--machine", metavar="NAME|FILE", help="Shipped machine, such as dk7740, or a machine file (.toml)."),
     click.option("--thickness", type=Length(), help="Thickness of the work, such as 40mm."),

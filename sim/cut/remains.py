@@ -2,13 +2,10 @@
 
 from dataclasses import dataclass
 
-from parser.dialect.at_block import at_block
-from parser.findings.findings import Finding
 from parser.program import Program
 from parser.shape.contours import Contour
-from parser.units import mm
 from sim.cut.kerf.region import Kerf, kerf_of
-from sim.cut.pieces.pieces import Material, Piece, Pieces, pieces_of
+from sim.cut.pieces.pieces import Material, Pieces, pieces_of
 from sim.cut.play.freedom import Play, plays_of
 from sim.cut.sizes.sizes import Sizes, sizes_of
 from sim.setup.scenario import Scenario
@@ -60,24 +57,3 @@ def pieces_left(
 
 def _pieces(kerf: Kerf, scenario: Scenario) -> Pieces:
     return pieces_of(kerf, scenario.work_um, Material(scenario.thickness_mm, scenario.density_g_cm3))
-
-
-def early_findings(program: Program, remains: Remains) -> list[Finding]:
-    """Finding 3B406 for each piece that comes free before its cut is done."""
-    return [_early(program, piece) for piece in remains.pieces.freed if piece.early]
-
-
-def _early(program: Program, piece: Piece) -> Finding:
-    freed = piece.freed
-    return at_block(
-        program.toolpath,
-        program.lines,
-        "3B406",
-        freed.block - 1,
-        kind=piece.kind,
-        area_mm2=piece.area_mm2,
-        cut_after=piece.cut_after_um,
-        t_s=freed.t_s,
-        x_mm=mm(freed.wire_um.x),
-        y_mm=mm(freed.wire_um.y),
-    )

@@ -9,14 +9,16 @@ from controller.card.log import CardLog
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
 from parser.drawing.model import Drawing
-from parser.findings.findings import Finding, Severity, file_order
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.toolpath import Toolpath
 from sim.check.result import Coverage
 from sim.cut.obstacles.findings import obstacle_findings
-from sim.cut.remains import Remains, early_findings, remains_of
+from sim.cut.pieces.findings import piece_findings
+from sim.cut.remains import Remains, remains_of
 from sim.cut.wire_lag import bowed
 from sim.measure.compare.findings import drawing_findings, held_against
 from sim.measure.compare.result import Comparison
@@ -24,6 +26,7 @@ from sim.measure.deviation.measured import Deviations, Meters
 from sim.measure.deviation.stepped import Stepped
 from sim.run.offsetting import Offsetting
 from sim.run.prepare import prepare
+from sim.setup.expectations import Missed
 from sim.setup.part import DrawingAsked
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
@@ -71,9 +74,11 @@ class DryRun:
     comparison
         The cut edge beside its drawing; None where there is no drawing, or no edge.
     findings
-        Of program and run, in file order.
+        Of program and run, in file order; behind them one for each of `missed`.
     coverage
         How far their checks came.
+    missed
+        What its scenario expects of the report, and the report does not say; none before it is held against that.
     """
 
     program: Program
@@ -92,6 +97,7 @@ class DryRun:
     comparison: Comparison | None
     findings: tuple[Finding, ...]
     coverage: Coverage
+    missed: tuple[Missed, ...] = ()
 
     @property
     def tripped(self) -> Loss | None:
@@ -190,7 +196,7 @@ def _left(
     if not scenario.kerf and held is None:
         return None, None, []
     remains = remains_of(program, cut, contours, scenario)
-    found = early_findings(program, remains)
+    found = piece_findings(program, remains.pieces)
     if held is None or drawing is None:
         return remains, None, found
     comparison = held_against(program, remains.pieces, scenario.wire.offset_um, drawing, held)

@@ -18,7 +18,7 @@ from parser.geometry.curves import Curves, Floats
 from parser.program import Program
 from parser.shape.contours import runs
 from parser.toolpath import Toolpath
-from sim.check.offset import gouge_findings, loop_findings, vanished_findings
+from sim.check.offset import gouge_findings, loop_findings, uncut_findings
 from sim.setup.part import Offset
 
 
@@ -59,22 +59,23 @@ def offsetting(program: Program, offset: Offset) -> Offsetting:
     sections = sections_of(drawn)
     path = compensate(drawn, sections, offset.by_um, offset.side)
     held = [_held(drawn, path, *one, offset) for one in zip(sections, _beside(path, drawn), strict=True)]
-    result = Offsetting(
+    left_um = np.concatenate([np.zeros(0), *(one.left_um for one in held)])
+    met = tuple(gouge for one in held for gouge in one.gouges)
+    closed = {section: one.loops for section, one in zip(sections, held, strict=True) if one.loops is not None}
+    found = [
+        *uncut_findings(program, offset, path.vanished, left_um),
+        *gouge_findings(program, offset, path, met),
+        *loop_findings(program, offset, closed),
+    ]
+    return Offsetting(
         drawn=drawn,
         program=replace(program, toolpath=offset_toolpath(drawn, path)),
         path=path,
-        left_um=np.concatenate([np.zeros(0), *(one.left_um for one in held)]),
-        gouges=tuple(gouge for one in held for gouge in one.gouges),
-        loops=tuple(one.loops for one in held if one.loops is not None),
-        findings=(),
+        left_um=left_um,
+        gouges=met,
+        loops=tuple(closed.values()),
+        findings=tuple(sorted(found, key=file_order)),
     )
-    closed = [section for section in sections if section.closed]
-    found = [
-        *vanished_findings(program, offset, path, result.left_um),
-        *gouge_findings(program, offset, path, result.gouges),
-        *loop_findings(program, offset, closed, result.loops),
-    ]
-    return replace(result, findings=tuple(sorted(found, key=file_order)))
 
 
 class _Held(NamedTuple):

@@ -5,7 +5,9 @@ from typing import NamedTuple
 
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
+from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
+from parser.findings.facts import TooLarge, telling
 from parser.findings.findings import Finding
 from parser.program import Program
 from sim.check.engine import Demands, check_program, too_many_steps
@@ -56,7 +58,7 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     if beyond:
         raise _refusal(program, beyond)
     travel = travel_findings(offset.program, steps, scenario.machine.table, scenario.start_um)
-    coverage = _looked_at(checked.coverage, ("check-corners", "check-travel"))
+    coverage = _looked_at(checked.coverage, (Check.CORNERS, Check.TRAVEL))
     return Prepared(offset.program, steps, offset, (*checked.findings, *offset.findings, *travel), coverage)
 
 
@@ -67,7 +69,7 @@ def _demands(scenario: Scenario) -> Demands:
     return Demands(scenario.machine.table, scenario.start_um, scenario.wire.offset_um, scenario.may_stay_open)
 
 
-def _looked_at(coverage: Coverage, names: Sequence[str]) -> Coverage:
+def _looked_at(coverage: Coverage, names: Sequence[Check]) -> Coverage:
     """The coverage with some checks done after all."""
     states = (CheckState(state.name) if state.name in names else state for state in coverage.checks)
     return coverage._replace(checks=tuple(states))
@@ -75,5 +77,5 @@ def _looked_at(coverage: Coverage, names: Sequence[str]) -> Coverage:
 
 def _refusal(program: Program, findings: Sequence[Finding]) -> ProgramError:
     """Error of a program that asks for more than any table can do."""
-    finding = next(finding for finding in findings if finding.code == "3B206")
+    finding, _ = next(telling(findings, TooLarge))
     return ProgramError(finding, excerpt=program.excerpt(finding.line))

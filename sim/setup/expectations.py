@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from parser.findings.errors import SettingsError
-from parser.findings.findings import Finding
 
 _OF_STEPS = {"stepped", "closure_stepped_um", "interpolator"}
 
@@ -26,6 +25,13 @@ class Expectation(NamedTuple):
     path: str
     value: Any
     is_range: bool
+
+
+class Missed(NamedTuple):
+    """An expectation that a report does not meet, and what stands there; None where nothing does."""
+
+    expected: Expectation
+    found: Any
 
 
 def read_expectation(table: Mapping[str, Any], where: str) -> tuple[Expectation, ...]:
@@ -53,13 +59,9 @@ def not_of_steps(expected: tuple[Expectation, ...]) -> tuple[Expectation, ...]:
     return tuple(e for e in expected if e.path != "summary.steps" and not _OF_STEPS & set(e.path.split(".")))
 
 
-def compare(report: Mapping[str, Any], expected: tuple[Expectation, ...]) -> list[Finding]:
-    """A finding 3B490 for each expectation that the report does not meet."""
-    return [
-        Finding("3B490", {"path": e.path, "found": _show(found), "wanted": _wanted(e)})
-        for e in expected
-        if not _meets(found := _look_up(report, e.path), e)
-    ]
+def missed(report: Mapping[str, Any], expected: tuple[Expectation, ...]) -> tuple[Missed, ...]:
+    """The expectations that the report does not meet, in their order."""
+    return tuple(Missed(e, found) for e in expected if not _meets(found := _look_up(report, e.path), e))
 
 
 def _look_up(report: Any, path: str) -> Any:
@@ -84,16 +86,3 @@ def _meets(found: Any, expectation: Expectation) -> bool:
 
 def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-def _wanted(expectation: Expectation) -> str:
-    if not expectation.is_range:
-        return _show(expectation.value)
-    low, high = expectation.value
-    if low == -math.inf:
-        return f"at most {high:g}"
-    return f"at least {low:g}" if high == math.inf else f"{low:g} to {high:g}"
-
-
-def _show(value: Any) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)

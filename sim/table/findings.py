@@ -1,17 +1,25 @@
 """Findings on what the drives lost in a run: steps of a stepper, the following error that a servo tripped on."""
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 from parser.dialect.at_block import at_block
-from parser.findings.findings import Finding, Value, file_order
+from parser.findings.findings import Fact, Finding, Value, file_order
 from parser.program import Program
 from parser.toolpath import Axis
 from parser.units import mm
 from sim.setup.machine.table_model import Motor
-from sim.table.record.losses import Loss
+from sim.table.record.losses import Loss, LossKind
 
 MOST = 20
 """Findings of lost steps on one axis; the last of them holds all the rest."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lost(Fact):
+    """A drive lost what `kind` says, as `Loss` does."""
+
+    kind: LossKind
 
 
 def loss_findings(program: Program, losses: tuple[Loss, ...], motor: Motor) -> list[Finding]:
@@ -40,24 +48,17 @@ def _stretches(losses: Iterable[Loss]) -> list[list[Loss]]:
 
 
 def _lost(program: Program, stretch: list[Loss]) -> Finding:
-    lost_um = sum(abs(loss.amount_um) for loss in stretch)
-    return _at(program, "3B402", stretch[0], lost=lost_um, last=stretch[-1].row + 1)
+    loss, last, lost_um = stretch[0], stretch[-1].row + 1, sum(abs(loss.amount_um) for loss in stretch)
+    found = at_block(program.toolpath, program.lines, "3B402", loss.row, **_where(loss), lost=lost_um, last=last)
+    return found.with_fact(Lost(loss.kind))
 
 
 def _trip(program: Program, loss: Loss, motor: Motor) -> Finding:
-    return _at(program, "3B403", loss, lag=abs(loss.amount_um), limit=motor.following_error_limit_um)
+    lag_um, limit_um = abs(loss.amount_um), motor.following_error_limit_um
+    found = at_block(program.toolpath, program.lines, "3B403", loss.row, **_where(loss), lag=lag_um, limit=limit_um)
+    return found.with_fact(Lost(loss.kind))
 
 
-def _at(program: Program, code: str, loss: Loss, **values: Value) -> Finding:
-    """Finding at the block of a loss, with its axis, time and place beside its own values."""
-    return at_block(
-        program.toolpath,
-        program.lines,
-        code,
-        loss.row,
-        axis=loss.axis.name,
-        t_s=loss.t_s,
-        x_mm=mm(loss.x_um),
-        y_mm=mm(loss.y_um),
-        **values,
-    )
+def _where(loss: Loss) -> dict[str, Value]:
+    """Axis, time and place of a loss."""
+    return {"axis": loss.axis.name, "t_s": loss.t_s, "x_mm": mm(loss.x_um), "y_mm": mm(loss.y_um)}

@@ -20,7 +20,7 @@ from places import MACHINES, ROOT
 from controller.stepping.words import interpolate
 from parser.findings.catalogue import Language
 from parser.findings.catalogue import page as catalogue_page
-from parser.findings.findings import SEVERITIES
+from parser.findings.codes import CODES, Check
 from parser.program import read_program
 from parser.text.encoding import encode_text
 from sim.check import settings as check_settings
@@ -33,8 +33,7 @@ from sim.run.report import build_report
 from sim.setup import part, scenario, wire
 from sim.setup.machine import controller_model, machine, table_model
 from sim.setup.scenario import load_scenario
-from sim.show.findings.catalogue_document import NAMES, anchor, findings_document
-from sim.show.findings.checks import CHECK_OF
+from sim.show.findings.catalogue_document import NAMES, anchor, documents, findings_document
 
 DOCS = ROOT / "docs"
 PAGES = sorted([*ROOT.glob("*.md"), *DOCS.glob("*.md")])
@@ -308,7 +307,7 @@ def test_shipped_machines_are_documented_with_their_figures() -> None:
 def test_findings_are_documented_with_severity_and_title() -> None:
     rows = [row.split("|") for row in read(DOCS / "findings.md").splitlines() if row.startswith("| [3B")]
     written = {code[2:7]: (severity.strip(), title.strip()) for _, code, severity, title, *_ in rows}
-    assert written == {code: (str(severity), catalogue_page(code).title) for code, severity in SEVERITIES.items()}
+    assert written == {code: (str(of.severity), catalogue_page(code).title) for code, of in CODES.items()}
 
 
 def rows_of(page: Path, beginning: str) -> list[list[str]]:
@@ -343,8 +342,9 @@ def test_settings_shown_are_settings(tmp_path: Path) -> None:
 
 def test_checks_are_documented_with_their_findings() -> None:
     rows = rows_of(DOCS / "check.md", "`check-")
-    assert {cells[0] for cells in rows} == {*PARSER_CHECKS, *PATH_CHECKS}
-    assert {code: cells[0] for cells in rows for code in cells[2].split(", ")} == dict(CHECK_OF)
+    assert {cells[0] for cells in rows} == {*PARSER_CHECKS, *PATH_CHECKS} == set(Check)
+    of_checks = {code: of.check for code, of in CODES.items() if of.check}
+    assert {code: cells[0] for cells in rows for code in cells[2].split(", ")} == of_checks
 
 
 SHOWN = [
@@ -374,7 +374,7 @@ def test_shown_output_is_what_is_printed(tmp_path: Path, page: Path, command: st
 
 
 def test_outputs_and_the_number_of_codes_are_shown() -> None:
-    assert f"There are {len(SEVERITIES)} codes" in " ".join(read(ROOT / "README.md").split())
+    assert f"There are {len(CODES)} codes" in " ".join(read(ROOT / "README.md").split())
     assert {"check part.3b", "check part.3b --fix"} <= {command for _, command, _ in SHOWN}
 
 
@@ -396,6 +396,13 @@ def test_python_shown_runs(tmp_path: Path) -> None:
 @pytest.mark.parametrize("language", NAMES)
 def test_findings_documents_are_those_of_the_pages(language: Language) -> None:
     assert read(DOCS / NAMES[language]) == findings_document(language), "renew them: make pages"
+
+
+def test_pages_that_tell_of_codes_are_renewed() -> None:
+    renewed = documents(ROOT)
+    assert {path.name for path in renewed} == {*NAMES.values(), "check.md", "README.md"}
+    for path, text in renewed.items():
+        assert read(path) == text, "renew it: make pages"
 
 
 def anchors(page: Path) -> list[str]:

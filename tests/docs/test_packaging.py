@@ -1,6 +1,8 @@
 """The packages install, hold what they need, and own their names."""
 
+import json
 import os
+import re
 import subprocess
 import sys
 import tarfile
@@ -11,7 +13,7 @@ from pathlib import Path
 
 from places import ROOT
 
-from parser.findings.findings import SEVERITIES
+from parser.findings.codes import CODES
 from sim import __version__
 
 
@@ -39,7 +41,7 @@ def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
     files = [path for folder in ("parser", "controller", "sim") for path in (ROOT / folder).rglob("*.*")]
     ours = {path.relative_to(ROOT).as_posix() for path in files if "__pycache__" not in path.parts}
     assert ours - set(names) == set()
-    assert sum(path.startswith("parser/findings/pages/") for path in names) > len(SEVERITIES)
+    assert sum(path.startswith("parser/findings/pages/") for path in names) > len(CODES)
     assert any(path.startswith("sim/show/draw/fonts/") and path.endswith(".otf") for path in names)
     assert any(path.endswith("licenses/LICENSE") for path in names)
 
@@ -52,7 +54,9 @@ def test_source_package_holds_what_tests_and_documents_need(tmp_path: Path) -> N
     here = [path for folder in ("parser", "tests", "docs", "scenarios") for path in (ROOT / folder).rglob("*.*")]
     made = {"__pycache__", "failures"}
     wanted = {path.relative_to(ROOT).as_posix() for path in here if path.is_file() and not made & set(path.parts)}
-    assert {"action.yml", ".pre-commit-hooks.yaml", ".github/action-check.sh", *wanted} - names == set()
+    scripts = {"package.json", "package-lock.json", ".npmrc", "tsconfig.json", "eslint.config.js"}
+    others = {"action.yml", ".pre-commit-hooks.yaml", ".github/action-check.sh"}
+    assert (wanted | scripts | others) - names == set()
 
 
 def test_the_benchmark_runs_and_prints_its_figures() -> None:
@@ -82,3 +86,12 @@ def test_every_dependency_is_locked() -> None:
     locked = {line.split("==")[0] for line in (ROOT / "requirements-lock.txt").read_text("utf-8").splitlines()}
     for requirement in wanted:
         assert requirement.split(">=")[0] in locked, requirement
+
+
+def test_what_checks_the_scripts_of_pages_is_pinned_and_locked_from_no_place() -> None:
+    wanted = json.loads((ROOT / "package.json").read_text("utf-8"))["devDependencies"]
+    locked = json.loads((ROOT / "package-lock.json").read_text("utf-8"))["packages"]
+    assert all(re.fullmatch(r"\d+\.\d+\.\d+", version) for version in wanted.values())
+    assert locked[""]["devDependencies"] == wanted
+    assert {name: locked[f"node_modules/{name}"]["version"] for name in wanted} == wanted
+    assert all("resolved" not in entry and ("integrity" in entry or not name) for name, entry in locked.items())

@@ -15,7 +15,7 @@ from browser import OpenPage
 from golden_pictures import assert_golden_screen
 from PIL import Image
 from places import SCENARIOS
-from replayed import recording_of
+from replayed import exports, recording_of
 from runs import plain_scenario, silent
 
 from controller.stepping.pulses import Pulses, time_steps
@@ -64,7 +64,7 @@ def part_page(title: str = "A half round") -> str:
 def opened(open_page: OpenPage, page: str | None = None, width: int = 1000, height: int = 700, **how: object) -> "Page":
     """A page that has read its document and drawn it."""
     shown = open_page(part_page() if page is None else page, width, height, **how).page
-    shown.evaluate("Drycut.player.ready")
+    shown.evaluate("drycut.player.ready")
     drawn(shown)
     return shown
 
@@ -80,7 +80,7 @@ def until(page: "Page", condition: str) -> None:
 
 
 def state(page: "Page") -> dict:
-    found: dict = page.evaluate("Drycut.player.state()")
+    found: dict = page.evaluate("drycut.player.state()")
     return found
 
 
@@ -104,7 +104,7 @@ def canvas(page: "Page") -> np.ndarray:
 
 def colour(page: "Page", x_um: float, y_um: float) -> list[int]:
     """Colour that a place has on the table."""
-    px, py = page.evaluate(f"[Drycut.player.view.toX({x_um}), Drycut.player.view.toY({y_um})]")
+    px, py = page.evaluate(f"[drycut.player.view.toX({x_um}), drycut.player.view.toY({y_um})]")
     levels: list[int] = canvas(page)[round(py), round(px)].tolist()
     return levels
 
@@ -122,14 +122,14 @@ def near(one: list[int], other: list[int], levels: int = 12) -> bool:
 def test_it_plays_stops_and_ends_at_the_end(open_page: OpenPage) -> None:
     page = opened(open_page)
     page.get_by_role("button", name=re.compile("Play")).click()
-    until(page, "Drycut.player.state().t > 0.2")
+    until(page, "drycut.player.state().t > 0.2")
     page.keyboard.press("Space")
     stopped = state(page)
     drawn(page)
     assert not stopped["playing"]
     assert state(page)["t"] == stopped["t"]
-    do(page, "Drycut.player.setSpeed(10000); Drycut.player.play()")
-    until(page, "!Drycut.player.state().playing")
+    do(page, "drycut.player.setSpeed(10000); drycut.player.play()")
+    until(page, "!drycut.player.state().playing")
     end = state(page)
     assert (end["step"], end["block"]) == (STEPS, 6)
     assert out(page, "left") == "0 GY"
@@ -141,20 +141,20 @@ def test_time_goes_by_at_the_speed_that_is_set(open_page: OpenPage) -> None:
     for speed in (0.01, 2.0):
         took, went = page.evaluate(
             """async (speed) => {
-                Drycut.player.seek(10);
-                Drycut.player.setSpeed(speed);
+                drycut.player.seek(10);
+                drycut.player.setSpeed(speed);
                 const frame = () => new Promise(requestAnimationFrame);
-                Drycut.player.play();
+                drycut.player.play();
                 await frame();
                 const first = await frame();
-                const since = Drycut.player.state().t;
+                const since = drycut.player.state().t;
                 let [took, last] = [0, first];
                 while (last < first + 300) {
                     const now = await frame();
                     took += Math.min(now - last, 250) / 1000;  // longer frames are cut off
                     last = now;
                 }
-                return [took, Drycut.player.state().t - since];
+                return [took, drycut.player.state().t - since];
             }""",
             speed,
         )
@@ -163,7 +163,7 @@ def test_time_goes_by_at_the_speed_that_is_set(open_page: OpenPage) -> None:
 
 def test_steps_and_blocks_go_on_and_back_one_by_one(open_page: OpenPage) -> None:
     page = opened(open_page)
-    do(page, "Drycut.player.seekBlock(3)")
+    do(page, "drycut.player.seekBlock(3)")
     assert (state(page)["step"], out(page, "left")) == (2000, "2,000 GY")
     assert out(page, "f") == "F = 0 ≥ 0 → −X"
     page.keyboard.press("ArrowRight")
@@ -188,7 +188,7 @@ def test_scrubbing_leads_to_the_time_under_the_pointer(open_page: OpenPage) -> N
     page = opened(open_page)
     bar = page.locator("#bar").bounding_box()
     assert bar
-    duration = page.evaluate("Drycut.player.duration")
+    duration = page.evaluate("drycut.player.duration")
     page.mouse.move(bar["x"] + bar["width"] / 4, bar["y"] + 10)
     page.mouse.down()
     assert state(page)["t"] == pytest.approx(duration / 4, rel=0.01)
@@ -226,7 +226,7 @@ def test_findings_stand_in_the_time_line_and_lead_to_their_block(open_page: Open
     assert "block 6, line 6" in page.locator("#findings").inner_text()
     page.locator("#finding-marks button").click()
     assert state(page)["block"] == 5
-    do(page, "Drycut.player.seek(0)")
+    do(page, "drycut.player.seek(0)")
     page.locator("#findings button").click()
     assert state(page)["block"] == 5
 
@@ -260,7 +260,7 @@ def test_numbers_of_blocks_that_have_no_room_are_not_measured(open_page: OpenPag
         const measure = CanvasRenderingContext2D.prototype.measureText;
         let count = 0;
         CanvasRenderingContext2D.prototype.measureText = function (text) { count++; return measure.call(this, text); };
-        Drycut.player.setLoop("from", 1);
+        drycut.player.setLoop("from", 1);
         CanvasRenderingContext2D.prototype.measureText = measure;
         return count;
     }""")
@@ -271,11 +271,12 @@ def test_the_number_of_a_block_of_very_many_is_not_cut_off(open_page: OpenPage) 
     page = opened(open_page)
     do(
         page,
+        f"const {{ readoutsIn }} = {exports('readouts')};"
         """
         const doc = JSON.parse(document.getElementById("document").textContent);
         doc.blocks.kind = Array(100000).fill("line");
-        const outs = Drycut.readouts(document.body, doc, { decision: () => null });
-        outs.show({ ...Drycut.player.state(), block: 45456 });
+        const outs = readoutsIn(document.body, doc, { decision: () => null });
+        outs.show({ ...drycut.player.state(), block: 45456, deviation: { um: 0 } });
         """,
     )
     cell = page.locator("dd", has=page.locator('[data-out="block"]'))
@@ -307,7 +308,7 @@ KEYS = {
     "?": "help", "g": "lang", "q": "quiz",
 }  # fmt: skip
 SEEN = """() => ({
-    ...Drycut.player.state(), scale: Drycut.player.view.scale, center: Drycut.player.view.center,
+    ...drycut.player.state(), scale: drycut.player.view.scale, center: drycut.player.view.center,
     follow: document.querySelector('[data-do="follow"]').getAttribute("aria-pressed"),
     times: document.getElementById("magnify").value, help: document.getElementById("help").open,
     lang: document.documentElement.lang, quiz: document.getElementById("quiz-on").getAttribute("aria-pressed"),
@@ -317,7 +318,7 @@ SEEN = """() => ({
 def test_every_key_does_what_it_says(open_page: OpenPage) -> None:
     page = opened(open_page)
     for key, what in KEYS.items():
-        do(page, "Drycut.player.pause(); Drycut.player.seekStep(4100); document.getElementById('help').close()")
+        do(page, "drycut.player.pause(); drycut.player.seekStep(4100); document.getElementById('help').close()")
         before = page.evaluate(SEEN)
         page.keyboard.press(key)
         drawn(page)
@@ -343,15 +344,15 @@ def test_the_list_of_keys_has_the_keyboard_for_itself(open_page: OpenPage) -> No
 def test_a_loop_that_is_shorter_than_a_frame_is_seen_in_all_its_parts(open_page: OpenPage) -> None:
     page = opened(open_page)
     times = page.evaluate("""async () => {
-        Drycut.player.setLoop("from", 20);
-        Drycut.player.setLoop("to", 30.7);
-        Drycut.player.seek(20);
-        Drycut.player.setSpeed(10000);
-        Drycut.player.play();
+        drycut.player.setLoop("from", 20);
+        drycut.player.setLoop("to", 30.7);
+        drycut.player.seek(20);
+        drycut.player.setSpeed(10000);
+        drycut.player.play();
         const times = [];
         for (let frame = 0; frame < 40; frame++) {
             await new Promise(requestAnimationFrame);
-            times.push(Drycut.player.state().t);
+            times.push(drycut.player.state().t);
         }
         return times;
     }""")
@@ -361,16 +362,16 @@ def test_a_loop_that_is_shorter_than_a_frame_is_seen_in_all_its_parts(open_page:
 
 def test_the_loop_goes_round(open_page: OpenPage) -> None:
     page = opened(open_page)
-    do(page, "Drycut.player.seek(20); Drycut.player.setSpeed(100)")
+    do(page, "drycut.player.seek(20); drycut.player.setSpeed(100)")
     page.keyboard.press("a")
-    do(page, "Drycut.player.seek(30)")
+    do(page, "drycut.player.seek(30)")
     page.keyboard.press("b")
-    do(page, "Drycut.player.seek(22); Drycut.player.play()")
+    do(page, "drycut.player.seek(22); drycut.player.play()")
     times = page.evaluate("""async () => {
         const times = [];
         for (let frame = 0; frame < 40; frame++) {
             await new Promise(requestAnimationFrame);
-            times.push(Drycut.player.state().t);
+            times.push(drycut.player.state().t);
         }
         return times;
     }""")
@@ -383,16 +384,16 @@ def test_wheel_drag_and_two_fingers_move_the_view(open_page: OpenPage) -> None:
     box = page.locator("#table").bounding_box()
     assert box
     x, y = 160, 300
-    place = f"Drycut.player.view.placeOf({x - box['x']}, {y - box['y']})"
-    before, scale = page.evaluate(f"[{place}, Drycut.player.view.scale]")
+    place = f"drycut.player.view.placeOf({x - box['x']}, {y - box['y']})"
+    before, scale = page.evaluate(f"[{place}, drycut.player.view.scale]")
     page.mouse.move(x, y)
     page.mouse.wheel(0, -400)
-    until(page, f"Drycut.player.view.scale > {1.5 * scale}")
+    until(page, f"drycut.player.view.scale > {1.5 * scale}")
     assert page.evaluate(place) == pytest.approx(before, abs=1e-6)
     page.mouse.down()
     page.mouse.move(x + 40, y + 30, steps=3)
     page.mouse.up()
-    moved = f"Drycut.player.view.placeOf({x + 40 - box['x']}, {y + 30 - box['y']})"
+    moved = f"drycut.player.view.placeOf({x + 40 - box['x']}, {y + 30 - box['y']})"
     assert page.evaluate(moved) == pytest.approx(before, abs=1e-6)
     wide = page.evaluate("""() => {
         const table = document.getElementById("table");
@@ -400,14 +401,14 @@ def test_wheel_drag_and_two_fingers_move_the_view(open_page: OpenPage) -> None:
         const box = table.getBoundingClientRect();
         const touch = (name, pointerId, x, y) => table.dispatchEvent(new PointerEvent(name, {
             pointerId, pointerType: "touch", clientX: box.x + x, clientY: box.y + y, bubbles: true }));
-        const before = Drycut.player.view.scale;
+        const before = drycut.player.view.scale;
         touch("pointerdown", 1, 200, 300);
         touch("pointerdown", 2, 300, 300);
         touch("pointermove", 1, 150, 300);
         touch("pointermove", 2, 350, 300);
         touch("pointerup", 1, 150, 300);
         touch("pointerup", 2, 350, 300);
-        return Drycut.player.view.scale / before;
+        return drycut.player.view.scale / before;
     }""")
     assert wide == pytest.approx(2.0)
 
@@ -417,7 +418,7 @@ def test_a_turned_phone_shows_the_whole_path_unless_the_view_was_moved(open_page
         page.set_viewport_size({"width": width, "height": height})
         drawn(page)
         drawn(page)
-        found: float = page.evaluate("Drycut.player.view.scale")
+        found: float = page.evaluate("drycut.player.view.scale")
         return found
 
     page = opened(open_page, width=390, height=844)
@@ -442,26 +443,26 @@ def test_the_kerf_opens_behind_the_wire_and_closes_when_it_goes_back(open_page: 
     kerf = named(page, "kerf")
     beside = (500.0, -540.0)  # 60 µm off block 2, in its kerf of 200 µm
     assert not near(colour(page, *beside), kerf)
-    do(page, "Drycut.player.seekBlock(3)")
+    do(page, "drycut.player.seekBlock(3)")
     assert near(colour(page, *beside), kerf)
     assert not near(colour(page, 500.0, -480.0), kerf)  # 120 µm off it
-    do(page, "Drycut.player.seekBlock(0)")
+    do(page, "drycut.player.seekBlock(0)")
     assert not near(colour(page, *beside), kerf)
 
 
 def test_a_kerf_drawn_bit_by_bit_is_the_kerf_drawn_at_once(open_page: OpenPage) -> None:
     page = opened(open_page)
-    do(page, "for (let t = 0; t < 100; t += 0.7) Drycut.player.seek(t)")
+    do(page, "for (let t = 0; t < 100; t += 0.7) drycut.player.seek(t)")
     page.evaluate("""async () => {
         for (let t = 0; t < 120; t += 1.7) {
-            Drycut.player.seek(t);
+            drycut.player.seek(t);
             await new Promise(requestAnimationFrame);
         }
-        Drycut.player.seek(120);
+        drycut.player.seek(120);
     }""")
     grown = canvas(page)
-    do(page, "const v = Drycut.player.view; v.zoomAt(0, 0, 2); Drycut.player.seek(0)")
-    do(page, "const v = Drycut.player.view; v.zoomAt(0, 0, 0.5); Drycut.player.seek(120)")
+    do(page, "const v = drycut.player.view; v.zoomAt(0, 0, 2); drycut.player.seek(0)")
+    do(page, "const v = drycut.player.view; v.zoomAt(0, 0, 0.5); drycut.player.seek(120)")
     different = np.abs(canvas(page) - grown).max(axis=2) > 90
     assert different.mean() < 2e-4  # edges that are smoothed twice are a little darker
 
@@ -470,15 +471,15 @@ def test_a_kerf_drawn_bit_by_bit_is_the_kerf_drawn_at_once(open_page: OpenPage) 
 def test_a_piece_that_is_free_drops_and_leaves_a_hole(open_page: OpenPage, motion: str, speed: int) -> None:
     page = opened(open_page, reduced_motion=motion)
     gone, middle = named(page, "gone"), (-500.0, 300.0)
-    do(page, "Drycut.player.seekBlock(5)")
+    do(page, "drycut.player.seekBlock(5)")
     assert near(colour(page, *middle), named(page, "table"))
-    do(page, f"Drycut.player.setSpeed({speed})")  # the fastest is at the end before it has dropped
+    do(page, f"drycut.player.setSpeed({speed})")  # the fastest is at the end before it has dropped
     seen = page.evaluate(
         """async ([px, py]) => {
             const copy = Object.assign(document.createElement("canvas"), { width: 1, height: 1 });
             const pen = copy.getContext("2d", { willReadFrequently: true });
             const seen = [];
-            Drycut.player.play();
+            drycut.player.play();
             for (let since = performance.now(); performance.now() < since + 1500; ) {
                 await new Promise(requestAnimationFrame);
                 pen.drawImage(document.getElementById("table"), -Math.round(px), -Math.round(py));
@@ -486,7 +487,7 @@ def test_a_piece_that_is_free_drops_and_leaves_a_hole(open_page: OpenPage, motio
             }
             return seen;
         }""",
-        page.evaluate(f"[Drycut.player.view.toX({middle[0]}), Drycut.player.view.toY({middle[1]})]"),
+        page.evaluate(f"[drycut.player.view.toX({middle[0]}), drycut.player.view.toY({middle[1]})]"),
     )
     assert near(seen[-1], gone)
     between = [levels for levels in seen if not near(levels, named(page, "table"), 4) and not near(levels, gone, 4)]
@@ -505,9 +506,9 @@ def test_single_steps_show_their_decisions_and_no_text_covers_another(open_page:
     }""")
     page.keyboard.press("m")
     for step in (2004, 2600, 3300, 4020):  # steep, 45° and flat stretches of the arc
-        do(page, f"Drycut.player.seekStep({step})")
+        do(page, f"drycut.player.seekStep({step})")
         page.keyboard.press("z")
-        do(page, f"texts.length = 0; Drycut.player.seekStep({step})")
+        do(page, f"texts.length = 0; drycut.player.seekStep({step})")
         texts = page.evaluate("texts")
         shown = [text for text, *_ in texts]
         assert len(texts) >= 7
@@ -519,6 +520,7 @@ def test_single_steps_show_their_decisions_and_no_text_covers_another(open_page:
 
 def test_lines_of_many_points_are_thinned_by_no_more_than_is_said(open_page: OpenPage) -> None:
     page = opened(open_page)
+    page.evaluate(f"() => {{ window.detail = {exports('detail')}; }}")
     off = page.evaluate("""() => {
         const n = 3000, x = new Float64Array(n), y = new Float64Array(n);
         let seed = 1, toward = 0;
@@ -529,7 +531,7 @@ def test_lines_of_many_points_are_thinned_by_no_more_than_is_said(open_page: Ope
             x[at] = x[at - 1] + 5 * Math.cos(toward);
             y[at] = y[at - 1] + 5 * Math.sin(toward);
         }
-        const line = Drycut.detail(x, y, new Uint8Array(n));
+        const line = detail.detailOf(x, y, new Uint8Array(n));
         const everywhere = { left: -1e9, right: 1e9, bottom: -1e9, top: 1e9 };
         return [0.3, 0.03, 0.003].map((scale) => {
             const kept = [];
@@ -555,7 +557,7 @@ def test_lines_of_many_points_are_thinned_by_no_more_than_is_said(open_page: Ope
 def test_the_quiz_asks_weighs_and_counts(open_page: OpenPage) -> None:
     page = opened(open_page)
     page.get_by_role("button", name="Quiz").click()
-    do(page, "Drycut.player.setSpeed(10000)")
+    do(page, "drycut.player.setSpeed(10000)")
     panel = page.locator("#quiz")
     panel.wait_for()
     stopped = state(page)
@@ -591,7 +593,7 @@ def test_after_a_trip_the_replay_ends_there_and_says_so(open_page: OpenPage) -> 
     with recorded(read_program(scenario.program), scenario, silent) as recording:
         page = opened(open_page, replay_page(recording))
     assert page.get_by_text("A drive tripped: the replay ends there.").is_visible()
-    do(page, "Drycut.player.seek(1e9)")
+    do(page, "drycut.player.seek(1e9)")
     assert state(page)["block"] == 4
     assert out(page, "remaining") == "00:00.00"
 
@@ -652,7 +654,7 @@ def test_a_million_steps_load_soon_and_play_smoothly(open_page: OpenPage) -> Non
     assert len(text.encode()) < 5e6
     page = opened(open_page, text)
     loaded_s = page.evaluate("performance.now() / 1000")  # since the page began to load
-    assert page.evaluate("Drycut.player.seekStep(1e9), Drycut.player.state().step") > 1_000_000
+    assert page.evaluate("drycut.player.seekStep(1e9), drycut.player.state().step") > 1_000_000
     empty, played, script = page.evaluate("""async () => {
         const frame = () => new Promise(requestAnimationFrame);
         const spans = async (count) => {
@@ -676,9 +678,9 @@ def test_a_million_steps_load_soon_and_play_smoothly(open_page: OpenPage) -> Non
             call(now);
             spent.push(performance.now() - since);
         });
-        Drycut.player.seek(5000);
-        Drycut.player.setSpeed(1000);
-        Drycut.player.play();
+        drycut.player.seek(5000);
+        drycut.player.setSpeed(1000);
+        drycut.player.play();
         const played = middle(await spans(60));
         window.requestAnimationFrame = ask;
         return [empty, played, middle(spent)];
@@ -696,9 +698,9 @@ def test_many_blocks_keep_few_lines_in_the_page(open_page: OpenPage) -> None:
 
 
 LOOKS = {
-    "replay-whole": (1000, 700, "en", False, "Drycut.player.seek(120)"),
-    "replay-steps": (1000, 700, "zh", True, "Drycut.player.seekStep(2600)"),
-    "replay-phone": (390, 844, "zh", False, "Drycut.player.seek(60)"),
+    "replay-whole": (1000, 700, "en", False, "drycut.player.seek(120)"),
+    "replay-steps": (1000, 700, "zh", True, "drycut.player.seekStep(2600)"),
+    "replay-phone": (390, 844, "zh", False, "drycut.player.seek(60)"),
 }
 
 

@@ -9,15 +9,13 @@ from typing import get_args
 import pytest
 
 from parser.findings.catalogue import LANGUAGES, Language, Page, Texts, example, instant, page, texts
-from parser.findings.findings import SEVERITIES, Finding, Value
+from parser.findings.codes import CODES
+from parser.findings.findings import Finding, Value
 
 PAGES = resources.files("parser.findings") / "pages"
 TEMPLATES = ("found", "expected", "machine", "hint")
 LINE = 110
-NO_EXAMPLE = {
-    *("3B100", "3B303", "3B402", "3B403", "3B404", "3B405", "3B406", "3B490"),
-    *("3B501", "3B502", "3B503", "3B504", "3B601", "3B602"),
-}
+NO_EXAMPLE = {"3B100", "3B303"} | {code for code, of in CODES.items() if of.check is None}
 
 VALUES: dict[str, dict[str, Value]] = {
     "3B100": {"what": "unreadable-file", "detail": "Permission denied"},
@@ -84,11 +82,16 @@ def columns(line: str) -> int:
 
 def test_every_code_has_a_page_and_every_page_a_code() -> None:
     names = {entry.name.removesuffix(".toml") for entry in PAGES.iterdir() if entry.name.endswith(".toml")}
-    assert names - {"terms"} == set(SEVERITIES) == set(VALUES)
+    assert names - {"terms"} == set(CODES) == set(VALUES)
     assert get_args(Language) == LANGUAGES
 
 
-@pytest.mark.parametrize("code", sorted(SEVERITIES))
+def test_a_code_is_placed_where_its_findings_name_a_place() -> None:
+    with_lengths = {code for code, values in VALUES.items() if {"x_mm", "y_mm"} <= set(values)}
+    assert {code for code, of in CODES.items() if of.placed} == with_lengths - {"3B401"}  # there they are the travel
+
+
+@pytest.mark.parametrize("code", sorted(CODES))
 def test_a_page_has_all_keys_and_no_others(code: str) -> None:
     content = written(code)
     assert set(content) - {"example"} == set(LANGUAGES)
@@ -98,7 +101,7 @@ def test_a_page_has_all_keys_and_no_others(code: str) -> None:
     assert set(content.get("example", {})) <= {"program", "mended", "options"}
 
 
-@pytest.mark.parametrize("code", sorted(SEVERITIES))
+@pytest.mark.parametrize("code", sorted(CODES))
 def test_templates_are_one_line_without_a_stop_and_the_same_in_both_languages(code: str) -> None:
     for name in ("title", *TEMPLATES):
         english, chinese = (getattr(page(code, language), name) for language in LANGUAGES)
@@ -112,7 +115,7 @@ def test_templates_are_one_line_without_a_stop_and_the_same_in_both_languages(co
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("code", sorted(SEVERITIES))
+@pytest.mark.parametrize("code", sorted(CODES))
 def test_texts_fill_and_join(code: str, language: Language) -> None:
     filled = texts(Finding(code, VALUES[code]), language)
     joints = {"en": ("; expected ", "; "), "zh": ("；应为", "；")}[language]
@@ -127,14 +130,14 @@ def test_texts_fill_and_join(code: str, language: Language) -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("code", sorted(SEVERITIES))
+@pytest.mark.parametrize("code", sorted(CODES))
 def test_markdown_is_wrapped_and_in_its_language(code: str, language: Language) -> None:
     for text in page(code, language)[-2:]:
         assert all(columns(line) <= LINE for line in text.splitlines())
         assert any(ord(letter) >= 0x4E00 for letter in text) == (language == "zh")
 
 
-@pytest.mark.parametrize("code", sorted(SEVERITIES))
+@pytest.mark.parametrize("code", sorted(CODES))
 def test_an_example_is_two_programs(code: str) -> None:
     shown = example(code)
     assert (shown is None) == (code in NO_EXAMPLE)
@@ -184,7 +187,7 @@ def test_a_time_into_a_run_is_hours_minutes_and_seconds(t_s: float, text: str) -
     assert instant(t_s) == text
 
 
-@pytest.mark.parametrize("code", ["3B111", "3B999", "terms", "../findings", ""])
+@pytest.mark.parametrize("code", ["3B000", "3B999", "terms", "../findings", ""])
 def test_an_unknown_code_is_a_key_error(code: str) -> None:
     with pytest.raises(KeyError):
         page(code)

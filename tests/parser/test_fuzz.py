@@ -7,7 +7,7 @@ from fuzz import MOST_S, SEED, broken_promises, fuzz_input
 from fuzz_inputs import SEEDS
 from hostile import HOSTILE
 
-from parser.findings.findings import Severity
+from parser.findings.codes import Severity
 from sim.check.batch import Job, check_file
 from sim.check.settings import CheckSettings
 

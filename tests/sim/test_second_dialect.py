@@ -180,7 +180,7 @@ def test_the_controller_adds_an_offset() -> None:
 # What is shown
 
 
-def test_the_report_has_its_facts_and_no_words_of_steps(run: DryRun) -> None:
+def test_the_report_has_its_header_and_no_words_of_steps(run: DryRun) -> None:
     report = build_report(run)
     assert report["program"]["dialect"] == "tiny"
     assert report["program"]["header"] == {"words": 3.0}

@@ -65,6 +65,6 @@ def hostile() -> list[CheckResult]:
     return [
         result(HOSTILE.replace("\0", ""), unknown(HOSTILE), unknown(HOSTILE), excerpts={3: "  " + HOSTILE}),
         result("<stdin>", unknown("x", line=9), unknown("", line=3)),
-        result("::error::a,b:c%.3b", no_file, encoding="", dialect="", coverage=nothing, excerpts={}),
+        result("::error::a,b:c%.3b", no_file, encoding="", dialect="", coverage=nothing, excerpts={}, unreadable=True),
         result("/srv/零件.3b", unknown("字" * 300), excerpts={3: "  " + "字" * 300}, length_um=float("inf")),
     ]

@@ -16,7 +16,8 @@ from fuzz_inputs import fuzzed
 from hostile import HOSTILE
 
 from parser.findings.catalogue import LANGUAGES, texts
-from parser.findings.findings import SEVERITIES, Finding, Severity
+from parser.findings.codes import CODES, Severity
+from parser.findings.findings import Finding
 from parser.text.encoding import decode_text, encode_text
 from parser.text.lines import LineIndex
 from sim.check.batch import Job, check_file
@@ -108,7 +109,7 @@ def _of_findings(result: CheckResult, data: bytes) -> Iterator[str]:
     except ValueError:
         lines = None
     for finding in result.findings:
-        if finding.code not in SEVERITIES:
+        if finding.code not in CODES:
             yield f"{finding.code} is no code"
             continue
         for language in LANGUAGES:

@@ -8,13 +8,13 @@ from runs import plain_scenario, silent
 
 from parser.program import parse_program
 from sim.run.recording import Recording, recorded
+from sim.show.html.bundle import joined
 from sim.show.replay.document import replay_document
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
 ASSETS = ROOT / "sim" / "show" / "replay" / "assets"
-SCRIPTS = ("decode", "decisions", "nearest", "model")
 
 
 def recording_of(text: str, **changes: object) -> Recording:
@@ -29,9 +29,12 @@ def document_of(text: str, **changes: object) -> dict[str, Any]:
 
 def replay_of(open_page: OpenPage, document: dict[str, Any]) -> "Page":
     """A page with the `replay` of a document and the `model` of it."""
-    scripts = "".join(f"<script>{(ASSETS / f'{name}.js').read_text('utf-8')}</script>" for name in SCRIPTS)
-    page = open_page(f"<!doctype html><html lang=en><title>replay</title>{scripts}").page
-    page.evaluate(
-        "async (doc) => { window.replay = await Drycut.decode(doc); window.model = Drycut.model(replay); }", document
-    )
+    scripts = f"const {{ decode }} = {exports('decode')}, {{ modelOf }} = {exports('model')};"
+    page = open_page(f"<!doctype html><html lang=en><title>replay</title><script>{scripts}</script>").page
+    page.evaluate("async (doc) => { window.replay = await decode(doc); window.model = modelOf(replay); }", document)
     return page
+
+
+def exports(module: str) -> str:
+    """What a module of the replay's scripts exports, as an expression for a page."""
+    return joined(ASSETS / f"{module}.js")

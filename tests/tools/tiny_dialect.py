@@ -10,6 +10,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from parser.dialect.reader import Counts, Damage, Marks, Read, Reading, Spelling
+from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import file_order
 from parser.geometry.curves import Floats, curves_between
@@ -62,9 +63,9 @@ class TinyReader:
             spelling=Spelling(clockwise="right", counter_clockwise="left", end="end"),
             is_drawing=False,
             not_asked={
-                "check-blocks": "reason-no-words",
-                "check-printed-ends": "reason-no-prints",
-                "check-header": "reason-no-header",
+                Check.BLOCKS: "reason-no-words",
+                Check.PRINTED_ENDS: "reason-no-prints",
+                Check.HEADER: "reason-no-header",
             },
         )
         toolpath = _toolpath(text, lines, blocks, tuple(labels), tuple(stops))

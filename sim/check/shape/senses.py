@@ -1,7 +1,8 @@
 """Arcs that look reversed: SR written for NR, or the other way.
 
 Such an arc keeps its ends and runs round the other side of the circle. Its tangents at both ends point the other way
-exactly, so a smooth joint with a neighbour becomes a cusp; no closure sees it (docs/3b.md §4).
+exactly, so a smooth joint with a neighbour becomes a cusp; no closure sees it (docs/3b.md §4). Where it is a part of a
+circle that is cut in several arcs, one part of the circle is cut there and back and the rest never.
 """
 
 from typing import NamedTuple
@@ -19,6 +20,8 @@ _LEAST_CUSP_RAD = np.radians(172.0)
 _ROUNDING_UM = 3.0  # by which ends and centres in whole µm tilt the tangents of short blocks
 _NO_WORSE_RAD = np.radians(85.0)
 _SAME_CIRCLE_UM = 10.0
+# Of circles cut there and back, at most: whole µm may miss as much where the counted axis stands still.
+_SLACK_UM, _SLACK_RAD = 20.0, 0.1
 
 
 class ReversedArcs(NamedTuple):
@@ -73,6 +76,35 @@ def reversed_arcs(toolpath: Toolpath, contour_of_row: Ints) -> ReversedArcs:
             row = _suspects(toolpath, chain, ways)
     sweep = toolpath.sweep_rad[row]
     return ReversedArcs(row, toolpath.is_major[row], sweep, sweep - 2.0 * np.pi * np.sign(sweep))
+
+
+def retraced_arcs(toolpath: Toolpath, contour_of_row: Ints) -> Ints:
+    """Rows (k,) of the first arcs that run back, where arcs of one full turn in all only go there and back.
+
+    Two passes there and back run round twice, and a slit that happens to be half a circle is not told from a fault.
+
+    Parameters
+    ----------
+    contour_of_row
+        (n,) contour number of each row, −1 on jumps; see `parser.shape.contours`.
+    """
+    row = np.flatnonzero(toolpath.is_arc & (contour_of_row >= 0))
+    if len(row) < 2:
+        return row[:0]
+    center, radius, sweep = toolpath.center_um[row], toolpath.radius_um[row], toolpath.sweep_rad[row]
+    off = np.fmax(np.hypot(*np.diff(center, axis=0).T), np.abs(np.diff(radius)))
+    follows = (np.diff(row) == 1) & (np.diff(contour_of_row[row]) == 0) & (off <= _SAME_CIRCLE_UM)
+    begins = np.append(True, ~follows)
+    of = np.cumsum(begins) - 1
+    turns_round = ~begins & (np.sign(sweep) != np.sign(np.roll(sweep, 1)))
+    arc_um = sweep * radius
+    first = np.flatnonzero(begins)
+    slack = np.minimum(_SLACK_UM, _SLACK_RAD * radius[first])
+    there_and_back = np.abs(np.bincount(of, arc_um)) <= slack
+    one_turn = np.abs(np.bincount(of, np.abs(arc_um)) - 2.0 * np.pi * radius[first]) <= slack
+    once = np.bincount(of, turns_round) == 1
+    found: Ints = row[turns_round & (there_and_back & one_turn & once)[of]]
+    return found
 
 
 def _chain(toolpath: Toolpath, contour_of_row: Ints) -> _Chain:

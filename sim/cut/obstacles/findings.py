@@ -1,27 +1,23 @@
 """Findings of things in the way: clamps that the wire or its arm touches, and cuts that leave the workpiece."""
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+
+import numpy as np
 
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding, Value
+from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.units import mm
-from sim.cut.obstacles.bodies import Pieces, grown, swept
-from sim.cut.obstacles.leaving import leavings
+from sim.cut.obstacles.bodies import Pieces, grown, sides, swept
 from sim.cut.obstacles.touches import Touch, Way, touches, way_of
+from sim.setup.obstacles import Outline
 from sim.setup.scenario import Scenario
 from sim.table.trace import Trace
 
-
-class _Met(NamedTuple):
-    """Something met on a way: its code, where, and what the finding says besides."""
-
-    code: str
-    way: Way
-    touch: Touch
-    values: dict[str, Value]
+ASTRAY_UM = 3.0
+"""A wire this near to the edge of the work runs along it: steps and table stray from the path by as much."""
 
 
 def obstacle_findings(program: Program, trace: Trace, contours: Sequence[Contour], scenario: Scenario) -> list[Finding]:
@@ -35,11 +31,10 @@ def obstacle_findings(program: Program, trace: Trace, contours: Sequence[Contour
         return []
     wire = way_of(trace.wire_um, trace.row)
     cut = wire.kept(~program.toolpath.is_jump[trace.row[wire.ends[:, 1]]])
-    met = [*_touched(trace, cut, scenario), *_left(trace, cut, contours, scenario)]
-    return [_finding(program, trace, one) for one in met]
+    return [*_touched(program, trace, cut, scenario), *_left(program, trace, cut, contours, scenario)]
 
 
-def _touched(trace: Trace, cut: Way, scenario: Scenario) -> Iterator[_Met]:
+def _touched(program: Program, trace: Trace, cut: Way, scenario: Scenario) -> Iterator[Finding]:
     """First touch of each body on each clamp."""
     arm_um = scenario.machine.arm_um
     table = way_of(trace.table_um, trace.row) if arm_um is not None else cut
@@ -49,21 +44,70 @@ def _touched(trace: Trace, cut: Way, scenario: Scenario) -> Iterator[_Met]:
             bodies["arm"] = table, swept(clamp.outline_um, arm_um)
         for body, (way, pieces) in bodies.items():
             for touch in touches(way, pieces):
-                yield _Met("3B404", way, touch, {"body": body, "name": clamp.name})
+                values: dict[str, Value] = {"body": body, "name": clamp.name, **_where(trace, way, touch)}
+                yield at_block(program.toolpath, program.lines, "3B404", _row(trace, touch), **values)
                 break
 
 
-def _left(trace: Trace, cut: Way, contours: Sequence[Contour], scenario: Scenario) -> Iterator[_Met]:
+def _left(
+    program: Program, trace: Trace, cut: Way, contours: Sequence[Contour], scenario: Scenario
+) -> Iterator[Finding]:
     if scenario.work_um is not None:
         for touch in leavings(scenario.work_um, trace, cut, contours):
-            yield _Met("3B405", cut, touch, {})
+            yield at_block(program.toolpath, program.lines, "3B405", _row(trace, touch), **_where(trace, cut, touch))
 
 
-def _finding(program: Program, trace: Trace, met: _Met) -> Finding:
-    """Finding of what was met, with the place of the wire then, mm, and the time, s."""
-    sample, share = met.touch
-    place, time = met.way.place_um[sample - 1 : sample + 1], trace.t_s[sample - 1 : sample + 1]
+def _row(trace: Trace, touch: Touch) -> int:
+    return int(trace.row[touch.sample])
+
+
+def _where(trace: Trace, way: Way, touch: Touch) -> dict[str, float]:
+    """Place of the wire at a touch, mm, and the time, s."""
+    sample, share = touch
+    place, time = way.place_um[sample - 1 : sample + 1], trace.t_s[sample - 1 : sample + 1]
     x, y = mm(place[0] + share * (place[1] - place[0])).tolist()
-    values: dict[str, Value] = {"x_mm": x, "y_mm": y, "t_s": float(time[0] + share * (time[1] - time[0]))}
-    row = int(trace.row[sample])
-    return at_block(program.toolpath, program.lines, met.code, row, **met.values, **values)
+    return {"x_mm": x, "y_mm": y, "t_s": float(time[0] + share * (time[1] - time[0]))}
+
+
+def leavings(outline_um: Outline, trace: Trace, cut: Way, contours: Sequence[Contour]) -> Iterator[Touch]:
+    """First place of each contour at which the wire's centre leaves the work; `cut` is its way where it cuts.
+
+    A lead-out, the last block, leaves no finding; neither does the first block of a contour that begins outside.
+    """
+    work, edges = grown(outline_um, 0.0), sides(outline_um, ASTRAY_UM)
+    for contour in contours:
+        way = _of_contour(cut, trace, contour)
+        if len(way.ends):
+            yield from _first_out(way, trace, contour, work, edges)
+
+
+def _of_contour(cut: Way, trace: Trace, contour: Contour) -> Way:
+    row = trace.row[cut.ends[:, 1]]
+    return cut.kept((row >= contour.first - 1) & (row <= contour.last - 1))
+
+
+def _first_out(way: Way, trace: Trace, contour: Contour, work: Pieces, edges: Pieces) -> Iterator[Touch]:
+    """The first leaving that counts, if any: where the edge was crossed before the wire was clear of it outside."""
+    begins_inside = inside = work.hold(_at(way.place_um, int(way.ends[0, 0])))
+    quiet = {contour.last - 1} if begins_inside else {contour.first - 1, contour.last - 1}
+    crossing: Touch | None = None
+    for sample, _ in touches(way, edges):
+        start, end = _at(way.place_um, sample - 1), _at(way.place_um, sample)
+        holds = work.hold(end)
+        if not holds and work.hold(start):
+            crossing = Touch(sample, 1.0 - work.entered_at(end, start))
+        if edges.hold(end):
+            continue
+        if (
+            (inside and not holds and crossing is not None)
+            # A block may end on the edge; then the next one leaves.
+            and quiet.isdisjoint(trace.row[[crossing.sample, sample]].tolist())
+        ):
+            yield crossing
+            return
+        inside = holds
+
+
+def _at(place_um: Floats, sample: int) -> tuple[float, float]:
+    x, y = np.asarray(place_um[sample]).tolist()
+    return x, y

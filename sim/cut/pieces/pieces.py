@@ -9,8 +9,7 @@ from parser.toolpath import Point
 from sim.cut.kerf.region import Kerf
 from sim.cut.kerf.ways import Passage, behind
 from sim.cut.pieces.bridges import Bridge, Older, began_in, bridge_of, came_from_inside, older_place
-from sim.cut.pieces.cut_on import cut_on_um
-from sim.cut.pieces.frees import Moment, Question, moment_of, parted
+from sim.cut.pieces.frees import Moment, Question, cut_on_um, moment_of, parted
 from sim.setup.obstacles import Outline
 
 _CRUMB_MM2 = 0.001  # some 30 µm square, or cusps where the wire leaves its kerf: nothing that anyone picks up

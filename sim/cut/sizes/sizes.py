@@ -15,13 +15,13 @@ from sim.cut.kerf.region import Kerf
 from sim.cut.pieces.frees import parted
 from sim.cut.pieces.kept_edges import Kept, edge_places, kept_edges
 from sim.cut.pieces.pieces import Pieces, stock_of
-from sim.cut.sizes.circles import fitted_circles
 from sim.cut.sizes.parallels import Pairs, facing_pairs
 from sim.setup.obstacles import Outline
 
 _LEAST_SWEEP_RAD = np.radians(30.0)  # over less, 1 µm off the edge moves the radius by 30 µm and more
 _MOST_PAIRS = 50  # more than anyone reads
 _FEWEST = 4  # places of a circle that can tell its form
+_ROUNDS = 4  # of Gauss and Newton; each squares the error, which begins at some µm in mm
 
 
 class BoxSize(NamedTuple):
@@ -158,3 +158,31 @@ def _within(edges: Edges, row: int, along_um: Floats, span_um: tuple[float, floa
     """Inner stations of a row that the wire cut and that lie in a span along the other line."""
     found = (edges.row == row) & edges.inner & ~np.isnan(edges.left_um)
     return np.flatnonzero(found & (along_um >= span_um[0]) & (along_um <= span_um[1]))
+
+
+class Fits(NamedTuple):
+    """Circles (k,) with centres (k, 2), and how far the places reach inside and outside of them together, all µm."""
+
+    center_um: Floats
+    radius_um: Floats
+    form_um: Floats
+
+
+def fitted_circles(place_um: Floats, of: Ints, center_um: Floats) -> Fits:
+    """Circles that lie nearest to the places (m, 2) of each arc, by the sum of squares of the distances.
+
+    `of` (m,) tells which of the k arcs a place is of, never falling and each occurring; `center_um` (k, 2) is near the
+    centres. Gauss-Newton on the distances from the circle: r ≈ R + x cos φ + y sin φ.
+    """
+    first, center = np.flatnonzero(np.diff(of, prepend=-1)), center_um
+    for _ in range(_ROUNDS):
+        out = place_um - center[of]
+        distance = np.hypot(out[:, 0], out[:, 1])
+        columns = np.column_stack([np.ones(len(of)), out / distance[:, None]])
+        normal = np.add.reduceat(columns[:, :, None] * columns[:, None, :], first, axis=0)
+        right = np.add.reduceat(columns * distance[:, None], first, axis=0)
+        solved = np.linalg.solve(normal, right[:, :, None])[:, :, 0]
+        center = center + solved[:, 1:]
+    distance = np.hypot(*(place_um - center[of]).T)
+    form = np.maximum.reduceat(distance, first) - np.minimum.reduceat(distance, first)
+    return Fits(center, np.add.reduceat(distance, first) / np.diff(first, append=len(of)), form)

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from parser.dialect.reader import Fact
+from parser.dialect.reader import HeaderValue
 from parser.findings.catalogue import term, texts
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
@@ -34,7 +34,7 @@ def build_report(run: DryRun) -> dict[str, Any]:
             "provenance": scenario.provenance,
             "encoding": run.program.encoding,
             "dialect": run.program.reading.dialect,
-            "header": {key: _fact(fact) for key, fact in run.program.facts.items()},
+            "header": {key: _header_value(value) for key, value in run.program.header.items()},
         },
         "machine": {"name": scenario.machine.name, "start_um": [rounded(place) for place in scenario.start_um]},
         "wire": {
@@ -93,11 +93,11 @@ def _finding(finding: Finding) -> dict[str, Any]:
     }
 
 
-def _fact(fact: Fact) -> Any:
+def _header_value(value: HeaderValue) -> Any:
     """What a header says of one thing; None where it does not say it."""
-    if isinstance(fact, tuple):
-        return [rounded(one) for one in fact]
-    return rounded(fact) if isinstance(fact, float) else fact or None
+    if isinstance(value, tuple):
+        return [rounded(one) for one in value]
+    return rounded(value) if isinstance(value, float) else value or None
 
 
 def _coverage(coverage: Coverage) -> dict[str, Any]:

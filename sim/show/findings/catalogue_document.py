@@ -1,10 +1,15 @@
-"""docs/findings.md and docs/findings.zh.md, all of them made from the pages of the catalogue."""
+"""What the documents say of the codes.
+
+docs/findings.md and docs/findings.zh.md are made from the pages of the catalogue. In the table of checks of
+docs/check.md the codes of each check are renewed, and in README.md how many codes there are.
+"""
 
 import re
 from collections.abc import Mapping
 from pathlib import Path
 
 from parser.findings.catalogue import Language, page
+from parser.findings.codes import CODES
 from sim.check.pages import layers, page_text, page_title, severity_word
 
 NAMES: Mapping[Language, str] = {"en": "findings.md", "zh": "findings.zh.md"}
@@ -65,6 +70,8 @@ part.3b:2:14: 错误[3B204]: 第 2 段：本段按 X 计数，走步终点离理
 """,
 }
 _PATH = re.compile(r"docs/(\w+\.md)")
+_CHECK_ROW = re.compile(r"^(\| `(check-[\w-]+)` \|[^|]*\| )[^|]*( \|)", re.MULTILINE)
+_COUNT = re.compile(r"There are \d+ codes")
 _HEADS: Mapping[Language, tuple[str, ...]] = {
     "en": ("code", "severity", "title", "中文"),
     "zh": ("代码", "级别", "名称", "English"),
@@ -95,11 +102,21 @@ def _table(codes: tuple[str, ...], language: Language) -> str:
     return "".join([head, "|---" * len(_HEADS[language]) + "|\n", *lines])
 
 
-def write_documents(folder: Path) -> None:
-    """Write the documents of all languages into a folder."""
-    for language, name in NAMES.items():
-        (folder / name).write_text(findings_document(language), encoding="utf-8", newline="\n")
+def documents(root: Path) -> dict[Path, str]:
+    """Every document of a folder of the project that tells of the codes, as it should be."""
+    check, readme = root / "docs" / "check.md", root / "README.md"
+    return {
+        **{root / "docs" / name: findings_document(language) for language, name in NAMES.items()},
+        check: _CHECK_ROW.sub(_check_row, check.read_text(encoding="utf-8")),
+        readme: _COUNT.sub(f"There are {len(CODES)} codes", readme.read_text(encoding="utf-8")),
+    }
+
+
+def _check_row(row: re.Match[str]) -> str:
+    begin, check, end = row.groups()
+    return begin + ", ".join(code for code, of in CODES.items() if of.check == check) + end
 
 
 if __name__ == "__main__":
-    write_documents(Path("docs"))
+    for path, text in documents(Path()).items():
+        path.write_text(text, encoding="utf-8", newline="\n")

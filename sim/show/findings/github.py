@@ -3,7 +3,8 @@
 from collections.abc import Iterable, Iterator, Mapping
 
 from parser.findings.catalogue import Language, page
-from parser.findings.findings import Finding, Severity
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
 from parser.text.encoding import printable
 from sim.check.result import CheckResult
 from sim.show.findings.options import Options

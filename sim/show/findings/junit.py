@@ -11,11 +11,11 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from parser.findings.catalogue import Language, term
+from parser.findings.codes import CODES
 from parser.findings.findings import Finding
 from parser.text.excerpt import place
 from sim import __version__
 from sim.check.result import CheckResult, CheckState
-from sim.show.findings.checks import CHECK_OF
 from sim.show.findings.options import Options
 from sim.show.findings.totals import BLOCKS
 from sim.show.findings.wording import message, reason, with_hint, word
@@ -76,7 +76,7 @@ def _cases(result: CheckResult) -> list[_Case]:
     failures: dict[str, list[Finding]] = {check.name: [] for check in result.coverage.checks}
     for finding in result.findings:
         if result.fails(finding.severity):
-            failures.setdefault(CHECK_OF.get(finding.code, finding.code), []).append(finding)
+            failures.setdefault(CODES[finding.code].check or finding.code, []).append(finding)
     states = {check.name: check for check in result.coverage.checks}
     return [_Case(states.get(name, CheckState(name)), tuple(found)) for name, found in failures.items()]
 

@@ -1,18 +1,33 @@
-"""SARIF 2.1.0 (OASIS Standard, errata 01), which code hosts and editors read; § names its sections."""
+"""SARIF 2.1.0 (OASIS Standard, errata 01), which code hosts and editors read; § names its sections.
 
+The log names the tool with a rule for each code, made from its page, and a notification for each check; then the
+results: findings with their places, fingerprints and mends.
+"""
+
+import hashlib
 import json
+import os
+import re
+from collections import Counter
 from collections.abc import Iterable, Iterator
+from pathlib import PurePath
 from typing import Any
+from urllib.parse import quote
 
-from parser.findings.catalogue import Language
+from parser.findings.catalogue import Language, page, term
+from parser.findings.codes import CODES, Check
+from parser.findings.findings import Edit, Finding
+from sim import __version__
 from sim.check.result import CheckResult
 from sim.show.findings.options import Options
-from sim.show.findings.sarif_result import artifact_location, results_of
-from sim.show.findings.sarif_rules import driver, said
-from sim.show.findings.tidy import joined, tidy
-from sim.show.findings.wording import reason
+from sim.show.findings.tidy import clean, joined, spot, tidy
+from sim.show.findings.wording import reason, with_hint
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+
+_RULES = tuple(sorted(CODES))
+"""Codes in the order of the rules: a result names its rule by the index too."""
+_RULE_INDEX = {code: index for index, code in enumerate(_RULES)}
 
 # Names of the IANA registry, which §3.24.9 wants.
 _CHARSETS = {"utf-8": "UTF-8", "utf-8-sig": "UTF-8", "utf-16": "UTF-16", "gb18030": "GB18030", "latin-1": "ISO-8859-1"}
@@ -22,7 +37,7 @@ def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
     """One log of one run; files and what went wrong in the checks themselves stand behind the results."""
     run = _Run(options.language)
     head = {
-        "tool": {"driver": driver(options.language)},
+        "tool": {"driver": _driver(options.language)},
         "language": options.language,
         "columnKind": "unicodeCodePoints",
     }
@@ -46,7 +61,7 @@ class _Run:
             self.artifacts.append(_artifact(result))
             self._notices += self._incomplete(result, index)
             self._successful &= not result.unreadable
-            yield from results_of(result, index, self._language)
+            yield from _results(result, index, self._language)
 
     def invocation(self) -> dict[str, Any]:
         """The run (§3.20): it succeeded where every file was a program that could be read."""
@@ -58,14 +73,123 @@ class _Run:
                 yield {
                     "descriptor": {"id": check.name},
                     "level": "warning",
-                    "message": {"text": said(reason(check, self._language))},
-                    "locations": [{"physicalLocation": {"artifactLocation": artifact_location(result.name, index)}}],
+                    "message": {"text": _said(reason(check, self._language))},
+                    "locations": [{"physicalLocation": {"artifactLocation": _location(result.name, index)}}],
                 }
 
 
 def _artifact(result: CheckResult) -> dict[str, Any]:
     charset = {"encoding": _CHARSETS[result.encoding]} if result.encoding in _CHARSETS else {}
-    return {"location": artifact_location(result.name), "roles": ["analysisTarget"], **charset}
+    return {"location": _location(result.name), "roles": ["analysisTarget"], **charset}
+
+
+def _driver(language: Language) -> dict[str, Any]:
+    """The tool component (§3.19)."""
+    return {
+        "name": "drycut",
+        "version": __version__,
+        "semanticVersion": __version__,
+        "language": language,
+        "rules": [_rule(code, language) for code in _RULES],
+        "notifications": [{"id": name, "shortDescription": {"text": _said(term(name, language))}} for name in Check],
+    }
+
+
+def _said(text: str) -> str:
+    """A plain text message: braces doubled (§3.11.5), and nothing in it taken for a link (§3.11.6)."""
+    return _literal(text).replace("](", "] (")
+
+
+def _literal(text: str) -> str:
+    return text.replace("{", "{{").replace("}", "}}")
+
+
+def _rule(code: str, language: Language) -> dict[str, Any]:
+    of = page(code, language)
+    markdown = f"{of.why.strip()}\n\n{of.mend.strip()}"
+    first, *_ = of.why.strip().split("\n\n")
+    return {
+        "id": code,
+        "name": _identifier(page(code).title),
+        "shortDescription": {"text": _said(of.title)},
+        "fullDescription": {"text": _said(" ".join(first.split()))},
+        "help": {"text": _said(markdown), "markdown": _literal(markdown)},
+        "defaultConfiguration": {"level": CODES[code].severity.value},
+    }
+
+
+def _identifier(title: str) -> str:
+    """``wrong count axis`` as ``WrongCountAxis``, the same in every language."""
+    return "".join(part[:1].upper() + part[1:] for part in re.split(r"\W+", title))
+
+
+def _results(result: CheckResult, index: int, language: Language) -> Iterator[dict[str, Any]]:
+    """The results (§3.27) of one file, which is the artifact of this index."""
+    seen: Counter[str] = Counter()
+    where = _location(result.name, index)
+    for finding in result.findings:
+        message = _said(with_hint(finding, language))
+        entry = {
+            "ruleId": finding.code,
+            "ruleIndex": _RULE_INDEX[finding.code],
+            "level": finding.severity.value,
+            "message": {"text": message},
+            "locations": [{"physicalLocation": {"artifactLocation": where, **_region(result, finding)}}],
+            "partialFingerprints": {"drycutLine/v1": _fingerprint(result, finding, seen)},
+        }
+        if finding.edits:
+            entry["fixes"] = [{"artifactChanges": [{"artifactLocation": where, "replacements": _mend(finding)}]}]
+        yield entry
+
+
+def _location(name: str, index: int | None = None) -> dict[str, Any]:
+    """Place of a file (§3.4): relative to the root of the sources, which the reader of the log knows, or absolute."""
+    path = PurePath(_encodable(name))
+    by_index = {} if index is None else {"index": index}
+    if path.is_absolute():
+        return {"uri": path.as_uri(), **by_index}
+    return {"uri": quote(os.fsencode(path.as_posix()), safe="/"), "uriBaseId": "%SRCROOT%", **by_index}
+
+
+def _encodable(name: str) -> str:
+    # A name in another encoding than the system's keeps its bytes (PEP 383); half a character of Windows has none.
+    try:
+        os.fsencode(name)
+    except UnicodeEncodeError:
+        return clean(name)
+    return name
+
+
+def _region(result: CheckResult, finding: Finding) -> dict[str, Any]:
+    at = spot(finding, result.excerpts)
+    if not at.line:
+        return {}
+    region: dict[str, Any] = {"startLine": at.line}
+    if at.column:
+        region |= {"startColumn": at.column, "endLine": at.line, "endColumn": at.end_column}
+    excerpt = result.excerpts.get(at.line)
+    if excerpt is not None:
+        # §3.30.13: the snippet is the region's own text.
+        first, past = (at.column - 1, at.end_column - 1) if at.column else (0, len(excerpt))
+        region["snippet"] = {"text": excerpt[first:past]}
+    return {"region": region}
+
+
+def _mend(finding: Finding) -> list[dict[str, Any]]:
+    return [_replacement(edit) for edit in finding.edits]
+
+
+def _replacement(edit: Edit) -> dict[str, Any]:
+    deleted = {"charOffset": edit.first, "charLength": edit.past - edit.first}
+    return {"deletedRegion": deleted, "insertedContent": {"text": edit.text}}
+
+
+def _fingerprint(result: CheckResult, finding: Finding, seen: Counter[str]) -> str:
+    """Digest of the code and the line's text, and which of several alike: it stays when lines are put in above."""
+    line = " ".join(result.excerpts.get(finding.line, "").split())
+    key = f"{finding.code}\n{line}"
+    seen[key] += 1
+    return hashlib.sha256(f"{key}\n{seen[key]}".encode(errors="replace")).hexdigest()[:32]
 
 
 def _lines(values: list[dict[str, Any]]) -> str:

@@ -1,18 +1,22 @@
-"""Text for people, as a good compiler writes it: place, code, message, the source line with a caret, a hint."""
+"""Text for people, as a good compiler writes it: place, code, message, the source line with a caret, a hint.
 
-from collections.abc import Iterable, Iterator, Mapping
+A table counts what was found in all files together, in plain columns.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import click
 
-from parser.findings.catalogue import Language, texts
-from parser.findings.findings import Finding, Severity
+from parser.findings.catalogue import Language, length, page, texts
+from parser.findings.codes import CODES, Severity
+from parser.findings.findings import Finding
 from parser.text.encoding import printable
-from parser.text.excerpt import caret_lines, place
+from parser.text.excerpt import caret_lines, cells, place
 from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import spot
 from sim.show.findings.totals import Totals
-from sim.show.findings.wording import coverage, message, summary, word
+from sim.show.findings.wording import coverage, message, summary, verdicts, word
 
 _COLOURS: Mapping[str, str] = {
     Severity.ERROR: "red",
@@ -22,6 +26,7 @@ _COLOURS: Mapping[str, str] = {
     "fail": "red",
     "incomplete": "yellow",
 }
+_GAP = "  "  # between the columns of the table
 
 
 def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
@@ -32,9 +37,7 @@ def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
     if totals.files.total() > 1 and not options.quiet:
         yield _styled(summary(totals, options.language), options, bold=True) + "\n"
     if options.stats:
-        from sim.show.findings.stats import table  # noqa: PLC0415 - few ask for it
-
-        yield table(totals, options.language)
+        yield _table(totals, options.language)
 
 
 def _file(result: CheckResult, options: Options) -> Iterator[str]:
@@ -74,3 +77,48 @@ def _hint(finding: Finding, gutter: str, language: Language) -> Iterator[str]:
 
 def _styled(text: str, options: Options, fg: str | None = None, bold: bool | None = None) -> str:
     return click.style(text, fg=fg, bold=bold) if options.colour else text
+
+
+def _table(totals: Totals, language: Language) -> str:
+    """Counts by code with titles, then files, blocks, steps and path; the lines end with a line feed."""
+    lines = [*_codes(totals, language), *_sums(totals, language)]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _codes(totals: Totals, language: Language) -> list[str]:
+    rows = [
+        (code, word(CODES[code].severity, language), str(count), page(code, language).title)
+        for code, count in sorted(totals.codes.items())
+    ]
+    head = (word("code", language), word("severity", language), word("count", language), word("title", language))
+    return _columns([head, *rows], right=(2,)) if rows else []
+
+
+def _sums(totals: Totals, language: Language) -> list[str]:
+    files, by_verdict = totals.files.total(), verdicts(totals, language)
+    rows = [
+        (word("total files", language), f"{files:,} ({by_verdict})" if by_verdict else f"{files:,}"),
+        (word("total blocks", language), word("blocks", language).format(**_numbers(totals))),
+        (word("total steps", language), f"{totals.steps:,}"),
+        (word("total length", language), length(totals.length_um)),
+    ]
+    return _columns(rows)
+
+
+def _numbers(totals: Totals) -> dict[str, str]:
+    return {name: f"{totals.blocks[name]:,}" for name in ("found", "read", "decoded", "stepped")}
+
+
+def _columns(rows: Sequence[tuple[str, ...]], right: tuple[int, ...] = ()) -> list[str]:
+    widths = [max(map(cells, column)) for column in zip(*rows, strict=True)]
+    return [
+        _GAP.join(
+            _padded(text, width, index in right) for index, (text, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in rows
+    ]
+
+
+def _padded(text: str, width: int, right: bool) -> str:
+    blanks = " " * (width - cells(text))
+    return blanks + text if right else text + blanks

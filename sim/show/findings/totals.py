@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import get_args
 
-from parser.findings.findings import SEVERITIES, Severity
+from parser.findings.codes import CODES, Severity
 from sim.check.result import CheckResult, Verdict
 
 BLOCKS = ("found", "read", "decoded", "stepped")
@@ -34,7 +34,7 @@ class Totals:
     def by_severity(self) -> dict[Severity, int]:
         """Findings of each severity, the worst first."""
         return {
-            severity: sum(count for code, count in self.codes.items() if SEVERITIES[code] is severity)
+            severity: sum(count for code, count in self.codes.items() if CODES[code].severity is severity)
             for severity in Severity
         }
 

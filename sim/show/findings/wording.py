@@ -4,7 +4,8 @@ from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
 from parser.findings.catalogue import Language, term, texts
-from parser.findings.findings import Finding, Severity
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
 from sim.check.result import CheckResult, CheckState, State
 from sim.show.findings.totals import Totals
 

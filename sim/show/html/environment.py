@@ -7,6 +7,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from sim import __version__
+from sim.show.html.bundle import joined
 from sim.show.html.script_json import script_json
 from sim.show.html.theme import theme_css
 
@@ -16,8 +17,9 @@ _SHARED = Path(__file__).with_name("assets")
 def rendered(assets: Path, template: str, **values: Any) -> str:
     """Page of a template in the folder `assets`, which may extend ``base.html.j2`` and import ``words.html.j2``.
 
-    In a template ``{{ inlined("page.js") }}`` is a style sheet or script of the folder as it stands, and
-    ``{{ value | script_json }}`` data for a script; all else is escaped.
+    In a template ``{{ inlined("page.css") }}`` is a style sheet of the folder as it stands, ``{{ joined("main.js") }}``
+    its module with all that this imports (see `sim.show.html.bundle`), and ``{{ value | script_json }}`` data for a
+    script; all else is escaped.
     """
     environment = Environment(
         loader=FileSystemLoader([assets, _SHARED]),
@@ -28,7 +30,12 @@ def rendered(assets: Path, template: str, **values: Any) -> str:
         keep_trailing_newline=True,
     )
     environment.filters["script_json"] = script_json
-    environment.globals |= {"inlined": _Inlined(environment), "drycut_version": __version__, "theme_css": theme_css}
+    environment.globals |= {
+        "inlined": _Inlined(environment),
+        "joined": lambda name: Markup(joined(assets / name)),  # noqa: S704 - as in _Inlined
+        "drycut_version": __version__,
+        "theme_css": theme_css,
+    }
     return environment.get_template(template).render(**values)
 
 

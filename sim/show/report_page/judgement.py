@@ -3,7 +3,8 @@
 from collections import Counter
 
 from parser.findings.catalogue import LANGUAGES, texts
-from parser.findings.findings import Finding, Severity
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
 from sim.run.dryrun import DryRun, verdict
 from sim.setup.quiz import Said
 from sim.show.words.report import catalogued, lasting, listed, numbered, said

@@ -86,7 +86,7 @@ def _tables(run: DryRun, report: Mapping[str, Any]) -> list[Table]:
 def _expectation_table(run: DryRun) -> Table:
     """What the scenario expects, and whether the run meets it: those that it does not are findings."""
     expected: tuple[Expectation, ...] = run.scenario.expect
-    missed = {finding.values["path"] for finding in run.findings if finding.code == "3B490"}
+    missed = {one.expected.path for one in run.missed}
     return Table(
         "expectations",
         (

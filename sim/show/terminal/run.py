@@ -8,7 +8,8 @@ from rich.table import Table
 from rich.text import Text
 
 from parser.findings.catalogue import texts
-from parser.findings.findings import Finding, Severity
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
 from parser.text.encoding import printable
 from parser.text.excerpt import place, with_caret
 from sim.run.dryrun import DryRun, verdict

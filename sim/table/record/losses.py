@@ -8,6 +8,8 @@ from parser.toolpath import Axis
 from sim.setup.machine.table_model import TableModel
 from sim.table.record.travelled import Travelled
 
+LossKind = Literal["lost-steps", "trip"]
+
 
 class Loss(NamedTuple):
     """A loss of one axis in one block.
@@ -31,7 +33,7 @@ class Loss(NamedTuple):
         Place of the table then, in program coordinates.
     """
 
-    kind: Literal["lost-steps", "trip"]
+    kind: LossKind
     axis: Axis
     row: int
     t_s: float
@@ -76,7 +78,7 @@ class LossTally:
         return tuple(sorted(losses, key=lambda loss: (loss.t_s, loss.axis)))
 
 
-def _loss(kind: Literal["lost-steps", "trip"], travelled: Travelled, tick: int, axis: int, amount_um: float) -> Loss:
+def _loss(kind: LossKind, travelled: Travelled, tick: int, axis: int, amount_um: float) -> Loss:
     x_um, y_um = travelled.place_um[tick].tolist()
     t_s, row = float(travelled.t_s[tick]), int(travelled.row[tick])
     return Loss(kind, Axis(axis), row, t_s, amount_um, x_um, y_um)

@@ -1,10 +1,4 @@
-"""Lanes: a slab is cut into lanes, and all are run side by side, each by a table of its own in one engine.
-
-How a lane begins is not known before the one ahead of it has been run. But a table forgets: of its ringing nothing is
-left after a few milliseconds, nor of what friction held after the next steps. So each lane begins with the slides where
-the motors leave them, and this is compared with what the lane ahead ends with; lanes that began wrong are run again
-from there, until all agree.
-"""
+"""Lanes: time slices of a slab, run side by side, each by a table of its own in one engine (see `sim.table.solve`)."""
 
 import numpy as np
 

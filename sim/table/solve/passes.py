@@ -1,4 +1,4 @@
-"""Passes over the lanes of a slab, until each begins as the one ahead of it ends."""
+"""Passes over the lanes of a slab: run them, match each with the lane ahead, run again those that do not match."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,13 +15,13 @@ LANE_TICKS = 256
 AGREED_UM = 0.01
 """Lanes agree where the places differ by no more than this, and the swings that velocities make, v / ω."""
 UNDECIDED_UM = 0.5
-"""The same, besides half the backlash, once passes bring them no nearer: some tables hold on to chance.
+"""Once passes bring lanes no nearer to each other, they agree within this and half the backlash.
 
-A slide that steps throw about in its play, or that friction holds where it happened to be thrown, may go on in one of
-several ways, whichever it began with. Half a step of that is not worth a pass for each lane.
+Some tables never forget how they began: steps throw a slide about in its play, or friction holds it where it was
+thrown. Then several motions fit the same steps. They differ by half a step, which is not worth a pass for each lane.
 """
 STALLED = 0.98
-"""Share of the wrong lanes that a pass leaves wrong where it brought nothing."""
+"""A pass that leaves more than this share of its lanes wrong has brought nothing."""
 PATIENCE = 6
 """Passes that may bring nothing."""
 
@@ -42,7 +42,7 @@ def run_slab(slab: Slab, state: State, table: Table) -> Lanes:
     undecided_um = UNDECIDED_UM + drives.slack_um[:, 0]
     wrong = check.after(np.ones_like(wrong), wrong, undecided_um) if wrong.any() else wrong
     while wrong.any():
-        # What goes on from lane to lane, lost steps and stops, is left: then only those run that begin for certain.
+        # Lost steps and stops go on from lane to lane. So a lane runs only once the lane ahead of it is right.
         due = wrong & ~np.append(False, wrong[:-1])
         lanes.run(np.flatnonzero(due), begin)
         wrong = check.after(due, wrong & ~due, undecided_um)
@@ -50,7 +50,7 @@ def run_slab(slab: Slab, state: State, table: Table) -> Lanes:
 
 
 def _borders(slab: Slab) -> Ints:
-    """First ticks of the lanes, and the end: after a long tick where one is near."""
+    """First ticks of the lanes, and the end of the last; a lane begins after a long tick where one is near."""
     number = max(1, len(slab) // LANE_TICKS)
     even = np.linspace(0, len(slab), number + 1).astype(np.int64)
     rest = np.append(np.flatnonzero(slab.from_rest[:-1]), len(slab))
@@ -87,10 +87,11 @@ def _drawn(slab: Slab, borders: Ints, at_um: Floats, play_um: Floats) -> Floats:
 
 
 class _Check:
-    """Holds what lanes begin with against what those ahead of them end with.
+    """The matching condition: compares the state in which each lane began with that in which the lane ahead ended.
 
-    `begin` is what each lane is to begin with, corrected as it comes to be known; `from_rest` (k,) tells which lanes
-    begin after a long tick, so at rest whatever came before; `frequency` (2,) are the natural ones of the axes, 1/s.
+    `begin` is the state that each lane is to begin with; the check corrects it after every pass. `from_rest` (k,)
+    tells which lanes begin after a long tick: they begin at rest. `frequency` (2,) are the natural ones of the axes,
+    1/s.
     """
 
     def __init__(self, lanes: Lanes, begin: State, from_rest: NDArray[np.bool_], frequency: Floats) -> None:
@@ -99,7 +100,7 @@ class _Check:
     def after(
         self, run: NDArray[np.bool_], wrong: NDArray[np.bool_], tolerance_um: float | Floats
     ) -> NDArray[np.bool_]:
-        """Lanes (k,) that are wrong now that some were `run` and others, `wrong`, were not."""
+        """Which lanes (k,) began wrong, after a pass in which those of `run` ran and those of `wrong` did not."""
         wrong, told = wrong.copy(), np.append(False, run)
         for lane in range(1, len(wrong)):
             if told[lane]:
@@ -107,7 +108,7 @@ class _Check:
         return wrong
 
     def _tell(self, lane: int, wrong: NDArray[np.bool_], tolerance_um: float | Floats) -> bool:
-        """Correct what a lane begins with and whether it is `wrong`; whether the next lane is to be told."""
+        """Correct the state that a lane begins with, and its `wrong`; True where the next lane has to be looked at."""
         one, was_wrong, ahead = np.array([lane]), bool(wrong[lane]), self._ahead(lane)
         lost = ahead.lost_um - self._lanes.begun.lost_um[lane]
         wrong[lane] = self._differs(lane, ahead, lost, tolerance_um)
@@ -120,10 +121,10 @@ class _Check:
         return was_wrong or bool(lost.any())
 
     def _ahead(self, lane: int) -> State:
-        """How the lane ahead ends, for certain or, where it is wrong itself, likely: state of one table.
+        """The state in which the lane ahead ends; a guess where that lane itself began wrong.
 
-        An axis that did not move is off at the end by as much as at the beginning, and lost way shifts all that comes
-        after it: so both go through many lanes at once.
+        An axis that did not move ends as far off as it began. Way that its motor lost shifts all that comes after. So
+        one pass carries both through many lanes.
         """
         ahead = np.array([lane - 1])
         begin, begun, end = (state.of(ahead) for state in (self._begin, self._lanes.begun, self._lanes.end))
@@ -140,7 +141,7 @@ class _Check:
         )
 
     def _differs(self, lane: int, ahead: State, lost: Floats, tolerance_um: float | Floats) -> bool:
-        """Whether the lane was run from another state than this: of one table, with (1, 2) more lost."""
+        """Whether the lane ran from another state than `ahead`, in which `lost` (1, 2) µm more were lost."""
         begun = self._lanes.begun
         off = np.abs(ahead.at_um + lost - begun.at_um[lane]) > tolerance_um
         off |= np.abs(ahead.velocity - begun.velocity[lane]) > tolerance_um * self._frequency

@@ -1,4 +1,4 @@
-"""A slab: some hundred thousand ticks in a row, with all that the drives are asked for in each."""
+"""A slab: some hundred thousand ticks in a row, with what the drives are asked for in each."""
 
 from typing import NamedTuple
 
@@ -100,11 +100,11 @@ def slab_of(ticks: Ticks, part: slice, motors: Motors, model: TableModel, felt_s
 
 
 def _calmed(ticks: Ticks, part: slice, motors: Motors, felt_s: float) -> _Stretches:
-    """Stretches of a run, their long ticks set between moments at which no step is felt.
+    """Stretches of a run, in which each long tick begins and ends while no step is felt.
 
-    Steps that are not slow are cut out of long ticks. A long tick that would end while a step is felt ends before that
-    step, and one that begins so is chained: its steps count from the end of the long tick before it. Where there is
-    none, it is no long tick.
+    Steps that are not slow are cut out of long ticks. Where a long tick would end while a step is felt, it ends before
+    that step. The next long tick then begins while the step is felt: it is chained, and its steps count from the end
+    of the long tick before it. Where there is none before it, its stretch gets short ticks.
     """
     borders, tick_s, origin = _cut(ticks, part, motors.hasty_s(felt_s))
     long = np.flatnonzero(np.isinf(tick_s[:-1]))
@@ -136,7 +136,7 @@ def _cut(ticks: Ticks, part: slice, windows: Floats) -> tuple[Floats, Floats, In
 
 
 def _unbroken(good: NDArray[np.bool_], chained: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Those of (n,) good ones that hang on good ones alone, back to the last that is not chained."""
+    """Which long ticks (n,) are good, and so are all that they are chained to, back to one that is not chained."""
     bad = np.cumsum(~good)
     first = np.maximum.accumulate(np.where(chained, 0, np.arange(len(good))))
     unbroken: NDArray[np.bool_] = good & (bad == bad[first])

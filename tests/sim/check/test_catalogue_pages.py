@@ -3,7 +3,7 @@
 import pytest
 
 from parser.findings.catalogue import LANGUAGES, Example, Language, example, page
-from parser.findings.findings import SEVERITIES, Severity
+from parser.findings.codes import CODES, Severity
 from sim.check.batch import Job, check_file
 from sim.check.pages import page_text, severity_word, titles_text
 from sim.check.result import CheckResult
@@ -11,10 +11,10 @@ from sim.check.settings import CheckSettings
 from sim.setup.machine.machine import load_machine
 from sim.show.findings.wording import word
 
-OF_A_RUN = {code for code in SEVERITIES if code > "3B401"}
+OF_A_RUN = {code for code, of in CODES.items() if of.check is None}
 WITHOUT_EXAMPLE = {"3B100", "3B303"} | OF_A_RUN
 """No program; no arc known that misses so far on the right axis; what a check cannot see."""
-EXAMPLES = {code: shown for code in sorted(SEVERITIES) if (shown := example(code))}
+EXAMPLES = {code: shown for code in sorted(CODES) if (shown := example(code))}
 ALSO = {
     "3B304": {"3B301"},  # the contour that it is a suspect of
     "3B109": {"3B110"},  # a 4B block is in both
@@ -32,7 +32,7 @@ def checked(text: str, options: tuple[str, ...]) -> CheckResult:
 
 
 def test_every_finding_that_a_program_can_show_has_an_example() -> None:
-    assert set(SEVERITIES) - set(EXAMPLES) == WITHOUT_EXAMPLE
+    assert set(CODES) - set(EXAMPLES) == WITHOUT_EXAMPLE
 
 
 @pytest.mark.parametrize(("code", "shown"), EXAMPLES.items(), ids=EXAMPLES)
@@ -50,8 +50,8 @@ def test_the_mended_example_is_sound(code: str, shown: Example) -> None:
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_pages_call_severities_what_a_check_calls_them(language: Language) -> None:
-    assert {code: severity_word(code, language) for code in SEVERITIES} == {
-        code: word(severity, language) for code, severity in SEVERITIES.items()
+    assert {code: severity_word(code, language) for code in CODES} == {
+        code: word(of.severity, language) for code, of in CODES.items()
     }
 
 
@@ -60,11 +60,11 @@ def test_the_list_has_every_code_with_its_title_below_its_layer(language: Langua
     layers = [part.splitlines()[1:] for part in titles_text(language).split("\n\n")]
     assert [{line.split()[0][2] for line in lines} for lines in layers] == [{layer} for layer in "123456"]
     listed = {line.split()[0]: line.split(maxsplit=2)[2] for lines in layers for line in lines}
-    assert listed == {code: page(code, language).title for code in SEVERITIES}
+    assert listed == {code: page(code, language).title for code in CODES}
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("code", sorted(SEVERITIES))
+@pytest.mark.parametrize("code", sorted(CODES))
 def test_a_page_reads_well_in_a_terminal(code: str, language: Language) -> None:
     text = page_text(code, language)
     assert text.startswith(f"# {code}")

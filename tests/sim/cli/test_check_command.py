@@ -10,7 +10,7 @@ import pytest
 from checking import SOUND, drycut
 
 from parser.findings.catalogue import page
-from parser.findings.findings import SEVERITIES
+from parser.findings.codes import CODES
 
 WRONG_AXIS = SOUND.replace("GYNR1", "GXNR1")
 
@@ -208,7 +208,7 @@ def test_explain_shows_the_page_and_lists_all_codes() -> None:
     assert "B9900B0B39600GXNR1" in out
     assert page("3B204", "zh").title in drycut("explain", "3B204", "--lang", "zh")[1]
     listed = drycut("explain")[1]
-    assert re.findall(r"^ *(3B\d{3}) ", listed, re.MULTILINE) == sorted(SEVERITIES)
+    assert re.findall(r"^ *(3B\d{3}) ", listed, re.MULTILINE) == sorted(CODES)
     code, _, err = drycut("explain", "3B999")
     assert code == 2
     assert "'3B999'" in err

@@ -7,7 +7,8 @@ from places import SCENARIOS
 from runs import codes, run_folder
 
 from parser.findings.catalogue import texts
-from sim.setup.expectations import compare, read_expectation
+from sim.run.findings import expectation_findings
+from sim.setup.expectations import missed, read_expectation
 from sim.setup.scenario import load_scenario
 
 FOLDERS = sorted(path for path in SCENARIOS.iterdir() if path.is_dir())
@@ -80,4 +81,18 @@ REPORT = {"a": {"b": 2.5, "c": True, "d": "x"}, "rows": [{"n": 1}, {"n": 2}], "n
     ],
 )
 def test_expectations_can_be_met_and_missed(expect: dict, met: bool) -> None:
-    assert (compare(REPORT, read_expectation(expect, "test")) == []) is met
+    assert (missed(REPORT, read_expectation(expect, "test")) == ()) is met
+
+
+@pytest.mark.parametrize(
+    ("expect", "found", "wanted"),
+    [
+        ({"a.b": {"max": 2}}, "2.5", "at most 2"),
+        ({"a.b": {"min": 3}}, "2.5", "at least 3"),
+        ({"a.b": {"min": 3, "max": 4.5}}, "2.5", "3 to 4.5"),
+        ({"a.nowhere": "x"}, "None", "x"),
+    ],
+)
+def test_a_missed_expectation_says_what_was_found_and_wanted(expect: dict, found: str, wanted: str) -> None:
+    (finding,) = expectation_findings(missed(REPORT, read_expectation(expect, "test")))
+    assert finding.values == {"path": next(iter(expect)), "found": found, "wanted": wanted}

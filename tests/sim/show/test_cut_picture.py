@@ -17,7 +17,8 @@ from recorder import Recorder, recording_sheet
 from runs import run_folder
 from traced import F, kerf_along, pieces_along, square, trace_of
 
-from parser.findings.findings import SEVERITIES, Finding
+from parser.findings.codes import CODES
+from parser.findings.findings import Finding
 from parser.toolpath import Stop, Toolpath
 from sim.cut.sizes.sizes import sizes_of
 from sim.run.recording import pieces_of_run
@@ -33,7 +34,7 @@ from sim.show.pictures.cut.plan import plan_of
 from sim.show.pictures.cut.sizes import length_text, sizes_of_cut
 from sim.show.pictures.cut.subject import Cut
 
-CODES = sorted(code for code in SEVERITIES if code.startswith("3B2"))
+OF_BLOCKS = sorted(code for code in CODES if code.startswith("3B2"))
 
 
 def punch(side: float = 10_000.0, lead: float = 3000.0) -> Toolpath:
@@ -238,17 +239,17 @@ def test_findings_of_one_place_are_counted() -> None:
 
 
 def test_many_codes_are_summed_up() -> None:
-    findings = [finding(1 + at % 6, code) for at, code in enumerate(CODES)]
+    findings = [finding(1 + at % 6, code) for at, code in enumerate(OF_BLOCKS)]
     texts = recorded(cut_of(punch(), findings=findings)).texts
-    errors = sum(SEVERITIES[code] == "error" for code in CODES)
-    assert f"{errors} errors, {len(CODES) - errors} warnings, 0 notes" in texts
+    errors = sum(CODES[code].severity == "error" for code in OF_BLOCKS)
+    assert f"{errors} errors, {len(OF_BLOCKS) - errors} warnings, 0 notes" in texts
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_flags_keep_apart_and_lose_no_finding(seed: int) -> None:
     rng = np.random.default_rng(seed)
     path = spiral(300)
-    findings = [finding(int(block), str(rng.choice(CODES))) for block in rng.integers(1, 301, 500)]
+    findings = [finding(int(block), str(rng.choice(OF_BLOCKS))) for block in rng.integers(1, 301, 500)]
     flags = flags_of(path, findings, 900.0)
     places = [flag.place_um for flag in flags]
     assert min(math.dist(a, b) for a, b in combinations(places, 2)) >= 900.0
@@ -341,7 +342,7 @@ def test_no_label_covers_another(seed: int, width_px: int) -> None:
     rng = np.random.default_rng(seed)
     path = (punch(), die(), rounded(), hole(), spiral(400), spiral(60), punch(800.0), rounded(300.0))[seed]
     pieces = pieces_along(path) if len(path) < 20 else None
-    findings = [finding(int(block), str(rng.choice(CODES))) for block in rng.integers(1, len(path) + 1, 9)]
+    findings = [finding(int(block), str(rng.choice(OF_BLOCKS))) for block in rng.integers(1, len(path) + 1, 9)]
     cut = cut_of(stopped(path, [2]), findings=findings, pieces=pieces)
     canvas, page = recorded(cut, width_px), page_of(cut, width_px)
     boxes = labels(canvas, page.plot)
@@ -354,7 +355,7 @@ def test_no_label_covers_another(seed: int, width_px: int) -> None:
 @pytest.mark.parametrize("language", ["en", "zh"])
 @pytest.mark.parametrize("width_px", [600, 1600, 4961])
 def test_all_texts_stay_on_the_page(width_px: int, language: str) -> None:
-    findings = [finding(1 + at, code) for at, code in enumerate(CODES[:6])]
+    findings = [finding(1 + at, code) for at, code in enumerate(OF_BLOCKS[:6])]
     cut = cut_of(
         stopped(with_jump(), [1]),
         findings=findings,

@@ -15,11 +15,10 @@ from jsonschema import Draft202012Validator
 from places import ROOT
 
 from parser.findings.catalogue import LANGUAGES, Language, term, texts
-from parser.findings.findings import SEVERITIES, Finding, Severity
+from parser.findings.codes import CODES, Check, Severity
+from parser.findings.findings import Finding
 from sim.check.result import CheckResult, Coverage
 from sim.show.findings import FORMATS, render
-from sim.show.findings.checks import CHECK_OF
-from sim.show.findings.checks import CHECKS as CHECK_NAMES
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import spot
 
@@ -247,7 +246,7 @@ def test_sarif_places_and_mends() -> None:
 def test_sarif_rules_are_the_codes() -> None:
     run = load("sarif", kind())["runs"][0]
     rules = run["tool"]["driver"]["rules"]
-    assert [rule["id"] for rule in rules] == sorted(SEVERITIES)
+    assert [rule["id"] for rule in rules] == sorted(CODES)
     for entry in run["results"]:
         assert rules[entry["ruleIndex"]]["id"] == entry["ruleId"]
     assert len({rule["name"] for rule in rules}) == len(rules)
@@ -319,9 +318,9 @@ def test_a_failed_check_that_is_also_incomplete_fails_and_says_so() -> None:
 
 
 def test_every_code_of_a_check_belongs_to_one() -> None:
-    of_a_run = {code for code in SEVERITIES if code > "3B401"}
-    assert set(CHECK_OF) == set(SEVERITIES) - of_a_run
-    for name in CHECK_NAMES:
+    of_a_run = {code for code in CODES if code > "3B401"}
+    assert {code for code, of in CODES.items() if of.check} == set(CODES) - of_a_run
+    for name in Check:
         assert not term(name).startswith("`")
 
 

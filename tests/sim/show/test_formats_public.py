@@ -11,7 +11,7 @@ from check_results import hostile, kind, parsed
 from jsonschema import Draft4Validator
 
 from parser.findings.catalogue import LANGUAGES, Language
-from parser.findings.findings import Severity
+from parser.findings.codes import Severity
 from sim.show.findings import render
 from sim.show.findings.options import Options
 

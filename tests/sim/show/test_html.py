@@ -45,10 +45,15 @@ def test_a_page_escapes_values_in_texts_attributes_and_data(tmp_path):
 
 
 def test_a_page_holds_its_style_sheets_and_scripts_and_loads_nothing(tmp_path):
-    (tmp_path / "own.js").write_text("if (1 < 2 && 3 > 2) { }", encoding="utf-8")
-    page = _page(tmp_path, '{% block scripts %}<script>{{ inlined("own.js") }}</script>{% endblock %}')
-    assert "if (1 < 2 && 3 > 2) { }" in page
-    assert "Drycut.language = {" in page
+    (tmp_path / "own.css").write_text("p > b { }", encoding="utf-8")
+    (tmp_path / "other.js").write_text("export const one = 1;", encoding="utf-8")
+    (tmp_path / "own.js").write_text('import { one } from "./other.js";\nif (one < 2 && 3 > 2) { }', encoding="utf-8")
+    style = '{% block style %}{{ inlined("own.css") }}{% endblock %}'
+    page = _page(tmp_path, style + '{% block scripts %}<script>{{ joined("own.js") }}</script>{% endblock %}')
+    assert "p > b { }" in page
+    assert "if (one < 2 && 3 > 2) { }" in page
+    assert "const one = 1;" in page
+    assert "import {" not in page
     assert "default-src 'none'" in page
     assert "http://" not in page
     assert "https://" not in page

@@ -14,17 +14,21 @@ import shapely
 from browser import OpenPage
 from hypothesis import given
 from hypothesis import strategies as st
+from page_types import types_of, unlike
 from plain import AWAY_X, AWAY_Y, SIGNS, TOWARD_X, TOWARD_Y, PlainBlock, motion_quadrant
-from replayed import document_of, recording_of, replay_of
+from replayed import ASSETS, document_of, exports, recording_of, replay_of
 from strategies import program_text
 
 from controller.stepping.pulses import Pulses
 from controller.stepping.words import interpolate
 from parser.geometry.curves import Floats
 from parser.program import parse_program
+from parser.toolpath import Point
 from sim.measure.deviation.across import across_um
 from sim.run.recording import Recording
 from sim.setup.machine.machine import Machine, load_machine
+from sim.setup.obstacles import Clamp
+from sim.setup.quiz import Question
 from sim.setup.wire import Wire
 from sim.show.replay import tape as tape_module
 from sim.show.replay.document import replay_document
@@ -309,9 +313,10 @@ def test_a_decision_far_along_a_long_line_is_exact(open_page: OpenPage, quadrant
     page = replay_of(open_page, document_of(TRIANGLE))
     blocks = {"first_step": [0, 2], "word_x_um": [word_x], "word_y_um": [word_y], "quadrant": [quadrant], "turn": [0]}
     made = page.evaluate(
-        """([blocks, x, y]) => {
+        f"([blocks, x, y]) => {{ const {{ decisionAt }} = {exports('decisions')};"
+        """
             const doc = {interpolator: "point-by-point", blocks: {...blocks, count_axis: ["X"]}};
-            const made = Drycut.decision({doc, steps: 2, x: [0, x], y: [0, y]}, 2, 0);
+            const made = decisionAt({doc, steps: 2, x: [0, x], y: [0, y]}, 2, 0);
             return [String(made.f), made.axis];
         }""",
         [blocks, done_x if quadrant == 1 else -done_x, done_y],
@@ -493,6 +498,19 @@ def test_the_replay_ends_where_a_servo_trips(open_page: OpenPage) -> None:
     assert (state["t"], state["remaining_s"], state["step"]) == (trip.t_s, 0, made)
 
 
+def test_the_page_names_every_key_of_the_document() -> None:
+    """Over runs that have between them clamps, findings, pieces, questions, a trip and losses."""
+    quiz = (Question(1, "quadrant", "test"), Question(2, "end", "test"))
+    clamps = (Clamp("left", (Point(0.0, 0.0), Point(9.0, 0.0), Point(0.0, 9.0))),)
+    part = document_of("B0B300B300GYL2 B0B600B2400GXNR2 DD", quiz=quiz, clamps=clamps)
+    documents = [part, document_of(TRIANGLE.replace("B300GXL4", "B250GXL4")), replay_document(tripping())]
+    for entries in ("clamps", "findings", "pieces", "quiz", "losses", "stops", "contours"):
+        assert any(document[entries] for document in documents), entries
+    types = types_of(ASSETS / "document.js", ASSETS.parents[1] / "html" / "assets" / "language.js")
+    assert [complaint for document in documents for complaint in unlike(types, "ReplayDocument", document)] == []
+    assert list(unlike(types, "ReplayDocument", {**part, "stops": [{"kind": "end", "after": None}]})) != []
+
+
 def test_an_offset_path_is_replayed_with_the_blocks_it_comes_from() -> None:
     text = "B0B2000B2000GYL2 B2000B0B2000GXL1 B0B2000B2000GYL4 B2000B0B2000GXL3 DD"
     from controller.offset.sections import Side
@@ -544,7 +562,7 @@ def test_a_million_steps_are_small_and_soon_decoded(open_page: OpenPage) -> None
     found = page.evaluate(
         """async (doc) => {
         const began = performance.now();
-        const one = await Drycut.decode(doc);
+        const one = await decode(doc);
         return [performance.now() - began, one.x[one.steps], one.y[one.steps], one.t[one.steps], one.samples.t.length];
     }""",
         document,

@@ -1,84 +1,129 @@
 // The language of the page: of the address (#lang=zh-CN), else as chosen before, else of the browser.
-(function (root) {
-  "use strict";
-  const Drycut = (root.Drycut = root.Drycut || {});
-  const KEY = "drycut.lang";
-  const LANGUAGES = ["en", "zh-CN"];
-  const page = document.documentElement;
-  const listeners = [];
+import { elements } from "./elements.js";
 
-  /** One of LANGUAGES for a language tag, or null. */
-  function known(tag) {
-    if (!tag) return null;
-    return /^zh/i.test(tag) ? "zh-CN" : /^en/i.test(tag) ? "en" : null;
+/** @typedef {"en" | "zh-CN"} Language */
+
+/**
+ * A text in both languages.
+ * @typedef {object} Said
+ * @property {string} en
+ * @property {string} zh
+ */
+
+const KEY = "drycut.lang";
+const page = document.documentElement;
+/** @type {(() => void)[]} */
+const listeners = [];
+
+/**
+ * The language of a tag such as zh-Hans, if the page has it.
+ * @param {string | null | undefined} tag
+ * @returns {Language | null}
+ */
+function known(tag) {
+  if (!tag) return null;
+  return /^zh/i.test(tag) ? "zh-CN" : /^en/i.test(tag) ? "en" : null;
+}
+
+/** What was chosen before; browsers may forbid pages of files to keep anything. */
+function kept() {
+  try {
+    return known(window.localStorage.getItem(KEY));
+  } catch {
+    return null;
   }
+}
 
-  /** What was chosen before; browsers may forbid pages of files to keep anything. */
-  function kept() {
-    try {
-      return known(root.localStorage.getItem(KEY));
-    } catch {
-      return null;
-    }
+/**
+ * Keep a choice for the next page.
+ * @param {Language} language
+ */
+function keep(language) {
+  try {
+    window.localStorage.setItem(KEY, language);
+  } catch {
+    // The choice lasts as long as the page does.
   }
+}
 
-  /** Keep a choice for the next page. */
-  function keep(language) {
-    try {
-      root.localStorage.setItem(KEY, language);
-    } catch {
-      // The choice lasts as long as the page does.
-    }
+/** Language that the address asks for. */
+function asked() {
+  const found = /[#&]lang=([\w-]+)/.exec(window.location.hash);
+  return found && known(found[1]);
+}
+
+/**
+ * First language of the browser that the page has.
+ * @returns {Language}
+ */
+function ofBrowser() {
+  for (const tag of window.navigator.languages || [window.navigator.language]) {
+    const language = known(tag);
+    if (language) return language;
   }
+  return "en";
+}
 
-  /** Language that the address asks for. */
-  function asked() {
-    const found = /[#&]lang=([\w-]+)/.exec(root.location.hash);
-    return found && known(found[1]);
+/** Name the controls in the language of the page. */
+function nameControls() {
+  const key = isChinese() ? "labelZh" : "labelEn";
+  for (const control of elements("[data-label-en]")) {
+    const name = control.dataset[key] ?? "";
+    control.setAttribute("aria-label", name);
+    control.title = name;
   }
+}
 
-  /** First language of the browser that the page has. */
-  function ofBrowser() {
-    for (const tag of root.navigator.languages || [root.navigator.language]) {
-      const language = known(tag);
-      if (language) return language;
-    }
-    return LANGUAGES[0];
-  }
+/**
+ * Show the page in a language.
+ * @param {Language} language
+ */
+function show(language) {
+  page.lang = language;
+  nameControls();
+  for (const listener of listeners) listener();
+}
 
-  /** Name the controls in the language of the page. */
-  function nameControls() {
-    const key = Drycut.language.isChinese() ? "labelZh" : "labelEn";
-    for (const control of document.querySelectorAll("[data-label-en]")) {
-      control.setAttribute("aria-label", control.dataset[key]);
-      control.title = control.dataset[key];
-    }
-  }
+/** The language that the page is in. */
+export function current() {
+  return page.lang;
+}
 
-  /** Show the page in a language. */
-  function show(language) {
-    page.lang = language;
-    nameControls();
-    for (const listener of listeners) listener(language);
-  }
+/** Whether that is Chinese. */
+export function isChinese() {
+  return page.lang === "zh-CN";
+}
 
-  Drycut.language = {
-    current: () => page.lang,
-    isChinese: () => page.lang === "zh-CN",
-    /** Change the language and keep it. */
-    set(language) {
-      keep(language);
-      show(language);
-    },
-    /** Call a function after each change. */
-    onChange: (listener) => listeners.push(listener),
-    /** The text of the page's language of {en, zh}. */
-    pick: (text) => (page.lang === "zh-CN" ? text.zh : text.en),
-  };
+/** Change to the other language and keep it. */
+export function change() {
+  const other = isChinese() ? "en" : "zh-CN";
+  keep(other);
+  show(other);
+}
 
-  for (const button of document.querySelectorAll("[data-language-switch]")) {
-    button.addEventListener("click", () => Drycut.language.set(Drycut.language.isChinese() ? "en" : "zh-CN"));
-  }
-  root.addEventListener("hashchange", () => asked() && show(asked()));
+/**
+ * Call a function after each change.
+ * @param {() => void} listener
+ */
+export function onChange(listener) {
+  listeners.push(listener);
+}
+
+/**
+ * The text of the page's language.
+ * @template T
+ * @param {{ en: T, zh: T }} text
+ */
+export function pick(text) {
+  return isChinese() ? text.zh : text.en;
+}
+
+/** Show the page in its language, and let the button and the address change it. */
+export function begin() {
+  for (const button of elements("[data-language-switch]")) button.addEventListener("click", change);
+  window.addEventListener("hashchange", () => {
+    const language = asked();
+    if (language) show(language);
+  });
   show(asked() || kept() || ofBrowser());
-})(globalThis);
+}

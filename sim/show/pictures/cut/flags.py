@@ -7,7 +7,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.findings.findings import SEVERITIES, Finding, Severity
+from parser.findings.codes import CODES, Severity
+from parser.findings.findings import Finding
 from parser.geometry.along import places
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Toolpath
@@ -17,9 +18,6 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box, box_around
 from sim.show.draw.paints import Paint
 from sim.show.pictures.cut.board import Board
-
-PLACED: Final = frozenset(("3B402", "3B403", "3B404", "3B405", "3B406", "3B501", "3B502", "3B503", "3B601"))
-"""Codes whose findings say themselves where they are."""
 
 PAINTS: Final = {Severity.ERROR: Paint.ERROR, Severity.WARNING: Paint.WARNING, Severity.NOTE: Paint.GREY}
 _WORST_FIRST: Final = tuple(Severity)
@@ -37,7 +35,7 @@ class Flag(NamedTuple):
     @property
     def severity(self) -> Severity:
         """That of the worst."""
-        return SEVERITIES[self.counts[0][0]]
+        return CODES[self.counts[0][0]].severity
 
     @property
     def text(self) -> str:
@@ -50,7 +48,7 @@ class Flag(NamedTuple):
 def counted(findings: Sequence[Finding]) -> tuple[tuple[str, int], ...]:
     """How many findings there are of each code, the worst codes first."""
     counts = Counter(finding.code for finding in findings)
-    return tuple(sorted(counts.items(), key=lambda one: (_WORST_FIRST.index(SEVERITIES[one[0]]), one[0])))
+    return tuple(sorted(counts.items(), key=lambda one: (_WORST_FIRST.index(CODES[one[0]].severity), one[0])))
 
 
 def flags_of(toolpath: Toolpath, findings: Sequence[Finding], apart_um: float) -> list[Flag]:
@@ -76,8 +74,8 @@ def places_um(toolpath: Toolpath, findings: Sequence[Finding], off_um: float) ->
     place = np.full((len(findings), 2), np.nan)
     place[known] = _on_blocks(toolpath, ((first + past - 1) // 2)[known], off_um)
     for at, finding in enumerate(findings):
-        if finding.code in PLACED and "x_mm" in finding.values:
-            place[at] = from_mm(np.array([float(finding.values["x_mm"]), float(finding.values["y_mm"])]))
+        if finding.place_mm is not None:
+            place[at] = from_mm(np.array(finding.place_mm))
     return place
 
 

@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.findings.catalogue import page as page_of
-from parser.findings.findings import SEVERITIES, Severity
+from parser.findings.codes import CODES, Severity
 from parser.geometry.curves import Floats
 from parser.units import mm
 from sim.show.draw import style
@@ -84,12 +84,14 @@ def finding_entries(cut: Cut, say: Words) -> list[Entry]:
     """What the codes of the findings mean; where there are many of them, how many there are of each severity."""
     counts = counted(cut.findings)
     if len(counts) > MOST_CODES:
-        by = {severity: sum(count for code, count in counts if SEVERITIES[code] is severity) for severity in Severity}
+        by = {
+            severity: sum(count for code, count in counts if CODES[code].severity is severity) for severity in Severity
+        }
         text = say("cut_count", errors=by[Severity.ERROR], warnings=by[Severity.WARNING], notes=by[Severity.NOTE])
-        return [Entry(_flag(SEVERITIES[counts[0][0]]), text)]
+        return [Entry(_flag(CODES[counts[0][0]].severity), text)]
     return [
         Entry(
-            _flag(SEVERITIES[code]),
+            _flag(CODES[code].severity),
             say(
                 "cut_finding",
                 code=code if count == 1 else f"{code} ×{count}",

@@ -1,9 +1,11 @@
 """Events on the time axis: borders of blocks with their numbers, pauses, and what the drives lost."""
 
+from collections.abc import Mapping
 from typing import Final, NamedTuple
 
 import numpy as np
 
+from parser.findings.facts import telling
 from parser.geometry.curves import Floats
 from sim.run.dryrun import DryRun
 from sim.show.draw import style
@@ -11,12 +13,14 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import Chart
 from sim.show.draw.labels import MOST_NUMBERS, number_stride
 from sim.show.draw.paints import Paint
+from sim.table.findings import Lost
+from sim.table.record.losses import LossKind
 
 ROW: Final = 30.0
 """Height of a row of numbers or signs."""
 TICK: Final = 9.0
 LINE_WIDTH: Final = 1.5
-_LOSSES: Final = {"lost-steps": ("motion_lost", "3B402"), "trip": ("motion_trip", "3B403")}
+_NAMES: Final[Mapping[LossKind, str]] = {"lost-steps": "motion_lost", "trip": "motion_trip"}
 
 
 class Mark(NamedTuple):
@@ -42,9 +46,9 @@ def marks_of(run: DryRun) -> list[Mark]:
     pauses = [
         Mark(float(ends_s[stop.after]), "motion_pause", "D", Paint.PAUSE) for stop in stops if stop.kind == "pause"
     ]
+    codes = {fact.kind: finding.code for finding, fact in telling(run.findings, Lost)}
     losses = [
-        Mark(loss.t_s, _LOSSES[loss.kind][0], f"{_LOSSES[loss.kind][1]} {loss.axis.name}", Paint.ERROR)
-        for loss in run.losses
+        Mark(loss.t_s, _NAMES[loss.kind], f"{codes[loss.kind]} {loss.axis.name}", Paint.ERROR) for loss in run.losses
     ]
     until_s = run.history.t_s[-1]
     return [mark for mark in (*losses, *pauses) if mark.t_s <= until_s]

@@ -1,51 +1,54 @@
 // The findings of the run as a list; one that is about a block leads there.
-(function (root) {
-  "use strict";
-  const Drycut = (root.Drycut = root.Drycut || {});
+import { make } from "../../html/assets/elements.js";
+import { isTimed } from "./document.js";
+import * as words from "./words.js";
 
-  /** Where a finding is. */
-  function where(finding) {
-    const { pick } = Drycut.words;
-    const places = [];
-    if (finding.block) places.push(pick(`block ${finding.block}`, `第 ${finding.block} 段`));
-    if (finding.line) places.push(pick(`line ${finding.line}`, `第 ${finding.line} 行`));
-    return places.join(", ");
+/** @import { Finding, ReplayDocument, TimedFinding } from "./document.js" */
+
+/**
+ * Where a finding is.
+ * @param {Finding} finding
+ */
+function where(finding) {
+  const places = [];
+  if (finding.block) places.push(words.pick(`block ${finding.block}`, `第 ${finding.block} 段`));
+  if (finding.line) places.push(words.pick(`line ${finding.line}`, `第 ${finding.line} 行`));
+  return places.join(", ");
+}
+
+/**
+ * One finding: a button where it leads to a block.
+ * @param {Finding} finding
+ * @param {(finding: TimedFinding) => void} onPick
+ */
+function entry(finding, onPick) {
+  const texts = words.finding(finding);
+  const className = `finding ${finding.severity}`;
+  const parts = [
+    make("strong", {}, `${finding.code} ${texts.title}`),
+    make("span", { className: "where" }, where(finding)),
+    make("span", { className: "message" }, texts.message),
+    make("span", { className: "hint" }, texts.hint),
+  ];
+  if (!isTimed(finding)) return make("div", { className }, ...parts);
+  const button = make("button", { className, type: "button" }, ...parts);
+  button.addEventListener("click", () => onPick(finding));
+  return button;
+}
+
+/**
+ * List of the findings in `box`.
+ * @param {HTMLElement} box
+ * @param {ReplayDocument} doc
+ * @param {(finding: TimedFinding) => void} onPick
+ */
+export function findingsIn(box, doc, onPick) {
+  /** Write the list in the language of the page. */
+  function write() {
+    const none = make("p", { className: "none" }, words.pick("Nothing was found.", "未发现问题。"));
+    const items = doc.findings.map((finding) => make("li", {}, entry(finding, onPick)));
+    box.replaceChildren(items.length ? make("ul", {}, ...items) : none);
   }
-
-  /** One finding: a button where it leads to a block. */
-  function entry(finding, onPick) {
-    const texts = Drycut.words.finding(finding);
-    const made = Drycut.element(finding.t_s === null ? "div" : "button", `finding ${finding.severity}`);
-    if (finding.t_s !== null) {
-      made.type = "button";
-      made.addEventListener("click", () => onPick(finding));
-    }
-    made.append(
-      Drycut.element("strong", "", `${finding.code} ${texts.title}`),
-      Drycut.element("span", "where", where(finding)),
-      Drycut.element("span", "message", texts.message),
-      Drycut.element("span", "hint", texts.hint),
-    );
-    return made;
-  }
-
-  /** List of the findings in `box`. */
-  function findings(box, doc, onPick) {
-    /** Write the list in the language of the page. */
-    function write() {
-      const none = Drycut.element("p", "none", Drycut.words.pick("Nothing was found.", "未发现问题。"));
-      const items = doc.findings.map((finding) => {
-        const item = Drycut.element("li", "");
-        item.append(entry(finding, onPick));
-        return item;
-      });
-      const list = Drycut.element("ul", "");
-      list.append(...items);
-      box.replaceChildren(items.length ? list : none);
-    }
-    write();
-    return { write };
-  }
-
-  Drycut.findings = findings;
-})(globalThis);
+  write();
+  return { write };
+}

@@ -1,45 +1,66 @@
 // The keyboard: every key names an action; a key that the focused control uses itself is left to it.
-(function (root) {
-  "use strict";
-  const Drycut = (root.Drycut = root.Drycut || {});
 
-  /** Name of the action of each key. */
-  const KEYS = {
-    " ": "toggle", ArrowLeft: "stepBack", ArrowRight: "stepOn", ArrowUp: "blockBack", ArrowDown: "blockOn",
-    PageUp: "hundredBack", PageDown: "hundredOn", Home: "toStart", End: "toEnd", "[": "slower", "]": "faster",
-    "+": "zoomIn", "=": "zoomIn", "-": "zoomOut", 0: "fit", 9: "fitTable", z: "toSteps", f: "follow", m: "magnify",
-    a: "loopFrom", b: "loopTo", l: "loop", c: "clearLoop", q: "quiz", g: "language", "?": "help",
-  };
-  const SHIFTED = { ArrowLeft: "panLeft", ArrowRight: "panRight", ArrowUp: "panUp", ArrowDown: "panDown" };
-  const OWN = {
-    BUTTON: [" ", "Enter"],
-    SELECT: [" ", "Enter", "ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Home", "End", "PageUp", "PageDown"],
-    INPUT: ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Home", "End", "PageUp", "PageDown"],
-  };
+/**
+ * @import { Actions } from "./controls.js"
+ * @import { Quiz } from "./quiz.js"
+ */
 
-  /** Action of a key press, or null. */
-  function actionOf(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey) return null;
-    if ((OWN[event.target.tagName] || []).includes(event.key)) return null;
-    if (event.shiftKey && SHIFTED[event.key]) return SHIFTED[event.key];
-    return KEYS[event.key.length === 1 ? event.key.toLowerCase() : event.key] || null;
-  }
+/**
+ * Name of the action of each key.
+ * @type {Record<string, string>}
+ */
+const KEYS = {
+  " ": "toggle", ArrowLeft: "stepBack", ArrowRight: "stepOn", ArrowUp: "blockBack", ArrowDown: "blockOn",
+  PageUp: "hundredBack", PageDown: "hundredOn", Home: "toStart", End: "toEnd", "[": "slower", "]": "faster",
+  "+": "zoomIn", "=": "zoomIn", "-": "zoomOut", 0: "fit", 9: "fitTable", z: "toSteps", f: "follow", m: "magnify",
+  a: "loopFrom", b: "loopTo", l: "loop", c: "clearLoop", q: "quiz", g: "language", "?": "help",
+};
+/** @type {Record<string, string>} */
+const SHIFTED = { ArrowLeft: "panLeft", ArrowRight: "panRight", ArrowUp: "panUp", ArrowDown: "panDown" };
+/**
+ * Keys that a focused control uses itself, by its tag.
+ * @type {Record<string, string[]>}
+ */
+const OWN = {
+  BUTTON: [" ", "Enter"],
+  SELECT: [" ", "Enter", "ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Home", "End", "PageUp", "PageDown"],
+  INPUT: ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Home", "End", "PageUp", "PageDown"],
+};
 
-  /** Have keys call actions; an open dialog has them for itself; digits answer an open question, Esc ends the quiz. */
-  function keys(actions, quiz) {
-    document.addEventListener("keydown", (event) => {
-      if (document.querySelector("dialog[open]")) return;
-      if (quiz.isOpen) {
-        if (/^[1-9]$/.test(event.key)) quiz.choose(Number(event.key) - 1);
-        else if (event.key === "Escape") quiz.toggle();
-        return;
-      }
-      const action = actionOf(event);
-      if (!action) return;
-      event.preventDefault();
-      actions[action]();
-    });
-  }
+/**
+ * Whether the focused control uses a key itself.
+ * @param {KeyboardEvent} event
+ */
+function isOwn({ target, key }) {
+  return target instanceof Element && Boolean(OWN[target.tagName]?.includes(key));
+}
 
-  Drycut.keys = keys;
-})(globalThis);
+/**
+ * Action of a key press, or null.
+ * @param {KeyboardEvent} event
+ */
+function actionOf(event) {
+  if (event.ctrlKey || event.metaKey || event.altKey || isOwn(event)) return null;
+  if (event.shiftKey && SHIFTED[event.key]) return SHIFTED[event.key];
+  return KEYS[event.key.length === 1 ? event.key.toLowerCase() : event.key] || null;
+}
+
+/**
+ * Have keys call actions; an open dialog has them for itself; digits answer an open question, Esc ends the quiz.
+ * @param {Actions} actions
+ * @param {Quiz} quiz
+ */
+export function wireKeys(actions, quiz) {
+  document.addEventListener("keydown", (event) => {
+    if (document.querySelector("dialog[open]")) return;
+    if (quiz.isOpen) {
+      if (/^[1-9]$/.test(event.key)) quiz.choose(Number(event.key) - 1);
+      else if (event.key === "Escape") quiz.toggle();
+      return;
+    }
+    const action = actionOf(event);
+    if (!action) return;
+    event.preventDefault();
+    actions[action]();
+  });
+}

@@ -1,126 +1,180 @@
 // What a replay knows of any moment and any step of it; nothing here knows the page.
-(function (root) {
-  "use strict";
-  const Drycut = (root.Drycut = root.Drycut || {});
+import { decisionAt } from "./decisions.js";
+import { nearest } from "./nearest.js";
+import { clamp, countUpTo } from "./numbers.js";
 
-  /** Blocks to look back at for the deviation of a wire that trails, as sim/measure/deviation/across.py does. */
-  const MOST_BACK = 50;
-  /** Another block counts where it is nearer by more than rounding: of two as near, the one that is running. */
-  const NEARER_UM = 1e-6;
+/**
+ * @import { Replay, Samples } from "./decode.js"
+ * @import { Place, Plan } from "./document.js"
+ */
 
-  /** How many of the entries of a rising column are no more than a value. */
-  function countUpTo(column, value) {
-    let low = 0;
-    let high = column.length;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (column[middle] <= value) low = middle + 1;
-      else high = middle;
-    }
-    return low;
+/** @typedef {ReturnType<typeof modelOf>} Model */
+/** @typedef {{ at: number, next: number, share: number }} Between Two samples, and the share of the way between them. */
+/** @typedef {{ um: number, foot: Place, row: number }} Deviation */
+
+/**
+ * What the controller commands at a time, where table and wire really are, feed, and what is left.
+ * @typedef {object} State
+ * @property {number} t
+ * @property {number} step
+ * @property {number} block its row
+ * @property {number} x
+ * @property {number} y
+ * @property {Place} wire
+ * @property {Place} table
+ * @property {number} feed_um_s
+ * @property {number | null} count_left
+ * @property {number} remaining_s
+ * @property {number} along
+ */
+
+/** Blocks to look back at for the deviation of a wire that trails, as sim/measure/deviation/across.py does. */
+const MOST_BACK = 50;
+/** Another block counts where it is nearer by more than rounding: of two as near, the one that is running. */
+const NEARER_UM = 1e-6;
+
+/**
+ * The plan at a time: length done, and speed.
+ * @param {Plan} plan
+ * @param {number} t
+ */
+function planned(plan, t) {
+  const phases = plan.speed_um_s.length;
+  if (!phases) return { along: 0, speed: 0 };
+  const at = clamp(countUpTo(plan.t_s, t) - 1, 0, phases - 1);
+  const dt = clamp(t, 0, plan.t_s[phases]) - plan.t_s[at];
+  const [v, a] = [plan.speed_um_s[at], plan.acceleration_um_s2[at]];
+  const j = plan.jerk_um_s3 ? plan.jerk_um_s3[at] : 0;
+  const along = plan.along_um[at] + dt * (v + dt * (a / 2 + (dt * j) / 6));
+  const speed = t > plan.t_s[phases] ? 0 : Math.max(v + dt * (a + (dt * j) / 2), 0);
+  return { along: clamp(along, plan.along_um[at], plan.along_um[at + 1]), speed };
+}
+
+/**
+ * Between which samples a time lies, and how far from the first to the second.
+ * @param {Samples} samples
+ * @param {number} t
+ * @returns {Between}
+ */
+function sampleAt(samples, t) {
+  const last = samples.t.length - 1;
+  const at = clamp(countUpTo(samples.t, t) - 1, 0, last);
+  const next = Math.min(at + 1, last);
+  const span = samples.t[next] - samples.t[at];
+  return { at, next, share: span > 0 ? clamp((t - samples.t[at]) / span, 0, 1) : 0 };
+}
+
+/**
+ * Column between two samples.
+ * @param {Float64Array} column
+ * @param {Between} sample
+ */
+const between = (column, { at, next, share }) => column[at] + share * (column[next] - column[at]);
+
+/**
+ * Questions about a replay as functions; steps count from 1, step 0 is the start, and rows of blocks from 0.
+ * @param {Replay} replay
+ */
+export function modelOf(replay) {
+  const { doc, samples } = replay;
+  const blocks = doc.blocks;
+  const rows = blocks.kind.length;
+  const before = new Float64Array(rows + 1);
+  for (let row = 0; row < rows; row++) before[row + 1] = before[row] + blocks.length_um[row];
+
+  /**
+   * Number of steps done by a time.
+   * @param {number} t
+   */
+  const stepAt = (t) => Math.max(countUpTo(replay.t, t) - 1, 0);
+  /**
+   * Time at which a step is done.
+   * @param {number} step
+   */
+  const timeOf = (step) => replay.t[clamp(step, 0, replay.steps)];
+  /**
+   * Row of the block that runs at a time.
+   * @param {number} t
+   */
+  const blockAt = (t) => clamp(countUpTo(blocks.border_s, t) - 1, 0, rows - 1);
+  /**
+   * Row of the block that makes a step.
+   * @param {number} step
+   */
+  const blockOfStep = (step) => clamp(countUpTo(blocks.first_step, Math.max(step, 1) - 1) - 1, 0, rows - 1);
+
+  /**
+   * J that is left of the block in a row once so many steps are done; null where the card interpolates.
+   * @param {number} row
+   * @param {number} step
+   */
+  function countLeft(row, step) {
+    if (doc.interpolator !== "point-by-point") return null;
+    const begin = blocks.first_step[row];
+    const done = clamp(step, begin, blocks.first_step[row + 1]);
+    const inX = replay.xSteps[done] - replay.xSteps[begin];
+    return blocks.count_um[row] - (blocks.count_axis[row] === "X" ? inX : done - begin - inX);
   }
 
-  /** A value put between two bounds. */
-  const held = (value, low, high) => Math.min(Math.max(value, low), high);
-
-  /** The plan at a time: length done, and speed. */
-  function planned(plan, t) {
-    const phases = plan.speed_um_s.length;
-    if (!phases) return { along: 0, speed: 0 };
-    const at = held(countUpTo(plan.t_s, t) - 1, 0, phases - 1);
-    const dt = held(t, 0, plan.t_s[phases]) - plan.t_s[at];
-    const [v, a] = [plan.speed_um_s[at], plan.acceleration_um_s2[at]];
-    const j = plan.jerk_um_s3 ? plan.jerk_um_s3[at] : 0;
-    const along = plan.along_um[at] + dt * (v + dt * (a / 2 + (dt * j) / 6));
-    const speed = t > plan.t_s[phases] ? 0 : Math.max(v + dt * (a + (dt * j) / 2), 0);
-    return { along: held(along, plan.along_um[at], plan.along_um[at + 1]), speed };
+  /**
+   * State at a time: what the controller commands, where table and wire really are, feed, and what is left.
+   * @param {number} time
+   * @returns {State}
+   */
+  function stateAt(time) {
+    const t = clamp(time, 0, doc.duration_s);
+    const [step, row] = [stepAt(t), blockAt(t)];
+    const sample = sampleAt(samples, t);
+    const { along, speed } = planned(doc.plan, t);
+    return {
+      t,
+      step,
+      block: row,
+      x: replay.x[step],
+      y: replay.y[step],
+      wire: [between(samples.wireX, sample), between(samples.wireY, sample)],
+      table: [between(samples.tableX, sample), between(samples.tableY, sample)],
+      feed_um_s: speed,
+      count_left: countLeft(row, step),
+      remaining_s: doc.duration_s - t,
+      along,
+    };
   }
 
-  /** Between which samples a time lies, and how far from the first to the second. */
-  function sampleAt(samples, t) {
-    const last = samples.t.length - 1;
-    const at = held(countUpTo(samples.t, t) - 1, 0, last);
-    const next = Math.min(at + 1, last);
-    const span = samples.t[next] - samples.t[at];
-    return { at, next, share: span > 0 ? held((t - samples.t[at]) / span, 0, 1) : 0 };
+  /**
+   * What the controller looked at before a step: see decisions.js.
+   * @param {number} step
+   */
+  const decision = (step) => decisionAt(replay, step, blockOfStep(step));
+
+  /**
+   * First row that a wire so far from its command may still be cutting in.
+   * @param {number} row
+   * @param {number} reach
+   */
+  function earliestRow(row, reach) {
+    const found = reach < before[row] ? countUpTo(before, reach) - 1 : row;
+    return Math.max(found, row - MOST_BACK, 0);
   }
 
-  /** Column between two samples. */
-  const between = (column, { at, next, share }) => column[at] + share * (column[next] - column[at]);
-
-  /** Questions about a replay as functions; steps count from 1, step 0 is the start, and rows of blocks from 0. */
-  function model(replay) {
-    const { doc, samples } = replay;
-    const blocks = doc.blocks;
-    const rows = blocks.kind.length;
-    const before = new Float64Array(rows + 1);
-    for (let row = 0; row < rows; row++) before[row + 1] = before[row] + blocks.length_um[row];
-
-    /** Number of steps done by a time. */
-    const stepAt = (t) => Math.max(countUpTo(replay.t, t) - 1, 0);
-    /** Time at which a step is done. */
-    const timeOf = (step) => replay.t[held(step, 0, replay.steps)];
-    /** Row of the block that runs at a time. */
-    const blockAt = (t) => held(countUpTo(blocks.border_s, t) - 1, 0, rows - 1);
-    /** Row of the block that makes a step. */
-    const blockOfStep = (step) => held(countUpTo(blocks.first_step, Math.max(step, 1) - 1) - 1, 0, rows - 1);
-
-    /** J that is left of the block in a row once so many steps are done; null where the card interpolates. */
-    function countLeft(row, step) {
-      if (doc.interpolator !== "point-by-point") return null;
-      const begin = blocks.first_step[row];
-      const done = held(step, begin, blocks.first_step[row + 1]);
-      const inX = replay.xSteps[done] - replay.xSteps[begin];
-      return blocks.count_um[row] - (blocks.count_axis[row] === "X" ? inX : done - begin - inX);
+  /**
+   * How far the wire is from the ideal curve of its block: {um, foot, row}.
+   * @param {number} t
+   * @returns {Deviation}
+   */
+  function deviation(t) {
+    const { wire, x, y, along, block } = stateAt(t);
+    let best = nearest(blocks, block, ...wire);
+    const first = earliestRow(block, along - 2 * Math.hypot(wire[0] - x, wire[1] - y));
+    const others = [clamp(block + best.beyond, 0, rows - 1)];
+    for (let row = block - 1; row >= first; row--) others.push(row);
+    for (const row of others) {
+      const other = nearest(blocks, row, ...wire);
+      if (other.um < best.um - NEARER_UM) best = other;
     }
-
-    /** State at a time: what the controller commands, where table and wire really are, feed, and what is left. */
-    function stateAt(time) {
-      const t = held(time, 0, doc.duration_s);
-      const [step, row] = [stepAt(t), blockAt(t)];
-      const sample = sampleAt(samples, t);
-      const { along, speed } = planned(doc.plan, t);
-      return {
-        t,
-        step,
-        block: row,
-        x: replay.x[step],
-        y: replay.y[step],
-        wire: [between(samples.wireX, sample), between(samples.wireY, sample)],
-        table: [between(samples.tableX, sample), between(samples.tableY, sample)],
-        feed_um_s: speed,
-        count_left: countLeft(row, step),
-        remaining_s: doc.duration_s - t,
-        along,
-      };
-    }
-
-    /** What the controller looked at before a step: see decisions.js. */
-    const decision = (step) => Drycut.decision(replay, step, blockOfStep(step));
-
-    /** First row that a wire so far from its command may still be cutting in. */
-    function earliestRow(row, reach) {
-      const found = reach < before[row] ? countUpTo(before, reach) - 1 : row;
-      return Math.max(found, row - MOST_BACK, 0);
-    }
-
-    /** How far the wire is from the ideal curve of its block: {um, foot, row}. */
-    function deviation(t) {
-      const { wire, x, y, along, block } = stateAt(t);
-      let best = Drycut.nearest(blocks, block, ...wire);
-      const first = earliestRow(block, along - 2 * Math.hypot(wire[0] - x, wire[1] - y));
-      const others = [held(block + best.beyond, 0, rows - 1)];
-      for (let row = block - 1; row >= first; row--) others.push(row);
-      for (const row of others) {
-        const other = Drycut.nearest(blocks, row, ...wire);
-        if (other.um < best.um - NEARER_UM) best = other;
-      }
-      return { um: best.um, foot: best.foot, row: best.row };
-    }
-
-    const duration = doc.duration_s;
-    return { duration, stepAt, timeOf, blockAt, blockOfStep, countLeft, stateAt, decision, deviation };
+    return { um: best.um, foot: best.foot, row: best.row };
   }
 
-  Object.assign(Drycut, { model, countUpTo });
-})(globalThis);
+  const duration = doc.duration_s;
+  return { duration, stepAt, timeOf, blockAt, blockOfStep, countLeft, stateAt, decision, deviation };
+}

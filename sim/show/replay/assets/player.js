@@ -1,152 +1,212 @@
 // The clock of the replay: where it stands, how fast it runs, and the stretch that it goes round.
-(function (root) {
-  "use strict";
-  const Drycut = (root.Drycut = root.Drycut || {});
-  const SLOWEST = 0.01;
-  const FASTEST = 10000;
-  const LONGEST_FRAME_S = 0.25; // a hidden page does not leap when it comes back
-  const WATCHED_S = 60; // how long a whole replay lasts at first
+import { clamp, countUpTo } from "./numbers.js";
 
-  /** The next speed of 1, 2, 5, 10, 20 … in a direction. */
-  function roundSpeed(speed, direction) {
-    const decade = 10 ** Math.floor(Math.log10(speed) + 1e-9);
-    const all = [0.5, 1, 2, 5, 10, 20].map((digit) => digit * decade);
-    const next = direction > 0 ? all.find((one) => one > speed * 1.001) : all.findLast((one) => one < speed * 0.999);
-    return Math.min(FASTEST, Math.max(SLOWEST, next));
+/**
+ * @import { Replay } from "./decode.js"
+ * @import { Deviation, Model } from "./model.js"
+ */
+
+/** @typedef {{ t: number, step: number, block: number }} Standing Where the replay stands; of the block its row. */
+/** @typedef {{ from: number | null, to: number | null, isOn: boolean }} Loop Times, s. */
+/** @typedef {{ t: number, isShut: () => boolean, reached: () => void }} Gate */
+/** @typedef {ReturnType<typeof playerOf>} Player */
+/** @typedef {ReturnType<Player["state"]>} PlayerState */
+/** @typedef {PlayerState & { deviation: Deviation, isAsked: boolean }} Moment What a frame shows. */
+
+export const SLOWEST = 0.01;
+export const FASTEST = 10000;
+const LONGEST_FRAME_S = 0.25; // a hidden page does not leap when it comes back
+const WATCHED_S = 60; // how long a whole replay lasts at first
+
+/**
+ * The next speed of 1, 2, 5, 10, 20 … in a direction.
+ * @param {number} speed
+ * @param {number} direction
+ */
+function roundSpeed(speed, direction) {
+  const decade = 10 ** Math.floor(Math.log10(speed) + 1e-9);
+  const all = [0.5, 1, 2, 5, 10, 20].map((digit) => digit * decade);
+  const next = direction > 0 ? all.find((one) => one > speed * 1.001) : all.findLast((one) => one < speed * 0.999);
+  return clamp(next ?? speed, SLOWEST, FASTEST);
+}
+
+/**
+ * Player of a replay; `onChange` listeners hear of everything that is set, not of time going by.
+ * @param {Replay} replay
+ * @param {Model} model
+ */
+export function playerOf(replay, model) {
+  const { first_step: firstStep, border_s: border } = replay.doc.blocks;
+  const blocks = replay.doc.blocks.kind.length;
+  /** @type {(() => void)[]} */
+  const listeners = [];
+  /** @type {Gate[]} */
+  const gates = [];
+  /** @type {Standing} */
+  let place = { t: 0, step: 0, block: 0 };
+  let playing = false;
+  let speed = Math.min(FASTEST, Math.max(1, roundSpeed(model.duration / WATCHED_S, 1)));
+  /** @type {Loop} */
+  let loop = { from: null, to: null, isOn: false };
+
+  const tell = () => listeners.forEach((listener) => listener());
+
+  /**
+   * Place at a time; times of steps are rounded, and still those of a block lie between its borders.
+   * @param {number} t
+   * @returns {Standing}
+   */
+  function placeAt(t) {
+    const block = model.blockAt(t);
+    const step = Math.min(Math.max(model.stepAt(t), firstStep[block]), firstStep[block + 1]);
+    return { t, step, block };
   }
 
-  /** Player of a replay; `onChange` listeners hear of everything that is set, not of time going by. */
-  function player(replay, model) {
-    const { first_step: firstStep, border_s: border } = replay.doc.blocks;
-    const blocks = replay.doc.blocks.kind.length;
-    const listeners = [];
-    const gates = [];
-    let place = { t: 0, step: 0, block: 0 };
-    let playing = false;
-    let speed = Math.min(FASTEST, Math.max(1, roundSpeed(model.duration / WATCHED_S, 1)));
-    let loop = { from: null, to: null, isOn: false };
+  /**
+   * Block that makes the step after so many are done.
+   * @param {number} step
+   */
+  const blockAfter = (step) => Math.max(0, Math.min(blocks, countUpTo(firstStep, step)) - 1);
 
-    const tell = () => listeners.forEach((listener) => listener());
-    const bounded = (value, most) => Math.min(most, Math.max(0, value));
+  /**
+   * Be at a place.
+   * @param {Standing} newPlace
+   */
+  function set(newPlace) {
+    place = newPlace;
+    tell();
+  }
 
-    /** Place at a time; times of steps are rounded, and still those of a block lie between its borders. */
-    function placeAt(t) {
-      const block = model.blockAt(t);
-      const step = Math.min(Math.max(model.stepAt(t), firstStep[block]), firstStep[block + 1]);
-      return { t, step, block };
-    }
+  /**
+   * The first gate that time passes.
+   * @param {number} since
+   * @param {number} until
+   */
+  function gateBetween(since, until) {
+    const passed = gates.filter((gate) => gate.isShut() && gate.t >= since && gate.t <= until);
+    return passed.length ? passed.reduce((first, gate) => (first.t <= gate.t ? first : gate)) : null;
+  }
 
-    /** Block that makes the step after so many are done. */
-    const blockAfter = (step) => Math.max(0, Math.min(blocks, Drycut.countUpTo(firstStep, step)) - 1);
+  /**
+   * Where time gets to from `since`, round the loop or up to the end.
+   * @param {number} since
+   * @param {number} until
+   */
+  function goOn(since, until) {
+    const { from, to } = loop;
+    const goesRound = loop.isOn && from !== null && to !== null && since < to && until >= to;
+    if (goesRound) return from + ((until - to) % (to - from));
+    if (until < model.duration) return until;
+    playing = false;
+    return model.duration;
+  }
 
-    /** Be at a place. */
-    function set(newPlace) {
-      place = newPlace;
+  const api = {
+    get playing() { return playing; },
+    get speed() { return speed; },
+    get loop() { return loop; },
+    get place() { return place; },
+    duration: model.duration,
+    blocks,
+    /** @param {() => void} listener */
+    onChange: (listener) => listeners.push(listener),
+    /**
+     * Stop at a time for as long as `isShut()`, and call `reached()`.
+     * @param {Gate} gate
+     */
+    addGate: (gate) => gates.push(gate),
+    /** @param {number} t */
+    seek: (t) => set(placeAt(clamp(t, 0, model.duration))),
+    /** @param {number} row */
+    seekBlock(row) {
+      const block = clamp(row, 0, blocks - 1);
+      const t = Math.min(border[block], model.duration);
+      set(t < border[block] ? placeAt(t) : { t, step: firstStep[block], block });
+    },
+    /** @param {number} number */
+    seekStep(number) {
+      const step = clamp(number, 0, replay.steps);
+      set({ t: model.timeOf(step), step, block: blockAfter(step) });
+    },
+    /** @param {number} count */
+    stepBy(count) {
+      api.pause();
+      api.seekStep(place.step + count);
+    },
+    /**
+     * So many blocks on or back; back within a block leads to its start.
+     * @param {number} count
+     */
+    blockBy(count) {
+      api.pause();
+      const isWithin = place.step > firstStep[place.block];
+      const row = place.block + count + (count < 0 && isWithin ? 1 : 0);
+      if (row >= blocks) api.seek(model.duration);
+      else api.seekBlock(row);
+    },
+    play() {
+      if (place.t >= model.duration) place = placeAt(loop.isOn && loop.from !== null ? loop.from : 0);
+      playing = true;
       tell();
-    }
-
-    /** The first gate that time passes. */
-    function gateBetween(since, until) {
-      const passed = gates.filter((gate) => gate.isShut() && gate.t >= since && gate.t <= until);
-      return passed.reduce((first, gate) => (first && first.t <= gate.t ? first : gate), null);
-    }
-
-    /** Where time gets to from `since`, round the loop or up to the end. */
-    function goOn(since, until) {
-      if (loop.isOn && since < loop.to && until >= loop.to) return loop.from + ((until - loop.to) % (loop.to - loop.from));
-      if (until < model.duration) return until;
+    },
+    pause() {
       playing = false;
-      return model.duration;
-    }
-
-    const api = {
-      get playing() { return playing; },
-      get speed() { return speed; },
-      get loop() { return loop; },
-      get place() { return place; },
-      duration: model.duration,
-      blocks,
-      onChange: (listener) => listeners.push(listener),
-      /** Stop at a time for as long as `isShut()`, and call `reached()`. */
-      addGate: (gate) => gates.push(gate),
-      seek: (t) => set(placeAt(bounded(t, model.duration))),
-      seekBlock(row) {
-        const block = bounded(row, blocks - 1);
-        const t = Math.min(border[block], model.duration);
-        set(t < border[block] ? placeAt(t) : { t, step: firstStep[block], block });
-      },
-      seekStep(number) {
-        const step = bounded(number, replay.steps);
-        set({ t: model.timeOf(step), step, block: blockAfter(step) });
-      },
-      stepBy(count) {
-        api.pause();
-        api.seekStep(place.step + count);
-      },
-      /** So many blocks on or back; back within a block leads to its start. */
-      blockBy(count) {
-        api.pause();
-        const isWithin = place.step > firstStep[place.block];
-        const row = place.block + count + (count < 0 && isWithin ? 1 : 0);
-        if (row >= blocks) api.seek(model.duration);
-        else api.seekBlock(row);
-      },
-      play() {
-        if (place.t >= model.duration) place = placeAt(loop.isOn ? loop.from : 0);
-        playing = true;
-        tell();
-      },
-      pause() {
+      tell();
+    },
+    toggle: () => (playing ? api.pause() : api.play()),
+    /** @param {number} wanted */
+    setSpeed(wanted) {
+      speed = clamp(wanted, SLOWEST, FASTEST);
+      tell();
+    },
+    /** @param {number} direction */
+    faster: (direction) => api.setSpeed(roundSpeed(speed, direction)),
+    /**
+     * Begin or end the loop here; with both ends it is on.
+     * @param {"from" | "to"} end
+     */
+    setLoop(end, t = place.t) {
+      const from = end === "from" ? t : loop.from;
+      const to = end === "to" ? t : loop.to;
+      if (from === null || to === null) loop = { from, to, isOn: false };
+      else loop = { from: Math.min(from, to), to: Math.max(from, to), isOn: from !== to };
+      tell();
+    },
+    /** Go round the loop or not; round the running block where none is set. */
+    toggleLoop() {
+      let { from, to } = loop;
+      if (from === null || to === null || from >= to) {
+        to = Math.min(border[place.block + 1], model.duration);
+        from = Math.min(border[place.block], to);
+      }
+      loop = { from, to, isOn: !loop.isOn && from < to };
+      tell();
+    },
+    clearLoop() {
+      loop = { from: null, to: null, isOn: false };
+      tell();
+    },
+    /**
+     * Let so much real time go by.
+     * @param {number} seconds
+     */
+    advance(seconds) {
+      if (!playing) return;
+      const wanted = goOn(place.t, place.t + Math.min(seconds, LONGEST_FRAME_S) * speed);
+      const gate = gateBetween(place.t, wanted);
+      place = placeAt(gate ? gate.t : wanted);
+      if (gate) {
         playing = false;
-        tell();
-      },
-      toggle: () => (playing ? api.pause() : api.play()),
-      setSpeed(wanted) {
-        speed = Math.min(FASTEST, Math.max(SLOWEST, wanted));
-        tell();
-      },
-      faster: (direction) => api.setSpeed(roundSpeed(speed, direction)),
-      /** Begin or end the loop here; with both ends it is on. */
-      setLoop(end, t = place.t) {
-        loop = { ...loop, [end]: t };
-        if (loop.from !== null && loop.to !== null && loop.from > loop.to) loop = { ...loop, from: loop.to, to: loop.from };
-        loop.isOn = loop.from !== null && loop.to !== null && loop.from < loop.to;
-        tell();
-      },
-      /** Go round the loop or not; round the running block where none is set. */
-      toggleLoop() {
-        if (loop.from === null || loop.to === null || loop.from >= loop.to) {
-          const until = Math.min(border[place.block + 1], model.duration);
-          loop = { from: Math.min(border[place.block], until), to: until, isOn: false };
-        }
-        loop = { ...loop, isOn: !loop.isOn && loop.from < loop.to };
-        tell();
-      },
-      clearLoop() {
-        loop = { from: null, to: null, isOn: false };
-        tell();
-      },
-      /** Let so much real time go by. */
-      advance(seconds) {
-        if (!playing) return;
-        const wanted = goOn(place.t, place.t + Math.min(seconds, LONGEST_FRAME_S) * speed);
-        const gate = gateBetween(place.t, wanted);
-        place = placeAt(gate ? gate.t : wanted);
-        if (gate) {
-          playing = false;
-          gate.reached();
-        }
-        if (!playing) tell();
-      },
-      /** All that is known of the moment. */
-      state() {
-        const { step, block } = place;
-        const commanded = { x: replay.x[step], y: replay.y[step], count_left: model.countLeft(block, step) };
-        return { ...model.stateAt(place.t), ...place, ...commanded, playing, speed, loop };
-      },
-    };
-    return api;
-  }
-
-  Object.assign(Drycut, { playerOf: player, SPEEDS: { slowest: SLOWEST, fastest: FASTEST } });
-})(globalThis);
+        gate.reached();
+      }
+      if (!playing) tell();
+    },
+    /** All that is known of the moment. */
+    state() {
+      const { step, block } = place;
+      const commanded = { x: replay.x[step], y: replay.y[step], count_left: model.countLeft(block, step) };
+      return { ...model.stateAt(place.t), ...place, ...commanded, playing, speed, loop };
+    },
+  };
+  return api;
+}

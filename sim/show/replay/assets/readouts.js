@@ -1,56 +1,74 @@
 // The read-outs beside the table; a text is set only where it has changed.
-(function (root) {
-  "use strict";
-  const Drycut = (root.Drycut = root.Drycut || {});
-  const MANY = 10000; // blocks: their number has no room beside that of the running one
+import { elements } from "../../html/assets/elements.js";
+import { clock, mm, number, pick, way, weighed } from "./words.js";
 
-  /** How F stands for the next step, as the controller works it out. */
-  function formula(made) {
-    const { number, pick, way, weighed } = Drycut.words;
-    const squared = (value) => (value < 0 ? `(${number(value)})²` : `${number(value)}²`);
-    const [x, y] = [number(made.x), number(made.y)];
-    const [wordX, wordY] = [number(made.wordX), number(made.wordY)];
-    if (made.kind === "arc") {
-      const toward = made.toward === "center" ? pick("toward the centre", "向圆心") : pick("away from the centre", "离圆心");
-      return `F = x² + y² − R² = ${squared(made.x)} + ${squared(made.y)} − ${number(Number(made.rSquared))}; ${weighed(made.f)} → ${way(made)} ${toward}`;
-    }
-    const terms = made.motion === "L1" || made.motion === "L3"
-      ? `Xe·y − Ye·x = ${wordX}·${y} − ${wordY}·${x}`
-      : `Ye·x − Xe·y = ${wordY}·${x} − ${wordX}·${y}`;
-    return `F = ${terms}; ${weighed(made.f)} → ${way(made)}`;
+/**
+ * @import { Decision } from "./decisions.js"
+ * @import { ReplayDocument } from "./document.js"
+ * @import { Model } from "./model.js"
+ * @import { Moment } from "./player.js"
+ */
+
+const MANY = 10000; // blocks: their number has no room beside that of the running one
+
+/**
+ * How F stands for the next step, as the controller works it out.
+ * @param {Decision} made
+ */
+function formula(made) {
+  /** @param {number} value */
+  const squared = (value) => (value < 0 ? `(${number(value)})²` : `${number(value)}²`);
+  const [x, y] = [number(made.x), number(made.y)];
+  const [wordX, wordY] = [number(made.wordX), number(made.wordY)];
+  if (made.kind === "arc") {
+    const toward = made.toward === "center" ? pick("toward the centre", "向圆心") : pick("away from the centre", "离圆心");
+    return `F = x² + y² − R² = ${squared(made.x)} + ${squared(made.y)} − ${number(Number(made.rSquared))}; ${weighed(made.f)} → ${way(made)} ${toward}`;
+  }
+  const terms = made.motion === "L1" || made.motion === "L3"
+    ? `Xe·y − Ye·x = ${wordX}·${y} − ${wordY}·${x}`
+    : `Ye·x − Xe·y = ${wordY}·${x} − ${wordX}·${y}`;
+  return `F = ${terms}; ${weighed(made.f)} → ${way(made)}`;
+}
+
+/**
+ * Read-outs in elements of a page, found by `data-out`.
+ * @param {ParentNode} page
+ * @param {ReplayDocument} doc
+ * @param {Pick<Model, "decision">} model
+ */
+export function readoutsIn(page, doc, model) {
+  const rows = doc.blocks.kind.length;
+  const isCard = doc.interpolator === "card";
+  const fields = new Map(elements("[data-out]", page).map((field) => [field.dataset.out, field]));
+
+  /**
+   * Write one read-out.
+   * @param {string} name
+   * @param {string} text
+   */
+  function write(name, text) {
+    const field = fields.get(name);
+    if (field && field.textContent !== text) field.textContent = text;
   }
 
-  /** Read-outs in elements of a page, found by `data-out`. */
-  function readouts(page, doc, model) {
-    const rows = doc.blocks.kind.length;
-    const isCard = doc.interpolator === "card";
-    const fields = new Map([...page.querySelectorAll("[data-out]")].map((field) => [field.dataset.out, field]));
-
-    /** Write one read-out. */
-    function write(name, text) {
-      const field = fields.get(name);
-      if (field.textContent !== text) field.textContent = text;
-    }
-
-    return {
-      /** Show a state. */
-      show(state) {
-        const { number, mm, clock, pick, weighed, way } = Drycut.words;
-        const next = state.isAsked ? null : model.decision(state.step + 1);
-        write("x", mm(state.x));
-        write("y", mm(state.y));
-        write("left", state.count_left === null ? "–" : `${number(state.count_left)} G${doc.blocks.count_axis[state.block]}`);
-        write("feed", number((state.feed_um_s * 60) / 1000, 2));
-        write("block", rows < MANY ? `${number(state.block + 1)} / ${number(rows)}` : number(state.block + 1));
-        write("step", number(state.step));
-        write("elapsed", clock(state.t));
-        write("remaining", clock(state.remaining_s));
-        write("deviation", state.deviation ? number(state.deviation.um, 2) : "–");
-        write("f", next ? `${weighed(next.f)} → ${way(next)}` : "–");
-        write("formula", next ? formula(next) : isCard ? pick("The card interpolates: there is no F.", "由运动控制卡插补，没有 F。") : "");
-      },
-    };
-  }
-
-  Drycut.readouts = readouts;
-})(globalThis);
+  return {
+    /**
+     * Show a moment.
+     * @param {Moment} moment
+     */
+    show(moment) {
+      const next = moment.isAsked ? null : model.decision(moment.step + 1);
+      write("x", mm(moment.x));
+      write("y", mm(moment.y));
+      write("left", moment.count_left === null ? "–" : `${number(moment.count_left)} G${doc.blocks.count_axis[moment.block]}`);
+      write("feed", number((moment.feed_um_s * 60) / 1000, 2));
+      write("block", rows < MANY ? `${number(moment.block + 1)} / ${number(rows)}` : number(moment.block + 1));
+      write("step", number(moment.step));
+      write("elapsed", clock(moment.t));
+      write("remaining", clock(moment.remaining_s));
+      write("deviation", number(moment.deviation.um, 2));
+      write("f", next ? `${weighed(next.f)} → ${way(next)}` : "–");
+      write("formula", next ? formula(next) : isCard ? pick("The card interpolates: there is no F.", "由运动控制卡插补，没有 F。") : "");
+    },
+  };
+}

@@ -1,26 +1,30 @@
 // A tooltip: a title and pairs of name and value, beside a point of the window.
-(function (root) {
-  "use strict";
-  const Drycut = (root.Drycut = root.Drycut || {});
-  const GAP = 14;
+import { make } from "../../html/assets/elements.js";
 
-  /** Tooltip in an element. */
-  function tip(box) {
-    return {
-      hide() { box.hidden = true; },
-      /** Show a title and pairs beside (x, y). */
-      show(title, pairs, x, y) {
-        const list = document.createElement("dl");
-        for (const [name, value] of pairs) list.append(Drycut.element("dt", "", name), Drycut.element("dd", "", value));
-        box.replaceChildren(Drycut.element("strong", "", title), list);
-        box.hidden = false;
-        const { width, height } = box.getBoundingClientRect();
-        const left = x + GAP + width > innerWidth ? Math.max(4, x - GAP - width) : x + GAP;
-        const top = y + GAP + height > innerHeight ? Math.max(4, y - GAP - height) : y + GAP;
-        box.style.transform = `translate(${left}px, ${top}px)`;
-      },
-    };
-  }
+const GAP = 14;
 
-  Drycut.tip = tip;
-})(globalThis);
+/**
+ * Tooltip in an element.
+ * @param {HTMLElement} box
+ */
+export function tipIn(box) {
+  return {
+    hide() { box.hidden = true; },
+    /**
+     * Show a title and pairs beside (x, y).
+     * @param {string} title
+     * @param {[name: string, value: string][]} pairs
+     * @param {number} x
+     * @param {number} y
+     */
+    show(title, pairs, x, y) {
+      const rows = pairs.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]);
+      box.replaceChildren(make("strong", {}, title), make("dl", {}, ...rows));
+      box.hidden = false;
+      const { width, height } = box.getBoundingClientRect();
+      const left = x + GAP + width > window.innerWidth ? Math.max(4, x - GAP - width) : x + GAP;
+      const top = y + GAP + height > window.innerHeight ? Math.max(4, y - GAP - height) : y + GAP;
+      box.style.transform = `translate(${left}px, ${top}px)`;
+    },
+  };
+}

@@ -1,0 +1,33 @@
+// What the linter asks of the scripts of pages; types are checked by tsc (tsconfig.json).
+import js from "@eslint/js";
+
+// The globals of a browser that the scripts use: any other one, as `name` or `event`, is a mistake.
+const BROWSER = [
+  "Blob", "DecompressionStream", "Element", "HTMLCanvasElement", "HTMLDetailsElement",
+  "HTMLDialogElement", "HTMLElement", "HTMLInputElement", "HTMLSelectElement", "ResizeObserver", "Response", "atob",
+  "document", "getComputedStyle", "performance", "requestAnimationFrame", "window",
+];
+
+export default [
+  { ignores: ["*", "!sim", "!eslint.config.js"] },
+  js.configs.recommended,
+  {
+    languageOptions: {
+      ecmaVersion: 2023,
+      sourceType: "module",
+      globals: Object.fromEntries(BROWSER.map((name) => [name, "readonly"])),
+    },
+    rules: {
+      "complexity": ["error", 10],
+      "eqeqeq": "error",
+      "max-lines": ["error", 250],
+      "no-shadow": "error",
+      "no-unused-expressions": "error",
+      "no-use-before-define": ["error", { functions: false, variables: false }],
+      "no-var": "error",
+      "object-shorthand": "error",
+      "prefer-const": "error",
+      "prefer-template": "error",
+    },
+  },
+];

@@ -1,0 +1,196 @@
+// The document that Python hands over to the page (sim/show/replay/document.py): its JSON, by name and type.
+// Rows of blocks count from 0, steps from 1; places and lengths are µm of the program.
+import { element } from "../../html/assets/elements.js";
+
+/** @import { Said } from "../../html/assets/language.js" */
+
+/** @typedef {[x: number, y: number]} Place */
+
+/**
+ * @typedef {object} ReplayDocument
+ * @property {string} schema
+ * @property {string} drycut
+ * @property {string} title
+ * @property {string} provenance
+ * @property {"pass" | "fail"} verdict
+ * @property {number} duration_s
+ * @property {Program} program
+ * @property {string} machine
+ * @property {string} interpolator "point-by-point", "card" …
+ * @property {number} wire_diameter_um
+ * @property {number} offset_um
+ * @property {number} thickness_mm
+ * @property {[Place, Place]} travel_um
+ * @property {Place[] | null} work_um
+ * @property {Clamp[]} clamps
+ * @property {Blocks} blocks
+ * @property {Plan} plan
+ * @property {Stop[]} stops
+ * @property {Contour[]} contours
+ * @property {Finding[]} findings
+ * @property {Loss[]} losses
+ * @property {Loss | null} tripped
+ * @property {Piece[]} pieces
+ * @property {Question[]} quiz
+ * @property {Tape} tape
+ */
+
+/**
+ * @typedef {object} Program
+ * @property {string} name
+ * @property {string} dialect
+ * @property {string[]} lines
+ */
+
+/**
+ * @typedef {object} Clamp
+ * @property {string} name
+ * @property {Place[]} outline_um
+ */
+
+/**
+ * Columns of n blocks; `place_*`, `first_step` and `border_s` have n + 1. What only an arc has is null elsewhere, where
+ * nothing asks for it.
+ * @typedef {object} Blocks
+ * @property {Kind[]} kind
+ * @property {number[]} place_x_um
+ * @property {number[]} place_y_um
+ * @property {number[]} center_x_um of an arc
+ * @property {number[]} center_y_um of an arc
+ * @property {number[]} radius_um of an arc
+ * @property {number[]} start_angle_rad of an arc
+ * @property {number[]} sweep_rad of an arc
+ * @property {number[]} length_um
+ * @property {number[]} word_x_um
+ * @property {number[]} word_y_um
+ * @property {number[]} count_um
+ * @property {Axis[]} count_axis
+ * @property {number[]} quadrant
+ * @property {(-1 | 0 | 1)[]} turn
+ * @property {number[]} number
+ * @property {number[]} line
+ * @property {number[]} character
+ * @property {number[]} characters
+ * @property {string[]} label
+ * @property {number[]} first_step
+ * @property {number[]} border_s
+ */
+
+/** @typedef {"jump" | "line" | "arc"} Kind */
+/** @typedef {"X" | "Y"} Axis */
+
+/**
+ * Columns of p phases; `t_s` and `along_um` have p + 1.
+ * @typedef {object} Plan
+ * @property {number[]} t_s
+ * @property {number[]} along_um
+ * @property {number[]} speed_um_s
+ * @property {number[]} acceleration_um_s2
+ * @property {number[] | null} jerk_um_s3
+ */
+
+/**
+ * @typedef {object} Stop
+ * @property {string} kind
+ * @property {number} after so many blocks
+ * @property {number} line
+ */
+
+/**
+ * @typedef {object} Contour
+ * @property {number} first_row
+ * @property {number} last_row
+ * @property {number} closure_exact_um
+ * @property {number} closure_stepped_um
+ */
+
+/**
+ * @typedef {object} Finding
+ * @property {string} code
+ * @property {"error" | "warning" | "note"} severity
+ * @property {number | null} line
+ * @property {number | null} block
+ * @property {number | null} row
+ * @property {number | null} t_s
+ * @property {number[] | null} place_um
+ * @property {{ en: FindingTexts, zh: FindingTexts }} texts
+ */
+
+/**
+ * @typedef {object} FindingTexts
+ * @property {string} title
+ * @property {string} found
+ * @property {string} expected
+ * @property {string} machine
+ * @property {string} hint
+ * @property {string} message
+ */
+
+/**
+ * @typedef {object} Loss
+ * @property {string} kind
+ * @property {Axis} axis
+ * @property {number} row
+ * @property {number} t_s
+ * @property {number} amount_um
+ * @property {Place} place_um
+ */
+
+/**
+ * @typedef {object} Piece
+ * @property {string} kind
+ * @property {number} row
+ * @property {number} t_s
+ * @property {number} area_mm2
+ * @property {number} mass_g
+ * @property {Place} center_um
+ * @property {Place[]} outline_um
+ * @property {Place[][]} holes_um
+ */
+
+/**
+ * @typedef {object} Question
+ * @property {number} row
+ * @property {number} block
+ * @property {string | null} about
+ * @property {Said} ask
+ * @property {Said[]} answers
+ * @property {number} right
+ * @property {Said} why
+ */
+
+/**
+ * Steps and samples; texts are packed columns (sim/show/replay/packed.py).
+ * @typedef {object} Tape
+ * @property {number} tick_s
+ * @property {number} grain_um
+ * @property {Place} origin_um
+ * @property {number} steps
+ * @property {string} moves
+ * @property {string} step_ticks
+ * @property {number} samples
+ * @property {string} sample_ticks
+ * @property {string} table_x
+ * @property {string} table_y
+ * @property {string | null} wire_x
+ * @property {string | null} wire_y
+ */
+
+/** @typedef {Finding & { t_s: number }} TimedFinding */
+
+/**
+ * Whether a finding has a time in the run.
+ * @param {Finding} finding
+ * @returns {finding is TimedFinding}
+ */
+export function isTimed(finding) {
+  return finding.t_s !== null;
+}
+
+/**
+ * The document of the page.
+ * @returns {ReplayDocument}
+ */
+export function readDocument() {
+  return JSON.parse(element("#document", HTMLElement).textContent);
+}

@@ -1,0 +1,163 @@
+// All parts of the page, and the frame that is drawn whenever something has changed.
+import { element, elements } from "../../html/assets/elements.js";
+import * as language from "../../html/assets/language.js";
+import { actionsOf, showPlayer, wireButtons, wireSpeed, wireTabs } from "./controls.js";
+import { findingsIn } from "./findings.js";
+import { wireKeys } from "./keys.js";
+import { modelOf } from "./model.js";
+import { pageStateOf } from "./page_state.js";
+import { playerOf } from "./player.js";
+import { wirePointer } from "./pointer.js";
+import { programIn } from "./program.js";
+import { quizIn } from "./quiz.js";
+import { readoutsIn } from "./readouts.js";
+import { stageOn } from "./stage.js";
+import { timelineIn } from "./timeline.js";
+import { tipIn } from "./tip.js";
+import * as words from "./words.js";
+
+/**
+ * @import { Replay } from "./decode.js"
+ * @import { ReplayDocument, TimedFinding } from "./document.js"
+ * @import { Moment, PlayerState } from "./player.js"
+ */
+
+/** @param {string} id */
+const found = (id) => element(`#${id}`, HTMLElement);
+
+/**
+ * Say the block while the replay stands, for those who cannot see it.
+ * @param {HTMLElement} box
+ * @param {ReplayDocument} doc
+ */
+function announcer(box, doc) {
+  let said = "";
+  return (/** @type {PlayerState} */ state) => {
+    if (state.playing) return;
+    const text = words.block(doc.blocks, state.block);
+    if (text !== said) box.textContent = text;
+    said = text;
+  };
+}
+
+/**
+ * Build everything of a replay that is drawn or written, and draw it.
+ * @param {Replay} replay
+ */
+export function buildPage(replay) {
+  const { doc } = replay;
+  const model = modelOf(replay);
+  const player = playerOf(replay, model);
+  const table = element("#table", HTMLCanvasElement);
+  const bar = found("bar");
+  let wanted = 0; // the frame that is asked for, if any
+  /** @type {number | null} */
+  let last = null;
+
+  /** Ask for a frame. */
+  function redraw() {
+    if (!wanted) wanted = requestAnimationFrame(frame);
+  }
+
+  /**
+   * Lead to a finding.
+   * @param {TimedFinding} finding
+   */
+  function onFinding({ row, t_s: t }) {
+    if (row !== null && t === doc.blocks.border_s[row]) player.seekBlock(row); // which may take no time at all
+    else player.seek(t);
+  }
+
+  const page = pageStateOf(redraw);
+  const stage = stageOn(table, replay, model, redraw);
+  const quiz = quizIn(
+    { panel: found("quiz"), count: found("quiz-count"), ask: found("quiz-ask"), answers: found("quiz-answers"), said: found("quiz-said"), go: found("quiz-go") },
+    doc,
+    player,
+  );
+  const actions = actionsOf({ player, stage, quiz, page, redraw });
+  const outs = readoutsIn(document.body, doc, model);
+  const tip = tipIn(found("tip"));
+  const timeline = timelineIn(
+    { bar, marks: element("#marks", HTMLCanvasElement), cursor: found("cursor"), findings: found("finding-marks") },
+    doc,
+    player,
+    stage.colours,
+    { onSeek: player.seek, onFinding },
+  );
+  const list = findingsIn(found("findings"), doc, onFinding);
+  const text = programIn(found("program"), doc, {
+    onPick: player.seekBlock,
+    onHover(row, event) {
+      stage.outline(row);
+      if (row === null) tip.hide();
+      else tip.show(words.block(doc.blocks, row), words.geometry(doc.blocks, row), event.clientX, event.clientY);
+    },
+  });
+  const announce = announcer(found("live"), doc);
+
+  /**
+   * Say where a time is on the bar.
+   * @param {number} t
+   */
+  function showTime(t) {
+    bar.setAttribute("aria-valuenow", t.toFixed(3));
+    bar.setAttribute("aria-valuetext", words.clock(t));
+    timeline.at(t);
+  }
+
+  /**
+   * What a frame shows now.
+   * @returns {Moment}
+   */
+  function moment() {
+    const state = player.state();
+    return { ...state, deviation: model.deviation(state.t), isAsked: quiz.isOpen };
+  }
+
+  /**
+   * One frame: let time go by, and show the moment.
+   * @param {number} now
+   */
+  function frame(now) {
+    wanted = 0;
+    const wasPlaying = player.playing;
+    player.advance(last === null ? 0 : (now - last) / 1000);
+    const shown = moment();
+    if (page.isFollowing) stage.view.lookAt(...shown.wire);
+    const falls = wasPlaying || (stage.isFalling && shown.t >= player.duration); // on after the end
+    stage.draw(shown, page.times, falls, now);
+    outs.show(shown);
+    text.run(shown.block);
+    showTime(shown.t);
+    announce(shown);
+    last = player.playing || stage.isFalling ? now : null;
+    if (last !== null) redraw();
+  }
+
+  player.onChange(() => {
+    showPlayer(player);
+    found("quiz-on").setAttribute("aria-pressed", String(quiz.isOn));
+    timeline.loop(player.loop);
+    redraw();
+  });
+  wirePointer(table, stage.view, (isPan) => {
+    if (isPan) page.follow(false);
+    redraw();
+  });
+  wireButtons(actions);
+  wireTabs(elements('[role="tab"]'));
+  wireSpeed(element("#speed", HTMLInputElement), found("speed-shown"), player);
+  wireKeys(actions, quiz);
+  language.onChange(() => {
+    list.write();
+    timeline.redo();
+    redraw();
+  });
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", timeline.redo);
+  bar.setAttribute("aria-valuemax", String(player.duration));
+  found("loading").hidden = true;
+  showPlayer(player);
+  redraw();
+  return { player, view: stage.view };
+}
