@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from command import run_inside
+from jsonschema import Draft202012Validator
 from places import ROOT
 from replayed import document_of
 from runs import codes, plain_scenario, run_text, silent
@@ -75,7 +76,7 @@ def test_files_of_every_reader_are_found(tmp_path: Path) -> None:
 
 def test_a_block_says_where_it_stands() -> None:
     program = parse_program(SLOT)
-    assert list(program.toolpath.source.label) == ["10", "", "30", ""]
+    assert list(program.toolpath.source.label) == ["N10", "", "N30", ""]
     assert [block.text for block in program.toolpath][:2] == ["go 4 0", "arc 4 4 4 2 left"]
     assert program.toolpath.words is None
     assert program.mender is None
@@ -184,9 +185,15 @@ def test_the_report_has_its_header_and_no_words_of_steps(run: DryRun) -> None:
     report = build_report(run)
     assert report["program"]["dialect"] == "tiny"
     assert report["program"]["header"] == {"words": 3.0}
-    assert [block["label"] for block in report["blocks"]] == ["10", None, "30", None]
+    assert [block["label"] for block in report["blocks"]] == ["N10", None, "N30", None]
     for block in report["blocks"]:
         assert [block[key] for key in ("count_um", "count_axis", "radius_um", "curve")] == [None] * 4
+
+
+def test_the_report_keeps_its_schema_but_for_what_it_says_of_dialects(run: DryRun) -> None:
+    schema = json.loads((ROOT / "docs" / "report.schema.json").read_text("utf-8"))
+    complaints = Draft202012Validator(schema).iter_errors(build_report(run))
+    assert {error.json_path for error in complaints} == {"$.program.dialect", "$.program.header"}
 
 
 def test_the_replay_has_its_blocks_and_lines() -> None:

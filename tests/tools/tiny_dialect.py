@@ -1,7 +1,8 @@
 """A dialect of three words that lives in the tests alone: ``go X Y``, ``arc X Y CX CY left|right`` and ``end``.
 
-Places are absolute, in mm, and a program starts at (0, 0). A number and a colon before a word are its label. Nothing in
-it counts steps, names quadrants or prints ends: what goes through drycut with it needs no word of 3B.
+Places are absolute, in mm, and a program starts at (0, 0). A number and a colon before a word are its label: ``N7`` is
+that of ``7: go 1 2``. Nothing in it counts steps, names quadrants or prints ends: what goes through drycut with it needs
+no word of 3B.
 """
 
 import re
@@ -45,7 +46,7 @@ class TinyReader:
             block = _BLOCK.fullmatch(text, *line.span(2))
             if block:
                 blocks.append(block)
-                labels.append(line[1] or "")
+                labels.append(f"N{line[1]}" if line[1] else "")
             elif line[2] == "end":
                 stops.append(Stop("end", len(blocks), lines.line(line.start(2))))
                 break
