@@ -1,8 +1,8 @@
 """A dialect of three words that lives in the tests alone: ``go X Y``, ``arc X Y CX CY left|right`` and ``end``.
 
 Places are absolute, in mm, and a program starts at (0, 0). A number and a colon before a word are its label: ``N7`` is
-that of ``7: go 1 2``. Nothing in it counts steps, names quadrants or prints ends: what goes through drycut with it needs
-no word of 3B.
+that of ``7: go 1 2``. Nothing in it counts steps, names quadrants or prints ends: what goes through drycut with it
+needs no word of 3B.
 """
 
 import re
