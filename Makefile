@@ -50,9 +50,11 @@ fuzz: $(READY)
 golden: browser
 	DRYCUT_RENEW_GOLDEN=1 $(BIN)/pytest $$(grep -rl --include='test_*.py' 'import.* assert_golden' tests)
 
-# Renew docs/findings.md and docs/findings.zh.md from the pages in parser/findings/pages.
+# Renew docs/findings.md and docs/findings.zh.md from the pages in parser/findings/pages, and the tables of keys in
+# docs/scenarios.md from those in sim/setup.
 pages: $(READY)
 	$(BIN)/python -m sim.show.findings.catalogue_document
+	$(BIN)/python -m sim.setup.key_tables
 
 # Renew the lock for every Python the project supports.
 lock: $(READY)

@@ -1,5 +1,6 @@
 """What people write and read, and what the engine counts in: lengths and speeds with units, durations, forces."""
 
+import math
 import re
 from collections.abc import Mapping
 from fractions import Fraction
@@ -69,3 +70,8 @@ def clock(seconds: float) -> str:
         return f"{minutes} min {rest} s"
     hours, minutes = divmod(round(seconds / 60.0), 60)
     return f"{hours} h {minutes} min"
+
+
+def three_figures(value: float) -> str:
+    """A value above 0 for people, to three figures."""
+    return f"{round(value, 2 - math.floor(math.log10(value))):,.10g}"

@@ -41,4 +41,4 @@ class GECard(
     @property
     def places(self) -> list[list[int]]:
         """Where the axes of each card stand, pulses from where they stood when the card was made."""
-        return [list(engine.pulses_out()) for engine in self._engines]
+        return [list(engine.motion.pulses_out()) for engine in self._engines]

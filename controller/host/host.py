@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from controller.card.base import Logged
-from controller.card.codes import LIST_FULL, Code, CrdSts
+from controller.card.calls.base import Logged
+from controller.card.core.codes import LIST_FULL, Code, CrdSts
+from controller.card.core.settings import CardSettings
+from controller.card.core.units import UM_S_PER_PULSE_MS
 from controller.card.ge import GECard
-from controller.card.settings import CardSettings
-from controller.card.units import UM_S_PER_PULSE_MS
 from controller.host.entries import Drive, entries_of
 from controller.stepping.pulses import Pulses
 from controller.stepping.words import words_of

@@ -1,1 +1,4 @@
-"""Stepping: paths and plans to steps of 1 µm and their pulses, point by point or at equal times."""
+"""Stepping: paths and plans to steps of 1 µm and their pulses, point by point or at equal times.
+
+A `Toolpath` or `Path` goes in with its `Plan`; `Steps` and `Pulses` come out.
+"""

@@ -43,7 +43,7 @@ class PointByPoint:
         Where X and Y stand then.
     done
         Steps made before.
-    offset_um
+    from_um
         Length of the steps' path at which the plan begins.
     """
 
@@ -55,16 +55,16 @@ class PointByPoint:
         at_um: tuple[int, int],
         *,
         done: int = 0,
-        offset_um: float = 0.0,
+        from_um: float = 0.0,
     ) -> None:
         x, y = steps.place_after(done)
-        self._steps, self._plan, self._began_s, self._offset_um = steps, plan, began_s, offset_um
+        self._steps, self._plan, self._began_s, self._from_um = steps, plan, began_s, from_um
         self._origin_um = at_um[0] - x, at_um[1] - y
         self._at_um = at_um
         self._done = done
         self._latest_s = began_s
         self._chunk, self._taken, self._size = no_pulses(), 0, _FIRST_STEPS
-        self._ends_um = offset_um + float(plan.along_um[-1]) + ROUNDING_UM
+        self._ends_um = from_um + float(plan.along_um[-1]) + ROUNDING_UM
         self._finishes = self._ends_um >= steps.along_um[-1]
         self._over = done == len(steps) or not len(plan.speed_um_s)
 
@@ -100,7 +100,7 @@ class PointByPoint:
         """The next chunk, without steps that the plan ends before."""
         until = min(self._done + self._size, len(self._steps))
         chunk = self._steps.chunk(self._done, until)
-        timed = time_steps(chunk, self._plan, self._began_s, self._offset_um)
+        timed = time_steps(chunk, self._plan, self._began_s, self._from_um)
         np.maximum(timed.t_s, self._latest_s, out=timed.t_s)
         x, y = self._origin_um
         timed = timed._replace(x_um=timed.x_um + x, y_um=timed.y_um + y) if x or y else timed

@@ -42,12 +42,12 @@ def no_pulses() -> Pulses:
     return Pulses(np.zeros(0), none, none, none)
 
 
-def time_steps(steps: StepChunk, plan: Plan, began_s: float = 0.0, offset_um: float = 0.0) -> Pulses:
+def time_steps(steps: StepChunk, plan: Plan, began_s: float = 0.0, from_um: float = 0.0) -> Pulses:
     """Pulses of some steps: each comes when the plan reaches the foot of the step on the path.
 
-    The plan begins at the time `began_s`, where `offset_um` of the steps' path are done.
+    The plan begins at the time `began_s`, where `from_um` of the steps' path are done.
     """
     # Sums of steps and of phases differ in the last bits; the last step before a wait is not to come after it.
-    time = plan.time_at((steps.along_um - offset_um) * (1.0 - ROUNDING)) + began_s
+    time = plan.time_at((steps.along_um - from_um) * (1.0 - ROUNDING)) + began_s
     # Accumulated, so that rounding (10⁻¹² s) puts no pulse before the one it follows.
     return Pulses(np.maximum.accumulate(time, out=time), steps.x_um, steps.y_um, steps.row)

@@ -65,7 +65,7 @@ class CheckSettings:
     def _offset_um(self) -> float | None:
         given = {"diameter_um": self.wire_diameter_um, "spark_gap_um": self.spark_gap_um}
         known = {name: length for name, length in given.items() if length is not None}
-        return replace(DEFAULT_WIRE, **known).offset_um if known else None
+        return replace(DEFAULT_WIRE, **known).reach_um if known else None
 
     def shows(self, code: str) -> bool:
         """Whether findings of a code were selected and not ignored."""

@@ -8,7 +8,7 @@ import click
 from parser.text.encoding import printable
 
 if TYPE_CHECKING:
-    from controller.card.replay import Difference, Replay
+    from controller.card.log.replay import Difference, Replay
 
 SHOWN = 20
 """Differences that are printed; the others are counted."""
@@ -33,7 +33,7 @@ def replay(log: Path, as_json: bool) -> None:
     \b
     drycut card replay part.log
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from controller.card.replay import replay_file
+    from controller.card.log.replay import replay_file
 
     done = replay_file(log)
     shown: list[Difference] = []

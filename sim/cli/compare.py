@@ -44,7 +44,7 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     from parser.findings.errors import ProgramError
     from parser.program import read_program
     from parser.units import mm
-    from sim.cli.overrides import OfDrawing, held
+    from sim.cli.overrides import OfDrawing, drawing_target
     from sim.cli.scenario_options import refused
     from sim.measure.compare.compared_program import compare_program
     from sim.run.offsetting import offsetting
@@ -56,7 +56,7 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
 
     number(mm(offset or 0.0), OFFSET_MM._replace(low=0.0), "--offset in mm")
     scenario = load_scenario(path)
-    drawing = held(scenario.drawing, OfDrawing(**options))
+    drawing = drawing_target(scenario.drawing, OfDrawing(**options))
     if drawing is None:
         raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
     try:
@@ -88,4 +88,4 @@ def _offset(given: float | None, program: "Program", scenario: "Scenario") -> tu
     if isinstance(told, float) and told and scenario.offset is None:
         offset_um = abs(told)
         return offset_um, f"{mm(offset_um):g} mm, of the program's header"
-    return scenario.wire.offset_um, f"{mm(scenario.wire.offset_um):g} mm, of the wire and its spark gap"
+    return scenario.wire.reach_um, f"{mm(scenario.wire.reach_um):g} mm, of the wire and its spark gap"

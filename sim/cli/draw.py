@@ -12,7 +12,7 @@ from sim.cli.scenario_options import refused, scenario_options
 if TYPE_CHECKING:
     from parser.findings.catalogue import Language
     from sim.show.draw.paints import ThemeName
-    from sim.show.pictures.files import Asked
+    from sim.show.pictures.files import PictureFiles
 
 SUFFIXES = (".png", ".svg")
 
@@ -103,9 +103,9 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     raise click.exceptions.Exit(0 if passed else 1)
 
 
-def _asked(output: Path, names: tuple[str, ...], svg: bool) -> "Asked":
+def _asked(output: Path, names: tuple[str, ...], svg: bool) -> "PictureFiles":
     """Which pictures are to become which files. BadParameter for what does not fit together."""
-    from sim.show.pictures.files import Asked
+    from sim.show.pictures.files import PictureFiles
     from sim.show.pictures.gallery import PICTURES
 
     for name in names:
@@ -116,9 +116,9 @@ def _asked(output: Path, names: tuple[str, ...], svg: bool) -> "Asked":
         if suffix and not output.is_dir():
             raise click.BadParameter(f"{output} is neither a folder nor a .png or .svg", param_hint="-o")
         kind = ".svg" if svg else ".png"
-        return Asked(output, {name: name + kind for name in names or PICTURES})
+        return PictureFiles(output, {name: name + kind for name in names or PICTURES})
     if len(set(names)) > 1:
         raise click.BadParameter(f"{output} is one picture, of {' or '.join(names)}; give a folder", param_hint="-o")
     if svg and suffix != ".svg":
         raise click.BadParameter(f"--svg is for folders; {output} says itself what it is", param_hint="--svg")
-    return Asked(output.parent, {(names or ("cut",))[0]: output.name})
+    return PictureFiles(output.parent, {(names or ("cut",))[0]: output.name})

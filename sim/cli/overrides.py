@@ -11,7 +11,7 @@ from parser.units import mm
 from sim.setup.toml.reader import number
 
 if TYPE_CHECKING:
-    from sim.setup.part import DrawingAsked, Offset
+    from sim.setup.part import DrawingTarget, Offset
     from sim.setup.scenario import Scenario
     from sim.setup.wire import Wire
 
@@ -97,15 +97,15 @@ class OfDrawing(NamedTuple):
     gap: float | None = None
 
 
-def held(own: "DrawingAsked | None", options: OfDrawing) -> "DrawingAsked | None":
+def drawing_target(own: "DrawingTarget | None", options: OfDrawing) -> "DrawingTarget | None":
     """The drawing with the options in place of a scenario's own values; None without a drawing.
 
     SettingsError for values out of their bounds.
     """
-    from sim.setup.part import GAP_UM, TOLERANCE_UM, DrawingAsked
+    from sim.setup.part import GAP_UM, TOLERANCE_UM, DrawingTarget
 
     if options.drawing is not None:
-        own = own._replace(file=options.drawing) if own is not None else DrawingAsked(options.drawing)
+        own = own._replace(file=options.drawing) if own is not None else DrawingTarget(options.drawing)
     if own is None:
         return None
     if options.layer is not None:
@@ -117,10 +117,10 @@ def held(own: "DrawingAsked | None", options: OfDrawing) -> "DrawingAsked | None
     return own._replace(fit=own.fit and not options.no_fit)
 
 
-def _drawing(own: "DrawingAsked | None", options: Overrides) -> "DrawingAsked | None":
+def _drawing(own: "DrawingTarget | None", options: Overrides) -> "DrawingTarget | None":
     """The drawing of a run. SettingsError where the options say how to hold it but not which."""
     of = OfDrawing(options.drawing, options.layer, options.tolerance, options.no_fit)
-    drawing = held(own, of)
+    drawing = drawing_target(own, of)
     for name, given in (("layer", of.layer), ("tolerance", of.tolerance), ("no-fit", of.no_fit)):
         if drawing is None and given not in (None, False):
             raise SettingsError(f"--{name} needs --drawing, such as --drawing part.dxf")

@@ -140,9 +140,9 @@ def _show(  # noqa: PLR0913, PLR0917 - a run, where to, and how
 
         write_film(output, recording, seconds, fps, look, progress)
     else:
-        from sim.show.film.clock import Clock
-        from sim.show.film.course import course_of
+        from sim.run.course import course_of
+        from sim.show.film.clock import FilmClock
         from sim.show.film.window import Window
 
         course = course_of(recording)
-        Window(course, look, Clock(seconds, fps, course.duration_s).speed).play()
+        Window(course, look, FilmClock(seconds, fps, course.duration_s).speed).play()

@@ -81,7 +81,7 @@ def _run(program: "Program", scenario: "Scenario", output: Path | None, card_log
     from sim.cli.progress import StageProgress
     from sim.run.card_log import logging_to
     from sim.run.dryrun import dry_run
-    from sim.run.judge import check_expectations
+    from sim.run.recording import check_expectations
 
     settings = scenario.machine.controller.card_settings
     _refuse_to_overwrite(card_log, program_file=scenario.program, output=output)

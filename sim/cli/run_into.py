@@ -5,18 +5,17 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.card.log import CardLog
+from controller.card.log.writer import CardLog
 from parser.program import Program
 from sim.files import StepFiles, staged, write_npz
 from sim.run.dryrun import DryRun, dry_run
-from sim.run.judge import check_expectations
-from sim.run.recording import Recording, recording_of
+from sim.run.recording import Recording, check_expectations, recording_of
 from sim.run.report import build_report, report_text
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
-from sim.show.pictures.cut.of_run import cut_picture
+from sim.show.pictures.cut.picture import draw_cut_of_run
 from sim.show.pictures.inline import inline_pictures
-from sim.show.replay.page import replay_page
+from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
 from sim.table.motion import Progress
 
@@ -49,7 +48,7 @@ def _show(recording: Recording, folder: Path, progress: Progress) -> None:
     """Write the report and what people look at; then nothing holds the files of the steps any more."""
     run, report = recording.run, build_report(recording.run)
     (folder / "report.json").write_text(report_text(report), encoding="utf-8")
-    cut_picture(pixels(), run, recording.pieces).image().save(folder / "cut.png", dpi=(200, 200))
+    draw_cut_of_run(pixels(), run, recording.pieces).image().save(folder / "cut.png", dpi=(200, 200))
     (folder / "replay.html").write_text(replay_page(recording), encoding="utf-8")
     pictures = inline_pictures(recording, progress)
     (folder / "report.html").write_text(report_page(run, report, pictures), encoding="utf-8")

@@ -36,7 +36,7 @@ class Remains:
 
 def remains_of(program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario) -> Remains:
     """Kerf, pieces and sizes by where the wire really was."""
-    kerf = kerf_of(program.toolpath, trace, contours, scenario.wire.offset_um)
+    kerf = kerf_of(program.toolpath, trace, contours, scenario.wire.reach_um)
     pieces = _pieces(kerf, scenario)
     return Remains(
         kerf=kerf,
@@ -52,7 +52,7 @@ def pieces_left(
     """Pieces of a run: those of what it leaves, worked out from the rest where nobody had asked for that."""
     if remains is not None:
         return remains.pieces
-    return _pieces(kerf_of(program.toolpath, trace, contours, scenario.wire.offset_um), scenario)
+    return _pieces(kerf_of(program.toolpath, trace, contours, scenario.wire.reach_um), scenario)
 
 
 def _pieces(kerf: Kerf, scenario: Scenario) -> Pieces:

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from controller.card.log import CardLog
-from controller.card.settings import CardSettings
+from controller.card.core.settings import CardSettings
+from controller.card.log.writer import CardLog
 from sim.files import staged
 
 

@@ -1,27 +1,193 @@
-"""How far a recorded run went: a servo that trips ends it, though its card goes on."""
+"""The course of a recorded run: what goes on at any moment of it, and what happens on the way.
 
-from typing import NamedTuple
+A servo that trips ends the run, though its card goes on: the course ends there.
+"""
+
+import math
+from dataclasses import dataclass
+from itertools import chain
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from controller.stepping.pulses import Pulses
+from parser.findings.findings import Finding
+from parser.geometry.curves import Floats
+from parser.toolpath import Stop
+from sim.cut.pieces.pieces import Piece, Pieces
+from sim.measure.deviation.across import Across, across
+from sim.run.dryrun import DryRun
 from sim.run.recording import Recording
+from sim.table.motion import origin_um
+from sim.table.record.losses import Loss
 from sim.table.trace import Trace
 
+Event = Finding | Stop | Piece | Loss
+What_co = TypeVar("What_co", bound=Event, covariant=True)
 
-class Ran(NamedTuple):
-    """What the machine did before it stopped: pulses, samples, and the time of the whole, s."""
 
+class Happening(NamedTuple, Generic[What_co]):
+    """Something that happens in a run.
+
+    Attributes
+    ----------
+    t_s
+        When; for a finding about a block and for a stop as planned. NaN for a finding about no block that ran.
+    row
+        Row of the toolpath that it is about; of a stop the row that comes next, n at the end. −1 for a finding about no
+        block that ran.
+    what
+        What it is.
+    """
+
+    t_s: float
+    row: int
+    what: What_co
+
+
+class Moment(NamedTuple):
+    """A moment of a run.
+
+    Attributes
+    ----------
+    t_s
+        Its time.
+    row, cuts
+        Row that runs, and whether it cuts: else the wire jumps.
+    wire_um, commanded_um
+        (2,) float64, where the wire is, and where the steps have asked the table to be.
+    feed_um_s
+        Planned speed along the path.
+    deviation_um
+        Distance of the wire from the ideal path.
+    """
+
+    t_s: float
+    row: int
+    cuts: bool
+    wire_um: Floats
+    commanded_um: Floats
+    feed_um_s: float
+    deviation_um: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Course:
+    """A run of n blocks up to where it ended, of itself or by a trip.
+
+    Attributes
+    ----------
+    run
+        What came of it.
+    steps, trace, duration_s
+        What the machine did before it stopped: pulses, samples, and the time of the whole.
+    across
+        Where the wire lies across the ideal path at each sample of the trace.
+    border_s
+        (n + 1,) float64, planned times at which the blocks begin, and the end of the last one.
+    findings, stops, pieces, losses
+        All of each kind, those too that were to come when the run ended, in the order in which the run tells them.
+    happenings
+        What happened before the run ended, in order of time; of what falls together findings come first.
+    """
+
+    run: DryRun
     steps: Pulses
     trace: Trace
     duration_s: float
+    across: Across
+    border_s: Floats
+    findings: tuple[Happening[Finding], ...]
+    stops: tuple[Happening[Stop], ...]
+    pieces: tuple[Happening[Piece], ...]
+    losses: tuple[Happening[Loss], ...]
+    happenings: tuple[Happening[Event], ...]
+
+    def at(self, t_s: float) -> Moment:
+        """What goes on at a time; times past either end count as that end.
+
+        Between two samples the wire goes straight, and so does the place on the path that its deviation is measured
+        from. So no moment deviates more than the worse of the two samples beside it.
+        """
+        t_s = min(max(t_s, 0.0), self.duration_s)
+        row = self.row_at(t_s)
+        wire, foot = self._between(self.trace.wire_um, t_s), self._between(self.across.foot_um, t_s)
+        return Moment(
+            t_s=t_s,
+            row=row,
+            cuts=not self.run.toolpath.is_jump[row],
+            wire_um=wire,
+            commanded_um=self.commanded_um(self.steps_by(t_s)),
+            feed_um_s=float(self.run.plan.at(t_s).speed_um_s),
+            deviation_um=math.dist(wire, foot),
+        )
+
+    def row_at(self, t_s: float) -> int:
+        """Row that runs at a time."""
+        return max(int(np.searchsorted(self.border_s[:-1], t_s, side="right")) - 1, 0)
+
+    def steps_by(self, t_s: float) -> int:
+        """How many steps are done by a time."""
+        return int(np.searchsorted(self.steps.t_s, t_s, side="right"))
+
+    def commanded_um(self, steps: int) -> Floats:
+        """Place (2,) after so many steps."""
+        if steps == 0:
+            return np.array(origin_um(self.run.toolpath), dtype=np.float64)
+        return np.array([self.steps.x_um[steps - 1], self.steps.y_um[steps - 1]], dtype=np.float64)
+
+    def _between(self, places_um: Floats, t_s: float) -> Floats:
+        """Place (2,) at a time, of the places (m, 2) at the samples."""
+        x, y = (float(np.interp(t_s, self.trace.t_s, places_um[:, axis])) for axis in (0, 1))
+        return np.array([x, y])
 
 
-def ran(recording: Recording) -> Ran:
-    """The recorded run up to where it ended, of itself or by a trip."""
-    run, steps = recording.run, recording.steps
+def course_of(recording: Recording) -> Course:
+    """The course of a recorded run."""
+    run, steps, trace = recording.run, recording.steps, recording.run.cut
     if run.tripped is None:
-        return Ran(steps, run.trace, max(run.plan.duration_s, float(run.trace.t_s[-1])))
-    until_s = run.tripped.t_s
-    made = int(np.searchsorted(steps.t_s, until_s, side="right"))
-    return Ran(steps.part(0, made), run.cut, until_s)
+        duration_s = max(run.plan.duration_s, float(trace.t_s[-1]))
+    else:
+        duration_s = run.tripped.t_s
+        steps = steps.part(0, int(np.searchsorted(steps.t_s, duration_s, side="right")))
+    findings, stops, losses = findings_of(run), stops_of(run), losses_of(run)
+    pieces = pieces_freed(recording.pieces)
+    met = (one for one in chain[Happening[Event]](findings, stops, pieces, losses) if one.t_s <= duration_s)
+    return Course(
+        run=run,
+        steps=steps,
+        trace=trace,
+        duration_s=duration_s,
+        across=across(run.toolpath, trace, trace.wire_um, run.plan.at(trace.t_s).along_um),
+        border_s=run.border_s,
+        findings=findings,
+        stops=stops,
+        pieces=pieces,
+        losses=losses,
+        happenings=tuple(sorted(met, key=lambda one: one.t_s)),
+    )
+
+
+def findings_of(run: DryRun) -> tuple[Happening[Finding], ...]:
+    """Findings of a run, with their own time where they know it, else with that at which their block begins."""
+    blocks, rows = np.unique(run.toolpath.source.block, return_index=True)
+    first_row = dict(zip(blocks.tolist(), rows.tolist(), strict=True))
+    begins_s = [*run.border_s.tolist()[:-1], math.nan]
+    placed = [(finding, first_row.get(finding.block, -1)) for finding in run.findings]
+    return tuple(Happening(float(one.values.get("t_s", begins_s[row])), row, one) for one, row in placed)
+
+
+def stops_of(run: DryRun) -> tuple[Happening[Stop], ...]:
+    """Pauses of a run, and its end."""
+    border_s = run.border_s
+    return tuple(Happening(float(border_s[stop.after]), stop.after, stop) for stop in run.toolpath.stops)
+
+
+def pieces_freed(pieces: Pieces) -> tuple[Happening[Piece], ...]:
+    """Pieces as they come free."""
+    return tuple(Happening(piece.freed.t_s, piece.freed.block - 1, piece) for piece in pieces.freed)
+
+
+def losses_of(run: DryRun) -> tuple[Happening[Loss], ...]:
+    """What the drives of a run lost."""
+    return tuple(Happening(loss.t_s, loss.row, loss) for loss in run.losses)

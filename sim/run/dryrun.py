@@ -5,7 +5,7 @@ from typing import Protocol
 
 import numpy as np
 
-from controller.card.log import CardLog
+from controller.card.log.writer import CardLog
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
 from parser.drawing.model import Drawing
@@ -20,14 +20,14 @@ from sim.cut.obstacles.findings import obstacle_findings
 from sim.cut.pieces.findings import piece_findings
 from sim.cut.remains import Remains, remains_of
 from sim.cut.wire_lag import bowed
-from sim.measure.compare.findings import drawing_findings, held_against
+from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
 from sim.measure.deviation.measured import Deviations, Meters
-from sim.measure.deviation.stepped import Stepped
+from sim.measure.deviation.meters import BlockSteps
 from sim.run.offsetting import Offsetting
 from sim.run.prepare import prepare
 from sim.setup.expectations import Missed
-from sim.setup.part import DrawingAsked
+from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
 from sim.table.motion import Motion, Progress, motion_of, simulate
@@ -84,7 +84,7 @@ class DryRun:
     program: Program
     scenario: Scenario
     offset: Offsetting | None
-    stepped: Stepped
+    stepped: BlockSteps
     plan: Plan
     trace: Trace
     losses: tuple[Loss, ...]
@@ -98,6 +98,11 @@ class DryRun:
     findings: tuple[Finding, ...]
     coverage: Coverage
     missed: tuple[Missed, ...] = ()
+
+    @property
+    def border_s(self) -> Floats:
+        """(n + 1,) float64, planned times at which the blocks begin, and the end of the last one."""
+        return np.concatenate([[0.0], np.cumsum(self.block_time_s)])
 
     @property
     def tripped(self) -> Loss | None:
@@ -180,26 +185,26 @@ def dry_run(
     )
 
 
-def _drawing(held: DrawingAsked | None) -> Drawing | None:
-    if held is None:
+def _drawing(target: DrawingTarget | None) -> Drawing | None:
+    if target is None:
         return None
     from parser.drawing.read import read_drawing  # noqa: PLC0415 - most runs have no drawing, and ezdxf loads for 0.3 s
 
-    return read_drawing(held.file, layer=held.layer, gap_um=held.gap_um)
+    return read_drawing(target.file, layer=target.layer, gap_um=target.gap_um)
 
 
 def _left(
     program: Program, cut: Trace, contours: tuple[Contour, ...], scenario: Scenario, drawing: Drawing | None
 ) -> tuple[Remains | None, Comparison | None, list[Finding]]:
     """What the cut leaves, beside the drawing, with findings; as far as the scenario asks for it."""
-    held = scenario.drawing
-    if not scenario.kerf and held is None:
+    target = scenario.drawing
+    if not scenario.kerf and target is None:
         return None, None, []
     remains = remains_of(program, cut, contours, scenario)
     found = piece_findings(program, remains.pieces)
-    if held is None or drawing is None:
+    if target is None or drawing is None:
         return remains, None, found
-    comparison = held_against(program, remains.pieces, scenario.wire.offset_um, drawing, held)
+    comparison = compare_cut(program, remains.pieces, scenario.wire.reach_um, drawing, target)
     return remains, comparison, [*found, *drawing_findings(program, comparison)]
 
 

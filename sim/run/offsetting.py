@@ -58,10 +58,10 @@ def offsetting(program: Program, offset: Offset) -> Offsetting:
     drawn = program.toolpath
     sections = sections_of(drawn)
     path = compensate(drawn, sections, offset.by_um, offset.side)
-    held = [_held(drawn, path, *one, offset) for one in zip(sections, _beside(path, drawn), strict=True)]
-    left_um = np.concatenate([np.zeros(0), *(one.left_um for one in held)])
-    met = tuple(gouge for one in held for gouge in one.gouges)
-    closed = {section: one.loops for section, one in zip(sections, held, strict=True) if one.loops is not None}
+    parts = [_beside_section(drawn, path, *one, offset) for one in zip(sections, _beside(path, drawn), strict=True)]
+    left_um = np.concatenate([np.zeros(0), *(one.left_um for one in parts)])
+    met = tuple(gouge for one in parts for gouge in one.gouges)
+    closed = {section: one.loops for section, one in zip(sections, parts, strict=True) if one.loops is not None}
     found = [
         *uncut_findings(program, offset, path.vanished, left_um),
         *gouge_findings(program, offset, path, met),
@@ -78,16 +78,16 @@ def offsetting(program: Program, offset: Offset) -> Offsetting:
     )
 
 
-class _Held(NamedTuple):
-    """The offset path beside one section, held against all of it; loops are None where it does not close."""
+class _Beside(NamedTuple):
+    """What the offset path leaves and gouges beside one section; how many loops that allows, None where it is open."""
 
     left_um: Floats
     gouges: list[Gouge]
     loops: int | None
 
 
-def _held(drawn: Curves, path: OffsetPath, section: Section, beside: slice, offset: Offset) -> _Held:
-    """Hold the rows `beside` of the path against a section of what is drawn."""
+def _beside_section(drawn: Curves, path: OffsetPath, section: Section, beside: slice, offset: Offset) -> _Beside:
+    """What the rows `beside` of the path do to a section of what is drawn."""
     contour = drawn.picked(slice(section.first, section.last + 1))
     # Leads of an open section are left out: where it has none of its own, they begin and end on it.
     near = np.arange(beside.start, beside.stop)[section.closed | (path.made[beside] != Made.LEAD)]
@@ -96,7 +96,7 @@ def _held(drawn: Curves, path: OffsetPath, section: Section, beside: slice, offs
         contour = closed_contour(contour)
     met = [g for g in gouges(contour, curves, offset.by_um, offset.side) if not _is_overhang(contour, section, g)]
     gone = path.vanished[slice(*np.searchsorted(path.vanished, (section.first, section.last + 1)))] - section.first
-    return _Held(
+    return _Beside(
         left_um=uncut_um(contour, curves, offset.by_um, gone),
         gouges=[g._replace(row=section.first + g.row, path_row=int(near[g.path_row])) for g in met],
         loops=len(reach(contour, offset.by_um, offset.side).loops) if section.closed else None,

@@ -66,7 +66,7 @@ def _demands(scenario: Scenario) -> Demands:
     """What the program is held against; with an offset, corners and travel are those of the offset path."""
     if scenario.offset is not None:
         return Demands(may_stay_open=scenario.may_stay_open)
-    return Demands(scenario.machine.table, scenario.start_um, scenario.wire.offset_um, scenario.may_stay_open)
+    return Demands(scenario.machine.table, scenario.start_um, scenario.wire.reach_um, scenario.may_stay_open)
 
 
 def _looked_at(coverage: Coverage, names: Sequence[Check]) -> Coverage:

@@ -3,6 +3,7 @@
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,7 +15,9 @@ from sim.cut.pieces.pieces import Frame, Pieces
 from sim.cut.remains import pieces_left
 from sim.files import StepFiles
 from sim.run.dryrun import DryRun, dry_run
-from sim.run.judge import check_expectations
+from sim.run.findings import expectation_findings
+from sim.run.report import build_report
+from sim.setup.expectations import missed
 from sim.setup.scenario import Scenario
 from sim.table.motion import Progress
 
@@ -32,7 +35,7 @@ class Recording(NamedTuple):
     run
         What came of it.
     pieces
-        What the cut leaves of the work; none where nobody asked for it and it would take minutes.
+        What the cut leaves of the work (`pieces_of_run`).
     steps
         Every pulse, in program coordinates, in arrays that lie in files: take slices of them. The place before the
         first one is `sim.table.motion.origin_um` of the toolpath.
@@ -61,11 +64,18 @@ def recorded(program: Program, scenario: Scenario, progress: Progress) -> Iterat
         yield recording_of(run, files.paths, progress)
 
 
-def pieces_of_run(run: DryRun) -> Pieces:
-    """What the cut leaves of the work.
+def check_expectations(run: DryRun) -> DryRun:
+    """The run, with a finding for each expectation of its scenario that it does not meet."""
+    if not run.scenario.expect:
+        return run
+    unmet = missed(build_report(run), run.scenario.expect)
+    return replace(run, missed=unmet, findings=(*run.findings, *expectation_findings(unmet)))
 
-    Where the run was not asked for it, it is worked out for those who look; nothing where the path runs so often over
-    itself that this would take minutes.
+
+def pieces_of_run(run: DryRun) -> Pieces:
+    """What the cut leaves of the work, worked out here where the scenario did not ask for it.
+
+    `NO_PIECES` where it did not, and the path runs over itself so often that this would take minutes.
     """
     if run.remains is None and _passes(run) > MOST_PASSES:
         return NO_PIECES

@@ -5,6 +5,10 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from parser.findings.errors import SettingsError
+from sim.setup.toml.keys import Section, Written
+
+EXPECT = Section("expect", ())
+"""Its keys are paths into the report."""
 
 _OF_STEPS = {"stepped", "closure_stepped_um", "interpolator"}
 
@@ -52,6 +56,18 @@ def read_expectation(table: Mapping[str, Any], where: str) -> tuple[Expectation,
             )
         found.append(Expectation(path, (float(low), float(high)), is_range=True))
     return tuple(found)
+
+
+def expect_section(expected: tuple[Expectation, ...]) -> Written:
+    """The ``[expect]`` table that makes these."""
+    return Written(EXPECT, {expectation.path: wanted(expectation) for expectation in expected})
+
+
+def wanted(expected: Expectation) -> Any:
+    """What an expectation asks for, as its file says it."""
+    if not expected.is_range:
+        return expected.value
+    return {key: end for key, end in zip(("min", "max"), expected.value, strict=True) if math.isfinite(end)}
 
 
 def not_of_steps(expected: tuple[Expectation, ...]) -> tuple[Expectation, ...]:

@@ -10,10 +10,11 @@ import numpy as np
 
 from parser.findings.errors import SettingsError
 from parser.geometry.curves import Floats
-from parser.text.encoding import printable
 from parser.toolpath import Point
 from parser.units import from_mm
-from sim.setup.toml.reader import Bound, number, refuse_unknown, section, text
+from sim.setup.toml.keys import Key, Section
+from sim.setup.toml.kinds import Kind, Name, in_mm
+from sim.setup.toml.reader import PLACE_MM, Bound, number, tables
 
 Outline = tuple[Point, ...]
 """Corners of a simple polygon, µm, counter-clockwise; the last side leads back to the first corner."""
@@ -21,8 +22,6 @@ Outline = tuple[Point, ...]
 POINTS = Bound(3, 100)
 APART_UM = 1.0
 """Sides of one outline come no nearer to each other than a step; what does is a slip of the pen."""
-
-_PLACE_MM = Bound(-1e5, 1e5)
 
 
 class Clamp(NamedTuple):
@@ -32,34 +31,48 @@ class Clamp(NamedTuple):
     outline_um: Outline
 
 
+class OutlineMm(Kind):
+    """An outline, its corners in mm."""
+
+    name = "outline"
+    unit = "mm"
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> Outline:
+        """Its corners, µm."""
+        return read_outline(table, where, key)
+
+    def written(self, value: Any) -> list[list[float]]:
+        """A list of its corners."""
+        return [[in_mm(corner.x), in_mm(corner.y)] for corner in value]
+
+
+CLAMPS = Section(
+    "clamps",
+    (Key("name", Name(), default=None), Key("outline_mm", OutlineMm(), "outline_um")),
+    fills="clamps",
+    form="list",
+)
+ARM = Section("arm", (Key("outline_mm", OutlineMm(), "arm_um"),))
+
+
 def read_clamps(scenario: Mapping[str, Any], where: str) -> tuple[Clamp, ...]:
     """Tables ``[[clamps]]`` of a scenario, none where they are left out. SettingsError names file, clamp and key."""
-    tables = scenario.get("clamps", [])
-    if not isinstance(tables, list) or not all(isinstance(table, Mapping) for table in tables):
-        raise SettingsError(f"{where}: clamps are tables, [[clamps]]; found {tables!r}")
-    return tuple(_clamp(table, at, where) for at, table in enumerate(tables, start=1))
+    return tuple(
+        _clamp(table, at, f"{where}: {CLAMPS.header} {at}")
+        for at, table in enumerate(tables(scenario, "clamps", where), start=1)
+    )
 
 
 def _clamp(table: Mapping[str, Any], at: int, where: str) -> Clamp:
-    where = f"{where}: [[clamps]] {at}"
-    refuse_unknown(table, ("name", "outline_mm"), where)
-    return Clamp(printable(text(table, "name", where, default=f"clamp {at}")), read_outline(table, where))
+    value = CLAMPS.read(table, where)
+    return Clamp(name=value.pop("name") or f"clamp {at}", **value)
 
 
-def read_arm(machine: Mapping[str, Any], where: str) -> Outline | None:
-    """Outline of ``[arm]`` of a machine file, None where it is left out. SettingsError names file and key."""
-    if "arm" not in machine:
-        return None
-    arm, where = section(machine, "arm", where), f"{where}: [arm]"
-    refuse_unknown(arm, ("outline_mm",), where)
-    return read_outline(arm, where)
-
-
-def read_outline(table: Mapping[str, Any], where: str) -> Outline:
-    """Outline of the key ``outline_mm``. SettingsError where it is missing or no simple polygon."""
-    if "outline_mm" not in table:
-        raise SettingsError(f"{where}: outline_mm is missing")
-    where, value = f"{where}: outline_mm", table["outline_mm"]
+def read_outline(table: Mapping[str, Any], where: str, key: str = "outline_mm") -> Outline:
+    """Outline of a key. SettingsError where it is missing or no simple polygon."""
+    if key not in table:
+        raise SettingsError(f"{where}: {key} is missing")
+    where, value = f"{where}: {key}", table[key]
     if not isinstance(value, list) or not all(isinstance(point, list) and len(point) == 2 for point in value):
         raise SettingsError(f"{where} is a list of points [x, y]; found {value!r}")
     number(len(value), POINTS, f"{where}: the number of points")
@@ -71,7 +84,7 @@ def read_outline(table: Mapping[str, Any], where: str) -> Outline:
 
 
 def _place(point: list[object], where: str) -> tuple[float, float]:
-    x, y = (number(value, _PLACE_MM, f"{where}: {axis}") for value, axis in zip(point, "xy", strict=True))
+    x, y = (number(value, PLACE_MM, f"{where}: {axis}") for value, axis in zip(point, "xy", strict=True))
     return x, y
 
 

@@ -7,8 +7,10 @@ from typing import Any, NamedTuple
 from controller.offset.sections import Side
 from parser.drawing.model import DEFAULT_GAP_UM
 from parser.findings.errors import SettingsError
-from parser.units import from_mm
-from sim.setup.toml.reader import Bound, number, refuse_unknown, section, text, truth
+from parser.text.encoding import printable
+from sim.setup.toml.keys import Key, Section
+from sim.setup.toml.kinds import MM_AS_UM, FileName, Number, OneOf, Text, Truth
+from sim.setup.toml.reader import Bound, text
 
 OFFSET_MM = Bound(0.0001, 10.0)
 TOLERANCE_UM = Bound(0.001, 1e6)
@@ -37,7 +39,7 @@ class Offset(NamedTuple):
     side: Side
 
 
-class DrawingAsked(NamedTuple):
+class DrawingTarget(NamedTuple):
     """Drawing that the cut is held against.
 
     Attributes
@@ -61,37 +63,51 @@ class DrawingAsked(NamedTuple):
     fit: bool = True
 
 
+class _SideWord(OneOf):
+    """A side by its word."""
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> str:
+        """The word."""
+        name = text(table, key, where)
+        if name not in SIDES:
+            raise SettingsError(f"{where}: {key} is {' or '.join(SIDES)}; found {name!r}")
+        return name
+
+    def kept(self, value: Any) -> Side:
+        """The side."""
+        return SIDES[value]
+
+    def written(self, value: Any) -> str:
+        """Its word."""
+        return next(name for name, side in SIDES.items() if side is value)
+
+
+OFFSET = Section(
+    "offset",
+    (Key("by_mm", Number(OFFSET_MM, "mm", MM_AS_UM), "by_um"), Key("side", _SideWord(tuple(SIDES)))),
+    fills="offset",
+)
+DRAWING = Section(
+    "drawing",
+    (
+        Key("file", FileName()),
+        Key("layer", Text(), default=None, get=lambda drawing: drawing.layer and printable(drawing.layer)),
+        Key("tolerance_um", Number(TOLERANCE_UM, "µm"), default=DEFAULT_TOLERANCE_UM),
+        Key("gap_um", Number(GAP_UM, "µm"), default=DEFAULT_GAP_UM),
+        Key("fit", Truth(), default=True),
+    ),
+    fills="drawing",
+)
+
+
 def read_offset(scenario: Mapping[str, Any], where: str) -> Offset | None:
     """Offset of ``[offset]``, None where it is left out. SettingsError names file and key."""
-    if "offset" not in scenario:
-        return None
-    table, where = section(scenario, "offset", where), f"{where}: [offset]"
-    refuse_unknown(table, ("by_mm", "side"), where)
-    if "by_mm" not in table:
-        raise SettingsError(f"{where}: by_mm is missing")
-    return Offset(
-        from_mm(number(table["by_mm"], OFFSET_MM, f"{where}: by_mm")),
-        side_named(text(table, "side", where), f"{where}: side"),
-    )
+    return Offset(**OFFSET.read_in(scenario, where)) if "offset" in scenario else None
 
 
-def side_named(name: str, where: str) -> Side:
-    """The side ``left`` or ``right``. SettingsError for anything else."""
-    if name not in SIDES:
-        raise SettingsError(f"{where} is {' or '.join(SIDES)}; found {name!r}")
-    return SIDES[name]
-
-
-def read_drawing_asked(scenario: Mapping[str, Any], where: str, folder: Path) -> DrawingAsked | None:
+def read_drawing_target(scenario: Mapping[str, Any], where: str, folder: Path) -> DrawingTarget | None:
     """Drawing of ``[drawing]``, None where it is left out; its file lies in the folder. SettingsError names the key."""
     if "drawing" not in scenario:
         return None
-    table, where = section(scenario, "drawing", where), f"{where}: [drawing]"
-    refuse_unknown(table, DrawingAsked._fields, where)
-    return DrawingAsked(
-        file=folder / text(table, "file", where),
-        layer=text(table, "layer", where) if "layer" in table else None,
-        tolerance_um=number(table.get("tolerance_um", DEFAULT_TOLERANCE_UM), TOLERANCE_UM, f"{where}: tolerance_um"),
-        gap_um=number(table.get("gap_um", DEFAULT_GAP_UM), GAP_UM, f"{where}: gap_um"),
-        fit=truth(table, "fit", where, default=True),
-    )
+    drawing = DrawingTarget(**DRAWING.read_in(scenario, where))
+    return drawing._replace(file=folder / drawing.file)

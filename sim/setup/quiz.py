@@ -1,14 +1,16 @@
 """The quiz of a scenario: questions that the replay asks before blocks."""
 
-from collections.abc import Iterable, Mapping
-from typing import Any, Literal, NamedTuple, cast, get_args
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
 from parser.findings.errors import SettingsError
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
-from sim.setup.toml.reader import Bound, number, refuse_unknown, text
+from sim.setup.toml.keys import Key, Section
+from sim.setup.toml.kinds import Kind, Name, OneOf, Whole
+from sim.setup.toml.reader import Bound, number, refuse_unknown, tables
 
 About = Literal["quadrant", "count_axis", "turn", "count_length", "next_step", "end"]
 """What drycut asks about a block and answers from the program."""
@@ -18,7 +20,6 @@ _OF_WORDS: tuple[About, ...] = ("quadrant", "count_axis", "turn", "count_length"
 
 BLOCK = Bound(1, 1e6)
 ANSWERS = Bound(2, 6)
-_FREE = ("ask", "ask_zh", "answers", "answers_zh", "right", "why", "why_zh")
 
 
 class Said(NamedTuple):
@@ -55,12 +56,86 @@ class Question(NamedTuple):
     where: str
 
 
+class _Answers(Kind):
+    """Answers to choose from."""
+
+    name = "answers"
+    bound = ANSWERS
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> list[str]:
+        """The answers."""
+        value = table.get(key)
+        if not isinstance(value, list) or not all(isinstance(answer, str) and answer for answer in value):
+            raise SettingsError(f"{where}: {key} is a list of texts and must be given; found {value!r}")
+        number(len(value), ANSWERS, f"{where}: the number of {key}")
+        if len(set(value)) < len(value):
+            raise SettingsError(f"{where}: {key} holds the same text twice")
+        return value
+
+    def kept(self, value: Any) -> list[str]:
+        """Without control characters."""
+        return [printable(answer) for answer in value]
+
+
+def _of_written(get: Callable[[Written], Any]) -> Callable[[Question], Any]:
+    """How something of a question that is written out is found; the others have none of it."""
+    return lambda question: get(question.what) if isinstance(question.what, Written) else None
+
+
+_BLOCK = Key("block", Whole(BLOCK))
+_ABOUT = Key(
+    "about",
+    OneOf(get_args(About)),
+    default=None,
+    get=lambda question: None if isinstance(question.what, Written) else question.what,
+)
+_RIGHT = Key("right", Whole(Bound(1, ANSWERS.high)), get=_of_written(lambda written: written.right + 1))
+_ANSWERS, _ANSWERS_ZH = (
+    Key("answers", _Answers(), get=_of_written(lambda written: [answer.en for answer in written.answers])),
+    Key("answers_zh", _Answers(), default=None, get=_of_written(lambda written: [a.zh for a in written.answers])),
+)
+_ASK, _ASK_ZH, _WHY, _WHY_ZH = (
+    Key("ask", Name(), get=_of_written(lambda written: written.ask.en)),
+    Key("ask_zh", Name(), default=None, get=_of_written(lambda written: written.ask.zh)),
+    Key("why", Name(), get=_of_written(lambda written: written.why.en)),
+    Key("why_zh", Name(), default=None, get=_of_written(lambda written: written.why.zh)),
+)
+_FREE = (_ASK, _ASK_ZH, _ANSWERS, _ANSWERS_ZH, _RIGHT, _WHY, _WHY_ZH)
+QUIZ = Section("quiz", (_BLOCK, _ABOUT, *_FREE), fills="quiz", form="list")
+
+
 def read_quiz(scenario: Mapping[str, Any], where: str) -> tuple[Question, ...]:
     """Tables ``[[quiz]]`` of a scenario, none where they are left out. SettingsError names file, question and key."""
-    tables = scenario.get("quiz", [])
-    if not isinstance(tables, list) or not all(isinstance(table, Mapping) for table in tables):
-        raise SettingsError(f"{where}: quiz are tables, [[quiz]]; found {tables!r}")
-    return tuple(_question(table, f"{where}: [[quiz]] {at}") for at, table in enumerate(tables, start=1))
+    return tuple(
+        _question(table, f"{where}: {QUIZ.header} {at}") for at, table in enumerate(tables(scenario, "quiz", where), 1)
+    )
+
+
+def _question(table: Mapping[str, Any], where: str) -> Question:
+    refuse_unknown(table, (key.name for key in QUIZ.keys), where)
+    block = _BLOCK.read(table, where)
+    if _ABOUT.name not in table:
+        return Question(block, _written(table, where), where)
+    given = next((key.name for key in _FREE if key.name in table), None)
+    if given:
+        raise SettingsError(f"{where}: about asks a question of its own and takes no {given}")
+    return Question(block, _ABOUT.read(table, where), where)
+
+
+def _written(table: Mapping[str, Any], where: str) -> Written:
+    """A question that is written out; the English text stands where the Chinese one is left out."""
+    answers = _ANSWERS.read(table, where)
+    chinese = _ANSWERS_ZH.read(table, where) or answers
+    if len(answers) != len(chinese):
+        raise SettingsError(f"{where}: there are {len(answers)} answers and {len(chinese)} answers_zh")
+    ask, why = _ASK.read(table, where), _WHY.read(table, where)
+    right = Whole(Bound(1, len(answers))).checked(table, _RIGHT.name, where)
+    return Written(
+        ask=Said(ask, _ASK_ZH.read(table, where) or ask),
+        answers=tuple(Said(*pair) for pair in zip(answers, chinese, strict=True)),
+        right=int(right) - 1,
+        why=Said(why, _WHY_ZH.read(table, where) or why),
+    )
 
 
 def refuse_unanswerable(questions: Iterable[Question], toolpath: Toolpath) -> None:
@@ -77,60 +152,3 @@ def refuse_unanswerable(questions: Iterable[Question], toolpath: Toolpath) -> No
             raise SettingsError(f"{question.where}: block {question.block} is a line, and does not turn")
         if not isinstance(question.what, Written) and not toolpath.length_um[row] > 0.0:
             raise SettingsError(f"{question.where}: block {question.block} has no length, and nothing to ask about")
-
-
-def _question(table: Mapping[str, Any], where: str) -> Question:
-    refuse_unknown(table, ("block", "about", *_FREE), where)
-    if "block" not in table:
-        raise SettingsError(f"{where}: block is missing")
-    block = _whole(table["block"], BLOCK, f"{where}: block")
-    if "about" in table:
-        return Question(block, _about(table, where), where)
-    return Question(block, _written(table, where), where)
-
-
-def _about(table: Mapping[str, Any], where: str) -> About:
-    given = next((key for key in _FREE if key in table), None)
-    if given:
-        raise SettingsError(f"{where}: about asks a question of its own and takes no {given}")
-    about, known = text(table, "about", where), get_args(About)
-    if about not in known:
-        raise SettingsError(f"{where}: about is one of {', '.join(known)}; found {about!r}")
-    return cast("About", about)
-
-
-def _written(table: Mapping[str, Any], where: str) -> Written:
-    answers = _answers(table, "answers", where)
-    chinese = _answers(table, "answers_zh", where) if "answers_zh" in table else answers
-    if len(answers) != len(chinese):
-        raise SettingsError(f"{where}: there are {len(answers)} answers and {len(chinese)} answers_zh")
-    if "right" not in table:
-        raise SettingsError(f"{where}: right is missing")
-    return Written(
-        ask=_said(table, "ask", where),
-        answers=tuple(Said(*pair) for pair in zip(answers, chinese, strict=True)),
-        right=_whole(table["right"], Bound(1, len(answers)), f"{where}: right") - 1,
-        why=_said(table, "why", where),
-    )
-
-
-def _said(table: Mapping[str, Any], key: str, where: str) -> Said:
-    """Text of a key, and of its Chinese one, in whose place the first may stand."""
-    english = printable(text(table, key, where))
-    return Said(english, printable(text(table, f"{key}_zh", where, default=english)))
-
-
-def _answers(table: Mapping[str, Any], key: str, where: str) -> list[str]:
-    value = table.get(key)
-    if not isinstance(value, list) or not all(isinstance(answer, str) and answer for answer in value):
-        raise SettingsError(f"{where}: {key} is a list of texts and must be given; found {value!r}")
-    number(len(value), ANSWERS, f"{where}: the number of {key}")
-    if len(set(value)) < len(value):
-        raise SettingsError(f"{where}: {key} holds the same text twice")
-    return [printable(answer) for answer in value]
-
-
-def _whole(value: object, bound: Bound, where: str) -> int:
-    if isinstance(value, float):
-        raise SettingsError(f"{where} is a whole number; found {value:g}")
-    return int(number(value, bound, where))

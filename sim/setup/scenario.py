@@ -10,46 +10,31 @@ from parser.findings.errors import FileUnreadableError, SettingsError
 from parser.program import suffixes
 from parser.text.encoding import printable
 from parser.units import from_mm
-from sim.setup.expectations import Expectation, read_expectation
-from sim.setup.machine.controller_model import interpolation
+from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
+from sim.setup.machine.controller_model import INTERPOLATOR
 from sim.setup.machine.machine import Machine, load_machine
-from sim.setup.obstacles import Clamp, Outline, read_clamps, read_outline
+from sim.setup.obstacles import CLAMPS, Clamp, Outline, OutlineMm, read_clamps
 from sim.setup.part import (
     DEFAULT_DENSITY_G_CM3,
     DENSITY_G_CM3,
-    DrawingAsked,
+    DRAWING,
+    OFFSET,
+    DrawingTarget,
     Offset,
-    read_drawing_asked,
+    read_drawing_target,
     read_offset,
 )
-from sim.setup.quiz import Question, read_quiz
-from sim.setup.toml.reader import Bound, load_toml, number, numbers, pair, refuse_unknown, section, text, truth
-from sim.setup.wire import DEFAULT_WIRE, Wire, read_wire
+from sim.setup.quiz import QUIZ, Question, read_quiz
+from sim.setup.toml.keys import Key, Section, Written
+from sim.setup.toml.kinds import FileName, Name, Number, Place, Text, Truth
+from sim.setup.toml.reader import Bound, load_toml, section
+from sim.setup.wire import DEFAULT_WIRE, WIRE, Wire, read_wire
 
+MACHINE_FILE = "machine.toml"
+"""Name of the machine file beside a scenario file that is written."""
 THICKNESS_MM = Bound(0.01, 2000.0)
 TRACE_SPACING_UM = Bound(0.1, 1e4)
 DEFAULT_THICKNESS_MM = 40.0
-_WORK = {"thickness_mm": THICKNESS_MM, "density_g_cm3": DENSITY_G_CM3}
-_OF_WORK = {"thickness_mm": DEFAULT_THICKNESS_MM, "density_g_cm3": DEFAULT_DENSITY_G_CM3}
-_KEYS = (
-    "title",
-    "provenance",
-    "program",
-    "machine",
-    "interpolator",
-    "start_mm",
-    "open",
-    "trace_spacing_um",
-    "kerf",
-    "clamps",
-    "quiz",
-    "drawing",
-    "offset",
-    "wire",
-    "work",
-    "expect",
-)
-
 DEFAULT_MACHINE = "dk7740"
 DEFAULT_TRACE_SPACING_UM = 5.0
 """On an arc of 100 µm radius the chord of it is 0.03 µm off."""
@@ -104,7 +89,7 @@ class Scenario:
     work_um: Outline | None = None
     offset: Offset | None = None
     kerf: bool = False
-    drawing: DrawingAsked | None = None
+    drawing: DrawingTarget | None = None
     density_g_cm3: float = DEFAULT_DENSITY_G_CM3
     quiz: tuple[Question, ...] = ()
     expect: tuple[Expectation, ...] = ()
@@ -126,6 +111,33 @@ class Scenario:
         return from_mm(x), from_mm(y)
 
 
+TOP = Section(
+    "scenario",
+    (
+        Key("title", Name(), default=None),
+        Key("provenance", Text(), default="not given"),
+        Key("program", FileName(), default="program.3b"),
+        Key("machine", Text(), default=DEFAULT_MACHINE, get=lambda _: MACHINE_FILE),
+        Key("interpolator", INTERPOLATOR, default=None, get=lambda _: None),  # the machine file says it
+        Key("start_mm", Place(), default=None),
+        Key("open", Truth(), "may_stay_open", default=False),
+        Key("trace_spacing_um", Number(TRACE_SPACING_UM, "µm"), default=DEFAULT_TRACE_SPACING_UM),
+        Key("kerf", Truth(), default=False),
+    ),
+    form="top",
+)
+WORK = Section(
+    "work",
+    (
+        Key("thickness_mm", Number(THICKNESS_MM, "mm"), default=DEFAULT_THICKNESS_MM),
+        Key("density_g_cm3", Number(DENSITY_G_CM3, "g/cm³"), default=DEFAULT_DENSITY_G_CM3),
+        Key("outline_mm", OutlineMm(), "work_um", default=None),
+    ),
+)
+SECTIONS = (TOP, WIRE, WORK, OFFSET, DRAWING, CLAMPS, QUIZ, EXPECT)
+"""Sections of a scenario file."""
+
+
 def load_scenario(path: Path) -> Scenario:
     """Scenario of a folder with a ``scenario.toml``, or of a program file with the defaults.
 
@@ -141,34 +153,28 @@ def load_scenario(path: Path) -> Scenario:
     if not file.exists():
         raise SettingsError(f"{path}: is a folder without scenario.toml; give a program or a scenario folder")
     content, where = load_toml(file), str(file)
-    refuse_unknown(content, _KEYS, where)
-    machine = load_machine(text(content, "machine", where, default=DEFAULT_MACHINE), beside=path)
-    if "interpolator" in content:
-        machine = machine.stepping_by(interpolation(text(content, "interpolator", where), f"{where}: interpolator"))
-    work = section(content, "work", where)
-    refuse_unknown(work, (*_WORK, "outline_mm"), f"{where}: [work]")
-    given = {key: value for key, value in work.items() if key in _WORK}
-    work_numbers = numbers(given, _WORK, f"{where}: [work]", _OF_WORK)
+    value = TOP.read(content, where, beside=(section.name for section in SECTIONS[1:]))
+    machine = load_machine(value.pop("machine"), beside=path)
+    interpolator, program = value.pop("interpolator"), value.pop("program")
     return Scenario(
-        title=printable(text(content, "title", where, default=path.resolve().name)),
-        program=path / text(content, "program", where, default=_usual_name(path)),
-        machine=machine,
+        title=value.pop("title") or printable(path.resolve().name),
+        program=path / (program if "program" in content else _usual_name(path)),
+        machine=machine if interpolator is None else machine.stepping_by(interpolator),
         wire=read_wire(section(content, "wire", where), f"{where}: [wire]"),
-        start_mm=pair(content, "start_mm", where),
-        provenance=text(content, "provenance", where, default="not given"),
-        may_stay_open=truth(content, "open", where),
-        trace_spacing_um=number(
-            content.get("trace_spacing_um", DEFAULT_TRACE_SPACING_UM), TRACE_SPACING_UM, f"{where}: trace_spacing_um"
-        ),
         clamps=read_clamps(content, where),
-        work_um=read_outline(work, f"{where}: [work]") if "outline_mm" in work else None,
         offset=read_offset(content, where),
-        kerf=truth(content, "kerf", where),
-        drawing=read_drawing_asked(content, where, path),
+        drawing=read_drawing_target(content, where, path),
         quiz=read_quiz(content, where),
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
-        **work_numbers,
+        **value,
+        **WORK.read_in(content, where),
     )
+
+
+def scenario_sections(scenario: Scenario) -> list[Written]:
+    """Sections of the scenario file that asks for the same run, on the machine of ``machine.toml``."""
+    tables = [written for section in SECTIONS[:-1] for written in section.written(scenario)]
+    return [*tables, expect_section(scenario.expect)]
 
 
 def _usual_name(folder: Path) -> str:

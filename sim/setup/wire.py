@@ -1,24 +1,18 @@
 """The wire at the table: what it removes round its centre, and how far it bows back behind its guides."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from parser.findings.errors import SettingsError
 from parser.units import from_mm, mm
-from sim.setup.toml.reader import Bound, numbers
+from sim.setup.toml.keys import Key, Section
+from sim.setup.toml.kinds import MM_AS_UM, Number
+from sim.setup.toml.reader import Bound
 
 WIRE_DIAMETER_MM = Bound(0.01, 1.0)
 SPARK_GAP_MM = Bound(-0.05, 0.5)
 WIRE_LAG_UM = Bound(0.0, 1000.0)
-_LAG = "lag_um"
-_FORCES = {
-    "tension_n": Bound(0.1, 100.0),
-    "pressure_n_mm": Bound(0.0, 10.0),
-    "guide_span_mm": Bound(0.01, 5000.0),
-}
-WIRE_KEYS = {"diameter_mm": WIRE_DIAMETER_MM, "spark_gap_mm": SPARK_GAP_MM, _LAG: WIRE_LAG_UM, **_FORCES}
-"""Keys of ``[wire]`` with their bounds."""
 
 
 class WireForces(NamedTuple):
@@ -87,14 +81,14 @@ class Wire:
         return self.diameter_um / 2.0
 
     @property
-    def offset_um(self) -> float:
+    def reach_um(self) -> float:
         """Distance of the cut edge from the wire's centre: radius plus spark gap."""
         return self.radius_um + self.spark_gap_um
 
     @property
     def kerf_um(self) -> float:
         """Width of the slot that the wire leaves."""
-        return 2.0 * self.offset_um
+        return 2.0 * self.reach_um
 
     def lag_um(self, thickness_mm: float) -> float:
         """Lag in work of this thickness. SettingsError where forces bow the wire by more than a lag may be."""
@@ -113,21 +107,48 @@ DEFAULT_WIRE = Wire(diameter_um=180.0, spark_gap_um=10.0)
 """Usual wire, with the gap that the trade's offset of 0.1 mm leaves it (docs/3b.md §5)."""
 
 
+def _force(attribute: str) -> Callable[[Wire], float | None]:
+    """How one of the forces that tell a lag is found; there are none where an amount is set."""
+    return lambda wire: getattr(wire.lag, attribute, None)
+
+
+_FORCES = (
+    Key("tension_n", Number(Bound(0.1, 100.0), "N"), default=None, get=_force("tension_n")),
+    Key("pressure_n_mm", Number(Bound(0.0, 10.0), "N/mm"), default=None, get=_force("pressure_n_mm")),
+    Key("guide_span_mm", Number(Bound(0.01, 5000.0), "mm"), default=None, get=_force("guide_span_mm")),
+)
+_LAG = Key(
+    "lag_um",
+    Number(WIRE_LAG_UM, "µm"),
+    default=None,
+    get=lambda wire: None if isinstance(wire.lag, WireForces) else wire.lag,
+)
+WIRE = Section(
+    "wire",
+    (
+        Key("diameter_mm", Number(WIRE_DIAMETER_MM, "mm", MM_AS_UM), "diameter_um", mm(DEFAULT_WIRE.diameter_um)),
+        Key("spark_gap_mm", Number(SPARK_GAP_MM, "mm", MM_AS_UM), "spark_gap_um", mm(DEFAULT_WIRE.spark_gap_um)),
+        _LAG,
+        *_FORCES,
+    ),
+    fills="wire",
+)
+
+
 def read_wire(table: Mapping[str, Any], where: str) -> Wire:
     """Wire of a ``[wire]`` table. SettingsError names the file and the key."""
-    defaults = {"diameter_mm": mm(DEFAULT_WIRE.diameter_um), "spark_gap_mm": mm(DEFAULT_WIRE.spark_gap_um)}
-    lag = {key: bound for key, bound in WIRE_KEYS.items() if key not in defaults}
-    value = numbers(table, {key: WIRE_KEYS[key] for key in defaults}, where, defaults, optional=lag)
-    return Wire(from_mm(value["diameter_mm"]), from_mm(value["spark_gap_mm"]), _lag(value, where))
+    value = WIRE.read(table, where)
+    lag_um = value.pop(_LAG.name)
+    forces = {key.name: value.pop(key.name) for key in _FORCES}
+    return Wire(**value, lag=_lag(lag_um, {name: force for name, force in forces.items() if force is not None}, where))
 
 
-def _lag(value: Mapping[str, float], where: str) -> float | WireForces:
+def _lag(lag_um: float | None, forces: Mapping[str, float], where: str) -> float | WireForces:
     """Lag as it is set: an amount, or forces."""
-    forces = {key: value[key] for key in _FORCES if key in value}
     if not forces:
-        return value.get(_LAG, 0.0)
-    if _LAG in value:
-        raise SettingsError(f"{where}: {_LAG} is given, or {' and '.join(forces)} that tell it; found both")
+        return lag_um or 0.0
+    if lag_um is not None:
+        raise SettingsError(f"{where}: {_LAG.name} is given, or {' and '.join(forces)} that tell it; found both")
     for key in ("tension_n", "pressure_n_mm"):
         if key not in forces:
             raise SettingsError(f"{where}: {next(iter(forces))} needs {key}, which is missing")

@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 
 from controller import GECard
-from controller.card.codes import AxisSts, Code
-from controller.card.settings import CardSettings, Switches
+from controller.card.core.codes import AxisSts, Code
+from controller.card.core.settings import CardSettings, Switches
 
 MACHINE = (Switches(-2000.0, 3000.0, (-600.0, -500.0), 1000.0), Switches())
 IDLE = 0x2001

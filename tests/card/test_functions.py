@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from places import DATA
 
 from controller import GECard
-from controller.card.codes import Code
+from controller.card.core.codes import Code
 from controller.card.lookahead.data import TLookAheadMsg, TLookData
 
 TABLE = DATA / "ge-functions.csv"

@@ -17,13 +17,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from controller import GECard
-from controller.card.base import Logged
-from controller.card.codes import AxisSts
-from controller.card.log import CardLog, call_text
-from controller.card.log_lines import CardLogError, call_of
-from controller.card.replay import Difference, Replay, replay_file
-from controller.card.settings import CardSettings, Switches
-from controller.card.settings_text import settings_from, settings_text
+from controller.card.calls.base import Logged
+from controller.card.core.codes import AxisSts
+from controller.card.core.settings import CardSettings, Switches
+from controller.card.log.lines import CardLogError, call_of
+from controller.card.log.replay import Difference, Replay, replay_file
+from controller.card.log.settings_text import settings_from, settings_text
+from controller.card.log.writer import CardLog, call_text
 from parser.findings.errors import DrycutError, FileUnreadableError
 
 SWITCHES = (Switches(-5000.0, 8000.0, (-100.0, 50.5), 1000.0), Switches())

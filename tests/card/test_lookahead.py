@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from controller import GECard
-from controller.card.codes import Code
+from controller.card.core.codes import Code
+from controller.card.core.settings import CardSettings
 from controller.card.lookahead.data import TLookAheadMsg, TLookData
-from controller.card.settings import CardSettings
 
 
 def opened(**settings: Any) -> GECard:

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from watched import IDLE, Watched
 
 from controller import GECard
+from controller.card.core.settings import CardSettings
 from controller.card.engine import making, motion_list
 from controller.card.engine.entries import ORIGIN, Pace, Stepped
 from controller.card.engine.making import make_stretch
 from controller.card.engine.speeds import speeds_of
 from controller.card.engine.stretch import Start
-from controller.card.settings import CardSettings
 from controller.motion.path import Path
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping.point_by_point import interpolate_words
@@ -176,7 +176,7 @@ def test_velocity_points_along_the_path():
     watched.load((0.0, 500.0, 360.0))
     watched.card.GT_StrtMtn()
     watched.card.sleep(1000.0)
-    engine = watched.card._engine
+    engine = watched.card._engine.motion
     x, y, *_ = engine.place()
     vx, vy, *_ = engine.velocity()
     assert math.hypot(vx, vy) == pytest.approx(1000.0)

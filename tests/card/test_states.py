@@ -10,7 +10,8 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 from plain import PlainBlock, plain_steps
 from watched import EMPTY, IDLE, Watched
 
-from controller.card.settings import Switches
+from controller.card.core.settings import Switches
+from controller.card.engine.states import Waiting
 
 PERIOD_S = 200e-6
 AXES = range(1, 5)
@@ -237,7 +238,7 @@ class CardMachine(RuleBasedStateMachine):
     def profile_is_near_the_pulses(self):
         if not hasattr(self, "card"):
             return
-        engine = self.card._engine
+        engine = self.card._engine.motion
         lag = 0.5 + 1.01 * (np.abs(engine.velocity()) + 50e3 * PERIOD_S) * PERIOD_S * 2 if engine.moving else 0.5
         far = np.abs(np.array(engine.place()) - np.array(engine.pulses_out()))
         assert (far <= lag + 1e-6).all()
@@ -246,8 +247,8 @@ class CardMachine(RuleBasedStateMachine):
     def list_ends_where_it_says(self):
         if not hasattr(self, "card") or self.end is None:
             return
-        if self.watched.status() == IDLE | EMPTY and self.card._engine._runs:
-            point = self.card._engine.place()
+        if self.watched.status() == IDLE | EMPTY and isinstance(self.card._engine.motion.state, Waiting):
+            point = self.card._engine.motion.place()
             assert point[: len(self.end)] == pytest.approx(self.end, abs=1e-6)
 
 

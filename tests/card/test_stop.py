@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from watched import ABNORMAL, EMPTY, IDLE, Watched
 
-from controller.card.settings import Switches
+from controller.card.core.settings import Switches
 
 V = 1000.0  # µm/s of 1 pulse/ms
 POSITIVE, NEGATIVE, FINISHED, CAPTURED = 1 << 5, 1 << 6, 1 << 0, 1 << 3

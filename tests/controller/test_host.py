@@ -10,8 +10,8 @@ from lawful import assert_plan_is_lawful
 from line_words import line_words
 from strategies import program_text, programs
 
-from controller.card.base import Logged
-from controller.card.settings import CardSettings
+from controller.card.calls.base import Logged
+from controller.card.core.settings import CardSettings
 from controller.host.entries import Drive, Interpolation, entries_of
 from controller.host.host import Host
 from controller.motion.junctions import JunctionDeviation, SlowAt, StopEach, Through

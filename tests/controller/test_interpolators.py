@@ -106,7 +106,7 @@ def test_a_stop_and_a_new_plan_lose_no_step(program: list[PlainBlock], stops: li
     at, done, began, made = (5, 5), 0, 0.0, []
     for since, until in pairwise(bounds):
         plan = plan_of(toolpath, until, since)
-        motion = PointByPoint(steps, plan, began, at, done=done, offset_um=since)
+        motion = PointByPoint(steps, plan, began, at, done=done, from_um=since)
         for part in motion.pulses(began + plan.duration_s):
             made += list(zip(part.x_um.tolist(), part.y_um.tolist(), strict=True))
             assert part.t_s[0] >= began
@@ -175,6 +175,6 @@ def test_nothing_is_due_before_the_plan_begins() -> None:
 
 def test_a_plan_without_motion_makes_no_step() -> None:
     steps = interpolate(toolpath_of([PlainBlock(300, 400, 400, "Y", "L", 1)]))
-    motion = PointByPoint(steps, EMPTY_PLAN, 0.0, (0, 0), done=5, offset_um=5.0)
+    motion = PointByPoint(steps, EMPTY_PLAN, 0.0, (0, 0), done=5, from_um=5.0)
     assert list(motion.pulses(math.inf)) == []
     assert (motion.done, motion.at_um) == (5, (0, 0))

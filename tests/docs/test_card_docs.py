@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from places import ROOT
 
-from controller.card.codes import LATCHED, AxisSts, Code, CrdSts
-from controller.card.settings import CardSettings
+from controller.card.core.codes import LATCHED, AxisSts, Code, CrdSts
+from controller.card.core.settings import CardSettings
 
 PAGE = (ROOT / "docs" / "card.md").read_text(encoding="utf-8")
 EXAMPLE, LOGGED = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)

@@ -30,9 +30,11 @@ from sim.cli.run_into import trace_arrays
 from sim.cut.kerf.swept import rays as kerf_rays
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.report import build_report
-from sim.setup import part, scenario, wire
-from sim.setup.machine import controller_model, machine, table_model
+from sim.setup import scenario
+from sim.setup.key_tables import renewed
+from sim.setup.machine import machine
 from sim.setup.scenario import load_scenario
+from sim.setup.toml.kinds import Number
 from sim.show.findings.catalogue_document import NAMES, anchor, documents, findings_document
 
 DOCS = ROOT / "docs"
@@ -248,46 +250,32 @@ def test_trace_arrays_are_documented() -> None:
     assert {name for name in dtypes if name not in arrays} == {"step_x_um", "step_y_um", "step_block", "step_t_s"}
 
 
-def settings() -> dict[str, Any]:
-    """Every key with bounds, as the documents write it."""
-    tables = {
-        "table": table_model._TABLE | table_model._RESISTING,
-        "motor": table_model._MOTOR,
-        "controller": controller_model._REQUIRED | controller_model._OPTIONAL,
-        "cutting": machine._CUTTING,
-        "wire": wire.WIRE_KEYS,
-        "work": scenario._WORK,
-    }
-    return {f"[{table}] {key}": bound for table, keys in tables.items() for key, bound in keys.items()}
+KEYS = {
+    f"{section.header} {key.name}".strip(): key
+    for section in (*scenario.SECTIONS, *machine.SECTIONS)
+    for key in section.keys
+}
+"""Every key of scenario and machine files, as the documents write it."""
 
 
-@pytest.mark.parametrize("key", settings())
-def test_settings_are_documented_with_their_bounds(key: str) -> None:
-    rows = [row for row in read(DOCS / "scenarios.md").splitlines() if row.startswith(f"| `{key}` |")]
-    assert len(rows) == 1
-    numbers = [
-        float(text) for text in re.findall(r"-?\d+(?:\.\d+)?", rows[0].split("|")[3].replace("−", "-").replace(",", ""))
-    ]
-    assert tuple(numbers) == tuple(settings()[key])
-
-
-def test_scenario_and_machine_files_have_no_key_that_is_not_documented() -> None:
+def test_tables_of_keys_are_those_of_the_keys() -> None:
     page = read(DOCS / "scenarios.md")
-    plain = [key for key in scenario._KEYS if key not in ("wire", "work", "offset", "drawing", "expect")]
-    texts = [f"[controller] {key}" for key in controller_model._TEXTS]
-    of_drawing = [f"[drawing] {key}" for key in part.DrawingAsked._fields]
-    for key in [
-        *plain,
-        *texts,
-        *of_drawing,
-        "[offset] by_mm",
-        "[offset] side",
-        "[motor] kind",
-        "[motor] force_at_rate",
-        "name",
-        "[expect]",
-    ]:
-        assert f"| `{key}` |" in page, key
+    assert renewed(page) == page, "renew them: make pages"
+    assert renewed(page.replace("| `[wire] lag_um` |", "| `[wire] lagg_um` |")) == page
+
+
+@pytest.mark.parametrize("name", [name for name, key in KEYS.items() if isinstance(key.kind, Number)])
+def test_settings_are_documented_with_their_bounds(name: str) -> None:
+    ((_, _, bounds, *_),) = rows_of(DOCS / "scenarios.md", f"`{name}`")
+    numbers = [float(text) for text in re.findall(r"-?\d+(?:\.\d+)?", bounds.replace("−", "-").replace(",", ""))]
+    bound = KEYS[name].kind.bound
+    assert bound
+    assert tuple(numbers) == (tuple(bound) if "number of answers" not in bounds else (1.0,))
+
+
+@pytest.mark.parametrize("name", [*KEYS, "[[clamps]]", "[[quiz]]", "[expect]"])
+def test_scenario_and_machine_files_have_no_key_that_is_not_documented(name: str) -> None:
+    assert len(rows_of(DOCS / "scenarios.md", f"`{name}` |")) == 1
 
 
 def test_shipped_machines_are_documented_with_their_figures() -> None:

@@ -20,13 +20,13 @@ from runs import plain_scenario, silent
 
 from controller.stepping.pulses import Pulses, time_steps
 from parser.program import parse_program, read_program
-from sim.measure.deviation.stepped import StepTally
+from sim.measure.deviation.meters import StepTally
 from sim.run.dryrun import DryRun
 from sim.run.prepare import prepare
 from sim.run.recording import Recording, recorded
 from sim.setup.quiz import Question, Said, Written
 from sim.setup.scenario import load_scenario
-from sim.show.replay.page import replay_page
+from sim.show.replay.document import replay_page
 from sim.table.motion import motion_of, origin_um
 from sim.table.trace import Trace
 

@@ -247,6 +247,7 @@ _SPEAK_3B = {
     "sim/check/settings.py": "end_marks and pause_marks are settings for marks between blocks of 3B",
     "sim/cli/scenario_options.py": "the help names the controllers of 3B, which step point by point",
     "sim/run/ballbar/circle.py": "writes the circle of the test as a 3B program",
+    "sim/setup/scenario.py": "the usual name of the program in a scenario folder, as the documents give it",
     "sim/show/findings/catalogue_document.py": "the document of all findings shows an example",
     "sim/show/replay/answers.py": "the quiz asks in words of 3B, where a program has them",
     "sim/show/replay/asked_block.py": "the quiz asks in words of 3B, where a program has them",

@@ -23,7 +23,7 @@ from line_words import line_words
 from places import SCENARIOS
 from plain import PlainBlock, counted_way, plain_steps
 
-from controller.card.settings import CardSettings
+from controller.card.core.settings import CardSettings
 from controller.host.entries import Drive, Interpolation
 from controller.host.host import Host
 from controller.motion.junctions import JunctionDeviation

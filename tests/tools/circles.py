@@ -3,7 +3,7 @@
 import numpy as np
 
 from sim.run.ballbar.circle import Measured, measure
-from sim.run.ballbar.turn import SENSES, Sense, Turn
+from sim.run.ballbar.turn import SENSES, MeasuredTurn, Sense
 
 SAMPLES = 6000
 
@@ -13,14 +13,15 @@ def travelled(samples: int = SAMPLES) -> np.ndarray:
     return np.linspace(np.pi, 3.0 * np.pi, samples + 1)
 
 
-def perfect(sense: Sense, radius_um: float = 50_000.0) -> Turn:
+def perfect(sense: Sense, radius_um: float = 50_000.0) -> MeasuredTurn:
     angle = sense * travelled()
-    return Turn(sense, radius_um * np.stack([np.cos(angle), np.sin(angle)], axis=1))
+    return MeasuredTurn(sense, radius_um * np.stack([np.cos(angle), np.sin(angle)], axis=1))
 
 
-def with_play(turn: Turn, x_um: float, y_um: float) -> Turn:
+def with_play(turn: MeasuredTurn, x_um: float, y_um: float) -> MeasuredTurn:
     """The turn of a slide that is pushed by a motor with a dead zone of this width."""
-    return Turn(turn.sense, np.stack([_pushed(turn.points_um[:, 0], x_um), _pushed(turn.points_um[:, 1], y_um)], 1))
+    pushed = [_pushed(turn.points_um[:, axis], play_um) for axis, play_um in enumerate((x_um, y_um))]
+    return MeasuredTurn(turn.sense, np.stack(pushed, 1))
 
 
 def _pushed(motor: np.ndarray, width: float) -> np.ndarray:
@@ -32,25 +33,25 @@ def _pushed(motor: np.ndarray, width: float) -> np.ndarray:
     return np.array(places[len(motor) - 1 :])
 
 
-def moved_out(turn: Turn, out_um: np.ndarray) -> Turn:
+def moved_out(turn: MeasuredTurn, out_um: np.ndarray) -> MeasuredTurn:
     """The turn with each place moved outward."""
     unit = turn.points_um / np.hypot(*turn.points_um.T)[:, None]
-    return Turn(turn.sense, turn.points_um + out_um[:, None] * unit)
+    return MeasuredTurn(turn.sense, turn.points_um + out_um[:, None] * unit)
 
 
-def past(turn: Turn, at_deg: float) -> np.ndarray:
+def past(turn: MeasuredTurn, at_deg: float) -> np.ndarray:
     """Degrees travelled past a direction, −180 to 180."""
     angle = np.degrees(np.arctan2(turn.points_um[:, 1], turn.points_um[:, 0]))
     return np.mod(turn.sense * (angle - at_deg) + 180.0, 360.0) - 180.0
 
 
-def with_spikes(turn: Turn, height_um: float, at_deg: float = 2.0, wide_deg: float = 0.8) -> Turn:
+def with_spikes(turn: MeasuredTurn, height_um: float, at_deg: float = 2.0, wide_deg: float = 0.8) -> MeasuredTurn:
     """The turn with a bell of this height after each reversal."""
     bells = [np.exp(-(((past(turn, quarter * 90.0) - at_deg) / wide_deg) ** 2)) for quarter in range(4)]
     return moved_out(turn, height_um * np.sum(bells, axis=0))
 
 
-def measured(ccw: Turn, cw: Turn, radius_um: float = 50_000.0) -> Measured:
+def measured(ccw: MeasuredTurn, cw: MeasuredTurn, radius_um: float = 50_000.0) -> Measured:
     """What two turns tell that were commanded by perfect circles."""
     steps = perfect(1, radius_um), perfect(-1, radius_um)
     result = measure((ccw, cw), steps, steps, radius_um)

@@ -8,7 +8,7 @@ from lawful import assert_plan_is_lawful
 from controller.motion.limits import row_limits
 from parser.program import parse_program, read_program
 from sim.run.dryrun import DryRun, dry_run
-from sim.run.judge import check_expectations
+from sim.run.recording import check_expectations
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.scenario import Scenario, load_scenario
 

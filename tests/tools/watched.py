@@ -3,7 +3,7 @@
 import numpy as np
 
 from controller import GECard
-from controller.card.settings import CardSettings
+from controller.card.core.settings import CardSettings
 from controller.stepping.pulses import Pulses
 
 IDLE, ABNORMAL, EMPTY = 1 << 0, 1 << 9, 1 << 13

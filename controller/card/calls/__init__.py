@@ -1,1 +1,4 @@
-"""The functions of the card's library, in groups."""
+"""The functions of the card's library, a group a file, each a class over `CardBase`.
+
+Across its border goes a call with its answer: `Logged`.
+"""

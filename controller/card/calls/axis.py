@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from controller.card.base import CardBase
-from controller.card.call import Double, Function, UShort, gt
-from controller.card.codes import AxisSts, Code, Refused
+from controller.card.calls.base import CardBase
+from controller.card.core.call import Double, Function, UShort, gt
+from controller.card.core.codes import AxisSts, Code, Refused
 
 
 class AxisCalls(CardBase):
@@ -34,19 +34,19 @@ class AxisCalls(CardBase):
     def GT_LmtsOn(self, axis: UShort) -> None:
         """Heed the limit switches."""
         self._axis(axis).limits_on = True
-        self._engine.look()
+        self._engine.sequencer.replan()
 
     @gt()
     def GT_LmtsOff(self, axis: UShort) -> None:
         """Do not heed the limit switches."""
         self._axis(axis).limits_on = False
-        self._engine.look()
+        self._engine.sequencer.replan()
 
     @gt()
     def GT_AuStpOn(self, axis: UShort) -> None:
         """Stop when the position error is over its limit; a motion that begins so is stopped at once."""
         self._axis(axis).auto_stop = True
-        self._engine.check_errors()
+        self._engine.sequencer.check_errors()
 
     @gt()
     def GT_AuStpOff(self, axis: UShort) -> None:
@@ -57,13 +57,13 @@ class AxisCalls(CardBase):
     def GT_CaptHome(self, axis: UShort) -> None:
         """Capture the place at the next edge of the home switch."""
         self._axis(axis).home_armed = True
-        self._engine.look()
+        self._engine.sequencer.replan()
 
     @gt()
     def GT_CaptIndex(self, axis: UShort) -> None:
         """Capture the place at the next index mark."""
         self._axis(axis).index_armed = True
-        self._engine.look()
+        self._engine.sequencer.replan()
 
     @gt()
     def GT_CaptProb(self) -> None:
@@ -106,16 +106,16 @@ class PositionCalls(AxisCalls):
     def GT_ZeroPos(self, AxisNum: UShort) -> None:
         """Let the axis stand at 0, profile and actual; refused with 1 while the card moves."""
         axis = self._axis(AxisNum)
-        if self._engine.moving:
+        if self._engine.motion.moving:
             raise Refused(Code.COMMAND)
-        self._engine.snap(axis.number)
-        axis.zero, axis.actual_shift = self._engine.pulses_out()[axis.number - 1], 0
+        self._engine.motion.snap(axis.number)
+        axis.zero, axis.actual_shift = self._engine.motion.pulses_out()[axis.number - 1], 0
 
     @gt(zeros=(0,))
     def GT_GetAtlPos(self, axis: UShort) -> int:
         """Actual position, whole pulses: those that went out, as no encoder says otherwise."""
         state = self._axis(axis)
-        return self._engine.pulses_out()[axis - 1] - state.zero + state.actual_shift
+        return self._engine.motion.pulses_out()[axis - 1] - state.zero + state.actual_shift
 
     @gt()
     def GT_SetAtlPos(self, AxisNum: UShort, pos: Double) -> None:
@@ -123,19 +123,19 @@ class PositionCalls(AxisCalls):
         axis = self._axis(AxisNum)
         if abs(pos) >= 1 << 31:
             raise Refused(Code.PARAMETER)
-        axis.actual_shift = round(pos) - (self._engine.pulses_out()[AxisNum - 1] - axis.zero)
-        self._engine.check_errors()
+        axis.actual_shift = round(pos) - (self._engine.motion.pulses_out()[AxisNum - 1] - axis.zero)
+        self._engine.sequencer.check_errors()
 
     @gt(zeros=(0,))
     def GT_GetAtlErr(self, axis: UShort) -> int:
         """Profile less actual position, pulses, within ±32767."""
-        return max(-0x7FFF, min(self._engine.error(self._axis(axis)), 0x7FFF))
+        return max(-0x7FFF, min(self._engine.motion.error(self._axis(axis)), 0x7FFF))
 
     @gt(zeros=(0.0,))
     def GT_GetAtlVel(self, axis: UShort) -> float:
         """Velocity of the axis, pulse/ms."""
         self._axis(axis)
-        return self._engine.velocity()[axis - 1] / 1000.0
+        return self._engine.motion.velocity()[axis - 1] / 1000.0
 
     @gt()
     def GT_SetPosErr(self, axis: UShort, value: UShort) -> None:
@@ -144,7 +144,7 @@ class PositionCalls(AxisCalls):
         if value > 0x7FFF:
             raise Refused(Code.PARAMETER)
         state.error_limit = value
-        self._engine.check_errors()
+        self._engine.sequencer.check_errors()
 
     @gt(zeros=(0,))
     def GT_GetPosErr(self, axis: UShort) -> int:
@@ -155,16 +155,16 @@ class PositionCalls(AxisCalls):
     def GT_EncPos(self, encoder: UShort) -> int:
         """Position of an encoder, pulses: each counts the pulses of the axis of its number (grade C)."""
         zero = self._axis(encoder).encoder_zero
-        return self._engine.pulses_out()[encoder - 1] - zero
+        return self._engine.motion.pulses_out()[encoder - 1] - zero
 
     @gt(zeros=(0.0,))
     def GT_EncVel(self, encoder: UShort) -> float:
         """Velocity of an encoder, pulse/ms."""
         self._axis(encoder)
-        return self._engine.velocity()[encoder - 1] / 1000.0
+        return self._engine.motion.velocity()[encoder - 1] / 1000.0
 
     @gt()
     def GT_ClrEncPos(self, encoder: UShort) -> None:
         """Let the encoder read 0."""
         axis = self._axis(encoder)
-        axis.encoder_zero = self._engine.pulses_out()[encoder - 1]
+        axis.encoder_zero = self._engine.motion.pulses_out()[encoder - 1]

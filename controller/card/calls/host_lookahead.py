@@ -7,14 +7,13 @@ blocks are kept at most, and coordinates are in units of `con` pulses.
 
 from typing import Any
 
-from controller.card.call import Char, Double, Int, Long, Short, gt
 from controller.card.calls.open import OpenCalls
-from controller.card.codes import Code, Refused
-from controller.card.engine.entries import Place
+from controller.card.core.call import Char, Double, Int, Long, Short, gt
+from controller.card.core.codes import Code, Refused
+from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.card.engine.speeds import checked
-from controller.card.lookahead.data import FIRST, TLookData, checked_data, segment_of
+from controller.card.lookahead.data import TLookData, checked_data, segment_of
 from controller.card.lookahead.host import HostBlock, HostLookAhead, HostRules
-from controller.card.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 
 
 class HostLookAheadCalls(OpenCalls):
@@ -22,18 +21,16 @@ class HostLookAheadCalls(OpenCalls):
 
     def __init__(self, *args: Any, **named: Any) -> None:
         super().__init__(*args, **named)
-        self._hosts: dict[int, HostLookAhead] = {}
-        self._host_ends: dict[int, Place] = {}
+        self._hosts: list[HostLookAhead | None] = [None] * self.settings.cards
 
     def _reset(self) -> None:
         super()._reset()
-        self._hosts.pop(self._number, None)
+        self._hosts[self._number] = None
 
     @gt()
     def GT_InitLookAhead(self, T: Double, amax: Double, am: Double, vmax: Double, n: Int, con: Double) -> None:
         """Begin, with no block."""
         self._hosts[self._number] = HostLookAhead(rules_of(T, amax, am, vmax, n, con))
-        self._host_ends[self._number] = FIRST
 
     @gt()
     def GT_AddLookData(
@@ -66,15 +63,15 @@ class HostLookAheadCalls(OpenCalls):
         host = self._host()
         if host.is_full:
             raise Refused(Code.COMMAND)
-        segment = segment_of(data, self._host_ends[self._number], host.rules.pulses_per_unit)
+        segment = segment_of(data, host.end, host.rules.pulses_per_unit)
         host.add(HostBlock(segment, data.n, bool(data.flag)))
-        self._host_ends[self._number] = segment.end
 
     def _host(self) -> HostLookAhead:
         """Refused with 1 before the look-ahead begins."""
-        if self._number not in self._hosts:
+        host = self._hosts[self._number]
+        if host is None:
             raise Refused(Code.COMMAND)
-        return self._hosts[self._number]
+        return host
 
     @gt(zeros=(0.0, 0))
     def GT_CalVel(self) -> tuple[float, int]:

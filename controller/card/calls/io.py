@@ -1,8 +1,8 @@
 """Inputs and outputs that act at once: 16 of each, active low, bit numbers from 0; an open input reads 1."""
 
-from controller.card.base import CardBase
-from controller.card.call import UShort, gt
-from controller.card.codes import AxisSts, Code, Refused
+from controller.card.calls.base import CardBase
+from controller.card.core.call import UShort, gt
+from controller.card.core.codes import Code, Refused
 
 BITS = 16
 PROBE_INPUT = 15
@@ -22,7 +22,7 @@ class IoCalls(CardBase):
         """Set output `bit` to 0 or 1 at once."""
         if bit >= BITS or value > 1:
             raise Refused(Code.PARAMETER)
-        self._state.outputs = with_bit(self._state.outputs, bit, value)
+        self._state.set_outputs(1 << bit, value << bit)
 
     @gt(zeros=(0,))
     def GT_GetExOpt(self) -> int:
@@ -39,18 +39,12 @@ class IoCalls(CardBase):
         if bit not in range(BITS) or level not in (0, 1):
             raise ValueError(f"an input is 0 to {BITS - 1} and its level 0 or 1, not {bit} and {level}")
         fell = self._state.inputs >> bit & 1 > level
-        self._state.inputs = with_bit(self._state.inputs, bit, level)
+        self._state.inputs = self._state.inputs & ~(1 << bit) | level << bit
         if fell and bit == PROBE_INPUT and self._state.probe_armed:
             self._capture_probe()
         self._log(self.time_s, "set_input", (bit, level), None)
 
     def _capture_probe(self) -> None:
         self._state.probe_armed = False
-        for axis, pulses in zip(self._state.axes, self._engine.pulses_out(), strict=True):
-            axis.captured = pulses
-            axis.latched |= AxisSts.CAPTURED
-
-
-def with_bit(word: int, bit: int, value: int) -> int:
-    """The word with one of its bits set to 0 or 1."""
-    return word & ~(1 << bit) | value << bit
+        for axis, pulses in zip(self._state.axes, self._engine.motion.pulses_out(), strict=True):
+            axis.capture(pulses)

@@ -1,8 +1,8 @@
 """Functions that open, fill and run the list, apart from the path itself."""
 
-from controller.card.base import CardBase
-from controller.card.call import Long, Short, UShort, gt
-from controller.card.codes import Code, Refused
+from controller.card.calls.base import CardBase
+from controller.card.core.call import Long, Short, UShort, gt
+from controller.card.core.codes import Code, Refused
 from controller.card.engine.entries import Output, Wait
 
 _ALL = 0xFFFF
@@ -56,7 +56,7 @@ class ListCalls(CardBase):
 
     def _listed(self, output: Output) -> None:
         if not self._engine.list.is_open:
-            self._engine.set_output(output)
+            self._state.set_outputs(*output)
             return
         self._engine.check_room()
         self._engine.push(output)

@@ -4,10 +4,10 @@ Where as many blocks are kept as there may be, the oldest goes to the list first
 list has no room for it. `CodeNum` comes back in the message of the call that lets the block go (grade C).
 """
 
-from controller.card.call import Double, Long, Short, UShort, gt
 from controller.card.calls.io import BITS
 from controller.card.calls.lookahead_mode import LookAheadModeCalls
-from controller.card.codes import Code, Refused
+from controller.card.core.call import Double, Long, Short, UShort, gt
+from controller.card.core.codes import Code, Refused
 from controller.card.engine.entries import Output, Wait
 from controller.card.engine.shapes import XY, YZ, ZX
 from controller.card.lookahead.data import TLookAheadMsg

@@ -1,21 +1,22 @@
 """The look-ahead mode of the library: path calls go through the look-ahead into the list (grade C, as all of it).
 
-For the meaning of the numbers see `host_lookahead_calls`; coordinates are in units of `con` pulses from the axis' zero.
+For the meaning of the numbers see `host_lookahead`; coordinates are in units of `con` pulses from the axis' zero.
 """
 
 from typing import Any
 
-from controller.card.call import Double, Short, UShort, gt
 from controller.card.calls.host_lookahead import HostLookAheadCalls, rules_of
-from controller.card.calls.paths import PathBase, with_length
-from controller.card.codes import LIST_FULL, Code, Refused
+from controller.card.calls.path_base import PathBase, with_length
+from controller.card.core.call import Double, Short, UShort, gt
+from controller.card.core.codes import LIST_FULL, Code, Refused
+from controller.card.core.units import UM_S_PER_PULSE_MS
 from controller.card.engine.entries import Output, Pace, Place, Segment, Wait, four, line
 from controller.card.engine.shapes import arc_about, arc_by_radius, check_size, checked_line
 from controller.card.engine.speeds import checked
 from controller.card.lookahead.data import TLookAheadMsg
 from controller.card.lookahead.host import HostBlock
 from controller.card.lookahead.list import ListLookAhead
-from controller.card.units import UM_S_PER_PULSE_MS
+from controller.card.lookahead.mode import Mode, Off, On, blocks_kept, ruled, switched_off, switched_on
 
 _NO_CEILING = 1e9
 """pulse/ms; the feed of each block limits its speed."""
@@ -26,42 +27,48 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
 
     def __init__(self, *args: Any, **named: Any) -> None:
         super().__init__(*args, **named)
-        self._kept: dict[int, ListLookAhead] = {}
-        self._in_mode: set[int] = set()
+        self._modes: list[Mode] = [Off()] * self.settings.cards
 
     def _reset(self) -> None:
         super()._reset()
-        self._kept.pop(self._number, None)
-        self._in_mode.discard(self._number)
+        self._mode = Off()
+
+    @property
+    def _mode(self) -> Mode:
+        return self._modes[self._number]
+
+    @_mode.setter
+    def _mode(self, mode: Mode) -> None:
+        self._modes[self._number] = mode
 
     @gt()
     def GT_SwitchLookaheadMode(self, mode: UShort) -> None:
         """Switch the mode on (1) or off (0); refused with 1 while blocks are kept."""
         if mode > 1:
             raise Refused(Code.PARAMETER)
-        if len(self._kept.get(self._number, ())):
+        if blocks_kept(self._mode):
             raise Refused(Code.COMMAND)
-        (self._in_mode.add if mode else self._in_mode.discard)(self._number)
+        self._mode = switched_on(self._mode) if mode else switched_off(self._mode)
 
     @gt()
     def GT_InitLookAheadEx(self, T: Double, amax: Double, am: Double, n: Short, con: Double) -> None:
         """Set the rules; blocks that are kept are forgotten."""
-        self._kept[self._number] = ListLookAhead(rules_of(T, amax, am, _NO_CEILING, n, con))
+        self._mode = ruled(self._mode, rules_of(T, amax, am, _NO_CEILING, n, con))
 
     @gt()
     def GT_InitLookAheadExx(
         self, T: Double, amax: Double, am: Double, n: Short, con: Double, timepara: Double, filename: str
     ) -> None:
         """As `GT_InitLookAheadEx`; the last two are recorded."""
-        self._kept[self._number] = ListLookAhead(rules_of(T, amax, am, _NO_CEILING, n, con))
+        self._mode = ruled(self._mode, rules_of(T, amax, am, _NO_CEILING, n, con))
         self._state.recorded["GT_InitLookAheadExx"] = (timepara, filename)
 
     @gt()
     def GT_EndLookaheadMode(self) -> None:
         """Let all blocks go, and leave the mode; refused with 1 until the list is open and has room for them."""
-        if len(self._kept.get(self._number, ())):
+        if blocks_kept(self._mode):
             self._let_all_go(self._lookahead())
-        self._in_mode.discard(self._number)
+        self._mode = switched_off(self._mode)
 
     @gt(zeros=(TLookAheadMsg(),))
     def GT_M30(self) -> TLookAheadMsg:
@@ -73,9 +80,9 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
 
         Blocks of a list that was begun anew since are forgotten.
         """
-        kept = self._kept.get(self._number)
-        if kept is None or self._number not in self._in_mode or not self._engine.list.is_open:
+        if not isinstance(self._mode, On) or not self._engine.list.is_open:
             raise Refused(Code.COMMAND)
+        kept = self._mode.kept
         if kept.begun != self._engine.list.begun:
             kept.clear(self._engine.list.begun)
         return kept

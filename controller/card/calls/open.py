@@ -1,8 +1,8 @@
 """Functions that open, close and reset the card, select one of several, and tell versions."""
 
-from controller.card.base import CardBase
-from controller.card.call import ULong, UShort, gt
-from controller.card.codes import Code, Refused
+from controller.card.calls.base import CardBase
+from controller.card.core.call import ULong, UShort, gt
+from controller.card.core.codes import Code, Refused
 
 LIBRARY_VERSION = 0x0100
 """What the version functions answer; grade C."""
@@ -34,7 +34,7 @@ class OpenCalls(CardBase):
     def _reset(self) -> None:
         self._engine.reset()
         self._state.power_on()
-        for axis, pulses in zip(self._state.axes, self._engine.pulses_out(), strict=True):
+        for axis, pulses in zip(self._state.axes, self._engine.motion.pulses_out(), strict=True):
             axis.zero = axis.encoder_zero = pulses
 
     @gt(when_closed=True)

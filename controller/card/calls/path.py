@@ -5,13 +5,13 @@ one before it ends. Refused with 1 are axes that the card lacks, what cannot run
 full list; with 2 to 7 what is wrong with the path (`shapes`).
 """
 
-from controller.card.call import Double, Long, Short, gt
-from controller.card.calls.paths import PathBase
-from controller.card.codes import Code, Refused
+from controller.card.calls.path_base import PathBase
+from controller.card.core.call import Double, Long, Short, gt
+from controller.card.core.codes import Code, Refused
+from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.card.engine.entries import Pace, line
 from controller.card.engine.shapes import XY, YZ, ZX
 from controller.card.engine.speeds import in_pulses
-from controller.card.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 
 
 class MoveCalls(PathBase):
@@ -42,7 +42,7 @@ class MoveCalls(PathBase):
             raise Refused(Code.COMMAND)
         speed = in_pulses(vel, self.settings, self._state) * UM_S_PER_PULSE_MS
         acceleration = in_pulses(accel, self.settings, self._state) * UM_S2_PER_PULSE_MS2
-        start = engine.list_end() if engine.list.is_open else engine.place()
+        start = engine.list_end() if engine.list.is_open else engine.motion.place()
         end = self._pulses(values, start)
         pace = Pace(speed, acceleration, end_um_s=speeds.end_um_s)
         self._submit(line(0, pace, start, end))

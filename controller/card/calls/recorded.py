@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
-from controller.card.base import CardBase
-from controller.card.call import Double, UShort, gt
+from controller.card.calls.base import CardBase
 from controller.card.calls.recording import record
+from controller.card.core.call import Double, UShort, gt
 
 
 class RecordedCalls(CardBase):

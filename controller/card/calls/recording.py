@@ -5,7 +5,7 @@ from collections.abc import Callable
 from inspect import signature
 from typing import Any
 
-from controller.card.call import ADDRESSED, gt
+from controller.card.core.call import ADDRESSED, gt
 
 
 def record(body: Callable[..., None]) -> Callable[..., Any]:

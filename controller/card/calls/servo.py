@@ -6,10 +6,10 @@ The getters tell what was set last, loaded or not (grade C).
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from controller.card.base import CardBase
-from controller.card.call import Double, Short, UShort, gt
-from controller.card.codes import Code, Refused
-from controller.card.state import AxisState
+from controller.card.calls.base import CardBase
+from controller.card.core.call import Double, Short, UShort, gt
+from controller.card.core.codes import Code, Refused
+from controller.card.core.state import AxisState
 
 
 class ServoCalls(CardBase):

@@ -1,8 +1,8 @@
 """Functions of tools that are only recorded: laser, cut-follow, spindle."""
 
-from controller.card.base import CardBase
-from controller.card.call import Double, Long, Short, ULong, UShort, gt
+from controller.card.calls.base import CardBase
 from controller.card.calls.recording import record
+from controller.card.core.call import Double, Long, Short, ULong, UShort, gt
 
 
 class SpecialCalls(CardBase):

@@ -4,11 +4,11 @@ Speeds of entries are stored in order: they hold for the entries pushed afterwar
 Ceiling, start speed and overrides hold for a running motion at once, which is planned anew (grade C but for overrides).
 """
 
-from controller.card.base import CardBase
-from controller.card.call import Double, gt
-from controller.card.codes import Code, Refused
+from controller.card.calls.base import CardBase
+from controller.card.core.call import Double, gt
+from controller.card.core.codes import Code, Refused
+from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.card.engine.speeds import in_pulses
-from controller.card.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 
 _OVERRIDE = 2.0
 """Overrides are below this; grade B."""
@@ -36,13 +36,13 @@ class SpeedCalls(CardBase):
     def GT_SetStrtVel(self, value: Double) -> None:
         """Start (jump) speed: with it the list begins and ends, and slower it does not get between."""
         self._engine.speeds.start_um_s = self._speed(value) if value else 0.0
-        self._engine.replan()
+        self._engine.sequencer.replan()
 
     @gt()
     def GT_SetMaxVel(self, value: Double) -> None:
         """Ceiling of the path speed."""
         self._engine.speeds.ceiling_um_s = self._speed(value)
-        self._engine.replan()
+        self._engine.sequencer.replan()
 
     @gt()
     def GT_SetStpAcc(self, value: Double) -> None:
@@ -58,13 +58,13 @@ class SpeedCalls(CardBase):
     def GT_Override(self, value: Double) -> None:
         """Scale the speed of running and later entries. Refused with 7 unless between 0 and 2."""
         self._engine.speeds.override = _override(value)
-        self._engine.replan()
+        self._engine.sequencer.replan()
 
     @gt()
     def GT_OverrideG0(self, value: Double) -> None:
         """As `GT_Override`, for rapid entries."""
         self._engine.speeds.override_rapid = _override(value)
-        self._engine.replan()
+        self._engine.sequencer.replan()
 
     def _speed(self, pulse_ms: float) -> float:
         return in_pulses(pulse_ms, self.settings, self._state) * UM_S_PER_PULSE_MS

@@ -1,10 +1,10 @@
 """Status of axes and their switches. The levels are raw: 1 where a switch is idle."""
 
-from controller.card.base import CardBase
-from controller.card.call import UShort, gt
-from controller.card.codes import LATCHED, AxisSts
-from controller.card.settings import AXES
-from controller.card.state import AxisState
+from controller.card.calls.base import CardBase
+from controller.card.core.call import UShort, gt
+from controller.card.core.codes import LATCHED, AxisSts
+from controller.card.core.settings import AXES
+from controller.card.core.state import AxisState
 
 
 class StatusCalls(CardBase):
@@ -19,7 +19,7 @@ class StatusCalls(CardBase):
     def _live(self, state: AxisState) -> int:
         live = (
             (state.enabled, AxisSts.ENABLED),
-            (self._engine.axis_moving(state.number), AxisSts.MOVING),
+            (self._engine.motion.axis_moving(state.number), AxisSts.MOVING),
             (state.limits_on, AxisSts.LIMITS_ON),
             (state.home_armed, AxisSts.HOME_ARMED),
             (state.index_armed, AxisSts.INDEX_ARMED),
@@ -30,13 +30,13 @@ class StatusCalls(CardBase):
     def GT_ClrSts(self, axis: UShort) -> None:
         """Clear the latched bits; a position error that lasts is latched again."""
         self._axis(axis).latched = 0
-        self._engine.check_errors()
+        self._engine.sequencer.check_errors()
 
     @gt()
     def GT_RstSts(self, Axis: UShort, value: UShort) -> None:
         """Clear the latched bits that are 0 in the mask; those that are 1 stay (grade B). Else as `GT_ClrSts`."""
         self._axis(Axis).latched &= value & LATCHED
-        self._engine.check_errors()
+        self._engine.sequencer.check_errors()
 
     @gt()
     def GT_LmtSns(self, value: UShort) -> None:
@@ -46,19 +46,19 @@ class StatusCalls(CardBase):
         axis without one is stopped everywhere.
         """
         self._state.limit_sense = value
-        self._engine.look()
+        self._engine.sequencer.replan()
 
     @gt()
     def GT_HomeSns(self, value: UShort) -> None:
         """Sense of the home switches, as `GT_LmtSns`: the edge that is captured is the other one (grade C)."""
         self._state.home_sense = value
-        self._engine.look()
+        self._engine.sequencer.replan()
 
     @gt(zeros=(0,))
     def GT_GetLmtSwt(self) -> int:
         """Levels of the limit switches, two bits per axis: positive, negative."""
         word = 0
-        for number, place in enumerate(self._engine.place()):
+        for number, place in enumerate(self._engine.motion.place()):
             switches = self.settings.switches_of(number + 1)
             word |= ((place < switches.positive) | (place > switches.negative) << 1) << 2 * number
         return word ^ self._state.limit_sense & (1 << 2 * AXES) - 1
@@ -67,7 +67,7 @@ class StatusCalls(CardBase):
     def GT_GetHomeSwt(self) -> int:
         """Levels of the home switches, a bit per axis."""
         word = 0
-        for number, place in enumerate(self._engine.place()):
+        for number, place in enumerate(self._engine.motion.place()):
             first, last = self.settings.switches_of(number + 1).home
             word |= (not first <= place <= last) << number
         return word ^ self._state.home_sense & (1 << AXES) - 1

@@ -2,9 +2,9 @@
 
 import math
 
-from controller.card.call import Double, Long, gt
-from controller.card.calls.paths import PathBase
-from controller.card.codes import Code, Refused
+from controller.card.calls.path_base import PathBase
+from controller.card.core.call import Double, Long, gt
+from controller.card.core.codes import Code, Refused
 from controller.card.engine.entries import Stepped
 
 _LARGEST_UM = 1 << 30

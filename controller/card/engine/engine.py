@@ -1,9 +1,12 @@
-"""The motion of one card: its list, the plan it runs, and what happens on the way.
+"""The engine of one card: what calls ask of its motion, refused where it cannot be.
+
+It is made of three: the list (`MotionList`), the clock with the state and the pulses (`CardMotion`), and what leads the
+motion from state to state as time passes (`Sequencer`).
 
 The list (`motion_list`) holds entries (`entries`): lines, arcs, stepped blocks, waits, outputs. What runs is a
 `Stretch`: the entries from the front of the list that one interpolator runs without rest in between, made into a path,
 its limits and a plan from where the axes are. Nothing is stepped through time: place, speed and pulses at any instant
-follow from the plan, and the engine only wakes where something happens (`ahead`): an output is due, a switch is met,
+follow from the plan, and the engine only wakes where something happens (`events`): an output is due, a switch is met,
 the stretch ends, or entries pushed meanwhile have to be taken into the plan. They change nothing before the plan begins
 to brake for its end, so the list is planned anew only then.
 
@@ -15,16 +18,70 @@ stop and with an immediate move, and survives an empty list; what is left of a s
 next one begins or the list is started.
 """
 
-import math
+from collections.abc import Callable
 
-from controller.card.codes import LIST_FULL, Code, Refused
-from controller.card.engine.entries import Entry, Place, Segment, four, line
-from controller.card.engine.running import RunningMotion
+from controller.card.core.codes import LIST_FULL, Code, CrdSts, Refused
+from controller.card.core.settings import CardSettings
+from controller.card.core.state import CardState
+from controller.card.engine.entries import NO_NUMBER, Entry, Place, Segment
+from controller.card.engine.motion import CardMotion
+from controller.card.engine.motion_list import MotionList
+from controller.card.engine.sequencer import Sequencer
 from controller.card.engine.speeds import speeds_of
+from controller.card.engine.states import (
+    BrokenList,
+    BrokenMove,
+    Move,
+    Moving,
+    Running,
+    Waiting,
+    list_stretch,
+    without_list,
+    without_move,
+)
+from controller.stepping.pulses import Pulses
 
 
-class Engine(RunningMotion):
-    """Motion of one card over simulated time: what the calls ask of it; `Motion` answers where it is."""
+class Engine:
+    """Motion of one card over simulated time.
+
+    Attributes
+    ----------
+    speeds
+        What the calls that set speeds change.
+    list
+        The list; path calls are stored in it while it is open.
+    motion
+        Clock, state and pulses: where the axes are.
+    sequencer
+        What time and stops do to the motion.
+    """
+
+    def __init__(self, settings: CardSettings, card: CardState, on_pulses: Callable[[Pulses], None] | None) -> None:
+        self._settings, self._card = settings, card
+        self.speeds = speeds_of(settings)
+        self.list = MotionList()
+        self.motion = CardMotion(on_pulses)
+        self.sequencer = Sequencer(settings, card, self.speeds, self.motion, self.list)
+
+    @property
+    def number(self) -> int:
+        """Number of the path entry being executed, or executed last, since the list was opened."""
+        stretch = list_stretch(self.motion.state)
+        number = stretch.number(self.motion.now_s) if stretch else None
+        return self.list.executed if number is None else number
+
+    def coordinate_status(self) -> int:
+        """Word of `GT_GetCrdSts`."""
+        status = CrdSts(0) if self.motion.moving else CrdSts.IDLE
+        if self._pending() == 0:
+            status |= CrdSts.LIST_EMPTY
+        return int(status | CrdSts.ABNORMAL if self._card.stopped_abnormally else status)
+
+    def _pending(self) -> int:
+        """Entries of the list that are not finished."""
+        entries, stretch = len(self.list.entries), list_stretch(self.motion.state)
+        return entries - stretch.done(self.motion.now_s) if entries and stretch else entries
 
     def list_end(self) -> Place:
         """Where the next entry of the list starts: the end of the one before it, or where the axes come to rest."""
@@ -36,34 +93,37 @@ class Engine(RunningMotion):
         if not afresh:
             self.list.is_open = True
             return
-        if self.moving:
+        state = self.motion.state
+        if isinstance(state, Moving):
             raise Refused(Code.COMMAND)
-        self._state.command_status = 0
+        self._card.command_status, self._card.stopped_abnormally = 0, False
         self.list.clear(is_open=True)
-        self._number, self._runs, self._interrupted, self._abnormal = 0, False, False, False
-
-    def push(self, entry: Entry) -> None:
-        """Put an entry into the list, which has room; it runs at once where the list runs and is empty."""
-        self._begin_list_end()
-        self.list.push(entry)
-        self._state.command_status = 0
-        if self._stretch is None:
-            if self._runs:
-                self._begin()
-        elif self._in_list and len(self.list.entries) == len(self._stretch.entries) + 1:
-            self._expect_growth(self._stretch)
+        self.motion.state = without_list(state)
 
     def check_room(self, entries: int = 1) -> None:
         """Refused with 1, list full, where the list does not take so many entries."""
         if self._pending() + entries > self._settings.capacity:
             raise Refused(Code.COMMAND, LIST_FULL)
 
+    def push(self, entry: Entry) -> None:
+        """Put an entry into the list, which has room; it runs at once where the list runs and is empty."""
+        self._begin_list_end()
+        self.list.push(entry)
+        self._card.command_status = 0
+        state = self.motion.state
+        if isinstance(state, Waiting):
+            self.sequencer.run_list()
+        elif isinstance(state, Moving) and len(self.list.entries) == len(state.stretch.entries) + 1:
+            self.sequencer.expect_growth()
+
     def move(self, entry: Segment) -> None:
         """Run a line or an arc at once. Refused with 1 while anything moves."""
-        if self.moving:
+        state = self.motion.state
+        if isinstance(state, Moving):
             raise Refused(Code.COMMAND)
-        self._forget_move()
-        self._move_on([entry])
+        self._card.command_status = 0
+        beneath = self.motion.forget_move(state)
+        self.sequencer.set_off([entry._replace(number=NO_NUMBER)], Move(beneath))
 
     def start(self) -> None:
         """Run the list, or go on with it after a stop; nothing changes where it runs. Refused with 1 where it cannot.
@@ -71,84 +131,38 @@ class Engine(RunningMotion):
         Where the axes stand elsewhere than the list begins, a first line starts from there, and anything else is
         refused with 1 (grade C).
         """
-        if self.moving:
-            if self._in_list and not self._stopping:
+        state = self.motion.state
+        if isinstance(state, Moving):
+            if isinstance(state, Running) and list_stretch(state):
                 return
             raise Refused(Code.COMMAND)
-        if self._interrupted:
-            if not self._near(self._list_break):
+        beneath = without_move(state)
+        if isinstance(beneath, BrokenList):
+            if not self.motion.is_near(beneath.place):
                 raise Refused(Code.COMMAND)
-        elif self.list.entries and not self._near(self.list.start):
-            self._start_from_here()
-        self._forget_move()
-        self._run_list()
+        elif self.list.entries and not self.motion.is_near(self.list.start):
+            self.list.start_from(self.motion.place())
+        self._card.command_status = 0
+        self.motion.forget_move(state)
+        self.sequencer.run_list()
 
     def restore(self) -> None:
         """Go on with what was stopped last. Refused with 1 unless something is left of it and the axes stand there."""
-        if self.moving or not (self._left or self._interrupted) or not self._near(self.break_place):
+        state = self.motion.state
+        if not isinstance(state, BrokenList | BrokenMove) or not self.motion.is_near(state.place):
             raise Refused(Code.COMMAND)
-        if self._left:
-            self._move_on(self._left)
+        self._card.command_status = 0
+        if isinstance(state, BrokenMove):
+            self.sequencer.set_off(state.left, state.move)
         else:
-            self._run_list()
-
-    def abort(self) -> None:
-        """End all motion where it is, without braking: the profile is where the pulses are."""
-        if self._stretch is None:
-            return
-        self._stopping = math.inf
-        self._hand_out(self._now_s)
-        self._come_to_rest(self._stretch, self._stretch.left(self._now_s))
-        self._place = four(float(at) for at in self._at_um)
-        self._latch_finished()
-        self._wake()
+            self.sequencer.run_list()
 
     def reset(self) -> None:
         """Motion ends where it is, the list is emptied and closed, speeds are those of the settings again."""
-        self.abort()
+        self.sequencer.halt()
         self.list.clear(is_open=False)
-        self.speeds = speeds_of(self._settings)
-        self._place = self.break_place = four(float(at) for at in self._at_um)
-        self._number, self._runs, self._interrupted, self._abnormal, self._left = 0, False, False, False, []
-
-    def snap(self, axis: int) -> None:
-        """Put the profile of an idle axis 1 to 4 on the whole pulse it stands at."""
-        if self._stretch is None:
-            place = list(self._place)
-            place[axis - 1] = float(self._at_um[axis - 1])
-            self._place = four(place)
-
-    def look(self) -> None:
-        """Look again for switches ahead: to call when a capture is armed, or limits are switched on or off."""
-        self.replan()
+        self.speeds.become(speeds_of(self._settings))
 
     def _begin_list_end(self) -> None:
-        if not self.list.entries and (self._stretch is None or not self._in_list):
-            self.list.begin(self.entry_end())
-
-    def _start_from_here(self) -> None:
-        """Let the list begin where the axes stand. Refused with 1 unless its first path entry is a line."""
-        first, entry = self.list.first_path_entry()
-        if entry is None:
-            return
-        if not isinstance(entry, Segment) or entry.curvature:
-            raise Refused(Code.COMMAND)
-        self.list.entries[first] = line(entry.number, entry.pace, self._place, entry.end)
-
-    def _forget_move(self) -> None:
-        """Forget an immediate move that was stopped: the break point is that of the list again, where it has one."""
-        self._left = []
-        if self._interrupted:
-            self.break_place = self._list_break
-
-    def _move_on(self, entries: list[Entry]) -> None:
-        """Run an immediate move, or what is left of it."""
-        self._state.command_status = 0
-        self._runs, self._in_list, self._left = False, False, []
-        self._set_off(entries)
-
-    def _run_list(self) -> None:
-        """Run the list from its front."""
-        self._state.command_status = 0
-        self._runs, self._interrupted = True, False
-        self._begin()
+        if not self.list.entries and list_stretch(self.motion.state) is None:
+            self.list.begin(self.motion.entry_end())

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from enum import Enum
 from typing import NamedTuple, TypeAlias
 
-from controller.card.settings import AXES
+from controller.card.core.settings import AXES
 
 Place: TypeAlias = tuple[float, float, float, float]
 
@@ -17,6 +17,10 @@ ORIGIN: Place = (0.0, 0.0, 0.0, 0.0)
 
 NO_LENGTH = 1e-9
 """A path no longer than this, in pulses, has no length; grade C."""
+
+
+NO_NUMBER = -1
+"""Of an entry that runs at once, outside the list."""
 
 
 class Kind(Enum):

@@ -5,17 +5,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from controller.card.core.settings import CardSettings
+from controller.card.core.units import UM_S3_PER_PULSE_MS3
 from controller.card.engine.entries import Entry, Kind, Segment, Stepped, Wait, steps_made
 from controller.card.engine.motion_list import steps_of
 from controller.card.engine.rows import limits_of, path_of_blocks, path_of_segments
 from controller.card.engine.speeds import Speeds
-from controller.card.engine.stops import braking
 from controller.card.engine.stretch import Start, Stretch
-from controller.card.settings import CardSettings
-from controller.card.units import UM_S3_PER_PULSE_MS3
 from controller.motion.path import Path
-from controller.motion.plan import Plan
-from controller.motion.planner import plan_rows
+from controller.motion.plan import EMPTY_PLAN, Plan
+from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping.equal_time import Clock
 from controller.stepping.interpolators import EqualTime, Interpolator, PointByPoint
 from controller.stepping.steps import Steps
@@ -35,20 +34,49 @@ def make_stretch(
     row_of = np.cumsum([0, *(isinstance(e, Segment | Stepped) and e.kind is not None for e in entries)])
     waits = np.array([e.seconds if isinstance(e, Wait) else 0.0 for e in entries])
     limits = limits_of(rows, np.bincount(row_of[1:], waits, len(rows) + 1).astype(np.float64), path, speeds, settings)
-    if deceleration_um_s2:
-        limits.border_um_s[limits.wait_s > 0.0] = 0.0  # a stop runs through no wait
-        plan, deceleration_um_s2 = braking(limits, start.speed_um_s, deceleration_um_s2)
-    else:
-        # A jerk-limited plan begins without acceleration; from any other state the rest is planned without the limit.
-        steady = abs(start.acceleration_um_s2) <= _STEADY * limits.acceleration_um_s2.max(initial=0.0)
-        jerk = settings.jerk_pulse_ms3 * UM_S3_PER_PULSE_MS3 if steady else math.inf
-        plan = plan_rows(limits, start.speed_um_s or None, jerk)
+    plan, deceleration_um_s2 = _planned(limits, start, settings, deceleration_um_s2)
     before = path.before_um
     ends = _ends(waits, row_of, before, plan, deceleration_um_s2 > 0.0) + start.clock_s
     interpolator, end = _interpolator(rows, steps, path, plan, start, settings)
     if not rows and len(ends) and not deceleration_um_s2:
         end = float(ends[-1])
-    return Stretch(start, entries, rows, row_of, path, before, plan, deceleration_um_s2, ends, end, steps, interpolator)
+    numbers = np.array([row.number for row in rows], dtype=np.int32)
+    return Stretch(
+        start, entries, rows, numbers, row_of, path, before, plan, deceleration_um_s2, ends, end, steps, interpolator
+    )
+
+
+def _planned(limits: RowLimits, start: Start, settings: CardSettings, deceleration_um_s2: float) -> tuple[Plan, float]:
+    """Plan of the rows, and the deceleration that a stop takes; 0 where none is asked for."""
+    if deceleration_um_s2:
+        limits.border_um_s[limits.wait_s > 0.0] = 0.0  # a stop runs through no wait
+        return _braking(limits, start.speed_um_s, deceleration_um_s2)
+    # A jerk-limited plan begins without acceleration; from any other state the rest is planned without the limit.
+    steady = abs(start.acceleration_um_s2) <= _STEADY * limits.acceleration_um_s2.max(initial=0.0)
+    jerk = settings.jerk_pulse_ms3 * UM_S3_PER_PULSE_MS3 if steady else math.inf
+    return plan_rows(limits, start.speed_um_s or None, jerk), 0.0
+
+
+def _braking(limits: RowLimits, speed_um_s: float, deceleration_um_s2: float) -> tuple[Plan, float]:
+    """Plan from `speed_um_s` to rest, and the deceleration it takes.
+
+    That is the least constant one, `deceleration_um_s2` or more, that keeps the speed of every border ahead: with
+    ``v² − 2 a s``, a speed w at distance s takes a ≥ (v² − w²) / 2 s. At the end of the rows it stops with what the
+    border allows. Which deceleration the card takes where the set one is too weak for a corner is grade C; so is that a
+    stop knows no jerk limit.
+    """
+    ends = np.cumsum(limits.length_um)
+    ahead = ends > 0.0
+    if speed_um_s <= 0.0 or not ahead.any():
+        return EMPTY_PLAN, deceleration_um_s2
+    square = speed_um_s**2
+    needed = (square - limits.border_um_s[1:][ahead] ** 2) / (2.0 * ends[ahead])
+    a = max(deceleration_um_s2, float(needed.max()))
+    way = min(square / (2.0 * a), float(ends[-1]))
+    last = max(square - 2.0 * a * way, 0.0) ** 0.5
+    time = 2.0 * way / (speed_um_s + last)
+    columns = ([0.0, way], [0.0, time], [speed_um_s], [-a], [0.0])
+    return Plan(*(np.array(column) for column in columns)), a
 
 
 def _ends(waits_s: Floats, row_of: Ints, before_um: Floats, plan: Plan, stops: bool) -> Floats:
@@ -77,7 +105,7 @@ def _interpolator(  # noqa: PLR0913, PLR0917 - what a stretch is made of
     if steps is not None:
         first, at = rows[0], start.at_um[:2]
         offset = first.offset_um if isinstance(first, Stepped) else 0.0
-        stepped = PointByPoint(steps, plan, start.clock_s, at, done=steps_made(first), offset_um=offset)
+        stepped = PointByPoint(steps, plan, start.clock_s, at, done=steps_made(first), from_um=offset)
         return stepped, start.clock_s + plan.duration_s
     clock = Clock(settings.servo_period_s, start.clock_s)
     last = max(clock.first_from(plan.duration_s), clock.first_after(start.clock_s))

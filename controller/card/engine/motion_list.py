@@ -5,7 +5,8 @@ from itertools import islice
 
 import numpy as np
 
-from controller.card.engine.entries import ORIGIN, Entry, Kind, Place, Segment, Stepped
+from controller.card.core.codes import Code, Refused
+from controller.card.engine.entries import ORIGIN, Entry, Kind, Place, Segment, Stepped, line
 from controller.stepping.point_by_point import interpolate_words
 from controller.stepping.steps import Steps
 from parser.toolpath import Words
@@ -25,6 +26,8 @@ class MotionList:
         Whether path calls are stored.
     number
         Number of the next path entry: 0 for the positioning move that opens a list; every other has 1 or more.
+    executed
+        Number of the path entry executed last, as far as a cut or the end of its stretch told.
     begun
         How often the list was emptied to begin anew.
     start
@@ -34,7 +37,7 @@ class MotionList:
     def __init__(self) -> None:
         self.entries: deque[Entry] = deque()
         self.is_open = False
-        self.number = 0
+        self.number = self.executed = 0
         self.begun = 0
         self.start = self._end = ORIGIN
         self._uncounted: list[Stepped] = []
@@ -43,7 +46,7 @@ class MotionList:
         """Forget all entries; numbers begin anew."""
         self.entries.clear()
         self.begun += 1
-        self.is_open, self.number = is_open, 0
+        self.is_open, self.number, self.executed = is_open, 0, 0
 
     def begin(self, place: Place) -> None:
         """Let the entries begin at a place; for an empty list."""
@@ -80,10 +83,15 @@ class MotionList:
             kind = own or kind
         return list(self.entries)
 
-    def first_path_entry(self) -> tuple[int, Segment | Stepped | None]:
-        """The first entry that is a path, with its index; None where none is."""
+    def start_from(self, place: Place) -> None:
+        """Let the list begin at a place. Refused with 1 unless its first path entry is a line."""
         paths = ((n, entry) for n, entry in enumerate(self.entries) if isinstance(entry, Segment | Stepped))
-        return next(paths, (0, None))
+        first, entry = next(paths, (0, None))
+        if entry is None:
+            return
+        if not isinstance(entry, Segment) or entry.curvature:
+            raise Refused(Code.COMMAND)
+        self.entries[first] = line(entry.number, entry.pace, place, entry.end)
 
     def replace(self, n: int, left: list[Entry]) -> None:
         """Put what is left of the first n entries in their place."""

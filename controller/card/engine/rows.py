@@ -5,9 +5,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from controller.card.core.settings import AXES, CardSettings
 from controller.card.engine.entries import Pace, Place, Segment, Stepped
 from controller.card.engine.speeds import Speeds
-from controller.card.settings import AXES, CardSettings
 from controller.motion.path import Path
 from controller.motion.planner import RowLimits
 from controller.stepping.steps import Steps

@@ -5,7 +5,7 @@ What is too large for the card is refused with 3, whatever it is.
 
 import math
 
-from controller.card.codes import Code, Refused
+from controller.card.core.codes import Code, Refused
 from controller.card.engine.entries import Pace, Place, Segment, arc, line
 
 XY, YZ, ZX = (0, 1), (1, 2), (2, 0)

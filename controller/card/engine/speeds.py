@@ -1,12 +1,12 @@
 """Speeds and accelerations of the card: what the calls that set them change, µm/s and µm/s² inside."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
-from controller.card.codes import Code, Refused
+from controller.card.core.codes import Code, Refused
+from controller.card.core.settings import SPEEDS, CardSettings
+from controller.card.core.state import CardState
+from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.card.engine.entries import Pace
-from controller.card.settings import SPEEDS, CardSettings
-from controller.card.state import CardState
-from controller.card.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 
 _SLOWEST_UM_S = SPEEDS[0] * UM_S_PER_PULSE_MS
 """No override makes an entry slower: a pulse in three hours."""
@@ -26,6 +26,11 @@ class Speeds:
     end_um_s: float | None = None
     override: float = 1.0
     override_rapid: float = 1.0
+
+    def become(self, others: "Speeds") -> None:
+        """Take all values of others."""
+        for key in fields(self):
+            setattr(self, key.name, getattr(others, key.name))
 
     def pace(self, *, rapid: bool) -> Pace:
         """Of an entry pushed now."""

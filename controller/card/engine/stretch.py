@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from controller.card.engine.entries import Entry, Place, Segment, Stepped, Wait, four, steps_made
 from controller.motion.path import Path
@@ -38,6 +39,8 @@ class Stretch:
         Where and how it begins; the plan begins then.
     entries, rows
         All m, as far as they were left to do, and the n that move.
+    numbers
+        (n,) int32, the number that each row has in the list.
     row_of
         (m + 1,) int64, rows before each entry and in all.
     path, before_um
@@ -57,6 +60,7 @@ class Stretch:
     start: Start
     entries: Sequence[Entry]
     rows: Sequence[Segment | Stepped]
+    numbers: NDArray[np.int32]
     row_of: Ints
     path: Path
     before_um: Floats
@@ -78,6 +82,10 @@ class Stretch:
     def done(self, now_s: float) -> int:
         """Entries finished."""
         return int(np.searchsorted(self.ends_s, now_s, side="right"))
+
+    def number(self, now_s: float) -> int | None:
+        """Number of the path entry being executed, the last one once all are; None without any."""
+        return self.rows[self.row(now_s)].number if self.rows else None
 
     def row(self, now_s: float) -> int:
         """Row being executed, the last one once all are; −1 without rows."""

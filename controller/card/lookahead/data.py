@@ -2,12 +2,12 @@
 
 from typing import Any, NamedTuple
 
-from controller.card.call import Char, CType, Double, Long, Short, read_arguments
-from controller.card.codes import Code, Refused
-from controller.card.engine.entries import ORIGIN, Pace, Place, Segment, four
+from controller.card.core.call import Char, CType, Double, Long, Short, read_arguments
+from controller.card.core.codes import Code, Refused
+from controller.card.core.units import UM_S_PER_PULSE_MS
+from controller.card.engine.entries import Pace, Place, Segment, four
 from controller.card.engine.shapes import XY, YZ, ZX, arc_by_radius, arc_to, checked_line
 from controller.card.engine.speeds import checked
-from controller.card.units import UM_S_PER_PULSE_MS
 
 _PLANES = {17: XY, 18: ZX, 19: YZ}
 """Planes by their G-code."""
@@ -77,7 +77,3 @@ def segment_of(data: TLookData, start: Place, pulses_per_unit: float) -> Segment
         return arc_by_radius(0, pace, start, plane, end, data.r * pulses_per_unit, sense)
     centre = (data.cx * pulses_per_unit, data.cy * pulses_per_unit)
     return arc_to(0, pace, start, plane, centre, end, sense)
-
-
-FIRST = ORIGIN
-"""Where the first block given to the look-ahead of the host starts; grade C."""

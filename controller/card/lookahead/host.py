@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.card.engine.entries import Segment
+from controller.card.engine.entries import ORIGIN, Segment
 from controller.card.engine.rows import path_of_segments
 from controller.motion.junctions import CornerTime, junction_speeds
 from controller.motion.planner import RowLimits, border_speeds_sq
@@ -58,11 +58,12 @@ class Told(NamedTuple):
 
 
 class HostLookAhead:
-    """Blocks ahead of the list, oldest first."""
+    """Blocks ahead of the list, oldest first; `end` is where the youngest ends, the origin before any (grade C)."""
 
     def __init__(self, rules: HostRules) -> None:
         self.rules = rules
         self.blocks: deque[HostBlock] = deque()
+        self.end = ORIGIN
         self._from_um_s = 0.0
         self._known: deque[Told] = deque()
 
@@ -74,6 +75,7 @@ class HostLookAhead:
     def add(self, block: HostBlock) -> None:
         """Keep one more."""
         self.blocks.append(block)
+        self.end = block.segment.end
         self._known.clear()
 
     def rest(self) -> None:

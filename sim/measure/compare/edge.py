@@ -7,7 +7,7 @@ from parser.geometry.curves import Curves, Ints
 from parser.toolpath import Point
 
 
-class Gouge(NamedTuple):
+class LeadGouge(NamedTuple):
     """A lead-in or lead-out that cuts into the part: its block, where the wire stands deepest, and how deep it cuts."""
 
     block: int
@@ -42,5 +42,5 @@ class Edge:
     loop: Ints
     part_side: Ints
     offset_um: float | None = None
-    gouges: tuple[Gouge, ...] = ()
+    gouges: tuple[LeadGouge, ...] = ()
     notes: tuple[str, ...] = ()

@@ -1,4 +1,4 @@
-"""A cut held against its drawing: how far the edge that the wire left lies from it, and what is wrong as a whole."""
+"""A cut beside its drawing: how far the edge that the wire left lies from it, and what is wrong as a whole."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -18,27 +18,27 @@ from sim.measure.compare.compare import compare
 from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.result import Comparison, Place
 from sim.measure.compare.tables import by_block, by_entity
-from sim.setup.part import DrawingAsked
+from sim.setup.part import DrawingTarget
 
 _WHOLE = ("unit-slip", "mirrored", "wrong-side", "offset-missing")
 """What may be wrong with a whole program; terms of the catalogue."""
 
 
-def held_against(
-    program: Program, pieces: Pieces, offset_um: float, drawing: Drawing, held: DrawingAsked
+def compare_cut(
+    program: Program, pieces: Pieces, offset_um: float, drawing: Drawing, target: DrawingTarget
 ) -> Comparison | None:
-    """The edge as cut against the drawing; None where nothing came free, so that there is no edge.
+    """The edge as cut beside the drawing; None where nothing came free, so that there is no edge.
 
     Whether the offset is wrong is told by the exact path, which has another side.
     """
     edge = edge_as_cut(program.toolpath, pieces)
     if edge is None:
         return None
-    found = compare(edge, drawing, held.tolerance_um, fitted=held.fit)
+    found = compare(edge, drawing, target.tolerance_um, fitted=target.fit)
     if found.passes:
         return found
     try:
-        exact = compare_program(program.toolpath, offset_um, drawing, held.tolerance_um, fitted=held.fit)
+        exact = compare_program(program.toolpath, offset_um, drawing, target.tolerance_um, fitted=target.fit)
     except SettingsError:  # no edge of its own
         return found
     known = {named.name for named in found.names}

@@ -16,7 +16,7 @@ from parser.geometry.feet import feet
 from sim.measure.compare.nearest import Index, nearest
 from sim.measure.compare.placement import Placement, turning
 from sim.measure.compare.spread import Spread, spread
-from sim.measure.compare.starts import Group, Motion, groups, starts
+from sim.measure.compare.starts import Group, RigidMotion, groups, starts
 
 _NEXT_STARTS, _NEXT_LEAST_TURNED = 6, 2
 _STILL_UM, _STILL = 1e-7, 1e-6  # µm, and of the root mean square where much is left: a step that moves no more
@@ -27,7 +27,7 @@ _EQUAL_RMS_UM, _EQUAL_MAX_UM = 0.1, 1.0
 
 
 class _Stage(NamedTuple):
-    """How many places and steps are taken, and how many times as much as in the end counts as standing still."""
+    """How many places and steps are taken; a motion stands still that is below `rough` times the bounds of the end."""
 
     places: int
     steps: int
@@ -44,7 +44,7 @@ _MOST_PLACES = 40_000
 class _Fitted(NamedTuple):
     """A motion with the root mean square and the largest of the distances that it leaves."""
 
-    motion: Motion
+    motion: RigidMotion
     rms_um: float
     max_um: float
 
@@ -76,7 +76,7 @@ def fit(edge: Curves, edge_loop: Ints, index: Index, drawing_loop: Ints) -> Fit:
     longest = groups(edge, edge_loop)[1:2]
     if whole.rms_um <= _GROSS_UM or not longest or len(longest[0].curves) == len(edge):
         return Fit(_placement(whole), whole.rms_um)
-    # Something is cut that is not drawn, or drawn elsewhere, and has drawn all the rest off its place.
+    # Something is cut that is not drawn, or is drawn elsewhere: the fit of the whole pulls all the rest off its place.
     outline = longest[0].curves
     by_one = _fitted(outline, np.zeros(len(outline), dtype=np.int64), index, drawing_loop)
     if by_one.rms_um > _FAR_BETTER * whole.rms_um:
@@ -96,7 +96,7 @@ def _fitted(edge: Curves, edge_loop: Ints, index: Index, drawing_loop: Ints) -> 
     return last
 
 
-def _stepped(index: Index, edge: Curves, motions: list[Motion], stage: _Stage) -> list[_Fitted]:
+def _stepped(index: Index, edge: Curves, motions: list[RigidMotion], stage: _Stage) -> list[_Fitted]:
     """The motions after the steps of a stage, with its places of the edge."""
     number = stage.places
     places = spread(edge, number)
@@ -106,7 +106,7 @@ def _stepped(index: Index, edge: Curves, motions: list[Motion], stage: _Stage) -
     return [_descended(index, places, motion, stage) for motion in motions]
 
 
-def _descended(index: Index, of: Spread, motion: Motion, stage: _Stage) -> _Fitted:
+def _descended(index: Index, of: Spread, motion: RigidMotion, stage: _Stage) -> _Fitted:
     best = _Fitted(motion, np.inf, np.inf)
     for _ in range(stage.steps):
         place = motion.of(of.place_um)
@@ -120,7 +120,7 @@ def _descended(index: Index, of: Spread, motion: Motion, stage: _Stage) -> _Fitt
     return best
 
 
-def _step(curves: Curves, place: Floats, row: Ints, weight: Floats, motion: Motion) -> tuple[Motion, float]:
+def _step(curves: Curves, place: Floats, row: Ints, weight: Floats, motion: RigidMotion) -> tuple[RigidMotion, float]:
     """The motion after one step of least squares, and by how much it moves places, µm."""
     across, distance = _across(curves, row, place)
     middle = weight @ place / weight.sum()
@@ -135,12 +135,15 @@ def _step(curves: Curves, place: Floats, row: Ints, weight: Floats, motion: Moti
     by = -inverse @ (share.T @ distance)
     turn = float(np.clip(by[0] / size, -_LARGEST_TURN_RAD, _LARGEST_TURN_RAD))
     matrix = turning(turn)
-    moved = Motion(matrix @ motion.matrix, matrix @ (motion.shift_um - middle) + middle + by[1:])
+    moved = RigidMotion(matrix @ motion.matrix, matrix @ (motion.shift_um - middle) + middle + by[1:])
     return moved, float(np.abs(by).max())
 
 
 def _across(curves: Curves, row: Ints, place: Floats) -> tuple[Floats, Floats]:
-    """Unit ways (m, 2) across the nearest curves, past their ends toward the place, and distances (m,) along them."""
+    """Unit vectors (m, 2) across the nearest curves, and the distances (m,) of the places along them.
+
+    Past an end of a curve the vector points from that end to the place.
+    """
     foot = feet(curves, row, place).place_um
     heading = headings_at(curves, row, foot)
     way = to_left(heading)
@@ -151,10 +154,10 @@ def _across(curves: Curves, row: Ints, place: Floats) -> tuple[Floats, Floats]:
     return way, (way * by).sum(axis=1)
 
 
-def _different(tried: list[_Fitted], drawing: Group) -> list[Motion]:
-    """The best motions of different kinds: of those that nearly agree one, turned or not, mirrored or not.
+def _different(tried: list[_Fitted], drawing: Group) -> list[RigidMotion]:
+    """The best motions, only one of those that nearly agree, and the least turned ones.
 
-    With them the least turned ones: a part that looks the same after many turns fits as well by each, but for rounding.
+    A part that looks the same after several turns fits equally well by each, but for rounding: the least is wanted.
     """
     kept: list[_Fitted] = []
     least_turned = sorted(tried, key=_turned)[:_NEXT_LEAST_TURNED]
@@ -173,7 +176,7 @@ def _turned(fitted: _Fitted) -> tuple[bool, float]:
     return fitted.mirror, abs(fitted.turn_rad)
 
 
-def _agree(one: Motion, other: Motion, length_um: float) -> bool:
+def _agree(one: RigidMotion, other: RigidMotion, length_um: float) -> bool:
     apart = np.abs(one.matrix - other.matrix).max() * length_um + np.abs(one.shift_um - other.shift_um).max()
     return bool(apart < 1e-4 * length_um)
 

@@ -8,7 +8,7 @@ import shapely
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.toolpath import Point
-from sim.measure.compare.edge import Edge, Gouge
+from sim.measure.compare.edge import Edge, LeadGouge
 from sim.measure.compare.nearest import Index, indexed, nearest
 from sim.measure.compare.rings import orientation, polygon
 
@@ -26,18 +26,18 @@ class _Part(NamedTuple):
     known: Ints
 
 
-def gouges(edge: Edge, leads: Curves, block: Ints, offset_um: float) -> tuple[Gouge, ...]:
+def gouges(edge: Edge, leads: Curves, block: Ints, offset_um: float) -> tuple[LeadGouge, ...]:
     """Gouges of leads (m,) made by blocks (m,), each deepest place right to 0.5 µm, by block.
 
-    The kerf reaches the offset past the wire's centre: a wire that stands d inside of the part has cut d and the
-    offset deep, one that stands d outside the offset less d.
+    The kerf reaches the offset past the wire's centre. So a wire that stands d inside of the part has cut as deep as
+    the offset plus d; one that stands d outside, as the offset less d.
     """
     if not len(leads) or not len(edge.curves):
         return ()
     part = _part(edge)
     deepest, where = _deepest(part, leads, offset_um)
     found = [
-        Gouge(int(block[at]), Point(*where[at].tolist()), float(deepest[at]))
+        LeadGouge(int(block[at]), Point(*where[at].tolist()), float(deepest[at]))
         for at in np.flatnonzero(deepest > _LEAST_UM).tolist()
     ]
     return tuple(sorted(found))

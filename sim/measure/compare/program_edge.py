@@ -1,9 +1,11 @@
 """The cut edge of a program: every loop of its path, moved by the offset to the side of the part."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+import shapely
 
 from controller.offset.reach import reach
 from controller.offset.sections import Side
@@ -11,8 +13,7 @@ from parser.geometry.curves import Ints, joined
 from parser.toolpath import Toolpath
 from sim.measure.compare.edge import Edge
 from sim.measure.compare.leads import gouges
-from sim.measure.compare.rings import Ring, Rings, rings_of
-from sim.measure.compare.sides import nested_sides
+from sim.measure.compare.rings import Ring, Rings, orientation, polygon, rings_of
 
 
 class ProgramEdges(NamedTuple):
@@ -32,8 +33,18 @@ def program_edges(toolpath: Toolpath, offset_um: float) -> ProgramEdges:
     told = np.array([ring.part_side for ring in rings.rings], dtype=np.int64)
     if told.all():
         return ProgramEdges(rings, (told,), offset_um)
-    nested = nested_sides(rings.rings)
+    nested = _nested_sides(rings.rings)
     return ProgramEdges(rings, tuple(np.where(told == 0, guess, told) for guess in (nested, -nested)), offset_um)
+
+
+def _nested_sides(rings: Sequence[Ring]) -> Ints:
+    """Side (k,) of each ring's part, +1 left, −1 right, if outermost rings are parts and those in them holes."""
+    shapes = [polygon(ring.curves) for ring in rings]
+    begins = shapely.points([ring.curves.start_um[0] for ring in rings])
+    inner, _ = shapely.STRtree(shapes).query(begins, predicate="within")
+    depth = np.bincount(inner, minlength=len(rings))
+    turns = np.array([orientation(ring.curves) for ring in rings], dtype=np.int64)
+    return turns * np.where(depth % 2 == 0, 1, -1)
 
 
 def edge_at(of: ProgramEdges, sides: Ints, offset_um: float) -> Edge:

@@ -7,7 +7,7 @@ from parser.drawing.model import Drawing
 from parser.geometry.curves import Curves, Floats
 from parser.toolpath import Point
 from sim.measure.compare.directed import Directed
-from sim.measure.compare.edge import Edge, Gouge
+from sim.measure.compare.edge import Edge, LeadGouge
 from sim.measure.compare.placement import Placement
 
 
@@ -57,13 +57,13 @@ class Comparison:
     drawing_to_edge: Directed
     edge_side: Floats
     drawing_side: Floats
-    gouges: tuple[Gouge, ...]
+    gouges: tuple[LeadGouge, ...]
     tolerance_um: float
     names: tuple[Named, ...]
     notes: tuple[str, ...]
 
     @property
-    def deepest(self) -> Gouge | None:
+    def deepest(self) -> LeadGouge | None:
         """The deepest gouge where it is deeper than the edge lies from the drawing anywhere."""
         gouge = max(self.gouges, key=lambda gouge: gouge.depth_um, default=None)
         return gouge if gouge and gouge.depth_um > self.edge_to_drawing.max_um.max() else None

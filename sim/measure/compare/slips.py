@@ -1,4 +1,4 @@
-"""Slips of units: a program that is as many times as large as the drawing as units differ."""
+"""Slips of units: a program is too large or too small, by the ratio of two units, such as inch and millimetre."""
 
 from typing import NamedTuple
 

@@ -24,7 +24,7 @@ _NEAR_PEAK = 0.8  # peaks of the sum that are looked at, as a share of the highe
 _HIGHEST, _LEAST_TURNED = 2, 4  # of the peaks, how many are tried
 
 
-class Motion(NamedTuple):
+class RigidMotion(NamedTuple):
     """Moves a place x to matrix x + shift µm; the matrix (2, 2) turns, or mirrors too."""
 
     matrix: Floats
@@ -51,8 +51,8 @@ def groups(curves: Curves, loop: Ints) -> list[Group]:
     return [Group(curves, float(curves.length_um.sum())), *loops]
 
 
-def starts(edge: list[Group], drawing: list[Group]) -> Iterator[Motion]:
-    """Motions of the edge onto the drawing to begin from, of their groups."""
+def starts(edge: list[Group], drawing: list[Group]) -> Iterator[RigidMotion]:
+    """Rigid motions of the edge onto the drawing to begin from, of their groups."""
     for one, other in [(edge[0], drawing[0]), *_pairs(edge[1:], drawing[1:])]:
         a, b = spread(one.curves, _PLACES), spread(other.curves, _PLACES)
         from_, to = centroid(a), centroid(b)
@@ -62,7 +62,7 @@ def starts(edge: list[Group], drawing: list[Group]) -> Iterator[Motion]:
             of_edge = moments[0].conj() * (-1.0) ** _HARMONICS if mirror else moments[0]
             for turn in [0.0, *_peaks(of_edge, moments[1])]:
                 matrix = turning(turn, mirror=mirror)
-                yield Motion(matrix, to - matrix @ from_)
+                yield RigidMotion(matrix, to - matrix @ from_)
 
 
 def _pairs(edge: list[Group], drawing: list[Group]) -> list[tuple[Group, Group]]:

@@ -1,14 +1,22 @@
-"""Places of a trace across the ideal path, left of it positive, and the figures that sum them up.
+"""How far places of a trace lie from the ideal path, and from which place on it that is measured.
 
-A place that trails its command may still lie on a block that the command has left. So of the block of its sample and
-of those that the command passed on the last of its way, twice as long as the place is off, the nearest counts; and
-past an end of a block its neighbour there, as in `sim.measure.deviation.deviation`.
+This is the one answer for all who tell of a deviation: the report, the pictures, the film and the replay.
+
+From which block is a place measured? A sample belongs to the block that its command is running. But table and wire
+come after their command, and may still be on a block that the command has left. So the nearest of these blocks counts:
+
+* the block of the sample;
+* where the place lies past an end of that block, the neighbour there;
+* the blocks that the command left last, as far back along the path as twice the distance from the command to the place.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
 from parser.geometry.distance import distance_to_curves
+from parser.geometry.feet import feet
 from parser.toolpath import Toolpath
 from sim.measure.deviation.deviation import Deviation, Where
 from sim.table.trace import Trace
@@ -19,11 +27,40 @@ _NEARER_UM = 1e-6
 """Another block counts where it is nearer by more than rounding: of two as near, the one that is running."""
 
 
-def across_um(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floats) -> Floats:
-    """Places (m, 2), one a sample of the trace, across the path: (m,) µm, left of the direction of travel positive.
+class Across(NamedTuple):
+    """Places of m samples across the ideal path.
+
+    Attributes
+    ----------
+    row
+        (m,) int64, row of the block that each is measured from.
+    foot_um
+        (m, 2) float64, the nearest place on that block, its ends included.
+    off_um
+        (m,) float64, distance from there, left of the direction of travel positive.
+    """
+
+    row: Ints
+    foot_um: Floats
+    off_um: Floats
+
+
+def across(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floats) -> Across:
+    """Places (m, 2), one a sample of the trace, across the path.
 
     `along_um` (m,) is the path length that is planned at each sample.
     """
+    row, off = _measured(toolpath, trace, place_um, along_um)
+    return Across(row, feet(toolpath, row, place_um).place_um, off)
+
+
+def across_um(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floats) -> Floats:
+    """The distances (m,) of `across` alone, without the work that the feet take."""
+    return _measured(toolpath, trace, place_um, along_um)[1]
+
+
+def _measured(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floats) -> tuple[Ints, Floats]:
+    """Rows (m,) that places are measured from, and the distances (m,), left positive."""
     x, y = np.ascontiguousarray(place_um[:, 0]), np.ascontiguousarray(place_um[:, 1])
     row = trace.row.copy()
     away, beyond = distance_to_curves(toolpath, row, x, y)
@@ -36,13 +73,13 @@ def across_um(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floa
         _take_nearer(toolpath, trailing, trace.row[trailing] - back, (x, y), (row, away))
         back += 1
         trailing = trailing[earliest[trailing] <= trace.row[trailing] - back]
-    return away * _side(toolpath, row, x, y)
+    return row, away * _side(toolpath, row, x, y)
 
 
 def _take_nearer(
     toolpath: Toolpath, samples: Ints, row: Ints, xy: tuple[Floats, Floats], best: tuple[Ints, Floats]
 ) -> None:
-    """Put rows and distances of some samples in place of the best so far, where they are nearer."""
+    """Measure some samples from the blocks `row` instead, where those are nearer than the best so far."""
     row = np.clip(row, 0, len(toolpath) - 1)
     away, _ = distance_to_curves(toolpath, row, xy[0][samples], xy[1][samples])
     nearer = away < best[1][samples] - _NEARER_UM
@@ -50,7 +87,7 @@ def _take_nearer(
 
 
 def _earliest(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floats) -> Ints:
-    """The first row (m,) that a place may lie on."""
+    """How far to look back: the first row (m,) from which each place may be measured."""
     before = toolpath.before_um
     off = place_um - trace.commanded_um
     reach = along_um - 2.0 * np.hypot(off[:, 0], off[:, 1])
@@ -75,9 +112,9 @@ def _side(toolpath: Toolpath, row: Ints, x: Floats, y: Floats) -> Floats:
     return np.where(right, -1.0, 1.0)
 
 
-def summed(toolpath: Toolpath, trace: Trace, place_um: Floats, across_um: Floats) -> Deviation:
-    """Deviation of the places (m, 2) of all samples of a trace, which lie (m,) across the path."""
-    away = np.abs(across_um)
+def summed(toolpath: Toolpath, trace: Trace, place_um: Floats, off_um: Floats) -> Deviation:
+    """Deviation of the places (m, 2) of all samples of a trace, which lie (m,) from the path, to either side."""
+    away = np.abs(off_um)
     first = np.flatnonzero(np.diff(trace.row, prepend=-1))
     by_row = np.full(len(toolpath), np.nan)
     by_row[trace.row[first]] = np.maximum.reduceat(away, first)

@@ -29,15 +29,16 @@ class Causes(NamedTuple):
     Attributes
     ----------
     interpolation
-        Rounding to steps.
+        Steps are rounded to whole µm.
     carried
-        What the blocks before missed.
+        The steps of a block begin where those of the blocks before it ended, which missed its start.
     planning
-        Chords between the places at which the plan's motion is sampled; nothing where each step is made for the path.
+        The card commands chords between the places planned for the ends of its periods. Nothing where the interpolator
+        makes each step for the path itself.
     table
-        Of the table against its command.
+        The table does not stand where it is commanded.
     wire
-        Of the wire against the table.
+        The wire bows back from where the table stands.
     """
 
     interpolation: Part
@@ -52,13 +53,16 @@ def whole(deviation: Deviation) -> Part:
     return Part(deviation.max_um, deviation.where) if deviation.max_um > 0.0 else NOTHING
 
 
-def added(trace: Trace, place_um: Floats, across_um: Floats, before_um: Floats) -> Part:
-    """What places (m, 2) add that lie (m,) across the path, to what lay (m,) `before_um` across it."""
-    return _largest(trace, place_um, np.abs(across_um - before_um))
+def added(trace: Trace, place_um: Floats, off_um: Floats, before_um: Floats) -> Part:
+    """What a stage adds: its places (m, 2) lie (m,) from the path, those of the stage before it `before_um` (m,)."""
+    return _largest(trace, place_um, np.abs(off_um - before_um))
 
 
 def carried(toolpath: Toolpath, trace: Trace, drift_um: Floats, along_um: Floats) -> Part:
-    """What the drifts (n, 2) of the steps before each block come to across the path; `along_um` (m,) of the samples."""
+    """How far across the path the steps lie by what they were off when their block began: `drift_um` (n, 2).
+
+    `along_um` (m,) is the path length that is planned at each sample.
+    """
     if not drift_um.any():
         return NOTHING
     path = path_of(toolpath)
@@ -73,7 +77,7 @@ def _largest(trace: Trace, place_um: Floats, away_um: Floats) -> Part:
 
 
 def cut_off(toolpath: Toolpath, trace: Trace, plan: Plan, period_s: float) -> Part:
-    """What chords between the places planned for the ends of periods leave of the path: of arcs, and of corners."""
+    """How far the path lies from chords between the places planned for the ends of periods, on arcs and at corners."""
     path = path_of(toolpath)
     on_arcs = trace.t_s[path.curvature[trace.row] > 0.0]
     at_corners = plan.time_at(path.before_um[1:-1])
@@ -88,7 +92,7 @@ def cut_off(toolpath: Toolpath, trace: Trace, plan: Plan, period_s: float) -> Pa
 
 
 def _arcs_cut_off(path: Path, plan: Plan, t_s: Floats, period_s: float) -> Floats:
-    """Sagitta of the way of one period on arcs at times (m,): 1 − cos, without loss for small angles."""
+    """Sagittas (m,) of the way that one period takes on arcs at times (m,); 2 sin² instead of 1 − cos keeps digits."""
     instant = plan.at(t_s)
     row = _row(path, instant.along_um)
     bend = path.curvature[row]

@@ -10,8 +10,7 @@ from parser.geometry.curves import Floats
 from sim.measure.deviation.across import across_um, summed
 from sim.measure.deviation.causes import NOTHING, Causes, added, carried, cut_off, whole
 from sim.measure.deviation.deviation import Deviation
-from sim.measure.deviation.meters import Sampling, SamplingMeter, StepMeters
-from sim.measure.deviation.stepped import StepTally
+from sim.measure.deviation.meters import Sampling, SamplingMeter, StepMeters, StepTally
 from sim.table.motion import Motion
 from sim.table.trace import Trace
 
@@ -19,9 +18,10 @@ from sim.table.trace import Trace
 class Deviations(NamedTuple):
     """Deviation of steps, table and wire from the ideal geometry.
 
-    `interpolation` is that of the steps with each block moved to where the table stood when it began, so without what
-    earlier blocks missed. `wire` is that of the table where the wire does not bow. `by_cause` tells what each stage
-    adds. `sampling` is known of the card's own interpolator alone.
+    `steps` is measured where the steps are. For `interpolation` the steps of each block are moved back by what they
+    were off when the block began, so that what earlier blocks missed does not count. Where the wire does not bow,
+    `wire` is the same as `table`. `by_cause` tells what each stage adds. `sampling` is None unless the card
+    interpolates.
     """
 
     interpolation: Deviation

@@ -1,5 +1,6 @@
-"""Meters on the pulses of a run: how far the steps lie from the ideal geometry, and from where the plan wants them."""
+"""Meters on the pulses of a run: how many steps a block makes, and how far they lie from ideal path and plan."""
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -8,7 +9,7 @@ from controller.host.entries import Drive
 from controller.motion.path import path_of
 from controller.stepping.equal_time import chord_error_um
 from controller.stepping.pulses import Pulses
-from parser.geometry.curves import Bools, Floats
+from parser.geometry.curves import Bools, Floats, Ints
 from sim.measure.deviation.deviation import Deviation, DeviationMeter
 
 PERIOD_ROUNDING = 1e-3
@@ -41,8 +42,8 @@ class StepMeters:
     drive
         What is run.
     drift_um
-        (n, 2) how far the steps are off before each block: what the blocks before missed, of an interpolator that
-        starts blocks where the steps of the one before ended, and what the start lies beside whole µm.
+        (n, 2) how far the steps are off when each block begins. The start point may lie between whole µm; and an
+        interpolator that starts a block where the steps of the one before ended carries on what those missed.
     """
 
     def __init__(self, drive: Drive, drift_um: Floats) -> None:
@@ -103,6 +104,50 @@ class SamplingMeter:
         x, y = self._most.tolist()
         chord_um = chord_error_um(self._path, self._drive.plan, self._period_s)
         return Sampling((x, y), chord_um, self._rounding.result())
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BlockSteps:
+    """What the steps of n blocks came to.
+
+    Attributes
+    ----------
+    count
+        (n,) int64, steps of each block.
+    corner_um
+        (n + 1, 2) int64, place before each block and at the end, µm of the program.
+    """
+
+    count: Ints
+    corner_um: Ints
+
+    def __len__(self) -> int:
+        return int(self.count.sum())
+
+
+class StepTally:
+    """Counts steps as they stream in, in memory that does not grow with them."""
+
+    def __init__(self, blocks: int, origin_um: tuple[int, int]) -> None:
+        self._count = np.zeros(blocks, dtype=np.int64)
+        self._end = np.zeros((blocks, 2), dtype=np.int64)
+        self._origin = np.array([origin_um], dtype=np.int64)
+
+    def take(self, pulses: Pulses) -> None:
+        """Take the next pulses, in program coordinates, rows never falling."""
+        if not len(pulses.row):
+            return
+        first = np.flatnonzero(np.diff(pulses.row, prepend=-1))
+        last = np.append(first[1:], len(pulses.row)) - 1
+        rows = pulses.row[first]
+        self._count[rows] += last - first + 1
+        self._end[rows, 0], self._end[rows, 1] = pulses.x_um[last], pulses.y_um[last]
+
+    def result(self) -> BlockSteps:
+        """Of all steps so far; a block without steps ends where it began."""
+        stepped = np.arange(1, len(self._count) + 1) * (self._count > 0)
+        latest = np.maximum.accumulate(np.concatenate([[0], stepped]))
+        return BlockSteps(self._count.copy(), np.concatenate([self._origin, self._end])[latest])
 
 
 def at_rest_between(pulses: Pulses) -> slice | Bools:

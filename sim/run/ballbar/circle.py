@@ -8,12 +8,12 @@ import numpy as np
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from parser.findings.errors import SettingsError
+from parser.geometry.curves import Floats
 from parser.program import parse_program
 from parser.units import from_mm, mm
 from sim.run.ballbar.figures import Figures, circularity, figures_of
-from sim.run.ballbar.held import HeldSteps
-from sim.run.ballbar.parts import Parts, parts_of
-from sim.run.ballbar.turn import NAMES, SENSES, Sense, Turn
+from sim.run.ballbar.parts import DeviationParts, parts_of
+from sim.run.ballbar.turn import NAMES, SENSES, MeasuredTurn, Sense
 from sim.setup.machine.machine import Machine
 from sim.setup.toml.reader import Bound, number
 from sim.table.motion import Motion, Progress, motion_of, simulate
@@ -23,7 +23,7 @@ from sim.table.record.losses import Loss
 FEED_MM_MIN: Final = Bound(0.1, 100_000.0)
 LEAST_RADIUS_MM: Final = 0.1
 _SPACING_UM: Final = 5.0  # of samples along the circle
-Both = tuple[Turn, Turn]
+Both = tuple[MeasuredTurn, MeasuredTurn]
 """Turns counter-clockwise and clockwise."""
 
 _WORDS: Final[dict[Sense, str]] = {1: "NR1", -1: "SR4"}
@@ -49,7 +49,7 @@ class Measured(NamedTuple):
     """
 
     figures: Figures
-    parts: Parts
+    parts: DeviationParts
     interpolation_um: float
 
 
@@ -73,7 +73,7 @@ class Ballbar:
 
     test: CircleTest
     run_um_s: float
-    turns: tuple[Turn, Turn]
+    turns: tuple[MeasuredTurn, MeasuredTurn]
     losses: tuple[tuple[Sense, Loss], ...]
     measured: Measured | None
 
@@ -122,9 +122,9 @@ def measure(turns: Both, motors: Both, steps: Both, radius_um: float) -> Measure
 class _Run(NamedTuple):
     """One direction: the measured turn of the table, of its motors, and the steps of it; planned feed, and losses."""
 
-    table: Turn
-    motors: Turn
-    steps: Turn
+    table: MeasuredTurn
+    motors: MeasuredTurn
+    steps: MeasuredTurn
     feed_um_s: float
     losses: tuple[Loss, ...]
 
@@ -134,11 +134,11 @@ def _run(test: CircleTest, sense: Sense, progress: Progress) -> _Run:
     motion = _motion(test, sense)
     plan = motion.drive.plan
     start_s, middle_s, end_s = plan.time_at(np.array([1.0, 2.0, 3.0]) * np.pi * test.radius_um).tolist()
-    held = HeldSteps(start_s, end_s)
+    steps = _Steps(start_s, end_s)
     motors = Motors(motion.table.model.motor.step_time_s, motion.drive.origin_um)
 
     def take(pulses: Pulses) -> None:
-        held.take(pulses)
+        steps.take(pulses)
         motors.take(pulses, start_s)
 
     def told(stage: str, done: int, total: int) -> None:
@@ -148,12 +148,33 @@ def _run(test: CircleTest, sense: Sense, progress: Progress) -> _Run:
     measured = (trace.t_s >= start_s) & (trace.t_s <= end_s)
     center_um = trace.commanded_um[0] - (test.radius_um, 0.0)
     return _Run(
-        table=Turn(sense, trace.table_um[measured] - center_um),
-        motors=Turn(sense, motors.at_um(trace.t_s[measured]) - center_um),
-        steps=Turn(sense, held.places_um() - center_um),
+        table=MeasuredTurn(sense, trace.table_um[measured] - center_um),
+        motors=MeasuredTurn(sense, motors.at_um(trace.t_s[measured]) - center_um),
+        steps=MeasuredTurn(sense, steps.places_um() - center_um),
         feed_um_s=float(plan.at(middle_s).speed_um_s),
         losses=losses,
     )
+
+
+class _Steps:
+    """Places that were commanded from `since_s` to `until_s`, gathered as the pulses stream in."""
+
+    def __init__(self, since_s: float, until_s: float) -> None:
+        self._since_s = since_s
+        self._until_s = until_s
+        self._times: list[Floats] = []
+        self._places: list[Floats] = []
+
+    def take(self, pulses: Pulses) -> None:
+        """Keep those pulses that fall into the time."""
+        inside = (pulses.t_s >= self._since_s) & (pulses.t_s <= self._until_s)
+        self._times.append(pulses.t_s[inside])
+        self._places.append(np.stack([pulses.x_um[inside], pulses.y_um[inside]], axis=1).astype(np.float64))
+
+    def places_um(self) -> Floats:
+        """Places (n, 2) after which some time passes: of two axes that step at once, that where both have stepped."""
+        last = np.diff(np.concatenate(self._times), append=np.inf) > 0.0
+        return np.asarray(np.concatenate(self._places)[last], dtype=np.float64)
 
 
 def _motion(test: CircleTest, sense: Sense) -> Motion:

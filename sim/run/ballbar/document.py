@@ -6,7 +6,7 @@ from typing import Any, Final
 from sim import __version__
 from sim.run.ballbar.circle import Ballbar
 from sim.run.ballbar.figures import Direction, Figures
-from sim.run.ballbar.parts import Parts, Reversal
+from sim.run.ballbar.parts import DeviationParts, Reversal
 from sim.run.ballbar.turn import NAMES, Sense
 from sim.table.record.losses import Loss
 
@@ -54,7 +54,7 @@ def _direction(direction: Direction) -> dict[str, float]:
     return {key: _round(value) for key, value in direction._asdict().items()}
 
 
-def _parts(parts: Parts, interpolation_um: float) -> dict[str, Any]:
+def _parts(parts: DeviationParts, interpolation_um: float) -> dict[str, Any]:
     return {
         "radius_ccw_um": _round(parts.radius_um[0]),
         "radius_cw_um": _round(parts.radius_um[1]),

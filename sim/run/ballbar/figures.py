@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats
-from sim.run.ballbar.turn import GRID_RAD, Turn
+from sim.run.ballbar.turn import GRID_RAD, MeasuredTurn
 
 
 class Direction(NamedTuple):
@@ -58,7 +58,7 @@ class Figures(NamedTuple):
     cw: Direction
 
 
-def figures_of(ccw: Turn, cw: Turn, radius_um: float) -> Figures:
+def figures_of(ccw: MeasuredTurn, cw: MeasuredTurn, radius_um: float) -> Figures:
     """Figures of two turns that go round on a nominal radius."""
     center, mean = least_squares_circle(ccw, cw)
     radii = np.concatenate([ccw.radii_um(center), cw.radii_um(center)])
@@ -73,12 +73,12 @@ def figures_of(ccw: Turn, cw: Turn, radius_um: float) -> Figures:
     )
 
 
-def circularity(turn: Turn) -> float:
+def circularity(turn: MeasuredTurn) -> float:
     """Circular deviation G of one turn, µm."""
     return float(np.ptp(turn.radii_um(least_squares_circle(turn)[0])))
 
 
-def least_squares_circle(*turns: Turn) -> tuple[Floats, float]:
+def least_squares_circle(*turns: MeasuredTurn) -> tuple[Floats, float]:
     """Centre (2,) µm from the nominal one, and radius µm, of the circle that fits the turns best.
 
     In closed form, by I. Kåsa, "A circle fitting procedure and its error analysis", IEEE Trans. Instrum. Meas. 25
@@ -93,7 +93,7 @@ def least_squares_circle(*turns: Turn) -> tuple[Floats, float]:
     return np.array([a, b]) * scale, float(np.sqrt(c + a**2 + b**2)) * scale
 
 
-def _direction(turn: Turn, radius_um: float) -> Direction:
+def _direction(turn: MeasuredTurn, radius_um: float) -> Direction:
     off = turn.radii_um(np.zeros(2)) - radius_um
     return Direction(
         circularity_um=circularity(turn),

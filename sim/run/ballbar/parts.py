@@ -26,7 +26,7 @@ import numpy as np
 
 from parser.geometry.curves import Bools, Floats
 from parser.toolpath import Axis
-from sim.run.ballbar.turn import GRID_RAD, SENSES, Sense, Turn
+from sim.run.ballbar.turn import GRID_RAD, SENSES, MeasuredTurn, Sense
 
 BEFORE_RAD: Final = np.radians(5.0)
 AFTER_RAD: Final = np.radians(20.0)
@@ -65,7 +65,7 @@ class Reversal(NamedTuple):
     spike_deg: float | None
 
 
-class Parts(NamedTuple):
+class DeviationParts(NamedTuple):
     """Parts of the deviation, µm.
 
     Attributes
@@ -96,7 +96,7 @@ class Parts(NamedTuple):
         return max(reversal.spike_um for reversal in self.reversals if reversal.axis == axis)
 
 
-def parts_of(turns: tuple[Turn, Turn], motors: tuple[Turn, Turn]) -> Parts:
+def parts_of(turns: tuple[MeasuredTurn, MeasuredTurn], motors: tuple[MeasuredTurn, MeasuredTurn]) -> DeviationParts:
     """Parts of two turns that go round, counter-clockwise and clockwise, driven by these turns of the motors."""
     center = np.zeros(2)
     pairs = zip(turns, motors, strict=True)
@@ -107,7 +107,7 @@ def parts_of(turns: tuple[Turn, Turn], motors: tuple[Turn, Turn]) -> Parts:
     left = added - forms @ found
     rest_um = float(np.abs(left[fair]).max())
     of = found.tolist()
-    return Parts(
+    return DeviationParts(
         radius_um=(of[0], of[1]),
         diameters_um=of[4],
         lag_um=of[5],

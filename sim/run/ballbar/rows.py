@@ -6,7 +6,7 @@ from parser.toolpath import Axis
 from parser.units import mm
 from sim.run.ballbar.circle import Ballbar
 from sim.run.ballbar.figures import Figures
-from sim.run.ballbar.parts import Parts
+from sim.run.ballbar.parts import DeviationParts
 from sim.run.ballbar.turn import NAMES, Sense
 from sim.table.record.losses import Loss
 
@@ -50,7 +50,7 @@ def figure_rows(figures: Figures) -> list[Row]:
     ]
 
 
-def part_rows(parts: Parts, interpolation_um: float) -> list[Row]:
+def part_rows(parts: DeviationParts, interpolation_um: float) -> list[Row]:
     """What the deviation consists of, µm."""
     return [
         Row("backlash: reversal step", _axes(*parts.step_um)),

@@ -21,7 +21,7 @@ WIDEST_GAP_RAD: Final = np.radians(5.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Turn:
+class MeasuredTurn:
     """One full circle in one direction.
 
     Attributes

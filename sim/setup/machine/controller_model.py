@@ -1,51 +1,29 @@
 """The ``[controller]`` section of a machine file: limits of motion, the rule at junctions, and the interpolator."""
 
 import math
-from collections.abc import Mapping
-from typing import Any, NamedTuple, cast, get_args
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple, get_args
 
-from controller.card.settings import CardSettings
-from controller.card.units import UM_S3_PER_PULSE_MS3
+from controller.card.core.settings import CardSettings
+from controller.card.core.units import UM_S3_PER_PULSE_MS3
 from controller.host.entries import Interpolation
 from controller.motion.junctions import Junction, JunctionDeviation, SlowAt, StopEach, Through
 from controller.motion.limits import MotionLimits
 from parser.findings.errors import SettingsError
-from parser.units import from_mm
-from sim.setup.toml.reader import Bound, numbers, refuse_unknown, text
+from sim.setup.toml.keys import Key, Section
+from sim.setup.toml.kinds import DEGREES_AS_RAD, MM_AS_UM, MS_AS_S, US_AS_S, Number, OneOf
+from sim.setup.toml.reader import Bound
 
 _SPEED = Bound(1e-3, 1e3)
-_ACCELERATION = Bound(0.01, 1e5)
-_REQUIRED = {
-    "path_acceleration_mm_s2": _ACCELERATION,
-    "cut_step_limit_hz": Bound(0.1, 1e6),
-    "jump_feed_mm_s": _SPEED,
+_FEED = Number(_SPEED, "mm/s", MM_AS_UM)
+_ACCELERATION = Number(Bound(0.01, 1e5), "mm/s²", MM_AS_UM)
+_JUNCTIONS: Mapping[str, type[Any]] = {
+    "through": Through,
+    "slow": SlowAt,
+    "stop": StopEach,
+    "deviation": JunctionDeviation,
 }
-_OPTIONAL = {
-    "axis_feed_x_mm_s": _SPEED,
-    "axis_feed_y_mm_s": _SPEED,
-    "axis_acceleration_x_mm_s2": _ACCELERATION,
-    "axis_acceleration_y_mm_s2": _ACCELERATION,
-    "start_feed_mm_s": Bound(0.0, 1e3),
-    "corner_angle_deg": Bound(0.0, 180.0),
-    "corner_feed_mm_s": Bound(1e-6, 1e3),
-    "junction_deviation_um": Bound(1e-3, 1e3),
-    "corner_wait_ms": Bound(0.0, 1e6),
-    "jerk_mm_s3": Bound(0.01, 1e9),
-    "servo_period_us": Bound(10.0, 1e4),
-}
-_DEFAULTS = {
-    "axis_feed_x_mm_s": math.inf,
-    "axis_feed_y_mm_s": math.inf,
-    "axis_acceleration_x_mm_s2": math.inf,
-    "axis_acceleration_y_mm_s2": math.inf,
-    "start_feed_mm_s": 0.0,
-    "corner_angle_deg": 5.0,
-    "corner_wait_ms": 0.0,
-    "jerk_mm_s3": math.inf,
-    "servo_period_us": 200.0,
-}
-_TEXTS = ("junction", "interpolator")
-_JUNCTIONS = ("through", "slow", "stop", "deviation")
+_OWN_NUMBER = {"slow": "corner_feed_mm_s", "deviation": "junction_deviation_um"}
 
 
 class ControllerModel(NamedTuple):
@@ -80,56 +58,67 @@ class ControllerModel(NamedTuple):
         )
 
 
-def read_controller(table: Mapping[str, Any], where: str) -> ControllerModel:
-    """Controller of a section ``[controller]``. SettingsError names the file and the key."""
-    refuse_unknown(table, (*_REQUIRED, *_OPTIONAL, *_TEXTS), where)
-    given = {key: value for key, value in table.items() if key not in _TEXTS}
-    value = _DEFAULTS | numbers(given, _REQUIRED, where, optional=_OPTIONAL)
-    speeds = value["axis_feed_x_mm_s"], value["axis_feed_y_mm_s"]
-    accelerations = value["axis_acceleration_x_mm_s2"], value["axis_acceleration_y_mm_s2"]
-    return ControllerModel(
-        limits=MotionLimits(
-            acceleration_um_s2=from_mm(value["path_acceleration_mm_s2"]),
-            axis_speed_um_s=(from_mm(speeds[0]), from_mm(speeds[1])),
-            axis_acceleration_um_s2=(from_mm(accelerations[0]), from_mm(accelerations[1])),
-            start_speed_um_s=from_mm(value["start_feed_mm_s"]),
-            junction=_junction(text(table, "junction", where, "through"), value, where),
-            corner_angle_rad=math.radians(value["corner_angle_deg"]),
-            corner_wait_s=_whole_ms(value["corner_wait_ms"], f"{where}: corner_wait_ms") / 1e3,
-            jerk_um_s3=from_mm(value["jerk_mm_s3"]),
-        ),
-        cut_step_limit_hz=value["cut_step_limit_hz"],
-        jump_feed_mm_s=value["jump_feed_mm_s"],
-        interpolation=interpolation(text(table, "interpolator", where, "point-by-point"), f"{where}: interpolator"),
-        servo_period_s=value["servo_period_us"] / 1e6,
-    )
+class _WholeMs(Number):
+    """A wait in whole milliseconds, as controllers take it."""
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> Any:
+        """The wait, ms."""
+        wait_ms = super().checked(table, key, where)
+        if wait_ms != int(wait_ms):
+            raise SettingsError(f"{where}: {key} is a whole number; found {wait_ms:g}")
+        return wait_ms
 
 
-def interpolation(name: str, where: str) -> Interpolation:
-    """Interpolator of this name. SettingsError where there is none."""
-    known = get_args(Interpolation)
-    if name not in known:
-        raise SettingsError(f"{where} is one of {', '.join(known)}; found {name!r}")
-    return cast("Interpolation", name)
+def _of_rule(attribute: str) -> Callable[[ControllerModel], float | None]:
+    """How the number of a rule at junctions is found; other rules have none."""
+    return lambda controller: getattr(controller.limits.junction, attribute, None)
 
 
-def _junction(rule: str, value: Mapping[str, float], where: str) -> Junction:
-    """Rule at junctions; its own number has to be given with it."""
-    if rule not in _JUNCTIONS:
-        raise SettingsError(f"{where}: junction is one of {', '.join(_JUNCTIONS)}; found {rule!r}")
-    for of, key in (("slow", "corner_feed_mm_s"), ("deviation", "junction_deviation_um")):
-        if (rule == of) != (key in value):
+def _rule(controller: ControllerModel) -> str:
+    """Name of the rule at junctions."""
+    return next(name for name, rule in _JUNCTIONS.items() if isinstance(controller.limits.junction, rule))
+
+
+INTERPOLATOR = OneOf(get_args(Interpolation))
+
+CONTROLLER = Section(
+    "controller",
+    (
+        Key("path_acceleration_mm_s2", _ACCELERATION, "limits.acceleration_um_s2"),
+        Key("cut_step_limit_hz", Number(Bound(0.1, 1e6), "Hz")),
+        Key("jump_feed_mm_s", Number(_SPEED, "mm/s")),
+        Key("axis_feed_x_mm_s", _FEED, "limits.axis_speed_um_s.0", default=math.inf),
+        Key("axis_feed_y_mm_s", _FEED, "limits.axis_speed_um_s.1", default=math.inf),
+        Key("axis_acceleration_x_mm_s2", _ACCELERATION, "limits.axis_acceleration_um_s2.0", default=math.inf),
+        Key("axis_acceleration_y_mm_s2", _ACCELERATION, "limits.axis_acceleration_um_s2.1", default=math.inf),
+        Key("start_feed_mm_s", Number(Bound(0.0, 1e3), "mm/s", MM_AS_UM), "limits.start_speed_um_s", default=0.0),
+        Key("corner_angle_deg", Number(Bound(0.0, 180.0), "°", DEGREES_AS_RAD), "limits.corner_angle_rad", default=5.0),
+        Key("corner_wait_ms", _WholeMs(Bound(0.0, 1e6), "ms", MS_AS_S), "limits.corner_wait_s", default=0.0),
+        Key("jerk_mm_s3", Number(Bound(0.01, 1e9), "mm/s³", MM_AS_UM), "limits.jerk_um_s3", default=math.inf),
+        Key("servo_period_us", Number(Bound(10.0, 1e4), "µs", US_AS_S), "servo_period_s", default=200.0),
+        Key("junction", OneOf(tuple(_JUNCTIONS)), default="through", get=_rule),
+        Key("corner_feed_mm_s", Number(Bound(1e-6, 1e3), "mm/s", MM_AS_UM), default=None, get=_of_rule("speed_um_s")),
+        Key("junction_deviation_um", Number(Bound(1e-3, 1e3), "µm"), default=None, get=_of_rule("deviation_um")),
+        Key("interpolator", INTERPOLATOR, "interpolation", default="point-by-point"),
+    ),
+    fills="controller",
+)
+
+
+def read_controller(content: Mapping[str, Any], where: str) -> ControllerModel:
+    """Controller of the section ``[controller]`` of a machine file. SettingsError names the file and the key."""
+    value = CONTROLLER.read_in(content, where)
+    junction = _junction(value, f"{where}: {CONTROLLER.header}")
+    return ControllerModel(limits=MotionLimits(junction=junction, **value.pop("limits")), **value)
+
+
+def _junction(value: dict[str, Any], where: str) -> Junction:
+    """Rule at junctions, taken from the values with its own number, which has to be given with it."""
+    rule = value.pop("junction")
+    own = {of: value.pop(key) for of, key in _OWN_NUMBER.items()}
+    for of, key in _OWN_NUMBER.items():
+        if (rule == of) != (own[of] is not None):
             needs = f"needs {key}" if rule == of else f"takes no {key}, which belongs to junction = {of!r}"
             raise SettingsError(f"{where}: junction = {rule!r} {needs}")
-    if rule == "slow":
-        return SlowAt(from_mm(value["corner_feed_mm_s"]))
-    if rule == "deviation":
-        return JunctionDeviation(value["junction_deviation_um"])
-    return StopEach() if rule == "stop" else Through()
-
-
-def _whole_ms(wait_ms: float, where: str) -> float:
-    """A wait in whole milliseconds, as controllers take it."""
-    if wait_ms != int(wait_ms):
-        raise SettingsError(f"{where} is a whole number; found {wait_ms:g}")
-    return wait_ms
+    made: Junction = _JUNCTIONS[rule](*([own[rule]] if rule in own else []))
+    return made

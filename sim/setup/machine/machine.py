@@ -1,4 +1,4 @@
-"""Machine files: table, controller and cutting rates of one machine, from TOML with units in the key names."""
+"""Machine files: table, controller and cutting rates of one machine, read from TOML and written as it."""
 
 from importlib import resources
 from pathlib import Path
@@ -8,12 +8,17 @@ from controller.host.entries import Interpolation
 from controller.motion.limits import Feeds
 from parser.findings.errors import SettingsError
 from parser.units import from_mm
-from sim.setup.machine.controller_model import ControllerModel, read_controller
-from sim.setup.machine.table_model import TableModel, read_table
-from sim.setup.obstacles import Outline, read_arm
-from sim.setup.toml.reader import Bound, load_toml, numbers, refuse_unknown, section, text
+from sim.setup.machine.controller_model import CONTROLLER, ControllerModel, read_controller
+from sim.setup.machine.table_model import MOTOR, TABLE, TableModel, read_table
+from sim.setup.obstacles import ARM, Outline
+from sim.setup.toml.keys import Key, Section, Written
+from sim.setup.toml.kinds import Number, Text
+from sim.setup.toml.reader import Bound, load_toml
 
-_CUTTING = {"area_rate_mm2_min": Bound(0.1, 1e4)}
+TOP = Section("machine", (Key("name", Text()),), form="top")
+CUTTING = Section("cutting", (Key("area_rate_mm2_min", Number(Bound(0.1, 1e4), "mm²/min")),))
+SECTIONS = (TOP, TABLE, MOTOR, CONTROLLER, CUTTING, ARM)
+"""Sections of a machine file."""
 
 
 class Machine(NamedTuple):
@@ -53,14 +58,18 @@ def load_machine(name: str, beside: Path | None = None) -> Machine:
         return _read(path)
 
 
+def machine_sections(machine: Machine) -> list[Written]:
+    """Sections of the machine file that makes the same machine."""
+    return [written for section in SECTIONS for written in section.written(machine)]
+
+
 def _read(path: Path) -> Machine:
     content, where = load_toml(path), str(path)
-    refuse_unknown(content, ("name", "table", "motor", "controller", "cutting", "arm"), where)
-    parts = {key: section(content, key, where) for key in ("table", "motor", "controller", "cutting")}
+    arm = ARM.read_in(content, where) if ARM.name in content else {}
     return Machine(
-        name=text(content, "name", where),
-        table=read_table(parts["table"], parts["motor"], where),
-        controller=read_controller(parts["controller"], f"{where}: [controller]"),
-        **numbers(parts["cutting"], _CUTTING, f"{where}: [cutting]"),
-        arm_um=read_arm(content, where),
+        **TOP.read(content, where, beside=(section.name for section in SECTIONS[1:])),
+        table=read_table(content, where),
+        controller=read_controller(content, where),
+        **CUTTING.read_in(content, where),
+        **arm,
     )

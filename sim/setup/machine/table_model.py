@@ -6,33 +6,18 @@ from itertools import pairwise
 from typing import Any, Literal, NamedTuple
 
 from parser.findings.errors import SettingsError
-from sim.setup.toml.reader import Bound, number, numbers, refuse_unknown, text
+from sim.setup.toml.keys import Key, Section
+from sim.setup.toml.kinds import MS_AS_S, Kind, Number, OneOf
+from sim.setup.toml.reader import Bound, number, section
 
 _FORCE_N = Bound(0.1, 1e6)
-_TABLE = {
-    "travel_x_mm": Bound(1.0, 10_000.0),
-    "travel_y_mm": Bound(1.0, 10_000.0),
-    "saddle_mass_kg": Bound(0.01, 100_000.0),
-    "carriage_mass_kg": Bound(0.01, 100_000.0),
-    "drive_stiffness_n_um": Bound(1e-3, 1e5),
-    "drive_damping_ratio": Bound(0.01, 10.0),
-    "drive_force_limit_n": _FORCE_N,
-}
-_RESISTING = {
-    "friction_x_n": Bound(0.0, 1e6),
-    "friction_y_n": Bound(0.0, 1e6),
-    "viscous_x_n_s_mm": Bound(0.0, 1e6),
-    "viscous_y_n_s_mm": Bound(0.0, 1e6),
-    "backlash_x_um": Bound(0.0, 1e4),
-    "backlash_y_um": Bound(0.0, 1e4),
-}
-_MOTOR = {
-    "step_time_ms": Bound(0.0, 1e3),
-    "electrical_period_um": Bound(0.1, 1e4),
-    "following_error_limit_um": Bound(0.1, 1e6),
-}
-_OF_KIND = {"stepper": "electrical_period_um", "servo": "following_error_limit_um"}
 _RATE_HZ = Bound(0.0, 1e7)
+_TRAVEL = Number(Bound(1.0, 10_000.0), "mm")
+_MASS = Number(Bound(0.01, 100_000.0), "kg")
+_FRICTION = Number(Bound(0.0, 1e6), "N")
+_VISCOUS = Number(Bound(0.0, 1e6), "N s/mm")
+_BACKLASH = Number(Bound(0.0, 1e4), "µm")
+_OF_KIND = {"stepper": "electrical_period_um", "servo": "following_error_limit_um"}
 
 
 class Motor(NamedTuple):
@@ -83,51 +68,81 @@ class TableModel(NamedTuple):
         return self.saddle_mass_kg + self.carriage_mass_kg, self.carriage_mass_kg
 
 
-def read_table(table: Mapping[str, Any], motor: Mapping[str, Any], where: str) -> TableModel:
-    """Table of the sections ``[table]`` and ``[motor]``. SettingsError names the file and the key."""
-    value = numbers(table, _TABLE, f"{where}: [table]", optional=_RESISTING)
-    resisting = dict.fromkeys(_RESISTING, 0.0) | value
-    return TableModel(
-        motor=_motor(motor, value.pop("drive_force_limit_n"), f"{where}: [motor]"),
-        **{key: value[key] for key in _TABLE if key in value},
-        friction_n=(resisting["friction_x_n"], resisting["friction_y_n"]),
-        viscous_n_s_mm=(resisting["viscous_x_n_s_mm"], resisting["viscous_y_n_s_mm"]),
-        backlash_um=(resisting["backlash_x_um"], resisting["backlash_y_um"]),
-    )
+class _ForceAtRate(Kind):
+    """Points [step rate Hz, force N] of a curve that begins with the force limit at standstill."""
+
+    name = "force-at-rate"
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> tuple[tuple[float, float], ...]:
+        """Its points."""
+        value, where = table[key], f"{where}: {key}"
+        if not isinstance(value, list) or not all(isinstance(point, list) and len(point) == 2 for point in value):
+            raise SettingsError(f"{where} is a list of [step rate in Hz, force in N]; found {value!r}")
+        points = tuple(
+            (number(rate, _RATE_HZ, f"{where}: Hz"), number(force, _FORCE_N, f"{where}: N")) for rate, force in value
+        )
+        rates = (0.0, *(rate for rate, _ in points))
+        if any(later <= earlier for earlier, later in pairwise(rates)):
+            raise SettingsError(f"{where}: rates rise from above 0; found {list(rates[1:])}")
+        return points
+
+    def written(self, value: Any) -> list[list[float]]:
+        """A list of lists."""
+        return [list(point) for point in value]
+
+
+TABLE = Section(
+    "table",
+    (
+        Key("travel_x_mm", _TRAVEL),
+        Key("travel_y_mm", _TRAVEL),
+        Key("saddle_mass_kg", _MASS),
+        Key("carriage_mass_kg", _MASS),
+        Key("drive_stiffness_n_um", Number(Bound(1e-3, 1e5), "N/µm")),
+        Key("drive_damping_ratio", Number(Bound(0.01, 10.0))),
+        Key("friction_x_n", _FRICTION, "friction_n.0", default=0.0),
+        Key("friction_y_n", _FRICTION, "friction_n.1", default=0.0),
+        Key("viscous_x_n_s_mm", _VISCOUS, "viscous_n_s_mm.0", default=0.0),
+        Key("viscous_y_n_s_mm", _VISCOUS, "viscous_n_s_mm.1", default=0.0),
+        Key("backlash_x_um", _BACKLASH, "backlash_um.0", default=0.0),
+        Key("backlash_y_um", _BACKLASH, "backlash_um.1", default=0.0),
+        Key("drive_force_limit_n", Number(_FORCE_N, "N"), get=lambda table: table.motor.force_curve[0][1]),
+    ),
+    fills="table",
+)
+
+MOTOR = Section(
+    "motor",
+    (
+        Key("kind", OneOf(tuple(_OF_KIND)), default="stepper"),
+        Key("step_time_ms", Number(Bound(0.0, 1e3), "ms", MS_AS_S), "step_time_s", default=2.0),
+        Key(
+            "electrical_period_um",
+            Number(Bound(0.1, 1e4), "µm"),
+            default=6.0,
+            get=lambda motor: motor.electrical_period_um if motor.kind == "stepper" else None,
+        ),
+        Key("following_error_limit_um", Number(Bound(0.1, 1e6), "µm"), default=math.inf),
+        Key("force_at_rate", _ForceAtRate(), default=(), get=lambda motor: motor.force_curve[1:] or None),
+    ),
+    fills="table.motor",
+)
+
+
+def read_table(content: Mapping[str, Any], where: str) -> TableModel:
+    """Table of the sections ``[table]`` and ``[motor]`` of a machine file. SettingsError names the file and the key."""
+    value = TABLE.read_in(content, where)
+    force_n = value.pop("drive_force_limit_n")
+    return TableModel(motor=_motor(section(content, "motor", where), force_n, f"{where}: [motor]"), **value)
 
 
 def _motor(table: Mapping[str, Any], force_n: float, where: str) -> Motor:
     """Motor of a section; `force_n` is what it pulls at standstill."""
-    refuse_unknown(table, ("kind", "force_at_rate", *_MOTOR), where)
-    kind = text(table, "kind", where, "stepper")
-    if kind not in _OF_KIND:
-        raise SettingsError(f"{where}: kind is one of {', '.join(_OF_KIND)}; found {kind!r}")
+    value = MOTOR.read(table, where)
+    kind = value["kind"]
     for of, key in _OF_KIND.items():
         if kind != of and key in table:
             raise SettingsError(f"{where}: {key} belongs to a {of}; found with kind = {kind!r}")
     if kind == "servo" and "following_error_limit_um" not in table:
         raise SettingsError(f"{where}: following_error_limit_um is missing")
-    given = {key: entry for key, entry in table.items() if key in _MOTOR}
-    value = {"step_time_ms": 2.0, "electrical_period_um": 6.0, "following_error_limit_um": math.inf}
-    value |= numbers(given, {}, where, optional=_MOTOR)
-    return Motor(
-        kind="stepper" if kind == "stepper" else "servo",
-        step_time_s=value["step_time_ms"] / 1e3,
-        electrical_period_um=value["electrical_period_um"],
-        following_error_limit_um=value["following_error_limit_um"],
-        force_curve=((0.0, force_n), *_force_at_rate(table.get("force_at_rate", []), where)),
-    )
-
-
-def _force_at_rate(value: object, where: str) -> tuple[tuple[float, float], ...]:
-    """Points [step rate Hz, force N] of a curve that begins with the force limit at standstill."""
-    where = f"{where}: force_at_rate"
-    if not isinstance(value, list) or not all(isinstance(point, list) and len(point) == 2 for point in value):
-        raise SettingsError(f"{where} is a list of [step rate in Hz, force in N]; found {value!r}")
-    points = tuple(
-        (number(rate, _RATE_HZ, f"{where}: Hz"), number(force, _FORCE_N, f"{where}: N")) for rate, force in value
-    )
-    rates = (0.0, *(rate for rate, _ in points))
-    if any(later <= earlier for earlier, later in pairwise(rates)):
-        raise SettingsError(f"{where}: rates rise from above 0; found {list(rates[1:])}")
-    return points
+    return Motor(force_curve=((0.0, force_n), *value.pop("force_at_rate")), **value)

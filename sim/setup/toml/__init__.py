@@ -1,1 +1,1 @@
-"""TOML files read strictly and written again; what crosses the border is a table of plain values."""
+"""TOML files read strictly and written again, by tables of keys; what crosses the border is a `Section` of `Key`s."""

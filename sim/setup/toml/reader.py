@@ -15,7 +15,7 @@ class Bound(NamedTuple):
     high: float
 
 
-_PLACE_MM = Bound(-1e5, 1e5)
+PLACE_MM = Bound(-1e5, 1e5)
 
 
 def load_toml(path: Path) -> dict[str, Any]:
@@ -50,17 +50,25 @@ def section(table: Mapping[str, Any], key: str, where: str) -> Mapping[str, Any]
     return value
 
 
-def text(table: Mapping[str, Any], key: str, where: str, default: str | None = None) -> str:
-    """Text `key`; the default where it is left out. SettingsError where it is missing or no text."""
-    value = table.get(key, default)
+def tables(content: Mapping[str, Any], key: str, where: str) -> list[Mapping[str, Any]]:
+    """Tables ``[[key]]``, none where they are left out. SettingsError where they are something else."""
+    value = content.get(key, [])
+    if not isinstance(value, list) or not all(isinstance(table, Mapping) for table in value):
+        raise SettingsError(f"{where}: {key} are tables, [[{key}]]; found {value!r}")
+    return value
+
+
+def text(table: Mapping[str, Any], key: str, where: str) -> str:
+    """Text `key`. SettingsError where it is missing or no text."""
+    value = table.get(key)
     if not isinstance(value, str) or not value:
         raise SettingsError(f"{where}: {key} is a text and must be given; found {value!r}")
     return value
 
 
-def truth(table: Mapping[str, Any], key: str, where: str, *, default: bool = False) -> bool:
-    """Truth `key`; the default where it is left out. SettingsError where it is something else."""
-    value = table.get(key, default)
+def truth(table: Mapping[str, Any], key: str, where: str) -> bool:
+    """Truth `key`; false where it is left out. SettingsError where it is something else."""
+    value = table.get(key, False)
     if not isinstance(value, bool):
         raise SettingsError(f"{where}: {key} is true or false; found {value!r}")
     return value
@@ -77,26 +85,6 @@ def number(value: object, bound: Bound, where: str) -> float:
     return float(value)
 
 
-def numbers(
-    table: Mapping[str, Any],
-    bounds: Mapping[str, Bound],
-    where: str,
-    defaults: Mapping[str, float] | None = None,
-    optional: Mapping[str, Bound] | None = None,
-) -> dict[str, float]:
-    """Numbers of a table that holds nothing else, each in its bounds; SettingsError for what is missing or unknown.
-
-    Of the `optional` ones, those that are given; a default is not held to the bounds.
-    """
-    refuse_unknown(table, (*bounds, *(optional or {})), where)
-    bounds = {**bounds, **{key: bound for key, bound in (optional or {}).items() if key in table}}
-    given = {**(defaults or {}), **table}
-    for key in bounds:
-        if key not in given:
-            raise SettingsError(f"{where}: {key} is missing")
-    return {key: number(given[key], bound, f"{where}: {key}") for key, bound in bounds.items()}
-
-
 def pair(table: Mapping[str, Any], key: str, where: str) -> tuple[float, float] | None:
     """Place [x, y] on the table in mm; None where it is left out. SettingsError where it is no pair of numbers."""
     if key not in table:
@@ -104,5 +92,5 @@ def pair(table: Mapping[str, Any], key: str, where: str) -> tuple[float, float] 
     value = table[key]
     if not isinstance(value, list) or len(value) != 2:
         raise SettingsError(f"{where}: {key} is [x, y] on the table; found {value!r}")
-    x, y = (number(place, _PLACE_MM, f"{where}: {key}") for place in value)
+    x, y = (number(place, PLACE_MM, f"{where}: {key}") for place in value)
     return x, y

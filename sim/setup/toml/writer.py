@@ -1,16 +1,16 @@
-"""Settings as TOML text: values as plain Python, sections by their header."""
+"""Settings as TOML text."""
 
 import json
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-Section = Mapping[str, Any]
+from sim.setup.toml.keys import Written
 
 
-def toml_text(sections: Sequence[tuple[str, Section]]) -> str:
-    """TOML of sections by header, such as ``[wire]``; that of an empty header stands first, without one."""
-    return "\n".join(_section(header, section) for header, section in sections if section)
+def toml_text(sections: Sequence[Written]) -> str:
+    """TOML of sections, the top of the file first; those that hold nothing are left out."""
+    return "\n".join(_section(written.section.header, written.values) for written in sections if written.values)
 
 
 def toml_value(value: Any) -> str:
@@ -28,8 +28,8 @@ def toml_value(value: Any) -> str:
     return str(value) if isinstance(value, int | float) else toml_value(str(value))
 
 
-def _section(header: str, section: Section) -> str:
-    lines = [f"{_key(key)} = {toml_value(value)}\n" for key, value in section.items()]
+def _section(header: str, values: Mapping[str, Any]) -> str:
+    lines = [f"{_key(key)} = {toml_value(value)}\n" for key, value in values.items()]
     return "".join([f"{header}\n" if header else "", *lines])
 
 

@@ -1,39 +1,36 @@
-"""Charts: a frame with a scale on each axis, and lines, bands and levels in it."""
+"""Charts: a frame with a scale on each axis, and lines, bands and levels in it; many samples in columns of pixels."""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Floats, Ints
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box, nice_below, ticks
 from sim.show.draw.paints import Paint
-from sim.show.draw.simplify import simplify
-
-CHORD_PX = 0.15
-"""How far a drawn line may leave the true one."""
+from sim.show.draw.simplify import CHORD_PX, simplify
 
 
-class Range(NamedTuple):
+class AxisRange(NamedTuple):
     """Lowest and highest value of an axis, in its unit; low < high."""
 
     low: float
     high: float
 
-    def wider(self, share: float) -> "Range":
+    def wider(self, share: float) -> "AxisRange":
         """The range with a share of its width more at both ends."""
         more = share * (self.high - self.low)
-        return Range(self.low - more, self.high + more)
+        return AxisRange(self.low - more, self.high + more)
 
 
 class Chart(NamedTuple):
     """A frame on a page, px, with the values that its sides stand for."""
 
     frame: Box
-    x: Range
-    y: Range
+    x: AxisRange
+    y: AxisRange
     unit: float
 
     def x_px(self, x: Floats | float) -> Floats:
@@ -51,13 +48,13 @@ class Chart(NamedTuple):
         return np.stack([self.x_px(points[:, 0]), self.y_px(points[:, 1])], axis=-1)
 
 
-def range_of(*values: Floats, least: float = 0.0) -> Range:
-    """Range of all finite values, no narrower than `least`; that around 0 where there are none."""
+def range_of(*values: Floats, least: float = 0.0) -> AxisRange:
+    """Range of all finite values, no narrower than `least`; around 0 where there are no values."""
     finite = np.concatenate([[np.nan], *(np.ravel(part) for part in values)])
     finite = finite[np.isfinite(finite)]
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
     missing = max(least - (high - low), 0.0)
-    return Range(low - missing / 2.0, high + missing / 2.0)
+    return AxisRange(low - missing / 2.0, high + missing / 2.0)
 
 
 def draw_chart(  # noqa: PLR0913 - all but the first two are named
@@ -67,7 +64,7 @@ def draw_chart(  # noqa: PLR0913 - all but the first two are named
     x_name: str = "",
     y_name: str = "",
     x_values: bool = True,
-    tolerance: Range | None = None,
+    tolerance: AxisRange | None = None,
 ) -> None:
     """Draw the frame with its grid, the values at its sides, and the names of its axes inside their ends.
 
@@ -92,7 +89,7 @@ def draw_chart(  # noqa: PLR0913 - all but the first two are named
         canvas.text((frame.left + 0.5 * size, frame.top + 0.8 * size), y_name, size, Paint.GREY)
 
 
-def _draw_tolerance(canvas: Canvas, chart: Chart, tolerance: Range) -> None:
+def _draw_tolerance(canvas: Canvas, chart: Chart, tolerance: AxisRange) -> None:
     """Fill a band across the frame, and draw those of its edges that lie inside."""
     ends = np.clip(np.array(tolerance), chart.y.low, chart.y.high)
     draw_band(canvas, chart, np.array(chart.x), np.broadcast_to(ends, (2, 2)), Paint.BAND)
@@ -100,7 +97,7 @@ def _draw_tolerance(canvas: Canvas, chart: Chart, tolerance: Range) -> None:
         draw_level(canvas, chart, edge, Paint.BAND_EDGE, style.GRID_WIDTH * 1.5)
 
 
-def tick_texts(values: Range, most: float) -> list[tuple[float, str]]:
+def tick_texts(values: AxisRange, most: float) -> list[tuple[float, str]]:
     """Round values of a range, no more than `most` and one, with what is written beside them."""
     step = nice_below(2.5 * (values.high - values.low) / max(most, 1.0))
     decimals = max(0, -math.floor(math.log10(step) + 1e-9))
@@ -132,3 +129,36 @@ def draw_level(canvas: Canvas, chart: Chart, y: float, paint: Paint, width: floa
         at = float(chart.y_px(y))
         line = np.array([[chart.frame.left, at], [chart.frame.right, at]])
         canvas.dashed(line, paint, width * chart.unit, style.DASH * chart.unit, style.DASH_GAP * chart.unit)
+
+
+class Columns(NamedTuple):
+    """Columns with samples: middle of each in the unit of the X axis (k,), lowest and highest value there (k, 2)."""
+
+    x: Floats
+    ends: Floats
+
+
+def columns_of(chart: Chart, x: Floats, value: Floats) -> Columns:
+    """Columns of values (n,) over `x` (n,), n ≥ 1, which never falls; ends of the stretch are kept.
+
+    They are 1 px wide, and wider on a page that is larger than the usual one, where they would be too fine to see.
+    """
+    return in_cells(np.floor(chart.x_px(x) / max(chart.unit, 1.0)).astype(np.int64), x, value)
+
+
+def in_cells(cell: Ints, x: Floats, value: Floats) -> Columns:
+    """Columns of the cells (n,), never falling, of values (n,) over `x` (n,), n ≥ 1."""
+    first = np.flatnonzero(np.diff(cell, prepend=cell[0] - 1))
+    ends = np.stack([np.minimum.reduceat(value, first), np.maximum.reduceat(value, first)], axis=1)
+    middle = (x[first] + x[np.append(first[1:], len(x)) - 1]) / 2.0
+    middle[0], middle[-1] = x[0], x[-1]
+    return Columns(middle, ends)
+
+
+def stretches(chosen: Ints) -> list[slice]:
+    """Slices of the stretches of consecutive numbers in `chosen`, rising."""
+    if not len(chosen):
+        return []
+    cuts = np.flatnonzero(np.diff(chosen) > 1) + 1
+    first, last = np.concatenate([[0], cuts]), np.append(cuts, len(chosen)) - 1
+    return [slice(a, b + 1) for a, b in zip(chosen[first].tolist(), chosen[last].tolist(), strict=True)]

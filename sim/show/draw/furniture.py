@@ -26,13 +26,13 @@ def _without_middle(text: str, keep: int) -> str:
     return text[: keep - tail].rstrip() + "…" + text[len(text) - tail :].lstrip()
 
 
-def draw_header(canvas: Canvas, page: Page, title: str, note: str, *, beside_px: float = 0.0) -> None:
-    """Write the title and the note below it, which leave so much of the right side free."""
-    left, width = style.EDGE * page.unit, page.width_px - 2 * style.EDGE * page.unit - beside_px
+def draw_header(canvas: Canvas, unit: float, title: str, note: str, *, beside_px: float = 0.0) -> None:
+    """Write the title and the note below it over the page, with so much of its right side left free."""
+    left, width = style.EDGE * unit, canvas.width_px - 2 * style.EDGE * unit - beside_px
     rows = ((title, style.TITLE, 0.34, Paint.INK), (note, style.NOTE, 0.72, Paint.GREY))
     for text, size, share, paint in rows:
-        line = elide(canvas, text, size * page.unit, width)
-        canvas.text((left, share * style.HEAD * page.unit), line, size * page.unit, paint)
+        line = elide(canvas, text, size * unit, width)
+        canvas.text((left, share * style.HEAD * unit), line, size * unit, paint)
 
 
 def draw_frame(canvas: Canvas, page: Page) -> None:

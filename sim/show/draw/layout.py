@@ -68,6 +68,19 @@ class View(NamedTuple):
         return self.to_um(np.array([[plot.left, plot.bottom], [plot.right, plot.top]]))
 
 
+def fitted(bounds_um: Floats, plot: Box, pad: float = 0.0) -> View:
+    """The view that shows a box (2, 2) µm in the middle of a plot, with `pad` px free at its sides."""
+    wide_um, tall_um = np.maximum(bounds_um[1] - bounds_um[0], 1e-9).tolist()
+    wide, tall = plot.right - plot.left - 2.0 * pad, plot.bottom - plot.top - 2.0 * pad
+    return centred(bounds_um.mean(axis=0), min(wide / wide_um, tall / tall_um), plot)
+
+
+def centred(place_um: Floats, px_per_um: float, plot: Box) -> View:
+    """The view of a scale with a place (2,) µm in the middle of a plot."""
+    x, y = (place_um * px_per_um).tolist()
+    return View(px_per_um, (plot.left + plot.right) / 2 - x, (plot.top + plot.bottom) / 2 + y)
+
+
 class Page(NamedTuple):
     """A page with one plot.
 
@@ -142,11 +155,8 @@ def page_for(bounds_um: Floats, width_px: int, beside: Margins = BESIDE_PLOT, in
     other_px = width_px - (room.bottom - room.top)
     height_px = _height_px(width_px, other_px + (room.right - room.left) * tall_um / wide_um)
     room = _room(width_px, height_px, beside, inside)
-    scale = min((room.right - room.left) / wide_um, (room.bottom - room.top) / tall_um)
-    middle_x, middle_y = (bounds_um.mean(axis=0) * scale).tolist()
-    view = View(scale, (room.left + room.right) / 2 - middle_x, (room.top + room.bottom) / 2 + middle_y)
     plot = beside.within(Box(0.0, 0.0, width_px, height_px), unit)
-    return Page(width_px, height_px, unit, plot, view)
+    return Page(width_px, height_px, unit, plot, fitted(bounds_um, room))
 
 
 def _room(width_px: int, height_px: int, beside: Margins, inside: Margins) -> Box:

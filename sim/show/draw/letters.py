@@ -1,16 +1,12 @@
 """The shipped font, at any size: what backends write with, and how wide a text is."""
 
-import os
 from typing import Final
 
 from sim.show.draw import style
-
-os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would go to stdout, among our data
-import pygame
-import pygame.font
+from sim.show.draw.silent_pygame import pygame
 
 MEASURED_AT: Final = 3
-"""Widths are those at three times the size, which the font rounds to whole pixels."""
+"""Texts are measured at so many times their size, because the font rounds widths to whole pixels."""
 
 
 class Letters:

@@ -1,10 +1,9 @@
-"""Pictures in pixels: the only module that draws with pygame. No display is opened.
+"""Pictures in pixels, drawn with pygame. No display is opened.
 
 It draws larger, three times up to a width of 2400 px and else twice, and takes the mean of those pixels, which smooths
 every edge.
 """
 
-import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Final
@@ -18,9 +17,7 @@ from sim.show.draw.canvas import arrow_head, dashes
 from sim.show.draw.layout import Box
 from sim.show.draw.letters import Letters
 from sim.show.draw.paints import LIGHT, Paint, Theme
-
-os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would go to stdout, among our data
-import pygame
+from sim.show.draw.silent_pygame import pygame
 
 FINEST: Final = 3
 COARSER_FROM_PX: Final = 2400  # an A3 page at 300 dpi, drawn three times as large, would take 470 MB
@@ -168,7 +165,7 @@ def _quads(points: Floats, side: Floats) -> Floats:
 
 
 def _sharp(points: Floats, half: float) -> NDArray[np.bool_]:
-    """Mark the ends, and the corners where a round corner reaches half a pixel beyond the sliver."""
+    """Mark the points (n,) that need a disc: both ends, and corners that it rounds by more than half a pixel."""
     heading = np.arctan2(*np.diff(points, axis=0).T[::-1])
     turn = np.abs((np.diff(heading) + np.pi) % (2 * np.pi) - np.pi)
     ends = np.ones(1, dtype=np.bool_)

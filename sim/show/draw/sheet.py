@@ -7,6 +7,7 @@ from typing import Final, Generic, TypeVar
 from parser.findings.catalogue import Language
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
+from sim.show.draw.layout import unit_of
 from sim.show.draw.paints import LIGHT, Theme
 from sim.show.draw.raster import Raster
 from sim.show.draw.svg import Svg
@@ -44,7 +45,7 @@ class Sheet(Generic[AnyCanvas]):
     @property
     def unit(self) -> float:
         """Factor on the sizes of `sim.show.draw.style`."""
-        return max(self.width_px / style.BASE_WIDTH, style.LEAST_UNIT)
+        return unit_of(self.width_px)
 
     @property
     def say(self) -> Words:

@@ -1,8 +1,13 @@
 """Fewer points for the same line: a trace has one for each pulse, a picture only so many pixels."""
 
+from typing import Final
+
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
+
+CHORD_PX: Final = 0.15
+"""How far a drawn line may leave the true one."""
 
 
 def simplify(points: Floats, tolerance: float) -> Floats:

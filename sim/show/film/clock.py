@@ -12,7 +12,7 @@ HOLD_S: Final = 1.0
 """The end stands as long as this, or a tenth of a shorter film."""
 
 
-class Clock(NamedTuple):
+class FilmClock(NamedTuple):
     """How a run of `duration_s` becomes a film of `seconds` with `fps` frames in each.
 
     The run goes by at one speed, jumps and pauses too; then its last moment stands for a while.

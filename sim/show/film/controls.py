@@ -1,21 +1,18 @@
 """What keys and mouse do in the window."""
 
-import os
 from collections.abc import Callable, Mapping
 from typing import Final
 
 from parser.geometry.curves import Floats
-from sim.show.draw.layout import Box
+from sim.show.draw.layout import Box, centred
+from sim.show.draw.silent_pygame import pygame
+from sim.show.film.layout import shifted, zoomed
 from sim.show.film.playback import Playback
 from sim.show.film.screen import Screen
-from sim.show.film.views import centred, shifted, zoomed
-
-os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would go to stdout, among our data
-import pygame
 
 ZOOM: Final = 1.25
 CALM: Final = 0.25
-"""Share of the plot at each side which a wire that is followed keeps out of."""
+"""The view moves when a wire that is followed comes into this share of the plot at a side."""
 
 
 class Controls:

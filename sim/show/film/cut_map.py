@@ -1,7 +1,6 @@
-"""When each pixel of the plot was cut: drawn once for a view, then any moment of the run is a comparison away."""
+"""When each pixel of the plot was cut: worked out once for a view; then one comparison tells what is cut by a time."""
 
 import math
-import os
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -9,17 +8,14 @@ from numpy.typing import NDArray
 
 from parser.geometry.curves import Bools, Floats
 from sim.show.draw.layout import Box, View
+from sim.show.draw.silent_pygame import pygame
 from sim.table.trace import Trace
-
-os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would go to stdout, among our data
-import pygame
-import pygame.surfarray
 
 FINE: Final = 3
 """Each pixel is looked at in 3 × 3 places."""
 FULL: Final = FINE * FINE
 """Level of a pixel that is cut wholly."""
-SCALLOP_PX: Final = 0.1  # left standing between two discs one behind the other, d²/8r high
+SCALLOP_PX: Final = 0.1  # height d²/8r of what two discs of radius r, d apart, leave standing between them
 NEVER: Final = 0xFFFFFF
 
 Levels = NDArray[np.uint8]

@@ -6,9 +6,9 @@ from typing import Final
 
 from parser.findings.errors import SettingsError
 from sim.files import staged
+from sim.run.course import course_of
 from sim.run.recording import Recording
-from sim.show.film.clock import Clock
-from sim.show.film.course import course_of
+from sim.show.film.clock import FilmClock
 from sim.show.film.plate import Pixels
 from sim.show.film.screen import Look, Screen
 from sim.show.film.writers import FORMATS, MOST_HELD_PX, Format, Frames, encoder
@@ -47,7 +47,7 @@ def write_film(  # noqa: PLR0913, PLR0917 - a file, what it shows, and how
     """
     chosen = format_of(path, seconds, fps, look)
     course = course_of(recording)
-    clock = Clock(seconds, fps, course.duration_s)
+    clock = FilmClock(seconds, fps, course.duration_s)
     screen = Screen(course, look)
 
     def shown(t_s: float) -> Pixels:

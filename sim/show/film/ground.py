@@ -1,42 +1,59 @@
 """The plot of a frame: work, clamps and pieces, and the path over them, as it is before the wire and behind it."""
 
-from collections.abc import Sequence
-from typing import Final, Literal
+from collections.abc import Iterable
+from typing import Final, Literal, NamedTuple
 
 import numpy as np
 import shapely
 
 from parser.geometry.curves import Floats
+from sim.run.course import Course
+from sim.setup.scenario import Scenario
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import cut_runs, flatten
 from sim.show.draw.furniture import draw_axes, draw_frame
 from sim.show.draw.layout import Box, Page, View
 from sim.show.draw.paints import Paint
-from sim.show.draw.simplify import simplify
-from sim.show.film.course import Course
-from sim.show.film.views import near_runs
+from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.cut.marks import draw_start
 from sim.show.pictures.cut.outlines import Bodies, draw_bodies
 
-CHORD_PX: Final = 0.15
 STEPS_FROM: Final = 2.0
 """Pixels to the µm from which on the single steps show."""
 TRACE_FROM: Final = 0.5
 """Pixels to the µm from which on the way of the wire shows beside the ideal path."""
 
+INTO_KERF: Final = 1.9
+"""Offsets by which outlines are grown; the kerf that then lies over their borders is two wide."""
+PLAIN_UM: Final = 2.0
+"""Before that, outlines lose their finer detail: they may have a corner to each step, and the kerf hides the border."""
+
 Fate = Literal["held", "free", "gone"]
 
 
-def draw_ground(canvas: Canvas, page: Page, course: Course, fates: Sequence[Fate]) -> None:
-    """Draw the plot before the wire comes, with what has become of each piece."""
-    scenario = course.run.scenario
+class PieceDrawn(NamedTuple):
+    """A piece as it is drawn: into the kerf round it, with what is still to be cut in it; and what has become of it."""
+
+    outline_um: shapely.Polygon
+    fate: Fate
+
+
+def outlines_um(course: Course) -> list[shapely.Polygon]:
+    """Outlines of the pieces of a run with the kerf round them."""
+    grown_um = INTO_KERF * course.run.scenario.wire.reach_um
+    plain = [shapely.simplify(piece.what.outline_um, PLAIN_UM) for piece in course.pieces]
+    return [shapely.buffer(outline, grown_um, quad_segs=4) for outline in plain]
+
+
+def draw_ground(canvas: Canvas, page: Page, scenario: Scenario, pieces: Iterable[PieceDrawn]) -> None:
+    """Draw the plot before the wire comes, with the pieces as far as they are free."""
     draw_frame(canvas, page)
     if scenario.work_um is None:  # a plate without end
         canvas.box(inside(page), Paint.WORK, Paint.WORK, 0.0)
     draw_bodies(canvas, page, Bodies(scenario.work_um, [clamp.outline_um for clamp in scenario.clamps]))
     with canvas.clipped(inside(page)):
-        for outline, fate in zip(course.outlines_um, fates, strict=True):
+        for outline, fate in pieces:
             if fate != "held":
                 _draw_outline(canvas, page, outline, Paint.SLUG if fate == "free" else Paint.PAGE)
     draw_axes(canvas, page)
@@ -79,6 +96,14 @@ def _draw_run(canvas: Canvas, points_um: Floats, page: Page, paint: Paint, width
     if len(points_um) > 1:
         for run in near_runs(page.view.to_px(points_um), page.plot):
             canvas.polyline(simplify(run, CHORD_PX), paint, width * page.unit)
+
+
+def near_runs(points: Floats, box: Box) -> list[Floats]:
+    """Stretches of a line (n, 2) px whose chords may meet a box, each (k, 2) with k ≥ 2."""
+    low, high = np.minimum(points[:-1], points[1:]), np.maximum(points[:-1], points[1:])
+    meets = ((high >= (box.left, box.top)) & (low <= (box.right, box.bottom))).all(axis=1)
+    edges = np.flatnonzero(np.diff(meets, prepend=False, append=False))
+    return [points[first : past + 1] for first, past in edges.reshape(-1, 2).tolist()]
 
 
 def _draw_steps(canvas: Canvas, page: Page, course: Course) -> None:

@@ -12,9 +12,9 @@ from sim.show.draw.paints import Paint
 WIRE: Final = 5.0
 """Least radius of the wire's mark, so that it can be seen."""
 RING_MOST: Final = 130.0
-"""A larger wire is left out around its mark."""
+"""The outline of a wire with a larger radius is not drawn."""
 ARM: Final = (9.0, 19.0)
-"""From the place that was asked for, arms of a cross begin and end so far away: the wire's mark lies between them."""
+"""The arms of the cross begin and end so far from the commanded place: the wire's mark fits between them."""
 
 
 def reach(radius: float, unit: float) -> float:

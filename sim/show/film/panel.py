@@ -19,7 +19,7 @@ GAP: Final = 40.0
 """Between the two columns of read-outs below a plot."""
 
 
-class Panel:
+class ReadoutPanel:
     """The lines of a frame, in one column beside the plot or in two below it."""
 
     def __init__(self, layout: Layout, theme: Theme, lines: int) -> None:

@@ -1,7 +1,5 @@
 """A drawing surface whose pixels are had quickly, and that may begin with a part of a frame."""
 
-import os
-
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
@@ -9,9 +7,7 @@ from PIL import Image
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import Paint, Theme
 from sim.show.draw.raster import Raster
-
-os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would go to stdout, among our data
-import pygame
+from sim.show.draw.silent_pygame import pygame
 
 _RED_LAST = 0xFF0000
 

@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
+from sim.run.course import Course
 from sim.show.draw.layout import nice_below
-from sim.show.film.course import Course
 
 SPEEDS: Final = (0.01, 10_000.0)
 """Slowest and fastest, in seconds of the run to the second."""
@@ -53,7 +53,7 @@ class Playback:
 
     def by_block(self, forward: bool) -> None:
         """Pause at the next begin of a block, or at the one before."""
-        begins = self.course.begins_s
+        begins = self.course.border_s[:-1]
         if forward:
             later = begins[np.searchsorted(begins, self.t_s, side="right") :]
             self._stop_at(float(later[0]) if len(later) else self.course.duration_s)

@@ -3,14 +3,16 @@
 from typing import NamedTuple
 
 from parser.findings.catalogue import instant, page
+from parser.findings.findings import Finding
 from parser.units import mm
+from sim.cut.pieces.pieces import Piece
+from sim.run.course import Course, Event, Moment
 from sim.show.draw.paints import Paint
-from sim.show.film.course import Course, Happening, Moment
+from sim.show.film.strip import paint_of
 from sim.show.words.pictures import Words
 
 _TOLD_S = 2.5
 """So long something that happened stays written, in seconds of the film."""
-_TROUBLE = {"error": Paint.ERROR, "warning": Paint.WARNING, "note": Paint.GREY}
 
 
 class Line(NamedTuple):
@@ -48,17 +50,23 @@ def told(course: Course, t_s: float, speed: float, say: Words) -> Line:
         if tripped is not None:
             return Line("", say("film_tripped", axis=tripped.axis.name), Paint.ERROR)
         return Line("", say("film_end"))
-    late = [one for one in course.happenings if t_s - _TOLD_S * speed <= one.t_s <= t_s]
-    return _named(late[-1], say) if late else Line("", "")
+    late = (one for one in course.happenings if t_s - _TOLD_S * speed <= one.t_s <= t_s)
+    shown = [(one, paint) for one in late if (paint := paint_of(one.what)) is not None]
+    if not shown:
+        return Line("", "")
+    last, paint = max(shown, key=lambda pair: pair[0].t_s)  # of what falls together the first: a finding
+    return Line("", _named(last.what, say), paint)
 
 
-def _named(happening: Happening, say: Words) -> Line:
-    if happening.sort == "pause":
-        return Line("", say("film_pause"), Paint.PAUSE)
-    if happening.sort == "free":
-        return Line("", say(f"film_free_{happening.name}"), Paint.SLUG_EDGE)
-    title = page(happening.name, say.language).title
-    return Line("", say("film_finding", code=happening.name, title=title), _TROUBLE[happening.sort])
+def _named(event: Event, say: Words) -> str:
+    """Words for something that a film shows."""
+    match event:
+        case Finding():
+            return say("film_finding", code=event.code, title=page(event.code, say.language).title)
+        case Piece():
+            return say(f"film_free_{event.kind}")
+        case _:
+            return say("film_pause")
 
 
 def _speed(speed: float) -> str:

@@ -5,13 +5,12 @@ from typing import Final
 
 import numpy as np
 
-from sim.cut.pieces.pieces import Piece
+from sim.run.course import Course, Moment
 from sim.show.draw import style
 from sim.show.draw.layout import Page, View
 from sim.show.draw.paints import Theme
-from sim.show.film.course import Course, Moment
 from sim.show.film.cut_map import FULL, CutMap, Levels, Span, discs_of
-from sim.show.film.ground import Fate, draw_behind, draw_ground, draw_path
+from sim.show.film.ground import Fate, PieceDrawn, draw_behind, draw_ground, draw_path
 from sim.show.film.layout import AXIS, Layout
 from sim.show.film.plate import Pixels, Plate
 
@@ -19,7 +18,10 @@ FALL_S: Final = 0.7
 """So long a piece that came free lies grey before it is gone, in seconds of the film."""
 
 TIP_MOST_PX: Final = 150.0
-"""A larger kerf grows disc by disc: its front lies far from the wire, mostly outside of the plot."""
+"""Up to this radius the kerf reaches the wire in every frame; a wider one grows disc by disc.
+
+Its front is then far from the wire, mostly outside the plot.
+"""
 NOTHING: Final = Span(0, 0, 0, 0)
 
 
@@ -54,7 +56,7 @@ class Scene:
         draw_behind(behind, self._page)
         draw_path(behind, self._page, course)
         self._behind = behind.pixels()[self._plot]
-        self._fates: Sequence[Fate] | None = None
+        self._pieces: Sequence[PieceDrawn] | None = None
         self._before = self._image = np.empty((0, 0, 3), dtype=np.uint8)
         self._front, self._tip = 0, NOTHING
 
@@ -63,13 +65,13 @@ class Scene:
         """What the plot shows."""
         return self._page.view
 
-    def at(self, moment: Moment, fates: Sequence[Fate]) -> Pixels:
-        """The plot with its axes, from the corner of the frame on, at a moment, with what has become of each piece.
+    def at(self, moment: Moment, pieces: Sequence[PieceDrawn]) -> Pixels:
+        """The plot with its axes, from the corner of the frame on, at a moment, with the pieces as they are then.
 
         The array changes with the next call.
         """
-        if fates != self._fates:
-            self._begin(fates)
+        if pieces != self._pieces:
+            self._begin(pieces)
         front = self._map.front(moment.t_s)
         for span in (self._map.changed(self._front, front), self._tip):
             self._mix(span, self._map.levels(front, span))
@@ -79,12 +81,12 @@ class Scene:
             self._mix(self._tip, np.maximum(self._map.levels(front, self._tip), levels))
         return self._image
 
-    def _begin(self, fates: Sequence[Fate]) -> None:
+    def _begin(self, pieces: Sequence[PieceDrawn]) -> None:
         """Begin anew with a plot that is not cut."""
         canvas = Plate(self._page.width_px, self._page.height_px, self._theme)
-        draw_ground(canvas, self._page, self._course, fates)
+        draw_ground(canvas, self._page, self._course.run.scenario, pieces)
         draw_path(canvas, self._page, self._course)
-        self._fates, self._before = fates, canvas.pixels()
+        self._pieces, self._before = pieces, canvas.pixels()
         self._image = self._before.copy()
         self._front, self._tip = 0, NOTHING
 
@@ -98,8 +100,8 @@ class Scene:
         shown[cut] = (before[cut] * (FULL - share) + self._behind[plot][cut] * share) // FULL
 
 
-def fate(piece: Piece, t_s: float, speed: float) -> Fate:
-    """What has become of a piece; `speed` is seconds of the run in each second of the film."""
-    if t_s < piece.freed.t_s:
+def fate(freed_s: float, t_s: float, speed: float) -> Fate:
+    """What has become of a piece that comes free at `freed_s`; `speed` is seconds of the run to one of the film."""
+    if t_s < freed_s:
         return "held"
-    return "free" if t_s < piece.freed.t_s + FALL_S * speed else "gone"
+    return "free" if t_s < freed_s + FALL_S * speed else "gone"

@@ -7,21 +7,21 @@ from PIL import Image
 
 from parser.findings.catalogue import Language
 from parser.geometry.curves import Floats
+from sim.run.course import Course, Moment
 from sim.show.draw import style
 from sim.show.draw.flatten import bounds_um
 from sim.show.draw.furniture import elide
-from sim.show.draw.layout import Box, View
+from sim.show.draw.layout import Box, View, fitted
 from sim.show.draw.paints import THEMES, Paint, ThemeName
-from sim.show.film.course import Course, Moment
+from sim.show.film.ground import PieceDrawn, outlines_um
 from sim.show.film.layout import layout_for
-from sim.show.film.legend import Shown, draw_legend
+from sim.show.film.legend import draw_film_legend, film_entries
 from sim.show.film.marks import draw_commanded, draw_wire, reach
-from sim.show.film.panel import Panel
+from sim.show.film.panel import ReadoutPanel
 from sim.show.film.plate import Pixels, Plate, plate_over
 from sim.show.film.readout import read_out
 from sim.show.film.scene import Scene, fate
 from sim.show.film.strip import bar_of, draw_strip, x_px
-from sim.show.film.views import fitted
 from sim.show.pictures.cut.outlines import Bodies
 from sim.show.words.pictures import Words
 
@@ -44,10 +44,10 @@ class Screen:
     def __init__(self, course: Course, look: Look) -> None:
         self.layout = layout_for(look.width_px, look.height_px)
         self.whole = fitted(_bounds_um(course), self.layout.plot, style.PAD * self.layout.unit / 2)
-        self._course, self._look = course, look
+        self._course, self._look, self._outlines_um = course, look, outlines_um(course)
         self._theme, self._say = THEMES[look.theme], Words(look.language)
         first = read_out(course, course.at(0.0), 1.0, self._say)
-        self._panel = Panel(self.layout, self._theme, len(first))
+        self._panel = ReadoutPanel(self.layout, self._theme, len(first))
         self._scene: Scene | None = None
         self._page = self._furniture()
         self._top = round(self.layout.head.bottom - style.TICK * self.layout.unit / 2)
@@ -62,7 +62,8 @@ class Screen:
         if self._scene is None or (settled and self._scene.view != view):
             self._scene = Scene(self._course, self.layout, view, self._theme)
         moment = self._course.at(t_s)
-        plot = self._scene.at(moment, [fate(piece, t_s, speed) for piece in self._course.pieces])
+        fates = (fate(piece.t_s, t_s, speed) for piece in self._course.pieces)
+        plot = self._scene.at(moment, list(map(PieceDrawn, self._outlines_um, fates)))
         self._panel.show(read_out(self._course, moment, speed, self._say), self._page)
         frame = self._page.copy()
         frame[self._top : plot.shape[0], : plot.shape[1]] = plot[self._top :]
@@ -83,7 +84,7 @@ class Screen:
             box = layout.panel._replace(top=self._panel.foot)
             kerf_px = self._course.run.scenario.wire.kerf_um * self.whole.px_per_um
             wider = kerf_px < style.KERF_WIDTH_MIN * unit
-            draw_legend(canvas, box, unit, self._say, Shown(wider, bool(self._course.pieces)))
+            draw_film_legend(canvas, box, unit, film_entries(self._say, wider=wider, pieces=bool(self._course.pieces)))
         return canvas.pixels()
 
     def _strip(self, *, done: bool) -> Pixels:

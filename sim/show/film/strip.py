@@ -5,24 +5,27 @@ from typing import Final
 
 import numpy as np
 
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
+from parser.toolpath import Stop
+from sim.cut.pieces.pieces import Piece
+from sim.run.course import Course, Event
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import Paint
-from sim.show.film.course import Course, Happening
 
 BAR: Final = (30.0, 48.0)
 """Top and foot of the bar, from the strip's top on."""
 MARK: Final = 8.0
 BORDERS_APART: Final = 4.0
 _PAINTS: Final = {
-    "error": Paint.ERROR,
-    "warning": Paint.WARNING,
-    "note": Paint.GREY,
-    "pause": Paint.PAUSE,
-    "free": Paint.SLUG_EDGE,
+    Severity.ERROR: Paint.ERROR,
+    Severity.WARNING: Paint.WARNING,
+    Severity.NOTE: Paint.GREY,
 }
+"""Of findings by their severity."""
 
 
 def bar_of(strip: Box, unit: float) -> Box:
@@ -37,7 +40,20 @@ def draw_strip(canvas: Canvas, course: Course, strip: Box, unit: float, *, done:
     for x in _borders_px(course, bar, BORDERS_APART * unit).tolist():
         canvas.polyline(np.array([[x, bar.top], [x, bar.bottom]]), Paint.FRAME, style.GRID_WIDTH * unit)
     for happening in reversed(course.happenings):
-        _draw_mark(canvas, happening, x_px(happening.t_s, course, bar), bar, unit)
+        _draw_mark(canvas, happening.what, x_px(happening.t_s, course, bar), bar, unit)
+
+
+def paint_of(event: Event) -> Paint | None:
+    """What a film shows something that happens in; None where it does not: findings tell of losses, too."""
+    match event:
+        case Finding():
+            return _PAINTS[event.severity]
+        case Piece():
+            return Paint.SLUG_EDGE
+        case Stop(kind="pause"):
+            return Paint.PAUSE
+        case _:
+            return None
 
 
 def x_px(t_s: float, course: Course, bar: Box) -> float:
@@ -47,19 +63,20 @@ def x_px(t_s: float, course: Course, bar: Box) -> float:
 
 def _borders_px(course: Course, bar: Box, apart: float) -> Floats:
     """Where blocks begin on a bar; of those nearer together than `apart` one."""
-    x = bar.left + course.begins_s[course.begins_s <= course.duration_s] / max(course.duration_s, 1e-12) * (
-        bar.right - bar.left
-    )
+    begins_s = course.border_s[:-1]
+    x = bar.left + begins_s[begins_s <= course.duration_s] / max(course.duration_s, 1e-12) * (bar.right - bar.left)
     kept = np.diff(np.floor((x - bar.left) / apart), prepend=0.0) > 0
     return np.asarray(x[kept], dtype=np.float64)
 
 
-def _draw_mark(canvas: Canvas, happening: Happening, x: float, bar: Box, unit: float) -> None:
+def _draw_mark(canvas: Canvas, event: Event, x: float, bar: Box, unit: float) -> None:
     """A triangle over the bar for a finding, a square for a pause, a disc under it for a piece that comes free."""
-    size, paint = MARK * unit, _PAINTS[happening.sort]
-    if happening.sort == "free":
+    size, paint = MARK * unit, paint_of(event)
+    if paint is None:
+        return
+    if isinstance(event, Piece):
         canvas.disc(np.array([x, bar.bottom + size]), 0.6 * size, paint)
-    elif happening.sort == "pause":
+    elif isinstance(event, Stop):
         canvas.polygon(_around(x, bar.top - size, 0.6 * size), paint)
     else:
         top = bar.top - 2.0 * size

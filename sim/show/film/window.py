@@ -6,27 +6,25 @@ import time
 from typing import Final
 
 from parser.findings.errors import SettingsError
+from sim.run.course import Course
 from sim.show.draw.paints import THEMES
+from sim.show.draw.silent_pygame import pygame
 from sim.show.film.controls import Controls
-from sim.show.film.course import Course
 from sim.show.film.help import draw_help
 from sim.show.film.plate import Pixels
 from sim.show.film.playback import Playback
 from sim.show.film.screen import Look, Screen
 
-os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would go to stdout, among our data
-import pygame
-
 FPS: Final = 60
 LEAST_PX: Final = (480, 320)
 CALM_S: Final = 0.12
-"""The plot is drawn anew once its view has rested so long,"""
+"""The plot is drawn anew once its view has not changed for so long."""
 STALE_S: Final = 0.6
-"""or has moved on for so long."""
+"""While the view goes on changing, the plot is drawn anew this often."""
 NO_DISPLAY: Final = "no display: write a film with -o cut.mp4, or open replay.html of drycut run"
 
 _UNSEEN: Final = ("dummy", "offscreen", "evdev")
-"""Drivers that SDL falls back to where a display is named that does not answer."""
+"""Drivers without a display: SDL takes one where the display that is named does not answer."""
 
 
 def open_display() -> None:

@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 from PIL import Image
 
 from parser.findings.errors import FileUnreadableError, SettingsError
-from sim.show.film.clock import Clock
+from sim.show.film.clock import FilmClock
 from sim.show.film.plate import Pixels
 
 COLOURS: Final = 256
@@ -33,29 +33,29 @@ class Frames(NamedTuple):
 class Format(NamedTuple):
     """How a film is written, and how many frames a second it can have."""
 
-    write: Callable[[Path, Frames, Clock], None]
+    write: Callable[[Path, Frames, FilmClock], None]
     most_fps: int
     holds_frames: bool
 
 
-def write_gif(path: Path, frames: Frames, clock: Clock) -> None:
+def write_gif(path: Path, frames: Frames, clock: FilmClock) -> None:
     """Write a GIF."""
     _write_animated(path, frames, "GIF", duration=clock.delays_ms(GIF_GRAIN_MS), optimize=False)
 
 
-def write_webp(path: Path, frames: Frames, clock: Clock) -> None:
+def write_webp(path: Path, frames: Frames, clock: FilmClock) -> None:
     """Write an animated WebP, without loss: that keeps lines sharp, and is smaller here."""
     _write_animated(
         path, frames, "WEBP", duration=clock.delays_ms(1), lossless=True, quality=30, method=1, kmin=30, kmax=60
     )
 
 
-def write_apng(path: Path, frames: Frames, clock: Clock) -> None:
+def write_apng(path: Path, frames: Frames, clock: FilmClock) -> None:
     """Write an animated PNG."""
     _write_animated(path, frames, "PNG", duration=clock.delays_ms(1))
 
 
-def write_mp4(path: Path, frames: Frames, clock: Clock) -> None:
+def write_mp4(path: Path, frames: Frames, clock: FilmClock) -> None:
     """Write H.264. FileUnreadableError where the encoder could not."""
     library = encoder()
     first = next(frames.made)

@@ -1,13 +1,14 @@
-"""All pictures of a run by name."""
+"""All pictures of a run by name: the list that commands, report and tests go by."""
 
 from collections.abc import Mapping
 from typing import Final, NamedTuple, Protocol
 
 from parser.findings.catalogue import Language
+from sim.run.dryrun import DryRun
 from sim.run.recording import Recording
 from sim.show.draw import style
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.pictures.cut.of_run import cut_picture
+from sim.show.pictures.cut.picture import draw_cut_of_run
 from sim.show.pictures.deviation.along import draw_along
 from sim.show.pictures.deviation.histogram import draw_histogram
 from sim.show.pictures.deviation.polar import draw_polar
@@ -38,8 +39,22 @@ def subject_of(recording: Recording) -> Subject:
 class Draw(Protocol):
     """Draws a picture on a sheet of any kind."""
 
-    def __call__(self, sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas | None:
+    def __call__(self, sheet: Sheet[AnyCanvas], subject: Subject, /) -> AnyCanvas | None:
         """The page, drawn; None where the run has nothing to show there."""
+
+
+class DrawSamples(Protocol):
+    """Draws a picture of deviations, as `Draw` does."""
+
+    def __call__(self, sheet: Sheet[AnyCanvas], samples: Samples, /) -> AnyCanvas | None:
+        """The page, drawn; None where there is nothing to show."""
+
+
+class DrawRun(Protocol):
+    """Draws a picture of a run, as `Draw` does."""
+
+    def __call__(self, sheet: Sheet[AnyCanvas], run: DryRun, /) -> AnyCanvas | None:
+        """The page, drawn; None where there is nothing to show."""
 
 
 class Picture(NamedTuple):
@@ -49,43 +64,38 @@ class Picture(NamedTuple):
     least_px: int = style.LEAST_WIDTH
 
 
+def _of_samples(draw: DrawSamples) -> Draw:
+    def drawn(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas | None:
+        return draw(sheet, subject.samples)
+
+    return drawn
+
+
+def _of_run(draw: DrawRun) -> Draw:
+    def drawn(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas | None:
+        return draw(sheet, subject.recording.run)
+
+    return drawn
+
+
 def _cut(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:
-    return cut_picture(sheet, subject.recording.run, subject.recording.pieces)
-
-
-def _along(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:
-    return draw_along(sheet, subject.samples)
-
-
-def _whiskers(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:
-    return draw_whiskers(sheet, subject.samples)
-
-
-def _polar(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas | None:
-    return draw_polar(sheet, subject.samples)
-
-
-def _histogram(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:
-    return draw_histogram(sheet, subject.samples)
+    return draw_cut_of_run(sheet, subject.recording.run, subject.recording.pieces)
 
 
 def _worst(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:
     return draw_worst(sheet, subject.samples, subject.recording.steps)
 
 
-def _motion(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:
-    return draw_motion(sheet, subject.recording.run)
-
-
 PICTURES: Final[Mapping[str, Picture]] = {
     "cut": Picture(_cut, least_px=style.LEAST_THUMBNAIL),
-    "along": Picture(_along),
-    "whiskers": Picture(_whiskers),
-    "polar": Picture(_polar),
-    "histogram": Picture(_histogram),
+    "along": Picture(_of_samples(draw_along)),
+    "whiskers": Picture(_of_samples(draw_whiskers)),
+    "polar": Picture(_of_samples(draw_polar)),
+    "histogram": Picture(_of_samples(draw_histogram)),
     "worst": Picture(_worst),
-    "motion": Picture(_motion),
+    "motion": Picture(_of_run(draw_motion)),
 }
+"""By the names that ``drycut draw --picture`` takes, in the order of the report."""
 
 
 def label(name: str, subject: Subject, language: Language) -> str:

@@ -22,21 +22,19 @@ def block_columns(run: DryRun, steps: int) -> dict[str, list[Any]]:
     Only so many `steps` were made.
     """
     before = np.concatenate([[0], np.cumsum(run.stepped.count)])
-    begins = np.concatenate([[0.0], np.cumsum(run.block_time_s)])
     return {
         **_exact(run.toolpath),
         **_words(words_of(run.toolpath)),
         **_source(run.program),
         "first_step": np.minimum(before, steps).tolist(),
-        "border_s": column(begins),
+        "border_s": column(run.border_s),
     }
 
 
 def plan_columns(plan: Plan) -> dict[str, list[Any] | None]:
-    """Columns of p phases, `t_s` and `along_um` with p + 1; no `jerk_um_s3` where there is none."""
+    """Columns of p phases, `t_s` with p + 1; no `jerk_um_s3` where there is none."""
     return {
         "t_s": column(plan.time_s, 9),
-        "along_um": column(plan.along_um),
         "speed_um_s": column(plan.speed_um_s),
         "acceleration_um_s2": column(plan.acceleration_um_s2),
         "jerk_um_s3": column(plan.jerk_um_s3) if plan.jerk_um_s3.any() else None,

@@ -1,21 +1,30 @@
-"""All that the replay's page needs, as plain data."""
+"""The replay's page: all that it needs as plain data, and one file that plays it with nothing to load or install."""
 
+from pathlib import Path
 from typing import Any
 
 from parser.program import Program
 from parser.text.encoding import printable
 from sim import __version__
-from sim.run.course import ran
+from sim.run.course import course_of
 from sim.run.dryrun import verdict
 from sim.run.recording import Recording
+from sim.show.html.environment import rendered
 from sim.show.replay.block_columns import block_columns, plan_columns
-from sim.show.replay.happenings import contour_entries, finding_entries, loss_entry, stop_entries
+from sim.show.replay.happenings import contour_entries, finding_entry, loss_entry, stop_entry
 from sim.show.replay.questions import question_entries
-from sim.show.replay.scene import piece_entries, scene
+from sim.show.replay.scene import piece_entry, scene
 from sim.show.replay.tape import tape
 from sim.table.motion import origin_um
 
 SCHEMA = "drycut.replay/1"
+
+_ASSETS = Path(__file__).with_name("assets")
+
+
+def replay_page(recording: Recording) -> str:
+    """HTML of ``replay.html`` for a recorded run."""
+    return rendered(_ASSETS, "replay.html.j2", document=replay_document(recording))
 
 
 def replay_document(recording: Recording) -> dict[str, Any]:
@@ -23,26 +32,26 @@ def replay_document(recording: Recording) -> dict[str, Any]:
 
     Where a servo tripped, steps, samples and the duration end there.
     """
-    run, made = recording.run, ran(recording)
+    run, course = recording.run, course_of(recording)
     return {
         "schema": SCHEMA,
         "drycut": __version__,
         "title": run.scenario.title,
         "provenance": run.scenario.provenance,
         "verdict": verdict(run.findings),
-        "duration_s": made.duration_s,
+        "duration_s": course.duration_s,
         "program": _program(run.program),
         **scene(run),
-        "blocks": block_columns(run, len(made.steps.t_s)),
+        "blocks": block_columns(run, len(course.steps.t_s)),
         "plan": plan_columns(run.plan),
-        "stops": stop_entries(run),
-        "contours": contour_entries(run),
-        "findings": finding_entries(run),
-        "losses": [loss_entry(loss) for loss in run.losses],
+        "stops": [stop_entry(one.what) for one in course.stops],
+        "contours": contour_entries(run.contours),
+        "findings": [finding_entry(one) for one in course.findings],
+        "losses": [loss_entry(one.what) for one in course.losses],
         "tripped": None if run.tripped is None else loss_entry(run.tripped),
-        "pieces": piece_entries(recording.pieces),
-        "quiz": question_entries(run, made.steps),
-        "tape": tape(made.steps, origin_um(run.toolpath), made.trace),
+        "pieces": [piece_entry(one) for one in course.pieces],
+        "quiz": question_entries(run, course.steps),
+        "tape": tape(course.steps, origin_um(run.toolpath), course.trace, course.across.row),
     }
 
 

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 import shapely
 
-from sim.cut.pieces.pieces import Piece, Pieces
+from sim.cut.pieces.pieces import Piece
+from sim.run.course import Happening
 from sim.run.dryrun import DryRun
 from sim.run.report.rounded import rounded
 from sim.setup.obstacles import Outline
@@ -24,7 +25,7 @@ def scene(run: DryRun) -> dict[str, Any]:
         "machine": scenario.machine.name,
         "interpolator": scenario.machine.controller.interpolation,
         "wire_diameter_um": rounded(scenario.wire.diameter_um),
-        "offset_um": rounded(scenario.wire.offset_um),
+        "offset_um": rounded(scenario.wire.reach_um),
         "thickness_mm": scenario.thickness_mm,
         "travel_um": np.round(setup.room_um, 6).tolist(),
         "work_um": None if scenario.work_um is None else _corners(scenario.work_um),
@@ -32,16 +33,13 @@ def scene(run: DryRun) -> dict[str, Any]:
     }
 
 
-def piece_entries(pieces: Pieces) -> list[dict[str, Any]]:
-    """Pieces in the order they come free; `outline_um` is the outer ring of each, `holes_um` are those in it."""
-    return [_piece(piece) for piece in pieces.freed]
-
-
-def _piece(piece: Piece) -> dict[str, Any]:
+def piece_entry(happening: Happening[Piece]) -> dict[str, Any]:
+    """A piece that comes free; `outline_um` is its outer ring, `holes_um` are those in it."""
+    piece = happening.what
     return {
         "kind": piece.kind,
-        "row": piece.freed.block - 1,
-        "t_s": rounded(piece.freed.t_s),
+        "row": happening.row,
+        "t_s": rounded(happening.t_s),
         "area_mm2": rounded(piece.area_mm2),
         "mass_g": rounded(piece.mass_g),
         "center_um": [rounded(piece.center_um.x), rounded(piece.center_um.y)],

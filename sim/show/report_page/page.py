@@ -7,8 +7,7 @@ from typing import Any, Final
 from markupsafe import Markup
 
 from sim.run.dryrun import DryRun
-from sim.setup.expectations import Expectation
-from sim.setup.scenario_file import wanted
+from sim.setup.expectations import Expectation, wanted
 from sim.setup.toml.writer import toml_value
 from sim.show.draw.paints import DARK
 from sim.show.html.environment import rendered

@@ -8,8 +8,8 @@ from typing import Final, NamedTuple
 from parser.text.encoding import encode_text
 from sim import __version__
 from sim.run.dryrun import DryRun
-from sim.setup.machine.machine_file import machine_sections
-from sim.setup.scenario_file import MACHINE_FILE, scenario_sections
+from sim.setup.machine.machine import machine_sections
+from sim.setup.scenario import MACHINE_FILE, scenario_sections
 from sim.setup.toml.writer import toml_text
 
 _PACKAGES: Final = ("numpy", "shapely", "pymunk", "ezdxf", "pygame-ce", "pillow", "jinja2", "click", "rich")

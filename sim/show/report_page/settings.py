@@ -4,35 +4,14 @@ from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 from parser.program import Program
-from sim.setup.machine.machine_file import machine_sections
-from sim.setup.quiz import Said
-from sim.setup.scenario import Scenario
-from sim.setup.scenario_file import scenario_sections
-from sim.setup.toml.writer import Section
+from sim.setup.expectations import EXPECT
+from sim.setup.key_words import title_of, value_word, words_of
+from sim.setup.machine.machine import machine_sections
+from sim.setup.quiz import QUIZ, Said
+from sim.setup.scenario import Scenario, scenario_sections
+from sim.setup.toml.keys import Key, Section, Written
+from sim.setup.toml.kinds import OneOf
 from sim.show.words.report import said, same
-
-_UNITS = {
-    "_mm2_min": "mm²/min",
-    "_n_s_mm": "N s/mm",
-    "_g_cm3": "g/cm³",
-    "_mm_s3": "mm/s³",
-    "_mm_s2": "mm/s²",
-    "_mm_s": "mm/s",
-    "_n_um": "N/µm",
-    "_n_mm": "N/mm",
-    "_mm": "mm",
-    "_um": "µm",
-    "_us": "µs",
-    "_ms": "ms",
-    "_kg": "kg",
-    "_hz": "Hz",
-    "_deg": "°",
-    "_n": "N",
-}
-"""Units by the ends of keys, longer ones first."""
-
-_CHOSEN = ("interpolator", "junction", "kind", "side")
-"""Keys whose values are words of the settings' own."""
 
 
 class Setting(NamedTuple):
@@ -58,25 +37,39 @@ def setting_groups(scenario: Scenario, program: Program) -> list[Group]:
     """
     whole, *parts = scenario_sections(scenario)
     _, *of_machine = machine_sections(scenario.machine)
-    read = {"title": scenario.title, "provenance": scenario.provenance, "program": program.name}
-    read |= {"encoding": program.encoding, "dialect": program.reading.dialect}
-    asked = {key: value for key, value in whole[1].items() if key not in {*read, "machine"}}
-    shown = [("program", read), *_keyed(parts), ("run", asked), *_keyed(of_machine)]
-    return [_group(name, section) for name, section in shown if section]
+    settings = {setting.key: setting for setting in _settings(whole)}
+    del settings["machine"]  # shown by its own sections
+    read = (
+        settings.pop("title"),
+        settings.pop("provenance"),
+        settings.pop("program")._replace(value=same(program.name)),
+        _found("encoding", program.encoding),
+        _found("dialect", program.reading.dialect),
+    )
+    return [
+        Group(said("section-program"), read),
+        *_groups(part for part in parts if part.section not in (QUIZ, EXPECT)),
+        Group(said("section-run"), tuple(settings.values())),
+        *_groups(of_machine),
+    ]
 
 
-def _keyed(sections: Iterable[tuple[str, Section]]) -> list[tuple[str, Section]]:
-    return [(header.strip("[]"), section) for header, section in sections if header not in ("[expect]", "[[quiz]]")]
+def _found(key: str, value: str) -> Setting:
+    """What was found out about the program, beside what was set."""
+    return Setting(said(key), key, same(value), "")
 
 
-def _group(name: str, section: Section) -> Group:
-    return Group(said(f"section-{name}"), tuple(_setting(key, value) for key, value in section.items()))
+def _groups(sections: Iterable[Written]) -> list[Group]:
+    return [Group(title_of(part.section), _settings(part)) for part in sections if part.values]
 
 
-def _setting(key: str, value: Any) -> Setting:
-    unit = next((unit for end, unit in _UNITS.items() if key.endswith(end)), "")
-    shown = said(f"value-{value}") if key in _CHOSEN else _value(value)
-    return Setting(said(f"set-{key}"), key, shown, unit)
+def _settings(written: Written) -> tuple[Setting, ...]:
+    return tuple(_setting(written.section, key, written.values[key.name]) for key in written.keys)
+
+
+def _setting(section: Section, key: Key, value: Any) -> Setting:
+    shown = value_word(value) if isinstance(key.kind, OneOf) else _value(value)
+    return Setting(words_of(section, key).name, key.name, shown, key.kind.unit)
 
 
 def _value(value: Any) -> Said:

@@ -22,7 +22,7 @@ from parser.toolpath import Axis
 from sim.cli.ballbar import ballbar as command
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test
 from sim.run.ballbar.document import document
-from sim.run.ballbar.turn import SENSES, Turn
+from sim.run.ballbar.turn import SENSES, MeasuredTurn
 from sim.setup.machine.machine import load_machine
 from sim.show.draw.dial import RING_SIZES, RINGS, ring_for
 from sim.show.draw.paints import LIGHT, Paint
@@ -53,7 +53,7 @@ def with_known_errors(x_um: float = 6.0, y_um: float = 4.0, out_um: float = -0.8
 def tripped() -> Ballbar:
     """A test whose second turn did not go round."""
     done = with_known_errors()
-    stands = Turn(-1, done.turns[1].points_um[:9])
+    stands = MeasuredTurn(-1, done.turns[1].points_um[:9])
     return replace(done, turns=(done.turns[0], stands), losses=((-1, LOSS._replace(kind="trip")),), measured=None)
 
 

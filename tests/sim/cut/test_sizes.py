@@ -149,7 +149,7 @@ def test_circles_are_found_from_places_on_parts_of_them():
 
 def test_the_play_of_a_table_shows_in_the_size_of_its_square():
     run = run_folder(SCENARIOS / "backlash")
-    kerf = kerf_of(run.toolpath, run.trace, run.contours, run.scenario.wire.offset_um)
+    kerf = kerf_of(run.toolpath, run.trace, run.contours, run.scenario.wire.reach_um)
     found = sizes_of(run.toolpath, kerf, pieces_of(kerf, None, STEEL), None)
     # The first side is cut on its line, the three others 5.13 to 5.16 µm off theirs: the part is small by that.
     assert [size.cut_um - size.nominal_um for size in found.distances] == pytest.approx([-5.2, -10.3], abs=0.1)

@@ -15,7 +15,7 @@ from parser.toolpath import Point
 from sim.measure.compare.as_cut import edge_as_cut
 from sim.measure.compare.compared_program import compare_program
 from sim.run.dryrun import DryRun, dry_run
-from sim.setup.part import DrawingAsked
+from sim.setup.part import DrawingTarget
 
 LED_SQUARE = """B0B2000B2000GYL2
 B2000B0B2000GXL1 B0B4000B4000GYL2 B4000B0B4000GXL3 B0B4000B4000GYL4 B2000B0B2000GXL1
@@ -36,13 +36,13 @@ def square(path: Path, half: float = 1.9, low: float = 2.1, high: float = 5.9) -
     return drawn(path, (-half, low), (half, low), (half, high), (-half, high))
 
 
-def run_held(text: str, held: DrawingAsked, **changes: object) -> DryRun:
-    changes = {"machine": STEADY, "drawing": held, **changes}
+def run_held(text: str, target: DrawingTarget, **changes: object) -> DryRun:
+    changes = {"machine": STEADY, "drawing": target, **changes}
     return dry_run(parse_program(text), plain_scenario(**changes), silent)
 
 
 def test_a_part_as_drawn_passes_within_what_the_steps_leave(tmp_path: Path) -> None:
-    run = run_held(LED_SQUARE, DrawingAsked(square(tmp_path / "part.dxf")))
+    run = run_held(LED_SQUARE, DrawingTarget(square(tmp_path / "part.dxf")))
     assert codes(run) == []
     assert run.comparison is not None
     assert run.comparison.max_um < 1.0
@@ -51,8 +51,8 @@ def test_a_part_as_drawn_passes_within_what_the_steps_leave(tmp_path: Path) -> N
 
 def test_the_edge_as_cut_agrees_with_the_exact_one(tmp_path: Path) -> None:
     """Table and steps of the shipped machine are off by at most the deviation of the run, at a corner on both sides."""
-    held = DrawingAsked(square(tmp_path / "part.dxf"), fit=False)
-    run = run_held(LED_SQUARE, held, machine=machine())
+    target = DrawingTarget(square(tmp_path / "part.dxf"), fit=False)
+    run = run_held(LED_SQUARE, target, machine=machine())
     exact = compare_program(run.toolpath, 100.0, run.comparison.drawing, 5.0, fitted=False)
     assert exact.max_um < 1e-6
     assert 0.5 < run.comparison.max_um <= math.sqrt(2.0) * run.deviations.wire.max_um + 0.1
@@ -60,13 +60,15 @@ def test_the_edge_as_cut_agrees_with_the_exact_one(tmp_path: Path) -> None:
 
 def test_an_edge_that_is_drawn_elsewhere_is_found_both_ways(tmp_path: Path) -> None:
     """The drawing is 12 µm higher than what is cut: left as it lies, its upper side is that far off."""
-    run = run_held(LED_SQUARE, DrawingAsked(square(tmp_path / "part.dxf", high=5.912), fit=False))
+    run = run_held(LED_SQUARE, DrawingTarget(square(tmp_path / "part.dxf", high=5.912), fit=False))
     assert codes(run) == ["3B601", "3B601"]
     for finding in run.findings:
         assert finding.block == 4
         assert finding.values["off"] == pytest.approx(12.0, abs=0.6)
     assert {finding.values["what"] for finding in run.findings} == {"edge-off", "drawing-off"}
-    assert codes(run_held(LED_SQUARE, DrawingAsked(square(tmp_path / "part.dxf", high=5.912), tolerance_um=13.0))) == []
+    assert (
+        codes(run_held(LED_SQUARE, DrawingTarget(square(tmp_path / "part.dxf", high=5.912), tolerance_um=13.0))) == []
+    )
 
 
 def test_a_missing_offset_a_wrong_side_and_a_slip_of_units_are_named(tmp_path: Path) -> None:
@@ -76,7 +78,7 @@ def test_a_missing_offset_a_wrong_side_and_a_slip_of_units_are_named(tmp_path: P
         "unit-slip": square(tmp_path / "unit.dxf", 1.9 * 25.4, 2.1 * 25.4, 5.9 * 25.4),
     }
     for name, file in named.items():
-        run = run_held(LED_SQUARE, DrawingAsked(file))
+        run = run_held(LED_SQUARE, DrawingTarget(file))
         assert [f.values["what"] for f in run.findings if f.code == "3B602"] == [name]
         assert "3B601" in codes(run)
 
@@ -88,21 +90,21 @@ def test_a_lead_in_into_the_part_counts_and_one_in_the_waste_does_not(tmp_path: 
         "B0B2000B2000GYL4 DD", "B0B2000B2000GYL2 DD"
     )
     moved = drawn(tmp_path / "moved.dxf", (-2.1, -2.1), (2.1, -2.1), (2.1, 2.1), (-2.1, 2.1))
-    run = run_held(from_inside, DrawingAsked(moved, tolerance_um=45.0))  # corners keep 41.4 µm
+    run = run_held(from_inside, DrawingTarget(moved, tolerance_um=45.0))  # corners keep 41.4 µm
     assert codes(run) == []
     assert [piece.kind for piece in run.remains.pieces.freed] == ["slug"]
-    into_part = run_held(LED_SQUARE, DrawingAsked(opening, tolerance_um=45.0))
+    into_part = run_held(LED_SQUARE, DrawingTarget(opening, tolerance_um=45.0))
     assert "3B601" in codes(into_part)
 
 
 def test_without_a_piece_there_is_no_edge(tmp_path: Path) -> None:
-    run = run_held("B3000B0B3000GXL1 DD", DrawingAsked(square(tmp_path / "part.dxf")))
+    run = run_held("B3000B0B3000GXL1 DD", DrawingTarget(square(tmp_path / "part.dxf")))
     assert [(f.code, f.values["what"]) for f in run.findings] == [("3B602", "no-edge")]
     assert run.comparison is None
 
 
 def test_outlines_become_edges_with_their_blocks_and_the_side_of_the_part(tmp_path: Path) -> None:
-    run = run_held(LED_SQUARE, DrawingAsked(square(tmp_path / "part.dxf")))
+    run = run_held(LED_SQUARE, DrawingTarget(square(tmp_path / "part.dxf")))
     edge = edge_as_cut(run.toolpath, run.remains.pieces)
     assert set(edge.part_side.tolist()) == {1}
     assert set(edge.block.tolist()) == {2, 3, 4, 5, 6}
@@ -119,7 +121,7 @@ def test_a_drawing_that_cannot_be_read_ends_the_run_before_it_begins(tmp_path: P
     (tmp_path / "part.3b").write_text(LED_SQUARE, "utf-8")
     (tmp_path / "part.dxf").write_text("no drawing", "utf-8")
     with pytest.raises(DrawingError):
-        run_held(LED_SQUARE, DrawingAsked(tmp_path / "part.dxf"))
+        run_held(LED_SQUARE, DrawingTarget(tmp_path / "part.dxf"))
     done = run_command("run", tmp_path / "part.3b", "--drawing", tmp_path / "part.dxf", "-o", tmp_path / "out")
     assert (done.returncode, done.stdout) == (2, b"")
     assert b"is no DXF" in done.stderr
@@ -127,7 +129,7 @@ def test_a_drawing_that_cannot_be_read_ends_the_run_before_it_begins(tmp_path: P
 
 
 def test_sizes_of_a_run_are_those_of_the_drawing_on_a_steady_table(tmp_path: Path) -> None:
-    run = run_held(LED_SQUARE, DrawingAsked(square(tmp_path / "part.dxf")))
+    run = run_held(LED_SQUARE, DrawingTarget(square(tmp_path / "part.dxf")))
     (box,) = run.remains.sizes.boxes
     assert box.nominal_um == pytest.approx((3800.0, 3800.0), abs=1e-6)
     assert box.cut_um == pytest.approx((3800.0, 3800.0), abs=1.2)
@@ -143,8 +145,8 @@ def test_a_mirrored_part_passes_within_the_tolerance_and_is_named_past_it(tmp_pa
         B2500B0B2500GXL3 B0B4000B4000GYL4 B2000B0B2000GXL1 B0B2000B2000GYL4 DD"""
     corners = [(-1.9, 2.1), (1.9, 2.1), (1.9, 3.9), (0.4, 3.9), (0.4, 5.9), (-1.9, 5.9)]
     seen_from_behind = drawn(tmp_path / "part.dxf", *((-x, y) for x, y in corners))
-    passed = run_held(angle, DrawingAsked(seen_from_behind, tolerance_um=45.0))
+    passed = run_held(angle, DrawingTarget(seen_from_behind, tolerance_um=45.0))
     assert codes(passed) == []
     assert [named.name for named in passed.comparison.names] == ["mirrored"]
-    failed = run_held(angle, DrawingAsked(seen_from_behind, tolerance_um=0.1))
+    failed = run_held(angle, DrawingTarget(seen_from_behind, tolerance_um=0.1))
     assert [f.values["what"] for f in failed.findings if f.code == "3B602"] == ["mirrored"]

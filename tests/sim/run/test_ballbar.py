@@ -11,7 +11,7 @@ from parser.findings.errors import SettingsError
 from parser.toolpath import Axis
 from sim.run.ballbar.circle import circle_test, measure, run_test
 from sim.run.ballbar.figures import circularity, figures_of, least_squares_circle
-from sim.run.ballbar.turn import SENSES, Turn
+from sim.run.ballbar.turn import SENSES, MeasuredTurn
 from sim.setup.machine.machine import load_machine
 from sim.units import parse_speed
 
@@ -32,7 +32,7 @@ def test_a_perfect_circle_has_no_deviation() -> None:
 
 
 def test_radial_deviation_sees_the_centre_and_circularity_does_not() -> None:
-    moved = [Turn(s, perfect(s, 50_003.0).points_um + np.array([4.0, -3.0])) for s in SENSES]
+    moved = [MeasuredTurn(s, perfect(s, 50_003.0).points_um + np.array([4.0, -3.0])) for s in SENSES]
     figures = figures_of(*moved, 50_000.0)
     assert figures.circularity_um == pytest.approx(0.0, abs=EXACT_UM)
     assert figures.center_um == pytest.approx((4.0, -3.0), abs=EXACT_UM)
@@ -120,7 +120,7 @@ def test_the_flat_is_as_wide_as_backlash_makes_it() -> None:
 def test_parts_that_overlap_are_told_apart(
     x_um: float, y_um: float, out_um: float, oval_um: float, lag_um: float
 ) -> None:
-    def change(turn: Turn) -> Turn:
+    def change(turn: MeasuredTurn) -> MeasuredTurn:
         angle = np.radians(past(turn, 0.0)) * turn.sense
         form = out_um + oval_um / 4.0 * np.cos(2.0 * angle) + turn.sense * lag_um / 2.0 * np.sin(2.0 * angle)
         return moved_out(with_play(turn, x_um, y_um), form)
@@ -137,7 +137,7 @@ def test_a_slower_axis_comes_later_along_the_path() -> None:
     turns = []
     for sense in SENSES:
         angle = sense * np.linspace(np.pi, 3.0 * np.pi, 6001)
-        turns.append(Turn(sense, 5_000.0 * np.stack([np.cos(angle - sense * 1e-3), np.sin(angle)], axis=1)))
+        turns.append(MeasuredTurn(sense, 5_000.0 * np.stack([np.cos(angle - sense * 1e-3), np.sin(angle)], axis=1)))
     parts = measured(turns[0], turns[1], 5_000.0).parts
     assert parts.lag_um == pytest.approx(5.0, abs=0.01)
     assert parts.step_um == pytest.approx((0.0, 0.0), abs=0.01)
@@ -187,7 +187,7 @@ def test_noise_makes_no_spike_and_hardly_moves_a_part() -> None:
 def test_the_sense_of_a_mirrored_path_is_the_other(sense: int) -> None:
     """Mirrored at the X axis counter-clockwise becomes clockwise: same figures, the directions changed over."""
     ccw, cw = (with_spikes(with_play(perfect(s), 4.0, 7.0), 1.0 + s) for s in SENSES)
-    mirrored = [Turn(-turn.sense, turn.points_um * (1.0, -1.0)) for turn in (cw, ccw)]
+    mirrored = [MeasuredTurn(-turn.sense, turn.points_um * (1.0, -1.0)) for turn in (cw, ccw)]
     first, second = measured(ccw, cw), measured(mirrored[0], mirrored[1])
     assert second.figures.circularity_um == pytest.approx(first.figures.circularity_um, abs=1e-6)
     assert second.figures.ccw == pytest.approx(first.figures.cw, abs=1e-6)
@@ -204,8 +204,8 @@ def test_the_sense_of_a_mirrored_path_is_the_other(sense: int) -> None:
 )
 def test_what_does_not_go_round_is_not_measured(points: np.ndarray) -> None:
     steps = perfect(1), perfect(-1)
-    assert measure((Turn(1, points), perfect(-1)), steps, steps, 50_000.0) is None
-    assert measure((perfect(1), Turn(-1, points)), steps, steps, 50_000.0) is None
+    assert measure((MeasuredTurn(1, points), perfect(-1)), steps, steps, 50_000.0) is None
+    assert measure((perfect(1), MeasuredTurn(-1, points)), steps, steps, 50_000.0) is None
 
 
 def test_the_measured_turn_is_one_from_minus_x_and_settled() -> None:

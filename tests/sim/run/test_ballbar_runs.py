@@ -6,7 +6,7 @@ from runs import machine, silent
 
 from parser.toolpath import Axis
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test
-from sim.run.ballbar.parts import Parts
+from sim.run.ballbar.parts import DeviationParts
 
 RADIUS_UM = 10_000.0
 FEED_UM_S = 4_000.0
@@ -19,7 +19,7 @@ def ran(feed_um_s: float = FEED_UM_S, radius_um: float = RADIUS_UM, **table: obj
     return run_test(circle_test(machine(**(plain | table)), radius_um, feed_um_s), silent)
 
 
-def parts(feed_um_s: float = FEED_UM_S, **table: object) -> Parts:
+def parts(feed_um_s: float = FEED_UM_S, **table: object) -> DeviationParts:
     done = ran(feed_um_s, **table)
     assert done.losses == ()
     assert done.measured is not None

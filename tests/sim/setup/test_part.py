@@ -7,7 +7,7 @@ import pytest
 from controller.offset.sections import Side
 from parser.findings.errors import SettingsError
 from sim.cli.overrides import Overrides, overridden
-from sim.setup.part import DrawingAsked, Offset
+from sim.setup.part import DrawingTarget, Offset
 from sim.setup.scenario import load_scenario
 
 NONE = Overrides(
@@ -57,7 +57,7 @@ def test_all_that_can_be_asked_is_read(tmp_path: Path) -> None:
     assert scenario.kerf
     assert scenario.density_g_cm3 == 8.4
     assert scenario.offset == Offset(100.0, Side.LEFT)
-    assert scenario.drawing == DrawingAsked(tmp_path / "part.dxf", "CUT", 3.0, 2.5, fit=False)
+    assert scenario.drawing == DrawingTarget(tmp_path / "part.dxf", "CUT", 3.0, 2.5, fit=False)
 
 
 @pytest.mark.parametrize(
@@ -88,13 +88,13 @@ def test_options_take_the_place_of_the_scenarios_values(tmp_path: Path) -> None:
     assert (scenario.offset, scenario.kerf, scenario.drawing) == (
         Offset(100.0, Side.LEFT),
         False,
-        DrawingAsked(tmp_path / "a.dxf", "CUT"),
+        DrawingTarget(tmp_path / "a.dxf", "CUT"),
     )
     other = NONE._replace(side="right", kerf=True, drawing=Path("b.dxf"), tolerance=2.0, no_fit=True)
     scenario = overridden(folder, other)
     assert scenario.offset == Offset(100.0, Side.RIGHT)
     assert scenario.kerf
-    assert scenario.drawing == DrawingAsked(Path("b.dxf"), "CUT", 2.0, fit=False)
+    assert scenario.drawing == DrawingTarget(Path("b.dxf"), "CUT", 2.0, fit=False)
     assert overridden(folder, NONE._replace(offset=50.0)).offset == Offset(50.0, Side.LEFT)
 
 

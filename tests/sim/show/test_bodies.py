@@ -16,8 +16,7 @@ from sim.show.draw.layout import Box
 from sim.show.draw.paints import LIGHT, Paint
 from sim.show.draw.sheet import pixels
 from sim.show.pictures.cut.outlines import Bodies, _hatching, _within
-from sim.show.pictures.cut.picture import draw_cut
-from sim.show.pictures.cut.plan import plan_of
+from sim.show.pictures.cut.picture import draw_cut, layout_of
 from sim.show.pictures.cut.subject import NOTHING, Cut
 
 SQUARE = "B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B10000GXL3 B0B10000B10000GYL4 DD"
@@ -40,7 +39,7 @@ def picture(bodies: Bodies = NOTHING) -> Image.Image:
 
 def colour_at(drawn: Image.Image, bodies: Bodies, x_mm: float, y_mm: float) -> tuple[int, int, int]:
     """The usual colour round a place, hatching and grid aside."""
-    x, y = plan_of(pixels(800), cut(bodies)).page.view.to_px(np.array([x_mm, y_mm]) * 1000.0)
+    x, y = layout_of(pixels(800), cut(bodies)).page.view.to_px(np.array([x_mm, y_mm]) * 1000.0)
     about = np.asarray(drawn)[round(y) - 8 : round(y) + 8, round(x) - 8 : round(x) + 8].reshape(-1, 3)
     colours, counts = np.unique(about, axis=0, return_counts=True)
     return tuple(colours[counts.argmax()].tolist())
@@ -78,7 +77,7 @@ def test_what_is_far_changes_no_pixel() -> None:
 def test_bodies_stay_inside_the_frame_and_leave_it_whole() -> None:
     bodies = Bodies(box(-1e5, -1e5, 1e5, 1e5), (box(-1e5, 4, 1e5, 6),))
     drawn = np.asarray(picture(bodies))
-    plot = plan_of(pixels(800), cut(bodies)).page.plot
+    plot = layout_of(pixels(800), cut(bodies)).page.plot
     top, left = round(plot.top), round(plot.left)
     assert not (drawn[: top - 1] == LIGHT[Paint.WORK]).all(axis=2).any()
     assert not (drawn[:, : left - 1] == LIGHT[Paint.WORK]).all(axis=2)[: round(plot.bottom)].any()

@@ -13,7 +13,7 @@ from everything import everything, square
 from recorder import Recorder
 
 import sim
-from sim.show.draw.chart import Chart, Range, draw_band, draw_chart, draw_level, draw_line, range_of, tick_texts
+from sim.show.draw.chart import AxisRange, Chart, draw_band, draw_chart, draw_level, draw_line, range_of, tick_texts
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import DARK, LIGHT, THEMES, Paint, Theme
 from sim.show.draw.raster import Raster
@@ -160,7 +160,7 @@ def test_every_text_is_used() -> None:
 
 
 def test_a_chart_puts_values_where_its_scale_says() -> None:
-    chart = Chart(Box(100.0, 50.0, 500.0, 250.0), Range(-10.0, 10.0), Range(0.0, 4.0), 1.0)
+    chart = Chart(Box(100.0, 50.0, 500.0, 250.0), AxisRange(-10.0, 10.0), AxisRange(0.0, 4.0), 1.0)
     canvas = Recorder(600, 300)
     draw_line(canvas, chart, np.array([[-10.0, 0.0], [0.0, 1.0], [np.nan, 2.0], [5.0, 4.0], [10.0, 2.0]]), Paint.X, 2.0)
     before, after = canvas.of("polyline", Paint.X)
@@ -175,7 +175,7 @@ def test_a_chart_puts_values_where_its_scale_says() -> None:
 
 def test_a_chart_writes_values_that_do_not_touch() -> None:
     canvas = Recorder(900, 400)
-    draw_chart(canvas, Chart(Box(120.0, 20.0, 880.0, 360.0), Range(0.0, 12345.6), Range(-3e-3, 9e-3), 0.56))
+    draw_chart(canvas, Chart(Box(120.0, 20.0, 880.0, 360.0), AxisRange(0.0, 12345.6), AxisRange(-3e-3, 9e-3), 0.56))
     boxes = canvas.text_boxes()
     assert len(boxes) > 6
     assert not any(one.meets(other) for one, other in combinations(boxes, 2))
@@ -184,16 +184,16 @@ def test_a_chart_writes_values_that_do_not_touch() -> None:
 @pytest.mark.parametrize(("low", "high"), [(0.0, 1.0), (-2.5e-4, 7e-4), (1e6, 3e6), (-7.0, -6.999)])
 def test_values_of_a_scale_are_round_and_no_more_than_asked(low: float, high: float) -> None:
     for most in (2, 5, 9):
-        values = tick_texts(Range(low, high), most)
+        values = tick_texts(AxisRange(low, high), most)
         assert 1 <= len(values) <= most + 1
         assert all(low <= value <= high for value, _ in values)
         assert len({text for _, text in values}) == len(values)
 
 
 def test_a_range_holds_all_finite_values() -> None:
-    assert range_of(np.array([1.0, np.nan, -2.0]), np.array([5.0])) == Range(-2.0, 5.0)
-    assert range_of(np.array([3.0, 3.0]), least=2.0) == Range(2.0, 4.0)
-    assert range_of(np.zeros(0), least=1.0) == Range(-0.5, 0.5)
+    assert range_of(np.array([1.0, np.nan, -2.0]), np.array([5.0])) == AxisRange(-2.0, 5.0)
+    assert range_of(np.array([3.0, 3.0]), least=2.0) == AxisRange(2.0, 4.0)
+    assert range_of(np.zeros(0), least=1.0) == AxisRange(-0.5, 0.5)
 
 
 def test_both_kinds_of_sheet_speak_the_language_and_wear_the_theme() -> None:

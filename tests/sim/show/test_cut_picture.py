@@ -28,9 +28,7 @@ from sim.show.draw.layout import Box, Page
 from sim.show.draw.paints import DARK, Paint
 from sim.show.draw.sheet import drawing, pixels
 from sim.show.pictures.cut.flags import flag_reach, flags_of, places_um
-from sim.show.pictures.cut.of_run import cut_picture
-from sim.show.pictures.cut.picture import draw_cut
-from sim.show.pictures.cut.plan import plan_of
+from sim.show.pictures.cut.picture import draw_cut, draw_cut_of_run, layout_of
 from sim.show.pictures.cut.sizes import length_text, sizes_of_cut
 from sim.show.pictures.cut.subject import Cut
 
@@ -82,7 +80,7 @@ def recorded(cut: Cut, width_px: int = 1600, language: str = "en") -> Recorder:
 
 
 def page_of(cut: Cut, width_px: int = 1600) -> Page:
-    return plan_of(recording_sheet(width_px), cut).page
+    return layout_of(recording_sheet(width_px), cut).page
 
 
 def finding(block: int, code: str = "3B203", **values: float) -> Finding:
@@ -391,17 +389,17 @@ def test_a_thumbnail_has_neither_numbers_nor_sizes_nor_legend() -> None:
 
 def test_golden_with_clamps_pieces_and_findings() -> None:
     run = run_folder(SCENARIOS / "clamp-hit")
-    assert_golden(cut_picture(pixels(800), run, pieces_of_run(run)).image(), "cut-findings.png")
+    assert_golden(draw_cut_of_run(pixels(800), run, pieces_of_run(run)).image(), "cut-findings.png")
 
 
 def test_golden_of_an_offset_run_dark_in_chinese() -> None:
     run = run_folder(SCENARIOS / "narrow-neck")
-    assert_golden(cut_picture(pixels(800, DARK, "zh"), run, pieces_of_run(run)).image(), "cut-dark-zh.png")
+    assert_golden(draw_cut_of_run(pixels(800, DARK, "zh"), run, pieces_of_run(run)).image(), "cut-dark-zh.png")
 
 
 def test_golden_thumbnail() -> None:
     run = run_folder(SCENARIOS / "narrow-neck")
-    assert_golden(cut_picture(pixels(320), run, pieces_of_run(run)).image(), "cut-thumbnail.png")
+    assert_golden(draw_cut_of_run(pixels(320), run, pieces_of_run(run)).image(), "cut-thumbnail.png")
 
 
 def test_an_a3_page_in_time() -> None:

@@ -24,7 +24,7 @@ from parser.program import parse_program, read_program
 from sim.measure.deviation.deviation import distance
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recorded
-from sim.setup.part import DrawingAsked
+from sim.setup.part import DrawingTarget
 from sim.setup.scenario import load_scenario
 from sim.show.draw.dial import NOMINAL, RING, RINGS
 from sim.show.draw.layout import Box
@@ -32,12 +32,10 @@ from sim.show.draw.paints import DARK, LIGHT, Paint
 from sim.show.draw.sheet import drawing, pixels
 from sim.show.pictures.deviation import inset
 from sim.show.pictures.deviation.along import draw_along
-from sim.show.pictures.deviation.circles import circles_of
-from sim.show.pictures.deviation.feet import feet_um
 from sim.show.pictures.deviation.histogram import bins_of, draw_histogram, path_of_each, shares
 from sim.show.pictures.deviation.inset import STEPS, inset_of
 from sim.show.pictures.deviation.places import APART_UM, worst_places
-from sim.show.pictures.deviation.polar import draw_polar
+from sim.show.pictures.deviation.polar import circles_of, draw_polar
 from sim.show.pictures.deviation.samples import Samples, samples_of
 from sim.show.pictures.deviation.whiskers import APART, draw_whiskers
 from sim.show.pictures.deviation.worst import draw_worst
@@ -104,6 +102,21 @@ ALL: dict[str, Callable[..., Any]] = {
 }
 
 
+@pytest.mark.parametrize("name", ALL)
+def test_lines_are_as_wide_as_the_sheet_asks_for(name: str) -> None:
+    """At twice the width every line is twice as wide."""
+    texts = RING_TEXT if name == "polar" else SLOT
+    small, large = (
+        {
+            (one.what, one.paint, round(one.more[0] / factor, 6))
+            for what in ("polyline", "dashed")
+            for one in ALL[name](recording_sheet(1600 * factor), samples(texts)).of(what)
+        }
+        for factor in (1, 2)
+    )
+    assert small == large
+
+
 # --- numbers
 
 
@@ -153,7 +166,7 @@ def test_nothing_is_measured_past_a_trip_or_on_a_jump() -> None:
 def test_feet_lie_on_the_path_as_far_away_as_the_deviation(name: str) -> None:
     of = of_scenario(name)
     toolpath, row = of.run.toolpath, of.trace.row
-    foot = feet_um(toolpath, row, of.trace.wire_um, of.wire_um)
+    foot = of.foot_um
     assert np.hypot(*(of.trace.wire_um - foot).T) == pytest.approx(np.abs(of.wire_um), abs=1e-6)
     on = np.min([distance(toolpath, np.full(len(row), at), *foot.T) for at in range(len(toolpath))], axis=0)
     assert on.max() < 1e-6
@@ -258,7 +271,7 @@ def test_numbers_of_200_blocks_never_overlap() -> None:
 
 def test_tolerance_is_the_drawing_s_where_there_is_one() -> None:
     of = samples(SLOT)
-    asked = replace(of.run.scenario, drawing=DrawingAsked(Path("part.dxf"), tolerance_um=1.5))
+    asked = replace(of.run.scenario, drawing=DrawingTarget(Path("part.dxf"), tolerance_um=1.5))
     given = replace(of, run=replace(of.run, scenario=asked))
     for drawn, text, tolerance_um in ((of, "±5 µm (default)", 5.0), (given, "±1.5 µm, of the drawing", 1.5)):
         canvas = draw_along(recording_sheet(), drawn)

@@ -15,20 +15,21 @@ from runs import plain_scenario, silent
 
 from parser.findings.errors import SettingsError
 from parser.program import parse_program, read_program
+from sim.run.course import Course, course_of
 from sim.run.recording import recorded
+from sim.run.report import build_report
 from sim.setup.scenario import load_scenario
-from sim.show.draw.layout import Box, View
+from sim.show.draw.layout import Box, View, centred
 from sim.show.draw.paints import LIGHT, Paint
-from sim.show.film.clock import Clock
+from sim.show.film.clock import FilmClock
 from sim.show.film.controls import Controls
-from sim.show.film.course import Course, course_of
 from sim.show.film.cut_map import FULL, CutMap, Discs, Span, discs_of
-from sim.show.film.layout import layout_for
+from sim.show.film.ground import near_runs, outlines_um
+from sim.show.film.layout import FINEST_PX_PER_UM, layout_for, zoomed
 from sim.show.film.playback import SPEEDS, Playback
 from sim.show.film.readout import read_out, told
 from sim.show.film.screen import Look, Screen
 from sim.show.film.strip import bar_of
-from sim.show.film.views import FINEST_PX_PER_UM, centred, near_runs, zoomed
 from sim.show.film.window import LEAST_PX, NO_DISPLAY, Window, open_display
 from sim.show.words.pictures import Words
 from sim.table.trace import Trace
@@ -90,7 +91,7 @@ def swept(course: Course, until_s: float) -> shapely.Geometry:
     trace = course.trace.until(until_s)
     way, cuts = trace.wire_um, ~course.run.toolpath.is_jump[trace.row[1:]]
     lines = shapely.line_merge(shapely.union_all(shapely.linestrings(np.stack([way[:-1], way[1:]], axis=1)[cuts])))
-    return shapely.buffer(shapely.simplify(lines, 0.5), course.run.scenario.wire.offset_um, quad_segs=16)
+    return shapely.buffer(shapely.simplify(lines, 0.5), course.run.scenario.wire.reach_um, quad_segs=16)
 
 
 def depth_px(region: shapely.Geometry, screen: Screen) -> np.ndarray:
@@ -105,7 +106,7 @@ def depth_px(region: shapely.Geometry, screen: Screen) -> np.ndarray:
 
 @pytest.mark.parametrize(("seconds", "fps"), [(10.0, 25), (0.5, 1), (3.3, 30), (600.0, 60)])
 def test_a_film_lasts_as_long_as_asked_and_holds_its_end(seconds: float, fps: int) -> None:
-    clock = Clock(seconds, fps, 1234.5)
+    clock = FilmClock(seconds, fps, 1234.5)
     times = clock.times_s
     assert clock.frames == max(round(seconds * fps), 2)
     assert times[0] == 0.0
@@ -117,7 +118,7 @@ def test_a_film_lasts_as_long_as_asked_and_holds_its_end(seconds: float, fps: in
 
 @given(st.integers(1, 60), st.floats(0.5, 60.0), st.sampled_from([1, 10]))
 def test_delays_add_up_to_the_film(fps: int, seconds: float, grain_ms: int) -> None:
-    clock = Clock(seconds, fps, 10.0)
+    clock = FilmClock(seconds, fps, 10.0)
     delays = clock.delays_ms(grain_ms)
     assert len(delays) == clock.frames
     assert all(delay % grain_ms == 0 and abs(delay - 1000 / fps) < grain_ms for delay in delays)
@@ -132,11 +133,11 @@ def test_a_moment_is_what_trace_and_steps_say(course: Course) -> None:
         done = int((steps.t_s <= moment.t_s).sum())
         place = (steps.x_um[done - 1], steps.y_um[done - 1]) if done else (0, 0)
         assert tuple(moment.commanded_um) == place
-        if course.begins_s[moment.row] + 0.1 < moment.t_s:
+        if course.border_s[moment.row] + 0.1 < moment.t_s:
             assert moment.row == trace.row[sample]
         assert moment.cuts == (moment.row != 7)
-    x, y = course.at(course.begins_s[1] / 2.0).wire_um  # on its way along +X from the origin
-    assert course.at(course.begins_s[1] / 2.0).deviation_um == pytest.approx(abs(y), abs=1e-9)
+    x, y = course.at(course.border_s[1] / 2.0).wire_um  # on its way along +X from the origin
+    assert course.at(course.border_s[1] / 2.0).deviation_um == pytest.approx(abs(y), abs=1e-9)
     assert 100.0 < x < 200.0
 
 
@@ -171,7 +172,7 @@ def test_the_last_frame_shows_the_whole_kerf_and_no_slug(course: Course, screen:
 def test_a_piece_turns_grey_and_is_gone(course: Course, screen: Screen) -> None:
     (piece,) = course.pieces
     x, y = (round(at) for at in screen.whole.to_px(np.array([-100.0, 150.0])).tolist())
-    seen = [tuple(shown(screen, piece.freed.t_s + after)[y, x]) for after in (-0.01, 0.01, 0.69 * SPEED, 0.71 * SPEED)]
+    seen = [tuple(shown(screen, piece.t_s + after)[y, x]) for after in (-0.01, 0.01, 0.69 * SPEED, 0.71 * SPEED)]
     assert seen == [LIGHT[paint] for paint in (Paint.WORK, Paint.SLUG, Paint.SLUG, Paint.PAGE)]
 
 
@@ -238,11 +239,19 @@ def test_read_outs_tell_block_place_and_times(course: Course) -> None:
 def test_what_happens_is_told_when_it_does(course: Course) -> None:
     say = Words("en")
     (piece,) = course.pieces
-    assert told(course, piece.freed.t_s + 0.01, 0.1, say).value == "a slug comes free"
-    pause_s = float(course.begins_s[7])
+    assert told(course, piece.t_s + 0.01, 0.1, say).value == "a slug comes free"
+    pause_s = float(course.border_s[7])
     assert told(course, pause_s + 0.01, 0.001, say).value == ""
     assert "pause" in told(course, pause_s + 0.001, 0.001, say).value
     assert told(course, course.duration_s, SPEED, say).value == "end of the program"
+
+
+def test_of_what_falls_together_the_finding_is_told() -> None:
+    scenario = load_scenario(SCENARIOS / "drops-early")
+    with recorded(read_program(scenario.program), scenario, silent) as recording:
+        course = course_of(recording)
+    (piece,) = course.pieces
+    assert told(course, piece.t_s + 1e-6, 1.0, Words("en")).value.startswith("3B406")
 
 
 def test_a_trip_ends_the_run_and_says_so(tripped: Course) -> None:
@@ -252,6 +261,23 @@ def test_a_trip_ends_the_run_and_says_so(tripped: Course) -> None:
     assert tripped.steps.t_s[-1] <= trip.t_s
     assert told(tripped, tripped.duration_s, 1.0, Words("en")).value == "the X servo tripped: the run ends here"
     assert "X 轴" in told(tripped, tripped.duration_s, 1.0, Words("zh")).value
+
+
+@pytest.mark.parametrize("name", ["wire-lag-corner", "wire-lag-arc", "backlash", "friction", "servo-trip"])
+def test_no_frame_shows_more_deviation_than_the_report(name: str) -> None:
+    scenario, say = load_scenario(SCENARIOS / name), Words("en")
+    with recorded(read_program(scenario.program), scenario, silent) as recording:
+        course = course_of(recording)
+    most_um = build_report(course.run)["deviation"]["wire"]["max_um"]
+    clock = FilmClock(20.0, 50, course.duration_s)
+    shown = []
+    for moment in map(course.at, clock.times_s.tolist()):
+        assert moment.deviation_um <= most_um + 5e-7, moment  # µm: half of the report's last digit
+        (line,) = (one for one in read_out(course, moment, clock.speed, say) if one.name == say("film_deviation"))
+        shown.append(0.0 if line.value == "–" else float(line.value.removesuffix(" µm")))
+    assert max(shown) <= round(most_um, 2)
+    if most_um > 1.0:  # where the servo trips it is 0.07 µm, for a moment
+        assert max(shown) > 0.5 * most_um
 
 
 def brute(discs: Discs, plot: Box) -> np.ndarray:
@@ -332,7 +358,7 @@ def test_steps_are_gone_through_one_by_one_and_back(course: Course) -> None:
 
 
 def test_blocks_are_gone_through_to_both_ends(course: Course) -> None:
-    play, begins = Playback(course, 1.0), [*course.begins_s.tolist(), course.duration_s]
+    play, begins = Playback(course, 1.0), [*course.border_s[:-1].tolist(), course.duration_s]
     for t_s in [*begins[1:], course.duration_s]:
         play.by_block(forward=True)
         assert play.t_s == t_s
@@ -390,7 +416,7 @@ def test_keys_do_what_they_are_to(window: Window, course: Course) -> None:
     press(controls, pygame.K_SPACE)
     assert not play.playing
     press(controls, pygame.K_RIGHT)
-    assert play.t_s == course.begins_s[1]
+    assert play.t_s == course.border_s[1]
     press(controls, pygame.K_RIGHT, pygame.KMOD_SHIFT)
     assert course.steps_by(play.t_s) == 301
     press(controls, pygame.K_LEFT)
@@ -526,8 +552,8 @@ def test_pieces_are_drawn_up_into_their_kerf_and_no_further() -> None:
     scenario = load_scenario(SCENARIOS / "drops-early")
     with recorded(read_program(scenario.program), scenario, silent) as recording:
         course = course_of(recording)
-    (piece,), (drawn,) = course.pieces, course.outlines_um
+    (piece,), (drawn,) = course.pieces, outlines_um(course)
     kerf = swept(course, course.duration_s)
-    assert drawn.buffer(1e-6).contains(piece.outline_um)
-    assert drawn.difference(piece.outline_um.buffer(1.0)).difference(kerf.buffer(1.0)).area < 1.0
+    assert drawn.buffer(1e-6).contains(piece.what.outline_um)
+    assert drawn.difference(piece.what.outline_um.buffer(1.0)).difference(kerf.buffer(1.0)).area < 1.0
     assert drawn.contains(shapely.Point(0.0, 5000.0))  # of the slot that is cut when the piece is free

@@ -6,6 +6,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from golden_pictures import assert_golden
 from places import SCENARIOS
 from recorder import Drawn, Recorder, recording_sheet
 from runs import run_folder, run_text
@@ -16,10 +17,10 @@ from sim.show.draw.labels import MOST_NUMBERS
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import DARK, Paint
 from sim.show.draw.sheet import SIZES_PX, drawing, pixels
-from sim.show.pictures.motion.levels import three_figures
 from sim.show.pictures.motion.picture import draw_motion
 from sim.table.record.bins import Envelope
 from sim.table.record.history import History
+from sim.units import three_figures
 
 TEXT = "B800B0B800GXL1 D B0B500B500GYL2 B300B0B300GXL3 DD"
 
@@ -207,6 +208,10 @@ def test_it_is_drawn_as_pixels_in_the_dark_and_as_svg() -> None:
     svg = draw_motion(drawing(), plain()).document("motion", 1600)
     assert svg.startswith("<?xml")
     assert len(svg) < 400_000  # bytes: a page holds it in both languages
+
+
+def test_golden() -> None:
+    assert_golden(draw_motion(pixels(600), scenario("lost-steps")).image(), "motion.png")
 
 
 def test_a_program_of_thousands_of_blocks_shows_round_numbers_that_do_not_overlap() -> None:

@@ -20,7 +20,7 @@ from controller.offset.sections import Side
 from controller.stepping.pulses import Pulses
 from parser.findings.errors import SettingsError
 from parser.program import parse_program, read_program
-from sim.measure.deviation.stepped import Stepped
+from sim.measure.deviation.meters import BlockSteps
 from sim.setup import quiz
 from sim.setup.machine.machine import load_machine
 from sim.setup.part import Offset
@@ -156,7 +156,7 @@ def asked_about(block: PlainBlock) -> dict[About, dict[str, Any]]:
     """Questions of all kinds about a program of one block, run by nobody: entries as the document has them."""
     places = np.array(plain_steps(block), dtype=np.int32)
     steps = Pulses(np.zeros(len(places)), *places.T, np.zeros(len(places), dtype=np.int32))
-    stepped = Stepped(np.array([len(places)]), np.array([[0, 0], places[-1]]))
+    stepped = BlockSteps(np.array([len(places)]), np.array([[0, 0], places[-1]]))
     toolpath = parse_program(program_text([block])).toolpath
     run = SimpleNamespace(toolpath=toolpath, stepped=stepped, scenario=plain_scenario(quiz=EVERYTHING))
     return {entry["about"]: entry for entry in question_entries(run, steps)}
@@ -299,7 +299,7 @@ def test_every_key_of_a_question_is_documented() -> None:
     section = page.partition("\n## Quiz\n")[2].partition("\n## ")[0]
     rows = [row.split("|")[1] for row in section.splitlines() if row.startswith("| `")]
     named = re.findall(r"`(?:\[\[quiz\]\] )?(\w+)`", " ".join(rows))
-    assert set(named) == {"block", "about", *quiz._FREE, *KINDS}
+    assert set(named) == {*(key.name for key in quiz.QUIZ.keys), *KINDS}
     assert "| 1 to 1,000,000 |" in section
     assert (quiz.BLOCK, quiz.ANSWERS) == ((1, 1e6), (2, 6))
 

@@ -15,25 +15,28 @@ from browser import OpenPage
 from hypothesis import given
 from hypothesis import strategies as st
 from page_types import types_of, unlike
+from places import SCENARIOS
 from plain import AWAY_X, AWAY_Y, SIGNS, TOWARD_X, TOWARD_Y, PlainBlock, motion_quadrant
 from replayed import ASSETS, document_of, exports, recording_of, replay_of
+from runs import silent
 from strategies import program_text
 
 from controller.stepping.pulses import Pulses
 from controller.stepping.words import interpolate
 from parser.geometry.curves import Floats
-from parser.program import parse_program
+from parser.program import parse_program, read_program
 from parser.toolpath import Point
-from sim.measure.deviation.across import across_um
-from sim.run.recording import Recording
+from sim.measure.deviation.across import across, across_um
+from sim.run.recording import Recording, recorded
+from sim.run.report import build_report
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.obstacles import Clamp
 from sim.setup.quiz import Question
+from sim.setup.scenario import load_scenario
 from sim.setup.wire import Wire
 from sim.show.replay import tape as tape_module
 from sim.show.replay.document import replay_document
-from sim.show.replay.packed import Packer, varints
-from sim.show.replay.tape import GRAIN_UM, TICK_S, tape
+from sim.show.replay.tape import GRAIN_UM, TICK_S, Packer, tape, varints
 from sim.table.trace import Trace
 
 TRIANGLE = "B0B300B300GYL2 B300B200B300GXL4 B300B100B300GXL3 DD"
@@ -94,12 +97,17 @@ def still(t_s: Floats) -> Trace:
     return Trace(t_s, place, place, place, np.zeros(len(t_s), dtype=np.int64))
 
 
+def taped(steps: Pulses, origin: tuple[int, int], trace: Trace) -> dict[str, Any]:
+    """The tape of steps and samples; each is measured from the row that is running."""
+    return tape(steps, origin, trace, trace.row)
+
+
 @given(st.lists(MOVES, max_size=60), st.integers(1, 7))
 def test_any_steps_come_back_whole_and_to_half_a_tick(moves: list[tuple[int, int, float]], at_once: int) -> None:
     steps = pulses_of(moves, (-7, 12))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(tape_module, "_AT_ONCE", at_once)
-        made = plain_steps_of(tape(steps, (-7, 12), still(np.zeros(1))))
+        made = plain_steps_of(taped(steps, (-7, 12), still(np.zeros(1))))
     assert [step[1:] for step in made] == list(zip(steps.x_um.tolist(), steps.y_um.tolist(), strict=True))
     assert all(abs(step[0] * TICK_S - t) <= 0.5001 * TICK_S for step, t in zip(made, steps.t_s, strict=True))
 
@@ -116,7 +124,7 @@ def test_places_of_samples_come_back_to_half_a_grain(
     trace = Trace(t_s, table, table, wire, np.zeros(len(t_s), dtype=np.int64))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(tape_module, "_AT_ONCE", at_once)
-        made = tape(steps, (3, 4), trace)
+        made = taped(steps, (3, 4), trace)
     ticks = np.cumsum(np.cumsum(plain_numbers(unpacked(made["sample_ticks"]))))
     assert np.abs(ticks * TICK_S - t_s).max() <= 0.5001 * TICK_S
     plain = plain_steps_of(made)
@@ -131,7 +139,7 @@ def test_places_of_samples_come_back_to_half_a_grain(
 def test_a_step_of_two_pulses_on_an_axis_is_refused() -> None:
     steps = Pulses(np.zeros(2), np.array([0, 2], np.int32), np.zeros(2, np.int32), np.zeros(2, np.int32))
     with pytest.raises(ValueError, match="not by 2"):
-        tape(steps, (0, 0), still(np.zeros(1)))
+        taped(steps, (0, 0), still(np.zeros(1)))
 
 
 def assert_replayed(page: Any, recording: Recording) -> None:
@@ -256,7 +264,7 @@ def stepped_page(open_page: OpenPage, program: list[PlainBlock]) -> Any:
         "kind": ["arc"] * len(program),
         "length_um": [1.0] * len(program),
     }
-    stepping = {"interpolator": "point-by-point", "blocks": blocks, "tape": tape(pulses, (0, 0), still(np.zeros(1)))}
+    stepping = {"interpolator": "point-by-point", "blocks": blocks, "tape": taped(pulses, (0, 0), still(np.zeros(1)))}
     return replay_of(open_page, stepping)
 
 
@@ -363,7 +371,6 @@ def test_a_state_is_that_of_its_time(open_page: OpenPage, jerk_um_s3: float) -> 
         assert (state["x"], state["y"]) == ((int(steps.x_um[done - 1]), int(steps.y_um[done - 1])) if done else (0, 0))
         assert state["block"] == min(int(np.searchsorted(borders, t, side="right")), 2)
         instant = run.plan.at(t)
-        assert state["along"] == pytest.approx(float(instant.along_um), abs=1e-4)
         assert state["feed_um_s"] == pytest.approx(float(instant.speed_um_s), abs=1e-4)
         assert t + state["remaining_s"] == pytest.approx(duration_s, abs=1e-9)
         for at, place in enumerate(state["wire"]):
@@ -386,23 +393,37 @@ def test_steps_belong_to_the_blocks_that_make_them(open_page: OpenPage, machine:
     ]
 
 
+def assert_as_the_report_says(page: Any, recording: Recording) -> None:
+    """The page's deviation at every sample is that of the measure, between samples no more than the report's largest.
+
+    On the page the wire lies within half a grain of its place in X and in Y.
+    """
+    run, off_by = recording.run, 0.75 * GRAIN_UM
+    expected = np.abs(across_um(run.toolpath, run.cut, run.cut.wire_um, run.plan.at(run.cut.t_s).along_um))
+    most_um = build_report(run)["deviation"]["wire"]["max_um"]
+    assert expected.max() == pytest.approx(most_um, abs=1e-6)
+    found = page.evaluate("() => Array.from(replay.samples.t, (t) => model.deviation(t))")
+    assert np.abs(np.array([deviation["um"] for deviation in found]) - expected).max() <= off_by
+    for deviation, place in zip(found, run.cut.wire_um, strict=True):
+        assert math.dist(deviation["foot"], place) == pytest.approx(deviation["um"], abs=off_by)
+    times = np.linspace(0.0, 1.001 * page.evaluate("model.duration"), 20_011)
+    between = page.evaluate("(times) => times.map((t) => model.deviation(t).um)", times.tolist())
+    assert max(between) <= most_um + off_by
+
+
 @pytest.mark.parametrize("lag_um", [0.0, 40.0])
 def test_the_deviation_of_the_wire_is_that_of_the_report(open_page: OpenPage, lag_um: float) -> None:
     text = "B0B300B300GYL2 B300B0B600GYNR1 B40B5B40GXL1 B30B60B60GYL3 B30B40B90GXSR4 DD"
     recording = recording_of(text, wire=Wire(180.0, 10.0, lag_um))
-    run = recording.run
-    page = replay_of(open_page, replay_document(recording))
-    found = page.evaluate("() => Array.from(replay.samples.t, (t) => model.deviation(t))")
-    along = run.plan.at(run.trace.t_s).along_um
-    expected = np.abs(across_um(run.toolpath, run.trace, run.trace.wire_um, along))
-    off = np.abs(np.array([deviation["um"] for deviation in found]) - expected)
-    # Where two blocks meet, which of them a sample counts to hangs on the last digit of its time.
-    borders = np.cumsum(run.block_time_s)
-    at_border = np.abs(run.trace.t_s[:, None] - borders[None, :]).min(axis=1) < 1e-4
-    assert off[~at_border].max() <= 2 * GRAIN_UM
-    assert expected.max() > 1.0
-    for deviation, place in zip(found, run.trace.wire_um, strict=True):
-        assert math.dist(deviation["foot"], place) == pytest.approx(deviation["um"], abs=2 * GRAIN_UM)
+    assert_as_the_report_says(replay_of(open_page, replay_document(recording)), recording)
+    assert recording.run.deviations.wire.max_um > 1.0
+
+
+@pytest.mark.parametrize("name", ["wire-lag-corner", "wire-lag-arc", "backlash", "friction", "servo-trip"])
+def test_no_moment_of_a_replay_deviates_more_than_the_report(open_page: OpenPage, name: str) -> None:
+    scenario = load_scenario(SCENARIOS / name)
+    with recorded(read_program(scenario.program), scenario, silent) as recording:
+        assert_as_the_report_says(replay_of(open_page, replay_document(recording)), recording)
 
 
 def test_a_wire_ahead_of_its_block_is_measured_from_the_next_one(open_page: OpenPage) -> None:
@@ -413,10 +434,11 @@ def test_a_wire_ahead_of_its_block_is_measured_from_the_next_one(open_page: Open
     t_s = np.array([0.0, borders[0] - 1.0, borders[1] - 1.0])
     wire = np.array([[0.0, 0.0], [345.0, 4.0], [260.0, 606.0]])
     trace = Trace(t_s, wire, wire, wire, np.array([0, 0, 1]))
-    page = replay_of(open_page, {**replay_document(recording), "tape": tape(steps, (0, 0), trace)})
-    found = page.evaluate("() => Array.from(replay.samples.t, (t) => model.deviation(t)).map((d) => [d.um, d.row])")
-    assert [row for _, row in found] == [0, 1, 2]
-    assert [um for um, _ in found] == pytest.approx([0.0, abs(300.0 - math.hypot(45.0, 296.0)), 6.0], abs=2 * GRAIN_UM)
+    row = across(run.toolpath, trace, wire, run.plan.at(t_s).along_um).row
+    assert row.tolist() == [0, 1, 2]
+    page = replay_of(open_page, {**replay_document(recording), "tape": tape(steps, (0, 0), trace, row)})
+    found = page.evaluate("() => Array.from(replay.samples.t, (t) => model.deviation(t).um)")
+    assert found == pytest.approx([0.0, abs(300.0 - math.hypot(45.0, 296.0)), 6.0], abs=2 * GRAIN_UM)
 
 
 def test_blocks_are_told_exactly() -> None:
@@ -549,7 +571,7 @@ def long_document() -> dict[str, Any]:
     wire = table + chance.normal(0.0, 0.1, commanded.shape)
     trace = Trace(pulses.t_s[every], commanded, table, wire, np.zeros(len(table), dtype=np.int64))
     return {
-        "tape": tape(pulses, (0, 0), trace),
+        "tape": taped(pulses, (0, 0), trace),
         "end": [int(pulses.x_um[-1]), int(pulses.y_um[-1]), float(pulses.t_s[-1])],
     }
 

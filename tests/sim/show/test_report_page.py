@@ -18,12 +18,11 @@ from runs import run_folder, run_text
 
 from parser.program import load_program, read_program
 from sim.run.report import build_report, report_text
-from sim.setup.expectations import read_expectation
-from sim.setup.machine.machine_file import machine_sections
+from sim.setup.expectations import EXPECT, read_expectation
+from sim.setup.machine.machine import machine_sections
 from sim.setup.part import SIDES, Offset
-from sim.setup.quiz import Said
-from sim.setup.scenario import Scenario, load_scenario
-from sim.setup.scenario_file import MACHINE_FILE, scenario_sections
+from sim.setup.quiz import QUIZ, Said
+from sim.setup.scenario import MACHINE_FILE, Scenario, load_scenario, scenario_sections
 from sim.setup.toml.writer import toml_text, toml_value
 from sim.show.report_page import report_page
 from sim.show.report_page.findings import MOST
@@ -347,7 +346,7 @@ def test_every_setting_has_a_name_and_its_unit(full: Scenario) -> None:
     assert shown["force_at_rate"].value.en == "500.1, 13000; 4000, 2500.7"
     assert shown["kind"].value == Said("servo", "伺服电机")
     sections = [*scenario_sections(full), *machine_sections(full.machine)]
-    keys = {key for header, section in sections if header not in ("[expect]", "[[quiz]]") for key in section}
+    keys = {key for section, values in sections if section not in (EXPECT, QUIZ) for key in values}
     assert keys - {"machine"} == shown.keys() - {"encoding", "dialect"}
 
 

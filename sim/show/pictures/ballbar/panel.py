@@ -5,11 +5,11 @@ from typing import Final
 
 import numpy as np
 
-from parser.geometry.curves import Floats
 from sim.run.ballbar.rows import Row
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.dial import NOMINAL_WIDTH
+from sim.show.draw.legend import Entry, LegendSizes, dashes, draw_legend, in_columns, stroke
 from sim.show.draw.paints import Paint
 from sim.show.pictures.ballbar.dial import COLOURS, CURVE_WIDTH, ZONE_WIDTH
 
@@ -17,16 +17,17 @@ LEFT: Final = 1145.0
 TOP: Final = 160.0
 ROW: Final = 35.0
 TEXT: Final = 20.0
-_SAMPLES: Final[tuple[tuple[Paint, float, float], ...]] = (
-    (COLOURS[1], CURVE_WIDTH, 0.0),
-    (COLOURS[-1], CURVE_WIDTH, 16.0),
-    (Paint.INK, NOMINAL_WIDTH, 0.0),
-    (Paint.END, ZONE_WIDTH, 8.0),
+SIZES: Final = LegendSizes(row=ROW, text=TEXT)
+SAMPLES: Final = (
+    stroke(COLOURS[1], CURVE_WIDTH),
+    dashes(COLOURS[-1], CURVE_WIDTH, 16.0, 9.6),
+    stroke(Paint.INK, NOMINAL_WIDTH),
+    dashes(Paint.END, ZONE_WIDTH, 8.0, 4.8),
 )
-"""Paint, width and dash of counter-clockwise and clockwise curve, nominal circle and zone; a dash of 0 is a line."""
+"""Counter-clockwise and clockwise curve, nominal circle and zone."""
 
 
-class Panel:
+class FiguresPanel:
     """Rows from top to bottom, in a column from `LEFT` to the edge of the page."""
 
     def __init__(self, canvas: Canvas, unit: float, width_px: int) -> None:
@@ -38,11 +39,10 @@ class Panel:
     def legend(self, names: Sequence[str]) -> None:
         """Samples of the two curves, the nominal circle and the zone, with their names."""
         left, unit = LEFT * self._unit, self._unit
-        for (paint, width, dash), name in zip(_SAMPLES, names, strict=True):
-            line = np.array([[left, self._y], [left + style.SAMPLE * unit, self._y]])
-            self._stroke(line, paint, width * unit, dash * unit)
-            self._text(left + (style.SAMPLE + style.LEGEND_GAP) * unit, name, Paint.INK)
-            self._down()
+        entries = [Entry(sample, name) for sample, name in zip(SAMPLES, names, strict=True)]
+        legend = in_columns(entries, 1, self._right - left, unit, SIZES)
+        draw_legend(self._canvas, legend, left, self._y - ROW * unit / 2.0)
+        self._down(legend.rows)
 
     def table(self, title: str, rows: Sequence[Row]) -> None:
         """A title, a line below it, and rows with their values at the right edge."""
@@ -50,7 +50,8 @@ class Panel:
         self._down(0.6)
         self._text(left, title, Paint.INK)
         self._down(0.55)
-        self._stroke(np.array([[left, self._y], [self._right, self._y]]), Paint.FRAME, style.GRID_WIDTH, 0.0)
+        line = np.array([[left, self._y], [self._right, self._y]])
+        self._canvas.polyline(line, Paint.FRAME, style.GRID_WIDTH)
         self._down(0.6)
         for row in rows:
             self._text(left, row.name, Paint.GREY)
@@ -62,9 +63,3 @@ class Panel:
 
     def _text(self, x: float, text: str, paint: Paint, align: float = 0.0) -> None:
         self._canvas.text((x, self._y), text, TEXT * self._unit, paint, align=align)
-
-    def _stroke(self, line: Floats, paint: Paint, width: float, dash: float) -> None:
-        if dash:
-            self._canvas.dashed(line, paint, width, dash, 0.6 * dash)
-        else:
-            self._canvas.polyline(line, paint, width)

@@ -15,12 +15,10 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.dial import Dial, draw_ring_values, draw_rings, ring_for
 from sim.show.draw.furniture import draw_header
-from sim.show.draw.layout import Box, Page, View
 from sim.show.draw.paints import Paint
 from sim.show.draw.raster import Raster
-from sim.show.pictures.ballbar.dial import draw_band, draw_curve, draw_zone_edge
-from sim.show.pictures.ballbar.panel import Panel
-from sim.show.pictures.ballbar.reversal_marks import mark_spike, write_reversals
+from sim.show.pictures.ballbar.dial import draw_band, draw_curve, draw_zone_edge, mark_spike, write_reversals
+from sim.show.pictures.ballbar.panel import FiguresPanel
 
 CELLS: Final = 1440
 CELL_RAD: Final = np.asarray((np.arange(CELLS) + 0.5) * (2.0 * np.pi / CELLS), dtype=np.float64)
@@ -44,7 +42,7 @@ def draw_ballbar(ballbar: Ballbar, measured: Measured, width_px: int = 1600) -> 
     highest = max(float(curve.ends_um.max()) for curve in curves)
     dial = Dial(unit, ring_for(max(-lowest, highest)), (CENTER[0] * unit, CENTER[1] * unit), unit)
     canvas = Raster(width_px, round(ASPECT * width_px))
-    _write_head(canvas, unit, width_px, ballbar, measured)
+    _write_head(canvas, unit, ballbar, measured)
     for curve in curves:
         draw_band(canvas, dial, curve.sense, CELL_RAD, curve.ends_um)
     draw_rings(canvas, dial)
@@ -82,12 +80,11 @@ def _curve(ballbar: Ballbar, measured: Measured, row: int) -> _Curve:
     return _Curve(turn.sense, mean, ends)
 
 
-def _write_head(canvas: Canvas, unit: float, width_px: int, ballbar: Ballbar, measured: Measured) -> None:
+def _write_head(canvas: Canvas, unit: float, ballbar: Ballbar, measured: Measured) -> None:
     machine, *rest = setup_rows(ballbar)
-    page = Page(width_px, round(ASPECT * width_px), unit, Box(0.0, 0.0, 0.0, 0.0), View(1.0, 0.0, 0.0))
     radius, feed = rest[0], rest[1]
     note = f"{machine.value} · R {radius.value} · {feed.value} · G(b) {um(measured.figures.circularity_um)}"
-    draw_header(canvas, page, "Circular test ISO 230-4, about the least-squares centre", note)
+    draw_header(canvas, unit, "Circular test ISO 230-4, about the least-squares centre", note)
 
 
 def _write_middle(canvas: Canvas, dial: Dial, measured: Measured) -> None:
@@ -108,7 +105,7 @@ def _mark(canvas: Canvas, dial: Dial, reversal: Reversal, curve: _Curve) -> None
 
 def _write_panel(canvas: Canvas, dial: Dial, width_px: int, ballbar: Ballbar, measured: Measured) -> None:
     magnified = f"{dial.magnification(ballbar.test.radius_um):,.0f}"
-    panel = Panel(canvas, dial.unit, width_px)
+    panel = FiguresPanel(canvas, dial.unit, width_px)
     panel.legend(
         [
             "ccw, mean over ¼°; pale: all places",

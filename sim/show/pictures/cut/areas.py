@@ -13,11 +13,10 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box, Page, View, box_around
 from sim.show.draw.paints import Paint
-from sim.show.draw.simplify import simplify
-from sim.show.pictures.cut.board import Board
+from sim.show.draw.simplify import CHORD_PX, simplify
+from sim.show.pictures.cut.subject import Board
 from sim.show.words.pictures import Words
 
-CHORD_PX: Final = 0.15
 MOST_LABELS: Final = 40
 _TRIES: Final = 9  # places for a label along each side of a piece
 _FILLS: Final = {"part": Paint.PART, "slug": Paint.SLUG}

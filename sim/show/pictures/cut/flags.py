@@ -17,7 +17,7 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box, box_around
 from sim.show.draw.paints import Paint
-from sim.show.pictures.cut.board import Board
+from sim.show.pictures.cut.subject import Board
 
 PAINTS: Final = {Severity.ERROR: Paint.ERROR, Severity.WARNING: Paint.WARNING, Severity.NOTE: Paint.GREY}
 _WORST_FIRST: Final = tuple(Severity)
@@ -66,7 +66,7 @@ def flags_of(toolpath: Toolpath, findings: Sequence[Finding], apart_um: float) -
 def places_um(toolpath: Toolpath, findings: Sequence[Finding], off_um: float) -> Floats:
     """Where findings are, (n, 2): the places that they name, else those on their blocks; NaN where they have neither.
 
-    On a block it is the middle, or beside that where the path starts or ends within `off_um` of it.
+    On a block it is the middle; where the path starts or ends within `off_um` of that, another place on the block.
     """
     block = np.array([finding.block for finding in findings], dtype=np.int64)
     first, past = (np.searchsorted(toolpath.source.block, number) for number in (block, block + 1))
@@ -80,7 +80,7 @@ def places_um(toolpath: Toolpath, findings: Sequence[Finding], off_um: float) ->
 
 
 def _on_blocks(toolpath: Toolpath, row: Ints, off_um: float) -> Floats:
-    """Places (m, 2) on the rows (m,), the first of `_SHARES` that is off start and end of the path."""
+    """Places (m, 2) on the rows (m,): at the first of `_SHARES` that lies `off_um` from start and end of the path."""
     share = np.tile(_SHARES, len(row))
     on = places(toolpath, np.repeat(row, len(_SHARES)), share).reshape(len(row), len(_SHARES), 2)
     ends = (toolpath.start_um[0], toolpath.end_um[-1])
@@ -90,8 +90,8 @@ def _on_blocks(toolpath: Toolpath, row: Ints, off_um: float) -> Floats:
 
 
 def _gathered(place: Floats, apart: float) -> Ints:
-    """For each of n places the first one that stands for it: itself, or one that is nearer than `apart`."""
-    # Places of one cell need no look at each other, so that no more are compared than fit on a page.
+    """For each of n places the index of the one that stands for it: itself, or an earlier one nearer than `apart`."""
+    # All places in one cell of a grid count as one: only as many are compared as fit on a page.
     cell, first, of = np.unique(np.floor(place / apart), axis=0, return_index=True, return_inverse=True)
     stands = np.empty(len(cell), dtype=np.int64)
     kept: list[int] = []

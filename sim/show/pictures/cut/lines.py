@@ -1,6 +1,6 @@
 """What is stroked: the kerf, the path, the contour it is made from, where the wire was, and jumps."""
 
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,11 +11,8 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import bounds_um, cut_runs, flatten
 from sim.show.draw.layout import View
 from sim.show.draw.paints import Paint
-from sim.show.draw.simplify import simplify
+from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.cut.subject import Cut
-
-CHORD_PX: Final = 0.15
-"""How far a drawn line may leave the true one."""
 
 
 class Lines(NamedTuple):

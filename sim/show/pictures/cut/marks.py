@@ -12,7 +12,7 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import along
 from sim.show.draw.layout import Box, box_around
 from sim.show.draw.paints import Paint
-from sim.show.pictures.cut.board import Board
+from sim.show.pictures.cut.subject import Board
 
 ARROW_AT: Final = 2 / 3
 """Past the middle, so that the arrows of a way out and back on one line stand apart."""

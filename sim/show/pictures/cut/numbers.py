@@ -12,7 +12,7 @@ from sim.show.draw.flatten import along
 from sim.show.draw.labels import Anchors, number_stride, place_numbers
 from sim.show.draw.layout import Box, View
 from sim.show.draw.paints import Paint
-from sim.show.pictures.cut.board import Board
+from sim.show.pictures.cut.subject import Board
 from sim.show.words.pictures import Words
 
 NUMBERS_AT: Final = (0.5, 0.4, 0.6, 0.3, 0.7)

@@ -117,10 +117,3 @@ def _cut_off(corners: Floats, beyond: Floats) -> Floats:
     places = np.stack([corners, corners * (1.0 - share) + after * share], axis=1)
     cut: Floats = places[np.stack([beyond <= 0.0, crossing], axis=1)]
     return cut
-
-
-def swatch(box: Box, height: float) -> Floats:
-    """Corners (4, 2) px of a sample in the middle of a box of the legend."""
-    middle = (box.top + box.bottom) / 2
-    top, bottom = middle - height / 2, middle + height / 2
-    return np.array([[box.left, top], [box.right, top], [box.right, bottom], [box.left, bottom]])

@@ -1,30 +1,48 @@
 """The picture of a cut: work, kerf and pieces, the path and where the wire was, and what the shop needs to read it."""
 
-from typing import Final
+from typing import Final, NamedTuple
 
 from parser.geometry.curves import Floats
+from sim.cut.pieces.pieces import Pieces
+from sim.run.dryrun import DryRun
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.furniture import draw_axes, draw_frame, draw_header
 from sim.show.draw.labels import Ink, Room
-from sim.show.draw.layout import Box, Margins, Page, page_for
+from sim.show.draw.layout import BESIDE_PLOT, IN_PLOT, Box, Margins, Page, page_for
+from sim.show.draw.legend import Entry
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.areas import draw_labels, draw_pieces
-from sim.show.pictures.cut.board import Board
 from sim.show.pictures.cut.flags import draw_flags, flag_reach, flags_of
-from sim.show.pictures.cut.legend import draw_legend, entries
-from sim.show.pictures.cut.lines import Lines, draw_lines, lines_of, shown_bounds_um
+from sim.show.pictures.cut.legend import Seen, draw_legends, entries, finding_entries, rows_for
+from sim.show.pictures.cut.lines import Lines, draw_lines, lines_of, path_bounds_um, shown_bounds_um
 from sim.show.pictures.cut.marks import draw_arrows, draw_ends, draw_pauses
 from sim.show.pictures.cut.numbers import draw_numbers
-from sim.show.pictures.cut.outlines import draw_bodies
-from sim.show.pictures.cut.plan import Plan, kerf_px, plan_of
-from sim.show.pictures.cut.size_lines import draw_extents, draw_rounds
-from sim.show.pictures.cut.subject import Cut
-from sim.show.pictures.cut.table import draw_border, draw_table
+from sim.show.pictures.cut.outlines import clamps_on, draw_bodies, works_on
+from sim.show.pictures.cut.size_lines import Extents, draw_extents, draw_rounds, extents_of
+from sim.show.pictures.cut.sizes import CutSizes, sizes_of_cut
+from sim.show.pictures.cut.subject import Board, Cut, cut_of_run
+from sim.show.pictures.cut.table import draw_border, draw_table, shows_border
 from sim.show.words.pictures import Words
 
 _BARE: Final = Margins(0.0, 0.0, 0.0, 0.0)
 _THUMBNAIL: Final = Margins(*(style.THUMBNAIL_PAD,) * 4)
+_FOOT_ROWS: Final = 3  # rows of the legend in `style.FOOT`
+
+
+class CutLayout(NamedTuple):
+    """The page; what of the surroundings shows on it; the sizes and the lines of the largest; what the codes mean."""
+
+    page: Page
+    seen: Seen
+    sizes: CutSizes
+    extents: Extents | None
+    codes: list[Entry]
+
+
+def draw_cut_of_run(sheet: Sheet[AnyCanvas], run: DryRun, pieces: Pieces | None) -> AnyCanvas:
+    """Draw the cut of a run, with the pieces that it frees where they are known."""
+    return draw_cut(sheet, cut_of_run(run, pieces, sheet.say))
 
 
 def draw_cut(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
@@ -59,8 +77,8 @@ def _thumbnail(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
 
 
 def _full(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
-    say, plan = sheet.say, plan_of(sheet, cut)
-    page, seen = plan.page, plan.seen
+    say, layout = sheet.say, layout_of(sheet, cut)
+    page, seen = layout.page, layout.seen
     canvas, lines = sheet.page(page.height_px), lines_of(cut, page.view)
     _draw_head(canvas, page, say, cut, lines)
     draw_frame(canvas, page)
@@ -69,15 +87,42 @@ def _full(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
     if seen.travel and cut.travel_um is not None:
         draw_border(canvas, page, cut.travel_um)
     draw_lines(canvas, page.unit, lines, seen.kerf_px)
-    sized = [*plan.extents.lines(page)] if plan.extents else []
-    numbers = _draw_above(Board(canvas, page, _room(page, lines, sized, names), say), cut, plan)
-    draw_legend(canvas, page, entries(cut, page, say, seen, numbers), plan.codes)
+    sized = [*layout.extents.lines(page)] if layout.extents else []
+    numbers = _draw_above(Board(canvas, page, _room(page, lines, sized, names), say), cut, layout)
+    draw_legends(canvas, page, entries(cut, page, say, seen, numbers), layout.codes)
     return canvas
+
+
+def layout_of(sheet: Sheet[AnyCanvas], cut: Cut) -> CutLayout:
+    """Lay out a page with room for its legend."""
+    sizes, codes = sizes_of_cut(cut), finding_entries(cut, sheet.say)
+    extents = extents_of(sizes, path_bounds_um(cut))
+    bounds_um, inside = shown_bounds_um(cut), extents.margins() if extents else IN_PLOT
+    page = page_for(bounds_um, sheet.width_px, inside=inside)
+    seen = _seen(cut, page)
+    rows = rows_for(len(entries(cut, page, sheet.say, seen, "")), len(codes))
+    foot = style.FOOT + (rows - _FOOT_ROWS) * style.LEGEND_ROW
+    page = page_for(bounds_um, sheet.width_px, BESIDE_PLOT._replace(bottom=foot), inside)
+    return CutLayout(page, seen._replace(kerf_px=kerf_px(cut, page)), sizes, extents, codes)
+
+
+def _seen(cut: Cut, page: Page) -> Seen:
+    return Seen(
+        work=bool(works_on(page, cut.bodies)),
+        clamps=bool(clamps_on(page, cut.bodies)),
+        travel=cut.travel_um is not None and shows_border(page, cut.travel_um),
+        kerf_px=kerf_px(cut, page),
+    )
+
+
+def kerf_px(cut: Cut, page: Page) -> float:
+    """The width that the kerf is drawn with."""
+    return max(cut.kerf_um * page.view.px_per_um, style.KERF_WIDTH_MIN * page.unit)
 
 
 def _draw_head(canvas: Canvas, page: Page, say: Words, cut: Cut, lines: Lines) -> None:
     beside = 0.0 if cut.travel_um is None else draw_table(canvas, page, say, cut.travel_um, lines.ideal)
-    draw_header(canvas, page, cut.title, cut.note, beside_px=beside)
+    draw_header(canvas, page.unit, cut.title, cut.note, beside_px=beside)
 
 
 def _draw_below(canvas: Canvas, page: Page, cut: Cut) -> None:
@@ -91,16 +136,16 @@ def _room(page: Page, lines: Lines, sized: list[Floats], taken: list[Box]) -> Ro
     return Room(page.plot, ink, taken)
 
 
-def _draw_above(board: Board, cut: Cut, plan: Plan) -> str:
+def _draw_above(board: Board, cut: Cut, layout: CutLayout) -> str:
     """Draw marks, numbers and sizes over the path, those first that must have their place; what the numbers are."""
-    if plan.extents:
-        draw_extents(board, plan.sizes, plan.extents)
+    if layout.extents:
+        draw_extents(board, layout.sizes, layout.extents)
     _draw_marks(board, cut, texts=True)
     draw_arrows(board, cut.toolpath)
-    numbers = draw_numbers(board, cut.toolpath, plan.seen.kerf_px)
+    numbers = draw_numbers(board, cut.toolpath, layout.seen.kerf_px)
     if cut.pieces is not None:
         draw_labels(board, cut.toolpath, cut.pieces)
-    draw_rounds(board, plan.sizes)
+    draw_rounds(board, layout.sizes)
     return numbers.text(board.say)
 
 

@@ -12,8 +12,8 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import along
 from sim.show.draw.layout import Box, Margins, Page, box_around
 from sim.show.draw.paints import Paint
-from sim.show.pictures.cut.board import Board
-from sim.show.pictures.cut.sizes import Round, Shown, length_text
+from sim.show.pictures.cut.sizes import CutSizes, Round, length_text
+from sim.show.pictures.cut.subject import Board
 
 MOST_ROUNDS: Final = 6
 _ROUND_AT: Final = (0.62, 0.38, 0.75, 0.25, 0.5, 0.87, 0.13)
@@ -47,8 +47,8 @@ class Extents(NamedTuple):
         return np.array([[left, level], [right, level]]), np.array([[beside, bottom], [beside, top]])
 
 
-def extents_of(sizes: Shown, path_um: Floats) -> Extents | None:
-    """Lines outside of all the path, on the side that what they measure is nearer to; None where there is no size."""
+def extents_of(sizes: CutSizes, path_um: Floats) -> Extents | None:
+    """Lines outside the whole path, each on the side that the measured box is nearer to; None where there is no box."""
     if sizes.box_um is None:
         return None
     gap = np.abs(path_um - sizes.box_um)
@@ -56,7 +56,7 @@ def extents_of(sizes: Shown, path_um: Floats) -> Extents | None:
     return Extents(sizes.box_um, path_um, (int(right), int(above)))
 
 
-def draw_extents(board: Board, sizes: Shown, extents: Extents) -> None:
+def draw_extents(board: Board, sizes: CutSizes, extents: Extents) -> None:
     """Draw width and height of what is kept."""
     page = board.page
     corner = page.view.to_px(extents.box_um)[extents.sides, (0, 1)]
@@ -100,7 +100,7 @@ def _draw_size(canvas: Canvas, unit: float, line: Floats, text: str) -> Box:
     return box
 
 
-def draw_rounds(board: Board, sizes: Shown) -> None:
+def draw_rounds(board: Board, sizes: CutSizes) -> None:
     """Draw the largest radii and diameters, each at one of its arcs, where there is room off the path."""
     for one in sizes.rounds[:MOST_ROUNDS]:
         if one.radius_um * board.page.view.px_per_um >= _LEAST_ROUND * board.page.unit:

@@ -35,11 +35,11 @@ class Round(NamedTuple):
         return size if self.number == 1 else f"{self.number}× {size}"
 
 
-class Shown(NamedTuple):
+class CutSizes(NamedTuple):
     """Sizes to be shown: a box (2, 2) µm, None where there is none, and radii on arcs of `path`, the largest first.
 
-    There is no box where nothing closes, or where all of it goes into the kerf. `of_path` tells that the box is that of
-    the path, for want of a side that the part lies on.
+    There is no box where nothing closes, or where all of it goes into the kerf. With `of_path` the box is that of the
+    path: nothing tells on which side of it the part lies.
     """
 
     box_um: Floats | None
@@ -60,7 +60,7 @@ def length_text(length_um: float) -> str:
     return f"{round(mm(length_um), 3) + 0.0:.3f}".rstrip("0").rstrip(".")
 
 
-def sizes_of_cut(cut: Cut) -> Shown:
+def sizes_of_cut(cut: Cut) -> CutSizes:
     """Sizes of what a cut keeps: those that were worked out, else those of the path, the offset taken off or added."""
     if cut.sizes is not None and cut.sizes.boxes:
         return _measured(cut.toolpath, cut.sizes)
@@ -69,19 +69,19 @@ def sizes_of_cut(cut: Cut) -> Shown:
     return _of_path(cut.toolpath, cut.kerf_um / 2, cut.pieces)
 
 
-def _measured(toolpath: Toolpath, sizes: Sizes) -> Shown:
+def _measured(toolpath: Toolpath, sizes: Sizes) -> CutSizes:
     box = max(sizes.boxes, key=lambda one: one.nominal_um.x * one.nominal_um.y)
     half, centre = np.array(box.nominal_um) / 2, np.array(box.center_um)
     row = np.array([one.block - 1 for one in sizes.radii], dtype=np.int64)
     arcs = _Arcs(row, np.array([one.nominal_um for one in sizes.radii], dtype=np.float64))
-    return Shown(np.stack([centre - half, centre + half]), _rounds(toolpath, arcs), toolpath, of_path=False)
+    return CutSizes(np.stack([centre - half, centre + half]), _rounds(toolpath, arcs), toolpath, of_path=False)
 
 
-def _of_path(toolpath: Toolpath, offset_um: float, pieces: Pieces | None) -> Shown:
+def _of_path(toolpath: Toolpath, offset_um: float, pieces: Pieces | None) -> CutSizes:
     contours = contour_rows(toolpath)
     loops = find_loops(toolpath, contours, np.arange(contours.max(initial=-1) + 1))
     if not len(loops.contour):
-        return Shown(None, (), toolpath, of_path=False)
+        return CutSizes(None, (), toolpath, of_path=False)
     loops = loops._replace(part_side=_sides(toolpath, loops, pieces))
     boxes = [bounds_um(toolpath.picked(slice(*one))) for one in zip(loops.first, loops.last + 1, strict=True)]
     largest = int(np.argmax([np.prod(high - low) for low, high in boxes]))
@@ -90,11 +90,11 @@ def _of_path(toolpath: Toolpath, offset_um: float, pieces: Pieces | None) -> Sho
     box = boxes[largest] + grow * np.array([[-1.0], [1.0]])
     of_path = side == 0 and offset_um > 0.0
     rounds = _rounds(toolpath, _arcs(toolpath, loops, offset_um))
-    return Shown(box if (box[1] > box[0]).all() else None, rounds, toolpath, of_path)
+    return CutSizes(box if (box[1] > box[0]).all() else None, rounds, toolpath, of_path)
 
 
 def _sides(toolpath: Toolpath, loops: Loops, pieces: Pieces | None) -> Ints:
-    """Side (k,) that the part lies on: as the lead-in says, without one as the piece says that the loop frees."""
+    """Side (k,) that the part lies on: the lead-in tells; without one, the kind of the piece that the loop frees."""
     side, kinds = loops.part_side.copy(), {one.freed.contour - 1: one.kind for one in pieces.freed} if pieces else {}
     for at in np.flatnonzero(side == 0).tolist():
         kind = kinds.get(int(loops.contour[at]))

@@ -1,15 +1,26 @@
-"""What the picture of a cut shows."""
+"""What the picture of a cut shows, and the page that it is drawn on."""
 
 from collections.abc import Sequence
 from typing import Final, NamedTuple
 
+import numpy as np
+
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.toolpath import Toolpath
+from parser.units import from_mm, mm
 from sim.cut.pieces.pieces import Pieces
 from sim.cut.sizes.sizes import Sizes
+from sim.run.dryrun import DryRun, verdict
+from sim.setup.scenario import Scenario
+from sim.show.draw.canvas import Canvas
+from sim.show.draw.labels import Room
+from sim.show.draw.layout import Page
 from sim.show.pictures.cut.outlines import Bodies
+from sim.show.words.pictures import Words
+from sim.table.motion import origin_um
 from sim.table.trace import Trace
+from sim.units import clock
 
 NOTHING: Final = Bodies()
 
@@ -50,3 +61,52 @@ class Cut(NamedTuple):
     sizes: Sizes | None = None
     findings: Sequence[Finding] = ()
     travel_um: Floats | None = None
+
+
+class Board(NamedTuple):
+    """A page that is being drawn; what finds its place takes it out of `room`."""
+
+    canvas: Canvas
+    page: Page
+    room: Room
+    say: Words
+
+
+def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words) -> Cut:
+    """The cut of a run, with the pieces that it frees where they are known."""
+    scenario = run.scenario
+    return Cut(
+        toolpath=run.toolpath,
+        kerf_um=scenario.wire.kerf_um,
+        title=scenario.title,
+        note=_note(run, say),
+        trace=run.cut,
+        contour=None if run.offset is None else run.offset.drawn,
+        bodies=Bodies(scenario.work_um, [clamp.outline_um for clamp in scenario.clamps]),
+        pieces=pieces,
+        sizes=None if run.remains is None else run.remains.sizes,
+        findings=run.findings,
+        travel_um=_travel_um(run, scenario),
+    )
+
+
+def _travel_um(run: DryRun, scenario: Scenario) -> Floats:
+    """The box that the table can reach, (2, 2), in program coordinates."""
+    table = scenario.machine.table
+    corner = np.array(origin_um(run.toolpath)) - scenario.start_um
+    travel = from_mm(np.array([table.travel_x_mm, table.travel_y_mm]))
+    return np.asarray(np.stack([corner, corner + travel]), dtype=np.float64)
+
+
+def _note(run: DryRun, say: Words) -> str:
+    """Verdict, blocks, length of the path and time in one line."""
+    count, offset = len(run.toolpath), run.scenario.offset
+    parts = [
+        say(f"cut_verdict_{verdict(run.findings)}"),
+        say("cut_blocks_1" if count == 1 else "cut_blocks", count=count),
+        f"{mm(float(run.toolpath.length_um.sum())):.1f} mm",
+        clock(run.ran_s),
+    ]
+    if offset is not None:
+        parts.append(say(f"cut_offset_{offset.side.name.lower()}", by=f"{mm(offset.by_um):g}"))
+    return " · ".join(parts)

@@ -29,7 +29,7 @@ def shows_border(page: Page, travel_um: Floats) -> bool:
 
 
 def draw_table(canvas: Canvas, page: Page, say: Words, travel_um: Floats, runs_px: list[Floats]) -> float:
-    """Draw the table with the path on it into the right of the head, with its size; how much of the width that takes.
+    """Draw the table with the path on it into the right of the head, with its size; the width of both, px.
 
     `runs_px` are stretches of the path, (k, 2) px of the plot.
     """

@@ -4,29 +4,19 @@ from typing import Final
 
 import numpy as np
 
+from parser.geometry.curves import Floats
+from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import Chart, Range, draw_band, draw_chart, draw_line
+from sim.show.draw.chart import AxisRange, Chart, columns_of, draw_band, draw_chart, draw_line, stretches
+from sim.show.draw.labels import number_stride
 from sim.show.draw.layout import Box
+from sim.show.draw.legend import Entry, draw_at_foot, in_rows, stroke, swatch
 from sim.show.draw.paints import Paint
-from sim.show.draw.pixel_columns import columns_of, stretches
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.pictures.deviation.borders import all_show, draw_borders
-from sim.show.pictures.deviation.frame import (
-    Entry,
-    draw_legend,
-    legend_of,
-    mark_place,
-    stroke,
-    swatch,
-    titled,
-    tolerance_text,
-    um,
-    write_names,
-)
+from sim.show.pictures.deviation.frame import mark_place, range_shown, titled, tolerance_text, um, write_names
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.pictures.deviation.scale import range_shown
 from sim.show.words.pictures import Words
 
 HEIGHT: Final = 0.52
@@ -36,6 +26,10 @@ STRIP: Final = 44.0
 WIRE_WIDTH: Final = 2.2
 STEPS_WIDTH: Final = 1.0
 BORDER_WIDTH: Final = 1.5
+LEAST_APART: Final = 12.0
+"""Where borders are closer together than this on average, only some show."""
+APART: Final = 8.0
+"""Least gap between two numbers."""
 
 
 def draw_along(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
@@ -47,36 +41,36 @@ def draw_along(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     foot = HEIGHT * sheet.width_px - 1.8 * style.TICK * unit
     frame = Box(style.LEFT * unit, (style.HEAD + STRIP) * unit, sheet.width_px - style.EDGE * unit, foot)
     chart = _chart(samples, frame, unit)
-    legend = legend_of(_entries(say, samples, chart), sheet.width_px, unit)
-    canvas = titled(sheet, samples, say("deviation_along"), HEIGHT * sheet.width_px + legend.height)
-    tolerance = Range(-samples.tolerance_um, samples.tolerance_um)
+    legend = in_rows(_entries(say, samples, chart), sheet.width_px, unit)
+    canvas = titled(sheet, samples, say("deviation_along"), HEIGHT * sheet.width_px + legend.foot)
+    tolerance = AxisRange(-samples.tolerance_um, samples.tolerance_um)
     draw_chart(canvas, chart, tolerance=tolerance)
     draw_borders(canvas, chart, samples.run.toolpath, STRIP * unit)
     write_names(canvas, chart, say("path_length"), say("deviation_um"))
     for stretch in stretches(np.flatnonzero(samples.cutting)):
         _draw_stretch(canvas, chart, samples, stretch)
     _mark_worst(canvas, chart, samples, say)
-    draw_legend(canvas, legend)
+    draw_at_foot(canvas, legend)
     return canvas
 
 
 def _entries(say: Words, samples: Samples, chart: Chart) -> list[Entry]:
-    unit, toolpath = chart.unit, samples.run.toolpath
+    toolpath = samples.run.toolpath
     border = "deviation_border" if all_show(chart, toolpath) else "deviation_some_borders"
-    jump = Entry(stroke(Paint.JUMP, 0.15 * STRIP * unit), say("deviation_jump"))
-    wire = swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, WIRE_WIDTH * unit)
+    jump = Entry(stroke(Paint.JUMP, 0.15 * STRIP), say("deviation_jump"))
+    wire = swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, WIRE_WIDTH)
     return [
         Entry(wire, say("deviation_wire_band")),
-        Entry(swatch(Paint.STEPS_PALE, Paint.STEPS, STEPS_WIDTH * unit), say("deviation_steps_band")),
-        Entry(swatch(Paint.BAND, Paint.BAND_EDGE, style.GRID_WIDTH * unit), tolerance_text(say, samples)),
-        Entry(stroke(Paint.FRAME, BORDER_WIDTH * unit), say(border)),
+        Entry(swatch(Paint.STEPS_PALE, Paint.STEPS, STEPS_WIDTH), say("deviation_steps_band")),
+        Entry(swatch(Paint.BAND, Paint.BAND_EDGE, style.GRID_WIDTH), tolerance_text(say, samples)),
+        Entry(stroke(Paint.FRAME, BORDER_WIDTH), say(border)),
         *[jump] * bool(toolpath.is_jump.any()),
     ]
 
 
 def _chart(samples: Samples, frame: Box, unit: float) -> Chart:
     length = mm(float(samples.run.toolpath.length_um.sum()))
-    x = Range(0.0, length) if length > 0.0 else Range(0.0, 1.0)
+    x = AxisRange(0.0, length) if length > 0.0 else AxisRange(0.0, 1.0)
     return Chart(frame, x, range_shown(samples).wider(0.14), unit)
 
 
@@ -102,3 +96,41 @@ def _mark_worst(canvas: Canvas, chart: Chart, samples: Samples, say: Words) -> N
     place = chart.to_px(np.array([[mm(samples.along_um[at]), samples.wire_um[at]]]))[0]
     text = say("deviation_largest", most=um(samples.wire_um[at], signed=True), block=samples.where(at).block)
     mark_place(canvas, chart.frame, place, text, chart.unit)
+
+
+def all_show(chart: Chart, toolpath: Toolpath) -> bool:
+    """Whether there is room for all borders; where there is not, only numbered blocks have one, at their end."""
+    return len(toolpath) * LEAST_APART * chart.unit <= chart.frame.right - chart.frame.left
+
+
+def draw_borders(canvas: Canvas, chart: Chart, toolpath: Toolpath, height: float) -> None:
+    """Draw borders down the chart, jumps as bars in a strip of a height above it, and numbers of blocks there."""
+    x = chart.x_px(mm(toolpath.before_um))
+    top, unit = chart.frame.top - height, chart.unit
+    for row in np.flatnonzero(toolpath.is_jump).tolist():
+        box = Box(float(x[row]), top + 0.8 * height, float(x[row + 1]), top + 0.95 * height)
+        canvas.box(box, Paint.JUMP, Paint.JUMP, 0.0)
+    shown = numbers(canvas, x, unit)
+    borders = x[1:-1] if all_show(chart, toolpath) else x[[row + 1 for row, _ in shown]]
+    for at in borders.tolist():
+        line = np.array([[at, chart.frame.top - 0.2 * height], [at, chart.frame.bottom]])
+        canvas.polyline(line, Paint.FRAME, BORDER_WIDTH * unit)
+    for row, at in shown:
+        canvas.text((at, top + 0.42 * height), str(row + 1), style.NUMBER * unit, Paint.INK, align=0.5)
+
+
+def numbers(canvas: Canvas, x: Floats, unit: float) -> list[tuple[int, float]]:
+    """Rows whose numbers show, each with the middle of its number, px; `x` (n + 1,) px are the borders of the blocks.
+
+    No number covers another: that of the longer block stays.
+    """
+    blocks = len(x) - 1
+    stride = number_stride(blocks)
+    rows = np.arange(stride - 1, blocks, stride)
+    wide = np.array([canvas.text_width(str(row + 1), style.NUMBER * unit) + APART * unit for row in rows.tolist()])
+    middle = np.clip((x[rows] + x[rows + 1]) / 2.0, x[0] + wide / 2.0, x[-1] - wide / 2.0)
+    taken: list[int] = []
+    for at in np.argsort(x[rows] - x[rows + 1], kind="stable").tolist():
+        if all(abs(middle[at] - middle[other]) >= (wide[at] + wide[other]) / 2.0 for other in taken):
+            taken.append(at)
+    return [(int(rows[at]), float(middle[at])) for at in sorted(taken)]

@@ -1,99 +1,23 @@
-"""What stands around a picture of deviation: title and figures above it, the legend below."""
+"""What the pictures of deviation share: title and figures above them, marks and captions, scale and texts."""
 
-from collections.abc import Callable, Sequence
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
 from parser.geometry.curves import Floats
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import Chart
+from sim.show.draw.chart import AxisRange, Chart, range_of
 from sim.show.draw.furniture import draw_header, elide
-from sim.show.draw.layout import Box, Page, View
-from sim.show.draw.letters import Letters
+from sim.show.draw.layout import Box
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.deviation.samples import Samples
 from sim.show.words.pictures import Words
 
-COLUMN_GAP: Final = 44.0
-
-
-class Entry(NamedTuple):
-    """A line of a legend: what draws its sample into a box, and its text."""
-
-    draw: Callable[[Canvas, Box], None]
-    text: str
-
-
-class Legend(NamedTuple):
-    """Entries in rows, each as full as the page is wide; sizes are px."""
-
-    rows: list[list[tuple[float, Entry]]]
-    unit: float
-
-    @property
-    def height(self) -> float:
-        """What it takes of the page."""
-        return (len(self.rows) + 0.4) * style.LEGEND_ROW * self.unit
-
-
-def legend_of(entries: Sequence[Entry], width_px: float, unit: float) -> Legend:
-    """Lay out a legend on a page of a width."""
-    letters, start = Letters(), style.EDGE * unit
-    rows: list[list[tuple[float, Entry]]] = [[]]
-    left = start
-    for entry in entries:
-        wide = (style.SAMPLE + style.LEGEND_GAP) * unit + letters.width(entry.text, style.TEXT * unit)
-        if rows[-1] and left + wide > width_px - start:
-            rows.append([])
-            left = start
-        rows[-1].append((left, entry))
-        left += wide + COLUMN_GAP * unit
-    return Legend(rows, unit)
-
-
-def draw_legend(canvas: Canvas, legend: Legend) -> None:
-    """Draw a legend at the foot of the page."""
-    row_px, unit = style.LEGEND_ROW * legend.unit, legend.unit
-    for at, row in enumerate(legend.rows):
-        top = canvas.height_px - legend.height + at * row_px
-        for left, entry in row:
-            entry.draw(canvas, Box(left, top, left + style.SAMPLE * unit, top + row_px))
-            x = left + (style.SAMPLE + style.LEGEND_GAP) * unit
-            canvas.text((x, top + row_px / 2.0), entry.text, style.TEXT * unit, Paint.INK)
-
-
-def stroke(paint: Paint, width: float) -> Callable[[Canvas, Box], None]:
-    """A sample that is a line, `width` px wide."""
-    return lambda canvas, box: canvas.polyline(_across(box), paint, width)
-
-
-def dashes(paint: Paint, width: float, unit: float) -> Callable[[Canvas, Box], None]:
-    """A sample that is a dashed line."""
-    dash, gap = style.DASH * unit, style.DASH_GAP * unit
-    return lambda canvas, box: canvas.dashed(_across(box), paint, width, dash, gap)
-
-
-def swatch(fill: Paint, edge: Paint, width: float) -> Callable[[Canvas, Box], None]:
-    """A sample that is a filled rectangle with an edge, `width` px wide."""
-
-    def draw(canvas: Canvas, box: Box) -> None:
-        inset = 0.22 * (box.bottom - box.top)
-        canvas.box(box._replace(top=box.top + inset, bottom=box.bottom - inset), fill, edge, width)
-
-    return draw
-
-
-def ring(paint: Paint, unit: float) -> Callable[[Canvas, Box], None]:
-    """A sample that is the ring around a place."""
-    return lambda canvas, box: canvas.ring(_across(box).mean(axis=0), style.MARK * unit, paint, style.MARK_WIDTH * unit)
-
-
-def _across(box: Box) -> Floats:
-    y = (box.top + box.bottom) / 2.0
-    return np.array([[box.left, y], [box.right, y]])
+LEAST_UM: Final = 0.5
+SEEN: Final = 0.25
+"""The scale reaches to the tolerance if deviations come to this share of it: else it would make them a flat line."""
 
 
 def titled(sheet: Sheet[AnyCanvas], samples: Samples, title: str, height_px: float, note: str = "") -> AnyCanvas:
@@ -104,11 +28,18 @@ def titled(sheet: Sheet[AnyCanvas], samples: Samples, title: str, height_px: flo
     if sheet.width_px < style.LEAST_WIDTH:
         raise ValueError(f"a picture is at least {style.LEAST_WIDTH} px wide, not {sheet.width_px}")
     canvas = sheet.page(round(height_px))
-    nowhere = Box(0.0, 0.0, 0.0, 0.0)
-    page = Page(sheet.width_px, round(height_px), sheet.unit, nowhere, View(1.0, 0.0, 0.0))
     scenario = samples.run.scenario.title
-    draw_header(canvas, page, f"{title} · {scenario}", note or figures_text(sheet.say, samples))
+    draw_header(canvas, sheet.unit, f"{title} · {scenario}", note or figures_text(sheet.say, samples))
     return canvas
+
+
+def range_shown(samples: Samples) -> AxisRange:
+    """Range of the deviations of wire and steps in the cut, of 0, and of the tolerance where they come near it."""
+    shown = [samples.wire_um[samples.cutting], samples.steps_um[samples.cutting], np.zeros(1)]
+    reached = max(float(np.abs(one).max(initial=0.0)) for one in shown)
+    if reached >= SEEN * samples.tolerance_um:
+        shown.append(samples.tolerance_um * np.array([-1.0, 1.0]))
+    return range_of(*shown, least=LEAST_UM)
 
 
 def write_names(canvas: Canvas, chart: Chart, x_name: str, y_name: str) -> None:

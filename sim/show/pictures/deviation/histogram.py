@@ -7,23 +7,13 @@ import numpy as np
 from parser.geometry.curves import Bools, Floats
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import Chart, Range, draw_band, tick_texts
+from sim.show.draw.chart import AxisRange, Chart, draw_band, tick_texts
 from sim.show.draw.layout import Box
+from sim.show.draw.legend import Entry, dashes, draw_at_foot, in_rows, stroke, swatch
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.pictures.deviation.frame import (
-    Entry,
-    dashes,
-    draw_legend,
-    legend_of,
-    stroke,
-    swatch,
-    titled,
-    tolerance_text,
-    um,
-)
+from sim.show.pictures.deviation.frame import range_shown, titled, tolerance_text, um
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.pictures.deviation.scale import range_shown
 from sim.show.words.pictures import Words
 
 HEIGHT: Final = 0.5
@@ -42,21 +32,21 @@ def draw_histogram(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     ValueError where the sheet is narrower than 600 px.
     """
     say, unit = sheet.say, sheet.unit
-    legend = legend_of(_entries(say, samples, unit), sheet.width_px, unit)
-    canvas = titled(sheet, samples, say("deviation_histogram"), HEIGHT * sheet.width_px + legend.height)
+    legend = in_rows(_entries(say, samples), sheet.width_px, unit)
+    canvas = titled(sheet, samples, say("deviation_histogram"), HEIGHT * sheet.width_px + legend.foot)
     size = style.TICK * unit
     foot = HEIGHT * sheet.width_px - 3.0 * size
     frame = Box(1.1 * style.LEFT * unit, style.HEAD * unit + 1.4 * size, sheet.width_px - style.EDGE * unit, foot)
     bins = bins_of(samples)
     wire, steps = (shares(samples, off, bins) for off in (samples.wire_um, samples.steps_um))
-    chart = Chart(frame, Range(float(bins[0]), float(bins[-1])), _scale(wire, steps), unit)
+    chart = Chart(frame, AxisRange(float(bins[0]), float(bins[-1])), _scale(wire, steps), unit)
     _draw_frame(canvas, chart, samples.tolerance_um)
     canvas.text((frame.left, frame.top - 0.9 * size), say("deviation_share"), size, Paint.GREY)
     canvas.text((frame.right, frame.bottom + 2.0 * size), say("deviation_value"), size, Paint.GREY, align=1.0)
     _draw_bars(canvas, chart, bins, wire)
     canvas.polyline(chart.to_px(_outline(chart, bins, steps)), Paint.STEPS, EDGE_WIDTH * unit)
     _draw_limits(canvas, chart, samples)
-    draw_legend(canvas, legend)
+    draw_at_foot(canvas, legend)
     return canvas
 
 
@@ -81,11 +71,11 @@ def path_of_each(along_um: Floats, cutting: Bools) -> Floats:
     return np.asarray((np.append(step, 0.0) + np.append(0.0, step)) / 2.0, dtype=np.float64)
 
 
-def _scale(*shares: Floats) -> Range:
+def _scale(*shares: Floats) -> AxisRange:
     """Powers of ten, from below the least share to the whole."""
     seen = np.concatenate(shares)
     least = float(seen[seen > 0.0].min(initial=0.1))
-    return Range(min(np.floor(np.log10(max(least, LOWEST))), HIGHEST_FOOT), 0.25)
+    return AxisRange(min(np.floor(np.log10(max(least, LOWEST))), HIGHEST_FOOT), 0.25)
 
 
 def _draw_frame(canvas: Canvas, chart: Chart, tolerance_um: float) -> None:
@@ -136,15 +126,15 @@ def _draw_limits(canvas: Canvas, chart: Chart, samples: Samples) -> None:
             canvas.dashed(line, paint, EDGE_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
 
 
-def _entries(say: Words, samples: Samples, unit: float) -> list[Entry]:
-    wire = swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, EDGE_WIDTH * unit)
-    tolerance = swatch(Paint.BAND, Paint.BAND_EDGE, style.GRID_WIDTH * unit)
+def _entries(say: Words, samples: Samples) -> list[Entry]:
+    wire = swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, EDGE_WIDTH)
+    tolerance = swatch(Paint.BAND, Paint.BAND_EDGE, style.GRID_WIDTH)
     p95 = say("deviation_p95_mark", p95=um(samples.p95_um))
     most = say("deviation_largest_mark", most=um(samples.max_um))
     return [
         Entry(wire, say("deviation_wire")),
-        Entry(stroke(Paint.STEPS, EDGE_WIDTH * unit), say("deviation_steps")),
-        Entry(dashes(Paint.INK, EDGE_WIDTH * unit, unit), p95),
-        Entry(dashes(Paint.ERROR, EDGE_WIDTH * unit, unit), most),
+        Entry(stroke(Paint.STEPS, EDGE_WIDTH), say("deviation_steps")),
+        Entry(dashes(Paint.INK, EDGE_WIDTH), p95),
+        Entry(dashes(Paint.ERROR, EDGE_WIDTH), most),
         Entry(tolerance, tolerance_text(say, samples)),
     ]

@@ -7,20 +7,22 @@ import numpy as np
 from controller.stepping.pulses import Pulses
 from parser.geometry.along import places_at
 from parser.geometry.curves import Bools, Floats
-from sim.show.draw.pixel_columns import stretches
-from sim.show.pictures.deviation.feet import feet_um
+from sim.show.draw.chart import stretches
 from sim.show.pictures.deviation.samples import Samples
 from sim.table.motion import origin_um
 
 LEAST_SIDE_UM: Final = 24.0
 SIDES: Final = 3.2
-"""Side of a view, of the deviation that it shows."""
+"""How many times the deviation fits into the side of its view."""
 STEPS: Final = 20_000
-"""Steps on either side of the time of a place that may lie in its view."""
+"""So many steps before and after a place are searched for those in its view."""
 POINTS: Final = 2000
-"""Of the ideal path in a view: no chord leaves an arc by more than a thousandth of the view."""
+"""The ideal path of a view is drawn through so many: no chord leaves an arc by a thousandth of the view."""
 SHOWN: Final = 1.5
-"""Way before and after a place that may lie in its view, of the view's side: a straight path leaves it after 0.7."""
+"""A view shows no more of the path before its place, and after it, in sides of the view.
+
+A straight path leaves the view after 0.7.
+"""
 
 
 class Inset(NamedTuple):
@@ -56,8 +58,7 @@ class Inset(NamedTuple):
 def inset_of(samples: Samples, steps: Pulses, at: int) -> Inset:
     """The place of a sample close up; of the steps of the run only some around it are read."""
     trace = samples.trace
-    one, place = slice(at, at + 1), trace.wire_um[at]
-    foot = feet_um(samples.run.toolpath, trace.row[one], trace.wire_um[one], samples.wire_um[one])[0]
+    place, foot = trace.wire_um[at], samples.foot_um[at]
     side = max(LEAST_SIDE_UM, SIDES * float(np.hypot(*(place - foot))))
     center = (place + foot) / 2.0
     low, high = _reach_um(samples, foot, at, side)
@@ -77,7 +78,7 @@ def inset_of(samples: Samples, steps: Pulses, at: int) -> Inset:
 
 
 def _reach_um(samples: Samples, foot: Floats, at: int, side_um: float) -> tuple[float, float]:
-    """The path length from which and to which a view may show the path, which the wire trails behind."""
+    """Path lengths between which the path may lie in a view; the wire trails behind the length planned by then."""
     trails = float(np.hypot(*(samples.trace.commanded_um[at] - foot)))
     middle, reach = float(samples.along_um[at]), SHOWN * side_um + trails
     return max(middle - reach, 0.0), middle + reach

@@ -13,12 +13,12 @@ MOST: Final = 4
 APART_UM: Final = 80.0
 """No two places are closer together than this: a view is smaller."""
 APART: Final = 0.05
-"""They are so far apart, of the path's longer side, while there are others."""
+"""While enough places keep it, no two are closer than this share of the path's longer side."""
 STRETCH_UM: Final = 200.0
-"""Of each stretch of the path so long its worst place is a candidate, after those of the blocks."""
+"""The worst place of each stretch of this length is a candidate, after the worst places of the blocks."""
 CANDIDATES: Final = 1000
 LEAST_UM: Final = 0.05
-"""Where the wire is less off there is nothing to see; the worst place shows all the same."""
+"""Places where the wire is off by less do not show, but for the worst one."""
 
 
 def worst_places(samples: Samples) -> Ints:

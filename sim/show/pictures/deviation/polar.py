@@ -4,29 +4,19 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Bools, Floats
+from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import CHORD_PX
+from sim.show.draw.chart import Columns, in_cells
 from sim.show.draw.dial import NOMINAL_WIDTH, RIM, Dial, draw_ring_values, draw_rings, ring_for
 from sim.show.draw.layout import Box
+from sim.show.draw.legend import Entry, draw_at_foot, in_rows, ring, stroke, swatch
 from sim.show.draw.paints import Paint
-from sim.show.draw.pixel_columns import Columns, in_cells
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.draw.simplify import simplify
-from sim.show.pictures.deviation.circles import Circle, circles_of
-from sim.show.pictures.deviation.frame import (
-    Entry,
-    draw_legend,
-    legend_of,
-    ring,
-    stroke,
-    swatch,
-    titled,
-    um,
-    write_caption,
-)
+from sim.show.draw.simplify import CHORD_PX, simplify
+from sim.show.pictures.deviation.frame import titled, um, write_caption
 from sim.show.pictures.deviation.samples import Samples
 from sim.show.words.pictures import Words
 
@@ -39,9 +29,23 @@ CAPTION: Final = 76.0
 LARGEST: Final = 1.25
 """The most that a single dial is enlarged."""
 CELL: Final = 4.0
-"""Cells of a dial, px: of more samples the lowest and the highest show."""
+"""Width of a cell around a dial, px: of its samples the lowest and the highest show."""
 WIRE_WIDTH: Final = 2.2
 STEPS_WIDTH: Final = 1.0
+LEAST_RADIUS_UM: Final = 20.0
+LEAST_SWEEP_RAD: Final = 1.5 * np.pi
+SAME_UM: Final = 2.5
+"""Two arcs differ by less in centre and radius if they are of one circle and rounded to whole µm."""
+
+
+class Circle(NamedTuple):
+    """Rows of one circle, `first` to `last`, its centre (2,) and radius µm, and 1 counter-clockwise, −1 clockwise."""
+
+    first: int
+    last: int
+    center_um: Floats
+    radius_um: float
+    turn: int
 
 
 class Around(NamedTuple):
@@ -70,13 +74,13 @@ def draw_polar(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas | None:
     if not found:
         return None
     kept = sorted(sorted(found, key=lambda around: -around.most_um)[:MOST], key=lambda around: around.circle.first)
-    legend = legend_of(_entries(say, unit), sheet.width_px, unit)
+    legend = in_rows(_entries(say), sheet.width_px, unit)
     columns, rows = min(len(kept), 2), (len(kept) + 1) // 2
     wide = (sheet.width_px - GAP * unit) / columns
     size = min((wide - GAP * unit) / (2.0 * RIM), LARGEST * unit)
     tall = 2.0 * RIM * size + (CAPTION + GAP) * unit
     some = say("deviation_some_circles", shown=len(kept), all=len(found)) if len(found) > len(kept) else ""
-    canvas = titled(sheet, samples, say("deviation_polar"), style.HEAD * unit + rows * tall + legend.height, some)
+    canvas = titled(sheet, samples, say("deviation_polar"), style.HEAD * unit + rows * tall + legend.foot, some)
     for at, around in enumerate(kept):
         x = (at % columns + 0.5) * wide + GAP * unit / 2.0
         top = style.HEAD * unit + at // columns * tall
@@ -84,8 +88,33 @@ def draw_polar(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas | None:
         above = Box(x - wide / 2.0, top, x + wide / 2.0, top + CAPTION * unit)
         write_caption(canvas, above, _caption(say, around), unit, align=0.5)
         _draw_dial(canvas, dial, around)
-    draw_legend(canvas, legend)
+    draw_at_foot(canvas, legend)
     return canvas
+
+
+def circles_of(toolpath: Toolpath) -> list[Circle]:
+    """All circles of a program, more than three quarters of them cut, in its order; empty where there is none."""
+    group = np.cumsum(~_goes_on(toolpath))
+    first = np.flatnonzero(np.diff(group, prepend=-1))
+    last = np.append(first[1:], len(group)) - 1
+    swept = np.add.reduceat(np.abs(toolpath.sweep_rad), first)
+    round_ = toolpath.is_arc[first] & (swept > LEAST_SWEEP_RAD)
+    round_[round_] &= toolpath.radius_um[first[round_]] >= LEAST_RADIUS_UM
+    return [_circle(toolpath, *rows) for rows in zip(first[round_].tolist(), last[round_].tolist(), strict=True)]
+
+
+def _goes_on(toolpath: Toolpath) -> Bools:
+    """Whether each block (n,) goes on around the circle of the block before it."""
+    with np.errstate(invalid="ignore"):  # lines have no centre
+        by = np.diff(toolpath.center_um, axis=0)
+        same = (np.hypot(by[:, 0], by[:, 1]) < SAME_UM) & (np.abs(np.diff(toolpath.radius_um)) < SAME_UM)
+    onward = toolpath.sweep_rad[1:] * toolpath.sweep_rad[:-1] > 0.0
+    return np.concatenate([[False], same & onward])
+
+
+def _circle(toolpath: Toolpath, first: int, last: int) -> Circle:
+    turn = 1 if toolpath.sweep_rad[first] > 0.0 else -1
+    return Circle(first, last, toolpath.center_um[first], float(toolpath.radius_um[first]), turn)
 
 
 def around_of(samples: Samples, circle: Circle) -> Around | None:
@@ -124,7 +153,7 @@ def _draw_dial(canvas: Canvas, dial: Dial, around: Around) -> None:
 
 
 def _cells(dial: Dial, turn: int, angle_rad: Floats, off_um: Floats) -> Columns:
-    """Lowest and highest deviation in cells of the way around, over the direction, which goes on past a whole turn."""
+    """Lowest and highest deviation in each cell around a dial; directions go on past a whole turn."""
     travelled = turn * np.maximum.accumulate(turn * np.unwrap(angle_rad))
     cell = np.floor(turn * (travelled - travelled[0]) * dial.ring_px(0) / (CELL * dial.unit)).astype(np.int64)
     return in_cells(cell, travelled, off_um)
@@ -154,10 +183,10 @@ def _caption(say: Words, around: Around) -> tuple[str, str]:
     return name, say("deviation_outward", low=low, high=high)
 
 
-def _entries(say: Words, unit: float) -> list[Entry]:
+def _entries(say: Words) -> list[Entry]:
     return [
-        Entry(swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, WIRE_WIDTH * unit), say("deviation_wire_band")),
-        Entry(swatch(Paint.STEPS_PALE, Paint.STEPS, STEPS_WIDTH * unit), say("deviation_steps_band")),
-        Entry(stroke(Paint.INK, NOMINAL_WIDTH * unit), say("deviation_nominal")),
-        Entry(ring(Paint.START, unit), say("deviation_circle_start")),
+        Entry(swatch(Paint.ACTUAL_PALE, Paint.ACTUAL, WIRE_WIDTH), say("deviation_wire_band")),
+        Entry(swatch(Paint.STEPS_PALE, Paint.STEPS, STEPS_WIDTH), say("deviation_steps_band")),
+        Entry(stroke(Paint.INK, NOMINAL_WIDTH), say("deviation_nominal")),
+        Entry(ring(Paint.START), say("deviation_circle_start")),
     ]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from parser.geometry.curves import Bools, Floats
-from sim.measure.deviation.across import across_um
+from sim.measure.deviation.across import across, across_um
 from sim.measure.deviation.deviation import Where
 from sim.run.dryrun import DryRun
 from sim.setup.part import DEFAULT_TOLERANCE_UM
@@ -30,6 +30,8 @@ class Samples:
         (n,) whether the wire was cutting, not on a jump.
     steps_um, table_um, wire_um
         (n,) float64, deviation of the place commanded, of the table and of the wire.
+    foot_um
+        (n, 2) float64, places on the path that the deviation of the wire is measured from.
     """
 
     run: DryRun
@@ -39,6 +41,7 @@ class Samples:
     steps_um: Floats
     table_um: Floats
     wire_um: Floats
+    foot_um: Floats
 
     def __len__(self) -> int:
         return len(self.along_um)
@@ -75,10 +78,9 @@ class Samples:
 
 def samples_of(run: DryRun) -> Samples:
     """Deviations of all samples of a run."""
-    trip = run.tripped
-    trace = run.trace.until(trip.t_s) if trip else run.trace
+    trace = run.cut
     along = np.asarray(run.plan.at(trace.t_s).along_um)
-    table = across_um(run.toolpath, trace, trace.table_um, along)
+    wire = across(run.toolpath, trace, trace.wire_um, along)
     bows = trace.wire_um is not trace.table_um
     return Samples(
         run=run,
@@ -86,6 +88,7 @@ def samples_of(run: DryRun) -> Samples:
         along_um=along,
         cutting=~run.toolpath.is_jump[trace.row],
         steps_um=across_um(run.toolpath, trace, trace.commanded_um, along),
-        table_um=table,
-        wire_um=across_um(run.toolpath, trace, trace.wire_um, along) if bows else table,
+        table_um=across_um(run.toolpath, trace, trace.table_um, along) if bows else wire.off_um,
+        wire_um=wire.off_um,
+        foot_um=wire.foot_um,
     )

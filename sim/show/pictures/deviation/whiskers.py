@@ -7,40 +7,30 @@ import numpy as np
 from parser.geometry.curves import Floats, Ints
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import CHORD_PX
 from sim.show.draw.flatten import bounds_um, cut_runs, flatten
 from sim.show.draw.furniture import draw_axes, draw_frame
-from sim.show.draw.layout import Box, Page, View, nice_below
+from sim.show.draw.layout import Box, Page, centred, nice_below
+from sim.show.draw.legend import Entry, draw_at_foot, in_rows, stroke
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.draw.simplify import simplify
-from sim.show.pictures.deviation.feet import feet_um
-from sim.show.pictures.deviation.frame import (
-    Entry,
-    draw_legend,
-    legend_of,
-    mark_place,
-    stroke,
-    titled,
-    tolerance_text,
-    um,
-)
+from sim.show.draw.simplify import CHORD_PX, simplify
+from sim.show.pictures.deviation.frame import mark_place, titled, tolerance_text, um
 from sim.show.pictures.deviation.places import worst_of
 from sim.show.pictures.deviation.samples import Samples
 from sim.show.words.pictures import Words
 
 SHARE: Final = 0.06
-"""How long the longest whisker may be, of the plot's longer side."""
+"""Length of the longest whisker, at most, as a share of the plot's longer side."""
 APART: Final = 6.0
 """From whisker to whisker along the path: the worst of each such stretch shows."""
 ROOM: Final = 0.09
-"""Free border of the plot, of its longer side: whiskers have room in it."""
+"""Free border of the plot, as a share of its longer side: whiskers have room in it."""
 FEW: Final = 0.7
-"""Of the way from whisker to whisker, that from sample to sample from which on all show."""
+"""Where samples are on average at least this share of `APART` from each other, each has its whisker."""
 WIDTH: Final = 2.0
 LEAST_UM: Final = 0.01
 LONGEST: Final = 1e6
-"""Magnification whose text takes as much room as any."""
+"""Magnification that is as long to write as any: it tells how many rows the legend takes."""
 LEAST_SIDE_UM: Final = 100.0
 
 
@@ -59,17 +49,17 @@ def draw_whiskers(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas:
     """
     say, unit = sheet.say, sheet.unit
     bounds = _bounds_um(samples)
-    legend_px = legend_of(_entries(say, samples, unit, LONGEST, 1.0), sheet.width_px, unit).height
+    legend_px = in_rows(_entries(say, samples, unit, LONGEST, 1.0), sheet.width_px, unit).foot
     page = _page(bounds, sheet.width_px, unit, legend_px)
     times = magnification(samples, page)
-    legend = legend_of(_entries(say, samples, unit, times, page.view.px_per_um), sheet.width_px, unit)
+    legend = in_rows(_entries(say, samples, unit, times, page.view.px_per_um), sheet.width_px, unit)
     canvas = titled(sheet, samples, say("deviation_whiskers"), page.height_px)
     draw_frame(canvas, page)
     draw_axes(canvas, page)
     whiskers = _whiskers(samples, page, times)
     _draw(canvas, page, samples, whiskers)
     _mark_worst(canvas, page, samples, whiskers, say)
-    draw_legend(canvas, legend)
+    draw_at_foot(canvas, legend)
     return canvas
 
 
@@ -96,23 +86,23 @@ def _page(bounds: Floats, width_px: int, unit: float, legend_px: float) -> Page:
     plot = Box(left, top, right, top + height)
     room = ROOM * max(right - left, height)
     scale = min((right - left - 2.0 * room) / wide, (height - 2.0 * room) / tall)
-    middle_x, middle_y = (bounds.mean(axis=0) * scale).tolist()
-    view = View(scale, (plot.left + plot.right) / 2.0 - middle_x, (plot.top + plot.bottom) / 2.0 + middle_y)
-    return Page(width_px, round(plot.bottom + foot), unit, plot, view)
+    return Page(width_px, round(plot.bottom + foot), unit, plot, centred(bounds.mean(axis=0), scale, plot))
 
 
 def _whiskers(samples: Samples, page: Page, times: float) -> _Whiskers:
     """The whiskers that show, in the order of the path."""
     at = _shown(samples, APART * page.unit / page.view.px_per_um)
-    toolpath, place = samples.run.toolpath, samples.trace.wire_um[at]
-    foot = feet_um(toolpath, samples.trace.row[at], place, samples.wire_um[at])
+    place, foot = samples.trace.wire_um[at], samples.foot_um[at]
     tip = foot + times * (place - foot)
     seen = _uncovered(samples, at, page.view.to_px(np.stack([foot, tip], axis=1)) / (WIDTH * page.unit))
     return _Whiskers(at[seen], foot[seen], tip[seen])
 
 
 def _uncovered(samples: Samples, at: Ints, lines: Floats) -> Ints:
-    """Of whiskers (k, 2, 2), in their widths, those that no worse one covers, as where a path runs over itself."""
+    """Which whiskers no worse one covers, rising; `lines` are their ends (k, 2, 2), in widths of a whisker.
+
+    Whiskers lie on each other where a path runs over itself.
+    """
     worst_first = np.argsort(-np.abs(samples.wire_um[at]), kind="stable")
     cells = np.rint(lines[worst_first]).astype(np.int64).reshape(len(at), 4)
     _, first = np.unique(cells, axis=0, return_index=True)
@@ -122,7 +112,7 @@ def _uncovered(samples: Samples, at: Ints, lines: Floats) -> Ints:
 def _shown(samples: Samples, apart_um: float) -> Ints:
     """The worst sample in each stretch of the cut, and in each block that is no shorter than that.
 
-    All show where a stretch has few of them: one of two or none would look like gaps.
+    Where there are few samples all of them: one of the two in a stretch, and none in the next, would look like gaps.
     """
     cut = np.flatnonzero(samples.cutting)
     if float(samples.along_um[-1]) >= FEW * apart_um * len(samples):
@@ -161,7 +151,7 @@ def _entries(say: Words, samples: Samples, unit: float, times: float, px_per_um:
     size_um = nice_below(style.SAMPLE * unit / (times * px_per_um))
     scale_px = size_um * times * px_per_um
 
-    def scale(canvas: Canvas, box: Box) -> None:
+    def scale(canvas: Canvas, box: Box, unit: float) -> None:
         y, tick = (box.top + box.bottom) / 2.0, 0.2 * style.LEGEND_ROW * unit
         line = np.array([[box.right - scale_px, y], [box.right, y]])
         canvas.polyline(line, Paint.INK, WIDTH * unit)
@@ -170,7 +160,7 @@ def _entries(say: Words, samples: Samples, unit: float, times: float, px_per_um:
 
     return [
         Entry(scale, say("deviation_magnified", size=f"{size_um:g}", times=f"{times:,.0f}")),
-        Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH * unit), say("deviation_ideal")),
-        Entry(stroke(Paint.ACTUAL, WIDTH * unit), say("deviation_inside")),
-        Entry(stroke(Paint.ERROR, WIDTH * unit), say("deviation_outside", tolerance=tolerance_text(say, samples))),
+        Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say("deviation_ideal")),
+        Entry(stroke(Paint.ACTUAL, WIDTH), say("deviation_inside")),
+        Entry(stroke(Paint.ERROR, WIDTH), say("deviation_outside", tolerance=tolerance_text(say, samples))),
     ]

@@ -1,27 +1,34 @@
 """The worst places of a cut close up, down to the single steps, with a map of where they lie."""
 
+from itertools import product
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from controller.stepping.pulses import Pulses
+from parser.geometry.curves import Floats
+from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.show.draw import style
-from sim.show.draw.layout import Box
+from sim.show.draw.canvas import Canvas
+from sim.show.draw.flatten import bounds_um, cut_runs, flatten
+from sim.show.draw.labels import Ink, Room
+from sim.show.draw.layout import Box, View, box_around, centred
+from sim.show.draw.legend import Entry, draw_at_foot, in_rows, stroke
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.pictures.deviation.close_up import (
+from sim.show.draw.simplify import CHORD_PX, simplify
+from sim.show.pictures.deviation.frame import titled, write_caption
+from sim.show.pictures.deviation.inset import inset_of
+from sim.show.pictures.deviation.inset_drawing import (
     IDEAL_WIDTH,
     STEPS_WIDTH,
     TABLE_WIDTH,
     WIRE_WIDTH,
-    draw_close_up,
+    draw_inset,
     grid_um,
     view_of,
 )
-from sim.show.pictures.deviation.frame import Entry, draw_legend, legend_of, stroke, titled, write_caption
-from sim.show.pictures.deviation.inset import inset_of
-from sim.show.pictures.deviation.key_map import BADGE, draw_badge, draw_key_map
 from sim.show.pictures.deviation.places import worst_places
 from sim.show.pictures.deviation.samples import Samples
 from sim.show.words.pictures import Words
@@ -31,6 +38,14 @@ MAP: Final = 0.24
 """Width of the key map, of the page's."""
 GAP: Final = 26.0
 CAPTION: Final = 72.0
+PAD: Final = 44.0
+"""Free border of the key map, room for its numbers."""
+BADGE: Final = 17.0
+DOT: Final = 5.0
+"""Radii of the disc behind a number, and of the dot at its place."""
+AWAY: Final = (30.0, 50.0, 80.0, 120.0)
+"""How far from its place a number may stand."""
+ANGLES: Final = tuple(np.radians([45.0, 135.0, 225.0, 315.0, 0.0, 90.0, 180.0, 270.0]).tolist())
 
 
 class _Cells(NamedTuple):
@@ -50,20 +65,20 @@ def draw_worst(sheet: Sheet[AnyCanvas], samples: Samples, steps: Pulses) -> AnyC
     insets = [inset_of(samples, steps, at) for at in worst_places(samples).tolist()]
     cells = _cells(len(insets), sheet.width_px, unit)
     bows = samples.trace.wire_um is not samples.trace.table_um
-    legend = legend_of(_entries(say, unit, bows=bows), sheet.width_px, unit)
-    canvas = titled(sheet, samples, say("deviation_worst"), cells.bottom + legend.height + 0.3 * GAP * unit)
+    legend = in_rows(_entries(say, bows=bows), sheet.width_px, unit)
+    canvas = titled(sheet, samples, say("deviation_worst"), cells.bottom + legend.foot + 0.3 * GAP * unit)
     for number, (box, inset) in enumerate(zip(cells.insets, insets, strict=True), start=1):
         above = Box(box.left, box.top - CAPTION * unit, box.right, box.top)
         draw_badge(canvas, np.array([box.left + BADGE * unit, (above.top + above.bottom) / 2.0]), number, unit)
         beside = above._replace(left=box.left + 2.6 * BADGE * unit)
         grid = grid_um(view_of(box, inset), unit)
         write_caption(canvas, beside, _caption(say, samples, inset.at, grid), unit)
-        draw_close_up(canvas, box, inset, unit)
+        draw_inset(canvas, box, inset, unit)
     places = np.array([inset.foot_um for inset in insets]).reshape(-1, 2)
     draw_key_map(canvas, cells.key_map, samples.run.toolpath, places, unit)
     name = (cells.key_map.left, cells.key_map.top - 0.3 * CAPTION * unit)
     canvas.text(name, say("deviation_key_map"), style.TEXT * unit, Paint.INK)
-    draw_legend(canvas, legend)
+    draw_at_foot(canvas, legend)
     return canvas
 
 
@@ -92,11 +107,50 @@ def _caption(say: Words, samples: Samples, at: int, grid: float) -> tuple[str, s
     )
 
 
-def _entries(say: Words, unit: float, *, bows: bool) -> list[Entry]:
+def _entries(say: Words, *, bows: bool) -> list[Entry]:
     looks = [
         (Paint.IDEAL, IDEAL_WIDTH, "deviation_ideal"),
         (Paint.STEPS, STEPS_WIDTH, "deviation_staircase"),
         (Paint.ACTUAL, WIRE_WIDTH, "deviation_wire_samples"),
         *[(Paint.GREY, TABLE_WIDTH, "deviation_table")] * bows,
     ]
-    return [Entry(stroke(paint, width * unit), say(key)) for paint, width, key in looks]
+    return [Entry(stroke(paint, width), say(key)) for paint, width, key in looks]
+
+
+def draw_key_map(canvas: Canvas, box: Box, toolpath: Toolpath, places_um: Floats, unit: float) -> None:
+    """Draw the path small into a box, with numbers from 1 at places (k, 2)."""
+    view = _view(box, bounds_um(toolpath), PAD * unit)
+    canvas.box(box, Paint.PAGE, Paint.FRAME, style.GRID_WIDTH * unit)
+    points_um, row = flatten(toolpath, CHORD_PX / view.px_per_um)
+    runs = [simplify(view.to_px(run), CHORD_PX) for run in cut_runs(points_um, row, toolpath.is_jump)]
+    for run in runs:
+        canvas.polyline(run, Paint.IDEAL, style.IDEAL_WIDTH * unit)
+    room = Room(box, Ink(runs, canvas.width_px, canvas.height_px), [])
+    for number, place in enumerate(view.to_px(places_um), start=1):
+        _draw_number(canvas, room, place, number, unit)
+
+
+def _view(box: Box, bounds: Floats, pad: float) -> View:
+    wide, tall = np.maximum(bounds[1] - bounds[0], 1.0).tolist()
+    scale = min((box.right - box.left - 2.0 * pad) / wide, (box.bottom - box.top - 2.0 * pad) / tall)
+    return centred(bounds.mean(axis=0), scale, box)
+
+
+def _draw_number(canvas: Canvas, room: Room, place: Floats, number: int, unit: float) -> None:
+    """Draw a dot at a place and its number near it, where it covers neither another one nor, if it can, the path."""
+    ways = [np.array([np.cos(angle), np.sin(angle)]) for angle in ANGLES]
+    side = 2.0 * BADGE * unit
+    tries = [box_around(place + away * unit * way, side, side) for away, way in product(AWAY, ways)]
+    found = room.take(tries)
+    canvas.disc(place, DOT * unit, Paint.ERROR)
+    if found is None:
+        return
+    at = np.array([(found.left + found.right) / 2.0, (found.top + found.bottom) / 2.0])
+    canvas.polyline(np.stack([place, at]), Paint.ERROR, style.GRID_WIDTH * 1.5 * unit)
+    draw_badge(canvas, at, number, unit)
+
+
+def draw_badge(canvas: Canvas, at: Floats, number: int, unit: float) -> None:
+    """Draw the number of a place in a disc."""
+    canvas.disc(at, BADGE * unit, Paint.ERROR)
+    canvas.text((float(at[0]), float(at[1])), str(number), style.TEXT * unit, Paint.PAGE, align=0.5)

@@ -9,9 +9,9 @@ from parser.geometry.curves import Floats
 from parser.toolpath import Axis
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import CHORD_PX, Chart, draw_band, draw_line
+from sim.show.draw.chart import Chart, draw_band, draw_line
 from sim.show.draw.paints import Paint
-from sim.show.draw.simplify import simplify
+from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.table.record.bins import Envelope
 
 MEAN_WIDTH: Final = 2.4
@@ -41,7 +41,10 @@ def _mean_line(t: Floats, mean: Floats) -> Floats:
 
 
 def _draw_hatch(canvas: Canvas, chart: Chart, t: Floats, ends: Floats) -> None:
-    """Draw a band (b, 2) as upright strokes from the lowest to the highest about them, each where it is widest."""
+    """Draw a band (b, 2) as upright strokes, one in each column of pixels `style.HATCH` wide.
+
+    A stroke reaches from the lowest to the highest value of its column, and stands where the band is widest.
+    """
     column = np.floor((chart.x_px(t[:-1]) - chart.frame.left) / (style.HATCH * chart.unit))
     first = np.flatnonzero(np.diff(column, prepend=-1.0))
     low, high = np.minimum.reduceat(ends[:, 0], first), np.maximum.reduceat(ends[:, 1], first)

@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.findings.facts import telling
-from parser.geometry.curves import Floats
+from sim.run.course import stops_of
 from sim.run.dryrun import DryRun
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
@@ -23,7 +23,7 @@ LINE_WIDTH: Final = 1.5
 _NAMES: Final[Mapping[LossKind, str]] = {"lost-steps": "motion_lost", "trip": "motion_trip"}
 
 
-class Mark(NamedTuple):
+class TimeMark(NamedTuple):
     """What happened at a time: the key of its name, its sign, and what it is drawn in."""
 
     t_s: float
@@ -40,15 +40,13 @@ class _Label(NamedTuple):
     paint: Paint
 
 
-def marks_of(run: DryRun) -> list[Mark]:
+def marks_of(run: DryRun) -> list[TimeMark]:
     """Losses of a run, with the codes of their findings and the axes, and pauses."""
-    ends_s, stops = _borders_s(run), run.toolpath.stops
-    pauses = [
-        Mark(float(ends_s[stop.after]), "motion_pause", "D", Paint.PAUSE) for stop in stops if stop.kind == "pause"
-    ]
+    pauses = [TimeMark(one.t_s, "motion_pause", "D", Paint.PAUSE) for one in stops_of(run) if one.what.kind == "pause"]
     codes = {fact.kind: finding.code for finding, fact in telling(run.findings, Lost)}
     losses = [
-        Mark(loss.t_s, _NAMES[loss.kind], f"{codes[loss.kind]} {loss.axis.name}", Paint.ERROR) for loss in run.losses
+        TimeMark(loss.t_s, _NAMES[loss.kind], f"{codes[loss.kind]} {loss.axis.name}", Paint.ERROR)
+        for loss in run.losses
     ]
     until_s = run.history.t_s[-1]
     return [mark for mark in (*losses, *pauses) if mark.t_s <= until_s]
@@ -57,10 +55,11 @@ def marks_of(run: DryRun) -> list[Mark]:
 def draw_blocks(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> None:
     """Draw ticks at borders of blocks and numbers between, above a chart whose X axis counts `unit_s`.
 
-    Of many blocks some are shown, and of numbers that would overlap the roundest, or those of the longest blocks.
+    Of many blocks only every 2nd, 5th, 10th … has them. Of numbers that would overlap, the roundest is written, and
+    of those that are as round the one of the longest block.
     """
     stride, top, unit = number_stride(len(run.toolpath)), chart.frame.top, chart.unit
-    borders = chart.x_px(_borders_s(run) / unit_s)
+    borders = chart.x_px(run.border_s / unit_s)
     for x in borders[::stride].tolist():
         canvas.polyline(np.array([[x, top - TICK * unit], [x, top]]), Paint.GREY, LINE_WIDTH * unit)
     rows = np.arange(stride - 1, len(run.toolpath), stride)
@@ -71,7 +70,7 @@ def draw_blocks(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> Non
     _draw_labels(canvas, chart, labels, top - (TICK + 0.5 * ROW) * unit)
 
 
-def draw_marks(canvas: Canvas, charts: list[Chart], marks: list[Mark], unit_s: float, y: float) -> None:
+def draw_marks(canvas: Canvas, charts: list[Chart], marks: list[TimeMark], unit_s: float, y: float) -> None:
     """Draw a line through all charts at each mark, and its sign at the height `y` as far as there is room.
 
     Of two in one place the first one shows.
@@ -85,10 +84,6 @@ def draw_marks(canvas: Canvas, charts: list[Chart], marks: list[Mark], unit_s: f
             canvas.dashed(line, paint, LINE_WIDTH * unit, 0.5 * style.DASH * unit, 0.5 * style.DASH_GAP * unit)
     labels = [_Label(at, mark.sign, mark.paint) for at, mark in zip(x, marks, strict=True)]
     _draw_labels(canvas, charts[0], labels, y)
-
-
-def _borders_s(run: DryRun) -> Floats:
-    return np.concatenate([[0.0], np.cumsum(run.block_time_s)])
 
 
 def _draw_labels(canvas: Canvas, chart: Chart, labels: list[_Label], y: float) -> None:

@@ -1,93 +1,58 @@
-"""The legend below the panels, in as many rows as it takes."""
+"""The legend below the panels: the curves of both axes, and the signs on the time axis."""
 
-from collections.abc import Callable
 from functools import partial
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
 from parser.toolpath import Axis
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import Chart, Range
+from sim.show.draw.chart import AxisRange, Chart
 from sim.show.draw.layout import Box
+from sim.show.draw.legend import Entry, Legend, LegendSizes, in_rows, middle
 from sim.show.draw.letters import Letters
 from sim.show.draw.paints import Paint
 from sim.show.pictures.motion.curves import draw_envelope
-from sim.show.pictures.motion.events import Mark
+from sim.show.pictures.motion.events import TimeMark
 from sim.show.words.pictures import Words
 from sim.table.record.bins import Envelope
 
-BETWEEN: Final = 40.0
-"""From one entry to the next."""
+SIZES: Final = LegendSizes(apart=40.0)
+CURVE_HEIGHT: Final = 0.72
+"""Height of the sample of a curve, of its row."""
 
 
-class Entry(NamedTuple):
-    """What draws a sample into a box, its text, and the widths of these, px."""
-
-    draw: Callable[[Canvas, Box], None]
-    text: str
-    sample: float
-    wide: float
-
-    def width(self, unit: float) -> float:
-        """Width of all of it."""
-        return self.sample + style.LEGEND_GAP * unit + self.wide
-
-
-def legend_rows(marks: list[Mark], stride: int, say: Words, width_px: int, unit: float) -> list[list[Entry]]:
-    """Entries of a legend by the rows that they stand in on a page of a width."""
-    letters = Letters()
-
-    def entry(draw: Callable[[Canvas, Box], None], text: str, sign: str = "") -> Entry:
-        sample = max(style.SAMPLE * unit, letters.width(sign, style.NUMBER * unit))
-        return Entry(draw, text, sample, letters.width(text, style.TEXT * unit))
-
+def legend_of(marks: list[TimeMark], stride: int, say: Words, width_px: int, unit: float) -> Legend:
+    """The legend on a page of a width."""
     number = say("motion_number") if stride == 1 else say("motion_number_every", stride=stride)
     entries = [
-        *(entry(partial(_axis, axis, unit), say("motion_axis", axis=axis.name)) for axis in (Axis.X, Axis.Y)),
-        entry(partial(_sign, "12", Paint.GREY, unit), number),
-        *(entry(partial(_sign, sign, paint, unit), say(name), sign) for name, sign, paint in _kinds(marks)),
+        *(Entry(partial(_draw_curve, axis), say("motion_axis", axis=axis.name)) for axis in (Axis.X, Axis.Y)),
+        Entry(partial(_draw_sign, "12", Paint.GREY), number),
+        *(Entry(partial(_draw_sign, *looks), say(name), _share(looks[0], unit)) for name, looks in _kinds(marks)),
     ]
-    return _rows(entries, width_px - 2.0 * style.EDGE * unit, unit)
+    return in_rows(entries, width_px, unit, SIZES)
 
 
-def _kinds(marks: list[Mark]) -> list[tuple[str, str, Paint]]:
-    """Kinds of marks by their names, each with the sign of the first."""
+def _share(sign: str, unit: float) -> float:
+    """Width of the sample of a sign, of the usual one: no less than that."""
+    return max(1.0, Letters().width(sign, style.NUMBER * unit) / (SIZES.sample * unit))
+
+
+def _kinds(marks: list[TimeMark]) -> list[tuple[str, tuple[str, Paint]]]:
+    """Kinds of marks by their names, each with the sign and the paint of the first."""
     first = {mark.name: mark for mark in reversed(marks)}
-    return [(name, first[name].sign, first[name].paint) for name in sorted(first)]
+    return [(name, (first[name].sign, first[name].paint)) for name in sorted(first)]
 
 
-def _rows(entries: list[Entry], room: float, unit: float) -> list[list[Entry]]:
-    rows: list[list[Entry]] = [[]]
-    left = 0.0
-    for entry in entries:
-        if rows[-1] and left + entry.width(unit) > room:
-            rows.append([])
-            left = 0.0
-        rows[-1].append(entry)
-        left += entry.width(unit) + BETWEEN * unit
-    return rows
-
-
-def draw_legend(canvas: Canvas, rows: list[list[Entry]], top: float, unit: float) -> None:
-    """Draw the rows from `top` on."""
-    half = 0.36 * style.LEGEND_ROW * unit
-    for number, row in enumerate(rows):
-        left, middle = style.EDGE * unit, top + (number + 0.5) * style.LEGEND_ROW * unit
-        for entry in row:
-            right = left + entry.sample
-            entry.draw(canvas, Box(left, middle - half, right, middle + half))
-            canvas.text((right + style.LEGEND_GAP * unit, middle), entry.text, style.TEXT * unit, Paint.INK)
-            left += entry.width(unit) + BETWEEN * unit
-
-
-def _axis(axis: Axis, unit: float, canvas: Canvas, box: Box) -> None:
-    chart = Chart(box, Range(0.0, 1.0), Range(-1.0, 1.0), unit)
+def _draw_curve(axis: Axis, canvas: Canvas, box: Box, unit: float) -> None:
+    free = (1.0 - CURVE_HEIGHT) / 2.0 * (box.bottom - box.top)
+    frame = box._replace(top=box.top + free, bottom=box.bottom - free)
+    chart = Chart(frame, AxisRange(0.0, 1.0), AxisRange(-1.0, 1.0), unit)
     ones = np.ones((1, 2))
     draw_envelope(canvas, chart, np.array([0.0, 1.0]), Envelope(-ones, ones, 0.0 * ones), [axis])
 
 
-def _sign(text: str, paint: Paint, unit: float, canvas: Canvas, box: Box) -> None:
-    middle = (box.left + box.right) / 2.0, (box.top + box.bottom) / 2.0
-    canvas.text(middle, text, style.NUMBER * unit, paint, align=0.5)
+def _draw_sign(text: str, paint: Paint, canvas: Canvas, box: Box, unit: float) -> None:
+    x, y = middle(box).tolist()
+    canvas.text((x, y), text, style.NUMBER * unit, paint, align=0.5)

@@ -1,21 +1,52 @@
-"""Panels: what each shows of a run's history, in units for people, and over which range."""
+"""Panels: what each shows of a run's history, in units for people, with its levels, and over which range."""
 
+import math
+from collections.abc import Iterable
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Axis
 from parser.units import mm
 from sim.run.dryrun import DryRun
-from sim.show.draw.chart import Range, range_of
-from sim.show.pictures.motion.levels import Level, feed_levels, limit_levels
+from sim.show.draw.chart import AxisRange, range_of
+from sim.show.draw.paints import Paint
+from sim.show.words.pictures import Words
 from sim.table.record.bins import Envelope
 from sim.table.record.history import History
+from sim.table.record.peaks import Quantity
+from sim.units import three_figures
 
 ROOM: Final = 0.08
 """Share of its range that a panel leaves free at either side."""
 REACH: Final = 0.3
 """Share of the range by which a panel grows to show a level."""
+
+
+class Level(NamedTuple):
+    """A magnitude that a panel shows on both sides of 0.
+
+    Attributes
+    ----------
+    key
+        Of its text.
+    value
+        In the unit of the panel.
+    axes
+        Whose it is, such as ``X, Y``; empty where it is that of the path.
+    paint
+        What it is drawn in.
+    """
+
+    key: str
+    value: float
+    axes: str
+    paint: Paint
+
+    def text(self, say: Words) -> str:
+        """What it is, with three figures of its value."""
+        return say(self.key, value=three_figures(self.value), axes=self.axes)
 
 
 class Panel(NamedTuple):
@@ -27,7 +58,7 @@ class Panel(NamedTuple):
     least: float
 
     @property
-    def range(self) -> Range:
+    def range(self) -> AxisRange:
         """From the lowest to the highest, and to levels just outside."""
         shown = range_of(self.envelope.low, self.envelope.high, least=self.least)
         reach, levels = shown.wider(REACH), np.array([level.value for level in self.levels])
@@ -71,3 +102,26 @@ def _pool(envelope: Envelope, first: Ints, width_s: Floats) -> Envelope:
         high=np.maximum.reduceat(envelope.high, first, axis=0),
         mean=area / np.add.reduceat(width_s, first)[:, None],
     )
+
+
+def feed_levels(run: DryRun) -> list[Level]:
+    """Feeds of cuts and jumps, mm/s, as far as there are any."""
+    feeds = run.scenario.machine.feeds(run.scenario.thickness_mm)
+    jumps = run.toolpath.is_jump
+    shown = (("motion_cut_feed", feeds.cut_um_s, not jumps.all()), ("motion_jump_feed", feeds.jump_um_s, jumps.any()))
+    return [Level(key, mm(feed), "", Paint.GREY) for key, feed, there in shown if there]
+
+
+def limit_levels(run: DryRun, quantity: Quantity, key: str, scale: float = 1.0) -> list[Level]:
+    """Limits of both axes at the moments when the axes came nearest to them, times `scale`; equal ones as one level."""
+    limits = [(peak.limit * scale, peak.axis) for peak in run.peaks if peak.quantity == quantity]
+    finite = [(three_figures(value), value, axis) for value, axis in limits if math.isfinite(value)]
+    same = {figures: value for figures, value, _ in finite}
+    return [
+        Level(key, value, _axes(axis for of, _, axis in finite if of == figures), Paint.ERROR)
+        for figures, value in same.items()
+    ]
+
+
+def _axes(axes: Iterable[Axis]) -> str:
+    return ", ".join(axis.name for axis in sorted(axes))

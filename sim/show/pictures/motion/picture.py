@@ -8,17 +8,17 @@ from parser.toolpath import Axis
 from sim.run.dryrun import DryRun
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.chart import Chart, Range, draw_chart, draw_level
+from sim.show.draw.chart import AxisRange, Chart, draw_chart, draw_level
 from sim.show.draw.furniture import draw_header
 from sim.show.draw.labels import number_stride
-from sim.show.draw.layout import Box, Page, View
+from sim.show.draw.layout import Box
+from sim.show.draw.legend import draw_legend
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.motion.curves import draw_envelope
 from sim.show.pictures.motion.events import ROW, TICK, draw_blocks, draw_marks, marks_of
-from sim.show.pictures.motion.legend import draw_legend, legend_rows
-from sim.show.pictures.motion.levels import Level
-from sim.show.pictures.motion.panels import Panel, panels_of
+from sim.show.pictures.motion.legend import legend_of
+from sim.show.pictures.motion.panels import Level, Panel, panels_of
 from sim.show.words.pictures import Words
 from sim.units import clock
 
@@ -65,22 +65,21 @@ def draw_motion(sheet: Sheet[AnyCanvas], run: DryRun) -> AnyCanvas:
     """Draw velocity, acceleration, following error and force of both axes over the time of a run."""
     unit, say = sheet.unit, sheet.say
     marks = marks_of(run)
-    rows = legend_rows(marks, number_stride(len(run.toolpath)), say, sheet.width_px, unit)
-    layout = _layout(sheet, bool(marks), len(rows))
+    legend = legend_of(marks, number_stride(len(run.toolpath)), say, sheet.width_px, unit)
+    layout = _layout(sheet, bool(marks), legend.foot)
     canvas = sheet.page(layout.height)
-    page = Page(canvas.width_px, canvas.height_px, unit, layout.frames[0], View(1.0, 0.0, 0.0))
-    draw_header(canvas, page, run.scenario.title, _note(run, say))
+    draw_header(canvas, unit, run.scenario.title, _note(run, say))
     time = _time_of(run)
     charts = _draw_panels(canvas, layout, run, time, sheet)
     draw_blocks(canvas, charts[0], run, time.unit_s)
     draw_marks(canvas, charts, marks, time.unit_s, layout.signs)
     frame, size = charts[-1].frame, style.TICK * unit
     canvas.text((frame.right, frame.bottom + 2.1 * size), say(time.name), size, Paint.GREY, align=1.0)
-    draw_legend(canvas, rows, layout.legend, unit)
+    draw_legend(canvas, legend, 0.0, layout.legend)
     return canvas
 
 
-def _layout(sheet: Sheet[AnyCanvas], marks: bool, rows: int) -> _Layout:
+def _layout(sheet: Sheet[AnyCanvas], marks: bool, legend_px: float) -> _Layout:
     unit = sheet.unit
     above = (TICK + ROW + ROW * marks) * unit
     height, name = max(HEIGHT * sheet.width_px, LEAST_HEIGHT * unit), NAME_ROW * unit
@@ -89,9 +88,7 @@ def _layout(sheet: Sheet[AnyCanvas], marks: bool, rows: int) -> _Layout:
     frames = [Box(style.LEFT * unit, top, sheet.width_px - style.EDGE * unit, top + height) for top in tops]
     names = [top - 0.5 * name - above * (top == first) for top in tops]
     legend = frames[-1].bottom + TIME_ROWS * unit
-    return _Layout(
-        frames, names, first - (TICK + 1.5 * ROW) * unit, legend, round(legend + (rows + 0.4) * style.LEGEND_ROW * unit)
-    )
+    return _Layout(frames, names, first - (TICK + 1.5 * ROW) * unit, legend, round(legend + legend_px))
 
 
 def _time_of(run: DryRun) -> _Time:
@@ -108,7 +105,7 @@ def _note(run: DryRun, say: Words) -> str:
 
 def _draw_panels(canvas: Canvas, layout: _Layout, run: DryRun, time: _Time, sheet: Sheet[AnyCanvas]) -> list[Chart]:
     """Draw all panels; the charts in their frames."""
-    frame, across = layout.frames[0], Range(0.0, time.whole_s / time.unit_s)
+    frame, across = layout.frames[0], AxisRange(0.0, time.whole_s / time.unit_s)
     t_s, panels = panels_of(run, round((frame.right - frame.left) / (BIN * sheet.unit)))
     charts = [Chart(frame, across, panel.range, sheet.unit) for frame, panel in zip(layout.frames, panels, strict=True)]
     for chart, panel, name in zip(charts, panels, layout.names, strict=True):

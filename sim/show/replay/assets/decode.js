@@ -21,6 +21,7 @@
  * @property {Float64Array} wireY
  * @property {Float64Array} commandedX
  * @property {Float64Array} commandedY
+ * @property {Float64Array} footRow the row that the deviation is measured from
  */
 
 /** @typedef {Steps & { doc: ReplayDocument, steps: number, samples: Samples }} Replay */
@@ -46,7 +47,7 @@ async function inflated(base64) {
 }
 
 /**
- * So many signed numbers of a packed column, seven bits a byte, the lowest first (sim/show/replay/packed.py).
+ * So many signed numbers of a packed column, seven bits a byte, the lowest first (sim/show/replay/tape.py).
  * @param {Uint8Array} bytes
  * @param {number} count
  */
@@ -171,14 +172,15 @@ function beside(column, changes, grain) {
 async function sampleColumns(tape) {
   /** @param {string} column */
   const unpacked = async (column) => numbers(await inflated(column), tape.samples);
-  const [ticks, tableX, tableY, wireX, wireY] = await Promise.all([
+  const [ticks, footRow, tableX, tableY, wireX, wireY] = await Promise.all([
     unpacked(tape.sample_ticks),
+    unpacked(tape.foot_row),
     unpacked(tape.table_x),
     unpacked(tape.table_y),
     tape.wire_x === null ? null : unpacked(tape.wire_x),
     tape.wire_y === null ? null : unpacked(tape.wire_y),
   ]);
-  return { ticks, tableX, tableY, wireX, wireY };
+  return { ticks, footRow, tableX, tableY, wireX, wireY };
 }
 
 /**
@@ -195,7 +197,8 @@ function samplesOf(tape, columns, steps) {
   const tableY = beside(commandedY, columns.tableY, tape.grain_um);
   const wireX = columns.wireX ? beside(tableX, columns.wireX, tape.grain_um) : tableX;
   const wireY = columns.wireY ? beside(tableY, columns.wireY, tape.grain_um) : tableY;
-  return { t, tableX, tableY, wireX, wireY, commandedX, commandedY };
+  const footRow = beside(new Float64Array(tape.samples), columns.footRow, 1);
+  return { t, tableX, tableY, wireX, wireY, commandedX, commandedY, footRow };
 }
 
 /**

@@ -80,10 +80,9 @@ import { element } from "../../html/assets/elements.js";
 /** @typedef {"X" | "Y"} Axis */
 
 /**
- * Columns of p phases; `t_s` and `along_um` have p + 1.
+ * Columns of p phases; `t_s` has p + 1.
  * @typedef {object} Plan
  * @property {number[]} t_s
- * @property {number[]} along_um
  * @property {number[]} speed_um_s
  * @property {number[]} acceleration_um_s2
  * @property {number[] | null} jerk_um_s3
@@ -174,6 +173,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {string} table_y
  * @property {string | null} wire_x
  * @property {string | null} wire_y
+ * @property {string} foot_row
  */
 
 /** @typedef {Finding & { t_s: number }} TimedFinding */

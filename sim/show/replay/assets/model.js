@@ -1,6 +1,6 @@
 // What a replay knows of any moment and any step of it; nothing here knows the page.
 import { decisionAt } from "./decisions.js";
-import { nearest } from "./nearest.js";
+import { foot } from "./nearest.js";
 import { clamp, countUpTo } from "./numbers.js";
 
 /**
@@ -10,7 +10,7 @@ import { clamp, countUpTo } from "./numbers.js";
 
 /** @typedef {ReturnType<typeof modelOf>} Model */
 /** @typedef {{ at: number, next: number, share: number }} Between Two samples, and the share of the way between them. */
-/** @typedef {{ um: number, foot: Place, row: number }} Deviation */
+/** @typedef {{ um: number, foot: Place }} Deviation */
 
 /**
  * What the controller commands at a time, where table and wire really are, feed, and what is left.
@@ -25,29 +25,21 @@ import { clamp, countUpTo } from "./numbers.js";
  * @property {number} feed_um_s
  * @property {number | null} count_left
  * @property {number} remaining_s
- * @property {number} along
  */
 
-/** Blocks to look back at for the deviation of a wire that trails, as sim/measure/deviation/across.py does. */
-const MOST_BACK = 50;
-/** Another block counts where it is nearer by more than rounding: of two as near, the one that is running. */
-const NEARER_UM = 1e-6;
-
 /**
- * The plan at a time: length done, and speed.
+ * Planned speed at a time.
  * @param {Plan} plan
  * @param {number} t
  */
-function planned(plan, t) {
+function plannedSpeed(plan, t) {
   const phases = plan.speed_um_s.length;
-  if (!phases) return { along: 0, speed: 0 };
+  if (!phases || t > plan.t_s[phases]) return 0;
   const at = clamp(countUpTo(plan.t_s, t) - 1, 0, phases - 1);
-  const dt = clamp(t, 0, plan.t_s[phases]) - plan.t_s[at];
+  const dt = t - plan.t_s[at];
   const [v, a] = [plan.speed_um_s[at], plan.acceleration_um_s2[at]];
   const j = plan.jerk_um_s3 ? plan.jerk_um_s3[at] : 0;
-  const along = plan.along_um[at] + dt * (v + dt * (a / 2 + (dt * j) / 6));
-  const speed = t > plan.t_s[phases] ? 0 : Math.max(v + dt * (a + (dt * j) / 2), 0);
-  return { along: clamp(along, plan.along_um[at], plan.along_um[at + 1]), speed };
+  return Math.max(v + dt * (a + (dt * j) / 2), 0);
 }
 
 /**
@@ -79,8 +71,6 @@ export function modelOf(replay) {
   const { doc, samples } = replay;
   const blocks = doc.blocks;
   const rows = blocks.kind.length;
-  const before = new Float64Array(rows + 1);
-  for (let row = 0; row < rows; row++) before[row + 1] = before[row] + blocks.length_um[row];
 
   /**
    * Number of steps done by a time.
@@ -125,7 +115,6 @@ export function modelOf(replay) {
     const t = clamp(time, 0, doc.duration_s);
     const [step, row] = [stepAt(t), blockAt(t)];
     const sample = sampleAt(samples, t);
-    const { along, speed } = planned(doc.plan, t);
     return {
       t,
       step,
@@ -134,10 +123,9 @@ export function modelOf(replay) {
       y: replay.y[step],
       wire: [between(samples.wireX, sample), between(samples.wireY, sample)],
       table: [between(samples.tableX, sample), between(samples.tableY, sample)],
-      feed_um_s: speed,
+      feed_um_s: plannedSpeed(doc.plan, t),
       count_left: countLeft(row, step),
       remaining_s: doc.duration_s - t,
-      along,
     };
   }
 
@@ -148,31 +136,17 @@ export function modelOf(replay) {
   const decision = (step) => decisionAt(replay, step, blockOfStep(step));
 
   /**
-   * First row that a wire so far from its command may still be cutting in.
-   * @param {number} row
-   * @param {number} reach
-   */
-  function earliestRow(row, reach) {
-    const found = reach < before[row] ? countUpTo(before, reach) - 1 : row;
-    return Math.max(found, row - MOST_BACK, 0);
-  }
-
-  /**
-   * How far the wire is from the ideal curve of its block: {um, foot, row}.
+   * How far the wire is from the ideal path, and from which place on it; between two samples both go straight.
    * @param {number} t
    * @returns {Deviation}
    */
   function deviation(t) {
-    const { wire, x, y, along, block } = stateAt(t);
-    let best = nearest(blocks, block, ...wire);
-    const first = earliestRow(block, along - 2 * Math.hypot(wire[0] - x, wire[1] - y));
-    const others = [clamp(block + best.beyond, 0, rows - 1)];
-    for (let row = block - 1; row >= first; row--) others.push(row);
-    for (const row of others) {
-      const other = nearest(blocks, row, ...wire);
-      if (other.um < best.um - NEARER_UM) best = other;
-    }
-    return { um: best.um, foot: best.foot, row: best.row };
+    const sample = sampleAt(samples, clamp(t, 0, doc.duration_s));
+    const { wireX, wireY, footRow } = samples;
+    const [here, next] = [sample.at, sample.next].map((at) => foot(blocks, footRow[at], wireX[at], wireY[at]));
+    /** @type {Place} */
+    const on = [here[0] + sample.share * (next[0] - here[0]), here[1] + sample.share * (next[1] - here[1])];
+    return { um: Math.hypot(between(wireX, sample) - on[0], between(wireY, sample) - on[1]), foot: on };
   }
 
   const duration = doc.duration_s;

@@ -1,0 +1,119 @@
+"""The core of the card: its clock, its cards, and the one way every call goes."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from controller.card.core.call import Function, read_arguments
+from controller.card.core.codes import Code, Refused
+from controller.card.core.settings import CardSettings
+from controller.card.core.state import AxisState, CardState
+from controller.card.engine.engine import Engine
+from controller.stepping.pulses import Pulses
+
+LONGEST_S = 1e9
+"""A card is simulated for 31 years at most: until then its clock tells servo periods apart to a thousandth."""
+
+
+class Logged(NamedTuple):
+    """One call as logged: time when it was made, s; name; arguments; answer; coordinate status after it."""
+
+    t_s: float
+    name: str
+    arguments: tuple[Any, ...]
+    answer: Any
+    status: int
+
+
+class CardBase:
+    """Clock, cards and call path; the groups of functions build on it.
+
+    Parameters
+    ----------
+    settings
+        Of all cards.
+    on_pulses
+        Told the pulses of X and Y of card 1 as they are worked out, in order.
+    on_call
+        Told every call.
+    """
+
+    def __init__(
+        self,
+        settings: CardSettings = CardSettings(),  # noqa: B008 - frozen
+        *,
+        on_pulses: Callable[[Pulses], None] | None = None,
+        on_call: Callable[[Logged], None] | None = None,
+    ) -> None:
+        self.settings = settings
+        self._on_call = on_call
+        self._states = [CardState() for _ in range(settings.cards)]
+        self._engines = [
+            Engine(settings, state, on_pulses if number == 0 else None) for number, state in enumerate(self._states)
+        ]
+        self._number = 0
+        self._now_s = 0.0
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time since the card was made."""
+        return self._now_s
+
+    def sleep(self, ms: float) -> None:
+        """Let simulated time pass, as a program's own sleep does; the pulses due by then are handed out.
+
+        TypeError where ms is no number, ValueError where it is negative or goes beyond `LONGEST_S` on the card's clock.
+        """
+        began = self._now_s
+        try:
+            fits = 0.0 <= ms <= (LONGEST_S - began) * 1000.0
+        except TypeError:
+            raise TypeError(f"a sleep takes a number of ms, not {ms!r}") from None
+        if not fits:
+            raise ValueError(f"a sleep takes 0 ms or more, up to {LONGEST_S:g} s on the clock, not {ms} ms")
+        self._pass(float(ms) / 1000.0)
+        for engine in self._engines:
+            engine.motion.hand_out_heard()
+        self._log(began, "sleep", (ms,), None)
+
+    @property
+    def _state(self) -> CardState:
+        return self._states[self._number]
+
+    @property
+    def _engine(self) -> Engine:
+        return self._engines[self._number]
+
+    def _axis(self, number: int) -> AxisState:
+        """Axis 1 to 4. Refused with 7 where the card has none of that number."""
+        if not 1 <= number <= self.settings.axes:
+            raise Refused(Code.PARAMETER)
+        return self._state.axes[number - 1]
+
+    def _pass(self, seconds: float) -> None:
+        self._now_s += seconds
+        for engine in self._engines:
+            engine.sequencer.advance(self._now_s)
+
+    def _called(self, function: Function, given: tuple[Any, ...]) -> Any:
+        began = self._now_s
+        self._pass(self.settings.call_s)
+        answer = self._answer(function, given)
+        self._log(began, function.body.__name__, given, answer)
+        return answer
+
+    def _answer(self, function: Function, given: tuple[Any, ...]) -> Any:
+        body, types, zeros, when_closed, _ = function
+        if not (self._state.opened or when_closed):
+            return (int(Code.CLOSED), *zeros) if zeros else int(Code.CLOSED)
+        try:
+            values = body(self, *read_arguments(types, given))
+        except Refused as refused:
+            self._state.command_status = refused.command_status
+            return (int(refused.code), *zeros) if zeros else int(refused.code)
+        if not zeros:
+            return int(Code.OK)
+        return (int(Code.OK), *values) if len(zeros) > 1 else (int(Code.OK), values)
+
+    def _log(self, began: float, name: str, arguments: tuple[Any, ...], answer: Any) -> None:
+        if self._on_call is not None:
+            self._on_call(Logged(began, name, arguments, answer, self._engine.coordinate_status()))

@@ -1,0 +1,114 @@
+"""How a function of the card is called: it passes time, checks its arguments as C types, answers with a code.
+
+A body is written for the good case: it returns nothing, or the values of its out-parameters, and raises `Refused` where
+the card says no. `gt` makes the answer of it: the code, or the code and the values, zeros where it was refused.
+"""
+
+import functools
+import math
+import operator
+from collections.abc import Callable
+from inspect import Parameter, signature
+from typing import Annotated, Any, NamedTuple, get_type_hints
+
+from controller.card.core.codes import Code, Refused
+
+
+class CType(NamedTuple):
+    """A C type of the library's header: its name, and the whole numbers it holds; None where it is a double."""
+
+    name: str
+    low: int | None = None
+    high: int | None = None
+
+    def read(self, value: Any) -> Any:
+        """The number as int or float. Refused with 7 unless it is a finite one, and a whole one within the bounds."""
+        try:
+            if self.low is None or self.high is None:
+                if math.isfinite(value):
+                    return float(value)
+            elif self.low <= (whole := operator.index(value)) <= self.high:
+                return whole
+        except (TypeError, OverflowError):
+            pass
+        raise Refused(Code.PARAMETER)
+
+
+UShort = Annotated[int, CType("unsigned short", 0, 0xFFFF)]
+Short = Annotated[int, CType("short", -0x8000, 0x7FFF)]
+Char = Annotated[int, CType("char", -0x80, 0xFF)]
+Int = Annotated[int, CType("int", -0x8000_0000, 0x7FFF_FFFF)]
+Long = Annotated[int, CType("long", -0x8000_0000, 0x7FFF_FFFF)]  # 32 bit in the library; grade A
+ULong = Annotated[int, CType("unsigned long", 0, 0xFFFF_FFFF)]
+Double = Annotated[float, CType("double")]
+
+
+ADDRESSED = ("axis", "Axis", "AxisNum")
+"""Names of a first parameter that is the number of an axis."""
+
+
+class Function(NamedTuple):
+    """A function of the card: its body, the C types of its parameters, and what `gt` was told.
+
+    `of_axis` tells whether it is addressed to an axis by number.
+    """
+
+    body: Callable[..., Any]
+    types: list[CType | None]
+    zeros: tuple[Any, ...]
+    when_closed: bool
+    of_axis: bool
+
+
+def gt(*, zeros: tuple[Any, ...] = (), when_closed: bool = False) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Decorator of a function of the card.
+
+    Parameters
+    ----------
+    zeros
+        Values of the out-parameters where the call is refused; empty where there are none.
+    when_closed
+        Whether the function answers while the card is not open.
+    """
+
+    def wrap(body: Callable[..., Any]) -> Callable[..., Any]:
+        hints = get_type_hints(body, include_extras=True)
+        parameters = [p for p in signature(body).parameters.values() if p.name != "self"]
+        types = [_c_type(hints[p.name]) for p in parameters]
+        of_axis = bool(parameters) and parameters[0].name in ADDRESSED
+        function = Function(body, types, zeros, when_closed, of_axis)
+
+        @functools.wraps(body)
+        def call(self: Any, *args: Any, **named: Any) -> Any:
+            given = _bound(parameters, args, named) if named or len(args) != len(parameters) else args
+            return self._called(function, given)
+
+        return call
+
+    return wrap
+
+
+def _c_type(hint: Any) -> CType | None:
+    return next((meta for meta in getattr(hint, "__metadata__", ()) if isinstance(meta, CType)), None)
+
+
+def _bound(parameters: list[Parameter], args: tuple[Any, ...], named: dict[str, Any]) -> tuple[Any, ...]:
+    """Arguments in order, with defaults. TypeError where one is missing or unknown."""
+    values = list(args)
+    for parameter in parameters[len(args) :]:
+        if parameter.name in named:
+            values.append(named.pop(parameter.name))
+        elif parameter.default is not Parameter.empty:
+            values.append(parameter.default)
+        else:
+            raise TypeError(f"{parameter.name} is missing")
+    if named:
+        raise TypeError(f"unknown arguments: {', '.join(named)}")
+    if len(args) > len(parameters):
+        raise TypeError(f"{len(parameters)} arguments at most, not {len(args)}")
+    return tuple(values)
+
+
+def read_arguments(types: list[CType | None], given: tuple[Any, ...]) -> list[Any]:
+    """Arguments as their C types hold them. Refused with 7 where one does not fit."""
+    return [value if c_type is None else c_type.read(value) for c_type, value in zip(types, given, strict=True)]

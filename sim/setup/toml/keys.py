@@ -1,0 +1,152 @@
+"""The table of settings: the keys of each section, from which files are read and written, shown and documented.
+
+A section of a file stands in one `Section`, beside the class that it fills. A key that is added to it is read, written,
+shown in the settings of ``report.html`` and listed in ``docs/scenarios.md``; its texts stand in
+``sim/setup/settings.toml``.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, Final, Literal, NamedTuple
+
+from sim.setup.toml.kinds import Kind
+from sim.setup.toml.reader import refuse_unknown, section
+
+REQUIRED: Final = object()
+"""In place of a default: the key must be given."""
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """One setting.
+
+    Attributes
+    ----------
+    name
+        Its key in the file, with the unit at its end.
+    kind
+        What its values are.
+    field
+        Where what the section fills keeps it: an attribute, or with dots one of a part, such as ``limits.jerk_um_s3``
+        and ``backlash_um.0``; the name where empty.
+    default
+        Value where it is left out, as the file would say it, in or out of the bounds; None for no value.
+    get
+        How it is found in what the section fills, where that is no attribute; None where there is nothing to write.
+    """
+
+    name: str
+    kind: Kind
+    field: str = ""
+    default: Any = REQUIRED
+    get: Callable[[Any], Any] | None = None
+
+    @property
+    def is_required(self) -> bool:
+        """Whether it has to be given."""
+        return self.default is REQUIRED
+
+    def read(self, table: Mapping[str, Any], where: str) -> Any:
+        """Value inside: that of the file or the default. SettingsError names file and key."""
+        if self.name in table or self.is_required:
+            return self.kind.kept(self.kind.checked(table, self.name, where))
+        return None if self.default is None else self.kind.kept(self.default)
+
+    def written(self, owner: object) -> Any:
+        """Value in the file that makes this owner; None where it says nothing, as of a limit that there is not."""
+        value = self.get(owner) if self.get else _at(owner, self.path)
+        nothing = value is None or (isinstance(value, float) and math.isinf(value))
+        return None if nothing else self.kind.written(value)
+
+    @property
+    def path(self) -> str:
+        """Where it is kept, with dots."""
+        return self.field or self.name
+
+
+class Written(NamedTuple):
+    """A section as it is written: values as plain Python, by the names of the keys."""
+
+    section: "Section"
+    values: Mapping[str, Any]
+
+    @property
+    def keys(self) -> tuple[Key, ...]:
+        """Keys of the values, in their order."""
+        return tuple(key for key in self.section.keys if key.name in self.values)
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A section of a file: its keys in the order in which they are written.
+
+    Attributes
+    ----------
+    name
+        Its name, in the texts and, but for the top of a file, in its header.
+    keys
+        Its keys.
+    fills
+        Where the whole that a file makes keeps what the section fills, as a key's field; the whole itself where empty.
+    form
+        Top of a file, one table, or tables of which there may be many.
+    """
+
+    name: str
+    keys: tuple[Key, ...]
+    fills: str = ""
+    form: Literal["top", "table", "list"] = "table"
+
+    @property
+    def header(self) -> str:
+        """Line above the keys; none at the top of a file."""
+        return {"top": "", "table": f"[{self.name}]", "list": f"[[{self.name}]]"}[self.form]
+
+    def read(self, table: Mapping[str, Any], where: str, beside: Iterable[str] = ()) -> dict[str, Any]:
+        """Values of a table by the fields that keep them, pairs as such; SettingsError names file and key.
+
+        Besides the keys the table may hold those named in `beside`.
+        """
+        refuse_unknown(table, (*(key.name for key in self.keys), *beside), where)
+        found: dict[str, Any] = {}
+        for key in self.keys:
+            _put(found, key.path, key.read(table, where))
+        return {field: _paired(value) for field, value in found.items()}
+
+    def read_in(self, content: Mapping[str, Any], where: str) -> dict[str, Any]:
+        """Values of this section of a file, defaults where it is left out. SettingsError names file and key."""
+        return self.read(section(content, self.name, where), f"{where}: {self.header}")
+
+    def written(self, whole: object) -> list[Written]:
+        """The section, or each of its tables, of the file that makes this whole; none where that keeps none."""
+        owner = _at(whole, self.fills)
+        owners = owner if self.form == "list" else [] if owner is None else [owner]
+        return [Written(self, self._values(owner)) for owner in owners]
+
+    def _values(self, owner: object) -> dict[str, Any]:
+        values = {key.name: key.written(owner) for key in self.keys}
+        return {name: value for name, value in values.items() if value is not None}
+
+
+def _at(owner: Any, path: str) -> Any:
+    """What an owner keeps at a path with dots; itself where that is empty."""
+    for step in filter(None, path.split(".")):
+        owner = owner[int(step)] if step.isdigit() else getattr(owner, step)
+    return owner
+
+
+def _put(found: dict[str, Any], path: str, value: Any) -> None:
+    """Keep a value at a path with dots, each step but the last a table of its own."""
+    *steps, last = path.split(".")
+    for step in steps:
+        found = found.setdefault(step, {})
+    found[last] = value
+
+
+def _paired(value: Any) -> Any:
+    """Values by step, those of steps 0 and 1 as a pair."""
+    if not isinstance(value, dict):
+        return value
+    inner = {step: _paired(entry) for step, entry in value.items()}
+    return (inner["0"], inner["1"]) if inner.keys() == {"0", "1"} else inner

@@ -1,0 +1,168 @@
+"""Kinds of settings: how a value is read from a file, kept inside, and written again."""
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from parser.findings.errors import SettingsError
+from parser.text.encoding import printable
+from parser.units import from_mm, mm
+from sim.setup.toml.reader import PLACE_MM, Bound, number, pair, text, truth
+
+DIGITS = 9
+"""More than anyone sets; what is left of a change of units is rounded away."""
+
+
+class Scale(NamedTuple):
+    """Change of units: from those of a file to those inside, and back."""
+
+    kept: Callable[[float], float]
+    written: Callable[[float], float]
+
+
+def in_mm(length_um: float) -> float:
+    """Millimetres as they were set."""
+    return round(mm(length_um), DIGITS)
+
+
+AS_IS = Scale(float, lambda value: value)
+MM_AS_UM = Scale(from_mm, in_mm)
+MS_AS_S = Scale(lambda ms: ms / 1e3, lambda s: round(s * 1e3, DIGITS))
+US_AS_S = Scale(lambda us: us / 1e6, lambda s: round(s * 1e6, DIGITS))
+DEGREES_AS_RAD = Scale(math.radians, lambda rad: round(math.degrees(rad), DIGITS))
+
+
+class Kind(ABC):
+    """What the values of a key are. Each kind has a name, by which texts about settings call it."""
+
+    name: str
+    unit: str = ""
+    """Unit of its numbers in a file."""
+    bound: Bound | None = None
+    """Bounds of its numbers, or of how many there are."""
+
+    @abstractmethod
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> Any:
+        """Value of a key as it stands in the file. SettingsError where it is missing or none of this kind."""
+
+    def kept(self, value: Any) -> Any:
+        """The value as it is kept inside."""
+        return value
+
+    def written(self, value: Any) -> Any:
+        """What was kept as a file holds it."""
+        return value
+
+
+class Text(Kind):
+    """Any text but an empty one."""
+
+    name = "text"
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> str:
+        """The text."""
+        return text(table, key, where)
+
+
+class Name(Text):
+    """A text that is shown to people."""
+
+    def kept(self, value: Any) -> str:
+        """Without control characters."""
+        return printable(value)
+
+
+class FileName(Text):
+    """A file beside the one that names it."""
+
+    def kept(self, value: Any) -> Path:
+        """The path as it was given."""
+        return Path(value)
+
+    def written(self, value: Any) -> str:
+        """Its name alone."""
+        return printable(value.name)
+
+
+@dataclass(frozen=True)
+class OneOf(Kind):
+    """One of a few words."""
+
+    words: tuple[str, ...]
+    name = "word"
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> str:
+        """The word."""
+        word = text(table, key, where)
+        if word not in self.words:
+            raise SettingsError(f"{where}: {key} is one of {', '.join(self.words)}; found {word!r}")
+        return word
+
+
+@dataclass(frozen=True)
+class Number(Kind):
+    """A number in its bounds."""
+
+    bound: Bound
+    unit: str = ""
+    scale: Scale = AS_IS
+    name = "number"
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> Any:
+        """The number."""
+        if key not in table:
+            raise SettingsError(f"{where}: {key} is missing")
+        return number(table[key], self.bound, f"{where}: {key}")
+
+    def kept(self, value: Any) -> float:
+        """In the unit inside."""
+        return self.scale.kept(value)
+
+    def written(self, value: Any) -> float:
+        """In the unit of the file."""
+        return self.scale.written(value)
+
+
+class Whole(Number):
+    """A whole number, written without a point."""
+
+    name = "whole"
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> Any:
+        """The number, an integer."""
+        if isinstance(table.get(key), float):
+            raise SettingsError(f"{where}: {key} is a whole number; found {table[key]:g}")
+        return super().checked(table, key, where)
+
+    def kept(self, value: Any) -> int:
+        """A count."""
+        return int(value)
+
+
+class Truth(Kind):
+    """True or false."""
+
+    name = "truth"
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> bool:
+        """The truth."""
+        return truth(table, key, where)
+
+
+class Place(Kind):
+    """A place [x, y] on the table."""
+
+    name = "place"
+    unit = "mm"
+    bound = PLACE_MM
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> tuple[float, float] | None:
+        """Its two numbers."""
+        return pair(table, key, where)
+
+    def written(self, value: Any) -> list[float]:
+        """A list of two."""
+        return list(value)
