@@ -129,7 +129,7 @@ def test_path_end_and_time_are_those_of_the_geometry(run: DryRun) -> None:
 
 
 def test_kerf_and_slug_are_those_of_a_slot(run: DryRun) -> None:
-    f, most_um = run.scenario.wire.offset_um, 2.0 * run.deviations.wire.max_um
+    f, most_um = run.scenario.wire.reach_um, 2.0 * run.deviations.wire.max_um
     assert run.remains is not None
     assert run.remains.kerf.region_um.bounds == pytest.approx((-2000.0 - f, -f, 6000.0 + f, 4000.0 + f), abs=most_um)
     (slug,) = run.remains.pieces.freed
