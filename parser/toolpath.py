@@ -1,6 +1,6 @@
 """The toolpath: every block of a program in absolute µm, as columns, one row a block.
 
-This is the one type that leaves the parser. Readers of any dialect fill it; nothing behind it knows 3B text.
+This is the one type that leaves the parser. Readers of any dialect fill it; nothing behind it knows how they spell.
 """
 
 from collections.abc import Iterator
@@ -9,23 +9,23 @@ from enum import IntEnum
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from parser.geometry.curves import Curves, Floats, Ints, Kind
+from parser.geometry.curves import Bools, Curves, Floats, Ints, Kind
+from parser.text.source import Source
 
 # Signs of (X, Y) in quadrants 1..4; there is no quadrant 0.
 _SIGNS = np.array([[0, 0], [1, 1], [-1, 1], [-1, -1], [1, -1]], dtype=np.int64)
 
 
 class Axis(IntEnum):
-    """A table axis; as the counted axis it stands in 3B as GX or GY."""
+    """A table axis."""
 
     X = 0
     Y = 1
 
 
 class Stop(NamedTuple):
-    """A pause (``D``) or the end (``DD``) between blocks.
+    """A pause or the end between blocks.
 
     Attributes
     ----------
@@ -74,7 +74,7 @@ class Block(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Words:
-    """What the controller is told, one row a block, all arrays shape (n,) int64.
+    """What a controller that counts steps is told, one row a block, all arrays shape (n,) int64.
 
     Attributes
     ----------
@@ -109,36 +109,16 @@ class Words:
         """(n, 2) int64, signs of X and Y in each block's quadrant."""
         return _SIGNS[self.quadrant]
 
+    @property
+    def is_endless(self) -> Bools:
+        """(n,) True on blocks that a controller would never count out.
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Source:
-    """Where each row stands in the program text.
-
-    Attributes
-    ----------
-    text
-        The whole program.
-    block
-        (n,) int64, number of each block in the program, from 1; rows that a controller adds bear that of the block
-        they belong to.
-    span
-        (n, 2) int64, first character and one past the last of each block.
-    line
-        (n,) int64, from 1.
-    label
-        n labels as printed, such as ``N3``; empty where there is none.
-    """
-
-    text: str
-    block: Ints
-    span: Ints
-    line: Ints
-    label: tuple[str, ...]
-
-    def picked(self, row: Ints) -> "Source":
-        """The source of the rows `row`."""
-        label = tuple(self.label[at] for at in row.tolist())
-        return Source(self.text, self.block[row], self.span[row], self.line[row], label)
+        An arc needs a radius of more than 1 µm (at 1 µm the step-by-step rule swings between two points), a line a
+        component on its counted axis.
+        """
+        counted = np.where(self.count_axis == Axis.X, self.x_um, self.y_um)
+        no_radius = self.x_um**2 + self.y_um**2 <= 1
+        return np.where(self.turn != 0, no_radius, (counted == 0) & (self.count_um > 0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -150,18 +130,20 @@ class Toolpath(Curves):
     printed_end_um
         (n, 2) float64, the end that the program prints beside the block; NaN where it prints none.
     words, source, stops
-        What the controller is told; where it is written; pauses and the end, in order.
+        What the program tells a controller that counts steps, None where its dialect has no such words; where it is
+        written; pauses and the end, in order.
     """
 
     printed_end_um: Floats
-    words: Words
+    words: Words | None
     source: Source
     stops: tuple[Stop, ...]
 
     def __post_init__(self) -> None:
         """Freeze the columns, and raise ValueError with their lengths where they are not all the same."""
         columns = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("words", "source", "stops")}
-        columns |= {f"words.{f.name}": getattr(self.words, f.name) for f in fields(self.words)}
+        if self.words is not None:
+            columns |= {f"words.{f.name}": getattr(self.words, f.name) for f in fields(self.words)}
         columns |= {f"source.{name}": getattr(self.source, name) for name in ("block", "span", "line", "label")}
         rows = {name: len(column) for name, column in columns.items()}
         if len(set(rows.values())) > 1:
@@ -174,15 +156,25 @@ class Toolpath(Curves):
         return (self.block(row) for row in range(len(self)))
 
     @property
-    def is_jump(self) -> NDArray[np.bool_]:
+    def is_jump(self) -> Bools:
         """(n,) True on jumps."""
-        jump: NDArray[np.bool_] = self.kind == Kind.JUMP
+        jump: Bools = self.kind == Kind.JUMP
         return jump
 
     @property
-    def is_major(self) -> NDArray[np.bool_]:
+    def is_major(self) -> Bools:
         """(n,) True on arcs of more than a half turn."""
         return np.abs(self.sweep_rad) > np.pi
+
+    @property
+    def is_endless(self) -> Bools:
+        """(n,) True on blocks whose words no controller would count out: they stay where they start."""
+        return np.zeros(len(self), dtype=np.bool_) if self.words is None else self.words.is_endless
+
+    @property
+    def turn(self) -> Ints:
+        """(n,) +1 counter-clockwise, −1 clockwise, 0 line: as the words say, which know it of an arc without length."""
+        return np.sign(self.sweep_rad).astype(np.int64) if self.words is None else self.words.turn
 
     @property
     def end_angle_rad(self) -> Floats:
@@ -192,7 +184,6 @@ class Toolpath(Curves):
     def block(self, row: int) -> Block:
         """Row `row` (from 0) as a light view, numbered `row + 1` as it runs. IndexError beyond the last row."""
         arc = bool(self.is_arc[row])
-        first, last = self.source.span[row]
         return Block(
             number=row + 1,
             kind=Kind(int(self.kind[row])),
@@ -208,7 +199,7 @@ class Toolpath(Curves):
             printed_end_um=None if np.isnan(self.printed_end_um[row, 0]) else _point(self.printed_end_um[row]),
             line=int(self.source.line[row]),
             label=self.source.label[row],
-            text=self.source.text[first:last],
+            text=self.source.block_text(row),
         )
 
 

@@ -13,6 +13,7 @@ from controller.card.core.units import UM_S_PER_PULSE_MS
 from controller.card.ge import GECard
 from controller.host.entries import Drive, entries_of
 from controller.stepping.pulses import Pulses
+from controller.stepping.words import words_of
 from parser.findings.errors import ControllerError
 
 AXES = (1, 2)  # X and Y
@@ -45,7 +46,7 @@ class Host:
         self._drive, self._take = drive, take
         self._entries = entries_of(drive)
         self._row_of = np.concatenate([[0], self._entries.row]).astype(np.int32)
-        words = drive.toolpath.words
+        words = words_of(drive.toolpath)
         columns = words.x_um, words.y_um, words.count_um, words.count_axis, words.quadrant, words.turn
         self._blocks = [column[self._entries.row].tolist() for column in columns]
         self._lengths = drive.limits.length_um[self._entries.row].tolist()

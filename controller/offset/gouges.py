@@ -13,7 +13,7 @@ from parser.geometry.broad_phase_places import nearest_um
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import directions
 from parser.geometry.distance import distance_to_curves
-from parser.threeb.figures import CLOSED_WITHIN_UM
+from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Point
 
 TOLERANCE_UM = 0.05

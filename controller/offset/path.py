@@ -1,9 +1,13 @@
-"""The offset path, block by block, each with the block that it comes from."""
+"""The offset path, block by block, each with the block that it comes from, and the toolpath that it makes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from enum import IntEnum
 
+import numpy as np
+
+from controller.stepping.words import stepped_words
 from parser.geometry.curves import Curves, Ints
+from parser.toolpath import Toolpath
 
 
 class Made(IntEnum):
@@ -41,3 +45,21 @@ class OffsetPath:
     source_row: Ints
     made: Ints
     vanished: Ints
+
+
+def offset_toolpath(toolpath: Toolpath, path: OffsetPath) -> Toolpath:
+    """Toolpath of the offset `path` of a `toolpath`: its exact curves, to be stepped like any other.
+
+    Where the program tells its blocks in words, so does its offset: in words of whole µm. Every row bears the source of
+    the block that it comes from, stops stand where they stood among these. Printed ends are those of blocks without
+    offset alone.
+    """
+    row = path.source_row
+    as_it_is = (path.made == Made.AS_IT_IS)[:, None]
+    return Toolpath(
+        **{field.name: getattr(path.curves, field.name) for field in fields(Curves)},
+        printed_end_um=np.where(as_it_is, toolpath.printed_end_um[row], np.nan),
+        words=None if toolpath.words is None else stepped_words(path.curves),
+        source=toolpath.source.picked(row),
+        stops=tuple(stop._replace(after=int(np.searchsorted(row, stop.after))) for stop in toolpath.stops),
+    )

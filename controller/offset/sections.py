@@ -3,6 +3,13 @@
 from enum import IntEnum
 from typing import NamedTuple
 
+import numpy as np
+
+from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.contours import contour_rows, runs
+from parser.shape.loops import find_loops
+from parser.toolpath import Toolpath
+
 
 class Side(IntEnum):
     """Side of the contour on which the wire's centre runs, along the cutting direction: G41 left, G42 right."""
@@ -25,3 +32,26 @@ class Section(NamedTuple):
     first: int
     last: int
     closed: bool
+
+
+def sections_of(toolpath: Toolpath) -> tuple[Section, ...]:
+    """The blocks of each contour that run along the drawing: its loop, without the lead-in and the lead-out.
+
+    As many blocks as lead in may lead out behind the loop; more of them run along the contour once more. A contour
+    without a loop, such as a parting cut, is drawn from its first block to its last.
+    """
+    contours: list[list[int]] = runs(toolpath).tolist()
+    loops = find_loops(toolpath, contour_rows(toolpath), np.arange(len(contours)))
+    loop_of = {number: at for at, number in enumerate(loops.contour.tolist())}
+    found = []
+    for number, (begin, past) in enumerate(contours):
+        end, at = past - 1, loop_of.get(number)
+        if at is None:
+            found.append(Section(begin, end, closed=False))
+            continue
+        first, last = int(loops.first[at]), int(loops.last[at])
+        leads = first - begin
+        again = end - last > max(leads, 1)
+        closes = np.hypot(*(toolpath.end_um[last] - toolpath.start_um[first])) <= CLOSED_WITHIN_UM
+        found.append(Section(first, end - leads if again else last, closed=bool(closes and not again)))
+    return tuple(found)

@@ -9,14 +9,9 @@ from controller.stepping.quadrants import walk_arcs
 from controller.stepping.steps import Steps
 from controller.stepping.strokes import Followed, arc_strokes, follow, line_strokes
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.toolpath import Axis, Toolpath, Words
+from parser.toolpath import Axis, Words
 
 Number = TypeVar("Number", np.int64, np.float64)
-
-
-def interpolate(toolpath: Toolpath) -> Steps:
-    """Steps of a whole toolpath, each block from where the steps of the one before it ended."""
-    return interpolate_words(toolpath.words, toolpath.length_um)
 
 
 def interpolate_words(words: Words, length_um: Floats) -> Steps:

@@ -60,7 +60,7 @@ def _strings(curves: Curves, entity: Ints) -> _Strings:
 
 def _ends(curves: Curves, strings: _Strings) -> Ends:
     along = directions(curves)
-    run = np.append(0.0, np.cumsum(curves.length_um))
+    run = curves.before_um
     place = np.stack([curves.start_um[strings.first], curves.end_um[strings.last]], axis=1)
     out = np.stack([-along.leaving[strings.first], along.arriving[strings.last]], axis=1)
     length = np.repeat(run[strings.last + 1] - run[strings.first], 2)

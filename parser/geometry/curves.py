@@ -56,6 +56,11 @@ class Curves:
         arc: Bools = self.kind == Kind.ARC
         return arc
 
+    @property
+    def before_um(self) -> Floats:
+        """(n + 1,) length of all curves before each one, and of all at the end."""
+        return np.concatenate([[0.0], np.cumsum(self.length_um)])
+
     def picked(self, row: Ints | slice | Bools) -> "Curves":
         """The rows `row`, as bare curves."""
         return Curves(*(getattr(self, field.name)[row] for field in fields(Curves)))

@@ -7,10 +7,9 @@ import numpy as np
 from parser.geometry.curves import Floats, Ints
 from parser.geometry.directions import directions, headings_at
 from parser.geometry.distance import distance_to_curves
-from parser.threeb.figures import CLOSED_WITHIN_UM, EXACT_PER_ARC_UM
+from parser.shape.closing import closure_tolerance_um
 from parser.toolpath import Toolpath
 
-_OF_LINES_UM = 2.0  # ends in whole µm, of a CAM that rounds them apart
 _SAME_WAY = 0.9  # cosine of the angle between two ways along one curve
 
 
@@ -50,14 +49,26 @@ class Contour(NamedTuple):
         return self.encloses and not self.returns
 
 
+def runs(toolpath: Toolpath) -> Ints:
+    """(k, 2) first row of each run of cut blocks without a jump between them, and one past its last, in order."""
+    is_cut = np.concatenate([[False], ~toolpath.is_jump, [False]])
+    return np.flatnonzero(np.diff(is_cut)).reshape(-1, 2)
+
+
+def contour_rows(toolpath: Toolpath) -> Ints:
+    """Contour number (n,) of each row, from 0 in the order they are cut; −1 on jumps, which part the contours."""
+    first, past = runs(toolpath).T
+    number = np.full(len(toolpath), -1, dtype=np.int64)
+    number[~toolpath.is_jump] = np.repeat(np.arange(len(first)), past - first)
+    return number
+
+
 def find_contours(toolpath: Toolpath, corner_um: Ints) -> tuple[Contour, ...]:
     """Contours in the order they are cut; `corner_um` (n + 1, 2) is where the steps stand between the blocks."""
-    cut = np.concatenate([[False], ~toolpath.is_jump, [False]])
-    borders = np.flatnonzero(np.diff(cut)).reshape(-1, 2)
     ways, is_arc = directions(toolpath), toolpath.is_arc
     pauses = np.array([*(stop.after for stop in toolpath.stops), len(toolpath)], dtype=np.int64)
     found = []
-    for low, high in borders.tolist():
+    for low, high in runs(toolpath).tolist():
         rows = slice(low, high)
         arcs = int(is_arc[rows].sum())
         tolerance = closure_tolerance_um(arcs)
@@ -76,11 +87,6 @@ def find_contours(toolpath: Toolpath, corner_um: Ints) -> tuple[Contour, ...]:
             )
         )
     return tuple(found)
-
-
-def closure_tolerance_um(arcs: int) -> float:
-    """Distance within which a contour with so many arcs counts as closed: lines are exact, arcs are not."""
-    return max(CLOSED_WITHIN_UM, EXACT_PER_ARC_UM * arcs) if arcs else _OF_LINES_UM
 
 
 def _length(pair: Floats) -> float:

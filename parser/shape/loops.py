@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
 from parser.geometry.distance import distance_to_curves
-from parser.threeb.figures import CLOSED_WITHIN_UM
+from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
 
 _LEAD_IN_BLOCKS = 4  # at most; the loop begins no later

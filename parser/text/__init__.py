@@ -1,1 +1,1 @@
-"""Bytes, characters, lines, and the places in them; what crosses the border is text with its `LineIndex`."""
+"""Bytes, characters, lines, and places in them; the border is text, its `LineIndex`, and the `Source` of its blocks."""

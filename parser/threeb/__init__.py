@@ -1,1 +1,1 @@
-"""3B and 4B programs, read: text to records to rows; what crosses the border is a `Toolpath`."""
+"""3B and 4B programs, read: text to records to rows; the border is `THREE_B`, the reader in `dialect`."""

@@ -5,14 +5,14 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from parser.dialect.at_block import at_block
 from parser.findings.facts import CountedElsewhere, WrongLabel
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
 from parser.text.lines import LineIndex
-from parser.threeb.at_block import at_block
-from parser.threeb.decode import endless
+from parser.text.source import Field
+from parser.threeb.decode import decoded_words
 from parser.threeb.stolen_numbers import RADIUS_TOLERANCE_UM
-from parser.threeb.tokens import TokenKind
 from parser.toolpath import Axis, Toolpath, Words
 
 FULL_TURN_UM = 4.0
@@ -62,35 +62,35 @@ def _counted(words: Words) -> Ints:
 
 
 def _endless(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
-    words = toolpath.words
-    for row in np.flatnonzero(endless(words)).tolist():
+    words = decoded_words(toolpath)
+    for row in np.flatnonzero(words.is_endless).tolist():
         if words.turn[row]:
             yield at_block(toolpath, lines, "3B201", row, x=int(words.x_um[row]), y=int(words.y_um[row]))
             continue
         axis = Axis(int(words.count_axis[row])).name
         other = "Y" if axis == "X" else "X"
-        yield at_block(toolpath, lines, "3B202", row, TokenKind.AXIS, axis=axis, other=other)
+        yield at_block(toolpath, lines, "3B202", row, Field.AXIS, axis=axis, other=other)
 
 
 def _uncounted(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
-    for row in np.flatnonzero((toolpath.words.count_um == 0) & ~toolpath.is_jump).tolist():
-        yield at_block(toolpath, lines, "3B205", row, TokenKind.COUNT)
+    for row in np.flatnonzero((decoded_words(toolpath).count_um == 0) & ~toolpath.is_jump).tolist():
+        yield at_block(toolpath, lines, "3B205", row, Field.COUNT)
 
 
 def _neighbour_labels(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
-    words = toolpath.words
+    words = decoded_words(toolpath)
     ruled = ruled_label(words)
     for row in np.flatnonzero(ruled != words.quadrant).tolist():
         sense = ("L", "NR", "SR")[words.turn[row]]
         way = (int(ruled[row]) - 1 + (words.turn[row] < 0)) % 4
         values = {"written": f"{sense}{words.quadrant[row]}", "ruled": f"{sense}{ruled[row]}", "way": _WAYS[way]}
-        found = at_block(toolpath, lines, "3B203", row, TokenKind.DIRECTION, **values)
+        found = at_block(toolpath, lines, "3B203", row, Field.SENSE, **values)
         yield found.with_fact(WrongLabel(values["ruled"]))
 
 
 def _line_counts(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
     """Counts of lines that are neither the length on the counted axis nor a multiple of a reduced one."""
-    words = toolpath.words
+    words = decoded_words(toolpath)
     counted = _counted(words)
     off = ~counts_fit(words)
     times, rest = np.divmod(words.count_um, np.maximum(counted, 1))
@@ -102,27 +102,27 @@ def _line_counts(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
             goes = "too-far" if count > extent else "too-short"
             by = abs(count - extent)
             values |= {"goes": goes, "by": by}
-            found = at_block(toolpath, lines, "3B208", row, TokenKind.COUNT, **values)
+            found = at_block(toolpath, lines, "3B208", row, Field.COUNT, **values)
             yield found.with_fact(CountedElsewhere())
         else:
             values["times"] = int(times[row])
-            yield at_block(toolpath, lines, "3B209", row, TokenKind.COUNT, **values)
+            yield at_block(toolpath, lines, "3B209", row, Field.COUNT, **values)
 
 
 def _turns(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
-    full = 4.0 * toolpath.radius_um
-    for row in np.flatnonzero(toolpath.words.count_um > full + FULL_TURN_UM).tolist():
-        count = int(toolpath.words.count_um[row])
+    full, counts = 4.0 * toolpath.radius_um, decoded_words(toolpath).count_um
+    for row in np.flatnonzero(counts > full + FULL_TURN_UM).tolist():
+        count = int(counts[row])
         turns = round(count / float(full[row]), 1)
         yield at_block(
-            toolpath, lines, "3B210", row, TokenKind.COUNT, count=count, full=round(float(full[row])), turns=turns
+            toolpath, lines, "3B210", row, Field.COUNT, count=count, full=round(float(full[row])), turns=turns
         )
 
 
 def _radii(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
     """Radii that 4B arcs write beside an X and Y that mean another."""
-    written = toolpath.words.radius_um
+    written = decoded_words(toolpath).radius_um
     off = (written > 0) & toolpath.is_arc & (np.abs(written - toolpath.radius_um) > RADIUS_TOLERANCE_UM)
     for row in np.flatnonzero(off).tolist():
         decoded = float(toolpath.radius_um[row])
-        yield at_block(toolpath, lines, "3B212", row, TokenKind.RADIUS, radius=int(written[row]), decoded=decoded)
+        yield at_block(toolpath, lines, "3B212", row, Field.RADIUS, radius=int(written[row]), decoded=decoded)

@@ -32,7 +32,7 @@ _FIELDS = ("field-x", "field-y", "field-count", "field-radius")
 _LONGEST_SHOWN = 40
 
 
-class Damage(NamedTuple):
+class Unread(NamedTuple):
     """A piece of text that is left out of the path.
 
     Attributes
@@ -59,14 +59,14 @@ class Damage(NamedTuple):
         return lines.finding("3B101", self.span, 0, **self.values)
 
 
-def damages(text: str, gaps: Sequence[tuple[int, int]], block_starts: Ints) -> tuple[Damage, ...]:
-    """Damages in the stretches `gaps` of a text whose whole blocks start at `block_starts`, in order."""
+def unread(text: str, gaps: Sequence[tuple[int, int]], block_starts: Ints) -> tuple[Unread, ...]:
+    """What is damaged in the stretches `gaps` of a text whose whole blocks start at `block_starts`, in order."""
     found = [damage for first, past in gaps for damage in _in_gap(text, first, past)]
     after = np.searchsorted(block_starts, [damage.span[0] for damage in found])
     return tuple(damage._replace(after=int(n)) for damage, n in zip(found, after, strict=True))
 
 
-def _in_gap(text: str, first: int, past: int) -> Iterator[Damage]:
+def _in_gap(text: str, first: int, past: int) -> Iterator[Unread]:
     for line in _INKED_LINE.finditer(text, first, past):
         at = line.start()
         for piece in _PIECE.finditer(text, *line.span()):
@@ -78,7 +78,7 @@ def _in_gap(text: str, first: int, past: int) -> Iterator[Damage]:
         yield from _other_text(text, at, line.end())
 
 
-def _other_text(text: str, first: int, past: int) -> Iterator[Damage]:
+def _other_text(text: str, first: int, past: int) -> Iterator[Unread]:
     inked = _INKED_LINE.search(text, first, past)
     if not inked:
         return
@@ -87,10 +87,10 @@ def _other_text(text: str, first: int, past: int) -> Iterator[Damage]:
     if _BLOCK_WORD.search(shown):
         yield _wrong(span[0], shown, (0, len(shown)), "field-b", "wanted-b")
     else:
-        yield Damage(span, 0, is_block=False, values={"text": _shortened(shown)})
+        yield Unread(span, 0, is_block=False, values={"text": _shortened(shown)})
 
 
-def _damaged_block(base: int, piece: str) -> Damage:
+def _damaged_block(base: int, piece: str) -> Unread:
     """The first field of a damaged block, at `base` of the text, that is not what a block has there."""
     label = _LABEL.match(piece)
     at = label.end() if label else 0
@@ -112,7 +112,7 @@ def _damaged_block(base: int, piece: str) -> Damage:
     return _damaged_end(base, piece, at)
 
 
-def _damaged_end(base: int, piece: str, at: int) -> Damage:
+def _damaged_end(base: int, piece: str, at: int) -> Unread:
     """Behind the numbers: the axis or the sense with its quadrant is wrong."""
     axis = _AXIS.match(piece, at)
     if not axis:
@@ -142,10 +142,10 @@ def _word_at(piece: str, at: int) -> tuple[int, int]:
     return match.span(1) if match and match[1] else (at, at)
 
 
-def _wrong(base: int, piece: str, span: tuple[int, int], field: str, wanted: str) -> Damage:
+def _wrong(base: int, piece: str, span: tuple[int, int], field: str, wanted: str) -> Unread:
     found = piece[slice(*span)].strip()
     values = {"field": field, "found": _shortened(found) or "nothing", "wanted": wanted}
-    return Damage((base + span[0], base + max(span[1], span[0])), 0, is_block=True, values=values)
+    return Unread((base + span[0], base + max(span[1], span[0])), 0, is_block=True, values=values)
 
 
 def _shortened(text: str) -> str:

@@ -10,16 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints, Kind
+from parser.shape.closing import corners_at, ends_closed
 from parser.threeb.columns import RawBlocks
 from parser.threeb.reader import Mark
 from parser.toolpath import Toolpath
 
-CLOSED_WITHIN_UM = 5.0
-EXACT_PER_ARC_UM = 1.0
-"""A figure whose end is this near its start is closed: 1 µm exact per arc, 5 µm stepped (docs/3b.md §3)."""
 _MOST_JUMPS = 3  # lines in one way to the next figure; a figure of lines and the jump to it make more
-_MOST_OFF_UM = 20.0  # however many arcs: their errors do not add up, and corners lie no nearer than this
-_SAME_WAY = 0.99  # cosine of the angle between two ways along one curve
 
 
 class Nodes(NamedTuple):
@@ -84,40 +80,9 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
     return np.array(rows, dtype=np.int64)
 
 
-def ends_closed(toolpath: Toolpath, begin: int, past: int) -> bool:
-    """Whether the figure of the rows from `begin` up to but without `past` ends where it should.
-
-    That is at its start or at another corner of its own, such as the end of its lead-in; or past that in an overcut,
-    one block that leaves such a corner in the direction of the block that it cuts once more.
-    """
-    last = past - 1
-    if _corners_at(toolpath, begin, past, toolpath.end_um[last]).size:
-        return True
-    again = _corners_at(toolpath, begin, last, toolpath.start_um[last])
-    heading = _heading(toolpath, last)
-    return any(float(_heading(toolpath, row) @ heading) > _SAME_WAY for row in again.tolist())
-
-
 def _close(toolpath: Toolpath, begin: int, at: int, until: int) -> bool:
     """Whether one of the rows from `at` up to but without `until` ends at a corner of the figure begun at `begin`."""
-    return any(_corners_at(toolpath, begin, at, end).size for end in toolpath.end_um[at:until])
-
-
-def _corners_at(toolpath: Toolpath, begin: int, past: int, place_um: Floats) -> Ints:
-    """Rows from `begin` up to but without `past` that start at a place."""
-    off = toolpath.start_um[begin:past] - place_um
-    arcs = float((toolpath.kind[begin:past] == Kind.ARC).sum())
-    within = min(max(CLOSED_WITHIN_UM, EXACT_PER_ARC_UM * arcs), _MOST_OFF_UM)
-    return begin + np.flatnonzero(np.hypot(off[:, 0], off[:, 1]) <= within)
-
-
-def _heading(toolpath: Toolpath, row: int) -> Floats:
-    """Direction (2,) in which a row leaves its start; (0, 0) where it does not move."""
-    if toolpath.kind[row] == Kind.ARC:
-        angle, turn = float(toolpath.start_angle_rad[row]), float(np.sign(toolpath.sweep_rad[row]))
-        return np.array([-np.sin(angle) * turn, np.cos(angle) * turn])
-    x, y = (toolpath.end_um[row] - toolpath.start_um[row]).tolist()
-    return np.array([x, y]) / max(float(np.hypot(x, y)), 1.0)
+    return any(corners_at(toolpath, begin, at, end).size for end in toolpath.end_um[at:until])
 
 
 def _insert(blocks: RawBlocks, nodes: Sequence[Mark]) -> RawBlocks:

@@ -5,23 +5,8 @@ Spellings and their grades: docs/3b.md, sections 1, 2 and 6.
 
 import re
 from functools import cache
-from typing import NamedTuple
 
-
-class Marks(NamedTuple):
-    """Words that stand between blocks.
-
-    Attributes
-    ----------
-    end, pause
-        Marks that end the program and that pause it, besides ``DD`` and ``D``; letters alone.
-    """
-
-    end: tuple[str, ...] = ()
-    pause: tuple[str, ...] = ()
-
-
-STANDARD_MARKS = Marks()
+from parser.dialect.reader import Marks
 
 FOREIGN_ENDS = ("E", "FF", "MJ")
 """End marks of other controllers (docs/3b.md §2, recalled): read as the end, with a warning."""

@@ -1,9 +1,10 @@
 """The header that CAXA writes over a program (docs/3b.md §2): read and kept."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
+from parser.dialect.reader import HeaderValue
 from parser.units import UM_PER_MM, from_mm
 
 _FLAGS = re.IGNORECASE | re.ASCII
@@ -35,6 +36,17 @@ class Header(NamedTuple):
     corner_radius_um: float | None = None
     offset_um: float | None = None
     lengths: tuple[HeaderLength, ...] = ()
+
+    @property
+    def values(self) -> Mapping[str, HeaderValue]:
+        """What it says, by the keys of the report."""
+        return {
+            "version": self.version,
+            "name": self.name,
+            "corner_radius_um": self.corner_radius_um,
+            "offset_um": self.offset_um,
+            "lengths_um": tuple(length.um for length in self.lengths),
+        }
 
 
 def read_header(text: str, spans: Sequence[tuple[int, int]], more_lengths: Sequence[HeaderLength]) -> Header:

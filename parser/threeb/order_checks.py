@@ -4,11 +4,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from parser.dialect.at_block import at_block
+from parser.dialect.reader import Marks
 from parser.findings.facts import NoEnd
 from parser.findings.findings import Finding
-from parser.threeb.at_block import at_block
-from parser.threeb.figures import ends_closed, placed_marks
-from parser.threeb.grammar import FOREIGN_ENDS, LIKE_A_BLOCK, Marks
+from parser.shape.closing import ends_closed
+from parser.threeb.figures import placed_marks
+from parser.threeb.grammar import FOREIGN_ENDS, LIKE_A_BLOCK
 from parser.threeb.reader import Mark, Records
 from parser.toolpath import Toolpath
 

@@ -10,19 +10,18 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from parser.dialect.reader import STANDARD_MARKS, Marks
 from parser.findings.facts import TooLarge
 from parser.findings.findings import Finding, file_order
 from parser.text.encoding import narrow
 from parser.text.lines import LineIndex
 from parser.threeb.columns import MAX_WORD_UM, RawBlocks, columns_of, read_mm
-from parser.threeb.damage import Damage, damages
+from parser.threeb.damage import Unread, unread
 from parser.threeb.grammar import (
     FOREIGN_ENDS,
     GROUPS,
     HIDDEN_BLOCK,
     LIKE_A_BLOCK,
-    STANDARD_MARKS,
-    Marks,
     token_pattern,
 )
 from parser.threeb.header import Header, HeaderLength, read_header, read_length
@@ -57,7 +56,7 @@ class Records(NamedTuple):
     blocks: RawBlocks
     marks: tuple[Mark, ...]
     header: Header
-    damages: tuple[Damage, ...]
+    damages: tuple[Unread, ...]
     findings: tuple[Finding, ...]
 
 
@@ -95,7 +94,7 @@ def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
     if damaged_rows:
         raw, covered = left_out(raw, covered, damaged_rows)
         found = [mark._replace(after=mark.after - bisect_left(damaged_rows, mark.after)) for mark in found]
-    damaged = damages(
+    damaged = unread(
         folded, _gaps(covered, lines, first_block=int(raw.span[0, 0]) if len(raw.line) else len(folded)), raw.span[:, 0]
     )
     outside = [*passed, *(mark.span for mark in found if mark.kind == "node")]

@@ -7,9 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.dialect.reader import STANDARD_MARKS, Marks
 from parser.text.encoding import narrow
 from parser.text.lines import LineIndex
-from parser.threeb.grammar import BLOCK_FIELDS, GROUPS, HIDDEN_BLOCK, STANDARD_MARKS, Marks, token_pattern
+from parser.text.source import Field, Span
+from parser.threeb.grammar import BLOCK_FIELDS, GROUPS, HIDDEN_BLOCK, token_pattern
 
 
 class TokenKind(StrEnum):
@@ -50,6 +52,10 @@ _FIELD_KINDS = {
     **{"mark_before": TokenKind.CURVE, "axis": TokenKind.AXIS, "mark_behind": TokenKind.CURVE},
 }
 _GROUP = {name: place for place, name in enumerate(GROUPS, start=1)}
+_FIELDS = {
+    **{TokenKind.X: Field.X, TokenKind.Y: Field.Y, TokenKind.COUNT: Field.COUNT, TokenKind.RADIUS: Field.RADIUS},
+    **{TokenKind.AXIS: Field.AXIS, TokenKind.DIRECTION: Field.SENSE},
+}
 _BETWEEN = re.compile(r"(\r\n|\r|\n)|([^\S\r\n]+)|(B)|[^\sB]+", re.IGNORECASE)
 _Piece = tuple[TokenKind, int, int]
 
@@ -65,10 +71,11 @@ def tokens(text: str, marks: Marks = STANDARD_MARKS) -> tuple[Token, ...]:
     )
 
 
-def field_spans(folded: str, first: int, past: int) -> dict[TokenKind, tuple[int, int]]:
-    """Where each field of the block at `first` to `past` of a folded text stands."""
-    match = HIDDEN_BLOCK.fullmatch(folded, first, past)
-    return {kind: (low, high) for kind, low, high in _fields(match)} if match else {}
+def fields_of(block: str) -> dict[Field, Span]:
+    """Where the fields of a block stand in its text; the axis with its G, the sense with its quadrant."""
+    match = HIDDEN_BLOCK.fullmatch(narrow(block))
+    pieces = _fields(match) if match else []
+    return {_FIELDS[kind]: (low, high) for kind, low, high in pieces if kind in _FIELDS}
 
 
 def _pieces(folded: str, marks: Marks) -> Iterator[_Piece]:

@@ -1,22 +1,18 @@
 """Findings about contours: whether they close, exact and stepped, and which block may be why not."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from parser.dialect.at_block import at_block
+from parser.dialect.mender import Suspect
 from parser.findings.facts import WrongBlock, telling
 from parser.findings.findings import Fact, Finding, Value
 from parser.geometry.curves import Ints
 from parser.program import Program
+from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import Contour
 from parser.shape.loops import end_in_waste
-from parser.threeb.at_block import at_block
-from parser.threeb.figures import CLOSED_WITHIN_UM
-from parser.threeb.tokens import TokenKind
-
-if TYPE_CHECKING:
-    from sim.check.mend.suspects import Suspect
 
 STEPPED_CLOSURE_UM = 12.0
 """A sound arc may end up to 9.9 µm off when stepped (sim/check/count_axes.py)."""
@@ -26,14 +22,6 @@ that is not met by chance."""
 
 MOST_SUSPECTED = 50
 """Contours of a program of which the broken block is looked for: where more do not close, it is no slip of a digit."""
-
-_FIELDS = {
-    "x": (TokenKind.X, "field-x"),
-    "y": (TokenKind.Y, "field-y"),
-    "count": (TokenKind.COUNT, "field-count"),
-    "axis": (TokenKind.AXIS, "field-axis"),
-    "sense": (TokenKind.DIRECTION, "field-sense"),
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +36,7 @@ class Suspected(Fact):
     """The contour whose first block is `first` would close with a field of this block written otherwise."""
 
     first: int
-    suspect: "Suspect"
+    suspect: Suspect
 
 
 def contour_findings(
@@ -125,23 +113,22 @@ def _ends_of(contour: Contour) -> dict[str, Value]:
 
 def _suspects(program: Program, contour: Contour) -> list[Finding]:
     """Notes at blocks of which one changed field would close the contour."""
-    from sim.check.mend.suspects import suspects  # noqa: PLC0415 - most contours are closed
+    if program.mender is None:
+        return []
+    found = program.mender.suspects(program.toolpath, contour.first - 1, contour.last)
+    return [_suspect(program, contour, one) for one in found]
 
-    rows = contour.first - 1, contour.last
-    return [_suspect(program, contour, one) for one in suspects(program.toolpath, *rows)]
 
-
-def _suspect(program: Program, contour: Contour, one: "Suspect") -> Finding:
-    token, term = _FIELDS[one.field]
+def _suspect(program: Program, contour: Contour, one: Suspect) -> Finding:
     return at_block(
         program.toolpath,
         program.lines,
         "3B304",
         one.row,
-        token,
+        one.field,
         first=contour.first,
         last=contour.last,
-        field=term,
+        field=one.field.term,
         written=one.written,
         other=one.other,
     ).with_fact(Suspected(contour.first, one))

@@ -4,16 +4,16 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
+from controller.stepping.words import interpolate, words_of
+from parser.dialect.at_block import at_block
 from parser.findings.facts import WrongBlock
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats, Ints
 from parser.program import Program
-from parser.threeb.at_block import at_block
-from parser.threeb.tokens import TokenKind
-from parser.threeb.words import counted_way
+from parser.text.source import Field
 from parser.toolpath import Axis, Toolpath, Words
+from parser.words.telling import counted_way
 
 STEPPED_END_UM = 12.0
 """40,000 random arcs of 10 µm to 1 m radius, on the right count axis, ended at most 9.5 µm from their exact end when
@@ -33,11 +33,11 @@ class WrongAxis(WrongBlock):
 
 def stepped_end_findings(program: Program, steps: Steps) -> list[Finding]:
     """Wrong count axes with their cost (3B204), and other blocks that miss their exact end (3B303)."""
-    toolpath = program.toolpath
+    toolpath, words = program.toolpath, words_of(program.toolpath)
     off = stepped_miss(toolpath, steps)
     turns = np.maximum(np.abs(toolpath.sweep_rad) / (2.0 * np.pi), 1.0)
     ruled = ruled_count_axis(toolpath)
-    wrong = np.flatnonzero((toolpath.words.count_axis != ruled) & (off > COST_UM) & ~_near_either(toolpath))
+    wrong = np.flatnonzero((words.count_axis != ruled) & (off > COST_UM) & ~_near_either(toolpath))
     right = _miss_on(toolpath, wrong, ruled[wrong])
     counts = count_on(toolpath, wrong, ruled[wrong])
     costly = right < off[wrong] - 1.0
@@ -47,8 +47,8 @@ def stepped_end_findings(program: Program, steps: Steps) -> list[Finding]:
             program.lines,
             "3B204",
             row,
-            TokenKind.AXIS,
-            axis=Axis(int(toolpath.words.count_axis[row])).name,
+            Field.AXIS,
+            axis=Axis(int(words.count_axis[row])).name,
             ruled=Axis(int(ruled[row])).name,
             cost=float(off[row]),
             right=float(best),
@@ -114,7 +114,8 @@ def _miss_on(toolpath: Toolpath, row: Ints, axis: Ints) -> Floats:
     if not len(row):
         return np.zeros(0)
     picked = {f.name: getattr(toolpath, f.name)[row] for f in fields(toolpath) if f.name not in _PARTS}
-    words = {f.name: getattr(toolpath.words, f.name)[row] for f in fields(toolpath.words)}
+    of_all = words_of(toolpath)
+    words = {f.name: getattr(of_all, f.name)[row] for f in fields(Words)}
     words |= {"count_axis": axis, "count_um": count_on(toolpath, row, axis)}
     others = replace(
         toolpath,

@@ -5,18 +5,16 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
+from controller.stepping.words import interpolate
+from parser.dialect.at_block import at_block
 from parser.findings.codes import Check
 from parser.findings.facts import DoubtfulEnd, TooLarge, telling
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
 from parser.program import Program
-from parser.shape.contours import Contour, find_contours
-from parser.shape.rows import contour_rows
-from parser.threeb.at_block import at_block
-from parser.threeb.decode import endless
-from parser.threeb.tokens import TokenKind
+from parser.shape.contours import Contour, contour_rows, find_contours
+from parser.text.source import Field
 from sim.check.closures import OpenContour, contour_findings
 from sim.check.count_axes import stepped_end_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
@@ -86,9 +84,10 @@ def check_program(program: Program, demands: Demands) -> Checked:
     contours = find_contours(program.toolpath, steps.corner_um)
     path = _PathChecks(program, steps, contours, demands)
     findings = tuple(sorted([*program.findings, *path.findings()], key=file_order))
-    decoded = program.reading.run - int(endless(program.toolpath.words).sum())
+    counts = program.reading.counts
+    decoded = counts.run - int(program.toolpath.is_endless.sum())
     states = (*_parser_states(program), *path.states)
-    coverage = Coverage(program.reading.found, program.reading.blocks, decoded, decoded, states)
+    coverage = Coverage(counts.found, counts.whole, decoded, decoded, states)
     return Checked(findings, coverage, steps, contours, path.judged)
 
 
@@ -98,7 +97,7 @@ def too_many_steps(program: Program, steps: Steps) -> list[Finding]:
         return []
     row = int(np.argmax(steps.count))
     of = program.toolpath, program.lines
-    found = at_block(*of, "3B206", row, TokenKind.COUNT, what="too-many-steps", limit=MAX_STEPS)
+    found = at_block(*of, "3B206", row, Field.COUNT, what="too-many-steps", limit=MAX_STEPS)
     return [found.with_fact(TooLarge())]
 
 
@@ -116,9 +115,8 @@ class _PathChecks:
     def findings(self) -> Iterator[Finding]:
         """Findings of all path checks; afterwards `states` tells how far they came."""
         program, demands = self._program, self._demands
-        stepped = stepped_end_findings(program, self._steps)
+        stepped = self._stepped()
         yield from stepped
-        self._done(Check.STEPS, _stopped(program))
         passages = passage_findings(program, self._rows)
         yield from passages
         known = (*program.findings, *stepped, *passages)
@@ -133,6 +131,14 @@ class _PathChecks:
         yield from crossings
         self._done(Check.CROSSINGS, self._left_out or open_ones if all_pairs else "reason-many")
         yield from self._asked_for()
+
+    def _stepped(self) -> list[Finding]:
+        """Findings about the words that steps are counted by, where the program has such."""
+        if self._program.toolpath.words is None:
+            self.states.append(CheckState(Check.STEPS, "not asked", "reason-no-words"))
+            return []
+        self._done(Check.STEPS, _stopped(self._program))
+        return stepped_end_findings(self._program, self._steps)
 
     @property
     def _left_out(self) -> str:
@@ -156,7 +162,7 @@ class _PathChecks:
             self._done(Check.TRAVEL, "reason-damaged" if program.reading.damages else _stopped(program))
 
     def _done(self, name: Check, reason: str = "") -> None:
-        self.states.append(CheckState(name, *_state(reason)))
+        self.states.append(_state_of(self._program, name, reason))
 
 
 def _closed(rows: Ints, closures: list[Finding]) -> Ints:
@@ -176,30 +182,27 @@ def _broken_contours(program: Program, rows: Ints) -> set[int]:
     toolpath = program.toolpath
     places = [damage.span[0] for damage in program.reading.damages]
     before = np.searchsorted(toolpath.source.span[:, 0], places)
-    near = np.concatenate([before - 1, before, np.flatnonzero(endless(toolpath.words))]).astype(np.int64)
+    near = np.concatenate([before - 1, before, np.flatnonzero(toolpath.is_endless)]).astype(np.int64)
     near = near[(near >= 0) & (near < len(toolpath))]
     return set(rows[near].tolist()) - {-1}
 
 
 def _stopped(program: Program) -> str:
-    return "reason-endless" if endless(program.toolpath.words).any() else ""
+    return "reason-endless" if program.toolpath.is_endless.any() else ""
 
 
 def _parser_states(program: Program) -> tuple[CheckState, ...]:
     damaged = "reason-damaged" if program.reading.damages else ""
     beyond = "reason-too-large" if any(telling(program.findings, TooLarge)) else damaged
-    has_prints = bool((~np.isnan(program.toolpath.printed_end_um)).any())
-    return (
-        CheckState(Check.GRAMMAR),
-        CheckState(Check.ORDER, *_state(damaged)),
-        CheckState(Check.BLOCKS, *_state(beyond)),
-        CheckState(Check.PRINTED_ENDS, *_state(beyond))
-        if has_prints
-        else CheckState(Check.PRINTED_ENDS, "not asked", "reason-no-prints"),
-        CheckState(Check.HEADER, *_state(beyond))
-        if program.header.lengths
-        else CheckState(Check.HEADER, "not asked", "reason-no-header"),
-    )
+    reasons = {Check.GRAMMAR: "", Check.ORDER: damaged}
+    reasons |= dict.fromkeys((Check.BLOCKS, Check.PRINTED_ENDS, Check.HEADER), beyond)
+    return tuple(_state_of(program, name, reason) for name, reason in reasons.items())
+
+
+def _state_of(program: Program, name: Check, reason: str) -> CheckState:
+    """State of a check that stops short for a reason, if any, and was not asked for where the text gives no cause."""
+    causeless = program.reading.not_asked.get(name)
+    return CheckState(name, "not asked", causeless) if causeless else CheckState(name, *_state(reason))
 
 
 def _state(reason: str) -> tuple[State, str]:
@@ -209,5 +212,6 @@ def _state(reason: str) -> tuple[State, str]:
 def _without_path(program: Program, reason: str, more: list[Finding] | None = None) -> Checked:
     """Findings of a program whose geometry is not worth working out."""
     states = (*_parser_states(program), *(CheckState(name, "incomplete", reason) for name in PATH_CHECKS))
-    coverage = Coverage(program.reading.found, program.reading.blocks, 0, 0, states)
+    counts = program.reading.counts
+    coverage = Coverage(counts.found, counts.whole, 0, 0, states)
     return Checked(tuple(sorted([*program.findings, *(more or [])], key=file_order)), coverage, None, (), ())

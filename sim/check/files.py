@@ -6,9 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError
-
-SUFFIXES = (".3b", ".4b")
-"""Ends of names, in any case, that files in folders are known by; a file that is named itself may end as it likes."""
+from parser.program import suffixes
 
 
 def find_files(names: Sequence[str]) -> list[str]:
@@ -21,7 +19,7 @@ def find_files(names: Sequence[str]) -> list[str]:
     for name in names:
         files = list(_files(name))
         if not files:
-            raise FileUnreadableError(f"{name}: no program there; expected files that end in {' or '.join(SUFFIXES)}")
+            raise FileUnreadableError(f"{name}: no program there; expected files that end in {' or '.join(suffixes())}")
         for file in files:
             found.setdefault(file if file == "-" else os.path.realpath(file), file)
     return list(found.values())
@@ -41,10 +39,14 @@ def _files(name: str) -> Iterator[str]:
 
 
 def _below(folder: Path) -> Iterator[str]:
-    """Programs in a folder and below, broken links that are named like one, and folders that cannot be listed."""
+    """Programs in a folder and below, by the ends of their names in any case.
+
+    With broken links that are named like one, and folders that cannot be listed.
+    """
     shut: list[str] = []
+    ends = suffixes()
     for here, _, names in os.walk(folder, onerror=lambda error: shut.append(str(error.filename))):
-        for file in (Path(here) / name for name in names if name.lower().endswith(SUFFIXES)):
+        for file in (Path(here) / name for name in names if name.lower().endswith(ends)):
             if file.is_file() or (file.is_symlink() and not file.exists()):
                 yield str(file)
     yield from shut

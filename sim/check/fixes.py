@@ -6,23 +6,22 @@ from collections import Counter
 from itertools import islice
 from typing import NamedTuple
 
+from controller.stepping.words import words_of
+from parser.dialect.mender import Mender
 from parser.findings.facts import CountedElsewhere, DoubtfulEnd, NoEnd, PrintedElsewhere, WrongLabel, telling
 from parser.findings.findings import Edit, Finding
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.shape.loops import is_circle
-from parser.threeb.print_checks import ends_as_printed, is_misprint
-from parser.threeb.tokens import TokenKind, field_spans
+from parser.text.source import Field
 from parser.toolpath import Axis
 from sim.check.closures import OpenContour, Suspected
 from sim.check.count_axes import WrongAxis
 from sim.check.engine import Checked
-from sim.check.mend.mends import Field
-from sim.check.mend.printed import printed_mends
 
 _MOST_PRINTED = 50  # printed ends that are mended; where more are wrong, it is not by slips in single blocks
 _LINE_END = re.compile(r"\r\n|\r|\n")
-_KINDS = {Field.COUNT: TokenKind.COUNT, Field.AXIS: TokenKind.AXIS}
+_SETTLED = (Field.COUNT, Field.AXIS)
 """Fields that a printed end settles: the others shape the path on the way to it too."""
 _LETTERS = {Field.X: "X ", Field.Y: "Y ", Field.COUNT: "J "}
 
@@ -36,7 +35,9 @@ class Choice(NamedTuple):
 
 def with_edits(program: Program, checked: Checked) -> tuple[Finding, ...]:
     """All findings of a program, each with the edits that certainly mend it; one may make another uncertain."""
-    mends = _Mends(program, checked)
+    if program.mender is None:
+        return checked.findings
+    mends = _Mends(program, program.mender, checked)
     return tuple(finding._replace(edits=mends.of(finding)) for finding in checked.findings)
 
 
@@ -44,25 +45,24 @@ def choices(program: Program, finding: Finding, findings: tuple[Finding, ...]) -
     """Mends of a finding, each enough alone; one or none leave no choice."""
     block = finding.block
     match finding.fact:
-        case PrintedElsewhere():
+        case PrintedElsewhere() if program.mender is not None:
             if next(islice(telling(findings, PrintedElsewhere), _MOST_PRINTED, None), None):
                 return ()
-            possible = printed_mends(program.toolpath, block - 1)
+            possible = program.mender.printed_mends(program.toolpath, block - 1)
             return tuple(Choice(block, _LETTERS.get(field, "") + text) for field, text in possible)
         case WrongLabel(ruled) if not finding.edits:
             here = [one.suspect for other, one in telling(findings, Suspected) if other.block == block]
-            others = [suspect.other for suspect in here if suspect.field == "sense"]
+            others = [suspect.other for suspect in here if suspect.field is Field.SENSE]
             return tuple(Choice(block, text) for text in (ruled, *others))
         case WrongAxis(ruled, count_um) if not finding.edits:
-            axis, written = f"G{ruled.name}", int(program.toolpath.words.count_um[block - 1])
+            axis, written = f"G{ruled.name}", int(words_of(program.toolpath).count_um[block - 1])
             other = (Choice(block, f"{axis} J {count_um}"),) if count_um != written else ()
             return (Choice(block, axis), *other)
         case OpenContour(first):
             suspected = [
                 (other.block, one.suspect) for other, one in telling(findings, Suspected) if one.first == first
             ]
-            letters = {"x": "X ", "y": "Y ", "count": "J "}
-            return tuple(Choice(at, letters.get(suspect.field, "") + suspect.other) for at, suspect in suspected)
+            return tuple(Choice(at, _LETTERS.get(suspect.field, "") + suspect.other) for at, suspect in suspected)
     return ()
 
 
@@ -72,8 +72,9 @@ class _Mends:
     Blocks are numbered from 1.
     """
 
-    def __init__(self, program: Program, checked: Checked) -> None:
-        self._program, self._toolpath = program, program.toolpath
+    def __init__(self, program: Program, mender: Mender, checked: Checked) -> None:
+        self._program, self._mender, self._toolpath = program, mender, program.toolpath
+        self._words = words_of(program.toolpath)
         self._circle = is_circle(program.toolpath)
         self._judged = checked.judged
         # Contours do not overlap and come in order: one search finds the one that a block may be in.
@@ -84,7 +85,7 @@ class _Mends:
         self._open = {contour.first for _, contour in telling(found, OpenContour)}
         suspected = [(finding.block, fact) for finding, fact in telling(found, Suspected)]
         self._suspects = Counter(fact.first for _, fact in suspected)
-        self._other_sense = {block for block, fact in suspected if fact.suspect.field == "sense"}
+        self._other_sense = {block for block, fact in suspected if fact.suspect.field is Field.SENSE}
 
     def of(self, finding: Finding) -> tuple[Edit, ...]:
         """The edits that certainly mend a finding, all together."""
@@ -105,17 +106,17 @@ class _Mends:
         return edits
 
     def _end_code(self) -> tuple[Edit, ...]:
-        """DD on a line of its own behind all that is written, with the line end that the first line has.
+        """The end code on a line of its own behind all that is written, with the line end that the first line has.
 
         Nothing where something unreadable stands behind the last whole block: the program may go on there.
         """
         text, reading = self._program.text, self._program.reading
-        if any(damage.after >= reading.run for damage in reading.damages):
+        if any(damage.after >= reading.counts.run for damage in reading.damages):
             return ()
         at = len(text.rstrip("\x1a\0"))  # DOS ends a text with the one, and fills its last sector with the other
         match = _LINE_END.search(text)
-        newline = match[0] if match else "\n"
-        return (Edit(at, at, f"DD{newline}" if text[:at].endswith(("\r", "\n")) else f"{newline}DD"),)
+        newline, end = match[0] if match else "\n", reading.spelling.end
+        return (Edit(at, at, f"{end}{newline}" if text[:at].endswith(("\r", "\n")) else f"{newline}{end}"),)
 
     def _label(self, finding: Finding, ruled: str) -> tuple[Edit, ...]:
         """The quadrant digit that the rule names: the path stays the same. Nothing where that path is in doubt."""
@@ -126,9 +127,9 @@ class _Mends:
         """The other axis, with the J that ends the block where it ends; nothing where that end is not proved."""
         if not self._end_is_proved(block):
             return ()
-        edits = [self._field(block, TokenKind.AXIS, wrong.ruled.name)]
-        if wrong.count_um != self._toolpath.words.count_um[block - 1]:
-            edits.append(self._field(block, TokenKind.COUNT, str(wrong.count_um)))
+        edits = [self._field(block, Field.AXIS, wrong.ruled.name)]
+        if wrong.count_um != self._words.count_um[block - 1]:
+            edits.append(self._field(block, Field.COUNT, str(wrong.count_um)))
         return tuple(edits)
 
     def _printed_end(self, block: int) -> tuple[Edit, ...]:
@@ -138,37 +139,39 @@ class _Mends:
         """
         if self._misprinted > _MOST_PRINTED:
             return ()
-        misprint = is_misprint(self._toolpath, block - 1)
+        misprint = self._mender.is_misprint(self._toolpath, block - 1)
         if misprint is None:
             contour = self._contour(block)
             misprint = contour is None or contour.first not in self._open
         if misprint:
             return ()
-        possible = printed_mends(self._toolpath, block - 1)
-        if len(possible) != 1 or possible[0].field not in _KINDS:
+        possible = self._mender.printed_mends(self._toolpath, block - 1)
+        if len(possible) != 1 or possible[0].field not in _SETTLED:
             return ()
         field, text = possible[0]
-        return (self._field(block, _KINDS[field], text.removeprefix("G")),)
+        return (self._field(block, field, text.removeprefix("G")),)
 
     def _swapped_axis(self, block: int) -> tuple[Edit, ...]:
         """The other axis, where J is the line's length on that one to the micrometre."""
-        row, words = block - 1, self._toolpath.words
+        row, words = block - 1, self._words
         x, y, count = int(words.x_um[row]), int(words.y_um[row]), int(words.count_um[row])
         other = Axis.Y if words.count_axis[row] == Axis.X else Axis.X
         swapped = count == max(x, y) == (x if other == Axis.X else y)
-        return (self._field(block, TokenKind.AXIS, other.name),) if swapped else ()
+        return (self._field(block, Field.AXIS, other.name),) if swapped else ()
 
     def _suspect(self, block: int, suspected: Suspected) -> tuple[Edit, ...]:
         """The count axis of the only suspect of an open contour."""
         alone = self._suspects[suspected.first] == 1 and suspected.first in self._open
-        if not alone or suspected.suspect.field != "axis":
+        if not alone or suspected.suspect.field is not Field.AXIS:
             return ()
-        return (self._field(block, TokenKind.AXIS, suspected.suspect.other.removeprefix("G")),)
+        return (self._field(block, Field.AXIS, suspected.suspect.other.removeprefix("G")),)
 
-    def _field(self, block: int, field: TokenKind, text: str) -> Edit:
-        first, past = self._toolpath.source.span[block - 1].tolist()
-        low, high = field_spans(self._program.lines.text, first, past)[field]
-        return Edit(high - 1 if field is TokenKind.AXIS else low, high, text)
+    def _field(self, block: int, field: Field, text: str) -> Edit:
+        span = self._toolpath.source.field(block - 1, field)
+        if span is None:
+            raise ValueError(f"block {block} has no {field}")
+        low, high = span
+        return Edit(high - 1 if field is Field.AXIS else low, high, text)
 
     def _end_is_proved(self, block: int) -> bool:
         """Whether a full turn, a closed contour or a printed end says that the block ends where it is read to end."""
@@ -176,7 +179,7 @@ class _Mends:
             return False
         contour = self._contour(block)
         closed = contour is not None and contour.encloses and contour.returns
-        return closed or bool(self._circle[block - 1]) or ends_as_printed(self._toolpath, block - 1)
+        return closed or bool(self._circle[block - 1]) or self._mender.ends_as_printed(self._toolpath, block - 1)
 
     def _way_is_certain(self, block: int) -> bool:
         """Whether nothing suggests that the block was to go another way than its label is read."""

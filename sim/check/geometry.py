@@ -2,16 +2,14 @@
 
 import math
 
+from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
 from parser.program import Program
-from parser.threeb.at_block import at_block
-from parser.threeb.tokens import TokenKind
+from parser.text.source import Field
 from sim.check.shape.corners import tight_corners
 from sim.check.shape.crossings import find_crossings
 from sim.check.shape.senses import retraced_arcs, reversed_arcs
-
-_SENSES = {1: "NR", -1: "SR"}
 
 
 def sense_findings(program: Program, contour: Ints) -> list[Finding]:
@@ -20,21 +18,26 @@ def sense_findings(program: Program, contour: Ints) -> list[Finding]:
     found = [_reversed(program, row) for row in retraced_arcs(toolpath, contour).tolist()]
     arcs = reversed_arcs(toolpath, contour)
     for row, is_major, sweep, other_sweep in zip(*(column.tolist() for column in arcs), strict=True):
-        turn = int(toolpath.words.turn[row])
-        written, other = _SENSES[turn], _SENSES[-turn]
         if is_major:
+            written, other = _senses(program, row)
             degrees = {"sweep": round(abs(math.degrees(sweep))), "minor": round(abs(math.degrees(other_sweep)))}
             values: dict[str, Value] = {"written": written, "other": other, **degrees}
-            found.append(at_block(toolpath, program.lines, "3B211", row, TokenKind.DIRECTION, **values))
+            found.append(at_block(toolpath, program.lines, "3B211", row, Field.SENSE, **values))
         else:
             found.append(_reversed(program, row))
     return found
 
 
 def _reversed(program: Program, row: int) -> Finding:
-    turn = int(program.toolpath.words.turn[row])
-    values = {"written": _SENSES[turn], "other": _SENSES[-turn]}
-    return at_block(program.toolpath, program.lines, "3B306", row, TokenKind.DIRECTION, **values)
+    written, other = _senses(program, row)
+    return at_block(program.toolpath, program.lines, "3B306", row, Field.SENSE, written=written, other=other)
+
+
+def _senses(program: Program, row: int) -> tuple[str, str]:
+    """The sense of the arc in a row and the other one, as the dialect writes them."""
+    spelling = program.reading.spelling
+    both = spelling.clockwise, spelling.counter_clockwise
+    return both if program.toolpath.turn[row] < 0 else both[::-1]
 
 
 def crossing_findings(program: Program, contour: Ints) -> tuple[list[Finding], bool]:
@@ -58,9 +61,7 @@ def crossing_findings(program: Program, contour: Ints) -> tuple[list[Finding], b
 def corner_findings(program: Program, contour: Ints, offset_um: float) -> list[Finding]:
     """Arcs that a wire of this offset cannot cut as drawn (3B305)."""
     toolpath = program.toolpath
-    # 4B, and a CAXA program with an offset of 0, run on the drawing's contour; the controller offsets it.
-    is_drawing = program.reading.dialect == "4B" or program.header.offset_um == 0.0
-    rows = tight_corners(toolpath, contour, offset_um, is_drawing)
+    rows = tight_corners(toolpath, contour, offset_um, program.reading.is_drawing)
     return [
         at_block(toolpath, program.lines, "3B305", row, radius=float(toolpath.radius_um[row]), offset=offset_um)
         for row in rows.tolist()

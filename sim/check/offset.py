@@ -7,11 +7,11 @@ import numpy as np
 from controller.offset.gouges import TOLERANCE_UM, Gouge
 from controller.offset.path import OffsetPath
 from controller.offset.sections import Section
+from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
 from parser.geometry.along import places
 from parser.geometry.curves import Floats, Ints
 from parser.program import Program
-from parser.threeb.at_block import at_block
 from parser.units import mm
 from sim.setup.part import Offset
 

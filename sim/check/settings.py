@@ -6,9 +6,9 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from parser.dialect.reader import Marks
 from parser.findings.codes import CODES, Severity
 from parser.findings.errors import SettingsError
-from parser.threeb.grammar import Marks
 from parser.units import from_mm
 from sim.check.engine import Demands
 from sim.setup.toml.reader import load_toml, number, pair, refuse_unknown, section, truth

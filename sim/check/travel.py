@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from controller.stepping.steps import Steps
+from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.program import Program
-from parser.threeb.at_block import at_block
 from parser.toolpath import Axis, Toolpath
 from parser.units import from_mm
 

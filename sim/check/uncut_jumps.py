@@ -2,13 +2,13 @@
 
 import numpy as np
 
+from parser.dialect.at_block import at_block
 from parser.findings.facts import WrongBlock
 from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
-from parser.threeb.at_block import at_block
-from parser.threeb.figures import CLOSED_WITHIN_UM
+from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
 
 _APART_UM = 1000.0

@@ -84,7 +84,8 @@ def _offset(given: float | None, program: "Program", scenario: "Scenario") -> tu
 
     if given is not None:
         return given, f"{mm(given):g} mm, as given"
-    if program.header.offset_um and scenario.offset is None:
-        offset_um = abs(program.header.offset_um)
+    told = program.header.get("offset_um")
+    if isinstance(told, float) and told and scenario.offset is None:
+        offset_um = abs(told)
         return offset_um, f"{mm(offset_um):g} mm, of the program's header"
     return scenario.wire.reach_um, f"{mm(scenario.wire.reach_um):g} mm, of the wire and its spark gap"

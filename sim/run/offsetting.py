@@ -8,18 +8,15 @@ import numpy as np
 
 from controller.offset.compensate import compensate
 from controller.offset.gouges import TOLERANCE_UM, Gouge, gouges
-from controller.offset.path import Made, OffsetPath
+from controller.offset.path import Made, OffsetPath, offset_toolpath
 from controller.offset.reach import reach
-from controller.offset.sections import Section
+from controller.offset.sections import Section, sections_of
 from controller.offset.shifted import closed_contour
 from controller.offset.uncut import uncut_um
-from controller.offset.words import offset_toolpath
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Curves, Floats
 from parser.program import Program
-from parser.shape.loops import find_loops
-from parser.shape.rows import contour_rows
-from parser.threeb.figures import CLOSED_WITHIN_UM
+from parser.shape.contours import runs
 from parser.toolpath import Toolpath
 from sim.check.offset import gouge_findings, loop_findings, uncut_findings
 from sim.setup.part import Offset
@@ -117,35 +114,5 @@ def _is_overhang(contour: Curves, section: Section, gouge: Gouge) -> bool:
 
 def _beside(path: OffsetPath, drawn: Toolpath) -> Iterator[slice]:
     """Rows of the offset path that cut in each contour, one contour after the other."""
-    for begin, past in _contours(drawn):
+    for begin, past in runs(drawn).tolist():
         yield slice(*np.searchsorted(path.source_row, (begin, past)).tolist())
-
-
-def _contours(toolpath: Toolpath) -> list[tuple[int, int]]:
-    """First row of each contour, and one past its last."""
-    is_cut = np.concatenate([[False], ~toolpath.is_jump, [False]])
-    edges: list[list[int]] = np.flatnonzero(is_cut[1:] != is_cut[:-1]).reshape(-1, 2).tolist()
-    return [(begin, past) for begin, past in edges]
-
-
-def sections_of(toolpath: Toolpath) -> tuple[Section, ...]:
-    """The blocks of each contour that run along the drawing: its loop, without the lead-in and the lead-out.
-
-    As many blocks as lead in may lead out behind the loop; more of them run along the contour once more. A contour
-    without a loop, such as a parting cut, is drawn from its first block to its last.
-    """
-    contours = _contours(toolpath)
-    loops = find_loops(toolpath, contour_rows(toolpath), np.arange(len(contours)))
-    loop_of = {number: at for at, number in enumerate(loops.contour.tolist())}
-    found = []
-    for number, (begin, past) in enumerate(contours):
-        end, at = past - 1, loop_of.get(number)
-        if at is None:
-            found.append(Section(begin, end, closed=False))
-            continue
-        first, last = int(loops.first[at]), int(loops.last[at])
-        leads = first - begin
-        again = end - last > max(leads, 1)
-        closes = np.hypot(*(toolpath.end_um[last] - toolpath.start_um[first])) <= CLOSED_WITHIN_UM
-        found.append(Section(first, end - leads if again else last, closed=bool(closes and not again)))
-    return tuple(found)

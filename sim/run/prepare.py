@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.steps import Steps
+from controller.stepping.words import interpolate
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.facts import TooLarge, telling

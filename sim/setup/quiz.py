@@ -16,6 +16,9 @@ from sim.setup.toml.reader import Bound, number, refuse_unknown, tables
 About = Literal["quadrant", "count_axis", "turn", "count_length", "next_step", "end"]
 """What drycut asks about a block and answers from the program."""
 
+_OF_WORDS: tuple[About, ...] = ("quadrant", "count_axis", "turn", "count_length", "next_step")
+"""What is asked in the words by which a controller counts steps."""
+
 BLOCK = Bound(1, 1e6)
 ANSWERS = Bound(2, 6)
 
@@ -137,6 +140,8 @@ def refuse_unanswerable(questions: Iterable[Question], toolpath: Toolpath) -> No
             last = int(toolpath.source.block[-1])
             raise SettingsError(f"{question.where}: block {question.block} is not in the program, which ends at {last}")
         row = int(rows[0])
+        if question.what in _OF_WORDS and toolpath.words is None:
+            raise SettingsError(f"{question.where}: the program has no words to ask about, but places alone (end)")
         if question.what == "turn" and not toolpath.is_arc[row]:
             raise SettingsError(f"{question.where}: block {question.block} is a line, and does not turn")
         if not isinstance(question.what, Written) and not toolpath.length_um[row] > 0.0:

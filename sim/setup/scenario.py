@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError, SettingsError
+from parser.program import suffixes
 from parser.text.encoding import printable
 from parser.units import from_mm
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
@@ -150,14 +151,14 @@ def load_scenario(path: Path) -> Scenario:
         return Scenario(printable(path.name), path, load_machine(DEFAULT_MACHINE))
     file = path / "scenario.toml"
     if not file.exists():
-        raise SettingsError(f"{path}: is a folder without scenario.toml; give a 3B file or a scenario folder")
+        raise SettingsError(f"{path}: is a folder without scenario.toml; give a program or a scenario folder")
     content, where = load_toml(file), str(file)
     value = TOP.read(content, where, beside=(section.name for section in SECTIONS[1:]))
     machine = load_machine(value.pop("machine"), beside=path)
-    interpolator = value.pop("interpolator")
+    interpolator, program = value.pop("interpolator"), value.pop("program")
     return Scenario(
         title=value.pop("title") or printable(path.resolve().name),
-        program=path / value.pop("program"),
+        program=path / (program if "program" in content else _usual_name(path)),
         machine=machine if interpolator is None else machine.stepping_by(interpolator),
         wire=read_wire(section(content, "wire", where), f"{where}: [wire]"),
         clamps=read_clamps(content, where),
@@ -174,3 +175,9 @@ def scenario_sections(scenario: Scenario) -> list[Written]:
     """Sections of the scenario file that asks for the same run, on the machine of ``machine.toml``."""
     tables = [written for section in SECTIONS[:-1] for written in section.written(scenario)]
     return [*tables, expect_section(scenario.expect)]
+
+
+def _usual_name(folder: Path) -> str:
+    """Name of the program in a scenario folder that names none: of the usual ones the first that is there."""
+    names = [f"program{suffix}" for suffix in suffixes()]
+    return next((name for name in names if (folder / name).exists()), names[0])

@@ -3,9 +3,9 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from parser.dialect.at_block import at_block
 from parser.findings.findings import Fact, Finding, Value, file_order
 from parser.program import Program
-from parser.threeb.at_block import at_block
 from parser.toolpath import Axis
 from parser.units import mm
 from sim.setup.machine.table_model import Motor

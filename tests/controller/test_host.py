@@ -19,8 +19,8 @@ from controller.motion.limits import Feeds, MotionLimits, row_limits
 from controller.motion.path import path_of
 from controller.motion.planner import plan_rows
 from controller.stepping.interpolators import EqualTime, PointByPoint
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
+from controller.stepping.words import interpolate
 from parser.program import parse_program
 
 FEEDS = Feeds(cut_um_s=500.0, jump_um_s=4000.0)

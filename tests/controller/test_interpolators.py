@@ -15,9 +15,9 @@ from controller.motion.path import path_of
 from controller.motion.plan import EMPTY_PLAN, Plan
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping.interpolators import EqualTime, Interpolator, PointByPoint
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
 from controller.stepping.steps import Steps
+from controller.stepping.words import interpolate
 from parser.program import parse_program
 from parser.toolpath import Toolpath
 

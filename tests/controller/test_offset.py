@@ -16,10 +16,9 @@ from paths import Pen, flipped
 from sound_shapes import SHAPES, Shape
 
 from controller.offset.compensate import compensate
-from controller.offset.path import Made, OffsetPath
+from controller.offset.path import Made, OffsetPath, offset_toolpath
 from controller.offset.sections import Section, Side
-from controller.offset.words import offset_toolpath
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.words import interpolate
 from parser.geometry.curves import Curves, Floats, Ints, Kind, curves_between, joined
 from parser.geometry.distance import distance_to_curves
 from parser.toolpath import Stop, Toolpath

@@ -17,7 +17,7 @@ import pytest
 from jsonschema import Draft202012Validator
 from places import MACHINES, ROOT
 
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.words import interpolate
 from parser.findings.catalogue import Language
 from parser.findings.catalogue import page as catalogue_page
 from parser.findings.codes import CODES, Check

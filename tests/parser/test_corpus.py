@@ -46,11 +46,8 @@ def facts(program: Program) -> dict[str, Any]:
         "jumps": [block.number for block in toolpath if toolpath.is_jump[block.number - 1]],
         "stops": [[stop.kind, stop.after] for stop in toolpath.stops],
         "header": {
-            "version": header.version,
-            "name": header.name,
-            "corner_radius_um": header.corner_radius_um,
-            "offset_um": header.offset_um,
-            "lengths_um": [round(length.um, 3) for length in header.lengths],
+            **header,
+            "lengths_um": [round(length_um, 3) for length_um in header["lengths_um"]],
         },
     }
 

@@ -9,9 +9,9 @@ from drawings import Arc
 from plain import PlainBlock, motion_quadrant, plain_steps
 from sound_cam import arc_block, line_block
 
-from parser.threeb.arcs import arc_ends
-from parser.threeb.words import words_of_arcs, words_of_lines
 from parser.toolpath import Axis, Words
+from parser.words.arcs import arc_ends
+from parser.words.telling import words_of_arcs, words_of_lines
 
 SENSE = {0: "L", 1: "NR", -1: "SR"}
 

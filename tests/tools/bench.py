@@ -30,8 +30,8 @@ from controller.motion.junctions import JunctionDeviation
 from controller.motion.limits import Feeds, MotionLimits, row_limits
 from controller.motion.planner import plan_rows
 from controller.stepping.interpolators import PointByPoint
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
+from controller.stepping.words import interpolate
 from parser.program import read_program
 from sim.check.batch import Job, check_file
 from sim.check.settings import CheckSettings

@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.threeb.words import words_of_lines
 from parser.toolpath import Axis
+from parser.words.telling import words_of_lines
 
 
 class LineWords(NamedTuple):

@@ -13,7 +13,7 @@ import numpy as np
 from plain import PlainBlock, plain_steps
 from strategies import program_text
 
-from controller.stepping.point_by_point import interpolate
+from controller.stepping.words import interpolate
 from parser.program import parse_program
 
 SEED = 20260101

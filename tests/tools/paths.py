@@ -6,8 +6,9 @@ from typing import Self
 import numpy as np
 
 from parser.geometry.curves import Curves, Kind
-from parser.threeb.arcs import arc_ends
-from parser.toolpath import Source, Toolpath, Words
+from parser.text.source import Source
+from parser.toolpath import Toolpath, Words
+from parser.words.arcs import arc_ends
 
 
 class Pen:

@@ -1,4 +1,4 @@
-"""How often `sim.check.mend.suspects` finds a broken block: ``PYTHONPATH=. python tests/tools/suspects_rates.py``.
+"""How often `parser.threeb.mend.suspects` finds a broken block: ``PYTHONPATH=. python tests/tools/suspects_rates.py``.
 
 Sound closed contours as a CAM writes them are broken in one field of one block at random. The table says, for each
 field, in how many of those that no longer close the broken block is named, named first, and named alone; how often with
@@ -12,7 +12,7 @@ from collections import Counter, defaultdict
 from broken import broken, built, decoded
 from drawings import contour
 
-from sim.check.mend.suspects import suspects
+from parser.threeb.mend.suspects import suspects
 
 
 def main() -> None:

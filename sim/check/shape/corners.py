@@ -15,7 +15,7 @@ def tight_corners(toolpath: Toolpath, contour_of_row: Ints, offset_um: float, is
     Parameters
     ----------
     contour_of_row
-        (n,) contour number of each row, −1 on jumps; see `parser.shape.rows`.
+        (n,) contour number of each row, −1 on jumps; see `parser.shape.contours`.
     offset_um
         Of the wire's centre from the part: wire radius and spark gap.
     is_drawing

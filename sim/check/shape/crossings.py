@@ -14,7 +14,7 @@ from parser.geometry.broad_phase_pairs import near_pairs
 from parser.geometry.curves import Floats, Ints
 from parser.geometry.directions import headings_at
 from parser.geometry.meets import Meets, by_xy, curves_meet
-from parser.threeb.figures import CLOSED_WITHIN_UM
+from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Point, Toolpath
 
 CLEAR_UM = 5.0
@@ -62,7 +62,7 @@ def find_crossings(toolpath: Toolpath, contour_of_row: Ints, most_pairs: int = M
     Parameters
     ----------
     contour_of_row
-        (n,) contour number of each row, −1 on jumps; see `parser.shape.rows`.
+        (n,) contour number of each row, −1 on jumps; see `parser.shape.contours`.
     most_pairs
         How many pairs of pieces of blocks are compared at most.
     """

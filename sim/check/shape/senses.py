@@ -11,8 +11,8 @@ import numpy as np
 
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.directions import Directions, directions
+from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.loops import find_loops, is_circle
-from parser.threeb.figures import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
 
 _CUSP_RAD = np.radians(178.0)
@@ -86,7 +86,7 @@ def retraced_arcs(toolpath: Toolpath, contour_of_row: Ints) -> Ints:
     Parameters
     ----------
     contour_of_row
-        (n,) contour number of each row, −1 on jumps; see `parser.shape.rows`.
+        (n,) contour number of each row, −1 on jumps; see `parser.shape.contours`.
     """
     row = np.flatnonzero(toolpath.is_arc & (contour_of_row >= 0))
     if len(row) < 2:

@@ -4,11 +4,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour
-from parser.threeb.at_block import at_block
 from parser.units import mm
 from sim.cut.obstacles.bodies import Pieces, grown, sides, swept
 from sim.cut.obstacles.touches import Touch, Way, touches, way_of

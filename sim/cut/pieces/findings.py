@@ -1,8 +1,8 @@
 """Findings on the pieces that a cut leaves: those that come free before their cut is done."""
 
+from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
 from parser.program import Program
-from parser.threeb.at_block import at_block
 from parser.units import mm
 from sim.cut.pieces.pieces import Piece, Pieces
 

@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 
 from parser.geometry.curves import Floats, Ints
-from parser.shape.rows import contour_rows
+from parser.shape.contours import contour_rows
 from parser.toolpath import Point, Toolpath
 from sim.cut.kerf.edges import Edges
 from sim.cut.kerf.nominal import nominal_region

@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from parser.dialect.at_block import at_block
 from parser.drawing.model import Drawing
 from parser.findings.errors import SettingsError
 from parser.findings.findings import Finding
 from parser.program import Program
 from parser.text.encoding import printable
-from parser.threeb.at_block import at_block
 from parser.units import mm
 from sim.cut.pieces.pieces import Pieces
 from sim.measure.compare.as_cut import edge_as_cut

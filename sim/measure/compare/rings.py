@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.geometry.feet import feet
+from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.contours import contour_rows
 from parser.shape.loops import find_loops
-from parser.shape.rows import contour_rows
-from parser.threeb.figures import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
 
 _SAGITTA_UM = 0.05  # of the chords of an outline

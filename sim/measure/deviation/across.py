@@ -88,7 +88,7 @@ def _take_nearer(
 
 def _earliest(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floats) -> Ints:
     """How far to look back: the first row (m,) from which each place may be measured."""
-    before = np.concatenate([[0.0], np.cumsum(toolpath.length_um)])
+    before = toolpath.before_um
     off = place_um - trace.commanded_um
     reach = along_um - 2.0 * np.hypot(off[:, 0], off[:, 1])
     first = trace.row.copy()

@@ -21,16 +21,26 @@ def block_entries(run: DryRun) -> list[dict[str, Any]]:
         "label": [label or None for label in toolpath.source.label],
         "text": [toolpath.source.text[low:high] for low, high in toolpath.source.span.tolist()],
         "kind": [Kind(kind).name.lower() for kind in toolpath.kind.tolist()],
-        "count_um": toolpath.words.count_um.tolist(),
-        "radius_um": [None if radius < 0 else radius for radius in toolpath.words.radius_um.tolist()],
-        "curve": [_CURVES[curve] for curve in toolpath.words.curve.tolist()],
-        "count_axis": [Axis(axis).name for axis in toolpath.words.count_axis.tolist()],
+        **_words(toolpath),
         "exact": rows(_exact(toolpath)),
         "stepped": rows(_stepped(run)),
         "table": rows({"max_deviation_um": column(run.deviations.table.by_row_um)}),
         "printed_end_um": points(toolpath.printed_end_um),
     }
     return rows(columns)
+
+
+def _words(toolpath: Toolpath) -> dict[str, list[Any]]:
+    """What the blocks say of steps; None where the dialect has no words for that."""
+    words = toolpath.words
+    if words is None:
+        return dict.fromkeys(("count_um", "radius_um", "curve", "count_axis"), [None] * len(toolpath))
+    return {
+        "count_um": words.count_um.tolist(),
+        "radius_um": [None if radius < 0 else radius for radius in words.radius_um.tolist()],
+        "curve": [_CURVES[curve] for curve in words.curve.tolist()],
+        "count_axis": [Axis(axis).name for axis in words.count_axis.tolist()],
+    }
 
 
 def _exact(toolpath: Toolpath) -> dict[str, list[Any]]:

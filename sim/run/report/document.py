@@ -3,11 +3,11 @@
 import json
 from typing import Any
 
+from parser.dialect.reader import HeaderValue
 from parser.findings.catalogue import term, texts
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.shape.contours import Contour
-from parser.threeb.header import Header
 from sim import __version__
 from sim.check.result import CheckState, Coverage
 from sim.measure.compare.result import Comparison
@@ -16,7 +16,7 @@ from sim.run.report.blocks import block_entries
 from sim.run.report.drawing import comparison_document
 from sim.run.report.figures import deviation_entries, limit_entry, loss_entry, offset_entry
 from sim.run.report.remains import remains_entry
-from sim.run.report.rounded import column, known, rounded
+from sim.run.report.rounded import column, rounded
 
 SCHEMA = "drycut.report/1"
 
@@ -34,7 +34,7 @@ def build_report(run: DryRun) -> dict[str, Any]:
             "provenance": scenario.provenance,
             "encoding": run.program.encoding,
             "dialect": run.program.reading.dialect,
-            "header": _header(run.program.header),
+            "header": {key: _header_value(value) for key, value in run.program.header.items()},
         },
         "machine": {"name": scenario.machine.name, "start_um": [rounded(place) for place in scenario.start_um]},
         "wire": {
@@ -101,14 +101,11 @@ def _finding(finding: Finding) -> dict[str, Any]:
     }
 
 
-def _header(header: Header) -> dict[str, Any]:
-    return {
-        "version": header.version or None,
-        "name": header.name or None,
-        "corner_radius_um": known(header.corner_radius_um),
-        "offset_um": known(header.offset_um),
-        "lengths_um": [rounded(length.um) for length in header.lengths],
-    }
+def _header_value(value: HeaderValue) -> Any:
+    """What a header says of one thing; None where it does not say it."""
+    if isinstance(value, tuple):
+        return [rounded(one) for one in value]
+    return rounded(value) if isinstance(value, float) else value or None
 
 
 def _coverage(coverage: Coverage) -> dict[str, Any]:

@@ -101,8 +101,9 @@ def _end(block: AskedBlock) -> Written | None:
     center_x, center_y = (in_mm(place) if block.is_arc else "" for place in block.center_um.tolist())
     start_x, start_y = (in_mm(place) for place in block.start_um.tolist())
     values = {"start_x": start_x, "start_y": start_y, "center_x": center_x, "center_y": center_y}
+    kind = block.kind if block.is_worded else "line"  # the text on arcs tells how far one counts
     why = said(
-        f"quiz.end_{block.kind}_why",
+        f"quiz.end_{kind}_why",
         turn=_turn(block),
         count=block.count_um,
         axis=block.axis,

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.stepping.quadrants import walk_arcs
+from controller.stepping.words import words_of
 from parser.geometry.curves import Floats
 from parser.toolpath import Axis
 from parser.units import mm
@@ -30,6 +31,8 @@ class AskedBlock(NamedTuple):
         (2,) which way its first step goes; (0, 0) where it makes none.
     steps
         How many it makes.
+    is_worded
+        Whether its words stand in the program; else they are the controller's own.
     """
 
     number: int
@@ -45,6 +48,7 @@ class AskedBlock(NamedTuple):
     turn: int
     first_step: tuple[int, int]
     steps: int
+    is_worded: bool
 
     @property
     def by_um(self) -> Floats:
@@ -80,7 +84,7 @@ class AskedBlock(NamedTuple):
 def asked_block(run: DryRun, row: int, first_um: tuple[int, int] | None) -> AskedBlock:
     """The block in a row, whose first step leads to a place."""
     toolpath = run.toolpath
-    words = toolpath.words
+    words = words_of(toolpath)
     from_x, from_y = run.stepped.corner_um[row].tolist()
     to_x, to_y = first_um or (from_x, from_y)
     return AskedBlock(
@@ -97,6 +101,7 @@ def asked_block(run: DryRun, row: int, first_um: tuple[int, int] | None) -> Aske
         turn=int(words.turn[row]),
         first_step=(to_x - from_x, to_y - from_y),
         steps=int(run.stepped.count[row]),
+        is_worded=toolpath.words is not None,
     )
 
 

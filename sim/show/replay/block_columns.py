@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from controller.motion.plan import Plan
+from controller.stepping.words import words_of
 from parser.geometry.curves import Floats, Kind
 from parser.program import Program
 from parser.toolpath import Axis, Toolpath, Words
@@ -23,7 +24,7 @@ def block_columns(run: DryRun, steps: int) -> dict[str, list[Any]]:
     before = np.concatenate([[0], np.cumsum(run.stepped.count)])
     return {
         **_exact(run.toolpath),
-        **_words(run.toolpath.words),
+        **_words(words_of(run.toolpath)),
         **_source(run.program),
         "first_step": np.minimum(before, steps).tolist(),
         "border_s": column(run.border_s),
@@ -58,6 +59,7 @@ def _pairs(name: str, place_um: Floats) -> dict[str, list[float | None]]:
 
 
 def _words(words: Words) -> dict[str, list[Any]]:
+    """What the controller counts by: words of the program, or its own."""
     return {
         "word_x_um": words.x_um.tolist(),
         "word_y_um": words.y_um.tolist(),

@@ -41,7 +41,7 @@ def block_table(run: DryRun, report: Mapping[str, Any]) -> Table:
             Column(said("report.text"), of("text"), "code"),
             worded("kind", of("kind"), "kind"),
             counted("count-length", of("count_um")),
-            Column(said("report.count-axis"), [f"G{axis}" for axis in of("count_axis")], "code"),
+            Column(said("report.count-axis"), [axis and f"G{axis}" for axis in of("count_axis")], "code"),
             millimetres("from-x", of("exact.start_um.0")),
             millimetres("from-y", of("exact.start_um.1")),
             millimetres("to-x", of("exact.end_um.0")),

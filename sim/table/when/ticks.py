@@ -73,7 +73,7 @@ def choose_ticks(toolpath: Toolpath, plan: Plan, rhythm: Rhythm, spacing_um: flo
     The trace gets a sample at every border of blocks and after every `spacing_um` of path. With `every_step` no tick is
     long.
     """
-    before = np.concatenate([[0.0], np.cumsum(toolpath.length_um)])
+    before = toolpath.before_um
     borders = plan.time_at(before)
     rest = plan.duration_s + rhythm.died_s
     samples = np.concatenate([plan.time_at(_spaced(before, spacing_um)), [plan.duration_s, rest]])

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from paths import Pen
 
+from parser.shape.contours import contour_rows
 from parser.shape.loops import find_loops
-from parser.shape.rows import contour_rows
 from sim.check.shape.corners import tight_corners
 
 OFFSET = 100.0

@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from paths import Pen
 
-from parser.shape.rows import contour_rows
+from parser.shape.contours import contour_rows
 from sim.check.shape.crossings import find_crossings
 
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from paths import Pen
 from runs import codes, run_text
 
-from parser.shape.rows import contour_rows
+from parser.shape.contours import contour_rows
 from sim.check.shape.senses import ReversedArcs, reversed_arcs
 
 HALF = math.pi / 2

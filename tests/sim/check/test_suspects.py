@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from plain import PlainBlock
 
+from parser.dialect.mender import Suspect
 from parser.threeb.decode import decode
+from parser.threeb.mend.suspects import MOST, suspects
 from parser.threeb.reader import read_records
-from sim.check.mend.suspects import MOST, Suspect, suspects
 
 KEYHOLE = (
     "B0B24900B24900GYL2 B0B24900B49800GXNR2 B56757B0B56757GXL1 "

@@ -11,10 +11,10 @@ from places import ROOT, SCENARIOS
 from runs import codes, run_folder, run_text
 
 from controller.offset.path import Made
-from controller.offset.sections import Section, Side
+from controller.offset.sections import Section, Side, sections_of
 from parser.program import parse_program
 from parser.toolpath import Toolpath
-from sim.run.offsetting import offsetting, sections_of
+from sim.run.offsetting import offsetting
 from sim.run.report import build_report
 from sim.setup.part import Offset
 

@@ -226,7 +226,7 @@ def test_why_an_axis_counts_is_the_rule_or_its_breach(block: PlainBlock, why: st
 
 def test_wrong_ends_are_no_place_where_steps_might_end() -> None:
     block = AskedBlock(
-        1, False, np.zeros(2), np.array([9.0, 0.0]), np.full(2, np.nan), 9.0, (9, 0), 9, "X", 1, 0, (1, 0), 9
+        1, False, np.zeros(2), np.array([9.0, 0.0]), np.full(2, np.nan), 9.0, (9, 0), 9, "X", 1, 0, (1, 0), 9, True
     )
     assert written_out("end", block) is None
     far = written_out("end", block._replace(end_um=np.array([9.0, 300.0])))

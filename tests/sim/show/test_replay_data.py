@@ -21,8 +21,8 @@ from replayed import ASSETS, document_of, exports, recording_of, replay_of
 from runs import silent
 from strategies import program_text
 
-from controller.stepping.point_by_point import interpolate
 from controller.stepping.pulses import Pulses
+from controller.stepping.words import interpolate
 from parser.geometry.curves import Floats
 from parser.program import parse_program, read_program
 from parser.toolpath import Point

@@ -5,8 +5,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
+from parser.shape.contours import contour_rows
 from parser.shape.loops import Loops, find_loops
-from parser.shape.rows import contour_rows
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.cut.pieces.pieces import Pieces

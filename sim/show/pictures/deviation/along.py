@@ -105,7 +105,7 @@ def all_show(chart: Chart, toolpath: Toolpath) -> bool:
 
 def draw_borders(canvas: Canvas, chart: Chart, toolpath: Toolpath, height: float) -> None:
     """Draw borders down the chart, jumps as bars in a strip of a height above it, and numbers of blocks there."""
-    x = chart.x_px(mm(np.concatenate([[0.0], np.cumsum(toolpath.length_um)])))
+    x = chart.x_px(mm(toolpath.before_um))
     top, unit = chart.frame.top - height, chart.unit
     for row in np.flatnonzero(toolpath.is_jump).tolist():
         box = Box(float(x[row]), top + 0.8 * height, float(x[row + 1]), top + 0.95 * height)

@@ -87,7 +87,7 @@ def _reach_um(samples: Samples, foot: Floats, at: int, side_um: float) -> tuple[
 def _ideal(samples: Samples, low: float, high: float) -> Floats:
     """The ideal path from a length to another one, its corners included."""
     toolpath = samples.run.toolpath
-    border = np.concatenate([[0.0], np.cumsum(toolpath.length_um)])
+    border = toolpath.before_um
     high = min(high, float(border[-1]))
     inner = border[(border > low) & (border < high)]
     along = np.union1d(np.linspace(low, high, POINTS), inner)

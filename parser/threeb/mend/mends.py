@@ -3,7 +3,6 @@
 Words stand here as an (n, 6) int64 table, one row a block, in the order of the columns of `Words`.
 """
 
-from enum import IntEnum
 from itertools import product
 from typing import NamedTuple
 
@@ -11,13 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
-from parser.threeb.decode import Moves, moves, with_axes_named
+from parser.text.source import Field
+from parser.threeb.decode import decoded_words
+from parser.threeb.mend.likelihood import slip
+from parser.threeb.mend.solved import solved_numbers
 from parser.toolpath import Axis, Toolpath, Words
-from sim.check.mend.likelihood import slip
-from sim.check.mend.solved import solved_numbers
+from parser.words.moves import Moves, moves, with_axes_named
 
 X, Y, COUNT, AXIS, QUADRANT, TURN = range(6)
 """Columns of a table of words."""
+SENSE = QUADRANT  # which with the turn is one field, Z
+FIELDS = (Field.X, Field.Y, Field.COUNT, Field.AXIS, Field.SENSE)
+"""Fields that may be written otherwise, by their numbers, X to SENSE."""
 
 _COLUMNS = ("x_um", "y_um", "count_um", "count_axis", "quadrant", "turn")
 _OTHER_FIELD = 7  # points of a changed letter or label, like one changed digit
@@ -26,18 +30,8 @@ _SENSES = tuple(product((0, 1, -1), (1, 2, 3, 4)))  # (turn, quadrant): what Z c
 _PLACES = 10 ** np.arange(9)  # places of the digits of a word of up to nine
 
 
-class Field(IntEnum):
-    """Fields of a block; sense and quadrant are one, Z."""
-
-    X = 0
-    Y = 1
-    COUNT = 2
-    AXIS = 3
-    SENSE = 4
-
-
 class Mends(NamedTuple):
-    """Blocks written otherwise: `row` (k,) of the table they were made from, `field` (k,), `word` (k, 6)."""
+    """Blocks written otherwise: `row` (k,) of the table they were made from, `field` (k,) by number, `word` (k, 6)."""
 
     row: Ints
     field: Ints
@@ -46,7 +40,7 @@ class Mends(NamedTuple):
 
 def word_table(toolpath: Toolpath, rows: Ints) -> Ints:
     """(n, 6) words of the rows."""
-    return np.stack([getattr(toolpath.words, name)[rows] for name in _COLUMNS], axis=1)
+    return np.stack([getattr(decoded_words(toolpath), name)[rows] for name in _COLUMNS], axis=1)
 
 
 def moves_of(word: Ints) -> Moves:
@@ -69,8 +63,7 @@ def mends(word: Ints, by_um: Floats, gap_um: Floats, tolerance_um: float) -> Men
     want = by_um + gap_um
     fixed = _that_end(_other_axes_and_senses(word), want, tolerance_um)
     solved = [
-        _that_end(_near(word, _numbers(word, want, field, tolerance_um)), want, tolerance_um)
-        for field in (Field.X, Field.Y, Field.COUNT)
+        _that_end(_near(word, _numbers(word, want, field, tolerance_um)), want, tolerance_um) for field in (X, Y, COUNT)
     ]
     return _joined([fixed, *solved])
 
@@ -80,7 +73,7 @@ def _other_axes_and_senses(word: Ints) -> Mends:
     rows = np.arange(len(word))
     other_axis = word.copy()
     other_axis[:, AXIS] = 1 - word[:, AXIS]
-    made = [Mends(rows, np.full(len(word), Field.AXIS), other_axis)]
+    made = [Mends(rows, np.full(len(word), AXIS), other_axis)]
     bare = _is_bare(word)
     for turn, quadrant in _SENSES:
         changed = word.copy()
@@ -90,7 +83,7 @@ def _other_axes_and_senses(word: Ints) -> Mends:
         words = with_axes_named(words_of(changed))
         changed[:, X], changed[:, Y] = words.x_um, words.y_um
         differs = (word[:, QUADRANT] != quadrant) | (word[:, TURN] != turn)
-        made.append(Mends(rows[differs], np.full(int(differs.sum()), Field.SENSE), changed[differs]))
+        made.append(Mends(rows[differs], np.full(int(differs.sum()), SENSE), changed[differs]))
     return _joined(made)
 
 
@@ -101,10 +94,10 @@ def _is_bare(word: Ints) -> NDArray[np.bool_]:
     return bare
 
 
-def _numbers(word: Ints, want_um: Floats, field: Field, tolerance_um: float) -> Mends:
+def _numbers(word: Ints, want_um: Floats, field: int, tolerance_um: float) -> Mends:
     """Blocks with one number solved, as near as whole µm come."""
-    solved = solved_numbers(words_of(word), want_um, int(field), tolerance_um)
-    able = ~_is_bare(word)[solved.row] | (field == Field.COUNT)
+    solved = solved_numbers(words_of(word), want_um, field, tolerance_um)
+    able = ~_is_bare(word)[solved.row] | (field == COUNT)
     row, changed = solved.row[able], word[solved.row[able]]
     changed[:, field] = solved.value[able]
     made = Mends(row, np.full(len(row), field), changed)
@@ -127,7 +120,7 @@ def _near(word: Ints, solved: Mends) -> Mends:
     changed = np.tile(solved.word, (len(values), 1))
     changed[:, field] = values.ravel()
     row = np.tile(solved.row, len(values))
-    differs = (changed[:, field] != word[row, field]) & (changed[:, field] >= (field == Field.COUNT))
+    differs = (changed[:, field] != word[row, field]) & (changed[:, field] >= (field == COUNT))
     return Mends(row[differs], np.full(int(differs.sum()), field), changed[differs])
 
 
@@ -185,7 +178,7 @@ def words_of(word: Ints) -> Words:
 def ease(written: Ints, made: Mends) -> Ints:
     """(k,) points of how little mends change blocks (k, 6) as written."""
     points = np.full(len(made.row), _OTHER_FIELD)
-    for field in (Field.X, Field.Y, Field.COUNT):
+    for field in (X, Y, COUNT):
         of = made.field == field
         points[of] = slip(written[of, field], made.word[of, field])
     return points
@@ -193,6 +186,6 @@ def ease(written: Ints, made: Mends) -> Ints:
 
 def field_text(word: Ints, field: int) -> str:
     """A field as 3B writes it."""
-    if field == Field.AXIS:
+    if field == AXIS:
         return f"G{Axis(int(word[AXIS])).name}"
-    return f"{_LETTERS[int(word[TURN])]}{word[QUADRANT]}" if field == Field.SENSE else str(word[field])
+    return f"{_LETTERS[int(word[TURN])]}{word[QUADRANT]}" if field == SENSE else str(word[field])

@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
-from parser.threeb.arcs import ArcEnds, arc_ends
 from parser.threeb.columns import MAX_WORD_UM
 from parser.toolpath import Axis, Words
+from parser.words.arcs import ArcEnds, arc_ends
 
 _COUNT = 2
 _ROUNDS = 4  # of Newton's method; from the closed forms two suffice, four where they are ill-conditioned

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
 from parser.threeb.block_checks import ruled_label
-from parser.threeb.decode import Moves
 from parser.toolpath import Axis, Words
+from parser.words.moves import Moves
 
 Flags = NDArray[np.bool_]
 

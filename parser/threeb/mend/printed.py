@@ -1,25 +1,16 @@
 """Mends of a block that ends elsewhere than printed: fields of which one, written otherwise, ends it there."""
 
-from typing import NamedTuple
-
 import numpy as np
 
+from parser.dialect.mender import PrintedMend
 from parser.threeb.block_checks import counts_fit
-from parser.threeb.decode import endless
+from parser.threeb.mend.likelihood import obedience
+from parser.threeb.mend.mends import FIELDS, Mends, ease, field_text, mends, moves_of, word_table, words_of
 from parser.threeb.print_checks import print_change
 from parser.toolpath import Toolpath
-from sim.check.mend.likelihood import obedience
-from sim.check.mend.mends import Field, Mends, ease, field_text, mends, moves_of, word_table, words_of
 
 _PRINTED_UM = 1.5  # a printed end is rounded to 1 µm, and so is J
 _AS_LIKELY = 6  # points; one broken rule, or a number changed in more than a digit, is less likely
-
-
-class PrintedMend(NamedTuple):
-    """A field, and what it would say, as 3B writes it."""
-
-    field: Field
-    text: str
 
 
 def printed_mends(toolpath: Toolpath, row: int) -> tuple[PrintedMend, ...]:
@@ -29,7 +20,7 @@ def printed_mends(toolpath: Toolpath, row: int) -> tuple[PrintedMend, ...]:
     by = moves_of(word).by_um
     made = mends(word, by, gap, _PRINTED_UM)
     words = words_of(made.word)
-    sound = ~endless(words) & counts_fit(words)  # what only moves the fault on is no mend
+    sound = ~words.is_endless & counts_fit(words)  # what only moves the fault on is no mend
     made = Mends(*(column[sound] for column in made))
     if not len(made.row):
         return ()
@@ -39,6 +30,6 @@ def printed_mends(toolpath: Toolpath, row: int) -> tuple[PrintedMend, ...]:
     order = np.lexsort([off, -points])
     best: dict[int, PrintedMend] = {}
     for at in order[points[order] >= points.max() - _AS_LIKELY].tolist():
-        field = Field(int(made.field[at]))
-        best.setdefault(field, PrintedMend(field, field_text(made.word[at], field)))
+        field = int(made.field[at])
+        best.setdefault(field, PrintedMend(FIELDS[field], field_text(made.word[at], field)))
     return tuple(best[field] for field in sorted(best))

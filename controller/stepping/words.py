@@ -1,38 +1,26 @@
-"""An offset path as a toolpath, to be stepped like any other.
-
-Its words are those that a controller steps it by: each block from where the steps of the one before it ended.
-"""
-
-from dataclasses import fields
+"""Words that a controller steps a path by: those of its program, or words of its own where the program has none."""
 
 import numpy as np
 
-from controller.offset.path import Made, OffsetPath
 from controller.stepping.point_by_point import interpolate_words
+from controller.stepping.steps import Steps
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.threeb.words import chosen, words_of_arcs, words_of_lines
 from parser.toolpath import Toolpath, Words
+from parser.words.telling import chosen, words_of_arcs, words_of_lines
 
 
-def offset_toolpath(toolpath: Toolpath, path: OffsetPath) -> Toolpath:
-    """Toolpath of the offset `path` of a `toolpath`: its exact curves, and words of whole µm to step them by.
+def interpolate(toolpath: Toolpath) -> Steps:
+    """Steps of a whole toolpath, each block from where the steps of the one before it ended."""
+    return interpolate_words(words_of(toolpath), toolpath.length_um)
 
-    Every row bears the source of the block that it comes from, stops stand where they stood among these. Printed ends
-    are those of blocks without offset alone.
-    """
-    row = path.source_row
-    as_it_is = (path.made == Made.AS_IT_IS)[:, None]
-    return Toolpath(
-        **{field.name: getattr(path.curves, field.name) for field in fields(Curves)},
-        printed_end_um=np.where(as_it_is, toolpath.printed_end_um[row], np.nan),
-        words=stepped_words(path.curves),
-        source=toolpath.source.picked(row),
-        stops=tuple(stop._replace(after=int(np.searchsorted(row, stop.after))) for stop in toolpath.stops),
-    )
+
+def words_of(toolpath: Toolpath) -> Words:
+    """Words to step a toolpath by: exactly those of its program, else such as end each block where it should."""
+    return stepped_words(toolpath) if toolpath.words is None else toolpath.words
 
 
 def stepped_words(curves: Curves) -> Words:
-    """Words of n curves, all places in whole µm from where the first one begins.
+    """Words of n curves, all places in whole µm from where the first one begins; jumps are told as lines.
 
     A controller counts its own pulses, so that rounding does not add up. All blocks are told and stepped at once, as
     if each began at the whole µm next to its start; those that turn out to begin elsewhere are told again. A line ends

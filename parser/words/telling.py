@@ -1,4 +1,4 @@
-"""3B words of lines and arcs by the trade's rules for labels, count length and count axis (docs/3b.md §1)."""
+"""Words that tell lines and arcs, by the trade's rules for quadrant, count length and count axis (docs/3b.md §1)."""
 
 import numpy as np
 
@@ -19,7 +19,7 @@ def words_of_lines(by_um: Floats) -> Words:
     # At 45° GY in quadrants 1 and 3, GX in 2 and 4: the axis that is stepped last.
     on_x = (x > y) | ((x == y) & (quadrant % 2 == 0))
     axis = np.where(on_x, np.int64(Axis.X), np.int64(Axis.Y))
-    return _in_3b(by, np.maximum(x, y), axis, quadrant, np.zeros_like(x))
+    return _words(by, np.maximum(x, y), axis, quadrant, np.zeros_like(x))
 
 
 def words_of_arcs(start_um: Floats, end_um: Floats, sweep_rad: Floats) -> Words:
@@ -51,7 +51,7 @@ def words_of_arcs(start_um: Floats, end_um: Floats, sweep_rad: Floats) -> Words:
     x, y = place.T
     quadrant = np.where(turn > 0.0, _quadrant(x, y), 5 - _quadrant(x, -y))
     axis = np.where(on_y, np.int64(Axis.Y), np.int64(Axis.X))
-    arcs = _in_3b(place, count, axis, quadrant, turn.astype(np.int64))
+    arcs = _words(place, count, axis, quadrant, turn.astype(np.int64))
     is_astray = np.hypot(shift[:, 0], shift[:, 1]) > _MOST_SHIFT * np.hypot(start_um[:, 0], start_um[:, 1])
     is_arc = (x * x + y * y > 1) & (turned > 0.0) & (count > 0) & ~is_astray
     return chosen(is_arc, arcs, words_of_lines(by))
@@ -93,7 +93,7 @@ def _quadrant(x: Ints, y: Ints) -> Ints:
     return np.select(inside, [1, 2, 3, 4], 1).astype(np.int64)
 
 
-def _in_3b(place: Ints, count: Ints, axis: Ints, quadrant: Ints, turn: Ints) -> Words:
+def _words(place: Ints, count: Ints, axis: Ints, quadrant: Ints, turn: Ints) -> Words:
     """Words from X and Y (n, 2), signed, without the radius and the curve mark of 4B."""
     x, y = np.abs(place).T
     return Words(x, y, count, axis, quadrant, turn, np.full_like(count, -1), np.zeros_like(count))

@@ -8,12 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.dialect.mender import Suspect
 from parser.geometry.curves import Floats, Ints
-from parser.shape.contours import closure_tolerance_um
-from parser.threeb.decode import Moves
+from parser.shape.closing import closure_tolerance_um
+from parser.threeb.mend.likelihood import familiar, joint, obedience, sizes
+from parser.threeb.mend.mends import FIELDS, Mends, ease, field_text, mends, moves_of, word_table, words_of
 from parser.toolpath import Toolpath
-from sim.check.mend.likelihood import familiar, joint, obedience, sizes
-from sim.check.mend.mends import Field, Mends, ease, field_text, mends, moves_of, word_table, words_of
+from parser.words.moves import Moves
 
 MOST = 5
 """Suspects named at most; where more are as likely, naming some would accuse them by chance."""
@@ -23,25 +24,6 @@ _MOST_OFF_UM = 100.0  # however many arcs: errors of a CAM do not add up (docs/3
 _OWN_START = 2  # points for ending at the first start, not at the end of a lead-in
 _CLOSED_LOOP = 6  # points for a loop that closes between lead-in and lead-out, one of which is at fault then
 _LEAST = 7  # points of a mend worth naming: one slip that makes the contour no less likely
-
-
-class Suspect(NamedTuple):
-    """A block that may be the damaged one.
-
-    Attributes
-    ----------
-    row
-        Of the toolpath, from 0.
-    field
-        ``x``, ``y``, ``count``, ``axis`` or ``sense``.
-    written, other
-        What stands there, and what would close the contour, as 3B writes it: ``24900``, ``GX``, ``NR2``.
-    """
-
-    row: int
-    field: str
-    written: str
-    other: str
 
 
 class _Ring(NamedTuple):
@@ -172,6 +154,6 @@ def _named(toolpath: Toolpath, leading: Mends) -> tuple[Suspect, ...]:
         return ()
     written = word_table(toolpath, leading.row)
     return tuple(
-        Suspect(int(row), Field(field).name.lower(), field_text(before, field), field_text(after, field))
+        Suspect(int(row), FIELDS[field], field_text(before, field), field_text(after, field))
         for row, field, before, after in zip(leading.row, leading.field.tolist(), written, leading.word, strict=True)
     )

@@ -1,0 +1,31 @@
+"""Mends of 3B blocks: which one field, written otherwise, would make a block right; the border type is `Mender`.
+
+What looks for mends is imported when it is asked for: most programs need none, and start sooner without.
+"""
+
+from parser.dialect.mender import Mender, PrintedMend, Suspect
+from parser.threeb import print_checks
+from parser.toolpath import Toolpath
+
+
+class _Mender:
+    """Mends of 3B."""
+
+    def suspects(self, toolpath: Toolpath, first_row: int, past_row: int) -> tuple[Suspect, ...]:
+        from parser.threeb.mend.suspects import suspects  # noqa: PLC0415
+
+        return suspects(toolpath, first_row, past_row)
+
+    def printed_mends(self, toolpath: Toolpath, row: int) -> tuple[PrintedMend, ...]:
+        from parser.threeb.mend.printed import printed_mends  # noqa: PLC0415
+
+        return printed_mends(toolpath, row)
+
+    def is_misprint(self, toolpath: Toolpath, row: int) -> bool | None:
+        return print_checks.is_misprint(toolpath, row)
+
+    def ends_as_printed(self, toolpath: Toolpath, row: int) -> bool:
+        return print_checks.ends_as_printed(toolpath, row)
+
+
+MENDER: Mender = _Mender()
