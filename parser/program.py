@@ -30,7 +30,7 @@ class Program:
     text, lines
         The whole text, and the places in it.
     reading, header, toolpath, findings, mender
-        What its reader made of it; see `parser.dialect.reader.Read`.
+        What its reader made of it; see `parser.dialect.reader.ReadText`.
     """
 
     name: str

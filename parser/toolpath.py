@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Bools, Curves, Floats, Ints, Kind
+from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
 from parser.text.source import Source
 
 # Signs of (X, Y) in quadrants 1..4; there is no quadrant 0.
@@ -56,7 +56,7 @@ class Block(NamedTuple):
     """
 
     number: int
-    kind: Kind
+    kind: CurveKind
     start_um: Point
     end_um: Point
     length_um: float
@@ -73,7 +73,7 @@ class Block(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Words:
+class StepWords:
     """What a controller that counts steps is told, one row a block, all arrays shape (n,) int64.
 
     Attributes
@@ -135,7 +135,7 @@ class Toolpath(Curves):
     """
 
     printed_end_um: Floats
-    words: Words | None
+    words: StepWords | None
     source: Source
     stops: tuple[Stop, ...]
 
@@ -158,7 +158,7 @@ class Toolpath(Curves):
     @property
     def is_jump(self) -> Bools:
         """(n,) True on jumps."""
-        jump: Bools = self.kind == Kind.JUMP
+        jump: Bools = self.kind == CurveKind.JUMP
         return jump
 
     @property
@@ -186,7 +186,7 @@ class Toolpath(Curves):
         arc = bool(self.is_arc[row])
         return Block(
             number=row + 1,
-            kind=Kind(int(self.kind[row])),
+            kind=CurveKind(int(self.kind[row])),
             start_um=_point(self.start_um[row]),
             end_um=_point(self.end_um[row]),
             length_um=float(self.length_um[row]),

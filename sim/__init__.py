@@ -1,3 +1,71 @@
-"""The table, the wire, the pictures and the command line of drycut; heavy imports stay inside its modules."""
+"""The dry run of wire-cut EDM programs: the door for those who import drycut (docs/python.md).
+
+``from sim import read_program, check_program, dry_run``: each name is loaded when it is asked for, so that a check
+loads no engine and a run no pictures. What is not named here may change without notice.
+"""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from parser.drawing.read import read_drawing
+    from parser.findings.catalogue import texts
+    from parser.program import parse_program, read_program
+    from sim.check.batch import check_program
+    from sim.check.settings import CheckSettings
+    from sim.cli.run_into import run_into
+    from sim.measure.compare.compared_program import compare_program
+    from sim.run.dryrun import dry_run, verdict
+    from sim.run.recording import recorded
+    from sim.run.report import build_report
+    from sim.setup.machine.machine import load_machine
+    from sim.setup.scenario import Scenario, load_scenario
 
 __version__ = "0.1.0"
+
+__all__ = [
+    "CheckSettings",
+    "Scenario",
+    "build_report",
+    "check_program",
+    "compare_program",
+    "dry_run",
+    "load_machine",
+    "load_scenario",
+    "parse_program",
+    "read_drawing",
+    "read_program",
+    "recorded",
+    "run_into",
+    "texts",
+    "verdict",
+]
+
+_HOMES = {
+    "CheckSettings": "sim.check.settings",
+    "Scenario": "sim.setup.scenario",
+    "build_report": "sim.run.report",
+    "check_program": "sim.check.batch",
+    "compare_program": "sim.measure.compare.compared_program",
+    "dry_run": "sim.run.dryrun",
+    "load_machine": "sim.setup.machine.machine",
+    "load_scenario": "sim.setup.scenario",
+    "parse_program": "parser.program",
+    "read_drawing": "parser.drawing.read",
+    "read_program": "parser.program",
+    "recorded": "sim.run.recording",
+    "run_into": "sim.cli.run_into",
+    "texts": "parser.findings.catalogue",
+    "verdict": "sim.run.dryrun",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """A name of the door, loaded from the room that it lives in. AttributeError where there is no such name."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'sim' has no attribute {name!r}")
+    return getattr(importlib.import_module(_HOMES[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

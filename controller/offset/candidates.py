@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.offset.sections import Side
-from parser.geometry.curves import Curves, Floats, Ints, Kind, curves_between, joined
+from parser.geometry.curves import CurveKind, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.directions import directions, to_left
 
 SNAP_UM = 1e-5
@@ -32,14 +32,14 @@ class Candidates(NamedTuple):
     corner: NDArray[np.bool_]
 
 
-class Ring(NamedTuple):
+class ClosedContour(NamedTuple):
     """A closed contour without gaps and blocks of no length: its curves, and the rows (n,) that they come from."""
 
     curves: Curves
     row: Ints
 
 
-def closed_ring(contour: Curves) -> Ring:
+def closed_ring(contour: Curves) -> ClosedContour:
     """The contour with its gaps bridged by lines that belong to the block before them."""
     row = np.flatnonzero(contour.length_um > SNAP_UM)
     curves = contour.picked(row)
@@ -47,10 +47,10 @@ def closed_ring(contour: Curves) -> Ring:
     gap = np.flatnonzero(np.hypot(*(end - start).T) > SNAP_UM)
     bridges = curves_between(start[gap], end[gap], np.full((len(gap), 2), np.nan), np.zeros(len(gap)))
     order = np.argsort(np.concatenate([np.arange(len(row)), gap]), kind="stable")
-    return Ring(joined([curves, bridges]).picked(order), np.concatenate([row, row[gap]])[order])
+    return ClosedContour(joined([curves, bridges]).picked(order), np.concatenate([row, row[gap]])[order])
 
 
-def candidates(ring: Ring, offset_um: float, side: Side) -> Candidates:
+def candidates(ring: ClosedContour, offset_um: float, side: Side) -> Candidates:
     """Blocks moved by the offset to the side, and arcs about the corners that point to it.
 
     Arcs with a radius of no more than the offset have no place at its distance from them, and are left out.
@@ -72,7 +72,7 @@ def _moved(contour: Curves, leaving: Floats, arriving: Floats, left_um: float) -
     radius = contour.radius_um - np.sign(contour.sweep_rad) * left_um
     kept = np.flatnonzero(~contour.is_arc | (radius * np.minimum(np.abs(contour.sweep_rad), 1.0) > SNAP_UM))
     shifted = Curves(
-        kind=np.where(contour.is_arc, Kind.ARC, Kind.LINE).astype(np.int64),
+        kind=np.where(contour.is_arc, CurveKind.ARC, CurveKind.LINE).astype(np.int64),
         start_um=contour.start_um + left_um * to_left(leaving),
         end_um=contour.end_um + left_um * to_left(arriving),
         center_um=contour.center_um,

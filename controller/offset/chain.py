@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.offset.joints import Bridge, joints
-from controller.offset.sections import Section
+from controller.offset.joints import Joining, joints
+from controller.offset.sections import OffsetSection
 from controller.offset.shifted import NOTHING_UM, Blocks, turned_rad
 from parser.geometry.boxes import distinct
 from parser.geometry.curves import Floats, Ints
@@ -45,7 +45,7 @@ class Chain:
     turn_rad: Floats
 
 
-def joined_blocks(blocks: Blocks, sections: Sequence[Section]) -> Chain:
+def joined_blocks(blocks: Blocks, sections: Sequence[OffsetSection]) -> Chain:
     """Blocks joined; those that would run backwards vanish, until none does."""
     m = len(blocks.row)
     early, late = _neighbours(sections)
@@ -74,7 +74,7 @@ def joined_blocks(blocks: Blocks, sections: Sequence[Section]) -> Chain:
     return chain
 
 
-def _neighbours(sections: Sequence[Section]) -> tuple[Ints, Ints]:
+def _neighbours(sections: Sequence[OffsetSection]) -> tuple[Ints, Ints]:
     number = np.array([section.last - section.first + 1 for section in sections])
     past = np.cumsum(number)
     first, last = past - number, past - 1
@@ -105,7 +105,7 @@ def _loosen(chain: Chain, blocks: Blocks, touched: Ints) -> None:
     """Give blocks that lost their joint at an end of an open section the whole of their way there."""
     head, tail = touched[chain.early[touched] == _NONE], touched[chain.late[touched] == _NONE]
     chain.start_um[head] = blocks.shifted.start_um[head]
-    chain.end_um[tail], chain.bridge[tail] = blocks.shifted.end_um[tail], Bridge.NONE
+    chain.end_um[tail], chain.bridge[tail] = blocks.shifted.end_um[tail], Joining.NONE
 
 
 def _join(chain: Chain, blocks: Blocks, touched: Ints, is_apart: NDArray[np.bool_]) -> Ints:

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.offset.chain import Chain, joined_blocks, turned_ends
-from controller.offset.joints import Bridge
+from controller.offset.joints import Joining
 from controller.offset.path import Made, OffsetPath
-from controller.offset.sections import Section, Side
+from controller.offset.sections import OffsetSection, Side
 from controller.offset.shifted import NOTHING_UM, Blocks, shifted_blocks
-from parser.geometry.curves import Curves, Floats, Ints, Kind, curves_between, joined
+from parser.geometry.curves import CurveKind, Curves, Floats, Ints, curves_between, joined
 
 # Order of rows that come from one row of the toolpath.
 _LEAD_IN, _ITSELF, _BRIDGE, _LEAD_OUT = range(4)
@@ -43,7 +43,7 @@ class _Edges(NamedTuple):
     is_left: NDArray[np.bool_]
 
 
-def compensate(toolpath: Curves, sections: Sequence[Section], offset_um: float, side: Side) -> OffsetPath:
+def compensate(toolpath: Curves, sections: Sequence[OffsetSection], offset_um: float, side: Side) -> OffsetPath:
     """Path of the wire's centre, `offset_um` (≥ 0) to a side of the blocks of all sections, none of them a jump.
 
     The row before a section leads in: a line from where it begins to where the offset begins. One that is an arc
@@ -63,7 +63,7 @@ def compensate(toolpath: Curves, sections: Sequence[Section], offset_um: float, 
     left = np.flatnonzero(chain.is_left)
     parts = [
         _Rows(_cut(blocks, chain, left), blocks.row[left], Made.SHIFTED, _ITSELF),
-        *_bridges(blocks, chain, left[chain.bridge[left] != Bridge.NONE]),
+        *_bridges(blocks, chain, left[chain.bridge[left] != Joining.NONE]),
         *_others(toolpath, blocks.row, edges),
         *_leads(toolpath, edges),
     ]
@@ -99,7 +99,7 @@ def _cut(blocks: Blocks, chain: Chain, left: Ints) -> Curves:
 
 def _bridges(blocks: Blocks, chain: Chain, bridged: Ints) -> list[_Rows]:
     """Bridges behind the blocks `bridged` (k,): arcs round their corners, of the offset's radius, and lines."""
-    arc, line = (bridged[chain.bridge[bridged] == kind] for kind in (Bridge.ARC, Bridge.LINE))
+    arc, line = (bridged[chain.bridge[bridged] == kind] for kind in (Joining.ARC, Joining.LINE))
     lines = _lines(chain.end_um[line], chain.start_um[chain.late[line]])
     arcs = curves_between(chain.end_um[arc], chain.start_um[chain.late[arc]], chain.corner_um[arc], chain.turn_rad[arc])
     radius = np.full(len(arc), abs(blocks.left_um))
@@ -107,7 +107,7 @@ def _bridges(blocks: Blocks, chain: Chain, bridged: Ints) -> list[_Rows]:
     return [_Rows(curves, blocks.row[of], Made.BRIDGE, _BRIDGE) for curves, of in ((arcs, arc), (lines, line))]
 
 
-def _edges(toolpath: Curves, sections: Sequence[Section], blocks: Blocks, chain: Chain) -> _Edges:
+def _edges(toolpath: Curves, sections: Sequence[OffsetSection], blocks: Blocks, chain: Chain) -> _Edges:
     first, last = (np.array(rows, dtype=np.int64) for rows in list(zip(*sections, strict=True))[:2])
     before, behind = first - 1, last + 1
     led_in, led_out = _leads_beside(toolpath, blocks.row, before), _leads_beside(toolpath, blocks.row, behind)
@@ -119,7 +119,7 @@ def _edges(toolpath: Curves, sections: Sequence[Section], blocks: Blocks, chain:
     there = high > low
     head, tail = left[low[there]], left[high[there] - 1]
     start[there] = chain.start_um[head]
-    is_bridged = (chain.bridge[tail] != Bridge.NONE)[:, None]
+    is_bridged = (chain.bridge[tail] != Joining.NONE)[:, None]
     end[there] = np.where(is_bridged, chain.start_um[head], chain.end_um[tail])
     return _Edges(first, last, led_in, led_out, start, end, there)
 
@@ -128,7 +128,7 @@ def _leads_beside(toolpath: Curves, inside: Ints, row: Ints) -> NDArray[np.bool_
     """Whether rows (k,) are blocks outside all sections, with which the wire can be led."""
     is_free = np.ones(len(toolpath) + 1, dtype=np.bool_)
     is_free[inside] = False
-    is_free[:-1] &= toolpath.kind != Kind.JUMP
+    is_free[:-1] &= toolpath.kind != CurveKind.JUMP
     is_free[-1] = False  # beyond the last row, and before the first
     return is_free[row]
 

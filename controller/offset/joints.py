@@ -30,7 +30,7 @@ APART_UM = 1e-3
 """Blocks whose ends are farther apart than this have no corner: others between them have vanished."""
 
 
-class Bridge(IntEnum):
+class Joining(IntEnum):
     """What lies between two blocks."""
 
     NONE = 0
@@ -46,7 +46,7 @@ class Joints(NamedTuple):
     end_um, start_um
         (k, 2) where the early one ends and where the late one begins; the same where nothing lies between them.
     bridge
-        (k,) values of `Bridge`.
+        (k,) values of `Joining`.
     corner_um, turn_rad
         (k, 2) and (k,) the corner, and the angle that the path turns there.
     is_apart
@@ -97,7 +97,7 @@ def joints(blocks: Blocks, early: Ints, late: Ints) -> Joints:
     return Joints(
         end_um=np.where(is_one[:, None], place, end),
         start_um=np.where(is_one[:, None], place, start),
-        bridge=np.select([is_one, is_arc], [Bridge.NONE, Bridge.ARC], Bridge.LINE).astype(np.int64),
+        bridge=np.select([is_one, is_arc], [Joining.NONE, Joining.ARC], Joining.LINE).astype(np.int64),
         corner_um=corner,
         turn_rad=turn,
         is_apart=is_apart,

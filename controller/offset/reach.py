@@ -17,7 +17,7 @@ TOLERANCE_UM = 1e-5
 """A loop lies at least the offset less this from its contour: a slot as wide as the kerf is reached."""
 
 
-class Loop(NamedTuple):
+class OffsetLoop(NamedTuple):
     """One loop, m curves in the contour's direction, each from the end of the one before it, the first from the last.
 
     Attributes
@@ -38,7 +38,7 @@ class Loop(NamedTuple):
 class Reached(NamedTuple):
     """What the wire's centre reaches of a contour's offset: no loop, one, or several where a pocket falls apart."""
 
-    loops: tuple[Loop, ...]
+    loops: tuple[OffsetLoop, ...]
 
 
 def reach(contour: Curves, offset_um: float, side: Side) -> Reached:
@@ -71,7 +71,7 @@ def reach(contour: Curves, offset_um: float, side: Side) -> Reached:
     return Reached(tuple(_loop(made, cut.take(clear[loop])) for loop in loops))
 
 
-def _loop(made: Candidates, cut: Slices) -> Loop:
+def _loop(made: Candidates, cut: Slices) -> OffsetLoop:
     """A loop of slices, those behind each other on one curve made one."""
     on = (cut.row[1:] == cut.row[:-1]) & (cut.first_um[1:] == cut.last_um[:-1])
     first, last = np.flatnonzero(np.append(True, ~on)), np.flatnonzero(np.append(~on, True))
@@ -91,4 +91,4 @@ def _loop(made: Candidates, cut: Slices) -> Loop:
         sweep_rad=share * of.sweep_rad[row],
         length_um=end - begin,
     )
-    return Loop(curves, made.source_row[row], made.corner[row])
+    return OffsetLoop(curves, made.source_row[row], made.corner[row])

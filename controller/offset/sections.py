@@ -18,7 +18,7 @@ class Side(IntEnum):
     RIGHT = -1
 
 
-class Section(NamedTuple):
+class OffsetSection(NamedTuple):
     """Blocks along the drawing's contour, offset, as between G41 and G40; those before and behind lead in and out.
 
     Attributes
@@ -34,7 +34,7 @@ class Section(NamedTuple):
     closed: bool
 
 
-def sections_of(toolpath: Toolpath) -> tuple[Section, ...]:
+def sections_of(toolpath: Toolpath) -> tuple[OffsetSection, ...]:
     """The blocks of each contour that run along the drawing: its loop, without the lead-in and the lead-out.
 
     As many blocks as lead in may lead out behind the loop; more of them run along the contour once more. A contour
@@ -47,11 +47,11 @@ def sections_of(toolpath: Toolpath) -> tuple[Section, ...]:
     for number, (begin, past) in enumerate(contours):
         end, at = past - 1, loop_of.get(number)
         if at is None:
-            found.append(Section(begin, end, closed=False))
+            found.append(OffsetSection(begin, end, closed=False))
             continue
         first, last = int(loops.first[at]), int(loops.last[at])
         leads = first - begin
         again = end - last > max(leads, 1)
         closes = np.hypot(*(toolpath.end_um[last] - toolpath.start_um[first])) <= CLOSED_WITHIN_UM
-        found.append(Section(first, end - leads if again else last, closed=bool(closes and not again)))
+        found.append(OffsetSection(first, end - leads if again else last, closed=bool(closes and not again)))
     return tuple(found)

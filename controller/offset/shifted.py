@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.offset.sections import Section
+from controller.offset.sections import OffsetSection
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import directions, to_left
 from parser.geometry.meets import prolonged_meet
@@ -47,7 +47,7 @@ class Blocks(NamedTuple):
         return left_over
 
 
-def shifted_blocks(toolpath: Curves, sections: Sequence[Section], left_um: float) -> Blocks:
+def shifted_blocks(toolpath: Curves, sections: Sequence[OffsetSection], left_um: float) -> Blocks:
     """Blocks of all sections, one or more, moved aside."""
     row = np.concatenate([np.arange(section.first, section.last + 1) for section in sections])
     past = np.cumsum([section.last - section.first + 1 for section in sections])

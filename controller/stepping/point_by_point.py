@@ -9,12 +9,12 @@ from controller.stepping.quadrants import walk_arcs
 from controller.stepping.steps import Steps
 from controller.stepping.strokes import Followed, arc_strokes, follow, line_strokes
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.toolpath import Axis, Words
+from parser.toolpath import Axis, StepWords
 
 Number = TypeVar("Number", np.int64, np.float64)
 
 
-def interpolate_words(words: Words, length_um: Floats) -> Steps:
+def interpolate_words(words: StepWords, length_um: Floats) -> Steps:
     """Steps of n blocks from their words and the lengths (n,) µm of their ideal lines and arcs.
 
     A block of length 0 (no count, or one that no controller can finish) makes no step.

@@ -5,7 +5,7 @@ import numpy as np
 from controller.stepping.point_by_point import interpolate_words
 from controller.stepping.steps import Steps
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.toolpath import Toolpath, Words
+from parser.toolpath import StepWords, Toolpath
 from parser.words.telling import chosen, words_of_arcs, words_of_lines
 
 
@@ -14,12 +14,12 @@ def interpolate(toolpath: Toolpath) -> Steps:
     return interpolate_words(words_of(toolpath), toolpath.length_um)
 
 
-def words_of(toolpath: Toolpath) -> Words:
+def words_of(toolpath: Toolpath) -> StepWords:
     """Words to step a toolpath by: exactly those of its program, else such as end each block where it should."""
     return stepped_words(toolpath) if toolpath.words is None else toolpath.words
 
 
-def stepped_words(curves: Curves) -> Words:
+def stepped_words(curves: Curves) -> StepWords:
     """Words of n curves, all places in whole µm from where the first one begins; jumps are told as lines.
 
     A controller counts its own pulses, so that rounding does not add up. All blocks are told and stepped at once, as
@@ -32,7 +32,7 @@ def stepped_words(curves: Curves) -> Words:
     origin = curves.start_um[:1]
     begins = np.rint(curves.start_um - origin).astype(np.int64)
     ends = np.empty_like(begins)
-    told = {name: np.empty(n, dtype=np.int64) for name in Words.__slots__}
+    told = {name: np.empty(n, dtype=np.int64) for name in StepWords.__slots__}
     row = np.arange(n)
     while len(row):
         words = _told(curves, row, begins[row] + origin)
@@ -43,10 +43,10 @@ def stepped_words(curves: Curves) -> Words:
         late = row[row < n - 1] + 1
         row = late[(begins[late] != ends[late - 1]).any(axis=1)]
         begins[row] = ends[row - 1]
-    return Words(**told)
+    return StepWords(**told)
 
 
-def _told(curves: Curves, row: Ints, begin_um: Floats) -> Words:
+def _told(curves: Curves, row: Ints, begin_um: Floats) -> StepWords:
     """Words of the rows (k,) that begin at places (k, 2) and end where they should."""
     end = curves.end_um[row]
     is_arc = curves.is_arc[row]

@@ -37,7 +37,7 @@ class Damage(NamedTuple):
     after: int
 
 
-class Counts(NamedTuple):
+class BlockCounts(NamedTuple):
     """Blocks of a text.
 
     Attributes
@@ -83,14 +83,14 @@ class Reading(NamedTuple):
     """
 
     dialect: str
-    counts: Counts
+    counts: BlockCounts
     damages: tuple[Damage, ...]
     spelling: Spelling
     is_drawing: bool
     not_asked: Mapping[Check, str]
 
 
-class Read(NamedTuple):
+class ReadText(NamedTuple):
     """All that a reader makes of a text.
 
     Attributes
@@ -129,5 +129,5 @@ class Reader(Protocol):
     def recognises(self, text: str) -> bool:
         """Whether a text holds a block of the family, or what was meant for one."""
 
-    def read(self, text: str, marks: Marks) -> Read:
+    def read(self, text: str, marks: Marks) -> ReadText:
         """What a text says. ProgramError (3B100) where it holds no block."""

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from parser.drawing.ends import Ends, joints
 from parser.drawing.forms import SAME_WITHIN_UM
-from parser.drawing.model import Loop, running
+from parser.drawing.model import DrawnLoop, running
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import directions
 
@@ -15,7 +15,7 @@ from parser.geometry.directions import directions
 class Chained(NamedTuple):
     """Loops, and places (b, 2) µm where more than two ends meet."""
 
-    loops: tuple[Loop, ...]
+    loops: tuple[DrawnLoop, ...]
     branches_um: Floats
 
 
@@ -104,7 +104,7 @@ def _run(strings: _Strings, ways: list[list[int]]) -> _Run:
     return _Run(row, back[of_string], of, begin)
 
 
-def _loops(curves: Curves, run: _Run, partner: Ints) -> tuple[Loop, ...]:
+def _loops(curves: Curves, run: _Run, partner: Ints) -> tuple[DrawnLoop, ...]:
     """Loops of rows, closed ones counter-clockwise from their leftmost place, open ones as their first row runs."""
     closed = partner[run.begin] >= 0
     first = np.flatnonzero(np.diff(run.of, prepend=-1))
@@ -119,7 +119,7 @@ def _loops(curves: Curves, run: _Run, partner: Ints) -> tuple[Loop, ...]:
     order = first[run.of] + (at + (begin - 2 * first)[run.of]) % (past - first)[run.of]
     rows, backs = np.split(turned.row[order], first[1:]), np.split(turned.backwards[order], first[1:])
     columns = zip(rows, backs, closed.tolist(), widest.tolist(), strict=True)
-    return tuple(Loop(row, back, whole, gap_um) for row, back, whole, gap_um in columns)
+    return tuple(DrawnLoop(row, back, whole, gap_um) for row, back, whole, gap_um in columns)
 
 
 def _turned(run: _Run, first: Ints, past: Ints, turn: NDArray[np.bool_]) -> _Run:

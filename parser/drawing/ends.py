@@ -30,14 +30,14 @@ class Ends(NamedTuple):
     length_um: Floats
 
 
-class Joints(NamedTuple):
+class JoinedEnds(NamedTuple):
     """Pairs of ends (j, 2) that are joined; and ends (b,) where more than two meet, or a crowd of them."""
 
     pair: Ints
     branch: Ints
 
 
-def joints(ends: Ends, loose: Ints, within_um: float) -> Joints:
+def joints(ends: Ends, loose: Ints, within_um: float) -> JoinedEnds:
     """Joints between the ends `loose` (l,) that are not farther apart than a distance.
 
     The nearest two are joined first; of ends at one place strings without a free end at their other end go
@@ -53,7 +53,7 @@ def joints(ends: Ends, loose: Ints, within_um: float) -> Joints:
     free = np.zeros(len(number), dtype=np.bool_)
     free[loose] = number[loose] == 0
     branch = np.union1d(np.flatnonzero(number > 1), loose[crowd])
-    return Joints(_matched(pair[_order(ends, pair, by, free)]), branch)
+    return JoinedEnds(_matched(pair[_order(ends, pair, by, free)]), branch)
 
 
 def _order(ends: Ends, pair: Ints, by: Floats, free: NDArray[np.bool_]) -> Ints:

@@ -30,7 +30,7 @@ class Spline(NamedTuple):
     degree: int
 
 
-class Read(NamedTuple):
+class ReadEntity(NamedTuple):
     """What an entity holds: forms (k, 17) in its own coordinates, and the map from these to its block, if any."""
 
     forms: Floats | Spline

@@ -12,13 +12,13 @@ from ezdxf.entities.insert import Insert
 from parser.drawing.blocks import Placed
 from parser.drawing.entities import reader_of
 from parser.drawing.flat import Flat, flat_forms, flat_spline, is_slanted
-from parser.drawing.forms import COLUMNS, SAME_WITHIN_UM, Read, Spline, behind
+from parser.drawing.forms import COLUMNS, SAME_WITHIN_UM, ReadEntity, Spline, behind
 from parser.geometry.curves import Curves, Floats, Ints, joined
 from parser.text.encoding import printable
 
 
 @dataclass(slots=True)
-class Counts:
+class EntityCounts:
     """How many entities, by kind, are no curves or have numbers that cannot be; and how many curves were treated how.
 
     See `Flat` for the latter.
@@ -37,7 +37,7 @@ class Gathered(NamedTuple):
 
     curves: Curves
     entity: Ints
-    counts: Counts
+    counts: EntityCounts
 
 
 class _Forms(NamedTuple):
@@ -51,7 +51,7 @@ class _Forms(NamedTuple):
 
 def gather(placed: Sequence[Placed], tolerance_um: float) -> Gathered:
     """Curves of entities, ellipses and splines made lines within a tolerance."""
-    counts = Counts()
+    counts = EntityCounts()
     read = [_read(one.entity, counts) for one in placed]
     forms = _forms(placed, read)
     flat = flat_forms(forms.forms, forms.maps, forms.which, tolerance_um)
@@ -69,7 +69,7 @@ def gather(placed: Sequence[Placed], tolerance_um: float) -> Gathered:
     return Gathered(curves.picked(long), np.concatenate(entity)[order][long], counts)
 
 
-def _read(entity: DXFEntity, counts: Counts) -> Read | None:
+def _read(entity: DXFEntity, counts: EntityCounts) -> ReadEntity | None:
     reader = reader_of(entity)
     if reader is None:
         counts.no_curves[_kind(entity)] += 1
@@ -88,7 +88,7 @@ def _kind(entity: DXFEntity) -> str:
     return "POLYLINE (mesh)" if entity.dxftype() == "POLYLINE" else printable(entity.dxftype())
 
 
-def _forms(placed: Sequence[Placed], read: Sequence[Read | None]) -> _Forms:
+def _forms(placed: Sequence[Placed], read: Sequence[ReadEntity | None]) -> _Forms:
     forms, number, which = [np.empty((0, COLUMNS))], [], []
     maps: list[Floats] = []
     known: dict[tuple[int, bytes], int] = {}
@@ -107,7 +107,7 @@ def _forms(placed: Sequence[Placed], read: Sequence[Read | None]) -> _Forms:
     return _Forms(np.concatenate(forms), which_of, entity, np.array(maps).reshape(-1, 4, 3))
 
 
-def _spline(placed: Placed, spline: Spline, tolerance_um: float, counts: Counts) -> Curves | None:
+def _spline(placed: Placed, spline: Spline, tolerance_um: float, counts: EntityCounts) -> Curves | None:
     try:
         curves = flat_spline(spline, placed.place, tolerance_um)
     except Exception:  # knots, weights or places that cannot be
@@ -118,6 +118,6 @@ def _spline(placed: Placed, spline: Spline, tolerance_um: float, counts: Counts)
     return curves
 
 
-def _count(counts: Counts, flat: Flat) -> None:
+def _count(counts: EntityCounts, flat: Flat) -> None:
     counts.flattened, counts.slanted = flat.ellipses, flat.slanted
     counts.upright, counts.beyond = flat.upright, flat.beyond

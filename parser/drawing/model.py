@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.geometry.curves import Curves, Ints, Kind
+from parser.geometry.curves import CurveKind, Curves, Ints
 
 DEFAULT_GAP_UM = 10.0
 """Ends of a drawing this near are joined: more than the rounding of any CAD, less than what anyone draws (assumed)."""
@@ -36,7 +36,7 @@ class Entity(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Loop:
+class DrawnLoop:
     """Curves that follow each other, closed or open.
 
     Attributes
@@ -89,7 +89,7 @@ class Drawing:
     curves: Curves
     entity: Ints
     entities: tuple[Entity, ...]
-    loops: tuple[Loop, ...]
+    loops: tuple[DrawnLoop, ...]
     flattened: int
     flatten_um: float
     notes: tuple[str, ...]
@@ -107,6 +107,6 @@ def running(curves: Curves, row: Ints, backwards: NDArray[np.bool_]) -> Curves:
         center_um=ahead.center_um,
         radius_um=ahead.radius_um,
         start_angle_rad=ahead.start_angle_rad + np.where(backwards, ahead.sweep_rad, 0.0),
-        sweep_rad=ahead.sweep_rad * np.where(ahead.kind == Kind.ARC, sign, 1.0),
+        sweep_rad=ahead.sweep_rad * np.where(ahead.kind == CurveKind.ARC, sign, 1.0),
         length_um=ahead.length_um,
     )

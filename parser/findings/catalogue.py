@@ -26,7 +26,7 @@ class Said(NamedTuple):
     zh: str
 
 
-class Page(NamedTuple):
+class CataloguePage(NamedTuple):
     """Page of one code in one language.
 
     `found`, `expected`, `machine` and `hint` are templates of one line, filled from a finding's values; `why` and
@@ -61,9 +61,9 @@ class Texts(NamedTuple):
     message: str
 
 
-def page(code: str, language: Language = "en") -> Page:
+def page(code: str, language: Language = "en") -> CataloguePage:
     """Page of a code. KeyError where there is no such code."""
-    return Page(**_file(code)[language])
+    return CataloguePage(**_file(code)[language])
 
 
 def example(code: str) -> Example | None:

@@ -12,7 +12,7 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 
-class Kind(IntEnum):
+class CurveKind(IntEnum):
     """What a row is: a cut along a line or an arc, or a line in the air without the wire cutting."""
 
     LINE = 0
@@ -27,7 +27,7 @@ class Curves:
     Attributes
     ----------
     kind
-        (n,) int64, values of `Kind`.
+        (n,) int64, values of `CurveKind`.
     start_um, end_um, center_um
         (n, 2) float64; the centre of a line is NaN.
     radius_um, start_angle_rad
@@ -53,7 +53,7 @@ class Curves:
     @property
     def is_arc(self) -> Bools:
         """(n,) True on arcs."""
-        arc: Bools = self.kind == Kind.ARC
+        arc: Bools = self.kind == CurveKind.ARC
         return arc
 
     @property
@@ -76,7 +76,7 @@ def curves_between(start_um: Floats, end_um: Floats, center_um: Floats, sweep_ra
     by = end_um - start_um
     radius = np.hypot(out[:, 0], out[:, 1])
     return Curves(
-        kind=np.where(arc, Kind.ARC, Kind.LINE).astype(np.int64),
+        kind=np.where(arc, CurveKind.ARC, CurveKind.LINE).astype(np.int64),
         start_um=start_um,
         end_um=end_um,
         center_um=np.where(arc[:, None], center_um, np.nan),

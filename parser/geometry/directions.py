@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Curves, Floats, Ints, Kind
+from parser.geometry.curves import CurveKind, Curves, Floats, Ints
 
 
 class Directions(NamedTuple):
@@ -41,4 +41,4 @@ def _headings(curves: Curves, row: Ints, angle_rad: Floats) -> Floats:
     by = curves.end_um[row] - curves.start_um[row]
     length = np.hypot(by[:, 0], by[:, 1])[:, None]
     tangent = np.stack([-np.sin(angle_rad), np.cos(angle_rad)], axis=1) * np.sign(curves.sweep_rad[row])[:, None]
-    return np.where((curves.kind[row] == Kind.ARC)[:, None], tangent, by / np.where(length > 0.0, length, 1.0))
+    return np.where((curves.kind[row] == CurveKind.ARC)[:, None], tangent, by / np.where(length > 0.0, length, 1.0))

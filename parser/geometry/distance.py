@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from parser.geometry.curves import Curves, Floats, Ints, Kind
+from parser.geometry.curves import CurveKind, Curves, Floats, Ints
 
 
 def distance_to_curves(curves: Curves, row: Ints, x: Floats, y: Floats) -> tuple[Floats, Ints]:
     """Distances (m,) µm of positions from the curves of the rows `row`, and −1, 0, +1: before, on, past the curve."""
     result, beyond = np.empty(len(row)), np.empty(len(row), dtype=np.int64)
-    arc = curves.kind[row] == Kind.ARC
+    arc = curves.kind[row] == CurveKind.ARC
     for which, measure in ((np.flatnonzero(~arc), _from_lines), (np.flatnonzero(arc), _from_arcs)):
         if len(which):
             result[which], beyond[which] = measure(curves, row[which], x[which], y[which])

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from parser.geometry.curves import Floats, Ints, Kind
+from parser.geometry.curves import CurveKind, Floats, Ints
 from parser.toolpath import Toolpath
 
 CLOSED_WITHIN_UM = 5.0
@@ -35,14 +35,14 @@ def ends_closed(toolpath: Toolpath, begin: int, past: int) -> bool:
 def corners_at(toolpath: Toolpath, begin: int, past: int, place_um: Floats) -> Ints:
     """Rows from `begin` up to but without `past` that start at a place (2,)."""
     off = toolpath.start_um[begin:past] - place_um
-    arcs = float((toolpath.kind[begin:past] == Kind.ARC).sum())
+    arcs = float((toolpath.kind[begin:past] == CurveKind.ARC).sum())
     within = min(max(CLOSED_WITHIN_UM, EXACT_PER_ARC_UM * arcs), _MOST_OFF_UM)
     return begin + np.flatnonzero(np.hypot(off[:, 0], off[:, 1]) <= within)
 
 
 def _heading(toolpath: Toolpath, row: int) -> Floats:
     """Direction (2,) in which a row leaves its start; (0, 0) where it does not move."""
-    if toolpath.kind[row] == Kind.ARC:
+    if toolpath.kind[row] == CurveKind.ARC:
         angle, turn = float(toolpath.start_angle_rad[row]), float(np.sign(toolpath.sweep_rad[row]))
         return np.array([-np.sin(angle) * turn, np.cos(angle) * turn])
     x, y = (toolpath.end_um[row] - toolpath.start_um[row]).tolist()

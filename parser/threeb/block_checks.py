@@ -13,7 +13,7 @@ from parser.text.lines import LineIndex
 from parser.text.source import Field
 from parser.threeb.decode import decoded_words
 from parser.threeb.stolen_numbers import RADIUS_TOLERANCE_UM
-from parser.toolpath import Axis, Toolpath, Words
+from parser.toolpath import Axis, StepWords, Toolpath
 
 FULL_TURN_UM = 4.0
 """J of a full circle is 4R within about this; more is more than one turn (docs/3b.md §1)."""
@@ -30,7 +30,7 @@ def block_findings(toolpath: Toolpath, lines: LineIndex) -> list[Finding]:
     return [finding for check in checks for finding in check(toolpath, lines)]
 
 
-def ruled_label(words: Words) -> Ints:
+def ruled_label(words: StepWords) -> Ints:
     """Quadrant (n,) that the trade writes on blocks along or from an axis (docs/3b.md §1); elsewhere the one written.
 
     Lines and counter-clockwise arcs: +X 1, +Y 2, −X 3, −Y 4; clockwise arcs: +Y 1, −X 2, −Y 3, +X 4.
@@ -42,7 +42,7 @@ def ruled_label(words: Words) -> Ints:
     return np.where(along_x | along_y, ruled, words.quadrant)
 
 
-def counts_fit(words: Words) -> NDArray[np.bool_]:
+def counts_fit(words: StepWords) -> NDArray[np.bool_]:
     """(n,) False on lines whose J is neither their length on the counted axis nor a multiple of a reduced one.
 
     Where X:Y is a slope in lowest terms, small against J, the J written by hand need not be a multiple.
@@ -57,7 +57,7 @@ def counts_fit(words: Words) -> NDArray[np.bool_]:
     return fits
 
 
-def _counted(words: Words) -> Ints:
+def _counted(words: StepWords) -> Ints:
     return np.where(words.count_axis == Axis.X, words.x_um, words.y_um)
 
 

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from parser.geometry.curves import Floats, Ints, Kind
+from parser.geometry.curves import CurveKind, Floats, Ints
 from parser.text.source import Source
 from parser.threeb.figures import Nodes, air_lines, with_node_rows
 from parser.threeb.reader import Records
 from parser.threeb.tokens import fields_of
-from parser.toolpath import Stop, Toolpath, Words
+from parser.toolpath import StepWords, Stop, Toolpath
 from parser.words.moves import moves, with_axes_named
 from parser.words.telling import words_of_lines
 
@@ -20,16 +20,16 @@ from parser.words.telling import words_of_lines
 def decode(records: Records) -> Toolpath:
     """Exact toolpath of the records.
 
-    A block that no machine can finish (`Words.is_endless`) keeps its row with length 0, so that the next block starts
-    where it stood.
+    A block that no machine can finish (`StepWords.is_endless`) keeps its row with length 0, so that the next block
+    starts where it stood.
     """
     blocks, marks, nodes = with_node_rows(records.blocks, records.marks)
-    words = with_axes_named(Words(**{name: getattr(blocks, name) for name in Words.__slots__}))
+    words = with_axes_named(StepWords(**{name: getattr(blocks, name) for name in StepWords.__slots__}))
     is_arc = (words.turn != 0) & ~words.is_endless
     made = moves(words)
     start, end = _chain(made.by_um, nodes)
     toolpath = Toolpath(
-        kind=np.where(is_arc, Kind.ARC, Kind.LINE).astype(np.int64),
+        kind=np.where(is_arc, CurveKind.ARC, CurveKind.LINE).astype(np.int64),
         start_um=start,
         end_um=end,
         center_um=start + made.center_um,
@@ -46,7 +46,7 @@ def decode(records: Records) -> Toolpath:
     return _with_node_words(_with_jumps(toolpath, np.concatenate([jumps, nodes.row])), nodes)
 
 
-def decoded_words(toolpath: Toolpath) -> Words:
+def decoded_words(toolpath: Toolpath) -> StepWords:
     """Words of a decoded toolpath. TypeError for that of a dialect without words."""
     if toolpath.words is None:
         raise TypeError("the blocks of this toolpath have no words")
@@ -63,7 +63,7 @@ def _chain(by_um: Floats, nodes: Nodes) -> tuple[Floats, Floats]:
 
 def _with_jumps(toolpath: Toolpath, rows: Ints) -> Toolpath:
     kind = toolpath.kind.copy()
-    kind[rows] = Kind.JUMP
+    kind[rows] = CurveKind.JUMP
     return replace(toolpath, kind=kind)
 
 
@@ -73,9 +73,9 @@ def _with_node_words(toolpath: Toolpath, nodes: Nodes) -> Toolpath:
         return toolpath
     by = toolpath.end_um[nodes.row] - toolpath.start_um[nodes.row]
     of_blocks = decoded_words(toolpath)
-    length, columns = toolpath.length_um.copy(), {n: getattr(of_blocks, n).copy() for n in Words.__slots__}
+    length, columns = toolpath.length_um.copy(), {n: getattr(of_blocks, n).copy() for n in StepWords.__slots__}
     length[nodes.row] = np.hypot(by[:, 0], by[:, 1])
     words = words_of_lines(by)
     for name, column in columns.items():
         column[nodes.row] = getattr(words, name)
-    return replace(toolpath, words=Words(**columns), length_um=length)
+    return replace(toolpath, words=StepWords(**columns), length_um=length)

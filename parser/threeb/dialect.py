@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from parser.dialect.reader import Counts, Damage, Marks, Read, Reading, Spelling
+from parser.dialect.reader import BlockCounts, Damage, Marks, Reading, ReadText, Spelling
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.facts import TooLarge, telling
@@ -31,7 +31,7 @@ class ThreeB:
         """Whether a text holds a block, or what was meant for one."""
         return bool(LIKE_A_BLOCK.search(text) or (not text.isascii() and LIKE_A_BLOCK.search(narrow(text))))
 
-    def read(self, text: str, marks: Marks) -> Read:
+    def read(self, text: str, marks: Marks) -> ReadText:
         """What a text says. ProgramError (3B100) where it holds no block."""
         records = read_records(text, marks)
         whole = len(records.blocks.line)
@@ -45,9 +45,9 @@ class ThreeB:
             damaged = np.array([damage.span[0] for damage in records.damages], dtype=np.int64)
             findings += block_findings(toolpath, records.lines)
             findings += print_findings(toolpath, records.header, records.lines, damaged)
-        counts = Counts(found, whole, len(records.blocks.line))
+        counts = BlockCounts(found, whole, len(records.blocks.line))
         ordered = tuple(sorted(findings, key=file_order))
-        return Read(
+        return ReadText(
             records.lines, _reading(records, toolpath, counts), records.header.values, toolpath, ordered, MENDER
         )
 
@@ -55,7 +55,7 @@ class ThreeB:
 THREE_B = ThreeB()
 
 
-def _reading(records: Records, toolpath: Toolpath, counts: Counts) -> Reading:
+def _reading(records: Records, toolpath: Toolpath, counts: BlockCounts) -> Reading:
     name = dialect(records)
     not_asked = {}
     if np.isnan(toolpath.printed_end_um).all():

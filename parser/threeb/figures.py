@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Floats, Ints, Kind
+from parser.geometry.curves import CurveKind, Floats, Ints
 from parser.shape.closing import corners_at, ends_closed
 from parser.threeb.columns import RawBlocks
 from parser.threeb.reader import Mark
@@ -67,10 +67,10 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
     begin = 0  # first row of the figure being cut
     stops = [*pauses, len(toolpath)]
     for at, until in pairwise(stops):
-        if at >= until or at <= begin or toolpath.kind[at] == Kind.ARC:
+        if at >= until or at <= begin or toolpath.kind[at] == CurveKind.ARC:
             continue
         is_closed = ends_closed(toolpath, begin, at)
-        few_lines = until - at <= _MOST_JUMPS and not (toolpath.kind[at:until] == Kind.ARC).any()
+        few_lines = until - at <= _MOST_JUMPS and not (toolpath.kind[at:until] == CurveKind.ARC).any()
         if few_lines and until < len(toolpath) and (is_closed or not _close(toolpath, begin, at, until)):
             rows.extend(range(at, until))
             begin = until

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats
-from parser.toolpath import Axis, Words
+from parser.toolpath import Axis, StepWords
 from parser.words.arcs import arc_ends
 
 # (X, Y) of a line that leaves both out and so runs along the axis its digit names (`BBB40000GXL1`).
@@ -24,7 +24,7 @@ class Moves(NamedTuple):
     length_um: Floats
 
 
-def moves(words: Words) -> Moves:
+def moves(words: StepWords) -> Moves:
     """What each block does relative to its own start."""
     is_arc = (words.turn != 0) & ~words.is_endless
     n = len(is_arc)
@@ -42,7 +42,7 @@ def moves(words: Words) -> Moves:
     return Moves(by, center, radius, angle, sweep, length)
 
 
-def _line_by(words: Words) -> Floats:
+def _line_by(words: StepWords) -> Floats:
     """(n, 2) absolute displacement of every row read as a line: J along the counted axis, the ratio X:Y across it."""
     on_x = words.count_axis == Axis.X
     counted = np.where(on_x, words.x_um, words.y_um)
@@ -53,7 +53,7 @@ def _line_by(words: Words) -> Floats:
     return np.stack([np.where(on_x, along, across), np.where(on_x, across, along)], axis=1)
 
 
-def with_axes_named(words: Words) -> Words:
+def with_axes_named(words: StepWords) -> StepWords:
     """Words as the controller reads them: a line without X and Y gets the axis its digit names."""
     bare = (words.turn == 0) & (words.x_um == 0) & (words.y_um == 0)
     named = _AXIS_OF_LABEL[words.quadrant]

@@ -3,7 +3,7 @@
 import numpy as np
 
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.toolpath import Axis, Words
+from parser.toolpath import Axis, StepWords
 
 _MOST_SWEEP_RAD = 1.8 * np.pi
 """Beyond it the ends of an arc are so near each other that a centre equally far from both may lie anywhere."""
@@ -11,7 +11,7 @@ _MOST_SHIFT = 0.5
 """Of the radius; the centre of an arc of a few µm alone would move farther, and it is told as a line."""
 
 
-def words_of_lines(by_um: Floats) -> Words:
+def words_of_lines(by_um: Floats) -> StepWords:
     """Words of lines by (n, 2), rounded to whole µm; quadrant 1 and J = 0 where both round to 0."""
     by = np.rint(by_um).astype(np.int64)
     quadrant = _quadrant(by[:, 0], by[:, 1])
@@ -22,7 +22,7 @@ def words_of_lines(by_um: Floats) -> Words:
     return _words(by, np.maximum(x, y), axis, quadrant, np.zeros_like(x))
 
 
-def words_of_arcs(start_um: Floats, end_um: Floats, sweep_rad: Floats) -> Words:
+def words_of_arcs(start_um: Floats, end_um: Floats, sweep_rad: Floats) -> StepWords:
     """Words of n arcs; of a line where whole µm leave no arc.
 
     The controller's radius is the distance of the start from the centre, so that a start that is off its circle would
@@ -82,9 +82,9 @@ def counted_way(angle_rad: Floats) -> Floats:
     return 2.0 * halves + 1.0 - np.cos(angle_rad - halves * np.pi)
 
 
-def chosen(is_one: Bools, one: Words, other: Words) -> Words:
+def chosen(is_one: Bools, one: StepWords, other: StepWords) -> StepWords:
     """Words of `one` where `is_one` (n,), of `other` elsewhere."""
-    return Words(*(np.where(is_one, getattr(one, name), getattr(other, name)) for name in Words.__slots__))
+    return StepWords(*(np.where(is_one, getattr(one, name), getattr(other, name)) for name in StepWords.__slots__))
 
 
 def _quadrant(x: Ints, y: Ints) -> Ints:
@@ -93,7 +93,7 @@ def _quadrant(x: Ints, y: Ints) -> Ints:
     return np.select(inside, [1, 2, 3, 4], 1).astype(np.int64)
 
 
-def _words(place: Ints, count: Ints, axis: Ints, quadrant: Ints, turn: Ints) -> Words:
+def _words(place: Ints, count: Ints, axis: Ints, quadrant: Ints, turn: Ints) -> StepWords:
     """Words from X and Y (n, 2), signed, without the radius and the curve mark of 4B."""
     x, y = np.abs(place).T
-    return Words(x, y, count, axis, quadrant, turn, np.full_like(count, -1), np.zeros_like(count))
+    return StepWords(x, y, count, axis, quadrant, turn, np.full_like(count, -1), np.zeros_like(count))

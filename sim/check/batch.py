@@ -11,13 +11,14 @@ from parser.findings.findings import Finding
 from parser.program import Program, load_program
 from parser.text.encoding import decode_text, no_program
 from parser.text.lines import LineIndex
-from sim.check.engine import PARSER_CHECKS, PATH_CHECKS, Checked, check_program
+from sim.check.engine import PARSER_CHECKS, PATH_CHECKS, Checked, run_checks
 from sim.check.result import CheckResult, CheckState, Coverage
 from sim.check.settings import CheckSettings
 
 PARALLEL_FROM = 200
 """Files from which on they are checked in parallel; below, starting processes takes longer than checking."""
 _FILES_A_TASK = 32
+_DEFAULTS = CheckSettings()
 
 
 class Job(NamedTuple):
@@ -38,15 +39,15 @@ def check_file(job: Job) -> CheckResult:
         program = load_program(data, job.name, job.settings.marks)
     except ProgramError as error:
         return _unreadable(job, data, error.finding, error.others)
-    return check_loaded(program, job.name, job.settings)
+    return check_program(program, job.settings)
 
 
-def check_loaded(program: Program, name: str, settings: CheckSettings) -> CheckResult:
-    """Check a program that was read."""
-    checked = check_program(program, settings.demands)
+def check_program(program: Program, settings: CheckSettings = _DEFAULTS) -> CheckResult:
+    """Check a program that was read. SettingsError where wire and gap of the settings leave no kerf."""
+    checked = run_checks(program, settings.demands)
     shown = tuple(finding for finding in _mendable(program, checked) if settings.shows(finding.code))
     return CheckResult(
-        name=name,
+        name=program.name,
         encoding=program.encoding,
         dialect=program.reading.dialect,
         findings=shown,

@@ -12,7 +12,7 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import Floats, Ints
 from parser.program import Program
 from parser.text.source import Field
-from parser.toolpath import Axis, Toolpath, Words
+from parser.toolpath import Axis, StepWords, Toolpath
 from parser.words.telling import counted_way
 
 STEPPED_END_UM = 12.0
@@ -115,12 +115,12 @@ def _miss_on(toolpath: Toolpath, row: Ints, axis: Ints) -> Floats:
         return np.zeros(0)
     picked = {f.name: getattr(toolpath, f.name)[row] for f in fields(toolpath) if f.name not in _PARTS}
     of_all = words_of(toolpath)
-    words = {f.name: getattr(of_all, f.name)[row] for f in fields(Words)}
+    words = {f.name: getattr(of_all, f.name)[row] for f in fields(StepWords)}
     words |= {"count_axis": axis, "count_um": count_on(toolpath, row, axis)}
     others = replace(
         toolpath,
         **picked,
-        words=Words(**words),
+        words=StepWords(**words),
         source=toolpath.source.picked(row),
         stops=(),
     )

@@ -73,7 +73,7 @@ class Checked(NamedTuple):
     judged: tuple[Contour, ...]
 
 
-def check_program(program: Program, demands: Demands) -> Checked:
+def run_checks(program: Program, demands: Demands) -> Checked:
     """Run every check on a program."""
     if any(telling(program.findings, TooLarge)):
         return _without_path(program, "reason-too-large")

@@ -6,7 +6,7 @@ import numpy as np
 
 from controller.offset.gouges import TOLERANCE_UM, Gouge
 from controller.offset.path import OffsetPath
-from controller.offset.sections import Section
+from controller.offset.sections import OffsetSection
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
 from parser.geometry.along import places
@@ -46,7 +46,7 @@ def gouge_findings(program: Program, offset: Offset, path: OffsetPath, gouges: I
         yield at_block(drawn, program.lines, "3B503", int(path.source_row[gouge.path_row]), **values)
 
 
-def loop_findings(program: Program, offset: Offset, loops: Mapping[Section, int]) -> Iterator[Finding]:
+def loop_findings(program: Program, offset: Offset, loops: Mapping[OffsetSection, int]) -> Iterator[Finding]:
     """Finding 3B504 at each closed section that does not allow one closed path without a gouge, but none or several."""
     for section, count in loops.items():
         if count != 1:

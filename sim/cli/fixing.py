@@ -14,7 +14,7 @@ from parser.findings.findings import Edit, Finding
 from parser.program import Program, load_program
 from parser.text.encoding import encode_text, printable
 from parser.text.excerpt import place
-from sim.check.engine import check_program
+from sim.check.engine import run_checks
 from sim.check.fixes import Choice, choices, with_edits
 from sim.check.settings import CheckSettings
 from sim.files import replace_file
@@ -47,7 +47,7 @@ def fix_file(path: Path, name: str, settings: CheckSettings) -> Fixing:
         program = load_program(path.read_bytes(), name, settings.marks)
     except (ProgramError, OSError):
         return Fixing("", ())
-    findings = with_edits(program, check_program(program, settings.demands))
+    findings = with_edits(program, run_checks(program, settings.demands))
     shown = tuple(finding for finding in findings if settings.shows(finding.code))
     left = tuple(Unmended(f, possible) for f in shown if len(possible := choices(program, f, findings)) > 1)
     text = apply(program.text, [edit for finding in shown for edit in finding.edits])
@@ -91,7 +91,7 @@ def apply(text: str, edits: Sequence[Edit]) -> str:
 
 def _errors(program: Program, settings: CheckSettings) -> Counter[tuple[str, int]]:
     """Errors by code and line; mends neither add lines before others nor take any away."""
-    findings = check_program(program, settings.demands).findings
+    findings = run_checks(program, settings.demands).findings
     return Counter((finding.code, finding.line) for finding in findings if finding.severity is Severity.ERROR)
 
 

@@ -17,16 +17,16 @@ from sim.show.pictures.cut.picture import draw_cut_of_run
 from sim.show.pictures.inline import inline_pictures
 from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
-from sim.table.motion import Progress
+from sim.table.motion import Progress, silent
 
 FILES = ("report.html", "replay.html", "cut.png", "report.json", "trace.npz")
 
 
 def run_into(
-    folder: Path,
+    folder: Path | str,
     program: Program,
     scenario: Scenario,
-    progress: Progress,
+    progress: Progress = silent,
     log: CardLog | None = None,
 ) -> DryRun:
     """Dry-run a program and write `FILES` into a folder.
@@ -36,7 +36,7 @@ def run_into(
     Raises ProgramError as `dry_run` does and FileUnreadableError where the folder cannot be written; then no file of
     the folder has changed.
     """
-    with staged(folder, FILES) as stage:
+    with staged(Path(folder), FILES) as stage:
         with StepFiles(stage) as files:
             run = check_expectations(dry_run(program, scenario, progress, files, log))
         _show(recording_of(run, files.paths, progress), stage, progress)

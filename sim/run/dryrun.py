@@ -30,7 +30,7 @@ from sim.setup.expectations import Missed
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
-from sim.table.motion import Motion, Progress, motion_of, simulate
+from sim.table.motion import Motion, Progress, motion_of, silent, simulate
 from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
@@ -133,7 +133,7 @@ def verdict(findings: tuple[Finding, ...]) -> str:
 def dry_run(
     program: Program,
     scenario: Scenario,
-    progress: Progress,
+    progress: Progress = silent,
     sink: PulseSink | None = None,
     log: CardLog | None = None,
 ) -> DryRun:

@@ -10,7 +10,7 @@ from controller.offset.compensate import compensate
 from controller.offset.gouges import TOLERANCE_UM, Gouge, gouges
 from controller.offset.path import Made, OffsetPath, offset_toolpath
 from controller.offset.reach import reach
-from controller.offset.sections import Section, sections_of
+from controller.offset.sections import OffsetSection, sections_of
 from controller.offset.shifted import closed_contour
 from controller.offset.uncut import uncut_um
 from parser.findings.findings import Finding, file_order
@@ -86,7 +86,7 @@ class _Beside(NamedTuple):
     loops: int | None
 
 
-def _beside_section(drawn: Curves, path: OffsetPath, section: Section, beside: slice, offset: Offset) -> _Beside:
+def _beside_section(drawn: Curves, path: OffsetPath, section: OffsetSection, beside: slice, offset: Offset) -> _Beside:
     """What the rows `beside` of the path do to a section of what is drawn."""
     contour = drawn.picked(slice(section.first, section.last + 1))
     # Leads of an open section are left out: where it has none of its own, they begin and end on it.
@@ -103,7 +103,7 @@ def _beside_section(drawn: Curves, path: OffsetPath, section: Section, beside: s
     )
 
 
-def _is_overhang(contour: Curves, section: Section, gouge: Gouge) -> bool:
+def _is_overhang(contour: Curves, section: OffsetSection, gouge: Gouge) -> bool:
     """Whether no more is cut than what the ends of a contour miss each other by, where they meet.
 
     Whole µm never close a contour exactly. Ends that lie side by side are joined midway, which cuts into one of them.

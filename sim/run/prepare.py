@@ -10,7 +10,7 @@ from parser.findings.errors import ProgramError
 from parser.findings.facts import TooLarge, telling
 from parser.findings.findings import Finding
 from parser.program import Program
-from sim.check.engine import Demands, check_program, too_many_steps
+from sim.check.engine import Demands, run_checks, too_many_steps
 from sim.check.result import CheckState, Coverage
 from sim.check.travel import travel_findings
 from sim.run.offsetting import Offsetting, offsetting
@@ -47,7 +47,7 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     program does not have.
     """
     refuse_unanswerable(scenario.quiz, program.toolpath)
-    checked = check_program(program, _demands(scenario))
+    checked = run_checks(program, _demands(scenario))
     if checked.steps is None:
         raise _refusal(program, checked.findings)
     if scenario.offset is None:

@@ -19,7 +19,7 @@ from sim.run.findings import expectation_findings
 from sim.run.report import build_report
 from sim.setup.expectations import missed
 from sim.setup.scenario import Scenario
-from sim.table.motion import Progress
+from sim.table.motion import Progress, silent
 
 NO_PIECES = Pieces(Frame(None, None, None, ()), (), 0)
 MOST_PASSES = 6.0
@@ -56,7 +56,7 @@ def recording_of(run: DryRun, files: Mapping[str, Path], progress: Progress) -> 
 
 
 @contextmanager
-def recorded(program: Program, scenario: Scenario, progress: Progress) -> Iterator[Recording]:
+def recorded(program: Program, scenario: Scenario, progress: Progress = silent) -> Iterator[Recording]:
     """Dry-run a program and keep its steps in files for as long as the context lasts; raises what `dry_run` does."""
     with tempfile.TemporaryDirectory(prefix="drycut-") as folder:
         with StepFiles(Path(folder)) as files:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from parser.findings.errors import SettingsError
-from sim.setup.toml.keys import Section, Written
+from sim.setup.toml.keys import Section, WrittenSection
 
 EXPECT = Section("expect", ())
 """Its keys are paths into the report."""
@@ -58,9 +58,9 @@ def read_expectation(table: Mapping[str, Any], where: str) -> tuple[Expectation,
     return tuple(found)
 
 
-def expect_section(expected: tuple[Expectation, ...]) -> Written:
+def expect_section(expected: tuple[Expectation, ...]) -> WrittenSection:
     """The ``[expect]`` table that makes these."""
-    return Written(EXPECT, {expectation.path: wanted(expectation) for expectation in expected})
+    return WrittenSection(EXPECT, {expectation.path: wanted(expectation) for expectation in expected})
 
 
 def wanted(expected: Expectation) -> Any:

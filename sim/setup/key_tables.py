@@ -17,7 +17,7 @@ DOCUMENT = Path("docs/scenarios.md")
 _TABLE = re.compile(r"(<!-- keys: ([\w ]+); .*? -->\n).*?(\n<!-- end of keys -->)", re.DOTALL)
 
 
-class Row(NamedTuple):
+class KeyRow(NamedTuple):
     """Row of a key, in Markdown."""
 
     key: str
@@ -42,18 +42,18 @@ def _tables() -> dict[str, str]:
     }
 
 
-def _scenario_rows() -> Iterator[Row]:
+def _scenario_rows() -> Iterator[KeyRow]:
     """Rows of the keys; sections that are lists, or have no keys of their own, begin with a row that says so."""
     for section in scenario.SECTIONS:
         if section.name in _words("sections"):
-            yield Row(f"`{section.header}`", **_words("sections")[section.name])
+            yield KeyRow(f"`{section.header}`", **_words("sections")[section.name])
         if section is not QUIZ:
             yield from (_row(section, key) for key in section.keys)
 
 
-def _table(rows: Iterable[Row], left_out: tuple[str, ...] = ()) -> str:
+def _table(rows: Iterable[KeyRow], left_out: tuple[str, ...] = ()) -> str:
     """Markdown of rows, without some columns."""
-    columns = [column for column in Row._fields if column not in left_out]
+    columns = [column for column in KeyRow._fields if column not in left_out]
     heads = _words("document")
     lines = [[heads[column] for column in columns], *([getattr(row, column) for column in columns] for row in rows)]
     head, *body = (f"| {' | '.join(line)} |\n" for line in lines)
@@ -65,9 +65,9 @@ def _is_needed(section: Section, key: Key) -> bool:
     return key.is_required and not words_of(section, key).default
 
 
-def _row(section: Section, key: Key) -> Row:
+def _row(section: Section, key: Key) -> KeyRow:
     said, kind = words_of(section, key), _words("kinds")[key.kind.name]
-    return Row(
+    return KeyRow(
         key=f"`{f'{section.header} {key.name}'.strip()}`",
         type=(isinstance(key.kind, Number) and key.kind.unit) or kind["type"],
         bounds=said.bounds or _bounds(key, kind["bounds"]),

@@ -13,7 +13,7 @@ from parser.geometry.curves import Floats
 from parser.toolpath import Point
 from parser.units import from_mm
 from sim.setup.toml.keys import Key, Section
-from sim.setup.toml.kinds import Kind, Name, in_mm
+from sim.setup.toml.kinds import Name, ValueKind, in_mm
 from sim.setup.toml.reader import PLACE_MM, Bound, number, tables
 
 Outline = tuple[Point, ...]
@@ -31,7 +31,7 @@ class Clamp(NamedTuple):
     outline_um: Outline
 
 
-class OutlineMm(Kind):
+class OutlineMm(ValueKind):
     """An outline, its corners in mm."""
 
     name = "outline"

@@ -10,7 +10,7 @@ from parser.findings.errors import SettingsError
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from sim.setup.toml.keys import Key, Section
-from sim.setup.toml.kinds import Kind, Name, OneOf, Whole
+from sim.setup.toml.kinds import Name, OneOf, ValueKind, Whole
 from sim.setup.toml.reader import Bound, number, refuse_unknown, tables
 
 About = Literal["quadrant", "count_axis", "turn", "count_length", "next_step", "end"]
@@ -23,7 +23,7 @@ BLOCK = Bound(1, 1e6)
 ANSWERS = Bound(2, 6)
 
 
-class Written(NamedTuple):
+class WrittenQuestion(NamedTuple):
     """A question written out: what is asked, the answers, which of them is right, from 0, and why."""
 
     ask: Said
@@ -46,11 +46,11 @@ class Question(NamedTuple):
     """
 
     block: int
-    what: About | Written
+    what: About | WrittenQuestion
     where: str
 
 
-class _Answers(Kind):
+class _Answers(ValueKind):
     """Answers to choose from."""
 
     name = "answers"
@@ -71,9 +71,9 @@ class _Answers(Kind):
         return [printable(answer) for answer in value]
 
 
-def _of_written(get: Callable[[Written], Any]) -> Callable[[Question], Any]:
+def _of_written(get: Callable[[WrittenQuestion], Any]) -> Callable[[Question], Any]:
     """How something of a question that is written out is found; the others have none of it."""
-    return lambda question: get(question.what) if isinstance(question.what, Written) else None
+    return lambda question: get(question.what) if isinstance(question.what, WrittenQuestion) else None
 
 
 _BLOCK = Key("block", Whole(BLOCK))
@@ -81,7 +81,7 @@ _ABOUT = Key(
     "about",
     OneOf(get_args(About)),
     default=None,
-    get=lambda question: None if isinstance(question.what, Written) else question.what,
+    get=lambda question: None if isinstance(question.what, WrittenQuestion) else question.what,
 )
 _RIGHT = Key("right", Whole(Bound(1, ANSWERS.high)), get=_of_written(lambda written: written.right + 1))
 _ANSWERS, _ANSWERS_ZH = (
@@ -116,7 +116,7 @@ def _question(table: Mapping[str, Any], where: str) -> Question:
     return Question(block, _ABOUT.read(table, where), where)
 
 
-def _written(table: Mapping[str, Any], where: str) -> Written:
+def _written(table: Mapping[str, Any], where: str) -> WrittenQuestion:
     """A question that is written out; the English text stands where the Chinese one is left out."""
     answers = _ANSWERS.read(table, where)
     chinese = _ANSWERS_ZH.read(table, where) or answers
@@ -124,7 +124,7 @@ def _written(table: Mapping[str, Any], where: str) -> Written:
         raise SettingsError(f"{where}: there are {len(answers)} answers and {len(chinese)} answers_zh")
     ask, why = _ASK.read(table, where), _WHY.read(table, where)
     right = Whole(Bound(1, len(answers))).checked(table, _RIGHT.name, where)
-    return Written(
+    return WrittenQuestion(
         ask=Said(ask, _ASK_ZH.read(table, where) or ask),
         answers=tuple(Said(*pair) for pair in zip(answers, chinese, strict=True)),
         right=int(right) - 1,
@@ -144,5 +144,5 @@ def refuse_unanswerable(questions: Iterable[Question], toolpath: Toolpath) -> No
             raise SettingsError(f"{question.where}: the program has no words to ask about, but places alone (end)")
         if question.what == "turn" and not toolpath.is_arc[row]:
             raise SettingsError(f"{question.where}: block {question.block} is a line, and does not turn")
-        if not isinstance(question.what, Written) and not toolpath.length_um[row] > 0.0:
+        if not isinstance(question.what, WrittenQuestion) and not toolpath.length_um[row] > 0.0:
             raise SettingsError(f"{question.where}: block {question.block} has no length, and nothing to ask about")

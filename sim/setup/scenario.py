@@ -25,8 +25,8 @@ from sim.setup.part import (
     read_offset,
 )
 from sim.setup.quiz import QUIZ, Question, read_quiz
-from sim.setup.toml.keys import Key, Section, Written
-from sim.setup.toml.kinds import FileName, Name, Number, Place, Text, Truth
+from sim.setup.toml.keys import Key, Section, WrittenSection
+from sim.setup.toml.kinds import FileName, Name, Number, TablePlace, Text, Truth
 from sim.setup.toml.reader import Bound, load_toml, section
 from sim.setup.wire import DEFAULT_WIRE, WIRE, Wire, read_wire
 
@@ -119,7 +119,7 @@ TOP = Section(
         Key("program", FileName(), default="program.3b"),
         Key("machine", Text(), default=DEFAULT_MACHINE, get=lambda _: MACHINE_FILE),
         Key("interpolator", INTERPOLATOR, default=None, get=lambda _: None),  # the machine file says it
-        Key("start_mm", Place(), default=None),
+        Key("start_mm", TablePlace(), default=None),
         Key("open", Truth(), "may_stay_open", default=False),
         Key("trace_spacing_um", Number(TRACE_SPACING_UM, "µm"), default=DEFAULT_TRACE_SPACING_UM),
         Key("kerf", Truth(), default=False),
@@ -138,11 +138,12 @@ SECTIONS = (TOP, WIRE, WORK, OFFSET, DRAWING, CLAMPS, QUIZ, EXPECT)
 """Sections of a scenario file."""
 
 
-def load_scenario(path: Path) -> Scenario:
+def load_scenario(path: Path | str) -> Scenario:
     """Scenario of a folder with a ``scenario.toml``, or of a program file with the defaults.
 
     Raises FileUnreadableError or SettingsError with file and key.
     """
+    path = Path(path)
     try:
         is_folder = path.is_dir()
     except OSError as error:
@@ -171,7 +172,7 @@ def load_scenario(path: Path) -> Scenario:
     )
 
 
-def scenario_sections(scenario: Scenario) -> list[Written]:
+def scenario_sections(scenario: Scenario) -> list[WrittenSection]:
     """Sections of the scenario file that asks for the same run, on the machine of ``machine.toml``."""
     tables = [written for section in SECTIONS[:-1] for written in section.written(scenario)]
     return [*tables, expect_section(scenario.expect)]

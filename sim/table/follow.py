@@ -16,7 +16,7 @@ from sim.table.record.history import History, HistoryMeter, SlabRun
 from sim.table.record.losses import Loss, LossTally
 from sim.table.record.peaks import Peak, PeakMeter
 from sim.table.record.travelled import Travelled, travelled_of
-from sim.table.solve.march import Table
+from sim.table.solve.march import RunTable
 from sim.table.solve.passes import run_slab
 from sim.table.solve.slab import RATE_WINDOW_S, Slab, slab_of
 from sim.table.solve.slow_step import NO_PLAY, SlowStep
@@ -64,7 +64,7 @@ class Following:
     def __init__(self, setup: Setup, ticks: Ticks) -> None:
         self._setup, self._ticks = setup, ticks
         engines = Engines(setup.model, setup.room_um)
-        self._table = Table(setup.model, setup.room_um, setup.slow, engines)
+        self._table = RunTable(setup.model, setup.room_um, setup.slow, engines)
         self._felt_s = rhythm(setup.model).felt_s
         self._motors = Motors(setup.model.motor.step_time_s, setup.origin_um)
         origin = np.array([setup.origin_um], dtype=np.float64)

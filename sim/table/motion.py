@@ -32,6 +32,10 @@ class Progress(Protocol):
         """`done` of `total` units of the stage."""
 
 
+def silent(stage: str, done: int, total: int) -> None:
+    """Progress that nobody watches."""
+
+
 class Motion(NamedTuple):
     """What is to be run, by which card, and on which table, with the ticks to follow it by."""
 

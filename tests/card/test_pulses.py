@@ -18,7 +18,7 @@ from controller.card.engine.stretch import Start
 from controller.motion.path import Path
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping.point_by_point import interpolate_words
-from parser.toolpath import Words
+from parser.toolpath import StepWords
 
 PERIOD_S = 200e-6
 BLOCK = (30, 40, 40, 1, 1, 0)
@@ -44,7 +44,7 @@ def test_blocks_through_a_list_are_timed_as_one_plan_of_all(capacity):
     x, y = rng.integers(1, 60, (2, 400))
     axis = (y > x).astype(np.int64)
     zero, count = np.zeros_like(x), np.maximum(x, y)
-    words = Words(x, y, count, axis, rng.integers(1, 5, 400), zero, zero - 1, zero)
+    words = StepWords(x, y, count, axis, rng.integers(1, 5, 400), zero, zero - 1, zero)
     length = np.hypot(x, y)
     watched = Watched(capacity=capacity, synvel_pulse_ms=5.0, synacc_pulse_ms2=0.1)
     card = watched.card

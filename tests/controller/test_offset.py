@@ -17,9 +17,9 @@ from sound_shapes import SHAPES, Shape
 
 from controller.offset.compensate import compensate
 from controller.offset.path import Made, OffsetPath, offset_toolpath
-from controller.offset.sections import Section, Side
+from controller.offset.sections import OffsetSection, Side
 from controller.stepping.words import interpolate
-from parser.geometry.curves import Curves, Floats, Ints, Kind, curves_between, joined
+from parser.geometry.curves import CurveKind, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.distance import distance_to_curves
 from parser.toolpath import Stop, Toolpath
 
@@ -54,8 +54,8 @@ def polyline(places: Floats | list[tuple[float, float]]) -> Curves:
     return curves_between(places[:-1], places[1:], np.full((n, 2), np.nan), np.zeros(n))
 
 
-def whole(curves: Curves, closed: bool = True) -> list[Section]:
-    return [Section(0, len(curves) - 1, closed)]
+def whole(curves: Curves, closed: bool = True) -> list[OffsetSection]:
+    return [OffsetSection(0, len(curves) - 1, closed)]
 
 
 def contour_of(path: OffsetPath) -> Curves:
@@ -102,7 +102,7 @@ def same_curves(one: Curves, other: Curves) -> bool:
 def test_paths_are_whole_and_arcs_exact(seed: int) -> None:
     for shape, offset, side in (random_shape(k) for k in range(seed, seed + 13)):
         toolpath = drawn(shape, (shape.start[0] - 3000.0, shape.start[1] + 100.0))
-        path = compensate(toolpath, [Section(1, len(toolpath) - 1, True)], offset, side)
+        path = compensate(toolpath, [OffsetSection(1, len(toolpath) - 1, True)], offset, side)
         assert_sound(path)
         assert_arcs_fit(path.curves, 1e-5)
         arc, row = path.curves.is_arc, path.source_row
@@ -247,13 +247,13 @@ def test_offset_zero_is_the_toolpath() -> None:
 
 def test_a_line_leads_to_the_offset_path_and_back() -> None:
     toolpath = Pen(0, -500).to(0, 0).to(1000, 0).to(1000, 1000).to(0, 1000).to(0, 0).to(-700, 0).jump(9, 9).path()
-    path = compensate(toolpath, [Section(1, 4, True)], 100.0, Side.RIGHT)
+    path = compensate(toolpath, [OffsetSection(1, 4, True)], 100.0, Side.RIGHT)
     shifted = [Made.SHIFTED] * 4
     assert path.made.tolist() == [Made.LEAD, *shifted, Made.LEAD, Made.AS_IT_IS]
     assert path.curves.start_um[0].tolist() == [0, -500]
     assert path.curves.start_um[[1, 5]] == pytest.approx(np.array([[-100, -100], [-100, -100]]), abs=SAME_UM)
     assert path.curves.end_um[5].tolist() == [-700, 0]
-    assert path.curves.kind[-1] == Kind.JUMP
+    assert path.curves.kind[-1] == CurveKind.JUMP
     assert path.source_row.tolist() == list(range(7))
 
 
@@ -266,7 +266,7 @@ def test_without_a_row_that_leads_one_is_inserted() -> None:
     for x, y in square:
         pen.to(5000 + x, y)
     toolpath = pen.path()
-    path = compensate(toolpath, [Section(0, 3, True), Section(5, 8, True)], 100.0, Side.LEFT)
+    path = compensate(toolpath, [OffsetSection(0, 3, True), OffsetSection(5, 8, True)], 100.0, Side.LEFT)
     one = [Made.LEAD, *[Made.SHIFTED] * 4, Made.LEAD]
     assert path.made.tolist() == [*one, Made.AS_IT_IS, *one]
     assert path.source_row.tolist() == [0, 0, 1, 2, 3, 3, 4, 5, 5, 6, 7, 8, 8]
@@ -278,7 +278,7 @@ def test_without_a_row_that_leads_one_is_inserted() -> None:
 
 def test_sections_side_by_side_lead_out_and_in_between_them() -> None:
     toolpath = Pen().to(1000, 0).to(2000, 0).to(3000, 0).path()
-    path = compensate(toolpath, [Section(0, 0, False), Section(1, 2, False)], 100.0, Side.LEFT)
+    path = compensate(toolpath, [OffsetSection(0, 0, False), OffsetSection(1, 2, False)], 100.0, Side.LEFT)
     assert path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.LEAD, Made.LEAD, *[Made.SHIFTED] * 2, Made.LEAD]
     assert path.curves.end_um[2].tolist() == [1000.0, 0.0]
     assert_sound(path)
@@ -286,16 +286,16 @@ def test_sections_side_by_side_lead_out_and_in_between_them() -> None:
 
 def test_an_arc_that_leads_becomes_a_line() -> None:
     toolpath = Pen(0, 1000).arc(0, 500, math.pi).to(1000, 0).arc(1000, 500, math.pi / 2).path()
-    path = compensate(toolpath, [Section(1, 1, False)], 100.0, Side.LEFT)
+    path = compensate(toolpath, [OffsetSection(1, 1, False)], 100.0, Side.LEFT)
     assert path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.LEAD]
-    assert path.curves.kind.tolist() == [Kind.LINE] * 3
+    assert path.curves.kind.tolist() == [CurveKind.LINE] * 3
     assert path.curves.start_um[1] == pytest.approx([0.0, 100.0], abs=SAME_UM)
     assert path.curves.end_um[1] == pytest.approx([1000.0, 100.0], abs=SAME_UM)
 
 
 def test_a_bridge_where_a_contour_closes_is_cut_last() -> None:
     toolpath = Pen(-500, 0).to(0, 0).to(1000, 400).to(1000, -400).to(0, 0).to(-500, 0).path()
-    path = compensate(toolpath, [Section(1, 3, True)], 100.0, Side.LEFT)
+    path = compensate(toolpath, [OffsetSection(1, 3, True)], 100.0, Side.LEFT)
     made = [Made.LEAD, *[Made.SHIFTED, Made.BRIDGE] * 3, Made.LEAD]
     assert path.made.tolist() == made
     assert np.array_equal(path.curves.end_um[0], path.curves.end_um[6])
@@ -402,7 +402,7 @@ def test_a_slot_too_narrow_is_bridged_by_a_line() -> None:
     path = compensate(slot, whole(slot, closed=False), 100.0, Side.LEFT)
     assert path.vanished.tolist() == [1]
     assert path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.BRIDGE, Made.SHIFTED, Made.LEAD]
-    assert path.curves.kind[2] == Kind.LINE
+    assert path.curves.kind[2] == CurveKind.LINE
     assert_sound(path)
 
 
@@ -429,7 +429,7 @@ def test_sides_on_one_line_with_nothing_left_between_them_are_bridged_along_it()
 def test_a_contour_that_vanishes_as_a_whole_leaves_a_path(closed: bool) -> None:
     square = Pen(-500, 0).to(0, 0).to(90, 0).to(90, 90).to(0, 90).to(0, 0)
     for toolpath in (square.path(), square.to(-500, 0).path()):
-        path = compensate(toolpath, [Section(1, 4, closed)], 100.0 if closed else 1000.0, Side.LEFT)
+        path = compensate(toolpath, [OffsetSection(1, 4, closed)], 100.0 if closed else 1000.0, Side.LEFT)
         if closed:
             assert path.vanished.tolist() == [1, 2, 3, 4]
             assert path.curves.end_um[0].tolist() == [0.0, 0.0]
@@ -511,7 +511,7 @@ def test_whatever_is_drawn_gives_a_path(
 ) -> None:
     first = data.draw(st.integers(0, len(toolpath) - 1))
     last = data.draw(st.integers(first, len(toolpath) - 1))
-    path = compensate(toolpath, [Section(first, last, closed)], offset, side)
+    path = compensate(toolpath, [OffsetSection(first, last, closed)], offset, side)
     assert_sound(path)
     assert np.array_equal(path.curves.start_um[0], toolpath.start_um[0])
     assert np.array_equal(path.curves.end_um[-1], toolpath.end_um[-1])
@@ -536,7 +536,7 @@ def test_steps_end_where_the_path_does() -> None:
     for seed in range(150):
         shape, offset, side = random_shape(seed)
         toolpath = drawn(shape, (shape.start[0] - 3000.0, shape.start[1] + 100.0))
-        path = compensate(toolpath, [Section(1, len(toolpath) - 1, True)], min(offset, 200.0), side)
+        path = compensate(toolpath, [OffsetSection(1, len(toolpath) - 1, True)], min(offset, 200.0), side)
         stepped = offset_toolpath(toolpath, path)
         off = stepped_ends(stepped)
         off_lines += off[~stepped.is_arc].tolist()
@@ -580,11 +580,11 @@ def test_rows_bear_the_source_of_their_blocks() -> None:
     toolpath = pen.path()
     stops = (Stop("pause", 5, 1), Stop("pause", 6, 1), Stop("end", 7, 1))
     toolpath = replace(toolpath, stops=stops, printed_end_um=toolpath.end_um.copy())
-    path = compensate(toolpath, [Section(1, 3, True)], 100.0, Side.LEFT)
+    path = compensate(toolpath, [OffsetSection(1, 3, True)], 100.0, Side.LEFT)
     made = offset_toolpath(toolpath, path)
     assert made.source.block.tolist() == [1, 2, 2, 3, 3, 4, 4, 5, 6, 7]
     assert [stop.after for stop in made.stops] == [8, 9, 10]
-    assert made.kind[-2] == Kind.JUMP
+    assert made.kind[-2] == CurveKind.JUMP
     is_printed = ~np.isnan(made.printed_end_um[:, 0])
     assert is_printed.tolist() == [False] * 8 + [True] * 2
     assert np.array_equal(made.end_um, path.curves.end_um)
@@ -605,9 +605,9 @@ def test_two_contours_do_not_touch_each_other() -> None:
         center_um=other.center_um + 1e6,
     )
     jump = polyline([tuple(one.end_um[-1]), tuple(far.start_um[0])])
-    jump = replace(jump, kind=np.array([Kind.JUMP]))
+    jump = replace(jump, kind=np.array([CurveKind.JUMP]))
     both = joined([one.picked(slice(None)), jump, far])
-    sections = [Section(0, len(one) - 1, True), Section(len(one) + 1, len(both) - 1, True)]
+    sections = [OffsetSection(0, len(one) - 1, True), OffsetSection(len(one) + 1, len(both) - 1, True)]
     path = compensate(both, sections, offset, Side.RIGHT)
     alone = compensate(one, whole(one), offset, Side.RIGHT)
     early = path.source_row < len(one)
@@ -619,7 +619,7 @@ def test_arcs_that_nearly_are_one_circle_are_joined_where_they_end() -> None:
     """Of whole µm, two arcs of one circle about centres 0.5 µm apart, they cross a second time far round it."""
     pen = Pen().to(0, -2000).arc(0, 0, 1.5483).to(6000, -45).arc_to(6000, 45, 8000, 0, 1).to(1999.5, 45)
     path = pen.arc_to(0.48, -1999.48, 0.49, 0.03, 1).to(0.48, 0).path()
-    made = compensate(path, [Section(1, 5, closed=True)], 100.0, Side.LEFT)
+    made = compensate(path, [OffsetSection(1, 5, closed=True)], 100.0, Side.LEFT)
     assert len(made.vanished) == 0
     assert made.curves.end_um[0] == pytest.approx([0.24, -1899.74], abs=0.02)
     assert made.curves.sweep_rad[1] == pytest.approx(1.5708 + 55.0 / 1900.0, abs=1e-3)

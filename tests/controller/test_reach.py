@@ -16,7 +16,7 @@ from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 from sound_shapes import SHAPES, Shape, begun_within, placed
 
-from controller.offset.reach import Loop, Reached, reach
+from controller.offset.reach import OffsetLoop, Reached, reach
 from controller.offset.sections import Side
 from parser.geometry.along import places_at
 from parser.geometry.curves import Curves, Floats, joined
@@ -336,5 +336,5 @@ def test_the_loop_names_the_blocks_that_it_comes_from_in_the_contours_order() ->
             assert is_in_order(loop)
 
 
-def is_in_order(loop: Loop) -> bool:
+def is_in_order(loop: OffsetLoop) -> bool:
     return bool(np.all(np.diff(loop.source_row) >= 0))

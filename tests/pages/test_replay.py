@@ -16,7 +16,7 @@ from golden_pictures import assert_golden_screen
 from PIL import Image
 from places import SCENARIOS
 from replayed import exports, recording_of
-from runs import plain_scenario, silent
+from runs import plain_scenario
 
 from controller.stepping.pulses import Pulses, time_steps
 from parser.findings.catalogue import Said
@@ -25,10 +25,10 @@ from sim.measure.deviation.meters import StepTally
 from sim.run.dryrun import DryRun
 from sim.run.prepare import prepare
 from sim.run.recording import Recording, recorded
-from sim.setup.quiz import Question, Written
+from sim.setup.quiz import Question, WrittenQuestion
 from sim.setup.scenario import load_scenario
 from sim.show.replay.document import replay_page
-from sim.table.motion import motion_of, origin_um
+from sim.table.motion import motion_of, origin_um, silent
 from sim.table.trace import Trace
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ STEPS = 8001  # with the stray one of block 6
 WHY = Said("because", "因为")
 QUIZ = (
     Question(2, "quadrant", "test"),
-    Question(4, Written(Said("Ready?", "好了吗？"), (Said("Yes", "好了"), Said("No", "没有")), 0, WHY), "test"),
+    Question(4, WrittenQuestion(Said("Ready?", "好了吗？"), (Said("Yes", "好了"), Said("No", "没有")), 0, WHY), "test"),
 )
 ZIGZAG = "B100000B97000B100000GXL1 B97000B100000B100000GYL2 B100000B97000B100000GXL3 B97000B100000B100000GYL4"
 

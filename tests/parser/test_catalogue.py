@@ -8,7 +8,7 @@ from typing import get_args
 
 import pytest
 
-from parser.findings.catalogue import LANGUAGES, Language, Page, Texts, example, instant, page, texts
+from parser.findings.catalogue import LANGUAGES, CataloguePage, Language, Texts, example, instant, page, texts
 from parser.findings.codes import CODES
 from parser.findings.findings import Finding, Value
 from parser.findings.remarks import Remark, remark_text
@@ -97,7 +97,7 @@ def test_a_page_has_all_keys_and_no_others(code: str) -> None:
     content = written(code)
     assert set(content) - {"example"} == set(LANGUAGES)
     for language in LANGUAGES:
-        assert set(content[language]) == set(Page._fields)
+        assert set(content[language]) == set(CataloguePage._fields)
         assert all(text.strip() for text in page(code, language))
     assert set(content.get("example", {})) <= {"program", "mended", "options"}
 

@@ -11,7 +11,7 @@ from places import SCENARIOS
 from plain import SIGNS, PlainBlock, plain_arc_end
 from strategies import arcs, lines, program_text, programs
 
-from parser.geometry.curves import Kind
+from parser.geometry.curves import CurveKind
 from parser.program import parse_program, read_program
 from parser.toolpath import Toolpath
 
@@ -25,7 +25,7 @@ def test_keyhole_decodes_to_the_printed_numbers() -> None:
     assert toolpath.end_um[3] == pytest.approx([56756.009, 24898.279], abs=0.001)  # µm, the paper's exact end
     assert math.hypot(*toolpath.end_um[-1]) == pytest.approx(0.28, abs=0.005)  # µm
     block = toolpath.block(3)
-    assert block.kind is Kind.ARC
+    assert block.kind is CurveKind.ARC
     assert block.is_major
     assert block.center_um == (100000.0, 0.0)
     assert block.radius_um == math.sqrt(43243**2 + 24900**2)

@@ -21,10 +21,10 @@ from ezdxf.math import BSpline, ConstructionArc, Vec2, Vec3
 
 from parser.drawing import blocks
 from parser.drawing.ends import Ends, joints
-from parser.drawing.model import Drawing, Loop, running
+from parser.drawing.model import Drawing, DrawnLoop, running
 from parser.drawing.read import read_drawing
 from parser.findings.errors import DrawingError, DrycutError, FileUnreadableError
-from parser.geometry.curves import Curves, Kind
+from parser.geometry.curves import CurveKind, Curves
 
 EXACT_UM = 1e-6
 
@@ -33,11 +33,11 @@ def _read(folder: Path, draw: Callable[[Modelspace], object], **asked: float) ->
     return read_drawing(drawn(folder, draw), **asked)
 
 
-def _ran(drawing: Drawing, loop: Loop) -> Curves:
+def _ran(drawing: Drawing, loop: DrawnLoop) -> Curves:
     return running(drawing.curves, loop.row, loop.backwards)
 
 
-def _area_mm2(drawing: Drawing, loop: Loop) -> float:
+def _area_mm2(drawing: Drawing, loop: DrawnLoop) -> float:
     return shapely.Polygon(points_on(_ran(drawing, loop))).area / 1e6
 
 
@@ -46,7 +46,7 @@ def _area_mm2(drawing: Drawing, loop: Loop) -> float:
 
 def test_a_line_runs_between_its_ends(tmp_path):
     drawing = _read(tmp_path, lambda space: space.add_line((1, 2), (4.5, -6)))
-    assert drawing.curves.kind.tolist() == [Kind.LINE]
+    assert drawing.curves.kind.tolist() == [CurveKind.LINE]
     np.testing.assert_allclose(drawing.curves.start_um, [[1000, 2000]], atol=EXACT_UM)
     np.testing.assert_allclose(drawing.curves.end_um, [[4500, -6000]], atol=EXACT_UM)
     assert (drawing.entities[0].kind, drawing.entities[0].layer, drawing.unit) == ("LINE", "0", "mm")
@@ -89,7 +89,7 @@ def test_a_bulge_is_the_circle_through_its_ends_and_its_middle(tmp_path, bulge, 
 
 def test_a_bulge_flatter_than_a_nanometre_is_a_line(tmp_path):
     curves = _read(tmp_path, lambda space: space.add_lwpolyline([(0, 0, 1e-9), (10, 0, 0)], format="xyb")).curves
-    assert curves.kind.tolist() == [Kind.LINE]
+    assert curves.kind.tolist() == [CurveKind.LINE]
 
 
 @pytest.mark.parametrize("add", ["add_lwpolyline", "add_polyline2d"])
@@ -162,7 +162,7 @@ def test_a_spline_through_points_passes_them(tmp_path):
 
 def test_a_spline_that_is_straight_is_a_line(tmp_path):
     drawing = _read(tmp_path, lambda space: space.add_open_spline([(0, 0), (1, 2), (2, 4), (5, 10), (6, 12)]))
-    assert (drawing.curves.kind.tolist(), drawing.flattened) == ([Kind.LINE], 0)
+    assert (drawing.curves.kind.tolist(), drawing.flattened) == ([CurveKind.LINE], 0)
     np.testing.assert_allclose(drawing.curves.end_um, [[6000, 12000]], atol=EXACT_UM)
 
 

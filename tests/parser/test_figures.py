@@ -1,6 +1,6 @@
 """Several figures: pauses, jumps in the air and start nodes."""
 
-from parser.geometry.curves import Kind
+from parser.geometry.curves import CurveKind
 from parser.program import parse_program
 
 SQUARE = "B10B0B10GXL1 B0B10B10GYL2 B10B0B10GXL3 B0B10B10GYL4\n"
@@ -8,7 +8,7 @@ CIRCLE = "B5B0B5GXL1 B5B0B20GYNR1 B5B0B5GXL3\n"
 
 
 def jumps(text: str) -> list[int]:
-    return [block.number for block in parse_program(text).toolpath if block.kind is Kind.JUMP]
+    return [block.number for block in parse_program(text).toolpath if block.kind is CurveKind.JUMP]
 
 
 def test_lines_between_two_pauses_are_jumps() -> None:
@@ -57,7 +57,7 @@ def test_first_start_node_is_the_origin() -> None:
 def test_later_start_node_is_a_jump_to_its_place() -> None:
     toolpath = parse_program(f"{CIRCLE} D\nStart Point = 0.2 , 0.1\n{CIRCLE} DD").toolpath
     node = toolpath.block(3)
-    assert node.kind is Kind.JUMP
+    assert node.kind is CurveKind.JUMP
     assert node.end_um == (200.0, 100.0)
     assert node.line == 3
     assert node.text.startswith("Start Point")

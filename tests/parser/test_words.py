@@ -9,14 +9,14 @@ from drawings import Arc
 from plain import PlainBlock, motion_quadrant, plain_steps
 from sound_cam import arc_block, line_block
 
-from parser.toolpath import Axis, Words
+from parser.toolpath import Axis, StepWords
 from parser.words.arcs import arc_ends
 from parser.words.telling import words_of_arcs, words_of_lines
 
 SENSE = {0: "L", 1: "NR", -1: "SR"}
 
 
-def block(words: Words, row: int) -> PlainBlock:
+def block(words: StepWords, row: int) -> PlainBlock:
     x, y, count, axis, quadrant, turn = (
         int(column[row])
         for column in (words.x_um, words.y_um, words.count_um, words.count_axis, words.quadrant, words.turn)

@@ -13,7 +13,7 @@ from command import run_inside
 from jsonschema import Draft202012Validator
 from places import ROOT
 from replayed import document_of
-from runs import codes, plain_scenario, run_text, silent
+from runs import codes, plain_scenario, run_text
 from tiny_dialect import TinyReader
 
 from controller.offset.sections import Side
@@ -31,6 +31,7 @@ from sim.run.report import build_report
 from sim.setup.part import Offset
 from sim.setup.quiz import Question
 from sim.show.pictures.gallery import PICTURES
+from sim.table.motion import silent
 
 SLOT = "10: go 4 0\narc 4 4 4 2 left\n30: go 0 4\narc 0 0 0 2 left\nend\n"
 """A slot of 4 mm between centres and 4 mm width, its path run counter-clockwise."""

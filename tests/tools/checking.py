@@ -5,6 +5,7 @@ from pathlib import Path
 from command import run_command
 
 SOUND = "B9900B0B9900GXL1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nDD\n"
+WRONG_AXIS = SOUND.replace("GYNR1", "GXNR1")
 
 
 def drycut(*arguments: object, stdin: bytes = b"", cwd: Path | None = None, **environment: str) -> tuple[int, str, str]:

@@ -11,7 +11,7 @@ from sound_cam import Move, Post, drawn_sweep
 from sound_offset import offset
 from sound_shapes import Shape, heading, unit
 
-from parser.drawing.model import Drawing, Entity, Loop
+from parser.drawing.model import Drawing, DrawnLoop, Entity
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.program import parse_program
 from parser.toolpath import Toolpath
@@ -57,7 +57,7 @@ def drawing_from(parts: Sequence[Curves], order: Ints | None = None) -> Drawing:
     at = np.argsort(order)
     ends = np.cumsum([len(part) for part in parts])
     loops = tuple(
-        Loop(at[end - len(part) : end], np.zeros(len(part), dtype=bool), closed=True, gap_um=0.0)
+        DrawnLoop(at[end - len(part) : end], np.zeros(len(part), dtype=bool), closed=True, gap_um=0.0)
         for end, part in zip(ends, parts, strict=True)
     )
     entities = tuple(Entity("ARC" if arc else "LINE", f"{k:X}", "0", "") for k, arc in enumerate(curves.is_arc[order]))

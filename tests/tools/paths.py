@@ -5,9 +5,9 @@ from typing import Self
 
 import numpy as np
 
-from parser.geometry.curves import Curves, Kind
+from parser.geometry.curves import CurveKind, Curves
 from parser.text.source import Source
-from parser.toolpath import Toolpath, Words
+from parser.toolpath import StepWords, Toolpath
 from parser.words.arcs import arc_ends
 
 
@@ -18,7 +18,7 @@ class Pen:
         self.x, self.y, self.cam = x, y, cam
         self.rows: list[tuple] = []
 
-    def to(self, x: float, y: float, kind: Kind = Kind.LINE) -> Self:
+    def to(self, x: float, y: float, kind: CurveKind = CurveKind.LINE) -> Self:
         if self.cam:
             x, y = self.x + round(x - self.x), self.y + round(y - self.y)
         length = math.hypot(x - self.x, y - self.y)
@@ -27,7 +27,7 @@ class Pen:
         return self
 
     def jump(self, x: float, y: float) -> Self:
-        return self.to(x, y, Kind.JUMP)
+        return self.to(x, y, CurveKind.JUMP)
 
     def arc(self, cx: float, cy: float, sweep: float) -> Self:
         """Arc about (cx, cy) by `sweep` rad, positive counter-clockwise."""
@@ -63,7 +63,7 @@ class Pen:
     def _add_arc(
         self, center: tuple[float, float], end: tuple[float, float], radius: float, start: float, sweep: float
     ) -> Self:
-        self.rows.append((Kind.ARC, (self.x, self.y), end, center, radius, start, sweep, radius * abs(sweep)))
+        self.rows.append((CurveKind.ARC, (self.x, self.y), end, center, radius, start, sweep, radius * abs(sweep)))
         self.x, self.y = end
         return self
 
@@ -81,7 +81,7 @@ class Pen:
             sweep_rad=np.array(sweep, dtype=float),
             length_um=np.array(length, dtype=float),
             printed_end_um=np.full((n, 2), np.nan),
-            words=Words(none, none, none, none, none, none, none, none),
+            words=StepWords(none, none, none, none, none, none, none, none),
             source=Source("", np.arange(1, n + 1), np.zeros((n, 2), dtype=np.int64), none, ("",) * n),
             stops=(),
         )

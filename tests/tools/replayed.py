@@ -4,12 +4,13 @@ from typing import TYPE_CHECKING, Any
 
 from browser import OpenPage
 from places import ROOT
-from runs import plain_scenario, silent
+from runs import plain_scenario
 
 from parser.program import parse_program
 from sim.run.recording import Recording, recorded
 from sim.show.html.bundle import joined
 from sim.show.replay.document import replay_document
+from sim.table.motion import silent
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

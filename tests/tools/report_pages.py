@@ -6,12 +6,12 @@ from html.parser import HTMLParser
 from typing import Any, NamedTuple
 
 from replayed import recording_of
-from runs import silent
 
 from sim.run.dryrun import DryRun
 from sim.run.report import build_report
 from sim.show.pictures.inline import inline_pictures
 from sim.show.report_page import report_page
+from sim.table.motion import silent
 
 PART = """\
 N1: B0 B500 B500 GYL2;0.000,0.500//lead-in

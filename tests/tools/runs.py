@@ -11,10 +11,7 @@ from sim.run.dryrun import DryRun, dry_run
 from sim.run.recording import check_expectations
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.scenario import Scenario, load_scenario
-
-
-def silent(stage: str, done: int, total: int) -> None:
-    """Progress that nobody watches."""
+from sim.table.motion import silent
 
 
 def plain_scenario(**changes: object) -> Scenario:

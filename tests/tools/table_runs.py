@@ -4,7 +4,6 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from runs import silent
 
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
@@ -13,7 +12,7 @@ from parser.program import parse_program
 from sim.setup.machine.machine import Machine
 from sim.setup.machine.table_model import Motor, TableModel
 from sim.table.follow import Following, Setup
-from sim.table.motion import Motion, Moved, motion_of, simulate
+from sim.table.motion import Motion, Moved, motion_of, silent, simulate
 from sim.table.when.ticks import Ticks
 
 TICK_S = 1e-4

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from parser.dialect.reader import Counts, Damage, Marks, Read, Reading, Spelling
+from parser.dialect.reader import BlockCounts, Damage, Marks, Reading, ReadText, Spelling
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import file_order
@@ -36,7 +36,7 @@ class TinyReader:
     def recognises(self, text: str) -> bool:
         return re.search(r"^(?:\d+: )?(?:go|arc)\b", text, re.MULTILINE) is not None
 
-    def read(self, text: str, marks: Marks) -> Read:
+    def read(self, text: str, marks: Marks) -> ReadText:
         lines = LineIndex(text)
         blocks: list[re.Match[str]] = []
         labels: list[str] = []
@@ -59,7 +59,7 @@ class TinyReader:
             findings.append(lines.finding("3B102", blocks[-1].span()))
         reading = Reading(
             dialect="tiny",
-            counts=Counts(len(blocks) + len(damages), len(blocks), len(blocks)),
+            counts=BlockCounts(len(blocks) + len(damages), len(blocks), len(blocks)),
             damages=tuple(damages),
             spelling=Spelling(clockwise="right", counter_clockwise="left", end="end"),
             is_drawing=False,
@@ -70,7 +70,7 @@ class TinyReader:
             },
         )
         toolpath = _toolpath(text, lines, blocks, tuple(labels), tuple(stops))
-        return Read(lines, reading, {"words": 3.0}, toolpath, tuple(sorted(findings, key=file_order)))
+        return ReadText(lines, reading, {"words": 3.0}, toolpath, tuple(sorted(findings, key=file_order)))
 
 
 def fields_of(block: str) -> Mapping[Field, Span]:

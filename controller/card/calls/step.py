@@ -23,7 +23,7 @@ class StepCalls(PathBase):
         Parameters
         ----------
         x_um, y_um, count_um, quadrant, turn
-            Its words, as in `Words`; refused with 7 where there are none like them.
+            Its words, as in `StepWords`; refused with 7 where there are none like them.
         axis
             Counted axis: 0 X, 1 Y.
         length_um

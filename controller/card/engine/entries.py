@@ -23,7 +23,7 @@ NO_NUMBER = -1
 """Of an entry that runs at once, outside the list."""
 
 
-class Kind(Enum):
+class Stepping(Enum):
     """Who moves the axes: the card's own interpolator, or point-by-point comparison."""
 
     EQUAL_TIME = "equal time"
@@ -52,9 +52,9 @@ class Segment(NamedTuple):
     end: Place
 
     @property
-    def kind(self) -> Kind | None:
+    def kind(self) -> Stepping | None:
         """`EQUAL_TIME`; None without length, which fits any motion."""
-        return Kind.EQUAL_TIME if self.length_um > 0.0 else None
+        return Stepping.EQUAL_TIME if self.length_um > 0.0 else None
 
     def rest(self, s_um: float) -> "Segment":
         """What is left of it from `s_um` on."""
@@ -74,7 +74,7 @@ class Segment(NamedTuple):
 
 
 class Stepped(NamedTuple):
-    """One 3B block in X and Y, stepped point by point; its words as in `Words`, `axis` the counted one.
+    """One 3B block in X and Y, stepped point by point; its words as in `StepWords`, `axis` the counted one.
 
     `length_um` is that of its ideal path, of which `offset_um` are run, and `done` of its steps are made.
     """
@@ -92,9 +92,9 @@ class Stepped(NamedTuple):
     done: int = 0
 
     @property
-    def kind(self) -> Kind:
+    def kind(self) -> Stepping:
         """`STEPPED`."""
-        return Kind.STEPPED
+        return Stepping.STEPPED
 
 
 class Wait(NamedTuple):

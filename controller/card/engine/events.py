@@ -12,7 +12,7 @@ from controller.card.core.codes import AxisSts
 from controller.card.core.settings import CardSettings, Switches
 from controller.card.core.state import AxisState, CardState
 from controller.card.engine.edges import heads_beyond, heads_short, rises_through
-from controller.card.engine.entries import Entry, Kind, Output
+from controller.card.engine.entries import Entry, Output, Stepping
 from controller.card.engine.stretch import Stretch
 from controller.motion.path import Path
 
@@ -93,7 +93,7 @@ def grows_s(stretch: Stretch, entries: Sequence[Entry], now_s: float, settings: 
     if entries[planned].kind not in (None, kind) or stretch.done(now_s) >= planned:
         return math.inf
     time_s = stretch.grows_s(now_s)
-    if kind is Kind.EQUAL_TIME and settings.jerk_pulse_ms3 == math.inf:
+    if kind is Stepping.EQUAL_TIME and settings.jerk_pulse_ms3 == math.inf:
         time_s = math.floor(time_s / settings.servo_period_s) * settings.servo_period_s
     return max(time_s, now_s)
 

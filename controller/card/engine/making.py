@@ -7,7 +7,7 @@ import numpy as np
 
 from controller.card.core.settings import CardSettings
 from controller.card.core.units import UM_S3_PER_PULSE_MS3
-from controller.card.engine.entries import Entry, Kind, Segment, Stepped, Wait, steps_made
+from controller.card.engine.entries import Entry, Segment, Stepped, Stepping, Wait, steps_made
 from controller.card.engine.motion_list import steps_of
 from controller.card.engine.rows import limits_of, path_of_blocks, path_of_segments
 from controller.card.engine.speeds import Speeds
@@ -29,7 +29,7 @@ def make_stretch(
 ) -> Stretch:
     """Stretch of entries of one kind, run as fast as the limits allow, or braked for a stop where that is asked for."""
     rows = [e for e in entries if isinstance(e, Segment | Stepped) and e.kind]
-    steps = steps_of([e for e in rows if isinstance(e, Stepped)]) if rows and rows[0].kind is Kind.STEPPED else None
+    steps = steps_of([e for e in rows if isinstance(e, Stepped)]) if rows and rows[0].kind is Stepping.STEPPED else None
     path = path_of_segments(rows) if steps is None else path_of_blocks(rows, steps, start.place, start.at_um)
     row_of = np.cumsum([0, *(isinstance(e, Segment | Stepped) and e.kind is not None for e in entries)])
     waits = np.array([e.seconds if isinstance(e, Wait) else 0.0 for e in entries])

@@ -6,10 +6,10 @@ from itertools import islice
 import numpy as np
 
 from controller.card.core.codes import Code, Refused
-from controller.card.engine.entries import ORIGIN, Entry, Kind, Place, Segment, Stepped, line
+from controller.card.engine.entries import ORIGIN, Entry, Place, Segment, Stepped, Stepping, line
 from controller.stepping.point_by_point import interpolate_words
 from controller.stepping.steps import Steps
-from parser.toolpath import Words
+from parser.toolpath import StepWords
 
 _KEPT = 4096
 """Blocks are kept to count their steps at once; never more than these."""
@@ -75,7 +75,7 @@ class MotionList:
 
     def first_run(self) -> list[Entry]:
         """The entries from the front that one interpolator runs."""
-        kind: Kind | None = None
+        kind: Stepping | None = None
         for n, entry in enumerate(self.entries):
             own = entry.kind
             if own is not None and kind is not None and own is not kind:
@@ -104,5 +104,5 @@ def steps_of(blocks: list[Stepped]) -> Steps:
     """Steps of whole blocks, whatever part of them is made."""
     columns = np.array([block[2:8] for block in blocks], dtype=np.int64).reshape(-1, 6).T
     x, y, count, axis, quadrant, turn = np.ascontiguousarray(columns)
-    words = Words(x, y, count, axis, quadrant, turn, radius_um=np.full_like(x, -1), curve=np.zeros_like(x))
+    words = StepWords(x, y, count, axis, quadrant, turn, radius_um=np.full_like(x, -1), curve=np.zeros_like(x))
     return interpolate_words(words, np.array([block.length_um for block in blocks], dtype=np.float64))

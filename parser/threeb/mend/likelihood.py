@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
 from parser.threeb.block_checks import ruled_label
-from parser.toolpath import Axis, Words
+from parser.toolpath import Axis, StepWords
 from parser.words.moves import Moves
 
 Flags = NDArray[np.bool_]
@@ -27,7 +27,7 @@ _TIE_UM = 2.0  # at 45° either count axis will do
 _SAME_SIZE_UM = 1.5
 
 
-def obedience(words: Words, made: Moves) -> Ints:
+def obedience(words: StepWords, made: Moves) -> Ints:
     """(n,) points of blocks by themselves: rules of labels, count axes and count lengths, and lines along an axis."""
     extent = np.stack([words.x_um, words.y_um], axis=1)
     is_arc = ~np.isnan(made.radius_um)
@@ -45,7 +45,7 @@ def obedience(words: Words, made: Moves) -> Ints:
     return points
 
 
-def _wrong_axis(words: Words, made: Moves, is_arc: Flags) -> Flags:
+def _wrong_axis(words: StepWords, made: Moves, is_arc: Flags) -> Flags:
     """Blocks counted on the axis that the rule does not name (docs/3b.md §1)."""
     reach = np.abs(made.by_um - np.where(is_arc[:, None], made.center_um, 0.0))
     extent = np.stack([words.x_um, words.y_um], axis=1).astype(np.float64)
@@ -57,14 +57,14 @@ def _wrong_axis(words: Words, made: Moves, is_arc: Flags) -> Flags:
     return wrong
 
 
-def _line_like(words: Words) -> Flags:
+def _line_like(words: StepWords) -> Flags:
     """J is the longer of X and Y, and neither is 0: in a line always, in an arc by chance."""
     shorter, longer = np.minimum(words.x_um, words.y_um), np.maximum(words.x_um, words.y_um)
     alike: Flags = (shorter > 0) & (words.count_um == longer)
     return alike
 
 
-def _uneven(words: Words) -> Flags:
+def _uneven(words: StepWords) -> Flags:
     """Lines whose J is no multiple of their longer side, as it is in both spellings, reduced or not."""
     uneven: Flags = words.count_um % np.maximum(np.maximum(words.x_um, words.y_um), 1) != 0
     return uneven

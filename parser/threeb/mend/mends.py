@@ -1,6 +1,6 @@
 """Mends: blocks of which one field is written otherwise, so that they end at a wanted place.
 
-Words stand here as an (n, 6) int64 table, one row a block, in the order of the columns of `Words`.
+Words stand here as an (n, 6) int64 table, one row a block, in the order of the columns of `StepWords`.
 """
 
 from itertools import product
@@ -14,7 +14,7 @@ from parser.text.source import Field
 from parser.threeb.decode import decoded_words
 from parser.threeb.mend.likelihood import slip
 from parser.threeb.mend.solved import solved_numbers
-from parser.toolpath import Axis, Toolpath, Words
+from parser.toolpath import Axis, StepWords, Toolpath
 from parser.words.moves import Moves, moves, with_axes_named
 
 X, Y, COUNT, AXIS, QUADRANT, TURN = range(6)
@@ -168,11 +168,11 @@ def _joined(made: list[Mends]) -> Mends:
     return Mends(*(np.concatenate(columns) for columns in zip(*made, strict=True)))
 
 
-def words_of(word: Ints) -> Words:
+def words_of(word: Ints) -> StepWords:
     """The table as words; the radius and the curve mark of 4B do not move the path."""
     none = np.zeros(len(word), dtype=np.int64)
     x, y, count, axis, quadrant, turn = np.ascontiguousarray(word.T)
-    return Words(x, y, count, axis, quadrant, turn, radius_um=none - 1, curve=none)
+    return StepWords(x, y, count, axis, quadrant, turn, radius_um=none - 1, curve=none)
 
 
 def ease(written: Ints, made: Mends) -> Ints:

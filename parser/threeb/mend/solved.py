@@ -6,7 +6,7 @@ import numpy as np
 
 from parser.geometry.curves import Floats, Ints
 from parser.threeb.columns import MAX_WORD_UM
-from parser.toolpath import Axis, Words
+from parser.toolpath import Axis, StepWords
 from parser.words.arcs import ArcEnds, arc_ends
 
 _COUNT = 2
@@ -21,7 +21,7 @@ class Solved(NamedTuple):
     value: Ints
 
 
-def solved_numbers(words: Words, want_um: Floats, field: int, tolerance_um: float) -> Solved:
+def solved_numbers(words: StepWords, want_um: Floats, field: int, tolerance_um: float) -> Solved:
     """Values of a field, 0 X, 1 Y or 2 J, with which n blocks may end `want_um` (n, 2) from their starts."""
     is_line = words.turn == 0
     lines, arcs = np.flatnonzero(is_line), np.flatnonzero(~is_line & (words.x_um**2 + words.y_um**2 > 1))
@@ -44,17 +44,17 @@ def _whole(row: Ints, value: Floats) -> Solved:
     return Solved(row[fits], np.round(value[fits]).astype(np.int64))
 
 
-def _of(words: Words, row: Ints) -> Words:
-    return Words(*(getattr(words, name)[row] for name in Words.__slots__))
+def _of(words: StepWords, row: Ints) -> StepWords:
+    return StepWords(*(getattr(words, name)[row] for name in StepWords.__slots__))
 
 
-def _line_count(words: Words, want_um: Floats) -> Floats:
+def _line_count(words: StepWords, want_um: Floats) -> Floats:
     """J of a line is its extent on the counted axis."""
     want = want_um * words.signs
     return np.where(words.count_axis == Axis.X, want[:, 0], want[:, 1])
 
 
-def _line_extent(words: Words, want_um: Floats, field: int) -> Floats:
+def _line_extent(words: StepWords, want_um: Floats, field: int) -> Floats:
     """X or Y of a line, from the ratio X:Y of the wanted place and the other of the two."""
     other = words.y_um if field == Axis.X else words.x_um
     want = np.abs(want_um)
@@ -62,7 +62,7 @@ def _line_extent(words: Words, want_um: Floats, field: int) -> Floats:
         return want[:, field] * other / want[:, 1 - field]
 
 
-def _arc_count(words: Words, want_um: Floats, arcs: Ints) -> Solved:
+def _arc_count(words: StepWords, want_um: Floats, arcs: Ints) -> Solved:
     """J to the wanted place within one turn, and J of the full turn."""
     arc = _of(words, arcs)
     start = (np.stack([arc.x_um, arc.y_um], axis=1) * arc.signs).astype(np.float64)
@@ -71,7 +71,7 @@ def _arc_count(words: Words, want_um: Floats, arcs: Ints) -> Solved:
     return Solved(*(np.concatenate(both) for both in zip(_whole(arcs, count), _whole(arcs, full), strict=True)))
 
 
-def _phase(arc: Words, place_um: Floats) -> Floats:
+def _phase(arc: StepWords, place_um: Floats) -> Floats:
     """Length counted off since the farthest point on the counted axis, at places (n, 2) nearly on the circles."""
     radius: Floats = np.hypot(arc.x_um, arc.y_um)
     x, y = (place_um * (radius / np.maximum(np.hypot(place_um[:, 0], place_um[:, 1]), 1.0))[:, None]).T
@@ -81,7 +81,7 @@ def _phase(arc: Words, place_um: Floats) -> Floats:
     return phase
 
 
-def _arc_guesses(arc: Words, want_um: Floats, field: int) -> list[Floats]:
+def _arc_guesses(arc: StepWords, want_um: Floats, field: int) -> list[Floats]:
     """X or Y of arcs. Start and end lie on one circle, which settles the start unless it lies across the chord.
 
     Then J does: of a full turn and of the greater arc over a chord, of the arcs over a chord that J counts across; and
@@ -101,7 +101,7 @@ def _arc_guesses(arc: Words, want_um: Floats, field: int) -> list[Floats]:
         ]
 
 
-def _polished(words: Words, want_um: Floats, field: int, guess: Solved, tolerance_um: float) -> Solved:
+def _polished(words: StepWords, want_um: Floats, field: int, guess: Solved, tolerance_um: float) -> Solved:
     """Guesses made exact by Newton's method on both coordinates of the end, with the slope over 1 µm."""
     row, value = guess
     for turn in range(_ROUNDS):
@@ -120,7 +120,7 @@ def _polished(words: Words, want_um: Floats, field: int, guess: Solved, toleranc
     return Solved(row, value)
 
 
-def _ends(arc: Words, field: int, value: Ints) -> ArcEnds:
+def _ends(arc: StepWords, field: int, value: Ints) -> ArcEnds:
     """Arcs with another X or Y; a radius too small for a circle is taken as 2 µm."""
     start = np.stack([arc.x_um, arc.y_um], axis=1)
     start[:, field] = value

@@ -1,4 +1,4 @@
-"""Bodies that stand still, as convex shapes of pymunk: clamps grown by what moves past them, and the work."""
+"""BodyShapes that stand still, as convex shapes of pymunk: clamps grown by what moves past them, and the work."""
 
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -16,7 +16,7 @@ Place = tuple[float, float]
 _FLAT_UM = 1e-6
 
 
-class Pieces(NamedTuple):
+class BodyShapes(NamedTuple):
     """Shapes of one body in a space of their own, and the boxes (m, 2, 2) µm round them, lowest and highest (x, y)."""
 
     space: pymunk.Space
@@ -36,12 +36,12 @@ class Pieces(NamedTuple):
         return hit.alpha if hit is not None else 1.0
 
 
-def grown(outline_um: Outline, radius_um: float) -> Pieces:
+def grown(outline_um: Outline, radius_um: float) -> BodyShapes:
     """Where the centre of a circle stands when it touches an outline: the outline, grown by the radius."""
     return _pieces(triangles(outline_um), radius_um)
 
 
-def swept(outline_um: Outline, moving_um: Outline) -> Pieces:
+def swept(outline_um: Outline, moving_um: Outline) -> BodyShapes:
     """Where the origin of a moving outline stands when it touches an outline that stands still.
 
     That is the Minkowski sum of the one and the other mirrored at the origin (M. de Berg et al., "Computational
@@ -51,7 +51,7 @@ def swept(outline_um: Outline, moving_um: Outline) -> Pieces:
     return _pieces((one[:, None] - other for one in still for other in moving), 0.0)
 
 
-def sides(outline_um: Outline, radius_um: float) -> Pieces:
+def sides(outline_um: Outline, radius_um: float) -> BodyShapes:
     """All places within a radius of the sides of an outline.
 
     As polygons of two corners: a query along a line misses the round ends of pymunk's own segments.
@@ -60,14 +60,14 @@ def sides(outline_um: Outline, radius_um: float) -> Pieces:
     return _pieces(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), radius_um)
 
 
-def _pieces(hulls: Iterable[Floats], radius_um: float) -> Pieces:
+def _pieces(hulls: Iterable[Floats], radius_um: float) -> BodyShapes:
     """Pieces of the hulls of points (…, 2)."""
     space = pymunk.Space()
     corners = ([(x, y) for x, y in hull.reshape(-1, 2).tolist()] for hull in hulls)
     shapes = [pymunk.Poly(space.static_body, hull, radius=radius_um) for hull in corners]
     space.add(*shapes)
     boxes = np.array([(shape.bb.left, shape.bb.bottom, shape.bb.right, shape.bb.top) for shape in shapes])
-    return Pieces(space, boxes.reshape(-1, 2, 2))
+    return BodyShapes(space, boxes.reshape(-1, 2, 2))
 
 
 def triangles(outline_um: Outline) -> Floats:

@@ -10,7 +10,7 @@ from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.units import mm
-from sim.cut.obstacles.bodies import Pieces, grown, sides, swept
+from sim.cut.obstacles.bodies import BodyShapes, grown, sides, swept
 from sim.cut.obstacles.touches import Touch, Way, touches, way_of
 from sim.setup.obstacles import Outline
 from sim.setup.scenario import Scenario
@@ -39,7 +39,7 @@ def _touched(program: Program, trace: Trace, cut: Way, scenario: Scenario) -> It
     arm_um = scenario.machine.arm_um
     table = way_of(trace.table_um, trace.row) if arm_um is not None else cut
     for clamp in scenario.clamps:
-        bodies: dict[str, tuple[Way, Pieces]] = {"wire": (cut, grown(clamp.outline_um, scenario.wire.radius_um))}
+        bodies: dict[str, tuple[Way, BodyShapes]] = {"wire": (cut, grown(clamp.outline_um, scenario.wire.radius_um))}
         if arm_um is not None:
             bodies["arm"] = table, swept(clamp.outline_um, arm_um)
         for body, (way, pieces) in bodies.items():
@@ -86,7 +86,7 @@ def _of_contour(cut: Way, trace: Trace, contour: Contour) -> Way:
     return cut.kept((row >= contour.first - 1) & (row <= contour.last - 1))
 
 
-def _first_out(way: Way, trace: Trace, contour: Contour, work: Pieces, edges: Pieces) -> Iterator[Touch]:
+def _first_out(way: Way, trace: Trace, contour: Contour, work: BodyShapes, edges: BodyShapes) -> Iterator[Touch]:
     """The first leaving that counts, if any: where the edge was crossed before the wire was clear of it outside."""
     begins_inside = inside = work.hold(_at(way.place_um, int(way.ends[0, 0])))
     quiet = {contour.last - 1} if begins_inside else {contour.first - 1, contour.last - 1}

@@ -12,7 +12,7 @@ import pymunk
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
-from sim.cut.obstacles.bodies import Pieces
+from sim.cut.obstacles.bodies import BodyShapes
 
 STRETCH = 256
 """Samples in a stretch, at most."""
@@ -61,7 +61,7 @@ def way_of(place_um: Floats, row: Ints) -> Way:
     return Way(place_um, ends, np.stack([low, high], axis=1))
 
 
-def touches(way: Way, pieces: Pieces) -> Iterator[Touch]:
+def touches(way: Way, pieces: BodyShapes) -> Iterator[Touch]:
     """Every move of a way that touches a body, in order; a move that begins in touch touches at once, at share 0."""
     near = way.kept(_near(way.boxes_um, pieces.boxes_um))
     for (low, high), (lowest, highest) in zip(near.ends.tolist(), near.boxes_um.tolist(), strict=True):

@@ -14,7 +14,7 @@ from sim.cut.kerf.ways import Passage
 _SPARED = 0.1  # offsets: a wire that reaches no deeper takes nothing but what closure and a second run leave
 
 
-class Moment(NamedTuple):
+class FreeMoment(NamedTuple):
     """When a piece comes free.
 
     Attributes
@@ -32,7 +32,7 @@ class Moment(NamedTuple):
     piece_um: shapely.Polygon
 
 
-class Question(NamedTuple):
+class FreeQuestion(NamedTuple):
     """Is a piece free? Of a stock, by a point of the piece and one of the frame."""
 
     stock_um: shapely.Polygon
@@ -51,19 +51,21 @@ def parted(stock_um: shapely.Polygon, kerf_um: Region) -> list[shapely.Polygon]:
     return parts
 
 
-def moment_of(question: Question, swaths: tuple[Swath, ...], contours: list[int], offset_um: float) -> Moment | None:
+def moment_of(
+    question: FreeQuestion, swaths: tuple[Swath, ...], contours: list[int], offset_um: float
+) -> FreeMoment | None:
     """The first moment at which the kerfs of some contours, in the order they are cut, answer the question with yes."""
     before: Region = shapely.Polygon()
     for contour in contours:
         kerf = shapely.union(before, swaths[contour].region_um)
         piece = question.free(kerf)
         if piece is not None:
-            return _within(question, before, swaths[contour], offset_um, Moment(contour, -1, piece))
+            return _within(question, before, swaths[contour], offset_um, FreeMoment(contour, -1, piece))
         before = kerf
     return None
 
 
-def _within(question: Question, before: Region, swath: Swath, offset_um: float, whole: Moment) -> Moment:
+def _within(question: FreeQuestion, before: Region, swath: Swath, offset_um: float, whole: FreeMoment) -> FreeMoment:
     """The moment on a passage that frees the piece as a whole: by halves of its stretches, then by its places."""
     stretch = 0
     for level in swath.levels[-2::-1]:
@@ -81,7 +83,7 @@ def _within(question: Question, before: Region, swath: Swath, offset_um: float, 
         star = stars(passage.place_um[first : at + 1], np.zeros(1, dtype=np.int64), middle, offset_um)
         found = question.free(shapely.union(before, star[0]))
         low, high, piece = (at, high, piece) if found is None else (low, at, found)
-    return Moment(whole.contour, high, piece)
+    return FreeMoment(whole.contour, high, piece)
 
 
 def cut_on_um(piece_um: shapely.Polygon, ways: Iterable[Passage], offset_um: float) -> float:

@@ -9,7 +9,7 @@ from parser.toolpath import Point
 from sim.cut.kerf.region import Kerf
 from sim.cut.kerf.ways import Passage, behind
 from sim.cut.pieces.bridges import Bridge, Older, began_in, bridge_of, came_from_inside, older_place
-from sim.cut.pieces.frees import Moment, Question, cut_on_um, moment_of, parted
+from sim.cut.pieces.frees import FreeMoment, FreeQuestion, cut_on_um, moment_of, parted
 from sim.setup.obstacles import Outline
 
 _CRUMB_MM2 = 0.001  # some 30 µm square, or cusps where the wire leaves its kerf: nothing that anyone picks up
@@ -96,7 +96,9 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material) -> Pieces
     whole = [part for part in others if part.area * 1e-6 >= _CRUMB_MM2]
     held = shapely.point_on_surface(frame)
     kerfs = shapely.STRtree([swath.region_um for swath in kerf.swaths])
-    found = [_piece(kerf, kerfs, part, Question(stock, part.representative_point(), held), material) for part in whole]
+    found = [
+        _piece(kerf, kerfs, part, FreeQuestion(stock, part.representative_point(), held), material) for part in whole
+    ]
     pieces = sorted((piece for piece in found if piece is not None), key=lambda piece: piece.freed.t_s)
     return Pieces(_as_frame(frame, work_um, material), tuple(pieces), len(others) - len(whole))
 
@@ -127,7 +129,7 @@ def _as_frame(frame: shapely.Polygon, work_um: Outline | None, material: Materia
 
 
 def _piece(
-    kerf: Kerf, kerfs: shapely.STRtree, part: shapely.Polygon, question: Question, material: Material
+    kerf: Kerf, kerfs: shapely.STRtree, part: shapely.Polygon, question: FreeQuestion, material: Material
 ) -> Piece | None:
     """A part as a piece; None where the contours that have a share in its outer edge do not free it."""
     contours = _round(kerfs, part)
@@ -155,7 +157,7 @@ def _piece(
     )
 
 
-def _is_slug(kerf: Kerf, part: shapely.Polygon, contours: list[int], moment: Moment, older: Older | None) -> bool:
+def _is_slug(kerf: Kerf, part: shapely.Polygon, contours: list[int], moment: FreeMoment, older: Older | None) -> bool:
     """Whether the wire came from inside of a part; it never did where the edge of the work parts it."""
     if older is None:
         return False
@@ -165,7 +167,7 @@ def _is_slug(kerf: Kerf, part: shapely.Polygon, contours: list[int], moment: Mom
     return began_in(kerf.swaths[contours[0]].passage, part, kerf.offset_um)
 
 
-def _freed(passage: Passage, moment: Moment) -> Freed:
+def _freed(passage: Passage, moment: FreeMoment) -> Freed:
     x, y = passage.place_um[moment.at].tolist()
     return Freed(moment.contour + 1, int(passage.row[moment.at]) + 1, float(passage.t_s[moment.at]), Point(x, y))
 
@@ -176,7 +178,9 @@ def _round(kerfs: shapely.STRtree, part: shapely.Polygon) -> list[int]:
     return near
 
 
-def _ways_after(kerf: Kerf, kerfs: shapely.STRtree, question: Question, moment: Moment, is_slug: bool) -> list[Passage]:
+def _ways_after(
+    kerf: Kerf, kerfs: shapely.STRtree, question: FreeQuestion, moment: FreeMoment, is_slug: bool
+) -> list[Passage]:
     """Ways that may cut in a piece once it is free.
 
     A slug is taken out before the next contour; and what has some of the work's own edge may be held there by a clamp.

@@ -24,7 +24,7 @@ class Sides(NamedTuple):
     end: Floats
 
 
-class Touch(NamedTuple):
+class Contact(NamedTuple):
     """How far something moves until it touches, µm or rad, and where; infinite and NaN where nothing is in the way."""
 
     by: float
@@ -49,17 +49,17 @@ def sides_of(lines_um: BaseGeometry) -> Sides:
     return Sides(points[same], points[same + 1])
 
 
-def shifted_until(moving: Sides, standing: Sides, toward_rad: float) -> Touch:
+def shifted_until(moving: Sides, standing: Sides, toward_rad: float) -> Contact:
     """How far the one shifts in a direction until it touches the other."""
     u = np.array([np.cos(toward_rad), np.sin(toward_rad)])
     there = _first(moving, standing, lambda corner, side: _along(corner, side, u))
     back = _first(standing, moving, lambda corner, side: _along(corner, side, -u))
     if back.by < there.by:
-        return Touch(back.by, Point(*back.corner.tolist()))
+        return Contact(back.by, Point(*back.corner.tolist()))
     return _touch(there.by, there.corner + np.where(np.isfinite(there.by), there.by, np.nan) * u)
 
 
-def turned_until(moving: Sides, standing: Sides, about_um: Floats, sense: int) -> Touch:
+def turned_until(moving: Sides, standing: Sides, about_um: Floats, sense: int) -> Contact:
     """Angle that the one turns about a place until it touches the other, counter-clockwise with +1."""
     there = _first(moving, standing, lambda corner, side: _round(corner - about_um, side, about_um, sense))
     back = _first(standing, moving, lambda corner, side: _round(corner - about_um, side, about_um, -sense))
@@ -70,8 +70,8 @@ def turned_until(moving: Sides, standing: Sides, about_um: Floats, sense: int) -
     return _touch(there.by, about_um + turned @ (there.corner - about_um))
 
 
-def _touch(by: float, place: Floats) -> Touch:
-    return Touch(by, Point(*place.tolist()))
+def _touch(by: float, place: Floats) -> Contact:
+    return Contact(by, Point(*place.tolist()))
 
 
 def _first(of: Sides, sides: Sides, ways: _Ways) -> _First:

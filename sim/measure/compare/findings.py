@@ -16,7 +16,7 @@ from sim.cut.pieces.pieces import Pieces
 from sim.measure.compare.as_cut import edge_as_cut
 from sim.measure.compare.compare import compare
 from sim.measure.compare.compared_program import compare_program
-from sim.measure.compare.result import Comparison, Place
+from sim.measure.compare.result import Comparison, WorstPlace
 from sim.measure.compare.tables import by_block, by_entity
 from sim.setup.part import DrawingTarget
 
@@ -62,7 +62,7 @@ def drawing_findings(program: Program, found: Comparison | None) -> Iterator[Fin
             yield Finding("3B602", {"what": named.name})
 
 
-def _off(program: Program, found: Comparison, what: str, place: Place) -> Finding:
+def _off(program: Program, found: Comparison, what: str, place: WorstPlace) -> Finding:
     entity = found.drawing.entities[place.entity] if place.entity >= 0 else None
     row = int(np.flatnonzero(program.toolpath.source.block == place.block)[0])
     return at_block(

@@ -16,7 +16,7 @@ from parser.geometry.feet import feet
 from sim.measure.compare.nearest import Index, nearest
 from sim.measure.compare.placement import Placement, turning
 from sim.measure.compare.spread import Spread, spread
-from sim.measure.compare.starts import Group, RigidMotion, groups, starts
+from sim.measure.compare.starts import CurveGroup, RigidMotion, groups, starts
 
 _NEXT_STARTS, _NEXT_LEAST_TURNED = 6, 2
 _STILL_UM, _STILL = 1e-7, 1e-6  # µm, and of the root mean square where much is left: a step that moves no more
@@ -154,7 +154,7 @@ def _across(curves: Curves, row: Ints, place: Floats) -> tuple[Floats, Floats]:
     return way, (way * by).sum(axis=1)
 
 
-def _different(tried: list[_Fitted], drawing: Group) -> list[RigidMotion]:
+def _different(tried: list[_Fitted], drawing: CurveGroup) -> list[RigidMotion]:
     """The best motions, only one of those that nearly agree, and the least turned ones.
 
     A part that looks the same after several turns fits equally well by each, but for rounding: the least is wanted.

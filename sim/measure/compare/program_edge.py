@@ -14,7 +14,7 @@ from parser.geometry.curves import Ints, joined
 from parser.toolpath import Toolpath
 from sim.measure.compare.edge import Edge
 from sim.measure.compare.leads import gouges
-from sim.measure.compare.rings import Ring, Rings, orientation, polygon, rings_of
+from sim.measure.compare.rings import PathLoop, Rings, orientation, polygon, rings_of
 
 
 class ProgramEdges(NamedTuple):
@@ -38,7 +38,7 @@ def program_edges(toolpath: Toolpath, offset_um: float) -> ProgramEdges:
     return ProgramEdges(rings, tuple(np.where(told == 0, guess, told) for guess in (nested, -nested)), offset_um)
 
 
-def _nested_sides(rings: Sequence[Ring]) -> Ints:
+def _nested_sides(rings: Sequence[PathLoop]) -> Ints:
     """Side (k,) of each ring's part, +1 left, −1 right, if outermost rings are parts and those in them holes."""
     shapes = [polygon(ring.curves) for ring in rings]
     begins = shapely.points([ring.curves.start_um[0] for ring in rings])
@@ -78,10 +78,10 @@ def with_gouges(of: ProgramEdges, edge: Edge) -> Edge:
     return replace(edge, gouges=found)
 
 
-def _moved(ring: Ring, side: int, offset_um: float) -> list[Ring]:
+def _moved(ring: PathLoop, side: int, offset_um: float) -> list[PathLoop]:
     """The ring moved to a side, in as many pieces as that makes."""
     if offset_um == 0.0:
         return [ring._replace(part_side=side)]
     toward = Side(side if offset_um > 0.0 else -side)
     reached = reach(ring.curves, abs(offset_um), toward)
-    return [Ring(loop.curves, ring.block[loop.source_row], side) for loop in reached.loops]
+    return [PathLoop(loop.curves, ring.block[loop.source_row], side) for loop in reached.loops]

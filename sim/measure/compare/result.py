@@ -79,7 +79,7 @@ class Comparison:
         return self.max_um <= self.tolerance_um and self.scale == 1.0
 
 
-class Place(NamedTuple):
+class WorstPlace(NamedTuple):
     """One of the worst places.
 
     Attributes

@@ -17,7 +17,7 @@ from parser.toolpath import Toolpath
 _SAGITTA_UM = 0.05  # of the chords of an outline
 
 
-class Ring(NamedTuple):
+class PathLoop(NamedTuple):
     """One closed loop of the wire's path: its curves, end to start, and the block of each.
 
     `part_side` is +1 with the part on the left, −1 on the right, 0 where no lead-in tells.
@@ -34,7 +34,7 @@ class Rings(NamedTuple):
     `open_blocks` are the first and last blocks of contours that close no loop.
     """
 
-    rings: tuple[Ring, ...]
+    rings: tuple[PathLoop, ...]
     leads: Curves
     lead_block: Ints
     open_blocks: tuple[tuple[int, int], ...]
@@ -49,7 +49,7 @@ def rings_of(toolpath: Toolpath) -> Rings:
     for first, last, side in zip(loops.first.tolist(), loops.last.tolist(), loops.part_side.tolist(), strict=True):
         row = np.arange(first, last + 1)
         to_start, beyond = _parted(toolpath.picked(row[-1:]), toolpath.start_um[first], alone=first == last)
-        rings.append(Ring(joined([toolpath.picked(row[:-1]), to_start]), block[row], side))
+        rings.append(PathLoop(joined([toolpath.picked(row[:-1]), to_start]), block[row], side))
         leads.append(beyond)
         on_leads.append(block[row[len(row) - len(beyond) :]])
     is_lead = np.isin(contour, loops.contour)

@@ -7,7 +7,7 @@ from parser.geometry.curves import Curves, Ints
 from sim.measure.compare.fit import Fit, fit
 from sim.measure.compare.nearest import Index, indexed
 from sim.measure.compare.placement import scaled
-from sim.measure.compare.starts import Group, groups
+from sim.measure.compare.starts import CurveGroup, groups
 
 _UNITS = {
     1000.0: ("unit-mm", "unit-um"),
@@ -55,7 +55,7 @@ def unit_slip(
     return slip if as_it_is.rms_um > _SAME_SHAPE * ours else None
 
 
-def _size(of: list[Group]) -> float:
+def _size(of: list[CurveGroup]) -> float:
     return of[min(1, len(of) - 1)].length_um
 
 

@@ -35,23 +35,23 @@ class RigidMotion(NamedTuple):
         return place_um @ self.matrix.T + self.shift_um
 
 
-class Group(NamedTuple):
+class CurveGroup(NamedTuple):
     """Curves of a whole, or of one loop of it."""
 
     curves: Curves
     length_um: float
 
 
-def groups(curves: Curves, loop: Ints) -> list[Group]:
+def groups(curves: Curves, loop: Ints) -> list[CurveGroup]:
     """The whole, then its loops, the longest first; `loop` (n,) tells them apart, −1 belongs to none."""
     number = loop.max(initial=-1) + 1
     lengths = np.bincount(loop + 1, curves.length_um, number + 1)[1:]
     longest = np.argsort(-lengths, kind="stable")[: 2 * _MOST_PAIRS]
-    loops = [Group(curves.picked(loop == of), float(lengths[of])) for of in longest.tolist()]
-    return [Group(curves, float(curves.length_um.sum())), *loops]
+    loops = [CurveGroup(curves.picked(loop == of), float(lengths[of])) for of in longest.tolist()]
+    return [CurveGroup(curves, float(curves.length_um.sum())), *loops]
 
 
-def starts(edge: list[Group], drawing: list[Group]) -> Iterator[RigidMotion]:
+def starts(edge: list[CurveGroup], drawing: list[CurveGroup]) -> Iterator[RigidMotion]:
     """Rigid motions of the edge onto the drawing to begin from, of their groups."""
     for one, other in [(edge[0], drawing[0]), *_pairs(edge[1:], drawing[1:])]:
         a, b = spread(one.curves, _PLACES), spread(other.curves, _PLACES)
@@ -65,7 +65,7 @@ def starts(edge: list[Group], drawing: list[Group]) -> Iterator[RigidMotion]:
                 yield RigidMotion(matrix, to - matrix @ from_)
 
 
-def _pairs(edge: list[Group], drawing: list[Group]) -> list[tuple[Group, Group]]:
+def _pairs(edge: list[CurveGroup], drawing: list[CurveGroup]) -> list[tuple[CurveGroup, CurveGroup]]:
     """The longest loop of the edge with those of the drawing that are about as long."""
     pairs = [
         (one, other)

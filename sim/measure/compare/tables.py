@@ -6,14 +6,14 @@ import numpy as np
 
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Point
-from sim.measure.compare.result import Comparison, Place
+from sim.measure.compare.result import Comparison, WorstPlace
 
 _MOST_PLACES = 10
 _APART = 0.02  # of the edge's extent: worst places lie no nearer to each other
 
 
 class _Rows(NamedTuple):
-    """Largest deviations (m,) of curves, leads among them, as the columns of `Place`."""
+    """Largest deviations (m,) of curves, leads among them, as the columns of `WorstPlace`."""
 
     deviation_um: Floats
     side: Floats
@@ -33,9 +33,9 @@ class _Rows(NamedTuple):
             self.measured_from + others.measured_from,
         )
 
-    def place(self, at: int) -> Place:
+    def place(self, at: int) -> WorstPlace:
         """The entry `at`."""
-        return Place(
+        return WorstPlace(
             deviation_um=float(self.deviation_um[at]),
             side=int(self.side[at]),
             where_um=Point(*self.where_um[at].tolist()),
@@ -45,13 +45,13 @@ class _Rows(NamedTuple):
         )
 
 
-def worst_places(of: Comparison) -> tuple[Place, ...]:
+def worst_places(of: Comparison) -> tuple[WorstPlace, ...]:
     """Up to ten of the largest deviations, apart from each other, the largest first."""
     from_edge, from_drawing = _from_edge(of), _from_drawing(of)
     rows = from_edge.and_(from_drawing)
     apart = _APART * float(np.ptp(of.edge.curves.start_um, axis=0).max())
     left = rows.deviation_um.copy()
-    places: list[Place] = []
+    places: list[WorstPlace] = []
     while len(places) < _MOST_PLACES and left.max() >= 0.0:
         worst = int(np.argmax(left))
         places.append(rows.place(worst))
@@ -59,13 +59,13 @@ def worst_places(of: Comparison) -> tuple[Place, ...]:
     return tuple(places)
 
 
-def by_block(of: Comparison) -> tuple[Place, ...]:
+def by_block(of: Comparison) -> tuple[WorstPlace, ...]:
     """The largest deviation of the edge of each block that has one, in the order of the blocks."""
     rows = _from_edge(of)
     return tuple(rows.place(at) for at in _largest_of_each(rows.block, rows.deviation_um))
 
 
-def by_entity(of: Comparison) -> tuple[Place, ...]:
+def by_entity(of: Comparison) -> tuple[WorstPlace, ...]:
     """The largest distance of each entity of the drawing from the edge, in the order of the entities."""
     rows = _from_drawing(of)
     return tuple(rows.place(at) for at in _largest_of_each(rows.entity, rows.deviation_um))

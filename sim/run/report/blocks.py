@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from parser.geometry.curves import Kind
+from parser.geometry.curves import CurveKind
 from parser.toolpath import Axis, Toolpath
 from sim.run.dryrun import DryRun
 from sim.run.report.rounded import DEG_DIGITS, column, points, rows
@@ -20,7 +20,7 @@ def block_entries(run: DryRun) -> list[dict[str, Any]]:
         "line": toolpath.source.line.tolist(),
         "label": [label or None for label in toolpath.source.label],
         "text": [toolpath.source.text[low:high] for low, high in toolpath.source.span.tolist()],
-        "kind": [Kind(kind).name.lower() for kind in toolpath.kind.tolist()],
+        "kind": [CurveKind(kind).name.lower() for kind in toolpath.kind.tolist()],
         **_words(toolpath),
         "exact": rows(_exact(toolpath)),
         "stepped": rows(_stepped(run)),

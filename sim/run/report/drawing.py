@@ -8,7 +8,7 @@ import numpy as np
 
 from parser.findings.remarks import remark_text
 from sim import __version__
-from sim.measure.compare.result import Comparison, Place
+from sim.measure.compare.result import Comparison, WorstPlace
 from sim.measure.compare.tables import by_block, by_entity, worst_places
 
 SCHEMA: Final = "drycut.compare/1"
@@ -52,7 +52,7 @@ def document_text(of: Comparison) -> str:
     return json.dumps(comparison_document(of), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
 
 
-def _direction(places: Sequence[Place], rms_um: float) -> dict[str, Any]:
+def _direction(places: Sequence[WorstPlace], rms_um: float) -> dict[str, Any]:
     worst = max(places, key=lambda place: place.deviation_um)
     return {
         "max_um": _round(worst.deviation_um),
@@ -61,7 +61,7 @@ def _direction(places: Sequence[Place], rms_um: float) -> dict[str, Any]:
     }
 
 
-def _place(place: Place) -> dict[str, Any]:
+def _place(place: WorstPlace) -> dict[str, Any]:
     return {
         "from": place.measured_from,
         "max_um": _round(place.deviation_um),

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from controller.offset.path import Made
-from parser.geometry.curves import Ints, Kind
+from parser.geometry.curves import CurveKind, Ints
 from sim.measure.deviation.causes import Part
 from sim.measure.deviation.deviation import Deviation, Where
 from sim.measure.deviation.measured import Deviations
@@ -102,7 +102,7 @@ def _blocks(made: Offsetting, of_row: Ints) -> list[dict[str, Any]]:
         {
             "block": list(range(1, len(curves) + 1)),
             "source_block": of_row.tolist(),
-            "kind": [Kind(kind).name.lower() for kind in curves.kind.tolist()],
+            "kind": [CurveKind(kind).name.lower() for kind in curves.kind.tolist()],
             "made": [Made(how).name.lower().replace("_", "-") for how in made.path.made.tolist()],
             "start_um": points(curves.start_um),
             "end_um": points(curves.end_um),

@@ -11,7 +11,7 @@ from parser.units import from_mm
 from sim.setup.machine.controller_model import CONTROLLER, ControllerModel, read_controller
 from sim.setup.machine.table_model import MOTOR, TABLE, TableModel, read_table
 from sim.setup.obstacles import ARM, Outline
-from sim.setup.toml.keys import Key, Section, Written
+from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import Number, Text
 from sim.setup.toml.reader import Bound, load_toml
 
@@ -58,7 +58,7 @@ def load_machine(name: str, beside: Path | None = None) -> Machine:
         return _read(path)
 
 
-def machine_sections(machine: Machine) -> list[Written]:
+def machine_sections(machine: Machine) -> list[WrittenSection]:
     """Sections of the machine file that makes the same machine."""
     return [written for section in SECTIONS for written in section.written(machine)]
 

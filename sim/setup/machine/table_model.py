@@ -7,7 +7,7 @@ from typing import Any, Literal, NamedTuple
 
 from parser.findings.errors import SettingsError
 from sim.setup.toml.keys import Key, Section
-from sim.setup.toml.kinds import MS_AS_S, Kind, Number, OneOf
+from sim.setup.toml.kinds import MS_AS_S, Number, OneOf, ValueKind
 from sim.setup.toml.reader import Bound, number, section
 
 _FORCE_N = Bound(0.1, 1e6)
@@ -68,7 +68,7 @@ class TableModel(NamedTuple):
         return self.saddle_mass_kg + self.carriage_mass_kg, self.carriage_mass_kg
 
 
-class _ForceAtRate(Kind):
+class _ForceAtRate(ValueKind):
     """Points [step rate Hz, force N] of a curve that begins with the force limit at standstill."""
 
     name = "force-at-rate"

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Final, Literal, NamedTuple
 
-from sim.setup.toml.kinds import Kind
+from sim.setup.toml.kinds import ValueKind
 from sim.setup.toml.reader import refuse_unknown, section
 
 REQUIRED: Final = object()
@@ -37,7 +37,7 @@ class Key:
     """
 
     name: str
-    kind: Kind
+    kind: ValueKind
     field: str = ""
     default: Any = REQUIRED
     get: Callable[[Any], Any] | None = None
@@ -65,7 +65,7 @@ class Key:
         return self.field or self.name
 
 
-class Written(NamedTuple):
+class WrittenSection(NamedTuple):
     """A section as it is written: values as plain Python, by the names of the keys."""
 
     section: "Section"
@@ -118,11 +118,11 @@ class Section:
         """Values of this section of a file, defaults where it is left out. SettingsError names file and key."""
         return self.read(section(content, self.name, where), f"{where}: {self.header}")
 
-    def written(self, whole: object) -> list[Written]:
+    def written(self, whole: object) -> list[WrittenSection]:
         """The section, or each of its tables, of the file that makes this whole; none where that keeps none."""
         owner = _at(whole, self.fills)
         owners = owner if self.form == "list" else [] if owner is None else [owner]
-        return [Written(self, self._values(owner)) for owner in owners]
+        return [WrittenSection(self, self._values(owner)) for owner in owners]
 
     def _values(self, owner: object) -> dict[str, Any]:
         values = {key.name: key.written(owner) for key in self.keys}

@@ -35,7 +35,7 @@ US_AS_S = Scale(lambda us: us / 1e6, lambda s: round(s * 1e6, DIGITS))
 DEGREES_AS_RAD = Scale(math.radians, lambda rad: round(math.degrees(rad), DIGITS))
 
 
-class Kind(ABC):
+class ValueKind(ABC):
     """What the values of a key are. Each kind has a name, by which texts about settings call it."""
 
     name: str
@@ -57,7 +57,7 @@ class Kind(ABC):
         return value
 
 
-class Text(Kind):
+class Text(ValueKind):
     """Any text but an empty one."""
 
     name = "text"
@@ -88,7 +88,7 @@ class FileName(Text):
 
 
 @dataclass(frozen=True)
-class OneOf(Kind):
+class OneOf(ValueKind):
     """One of a few words."""
 
     words: tuple[str, ...]
@@ -103,7 +103,7 @@ class OneOf(Kind):
 
 
 @dataclass(frozen=True)
-class Number(Kind):
+class Number(ValueKind):
     """A number in its bounds."""
 
     bound: Bound
@@ -142,7 +142,7 @@ class Whole(Number):
         return int(value)
 
 
-class Truth(Kind):
+class Truth(ValueKind):
     """True or false."""
 
     name = "truth"
@@ -152,7 +152,7 @@ class Truth(Kind):
         return truth(table, key, where)
 
 
-class Place(Kind):
+class TablePlace(ValueKind):
     """A place [x, y] on the table."""
 
     name = "place"

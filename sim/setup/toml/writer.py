@@ -5,10 +5,10 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from sim.setup.toml.keys import Written
+from sim.setup.toml.keys import WrittenSection
 
 
-def toml_text(sections: Sequence[Written]) -> str:
+def toml_text(sections: Sequence[WrittenSection]) -> str:
     """TOML of sections, the top of the file first; those that hold nothing are left out."""
     return "\n".join(_section(written.section.header, written.values) for written in sections if written.values)
 

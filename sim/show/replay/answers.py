@@ -7,7 +7,7 @@ import numpy as np
 
 from parser.findings.catalogue import Said
 from parser.geometry.curves import Floats
-from sim.setup.quiz import About, Written
+from sim.setup.quiz import About, WrittenQuestion
 from sim.show.replay.asked_block import AskedBlock, in_mm, plain, signed, way
 from sim.show.words import said
 from sim.show.words.phrases import same
@@ -20,7 +20,7 @@ _EITHER_UM = 2
 """An arc that ends as near to one axis as to the other, to rounding, may count on either."""
 
 
-def written_out(about: About, block: AskedBlock) -> Written | None:
+def written_out(about: About, block: AskedBlock) -> WrittenQuestion | None:
     """A question about a block that makes a step; None where it has no wrong answers to offer.
 
     Only arcs are asked about their turn.
@@ -28,7 +28,7 @@ def written_out(about: About, block: AskedBlock) -> Written | None:
     return _ABOUT[about](block)
 
 
-def _quadrant(block: AskedBlock) -> Written:
+def _quadrant(block: AskedBlock) -> WrittenQuestion:
     label = f"{block.sense}{block.motion}"
     from_x, from_y = (plain(um) for um in _from_center(block, block.start_um))
     why = said(
@@ -39,7 +39,7 @@ def _quadrant(block: AskedBlock) -> Written:
     )
 
 
-def _count_axis(block: AskedBlock) -> Written:
+def _count_axis(block: AskedBlock) -> WrittenQuestion:
     return _among(["GX", "GY"], f"G{block.axis}", _ask("quiz.count_axis", block), _why_axis(block))
 
 
@@ -68,16 +68,16 @@ def _axis_of_arc(to_x: int, to_y: int, written: str) -> tuple[str, str]:
     return "arc", "Y" if abs(to_x) > abs(to_y) else "X"
 
 
-def _turning(block: AskedBlock) -> Written:
+def _turning(block: AskedBlock) -> WrittenQuestion:
     answers = [said("quiz.turn_answer", turn=said(f"quiz.{key}"), word=word) for key, word in _SENSES]
     why = said("quiz.turn_why", label=block.label)
-    return Written(_ask("quiz.turn", block), tuple(answers), int(block.turn > 0), why)
+    return WrittenQuestion(_ask("quiz.turn", block), tuple(answers), int(block.turn > 0), why)
 
 
 _SENSES = (("clockwise", "SR"), ("counter_clockwise", "NR"))
 
 
-def _count_length(block: AskedBlock) -> Written:
+def _count_length(block: AskedBlock) -> WrittenQuestion:
     axis = "XY".index(block.axis)
     others = (block.steps, abs(block.by_um[axis]), block.length_um, abs(block.by_um[1 - axis]), block.count_um * 2)
     wrong = [round(float(other)) for other in others if other >= 1]
@@ -87,13 +87,13 @@ def _count_length(block: AskedBlock) -> Written:
     return _among([str(answer) for answer in answers], str(block.count_um), ask, why)
 
 
-def _next_step(block: AskedBlock) -> Written:
+def _next_step(block: AskedBlock) -> WrittenQuestion:
     right = way(block.first_step)
     why = said(f"quiz.next_step_{block.kind}_why", way=right, label=f"{block.sense}{block.motion}")
     return _among(["+X", "−X", "+Y", "−Y"], right, _ask("quiz.next_step", block), why)
 
 
-def _end(block: AskedBlock) -> Written | None:
+def _end(block: AskedBlock) -> WrittenQuestion | None:
     right = _place(block.end_um)
     answers = sorted({right, *_some([_place(place) for place in _other_ends(block)], right)})
     if len(answers) == 1:
@@ -110,7 +110,7 @@ def _end(block: AskedBlock) -> Written | None:
         **values,
         **_moves(block),
     )
-    return Written(_ask("quiz.end", block), tuple(answers), answers.index(right), why)
+    return WrittenQuestion(_ask("quiz.end", block), tuple(answers), answers.index(right), why)
 
 
 def _other_ends(block: AskedBlock) -> list[Floats]:
@@ -132,9 +132,9 @@ def _some(wrong: Iterable[Any], right: object) -> list[Any]:
     return [answer for answer in dict.fromkeys(wrong) if answer != right][:_WRONG]
 
 
-def _among(answers: list[str], right: str, ask: Said, why: Said) -> Written:
+def _among(answers: list[str], right: str, ask: Said, why: Said) -> WrittenQuestion:
     """A question whose answers need no words, in their order."""
-    return Written(ask, tuple(same(answer) for answer in answers), answers.index(right), why)
+    return WrittenQuestion(ask, tuple(same(answer) for answer in answers), answers.index(right), why)
 
 
 def _ask(key: str, block: AskedBlock) -> Said:
@@ -158,7 +158,7 @@ def _from_center(block: AskedBlock, place_um: Floats) -> tuple[int, int]:
     return x, y
 
 
-_ABOUT: Mapping[About, Callable[[AskedBlock], Written | None]] = {
+_ABOUT: Mapping[About, Callable[[AskedBlock], WrittenQuestion | None]] = {
     "quadrant": _quadrant,
     "count_axis": _count_axis,
     "turn": _turning,

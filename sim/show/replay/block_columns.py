@@ -6,9 +6,9 @@ import numpy as np
 
 from controller.motion.plan import Plan
 from controller.stepping.words import words_of
-from parser.geometry.curves import Floats, Kind
+from parser.geometry.curves import CurveKind, Floats
 from parser.program import Program
-from parser.toolpath import Axis, Toolpath, Words
+from parser.toolpath import Axis, StepWords, Toolpath
 from sim.run.dryrun import DryRun
 from sim.run.report.rounded import column
 
@@ -44,7 +44,7 @@ def plan_columns(plan: Plan) -> dict[str, list[Any] | None]:
 def _exact(toolpath: Toolpath) -> dict[str, list[Any]]:
     place = np.concatenate([toolpath.start_um[:1], toolpath.end_um])
     return {
-        "kind": [Kind(kind).name.lower() for kind in toolpath.kind.tolist()],
+        "kind": [CurveKind(kind).name.lower() for kind in toolpath.kind.tolist()],
         **_pairs("place", place),
         **_pairs("center", toolpath.center_um),
         "radius_um": column(toolpath.radius_um),
@@ -58,7 +58,7 @@ def _pairs(name: str, place_um: Floats) -> dict[str, list[float | None]]:
     return {f"{name}_{axis}_um": column(place_um[:, at]) for at, axis in enumerate("xy")}
 
 
-def _words(words: Words) -> dict[str, list[Any]]:
+def _words(words: StepWords) -> dict[str, list[Any]]:
     """What the controller counts by: words of the program, or its own."""
     return {
         "word_x_um": words.x_um.tolist(),

@@ -6,7 +6,7 @@ import numpy as np
 
 from controller.stepping.pulses import Pulses
 from sim.run.dryrun import DryRun
-from sim.setup.quiz import About, Question, Written
+from sim.setup.quiz import About, Question, WrittenQuestion
 from sim.show.replay.answers import written_out
 from sim.show.replay.asked_block import asked_block
 
@@ -27,13 +27,13 @@ def _entry(run: DryRun, steps: Pulses, question: Question) -> dict[str, Any] | N
         return None
     row = int(rows[0])
     what = question.what
-    written = what if isinstance(what, Written) else _answered(run, steps, row, what)
+    written = what if isinstance(what, WrittenQuestion) else _answered(run, steps, row, what)
     if written is None:
         return None
     return {
         "row": row,
         "block": question.block,
-        "about": None if isinstance(what, Written) else what,
+        "about": None if isinstance(what, WrittenQuestion) else what,
         "ask": written.ask._asdict(),
         "answers": [answer._asdict() for answer in written.answers],
         "right": written.right,
@@ -41,7 +41,7 @@ def _entry(run: DryRun, steps: Pulses, question: Question) -> dict[str, Any] | N
     }
 
 
-def _answered(run: DryRun, steps: Pulses, row: int, about: About) -> Written | None:
+def _answered(run: DryRun, steps: Pulses, row: int, about: About) -> WrittenQuestion | None:
     """A question about the block in a row; None where it makes no step, or has nothing of the kind."""
     first = int(run.stepped.count[:row].sum())
     if not run.stepped.count[row] or first >= len(steps.t_s):

@@ -5,7 +5,7 @@ from typing import Any
 
 from sim.show.report_page.tables import (
     Column,
-    Table,
+    ReportTable,
     column_of,
     counted,
     micrometres,
@@ -17,9 +17,9 @@ from sim.show.report_page.tables import (
 from sim.show.words import said
 
 
-def piece_table(entries: list[dict[str, Any]]) -> Table:
+def piece_table(entries: list[dict[str, Any]]) -> ReportTable:
     """Pieces in the order in which they come free."""
-    return Table(
+    return ReportTable(
         "pieces",
         (
             counted("number", list(range(1, len(entries) + 1))),
@@ -35,12 +35,12 @@ def piece_table(entries: list[dict[str, Any]]) -> Table:
     )
 
 
-def size_tables(sizes: Mapping[str, list[dict[str, Any]]]) -> list[Table]:
+def size_tables(sizes: Mapping[str, list[dict[str, Any]]]) -> list[ReportTable]:
     """Widths, radii and distances of what is kept, as cut and nominal."""
     boxes, radii, distances = sizes["boxes"], sizes["radii"], sizes["distances"]
     return [
-        Table("boxes", (*_of_what(boxes), counted("piece", column_of(boxes, "piece")), *_widths(boxes))),
-        Table(
+        ReportTable("boxes", (*_of_what(boxes), counted("piece", column_of(boxes, "piece")), *_widths(boxes))),
+        ReportTable(
             "radii",
             (
                 *_of_what(radii),
@@ -51,7 +51,7 @@ def size_tables(sizes: Mapping[str, list[dict[str, Any]]]) -> list[Table]:
                 micrometres("form", column_of(radii, "form_um")),
             ),
         ),
-        Table(
+        ReportTable(
             "distances",
             (
                 *_of_what(distances),
@@ -65,9 +65,9 @@ def size_tables(sizes: Mapping[str, list[dict[str, Any]]]) -> list[Table]:
     ]
 
 
-def worst_table(entries: list[dict[str, Any]]) -> Table:
+def worst_table(entries: list[dict[str, Any]]) -> ReportTable:
     """Where edge and drawing are farthest apart."""
-    return Table(
+    return ReportTable(
         "worst",
         (
             worded("measured-from", column_of(entries, "from")),

@@ -26,7 +26,7 @@ from sim.show.report_page.results import (
     loss_table,
 )
 from sim.show.report_page.settings import setting_groups
-from sim.show.report_page.tables import Column, Table, yes_or_no
+from sim.show.report_page.tables import Column, ReportTable, yes_or_no
 from sim.show.words import said
 
 _ASSETS: Final = Path(__file__).with_name("assets")
@@ -63,7 +63,7 @@ def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inlin
     )
 
 
-def _tables(run: DryRun, report: Mapping[str, Any]) -> list[Table]:
+def _tables(run: DryRun, report: Mapping[str, Any]) -> list[ReportTable]:
     remains, drawing = report["remains"], report["drawing"]
     return [
         contour_table(run, report),
@@ -79,11 +79,11 @@ def _tables(run: DryRun, report: Mapping[str, Any]) -> list[Table]:
     ]
 
 
-def _expectation_table(run: DryRun) -> Table:
+def _expectation_table(run: DryRun) -> ReportTable:
     """What the scenario expects, and whether the run meets it: those that it does not are findings."""
     expected: tuple[Expectation, ...] = run.scenario.expect
     missed = {one.expected.path for one in run.missed}
-    return Table(
+    return ReportTable(
         "expectations",
         (
             Column(said("report.path"), [one.path for one in expected], "code"),

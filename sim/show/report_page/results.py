@@ -8,7 +8,7 @@ from sim.run.dryrun import DryRun
 from sim.show.report_page.findings import address
 from sim.show.report_page.tables import (
     Column,
-    Table,
+    ReportTable,
     column_of,
     counted,
     micrometres,
@@ -26,14 +26,14 @@ CodeLink = tuple[str, str]
 _STAGES = ("interpolation", "steps", "table", "wire")
 
 
-def block_table(run: DryRun, report: Mapping[str, Any]) -> Table:
+def block_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     """Every block of the run, as ``blocks[]`` of the report has it."""
     blocks = report["blocks"]
 
     def of(path: str) -> list[Any]:
         return column_of(blocks, path)
 
-    return Table(
+    return ReportTable(
         "blocks",
         (
             counted("block", of("block")),
@@ -65,10 +65,10 @@ def _codes(run: DryRun) -> list[list[CodeLink]]:
     return [by_block.get(block, []) for block in run.toolpath.source.block.tolist()]
 
 
-def contour_table(run: DryRun, report: Mapping[str, Any]) -> Table:
+def contour_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     """Contours with their closures and times."""
     entries = report["contours"]
-    return Table(
+    return ReportTable(
         "contours",
         (
             counted("number", list(range(1, len(entries) + 1))),
@@ -88,10 +88,10 @@ def _state(contour: Contour) -> str:
     return "open" if contour.is_open else "closed"
 
 
-def deviation_table(report: Mapping[str, Any]) -> Table:
+def deviation_table(report: Mapping[str, Any]) -> ReportTable:
     """Deviation of steps, table and wire."""
     entries = [report["deviation"][stage] for stage in _STAGES]
-    return Table(
+    return ReportTable(
         "deviation",
         (
             worded("of", _STAGES, "of"),
@@ -103,18 +103,18 @@ def deviation_table(report: Mapping[str, Any]) -> Table:
     )
 
 
-def cause_table(report: Mapping[str, Any]) -> Table:
+def cause_table(report: Mapping[str, Any]) -> ReportTable:
     """What each cause adds to the deviation."""
     causes = report["deviation"]["by_cause"]
     entries = list(causes.values())
     largest = micrometres("largest", column_of(entries, "max_um"))
-    return Table("causes", (worded("cause", tuple(causes), "by"), largest, *_met(entries, "where.")))
+    return ReportTable("causes", (worded("cause", tuple(causes), "by"), largest, *_met(entries, "where.")))
 
 
-def limit_table(report: Mapping[str, Any]) -> Table:
+def limit_table(report: Mapping[str, Any]) -> ReportTable:
     """How near the drives came to their limits."""
     entries = report["limits"]
-    return Table(
+    return ReportTable(
         "limits",
         (
             worded("quantity", column_of(entries, "quantity")),
@@ -128,19 +128,19 @@ def limit_table(report: Mapping[str, Any]) -> Table:
     )
 
 
-def loss_table(report: Mapping[str, Any]) -> Table:
+def loss_table(report: Mapping[str, Any]) -> ReportTable:
     """What the drives lost."""
     entries = report["losses"]
     what = worded("what", column_of(entries, "kind"))
     amount = micrometres("amount", column_of(entries, "amount_um"))
-    return Table("losses", (what, named("axis", column_of(entries, "axis")), amount, *_met(entries)))
+    return ReportTable("losses", (what, named("axis", column_of(entries, "axis")), amount, *_met(entries)))
 
 
-def check_table(run: DryRun) -> Table:
+def check_table(run: DryRun) -> ReportTable:
     """How far each check came."""
     checks = run.coverage.checks
     names, reasons = [check.name for check in checks], [check.reason for check in checks]
-    return Table(
+    return ReportTable(
         "checks",
         (
             _terms("check", names),

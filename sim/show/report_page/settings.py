@@ -10,7 +10,7 @@ from sim.setup.key_words import title_of, value_word, words_of
 from sim.setup.machine.machine import machine_sections
 from sim.setup.quiz import QUIZ
 from sim.setup.scenario import Scenario, scenario_sections
-from sim.setup.toml.keys import Key, Section, Written
+from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import OneOf
 from sim.show.words import said
 from sim.show.words.phrases import same
@@ -25,14 +25,14 @@ class Setting(NamedTuple):
     unit: str
 
 
-class Group(NamedTuple):
+class SettingGroup(NamedTuple):
     """Settings of one section."""
 
     title: Said
     settings: tuple[Setting, ...]
 
 
-def setting_groups(scenario: Scenario, program: Program) -> list[Group]:
+def setting_groups(scenario: Scenario, program: Program) -> list[SettingGroup]:
     """Settings of program, machine, wire, work and what was asked of them.
 
     Expectations have a table of their own, and the quiz is the replay's.
@@ -49,9 +49,9 @@ def setting_groups(scenario: Scenario, program: Program) -> list[Group]:
         _found("dialect", program.reading.dialect),
     )
     return [
-        Group(said("report.section-program"), read),
+        SettingGroup(said("report.section-program"), read),
         *_groups(part for part in parts if part.section not in (QUIZ, EXPECT)),
-        Group(said("report.section-run"), tuple(settings.values())),
+        SettingGroup(said("report.section-run"), tuple(settings.values())),
         *_groups(of_machine),
     ]
 
@@ -61,11 +61,11 @@ def _found(key: str, value: str) -> Setting:
     return Setting(said(f"report.{key}"), key, same(value), "")
 
 
-def _groups(sections: Iterable[Written]) -> list[Group]:
-    return [Group(title_of(part.section), _settings(part)) for part in sections if part.values]
+def _groups(sections: Iterable[WrittenSection]) -> list[SettingGroup]:
+    return [SettingGroup(title_of(part.section), _settings(part)) for part in sections if part.values]
 
 
-def _settings(written: Written) -> tuple[Setting, ...]:
+def _settings(written: WrittenSection) -> tuple[Setting, ...]:
     return tuple(_setting(written.section, key, written.values[key.name]) for key in written.keys)
 
 

@@ -35,7 +35,7 @@ class Column(NamedTuple):
     words: Mapping[str, Said] = {}
 
 
-class Table(NamedTuple):
+class ReportTable(NamedTuple):
     """A table: its name in the page, and what stands in it."""
 
     name: str

@@ -9,7 +9,7 @@ from rich.text import Text
 from parser.findings.remarks import remark_text
 from parser.text.encoding import printable
 from parser.units import mm
-from sim.measure.compare.result import Comparison, Place
+from sim.measure.compare.result import Comparison, WorstPlace
 from sim.measure.compare.tables import by_block, by_entity, worst_places
 
 _MEASURED_FROM = {"edge": "cut edge", "drawing": "drawing", "lead": "lead"}
@@ -56,7 +56,7 @@ def _rows(of: Comparison, offset: str) -> list[tuple[str, str]]:
     ]
 
 
-def _where(place: Place) -> str:
+def _where(place: WorstPlace) -> str:
     return f"block {place.block:,} at {_xy(*place.where_um)} mm"
 
 

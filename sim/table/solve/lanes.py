@@ -4,7 +4,7 @@ import numpy as np
 
 from parser.geometry.curves import Floats, Ints
 from sim.table.physics.state import State
-from sim.table.solve.march import March, Record, Table
+from sim.table.solve.march import March, Record, RunTable
 from sim.table.solve.slab import Slab
 
 STILL_UM = 1e-4
@@ -26,7 +26,7 @@ class Lanes:
         The table that runs them.
     """
 
-    def __init__(self, slab: Slab, borders: Ints, table: Table) -> None:
+    def __init__(self, slab: Slab, borders: Ints, table: RunTable) -> None:
         number = np.arange(int(np.diff(borders).max()))[:, None] + borders[:-1]
         self.inside = number < borders[1:]
         self._tick = np.where(self.inside, number, len(slab))

@@ -13,7 +13,7 @@ from sim.table.solve.slab import Slab
 from sim.table.solve.slow_step import SlowStep
 
 
-class Table(NamedTuple):
+class RunTable(NamedTuple):
     """A table with its place, and the engines that run it.
 
     Attributes
@@ -47,7 +47,7 @@ class Record(NamedTuple):
 class March:
     """Tables on their way through ticks (l, n) of a slab; where a table has fewer, the last is one without length."""
 
-    def __init__(self, slab: Slab, tick: Ints, table: Table) -> None:
+    def __init__(self, slab: Slab, tick: Ints, table: RunTable) -> None:
         self._table, self._drives = table, drives_of(table.model)
         self._low, self._high = (place[:, None] for place in table.room_um)
         self._length, self._divisor = slab.length_s[tick], slab.divisor_s[tick]

@@ -7,7 +7,7 @@ from parser.geometry.curves import Floats, Ints
 from sim.table.physics.drive import drives_of
 from sim.table.physics.state import State
 from sim.table.solve.lanes import Lanes
-from sim.table.solve.march import Table
+from sim.table.solve.march import RunTable
 from sim.table.solve.slab import Slab
 
 LANE_TICKS = 256
@@ -26,7 +26,7 @@ PATIENCE = 6
 """Passes that may bring nothing."""
 
 
-def run_slab(slab: Slab, state: State, table: Table) -> Lanes:
+def run_slab(slab: Slab, state: State, table: RunTable) -> Lanes:
     """Lanes of a slab that begins with the state (of one table), all run and in agreement."""
     borders = _borders(slab)
     lanes = Lanes(slab, borders, table)
@@ -59,7 +59,7 @@ def _borders(slab: Slab) -> Ints:
     return np.unique(np.concatenate([[0], inner, [len(slab)]]))
 
 
-def _guessed(slab: Slab, borders: Ints, state: State, table: Table) -> State:
+def _guessed(slab: Slab, borders: Ints, state: State, table: RunTable) -> State:
     """States that the lanes begin with if all goes slowly: each slide where its motor has drawn it."""
     begin = state.of(np.zeros(len(borders) - 1, dtype=np.int64))
     begin.at_um[1:] = _drawn(slab, borders, state.at_um[0] + state.lost_um[0], table.slow.play_um) - state.lost_um[0]

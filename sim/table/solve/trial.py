@@ -10,7 +10,7 @@ from sim.table.physics.bodies import Engines
 from sim.table.physics.drive import drives_of
 from sim.table.physics.motor import Motors
 from sim.table.physics.state import State
-from sim.table.solve.march import March, Record, Table
+from sim.table.solve.march import March, Record, RunTable
 from sim.table.solve.slab import Slab, slab_of
 from sim.table.solve.slow_step import NO_PLAY, SlowStep
 from sim.table.when.rhythm import Rhythm
@@ -57,7 +57,7 @@ def after_a_step(model: TableModel, rhythm: Rhythm, lag_um: Floats) -> tuple[Sla
     slab = slab_of(ticks, slice(0, 1), motors, model, rhythm.felt_s)
     half = from_mm(np.array([model.travel_x_mm, model.travel_y_mm])) / 2.0
     room = np.stack([-half, half])
-    table = Table(model, room, NO_PLAY, Engines(model, room))
+    table = RunTable(model, room, NO_PLAY, Engines(model, room))
     number = lag_um.shape[1]
     begin = State(-lag_um.T, np.zeros((number, 2)), np.zeros((number, 2)), np.zeros(number, dtype=bool))
     return slab, *March(slab, np.repeat(np.arange(len(slab))[:, None], number, axis=1), table).run(begin)

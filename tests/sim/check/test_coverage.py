@@ -3,13 +3,13 @@
 from places import SCENARIOS
 
 from parser.program import parse_program
-from sim.check.engine import Checked, Demands, check_program
+from sim.check.engine import Checked, Demands, run_checks
 
 OPEN = "B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B9000GXL3 B0B10000B10000GYL4 DD"
 
 
 def checked(text: str) -> Checked:
-    return check_program(parse_program(text), Demands())
+    return run_checks(parse_program(text), Demands())
 
 
 def left_out(text: str) -> dict[str, str]:

@@ -16,7 +16,6 @@ from golden_pictures import assert_golden, compare
 from jsonschema import Draft202012Validator
 from PIL import Image
 from places import ROOT
-from runs import silent
 
 from parser.toolpath import Axis
 from sim.cli.ballbar import ballbar as command
@@ -28,6 +27,7 @@ from sim.show.draw.dial import RING_SIZES, RINGS, ring_for
 from sim.show.draw.paints import LIGHT, Paint
 from sim.show.pictures.ballbar.plot import draw_ballbar
 from sim.show.terminal.ballbar import print_ballbar
+from sim.table.motion import silent
 from sim.table.record.losses import Loss
 
 SMALL = ("ballbar", "--radius", "1mm")

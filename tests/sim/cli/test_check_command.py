@@ -7,12 +7,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from checking import SOUND, drycut
+from checking import SOUND, WRONG_AXIS, drycut
 
 from parser.findings.catalogue import page
 from parser.findings.codes import CODES
-
-WRONG_AXIS = SOUND.replace("GYNR1", "GXNR1")
 
 
 @pytest.fixture

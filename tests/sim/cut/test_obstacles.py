@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from runs import plain_scenario
 
 from parser.findings.findings import Finding
-from parser.geometry.curves import Floats, Kind
+from parser.geometry.curves import CurveKind, Floats
 from parser.program import Program, parse_program
 from parser.shape.contours import find_contours
 from parser.toolpath import Point
@@ -126,7 +126,7 @@ def test_the_arm_touches_with_its_own_outline_where_the_table_stands() -> None:
 def test_a_jump_moves_the_arm_past_a_clamp_and_no_wire() -> None:
     text = "B1000B0B1000GXL1 D B9000B0B9000GXL1 D B0B1000B1000GYL2 DD"
     clamp, arm = box(5000, -100, 6000, 100), box(-50, -50, 50, 50)
-    assert parse_program(text).toolpath.kind[1] == Kind.JUMP
+    assert parse_program(text).toolpath.kind[1] == CurveKind.JUMP
     assert found(text, clamp) == []
     (touch,) = found(text, clamp, arm=arm)
     assert (touch.block, touch.values["body"]) == (2, "arm")

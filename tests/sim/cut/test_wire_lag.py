@@ -13,7 +13,7 @@ from paths import Pen
 from runs import machine, plain_scenario, run_text
 
 from parser.findings.errors import SettingsError
-from parser.geometry.curves import Kind
+from parser.geometry.curves import CurveKind
 from parser.toolpath import Toolpath
 from sim.cut.wire_lag import bowed
 from sim.setup.scenario import load_scenario
@@ -144,7 +144,7 @@ def walks(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray]:
 @settings(max_examples=80, deadline=None)
 def test_any_way_is_that_of_a_plain_loop(walk: tuple[np.ndarray, np.ndarray], lag: float) -> None:
     guides, row = walk
-    cuts = LINE_AND_JUMP.kind[row] != Kind.JUMP
+    cuts = LINE_AND_JUMP.kind[row] != CurveKind.JUMP
     step = 2e-3 * lag
     wire = wire_of(guides, lag, LINE_AND_JUMP, row)
     assert np.abs(wire - dragged(guides, cuts, lag, step)).max() < 4.0 * step  # µm

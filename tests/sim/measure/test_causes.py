@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from paths import Pen
 from places import SCENARIOS
-from runs import machine, plain_scenario, run_folder, run_text, silent
+from runs import machine, plain_scenario, run_folder, run_text
 
 from controller.motion.plan import Plan
 from parser.program import read_program
@@ -21,6 +21,7 @@ from sim.run.dryrun import DryRun, dry_run
 from sim.setup.machine.controller_model import read_controller
 from sim.setup.scenario import load_scenario
 from sim.setup.wire import DEFAULT_WIRE
+from sim.table.motion import silent
 from sim.table.trace import Trace
 
 RING = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 DD"
@@ -170,7 +171,7 @@ def test_an_arc_between_two_periods_is_cut_off_by_the_sagitta(radius: float, per
 
 def by_the_card(text: str, **controller: float) -> DryRun:
     settings = FAST | {"interpolator": "card"} | controller
-    fast = machine()._replace(controller=read_controller(settings, "test"), area_rate_mm2_min=10_000.0)
+    fast = machine()._replace(controller=read_controller({"controller": settings}, "test"), area_rate_mm2_min=10_000.0)
     return run_text(text, machine=fast, thickness_mm=0.05)
 
 

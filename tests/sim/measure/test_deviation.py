@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import program_text, programs
 
-from parser.geometry.curves import Kind
+from parser.geometry.curves import CurveKind
 from parser.program import parse_program
 from parser.toolpath import Block, Toolpath
 from sim.measure.deviation.deviation import DeviationMeter, distance
@@ -19,7 +19,7 @@ SPOTS = 4001
 def curve(block: Block) -> np.ndarray:
     """Points along a block, (SPOTS, 2) µm."""
     share = np.linspace(0.0, 1.0, SPOTS)[:, None]
-    if block.kind is not Kind.ARC:
+    if block.kind is not CurveKind.ARC:
         return np.array(block.start_um) + share * (np.array(block.end_um) - np.array(block.start_um))
     angle = block.start_angle_rad + share[:, 0] * block.sweep_rad
     return np.array(block.center_um) + block.radius_um * np.stack([np.cos(angle), np.sin(angle)], axis=1)

@@ -7,7 +7,7 @@ import ezdxf
 import numpy as np
 import pytest
 from command import run_command
-from runs import codes, machine, plain_scenario, silent
+from runs import codes, machine, plain_scenario
 
 from parser.findings.errors import DrawingError
 from parser.program import parse_program
@@ -16,6 +16,7 @@ from sim.measure.compare.as_cut import edge_as_cut
 from sim.measure.compare.compared_program import compare_program
 from sim.run.dryrun import DryRun, dry_run
 from sim.setup.part import DrawingTarget
+from sim.table.motion import silent
 
 LED_SQUARE = """B0B2000B2000GYL2
 B2000B0B2000GXL1 B0B4000B4000GYL2 B4000B0B4000GXL3 B0B4000B4000GYL4 B2000B0B2000GXL1

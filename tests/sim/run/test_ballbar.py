@@ -5,7 +5,7 @@ import pytest
 from circles import both, measured, moved_out, past, perfect, with_play, with_spikes
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from runs import machine, silent
+from runs import machine
 
 from parser.findings.errors import SettingsError
 from parser.toolpath import Axis
@@ -13,6 +13,7 @@ from sim.run.ballbar.circle import circle_test, measure, run_test
 from sim.run.ballbar.figures import circularity, figures_of, least_squares_circle
 from sim.run.ballbar.turn import SENSES, MeasuredTurn
 from sim.setup.machine.machine import load_machine
+from sim.table.motion import silent
 from sim.units import parse_speed
 
 EXACT_UM = 0.002

@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
-from runs import machine, silent
+from runs import machine
 
 from parser.toolpath import Axis
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test
 from sim.run.ballbar.parts import DeviationParts
+from sim.table.motion import silent
 
 RADIUS_UM = 10_000.0
 FEED_UM_S = 4_000.0

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from places import SCENARIOS
-from runs import plain_scenario, silent
+from runs import plain_scenario
 
 from parser.findings.findings import Finding
 from parser.program import parse_program, read_program
@@ -16,6 +16,7 @@ from sim.measure.deviation.across import across_um
 from sim.run.course import Course, course_of
 from sim.run.recording import recorded
 from sim.setup.scenario import load_scenario
+from sim.table.motion import silent
 from sim.table.record.losses import Loss
 
 PART = """

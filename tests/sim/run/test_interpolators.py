@@ -41,7 +41,9 @@ def test_point_by_point_keeps_within_a_step_of_the_path() -> None:
 
 def test_chord_error_is_that_of_the_closed_form() -> None:
     stops = {"junction": "stop"}  # a corner at full speed is cut off between two periods
-    controller = read_controller(FAST | stops | {"servo_period_us": 10_000.0, "interpolator": "card"}, "test")
+    controller = read_controller(
+        {"controller": FAST | stops | {"servo_period_us": 10_000.0, "interpolator": "card"}}, "test"
+    )
     fast = shipped()._replace(controller=controller, area_rate_mm2_min=10_000.0)
     run = run_text(RING, machine=fast, thickness_mm=0.05)
     feed = fast.feeds(0.05).cut_um_s
@@ -99,7 +101,7 @@ def test_a_scenario_chooses_the_interpolator(tmp_path: Path) -> None:
 )
 def test_bad_controllers_are_refused(changed: dict[str, object], complaint: str) -> None:
     with pytest.raises(SettingsError, match=complaint):
-        read_controller(FAST | changed, "m.toml: [controller]")
+        read_controller({"controller": FAST | changed}, "m.toml")
 
 
 def test_corners_cost_what_the_rule_says() -> None:
@@ -111,7 +113,7 @@ def test_corners_cost_what_the_rule_says() -> None:
         {"junction": "stop"},
         {"junction": "stop", "corner_wait_ms": 500.0},
     ):
-        controller = read_controller(FAST | {"path_acceleration_mm_s2": 1.0} | rule, "test")
+        controller = read_controller({"controller": FAST | {"path_acceleration_mm_s2": 1.0} | rule}, "test")
         run = run_text(square, machine=shipped()._replace(controller=controller))
         times[len(times)] = run.plan.duration_s
     feed, a = 43.75, 1000.0
@@ -133,7 +135,7 @@ def test_a_start_between_two_micrometres_shifts_all_steps_alike(interpolator: st
 def test_waits_at_corners_keep_the_table_with_the_plan() -> None:
     square = "B100B0B100GXL1 B0B100B100GYL2 B100B0B100GXL3 B0B100B100GYL4 DD"
     slow = FAST | {"corner_wait_ms": 1.0, "servo_period_us": 10_000.0, "interpolator": "card"}
-    controller = read_controller(slow, "test")
+    controller = read_controller({"controller": slow}, "test")
     run = run_text(square, machine=shipped()._replace(controller=controller, area_rate_mm2_min=1000.0))
     assert run.deviations.sampling is not None
     assert max(run.deviations.sampling.axis_um) <= 0.5 + 1e-6  # µm

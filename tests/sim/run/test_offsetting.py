@@ -11,7 +11,7 @@ from places import ROOT, SCENARIOS
 from runs import codes, run_folder, run_text
 
 from controller.offset.path import Made
-from controller.offset.sections import Section, Side, sections_of
+from controller.offset.sections import OffsetSection, Side, sections_of
 from parser.program import parse_program
 from parser.toolpath import Toolpath
 from sim.run.offsetting import offsetting
@@ -33,21 +33,21 @@ def square(pen: Pen) -> Pen:
 @pytest.mark.parametrize(
     ("path", "expected"),
     [
-        (square(Pen().to(0, 2000)).to(0, 0).path(), [Section(1, 5, closed=True)]),
-        (square(Pen()).path(), [Section(0, 4, closed=True)]),
-        (square(Pen().to(500, 500).to(0, 2000)).to(0, 500).to(0, 0).path(), [Section(2, 6, closed=True)]),
-        (Pen().to(3000, 0).arc(0, 0, 2 * math.pi).to(0, 0).path(), [Section(1, 1, closed=True)]),
+        (square(Pen().to(0, 2000)).to(0, 0).path(), [OffsetSection(1, 5, closed=True)]),
+        (square(Pen()).path(), [OffsetSection(0, 4, closed=True)]),
+        (square(Pen().to(500, 500).to(0, 2000)).to(0, 500).to(0, 0).path(), [OffsetSection(2, 6, closed=True)]),
+        (Pen().to(3000, 0).arc(0, 0, 2 * math.pi).to(0, 0).path(), [OffsetSection(1, 1, closed=True)]),
         # Cut on past the start: the loop is open, and what is cut twice is offset twice.
-        (square(Pen().to(0, 2000)).to(700, 2000).to(0, 0).path(), [Section(1, 6, closed=False)]),
-        (Pen().to(3000, 0).to(6000, 1000).to(9000, 0).path(), [Section(0, 2, closed=False)]),
+        (square(Pen().to(0, 2000)).to(700, 2000).to(0, 0).path(), [OffsetSection(1, 6, closed=False)]),
+        (Pen().to(3000, 0).to(6000, 1000).to(9000, 0).path(), [OffsetSection(0, 2, closed=False)]),
         (
             square(square(Pen().to(0, 2000)).to(0, 0).jump(9000, 0).to(9000, 2000)).to(9000, 0).path(),
-            [Section(1, 5, closed=True), Section(9, 13, closed=True)],
+            [OffsetSection(1, 5, closed=True), OffsetSection(9, 13, closed=True)],
         ),
     ],
     ids=["led", "bare", "led by two", "circle", "overcut", "parting cut", "two"],
 )
-def test_the_loop_is_offset_and_its_leads_are_not(path: Toolpath, expected: list[Section]) -> None:
+def test_the_loop_is_offset_and_its_leads_are_not(path: Toolpath, expected: list[OffsetSection]) -> None:
     assert list(sections_of(path)) == expected
 
 

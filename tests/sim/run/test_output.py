@@ -10,12 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from places import ROOT
-from runs import plain_scenario, silent
+from runs import plain_scenario
 
 from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.program import parse_program
 from sim.cli.run_into import run_into
 from sim.files import staged
+from sim.table.motion import silent
 
 TEXT = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 D B3000B0B3000GXL2 D B50B0B50GXL1 DD"
 NAMES = ["cut.png", "replay.html", "report.html", "report.json", "trace.npz"]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 from places import ROOT
-from runs import plain_scenario, run_text, silent
+from runs import plain_scenario, run_text
 
 from parser.program import parse_program
 from parser.toolpath import Axis
@@ -17,6 +17,7 @@ from sim.cli.run_into import run_into
 from sim.run.report import build_report
 from sim.setup.wire import DEFAULT_WIRE
 from sim.show.terminal.run import print_summary
+from sim.table.motion import silent
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
 

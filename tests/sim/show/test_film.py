@@ -11,7 +11,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 from places import SCENARIOS
-from runs import plain_scenario, silent
+from runs import plain_scenario
 
 from parser.findings.errors import SettingsError
 from parser.program import parse_program, read_program
@@ -32,6 +32,7 @@ from sim.show.film.screen import Look, Screen
 from sim.show.film.strip import bar_of
 from sim.show.film.window import LEAST_PX, NO_DISPLAY, Window, open_display
 from sim.show.words import Words
+from sim.table.motion import silent
 from sim.table.trace import Trace
 
 PART = """

@@ -14,7 +14,7 @@ import pytest
 from golden_pictures import assert_golden, compare
 from PIL import Image
 
-from parser.geometry.curves import Kind
+from parser.geometry.curves import CurveKind
 from parser.program import parse_program
 from parser.toolpath import Toolpath
 from sim.show.draw import style
@@ -50,7 +50,7 @@ def read(text: str) -> Toolpath:
 
 def with_jump(toolpath: Toolpath, row: int) -> Toolpath:
     kind = toolpath.kind.copy()
-    kind[row] = Kind.JUMP
+    kind[row] = CurveKind.JUMP
     return replace(toolpath, kind=kind)
 
 

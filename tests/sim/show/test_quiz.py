@@ -25,7 +25,7 @@ from sim.measure.deviation.meters import BlockSteps
 from sim.setup import quiz
 from sim.setup.machine.machine import load_machine
 from sim.setup.part import Offset
-from sim.setup.quiz import About, Question, Written, read_quiz, refuse_unanswerable
+from sim.setup.quiz import About, Question, WrittenQuestion, read_quiz, refuse_unanswerable
 from sim.setup.scenario import load_scenario
 from sim.show.replay.answers import written_out
 from sim.show.replay.asked_block import AskedBlock, in_mm
@@ -57,7 +57,7 @@ def test_a_quiz_is_read(tmp_path: Path) -> None:
     assert one[:2] == (2, "turn")
     assert other[:2] == (
         7,
-        Written(
+        WrittenQuestion(
             Said("Why?", "为什么？"), (Said("So", "是"), Said("Not\ufffd so", "否")), 1, Said("Because", "Because")
         ),
     )
@@ -254,7 +254,7 @@ def test_a_block_without_a_step_is_not_asked_about() -> None:
 
 
 def test_questions_stand_in_the_order_they_are_asked() -> None:
-    free = Written(Said("a", "b"), (Said("c", "d"), Said("e", "f")), 1, Said("g", "h"))
+    free = WrittenQuestion(Said("a", "b"), (Said("c", "d"), Said("e", "f")), 1, Said("g", "h"))
     entries = asked(
         "B0B30B30GYL2 B30B0B60GYNR1 DD", [Question(2, free, "f"), Question(1, "end", "f"), Question(2, "turn", "f")]
     )
@@ -309,4 +309,4 @@ def test_the_quiz_shown_can_be_read(tmp_path: Path) -> None:
     page = (SCENARIOS.parent / "docs" / "scenarios.md").read_text("utf-8")
     (shown,) = re.findall(r"## Quiz\n.*?```toml\n(.*?)```", page, flags=re.DOTALL)
     one, other = load_scenario(scenario_of(tmp_path, shown)).quiz
-    assert (one.what, isinstance(other.what, Written)) == ("next_step", True)
+    assert (one.what, isinstance(other.what, WrittenQuestion)) == ("next_step", True)

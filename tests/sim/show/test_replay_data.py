@@ -18,7 +18,6 @@ from page_types import types_of, unlike
 from places import SCENARIOS
 from plain import AWAY_X, AWAY_Y, SIGNS, TOWARD_X, TOWARD_Y, PlainBlock, motion_quadrant
 from replayed import ASSETS, document_of, exports, recording_of, replay_of
-from runs import silent
 from strategies import program_text
 
 from controller.stepping.pulses import Pulses
@@ -37,6 +36,7 @@ from sim.setup.wire import Wire
 from sim.show.replay import tape as tape_module
 from sim.show.replay.document import replay_document
 from sim.show.replay.tape import GRAIN_UM, TICK_S, Packer, tape, varints
+from sim.table.motion import silent
 from sim.table.trace import Trace
 
 TRIANGLE = "B0B300B300GYL2 B300B200B300GXL4 B300B100B300GXL3 DD"
