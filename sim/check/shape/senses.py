@@ -79,7 +79,7 @@ def reversed_arcs(toolpath: Toolpath, contour_of_row: Ints) -> ReversedArcs:
 
 
 def retraced_arcs(toolpath: Toolpath, contour_of_row: Ints) -> Ints:
-    """Rows (k,) at which the arcs of a circle turn back, if they are a full turn long in all but only go there and back.
+    """Rows (k,) at which the arcs of a circle turn back, if they are one turn long in all but only go there and back.
 
     Two passes there and back make two turns. A slit that happens to be half a circle is not told from a fault.
 
