@@ -110,7 +110,7 @@ def _speed_caps(path: Path, feed_um_s: Floats, acceleration: Floats, limits: Mot
 
 
 def _left_along(whole: Floats, bending: Floats) -> Floats:
-    """Acceleration (n,) left along the path beside the bend's part; all of it where the bend takes next to nothing."""
+    """Acceleration (n,) left along the path when the bend has its part; all, where it takes less than a billionth."""
     share_sq = (bending / whole) ** 2
     return whole * np.where(share_sq < BENT_FOR_NOTHING, 1.0, np.sqrt(np.maximum(1.0 - share_sq, 0.0)))
 

@@ -131,7 +131,7 @@ def _lack(chain: Chain, blocks: Blocks, block: Ints) -> Floats:
 
 
 def turned_ends(chain: Chain, blocks: Blocks, arc: Ints) -> tuple[Floats, Floats]:
-    """Angles (k,) from the start of an arc before joining to its start after, and likewise of its end."""
+    """Angles (k,) from each arc's own start to its joined start, and from its own end to its joined end, as it runs."""
     shifted = blocks.shifted
     low = shifted.start_angle_rad[arc]
     since = turned_rad(shifted, arc, low, chain.start_um[arc])

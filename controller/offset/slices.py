@@ -64,7 +64,7 @@ def open_slices(curves: Curves, side: Side) -> Slices:
     """Slices of all n curves, cut where two cross, and where one ends on another.
 
     Every curve bars its other side, where the contour is too near. A crossing makes two slices of a curve: one of them
-    begins on the side that the other curve bars, and is left out.
+    lies on the side that the other curve bars, and is left out.
     """
     n = len(curves)
     ends = np.concatenate([curves.start_um, curves.end_um])

@@ -176,7 +176,7 @@ class EqualTime:
         return tuple(self._places[ended - 1, 2:].tolist()) if ended else self._at_um[2:]
 
     def _work_out(self, until_s: float) -> bool:
-        """Make ready the pulses of the next periods; False if the plan is over, or they end after a time already."""
+        """Make ready the pulses of the next periods; False where the plan is over, or a time is reached already."""
         period = int(self._looked_at[-1])
         if self._motion is None or period >= self._motion.last or period * self._clock.period_s >= until_s:
             return False

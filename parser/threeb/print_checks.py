@@ -62,7 +62,7 @@ def _misprinted_rows(toolpath: Toolpath, missing: Ints) -> list[int]:
 
 
 def is_misprint(toolpath: Toolpath, row: int) -> bool | None:
-    """Whether the end printed beside a row is wrong, and not its block: then the next printed end agrees with the last.
+    """Whether the end printed beside a row is wrong, and not its block: then those before and after it agree.
 
     None where no printed end follows that could tell.
     """

@@ -33,7 +33,7 @@ PATH_CHECKS = (Check.STEPS, Check.CONTOURS, Check.SENSES, Check.CROSSINGS, Check
 
 
 class Demands(NamedTuple):
-    """What a program has to keep.
+    """What a program is checked against.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Checked(NamedTuple):
     steps
         Of the program; None where they were not worked out.
     contours, judged
-        All contours, and those without a block that is damaged or never ends.
+        All contours, and those with no damaged block in or beside them and no block that never ends.
     """
 
     findings: tuple[Finding, ...]

@@ -66,7 +66,7 @@ def _line_like(words: StepWords) -> Flags:
 
 
 def _uneven(words: StepWords) -> Flags:
-    """Lines whose J is no multiple of their longer side; sound lines have one, whether X and Y are reduced or not."""
+    """Lines whose J is no multiple of their longer side; that of sound lines is, with X and Y reduced or not."""
     uneven: Flags = words.count_um % np.maximum(np.maximum(words.x_um, words.y_um), 1) != 0
     return uneven
 

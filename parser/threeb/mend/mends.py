@@ -127,7 +127,7 @@ def _near(word: Ints, solved: Mends) -> Mends:
 def _ruled(word: Ints, field: int) -> Ints:
     """The number that the rest of a block asks for.
 
-    J of an unreduced line is its longer side. J of an arc is the count of whole quarters of its circle, the nearest.
+    J of an unreduced line is its longer side. J of an arc is the nearest count of whole quarters of its circle.
     """
     if field == COUNT:
         radius = np.maximum(np.hypot(word[:, X], word[:, Y]), 1.0)

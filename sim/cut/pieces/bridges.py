@@ -27,9 +27,9 @@ class Bridge(NamedTuple):
     closes_on_block
         Block number of the older kerf; None where there is none, at the edge of the work.
     left_um
-        How far the wire had to go at the begin of the block that freed the piece.
+        How far the wire had to go at the start of the block that freed the piece.
     last_mm_block, last_mm_t_s
-        Block number and time one millimetre of way before it came free; of a shorter contour, those of its begin.
+        Block number and time one millimetre of way before it came free; of a shorter contour, those at its start.
     """
 
     place_um: Point

@@ -163,7 +163,7 @@ def _is_slug(kerf: Kerf, part: shapely.Polygon, contours: list[int], moment: Fre
         return False
     if older.contour == moment.contour:
         return came_from_inside(kerf.swaths[moment.contour].passage, older.at, moment.at, kerf.offset_um)
-    # Several contours cut round it, since a bridge was left for later: the begin of the first one tells.
+    # Several contours cut round it, since a bridge was left for later: the start of the first one tells.
     return began_in(kerf.swaths[contours[0]].passage, part, kerf.offset_um)
 
 

@@ -26,7 +26,7 @@ class Rhythm(NamedTuple):
     fastest
         Natural frequency of the faster axis, 1/s.
     felt_s
-        How long a step is felt: from its begin until its ringing has died, or until friction has caught the slide half
+        How long a step is felt: from its start until its ringing has died, or until friction has caught the slide half
         a period after the step.
     """
 
