@@ -5,9 +5,9 @@ tension pulls it toward the line of its guides. So it advances only where it han
 straight toward the guides; nearer to them it stays where it has cut, for the slot behind it is open. That is dragging
 a load on a rope: in the plane the way of the wire is the tractrix of the way of its guides, and where the rope is slack
 the sweeping process by a disc (J. J. Moreau, J. Differential Equations 26 (1977) 347). We assume that the force keeps
-its amount in every turn. Measured is the lag's effect on parts in A. B. Puri, B. Bhattacharyya, Int. J. Machine Tools &
-Manufacture 43 (2003) 151, on straight cuts in S. K. Sinha, Int. J. Engineering Science and Technology 2 (2010) 6622,
-and on circles in S. Sarkar et al., Precision Engineering 35 (2011) 339.
+its amount in every turn. What the lag does was measured on parts by A. B. Puri, B. Bhattacharyya, Int. J. Machine Tools
+& Manufacture 43 (2003) 151, on straight cuts by S. K. Sinha, Int. J. Engineering Science and Technology 2 (2010) 6622,
+and on circles by S. Sarkar et al., Precision Engineering 35 (2011) 339.
 
 * Straight on, it runs exactly behind its guides.
 * Round a corner of φ₀ ≤ 90° it turns as tan(φ/2) = tan(φ₀/2) e^(−s/lag) over the way s of the guides.

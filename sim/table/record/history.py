@@ -33,8 +33,8 @@ SAMPLES_A_BIN: Final = 2
 class History:
     """Motion of the table over time, in b bins.
 
-    Slow steps are not worked out one by one. There the lowest and the highest value are those within one slow step, and
-    the mean is that of a slide that creeps, and of its rests.
+    In long ticks (`Ticks.long`) slow steps are not worked out one by one. There the lowest and the highest value are
+    those within one slow step, and the mean is that of a slide that creeps, and of its rests.
 
     Attributes
     ----------
