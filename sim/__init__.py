@@ -12,20 +12,33 @@ from parser import __version__ as __version__
 if TYPE_CHECKING:
     from parser.drawing.read import read_drawing
     from parser.findings.catalogue import texts
-    from parser.program import parse_program, read_program
+    from parser.findings.errors import DrycutError
+    from parser.findings.findings import Finding
+    from parser.program import Program, parse_program, read_program
     from sim.check.batch import check_program
+    from sim.check.result import CheckResult
     from sim.check.settings import CheckSettings
     from sim.cli.run_into import run_into
     from sim.measure.compare.compared_program import compare_program
-    from sim.run.dryrun import dry_run, verdict
+    from sim.run.dryrun import DryRun, dry_run, verdict
     from sim.run.recording import recorded
     from sim.run.report import build_report
     from sim.setup.machine.machine import load_machine
+    from sim.setup.part import DrawingTarget, Offset
     from sim.setup.scenario import Scenario, load_scenario
+    from sim.setup.wire import Wire
 
 __all__ = [
+    "CheckResult",
     "CheckSettings",
+    "DrawingTarget",
+    "DryRun",
+    "DrycutError",
+    "Finding",
+    "Offset",
+    "Program",
     "Scenario",
+    "Wire",
     "build_report",
     "check_program",
     "compare_program",
@@ -42,8 +55,16 @@ __all__ = [
 ]
 
 _HOMES = {
+    "CheckResult": "sim.check.result",
     "CheckSettings": "sim.check.settings",
+    "DrawingTarget": "sim.setup.part",
+    "DryRun": "sim.run.dryrun",
+    "DrycutError": "parser.findings.errors",
+    "Finding": "parser.findings.findings",
+    "Offset": "sim.setup.part",
+    "Program": "parser.program",
     "Scenario": "sim.setup.scenario",
+    "Wire": "sim.setup.wire",
     "build_report": "sim.run.report",
     "check_program": "sim.check.batch",
     "compare_program": "sim.measure.compare.compared_program",

@@ -1,4 +1,4 @@
-"""The command line. This module stays light: what a command needs is imported when it runs."""
+"""The command line, a command a file; what crosses the border is an exit code. What a command needs is loaded late."""
 
 import importlib
 import os

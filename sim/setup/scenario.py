@@ -27,13 +27,14 @@ from sim.setup.part import (
 from sim.setup.quiz import QUIZ, Question, read_quiz
 from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import FileName, Name, Number, TablePlace, Text, Truth
-from sim.setup.toml.reader import Bound, load_toml, section
+from sim.setup.toml.reader import Bound, load_toml, number, section
 from sim.setup.wire import DEFAULT_WIRE, WIRE, Wire, read_wire
 
 MACHINE_FILE = "machine.toml"
 """Name of the machine file beside a scenario file that is written."""
 THICKNESS_MM = Bound(0.01, 2000.0)
 TRACE_SPACING_UM = Bound(0.1, 1e4)
+_BOUNDS = {"thickness_mm": THICKNESS_MM, "trace_spacing_um": TRACE_SPACING_UM, "density_g_cm3": DENSITY_G_CM3}
 DEFAULT_THICKNESS_MM = 40.0
 DEFAULT_MACHINE = "dk7740"
 DEFAULT_TRACE_SPACING_UM = 5.0
@@ -42,7 +43,7 @@ DEFAULT_TRACE_SPACING_UM = 5.0
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
-    """One case to dry-run. SettingsError where the wire cannot be bowed so in work of this thickness.
+    """One case to dry-run. SettingsError for a number out of its bounds, or a lag too large in work of this thickness.
 
     Attributes
     ----------
@@ -95,7 +96,9 @@ class Scenario:
     expect: tuple[Expectation, ...] = ()
 
     def __post_init__(self) -> None:
-        """Check that the wire has a lag in this work."""
+        """Check the numbers, and that the wire has a lag in this work."""
+        for name, bound in _BOUNDS.items():
+            number(getattr(self, name), bound, name)
         self.wire.lag_um(self.thickness_mm)
 
     @property

@@ -68,7 +68,9 @@ class Wire:
     lag: float | WireForces = 0.0
 
     def __post_init__(self) -> None:
-        """Check that the wire cuts a kerf."""
+        """Check that there is a wire, and that it cuts a kerf."""
+        if not self.diameter_um > 0.0:
+            raise SettingsError(f"a wire's diameter is more than 0; found {self.diameter_um:g} µm")
         if self.kerf_um <= 0.0:
             raise SettingsError(
                 f"a wire of {self.diameter_um:g} µm with a spark gap of {self.spark_gap_um:g} µm cuts no kerf; "

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -32,7 +33,7 @@ def test_every_name_is_typed_where_it_is_loaded_from() -> None:
 def test_every_name_is_loaded_described_and_documented(name: str) -> None:
     loaded = getattr(sim, name)
     assert inspect.getdoc(loaded)
-    assert f"`{name}(" in PAGE
+    assert re.search(rf"`{name}[`(]", PAGE)
     assert getattr(sim, name) is loaded
 
 
@@ -50,6 +51,22 @@ def test_the_door_loads_nothing_before_it_is_asked() -> None:
     ]
     assert done[0] == "[]\n"
     assert not {"pymunk", "pygame", "PIL", "jinja2", "ezdxf"} & set(done[1].split())
+
+
+@pytest.mark.parametrize(
+    ("made", "message"),
+    [
+        (lambda: sim.Wire(-5.0, 10.0), "a wire's diameter is more than 0; found -5 µm"),
+        (lambda: sim.Scenario("x", Path("x.3b"), sim.load_machine("dk7740"), thickness_mm=-4.0), "thickness_mm is -4"),
+        (
+            lambda: sim.check_program(sim.parse_program("B0B0B9GYL2DD"), sim.CheckSettings(wire_diameter_um=-5.0)),
+            "-5 µm",
+        ),
+    ],
+)
+def test_values_that_cannot_be_are_refused_before_anything_runs(made: Callable[[], object], message: str) -> None:
+    with pytest.raises(sim.DrycutError, match=re.escape(message)):
+        made()
 
 
 def test_the_python_shown_runs(tmp_path: Path) -> None:

@@ -1,1 +1,1 @@
-"""What is wrong with the shape of contours: tight corners, crossings, arcs that turn the wrong way."""
+"""What is wrong with the shape of contours: corners, crossings, reversed arcs; the border type is `Finding`."""

@@ -1,1 +1,1 @@
-"""Workpiece, clamps and arm: what touches them, and where the wire leaves the work; gives findings."""
+"""Workpiece, clamps and arm: what touches them, where the wire leaves the work; the border type is `Finding`."""

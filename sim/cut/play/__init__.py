@@ -1,1 +1,1 @@
-"""How far a free piece can move before it touches."""
+"""How far a free piece can move before it touches; the border type is `Play`."""

@@ -1,1 +1,1 @@
-"""The sizes of what is kept, beside their nominal ones."""
+"""The sizes of what is kept, beside their nominal ones; the border type is `Sizes`."""

@@ -1,1 +1,1 @@
-"""The cut edge beside the drawing: how far they lie apart, both ways, after the one is laid on the other."""
+"""The cut edge laid on the drawing: how far they lie apart, both ways; the border type is `Comparison`."""

@@ -1,1 +1,1 @@
-"""Places across the ideal path, of steps, table and wire, and the figures that sum them up."""
+"""Places across the ideal path, of steps, table and wire, and what sums them up; the border type is `Deviations`."""

@@ -1,1 +1,1 @@
-"""What pictures are drawn on and with: canvases, paints, letters, layout. pygame draws, pillow finishes."""
+"""What pictures are drawn on and with: canvases, paints, letters, layout; the border type is `Canvas`."""

@@ -1,1 +1,1 @@
-"""Films of a run, and the window that plays it: the same frames, written one after the other or shown."""
+"""Films of a run, and the window that plays it: the same frames; the border type is a frame's `Pixels`."""

@@ -1,1 +1,1 @@
-"""What all pages share: templates with everything escaped, data for scripts, one style and the switch of languages."""
+"""What all pages share: templates, data for scripts, one style, the switch of languages; the border type is text."""

@@ -1,1 +1,1 @@
-"""Pictures of a run: each module draws one from what is known of it, on any canvas."""
+"""Pictures of a run, each drawn from what is known of it; the border type is `Canvas`, drawn upon."""

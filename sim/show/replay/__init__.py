@@ -1,1 +1,1 @@
-"""The replay: a page in which a run is watched again, forward and back, down to its single steps."""
+"""The replay: a page in which a run is watched again down to its single steps; the border type is the page's text."""

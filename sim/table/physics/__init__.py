@@ -1,1 +1,1 @@
-"""The equations of one axis: motor, drive, and the body of the slide in pymunk."""
+"""The equations of one axis: motor, drive, and the slide as a body in pymunk; the border type is `State`."""

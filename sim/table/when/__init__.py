@@ -1,1 +1,1 @@
-"""When to look at the table: ticks, fine where it is shaken and long where nothing happens."""
+"""When to look at the table: fine where it is shaken, long where nothing happens; the border type is `Ticks`."""
