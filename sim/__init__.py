@@ -7,6 +7,8 @@ loads no engine and a run no pictures. What is not named here may change without
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from parser import __version__ as __version__
+
 if TYPE_CHECKING:
     from parser.drawing.read import read_drawing
     from parser.findings.catalogue import texts
@@ -20,8 +22,6 @@ if TYPE_CHECKING:
     from sim.run.report import build_report
     from sim.setup.machine.machine import load_machine
     from sim.setup.scenario import Scenario, load_scenario
-
-__version__ = "0.1.0"
 
 __all__ = [
     "CheckSettings",

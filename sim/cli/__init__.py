@@ -7,8 +7,8 @@ import sys
 
 import click
 
+from parser import __version__
 from parser.findings.errors import DrycutError
-from sim import __version__
 from sim.cli.streams import prepare_streams
 
 _COMMANDS = {

@@ -3,7 +3,7 @@
 import json
 from typing import Any, Final
 
-from sim import __version__
+from parser import __version__
 from sim.run.ballbar.circle import Ballbar
 from sim.run.ballbar.figures import Direction, Figures
 from sim.run.ballbar.parts import DeviationParts, Reversal

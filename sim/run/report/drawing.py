@@ -6,8 +6,8 @@ from typing import Any, Final
 
 import numpy as np
 
+from parser import __version__
 from parser.findings.remarks import remark_text
-from sim import __version__
 from sim.measure.compare.result import Comparison, WorstPlace
 from sim.measure.compare.tables import by_block, by_entity, worst_places
 

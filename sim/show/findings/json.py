@@ -4,9 +4,9 @@ import json
 from collections.abc import Iterable, Iterator
 from typing import Any
 
+from parser import __version__
 from parser.findings.catalogue import Language, term, texts
 from parser.findings.findings import Edit, Finding
-from sim import __version__
 from sim.check.result import CheckResult, CheckState, Coverage
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import joined, spot, tidy

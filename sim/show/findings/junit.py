@@ -10,11 +10,11 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
+from parser import __version__
 from parser.findings.catalogue import Language, term
 from parser.findings.codes import CODES
 from parser.findings.findings import Finding
 from parser.text.excerpt import place
-from sim import __version__
 from sim.check.result import CheckResult, CheckState
 from sim.show.findings.options import Options
 from sim.show.findings.totals import BLOCKS

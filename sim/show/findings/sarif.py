@@ -14,10 +14,10 @@ from pathlib import PurePath
 from typing import Any
 from urllib.parse import quote
 
+from parser import __version__
 from parser.findings.catalogue import Language, page, term
 from parser.findings.codes import CODES, Check
 from parser.findings.findings import Edit, Finding
-from sim import __version__
 from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import clean, joined, spot, tidy

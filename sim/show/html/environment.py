@@ -7,7 +7,7 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from sim import __version__
+from parser import __version__
 from sim.show.draw.paints import DARK, LIGHT, Theme
 from sim.show.html.bundle import joined
 from sim.show.words import said

@@ -3,9 +3,9 @@
 from pathlib import Path
 from typing import Any
 
+from parser import __version__
 from parser.program import Program
 from parser.text.encoding import printable
-from sim import __version__
 from sim.run.course import course_of
 from sim.run.dryrun import verdict
 from sim.run.recording import Recording

@@ -24,8 +24,8 @@ def finding_entry(happening: Happening[Finding]) -> dict[str, Any]:
 
     It has its row and time, and its place where it knows that; None where no block that ran is meant.
     """
-    finding, values = happening.what, happening.what.values
-    place = [values[name] for name in ("x_mm", "y_mm") if name in values]
+    finding = happening.what
+    place_mm = finding.place_mm
     return {
         "code": finding.code,
         "severity": str(finding.severity),
@@ -33,7 +33,7 @@ def finding_entry(happening: Happening[Finding]) -> dict[str, Any]:
         "block": finding.block or None,
         "row": None if happening.row < 0 else happening.row,
         "t_s": None if math.isnan(happening.t_s) else rounded(happening.t_s),
-        "place_um": [rounded(from_mm(float(along))) for along in place] or None,
+        "place_um": None if place_mm is None else [rounded(from_mm(along)) for along in place_mm],
         "texts": {language: texts(finding, language)._asdict() for language in LANGUAGES},
     }
 

@@ -5,8 +5,8 @@ import platform
 from importlib import metadata
 from typing import Final, NamedTuple
 
+from parser import __version__
 from parser.text.encoding import encode_text
-from sim import __version__
 from sim.run.dryrun import DryRun
 from sim.setup.machine.machine import machine_sections
 from sim.setup.scenario import MACHINE_FILE, scenario_sections

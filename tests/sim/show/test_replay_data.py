@@ -593,3 +593,16 @@ def test_a_million_steps_are_small_and_soon_decoded(open_page: OpenPage) -> None
     assert (end, samples) == (document["end"][:2], LONG_STEPS // 5)
     assert t_s == pytest.approx(document["end"][2], abs=TICK_S)
     assert took_ms < 5_000.0
+
+
+def test_a_finding_lies_where_it_says_and_else_at_its_block() -> None:
+    with recorded(
+        read_program(SCENARIOS / "out-of-travel" / "program.3b"), load_scenario(SCENARIOS / "out-of-travel")
+    ) as of:
+        findings = {one.code: one for one in of.run.findings}
+        entries = {entry["code"]: entry for entry in replay_document(of)["findings"]}
+    assert entries["3B401"]["place_um"] is None  # its x_mm and y_mm are the travel of the table
+    assert entries["3B401"]["row"] == findings["3B401"].block - 1
+    assert entries["3B402"]["place_um"] == pytest.approx(
+        [1000.0 * at for at in findings["3B402"].place_mm or ()], abs=1e-6
+    )
