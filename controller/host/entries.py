@@ -23,9 +23,9 @@ class Drive(NamedTuple):
     Attributes
     ----------
     toolpath, limits, plan
-        The path, what its motion has to keep, and the plan that follows from that; the host sleeps by it.
+        The path, the limits that its motion has to keep, and the plan under these limits; the host sleeps by the plan.
     origin_um
-        Where the axes stand at the start, whole µm of the program; a start between them shifts all steps alike.
+        Where the axes stand at the start, whole µm of the program; a start between whole µm shifts all steps alike.
     interpolation
         How the card makes steps of the path.
     """

@@ -127,7 +127,7 @@ class Host:
         self.card.sleep(max((began + t_s - self.card.time_s) * 1e3, 1.0))
 
     def _start(self) -> None:
-        """Start the list with a servo period, so that what the card samples does not hang on the calls before."""
+        """Start the list with a servo period, so that what the card samples does not depend on the calls before."""
         card = self.card
         period_s, call_s = card.settings.servo_period_s, card.settings.call_s
         begins_s = math.ceil((card.time_s + call_s) / period_s) * period_s

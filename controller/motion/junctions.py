@@ -65,7 +65,7 @@ def junction_speeds(path: Path, rule: Junction, corner_angle_rad: float, acceler
             return _deviation_speeds(turn, deviation, _at_meetings(path, acceleration_um_s2))
         case CornerTime(time_s=time, acceleration_um_s2=acceleration):
             return _over(acceleration * time, 2.0 * np.sin(turn / 2.0))
-    # Left is the rule to stop at each block, whatever the turn.
+    # What remains is the rule to stop at each block, whatever the turn.
     return np.zeros_like(turn)
 
 

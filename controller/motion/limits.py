@@ -35,7 +35,7 @@ class MotionLimits(NamedTuple):
     acceleration_um_s2
         Longest acceleration vector, above 0.
     axis_speed_um_s, axis_acceleration_um_s2
-        Highest of each axis of the path, above 0.
+        Highest speed and acceleration of each axis of the path, above 0.
     start_speed_um_s
         What the table may start and stop with at once; no border need be passed more slowly.
     junction
@@ -110,7 +110,7 @@ def _speed_caps(path: Path, feed_um_s: Floats, acceleration: Floats, limits: Mot
 
 
 def _left_along(whole: Floats, bending: Floats) -> Floats:
-    """Acceleration (n,) left along the path by what bends it; all of it where that takes less than a billionth."""
+    """Acceleration (n,) left along the path when the bend has its part; all, where it takes less than a billionth."""
     share_sq = (bending / whole) ** 2
     return whole * np.where(share_sq < BENT_FOR_NOTHING, 1.0, np.sqrt(np.maximum(1.0 - share_sq, 0.0)))
 

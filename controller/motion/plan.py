@@ -111,7 +111,7 @@ class Plan:
         return np.divide(s, both, out=s, where=both > 0.0)
 
     def _invert_jerked(self, phase: Ints, along_um: Floats, since_s: Floats) -> None:
-        """Put the times since their phase's start in place of those of points in phases with jerk."""
+        """Overwrite the times since the phase's start, for points in phases with jerk."""
         points = np.flatnonzero(self.jerk_um_s3[phase])
         of = phase[points]
         span, time = np.diff(self.along_um)[of], np.diff(self.time_s)[of]
@@ -124,7 +124,7 @@ EMPTY_PLAN = Plan(np.zeros(1), np.zeros(1), np.zeros(0), np.zeros(0), np.zeros(0
 
 
 def plan_of(phases: Phases, wait_s: Floats) -> Plan:
-    """Plan of phases (n, k) of n rows with waits (n + 1,) s at their borders, but for phases of no length and time."""
+    """Plan of phases (n, k) of n rows with waits (n + 1,) s at their borders, save phases of no length and no time."""
     runs = np.flatnonzero((phases.span_um > 0.0) | (phases.time_s > 0.0))
     columns = [column.ravel()[runs] for column in phases]
     waits = np.flatnonzero(wait_s)
@@ -137,7 +137,7 @@ def plan_of(phases: Phases, wait_s: Floats) -> Plan:
 
 
 def on_borders(plan: Plan, border_um: Floats) -> Plan:
-    """The plan with its waits and its end just at borders (n + 1,) µm of rows.
+    """The plan with its waits and its end exactly at borders (n + 1,) µm of rows.
 
     Sums of phases differ from sums of rows in the last bits, and a border that the plan reaches behind its wait would
     count as reached after it.

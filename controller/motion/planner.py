@@ -143,7 +143,7 @@ def merged(limits: RowLimits) -> RowLimits:
 
 
 def _moving(limits: RowLimits) -> RowLimits:
-    """The rows with length; each border between them takes over what the borders and rows dropped there held back."""
+    """The rows with length; a border between them keeps the limits of all borders and rows that are dropped there."""
     moves = limits.length_um > 0.0
     rows, dropped = np.flatnonzero(moves), np.flatnonzero(~moves)
     falls_on = np.concatenate([[0], np.cumsum(moves)])

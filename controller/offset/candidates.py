@@ -53,7 +53,7 @@ def closed_ring(contour: Curves) -> ClosedContour:
 def candidates(ring: ClosedContour, offset_um: float, side: Side) -> Candidates:
     """Blocks moved by the offset to the side, and arcs about the corners that point to it.
 
-    Arcs with a radius of no more than the offset have no place at its distance from them, and are left out.
+    An arc with a radius of no more than the offset has no place for it on its inner side, and is left out there.
     """
     contour = ring.curves
     leaving, arriving = directions(contour)
@@ -68,7 +68,7 @@ def candidates(ring: ClosedContour, offset_um: float, side: Side) -> Candidates:
 
 
 def _moved(contour: Curves, leaving: Floats, arriving: Floats, left_um: float) -> tuple[Ints, Curves]:
-    """Rows of the blocks that have a place at the offset, and those moved to the left, or by < 0 to the right."""
+    """Rows of the blocks that have a place at the offset, and these moved to the left, or to the right if it is < 0."""
     radius = contour.radius_um - np.sign(contour.sweep_rad) * left_um
     kept = np.flatnonzero(~contour.is_arc | (radius * np.minimum(np.abs(contour.sweep_rad), 1.0) > SNAP_UM))
     shifted = Curves(

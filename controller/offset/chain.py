@@ -1,4 +1,4 @@
-"""Offset blocks joined one to the next, those left out that have no place between their neighbours."""
+"""Offset blocks joined one to the next; a block without a place between its neighbours is left out."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,9 +14,9 @@ from parser.geometry.curves import Floats, Ints
 
 _NONE = -1
 _LESS_SHORT = 0.5
-"""Of two reversed blocks at a corner one that lacks less than this share of the other's lack is given a new neighbour
-first: the corner may be that of the other alone. At shares near 1 the blocks of a fine spiral would go one by one."""
-_AS_SHORT = 1.0 - 1e-6  # where blocks are apart: those between a cusp and the place where its sides cross go one by one
+"""Where two neighbours both run backwards, one is spared for now if it lacks less than this share of the other's lack:
+once the other has gone, it may fit beside a new neighbour. At shares near 1 a fine spiral's blocks would go singly."""
+_AS_SHORT = 1.0 - 1e-6  # the same where blocks are apart: from a cusp to where its sides cross, they do go singly
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,7 +32,7 @@ class Chain:
     start_um, end_um
         (m, 2) where each begins and ends.
     bridge, corner_um, turn_rad
-        (m,), (m, 2), (m,) what lies behind each, of its `Joints`.
+        (m,), (m, 2), (m,) what lies behind each block, as in `Joints`.
     """
 
     early: Ints
@@ -102,7 +102,7 @@ def _left_out(chain: Chain, gone: Ints) -> Ints:
 
 
 def _loosen(chain: Chain, blocks: Blocks, touched: Ints) -> None:
-    """Give blocks that lost their joint at an end of an open section the whole of their way there."""
+    """Let blocks that are now the first or the last of an open section run to their own shifted ends there."""
     head, tail = touched[chain.early[touched] == _NONE], touched[chain.late[touched] == _NONE]
     chain.start_um[head] = blocks.shifted.start_um[head]
     chain.end_um[tail], chain.bridge[tail] = blocks.shifted.end_um[tail], Joining.NONE
@@ -131,7 +131,7 @@ def _lack(chain: Chain, blocks: Blocks, block: Ints) -> Floats:
 
 
 def turned_ends(chain: Chain, blocks: Blocks, arc: Ints) -> tuple[Floats, Floats]:
-    """Angles (k,) by which the start and the end of arcs lie farther on than where they begin and end unjoined."""
+    """Angles (k,) from each arc's own start to its joined start, and from its own end to its joined end, as it runs."""
     shifted = blocks.shifted
     low = shifted.start_angle_rad[arc]
     since = turned_rad(shifted, arc, low, chain.start_um[arc])
@@ -139,7 +139,7 @@ def turned_ends(chain: Chain, blocks: Blocks, arc: Ints) -> tuple[Floats, Floats
 
 
 def _shortest(chain: Chain, block: Ints, lack: Floats, is_apart: NDArray[np.bool_]) -> Ints:
-    """Reversed ones of the blocks (k,), without those beside one that lacks much more."""
+    """The reversed blocks among (k,) blocks, save those with a neighbour that lacks much more."""
     block = block[lack[block] > -np.inf]
     before, behind = chain.early[block], chain.late[block]
     share_before = np.where(is_apart[before], _AS_SHORT, _LESS_SHORT)

@@ -38,13 +38,13 @@ class Approaches(NamedTuple):
 def approaches(curves: Curves, path: Curves, below_um: float) -> Approaches:
     """Wherever the distance between a row of the path and a curve is extreme, and below a limit.
 
-    Extreme it is at the ends of either, where they cross, and where one normal is common to both.
+    The distance is extreme at the ends of either, where the two cross, and where they have a normal in common.
     """
     near = near_curves(curves, path, below_um)
     own, row = near.other, near.row
     found = [(own, row, places_at(path, own, share * path.length_um[own])) for share in (0.0, 1.0)]
     feet = [along_um(path, own, end[row]) for end in (curves.start_um, curves.end_um)]
-    # Of parallel ones any place is extreme: that amid their ends stands for all.
+    # Where the two run parallel every place is extreme: the middle one stands for all.
     found += [(own, row, places_at(path, own, along)) for along in (*feet, 0.5 * (feet[0] + feet[1]))]
     found += [_crossings(curves, path, own, row), *_common_normals(curves, path, own, row)]
     path_row, row, place = (np.concatenate(column) for column in zip(*found, strict=True))
@@ -57,18 +57,18 @@ _Places = tuple[Ints, Ints, Floats]  # rows of the path and of the curves, and p
 
 
 def _beside(path: Curves, own: Ints, place_um: Floats) -> Floats:
-    """Places of the path nearest to others."""
+    """Places of the path's rows that are nearest to the places (k, 2)."""
     return places_at(path, own, along_um(path, own, place_um))
 
 
 def _crossings(curves: Curves, path: Curves, own: Ints, row: Ints) -> _Places:
-    """Where rows of the path cross curves. What lies beyond an end is drawn to it, and is no extreme, but true."""
+    """Where rows of the path cross curves. A crossing beyond a row's end is moved to the end, a true place as well."""
     meets = curves_meet(joined([path.picked(slice(None)), curves.picked(slice(None))]), own, len(path) + row, 0.0)
     return meets.early, meets.late - len(path), _beside(path, meets.early, meets.place_um)
 
 
 def _common_normals(curves: Curves, path: Curves, own: Ints, row: Ints) -> tuple[_Places, ...]:
-    """Where a normal of the path is one of the curve: on an arc both ways from its centre, on a line beside one."""
+    """Places whose normal is the curve's too: on a line beside the curve's centre, on an arc both ways from its own."""
     on_line = np.flatnonzero(~path.is_arc[own] & curves.is_arc[row])
     a, b = own[on_line], row[on_line]
     made = [(a, b, _beside(path, a, curves.center_um[b]))]

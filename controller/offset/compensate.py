@@ -30,8 +30,8 @@ class _Rows(NamedTuple):
 class _Edges(NamedTuple):
     """Ends of k sections.
 
-    Their rows, whether those before and behind them lead in and out, their offset ends, and whether they have any
-    block left.
+    The first and the last row of each, whether the row before it leads in and the row behind it leads out, where its
+    offset begins and ends, and whether any of its blocks is left.
     """
 
     first: Ints
@@ -165,6 +165,6 @@ def _leads(toolpath: Curves, edges: _Edges) -> list[_Rows]:
 
 
 def _lines(start_um: Floats, end_um: Floats) -> Curves:
-    """Lines between places; what rounding leaves of one that leads nowhere has no length."""
+    """Lines between places; a line that is nothing but rounding gets the length 0."""
     lines = curves_between(start_um, end_um, np.full_like(start_um, np.nan), np.zeros(len(start_um)))
     return replace(lines, length_um=np.where(lines.length_um > NOTHING_UM, lines.length_um, 0.0))

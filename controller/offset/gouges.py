@@ -18,7 +18,7 @@ from parser.toolpath import Point
 
 TOLERANCE_UM = 0.05
 """Less is no fault: a twentieth of a step, and far more than rounding makes of places that should be one."""
-_JOINT_UM = 1e-3  # as near to an end of a curve, a place lies at the joint with the next one
+_JOINT_UM = 1e-3  # a place this near to an end of a curve lies at its joint with the next one
 _EQUAL_UM = 1e-6  # depths this near are one: far above the rounding of places
 _WALL_COS = np.cos(np.pi / 4.0)  # blocks that turn by less from one to the next are one wall
 
@@ -33,8 +33,8 @@ class Gouge(NamedTuple):
     place_um
         On the contour, beside the place of the path that cuts deepest.
     depth_um
-        How far the kerf's edge lies beyond the contour: the offset less the distance of the path from it; where the
-        path has crossed to the other side of it and not yet come nearer to another wall, the offset and the distance,
+        How far the kerf's edge lies beyond the contour: the offset less the distance of the path from the contour. Once
+        the path has crossed to the other side, and while no other wall is nearer, it is the offset plus the distance,
         up to twice the offset.
     """
 
@@ -93,7 +93,7 @@ def _deepest(depth_um: Floats, of: Ints, pairs: int) -> Floats:
 
 
 def _is_across(contour: Curves, close: Approaches, place_um: Floats, side: Side) -> NDArray[np.bool_]:
-    """(k,) True where the path lies on the other side of the contour, as far as the wall next to it tells."""
+    """(k,) True where the path lies on the other side of the curve, and no other curve of the contour is nearer."""
     way = _ways(contour, close.row, along_um(contour, close.row, place_um))
     by = close.place_um - place_um
     is_next = close.distance_um <= nearest_um(contour, close.place_um, float(close.distance_um.max())) + _EQUAL_UM
@@ -102,7 +102,7 @@ def _is_across(contour: Curves, close: Approaches, place_um: Floats, side: Side)
 
 
 def _ways(contour: Curves, row: Ints, length_um: Floats) -> Floats:
-    """Directions (k, 2) of a contour, at its joints midway through its turn; their lengths mean nothing."""
+    """Directions (k, 2) of a contour, at a joint midway between those of both blocks; not of unit length."""
     whole = contour.length_um[row]
     way = headings_along(contour, row, length_um)
     leaving, arriving = directions(contour)
@@ -116,8 +116,9 @@ def _ways(contour: Curves, row: Ints, length_um: Floats) -> Floats:
 def _groups(contour: Curves, path: Curves, cut: _Cut, offset_um: float, tolerance_um: float) -> Ints:
     """(k,) the gouge that each pair of rows belongs to.
 
-    Two rows of the path cut in one place where the joint between them is as near. So do two of the contour that are
-    one wall, without a corner between them, or of which one is cut at that corner alone, by one row of the path.
+    Two rows of the path that follow each other make one gouge in a row of the contour if the joint between them cuts
+    into it as well. Two rows of the contour that follow each other are cut in one gouge by a row of the path if it cuts
+    into their joint, and if they make one wall, or one of them is cut at this joint and by this row alone.
     """
     rows, below = len(contour), offset_um - tolerance_um
     own, row = np.divmod(cut.pair, rows)
@@ -137,7 +138,7 @@ def _groups(contour: Curves, path: Curves, cut: _Cut, offset_um: float, toleranc
 
 
 def _links(pair: Ints, wanted: Ints, linked: NDArray[np.bool_]) -> tuple[Ints, Ints]:
-    """Indices of linked pairs, and of the neighbours wanted of them that are pairs too."""
+    """Indices of the linked pairs whose `wanted` neighbour is a pair as well, and of these neighbours."""
     at = np.minimum(np.searchsorted(pair, wanted), len(pair) - 1)
     found = np.flatnonzero(linked & (pair[at] == wanted))
     return found, at[found]

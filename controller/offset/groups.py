@@ -23,9 +23,9 @@ def groups(count: int, one: Ints, other: Ints) -> Ints:
 
 
 def same_places(place_um: Floats, within_um: float) -> Ints:
-    """(m,) the least index of the places (m, 2) that each is one with, directly or through others in between.
+    """(m,) for each of the places (m, 2) the least index of those that are one with it, directly or through others.
 
-    Places within the distance are one; those three times as far apart are so only through others.
+    Two places within the distance are one. Two places three times as far apart are one only through others.
     """
     cells = np.floor(place_um / within_um - 0.5).astype(np.int64) @ _HASH
     cells = np.add.outer(cells, np.array([0, _HASH[0], _HASH[1], _HASH[0] + _HASH[1]])).ravel()

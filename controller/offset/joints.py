@@ -19,12 +19,12 @@ _SHARPEST_RAD = 0.5 * np.pi + 0.01
 _FARTHEST = 1.0 / np.cos(0.5 * _SHARPEST_RAD) + 1e-9
 """How far from its corner lengthened lines meet at most, per offset: √2 at 90°."""
 _BACK_RAD = np.pi - 1e-6
-"""Turn of a block back along the one before it, where rounding decides about the side; the wire goes round its end."""
+"""A block that turns more runs back along the one before it: rounding decides the side, the wire goes round the end."""
 _SMOOTH_UM = 0.01
-"""Ends of tangent blocks are as near as this: a turn of 1e-4 rad under an offset of 0.1 mm."""
+"""Blocks whose ends are this near are tangent: it is a turn of 1e-4 rad under an offset of 0.1 mm."""
 _TANGENT_UM, _FAR_PER_GAP = 2.0, 10.0
-"""Inner corners whose ends are as near are tangent, but for whole µm, where the blocks meet this many times as far off:
-arcs of one circle of 1 mm that miss each other by 1 µm may meet anywhere on it."""
+"""At an inner corner, blocks with ends this near are tangent, but for whole µm, if their curves meet this many times
+the gap away: arcs of one circle of 1 mm that miss each other by 1 µm may meet anywhere on it."""
 _FLAT_RAD = 1e-6  # of curves that meet; rounding of 1e-10 µm then moves the place by 1e-4 µm
 APART_UM = 1e-3
 """Blocks whose ends are farther apart than this have no corner: others between them have vanished."""
@@ -88,7 +88,7 @@ def joints(blocks: Blocks, early: Ints, late: Ints) -> Joints:
     is_far = met.is_met & (_length(met.place_um - middle) > _FAR_PER_GAP * wide)
     is_smooth = (wide <= _SMOOTH_UM) | (is_far & is_inner & ~is_apart & (wide <= _TANGENT_UM))
     is_one = is_smooth | (met.is_met & (is_apart | is_inner | lengthens))
-    # Of nearly tangent curves the place is ill-conditioned, but it lies between their ends.
+    # The place where nearly tangent curves meet is ill-conditioned, but it lies between their ends.
     is_middle = is_smooth & ~(_length(met.place_um - middle) <= wide)
     place = np.where(is_middle[:, None], middle, met.place_um)
     misses = ~is_one & is_inner & np.isnan(met.place_um[:, 0]) & (early != late)
@@ -115,7 +115,7 @@ def _turn(blocks: Blocks, early: Ints, late: Ints) -> Floats:
 
 
 def _met(blocks: Blocks, early: Ints, late: Ints, corner_um: Floats, is_apart: Bools) -> _Met:
-    """Where blocks meet nearest their corner; those that are apart cross there, no farther beyond them than offset."""
+    """Where blocks meet nearest their corner. Blocks that are apart must cross, and within an offset of their ends."""
     shifted = blocks.shifted
     places = prolonged_meet(shifted, early, late).place_um
     joint, which = np.nonzero(~np.isnan(places[:, :, 0]))
@@ -153,10 +153,10 @@ def _beyond(shifted: Curves, row: Ints, place_um: Floats, at_end: bool) -> Float
 
 
 def _too_small(blocks: Blocks, early: Ints, late: Ints, misses: Bools) -> tuple[Bools, Bools]:
-    """Which of blocks that ought to meet is an arc made smaller; of two the shorter, of equals both.
+    """Which of two blocks that should meet, and do not, is an arc made too small; of two arcs the shorter, or both.
 
-    An arc of radius R at an inner corner of angle θ misses the offset of a line where R (1 + cos θ) < 2 f. With R ≥ 2 f
-    it is no small arc, and the corner is sharp, or what lay between the two has vanished.
+    An arc of radius R at an inner corner of angle θ misses the offset f of a line where R (1 + cos θ) < 2 f. An arc of
+    R ≥ 2 f is not too small: its corner is sharp, or what lay between the two blocks has vanished.
     """
     smaller = (blocks.drawn.sweep_rad * blocks.left_um > 0.0) & (blocks.drawn.radius_um < 2.0 * abs(blocks.left_um))
     one, other = misses & smaller[early], misses & smaller[late]

@@ -50,9 +50,8 @@ class OffsetPath:
 def offset_toolpath(toolpath: Toolpath, path: OffsetPath) -> Toolpath:
     """Toolpath of the offset `path` of a `toolpath`: its exact curves, to be stepped like any other.
 
-    Where the program tells its blocks in words, so does its offset: in words of whole µm. Every row bears the source of
-    the block that it comes from, stops stand where they stood among these. Printed ends are those of blocks without
-    offset alone.
+    If the program has words, its offset has words too, in whole µm. Every row has the source of the block that it comes
+    from, and stops keep their places among these blocks. Only blocks without offset keep their printed ends.
     """
     row = path.source_row
     as_it_is = (path.made == Made.AS_IT_IS)[:, None]

@@ -55,9 +55,9 @@ def reach(contour: Curves, offset_um: float, side: Side) -> Reached:
 
     Notes
     -----
-    Along a curve at the offset from its block, a place is too near to the contour or not, and that changes only
-    where the curve crosses another such curve, of a block or a corner: slices between crossings are kept or left out
-    as a whole, by their middle.
+    Go along a curve at the offset from its block. It comes too near to the contour, or clear of it again, only where
+    it crosses another such curve, of a block or of a corner. So the curves are cut into slices at their crossings, and
+    the middle of a slice tells whether the whole slice is kept.
     """
     ring = closed_ring(contour)
     made = candidates(ring, offset_um, side)
@@ -72,7 +72,7 @@ def reach(contour: Curves, offset_um: float, side: Side) -> Reached:
 
 
 def _loop(made: Candidates, cut: Slices) -> OffsetLoop:
-    """A loop of slices, those behind each other on one curve made one."""
+    """A loop of slices; slices that follow each other on one curve become one."""
     on = (cut.row[1:] == cut.row[:-1]) & (cut.first_um[1:] == cut.last_um[:-1])
     first, last = np.flatnonzero(np.append(True, ~on)), np.flatnonzero(np.append(~on, True))
     row = cut.row[first]

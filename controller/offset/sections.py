@@ -37,8 +37,9 @@ class OffsetSection(NamedTuple):
 def sections_of(toolpath: Toolpath) -> tuple[OffsetSection, ...]:
     """The blocks of each contour that run along the drawing: its loop, without the lead-in and the lead-out.
 
-    As many blocks as lead in may lead out behind the loop; more of them run along the contour once more. A contour
-    without a loop, such as a parting cut, is drawn from its first block to its last.
+    As many blocks as lead in, at least one, may lead out behind the loop. If there are more blocks, they run along the
+    contour again, and only the last ones, as many as lead in, lead out. A contour without a loop, such as a parting
+    cut, is drawn from its first block to its last.
     """
     contours: list[list[int]] = runs(toolpath).tolist()
     loops = find_loops(toolpath, contour_rows(toolpath), np.arange(len(contours)))

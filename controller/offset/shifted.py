@@ -14,7 +14,7 @@ from parser.geometry.meets import prolonged_meet
 
 NOTHING_UM = 1e-6
 """No block is as short as this, and no radius as small: far below a step, far above the rounding of places."""
-_CORNER_PER_GAP = 10.0  # where blocks that close a contour meet; farther off they run side by side, without a corner
+_CORNER_PER_GAP = 10.0  # blocks that close a contour and meet farther off than so many gaps run side by side: no corner
 
 
 class Blocks(NamedTuple):
@@ -25,7 +25,7 @@ class Blocks(NamedTuple):
     row
         (m,) their rows in the toolpath.
     drawn, shifted
-        The blocks as they are drawn, those of a closed section with one corner where it closes; and moved aside.
+        The blocks as they are drawn, though a closed section has a corner where it closes; and the same moved aside.
     leaving, arriving
         (m, 2) directions at the start and the end of each.
     left_um
@@ -66,16 +66,16 @@ def shifted_blocks(toolpath: Curves, sections: Sequence[OffsetSection], left_um:
 
 
 def turned_rad(curves: Curves, row: Ints, from_rad: Floats, place_um: Floats) -> Floats:
-    """Angles (k,) in [−π, π), positive the way the arcs `row` (k,) run, from angles of theirs (k,) to places (k, 2)."""
+    """Angles (k,) in [−π, π) from `from_rad` (k,) to places (k, 2) about arcs `row` (k,), positive as each arc runs."""
     radial = place_um - curves.center_um[row]
     by = (np.arctan2(radial[:, 1], radial[:, 0]) - from_rad) * np.sign(curves.sweep_rad[row])
     return np.mod(by + np.pi, 2.0 * np.pi) - np.pi
 
 
 def closed_contour(contour: Curves) -> Curves:
-    """A closed contour without what its last block runs past its first one: a circle alone turns once.
+    """A closed contour whose last block ends where it meets the first one; a circle alone makes one turn.
 
-    Where the two run side by side, the contour stays as it is.
+    Where the two blocks run side by side and do not meet, the contour stays as it is.
     """
     first, last = np.array([0]), np.array([len(contour) - 1])
     if len(contour) == 1:

@@ -15,10 +15,10 @@ from parser.geometry.directions import headings_at
 from parser.geometry.distance import distance_to_curves
 from parser.geometry.meets import curves_meet
 
-_SHORT_UM = 1e-3  # shorter slices between two places that are one are rounding, longer ones go round
+_SHORT_UM = 1e-3  # a slice that ends where it starts is rounding if it is shorter than this, else it goes round
 _ALL = 1 << 62
 _CLEAR_SINE = 0.01  # of the angle between two curves; where they cross flatter than this, distances tell
-_BENT_UM = 1e-2  # smaller arcs turn by as much between two places that are one
+_BENT_UM = 1e-2  # arcs of a smaller radius turn too much between two places that are one
 
 
 class Slices(NamedTuple):
@@ -63,8 +63,8 @@ class _Cuts(NamedTuple):
 def open_slices(curves: Curves, side: Side) -> Slices:
     """Slices of all n curves, cut where two cross, and where one ends on another.
 
-    Every curve bars what lies next to it on the other side: of two slices that a crossing makes of a curve, one lies
-    there, and is left out.
+    Every curve bars its other side, where the contour is too near. A crossing makes two slices of a curve: one of them
+    lies on the side that the other curve bars, and is left out.
     """
     n = len(curves)
     ends = np.concatenate([curves.start_um, curves.end_um])
@@ -76,7 +76,7 @@ def open_slices(curves: Curves, side: Side) -> Slices:
 
 
 def _between(row: Ints, along: Floats, place_um: Floats, barred: Ints) -> Slices:
-    """Slices from each cut of a curve to the next, those that are barred at an end left out."""
+    """Slices from each cut of a curve to the next; a slice that is barred at one of its ends is left out."""
     order = np.lexsort((along, row))
     row, along, place_um, barred = row[order], along[order], place_um[order], barred[order]
     is_slice = (row[1:] == row[:-1]) & (along[1:] > along[:-1]) & (barred[:-1] <= 0) & (barred[1:] >= 0)

@@ -10,13 +10,13 @@ from parser.geometry.curves import Floats, Ints
 
 
 def stitched(cut: Slices, middle_um: Floats, clear_um: Floats, same_um: float) -> tuple[Ints, ...]:
-    """Slices of each loop by their indices, in order; a loop begins at its first slice, and so the loops are ordered.
+    """Indices of the slices of each loop, in order; a loop begins with its least index, and loops are in order of it.
 
     Parameters
     ----------
     middle_um, clear_um
-        (k, 2) places amid the slices and (k,) how far these are from what they must keep clear of: where more slices
-        end at a place than leave it, those that keep least clear are taken away.
+        (k, 2) middles of the slices, and (k,) how far these are from the contour. Where more slices end at a place than
+        leave it, or fewer, the one of the surplus that is least far from the contour is taken away.
     same_um
         Slices between the same places whose middles are this near are one.
     """
@@ -33,7 +33,7 @@ def _without_copies(cut: Slices, middle_um: Floats, same_um: float) -> Ints:
 
 
 def _balanced(cut: Slices, kept: Ints, clear_um: Floats) -> Ints:
-    """Those of the slices that are left when as many end at each place as leave it."""
+    """The slices that are left once as many of them end at each place as leave it."""
     while len(kept):
         number = len(cut.place_um)
         surplus = np.bincount(cut.tail[kept], minlength=number) - np.bincount(cut.head[kept], minlength=number)
@@ -54,9 +54,9 @@ def _least_clear(end: Ints, clear_um: Floats, surplus: NDArray[np.bool_]) -> Int
 
 
 def _next(cut: Slices) -> Ints:
-    """(k,) the slice behind each, among as many that leave each place as end there: its own way on where there is one.
+    """(k,) the slice that follows each; as many slices leave each place as end there.
 
-    Slices are in the contour's order, so that the way on is the next in number.
+    The next one in number follows where it can, since slices are in the contour's order.
     """
     count = len(cut.row)
     on = np.roll(np.arange(count), -1)
@@ -71,7 +71,7 @@ def _next(cut: Slices) -> Ints:
 
 
 def _walks(kept: Ints, following: Ints) -> tuple[Ints, ...]:
-    """Cycles of a permutation; slice by slice, for the order is what is asked for (0.1 µs each)."""
+    """Cycles of a permutation. They are walked slice by slice, since their order is asked for (0.1 µs a slice)."""
     order, ends, after = [], [0], following.tolist()
     for first in range(len(after)):
         at = first

@@ -13,7 +13,7 @@ _WITHIN_UM = 0.01  # a hundredth of a step
 
 
 class _Stretches(NamedTuple):
-    """Stretches (m,) of the rows `of` by lengths along them, and curves (p,) that may be nearest to a place of one."""
+    """Stretches (m,) of rows, from a length along each to another; pairs (p,) of a stretch and a curve near it."""
 
     of: Ints
     first_um: Floats

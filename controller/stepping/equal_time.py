@@ -23,7 +23,7 @@ ROUNDING_UM = 1e-6
 _AT_ONCE = 1 << 16
 """Periods and µm worked on at once: enough to spread the cost of array calls, and little memory."""
 _FEW = 2048
-"""Periods that are looked at one and all sooner than half pulses are searched."""
+"""Up to so many periods, it takes less time to look at every one than to search for half pulses."""
 _ULPS = 8.0 * np.finfo(np.float64).eps  # relative, of a few roundings in a row
 
 
@@ -126,7 +126,7 @@ class SampledMotion:
         )
 
     def periods(self, since: int, until: int) -> Iterator[Ints]:
-        """Periods after `since` up to `until`, or to one before it, outside which no rounded place changes."""
+        """Periods after `since`, up to `until` or to one before it, in which a rounded place may change, in chunks."""
         until = self._within_reach(since, until)
         if until - since <= _FEW:
             return iter((np.arange(since + 1, until + 1),))
@@ -136,7 +136,7 @@ class SampledMotion:
         return self._changes(since, until, float(low), float(high)).chunks()
 
     def _within_reach(self, since: int, until: int) -> int:
-        """A period so soon that no more than `_AT_ONCE` µm lie before it."""
+        """The period `until`, or one so soon after `since` that about `_AT_ONCE` µm at most lie between them."""
         if self._fastest_um_s * (until - since) * self._clock.period_s < _AT_ONCE:
             return until
         reach = self._along_um(np.array([since])) + _AT_ONCE
@@ -150,7 +150,7 @@ class SampledMotion:
         from_um, to_um = np.maximum(low_um - before, 0.0), np.minimum(high_um - before, length)
         found = doubts(self._path, Parts(row, from_um, to_um, self._doubt_um[row]))
         at = self._before_um[found.row]
-        # Spans overlap; sorted each by itself, their ends still cover the same lengths.
+        # Spans overlap. If begins and ends are sorted separately, the spans still cover the same lengths.
         begins, ends = self._period(np.sort(at + found.first_um)), self._period(np.sort(at + found.last_um))
         begins, ends = np.clip(begins, since + 1, until), np.clip(ends, since, until)
         return Spans(np.append(begins, until), np.append(ends, until)).apart()
@@ -180,7 +180,7 @@ class SampledMotion:
 def whole_pulses(place_um: Floats) -> Ints:
     """Places in whole pulses, half a pulse to the even side.
 
-    Of a half the last bits would decide, and they hang on how the path was cut: so they are rounded off before.
+    At half a pulse the last bits would decide, and they depend on how the path was cut. So they are rounded off before.
     """
     return np.rint(np.round(place_um, 6)).astype(np.int64)
 

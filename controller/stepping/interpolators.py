@@ -97,7 +97,7 @@ class PointByPoint:
         return self._taken < len(self._chunk.t_s)
 
     def _work_out(self) -> None:
-        """The next chunk, without steps that the plan ends before."""
+        """Work out the next chunk, without steps that come after the plan's end."""
         until = min(self._done + self._size, len(self._steps))
         chunk = self._steps.chunk(self._done, until)
         timed = time_steps(chunk, self._plan, self._began_s, self._from_um)
@@ -153,7 +153,7 @@ class EqualTime:
                 return
 
     def skip(self, until_s: float) -> None:
-        """Let the pulses of all periods that end by a time go unseen: `at_um` alone tells of them."""
+        """Skip the pulses of all periods that end by a time: nobody gets them, but `at_um` counts them."""
         if self._motion is None:
             return
         period_s = self._clock.period_s
@@ -176,7 +176,7 @@ class EqualTime:
         return tuple(self._places[ended - 1, 2:].tolist()) if ended else self._at_um[2:]
 
     def _work_out(self, until_s: float) -> bool:
-        """Make ready the pulses of the next periods, at least to the one that a time lies in; whether any are left."""
+        """Make ready the pulses of the next periods; False where the plan is over, or a time is reached already."""
         period = int(self._looked_at[-1])
         if self._motion is None or period >= self._motion.last or period * self._clock.period_s >= until_s:
             return False

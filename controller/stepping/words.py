@@ -15,18 +15,18 @@ def interpolate(toolpath: Toolpath) -> Steps:
 
 
 def words_of(toolpath: Toolpath) -> StepWords:
-    """Words to step a toolpath by: exactly those of its program, else such as end each block where it should."""
+    """Words to step a toolpath by: exactly those of its program, else words that end each block where it should end."""
     return stepped_words(toolpath) if toolpath.words is None else toolpath.words
 
 
 def stepped_words(curves: Curves) -> StepWords:
     """Words of n curves, all places in whole µm from where the first one begins; jumps are told as lines.
 
-    A controller counts its own pulses, so that rounding does not add up. All blocks are told and stepped at once, as
-    if each began at the whole µm next to its start; those that turn out to begin elsewhere are told again. A line ends
-    at the whole µm next to its end wherever it begins, and an arc mostly does not care either, so that passes over ever
-    fewer blocks suffice: 100,000 arcs without a line between them take 76 passes, and 4 times the work of one. After n
-    passes nothing can change any more.
+    A controller counts its own pulses, so that rounding does not add up. A first pass tells and steps all blocks, as if
+    each began at the whole µm next to its start. The next pass tells those again that turn out to begin elsewhere, and
+    so on. A line ends at the whole µm next to its end wherever it begins, and so do most arcs. So each pass has fewer
+    blocks: 100,000 arcs without a line between them take 76 passes, and 4 times the work of one. After n passes nothing
+    can change any more.
     """
     n = len(curves)
     origin = curves.start_um[:1]

@@ -1,4 +1,4 @@
-"""Curves to loops: what each entity runs through in one go, then end to end from entity to entity."""
+"""Curves to loops: first the curves that an entity runs through in one go, then end to end from entity to entity."""
 
 from typing import NamedTuple
 

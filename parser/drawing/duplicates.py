@@ -31,7 +31,7 @@ def drawn_once(curves: Curves, entity: Ints) -> Ints:
 
 
 def _labels(values: Floats) -> Ints:
-    """Numbers, of any shape, that are one number for values of which each is the same as the next larger one."""
+    """A number for each value, in the same shape; values that follow each other within `SAME_WITHIN_UM` share one."""
     order = np.argsort(values, axis=None)
     step = np.diff(values.ravel()[order], prepend=-np.inf) > SAME_WITHIN_UM
     label = np.empty(values.size, dtype=np.int64)

@@ -40,8 +40,8 @@ class JoinedEnds(NamedTuple):
 def joints(ends: Ends, loose: Ints, within_um: float) -> JoinedEnds:
     """Joints between the ends `loose` (l,) that are not farther apart than a distance.
 
-    The nearest two are joined first; of ends at one place strings without a free end at their other end go
-    first, and of these the two that run on straightest.
+    The nearest two ends are joined first. Of pairs that are equally near, those go first whose strings do not end free
+    at the other end, and of these the pair that runs on straightest.
     """
     pair, crowd = _near(ends.place_um[loose], within_um)
     pair = loose[pair]
@@ -57,7 +57,7 @@ def joints(ends: Ends, loose: Ints, within_um: float) -> JoinedEnds:
 
 
 def _order(ends: Ends, pair: Ints, by: Floats, free: NDArray[np.bool_]) -> Ints:
-    """Pairs in the order of their right, down to where they lie, so that the order of the file does not tell."""
+    """Pairs in the order in which they are joined. Where they lie decides at last, never the order of the file."""
     dead = free[pair ^ 1].sum(axis=1)
     bend = np.round((ends.out[pair[:, 0]] * ends.out[pair[:, 1]]).sum(axis=1), 6)
     place = ends.place_um[pair].mean(axis=1)

@@ -11,7 +11,7 @@ from parser.drawing.splines import flattened
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 
 _FARTHEST_UM = 1e10  # 10 km: no part is drawn there, and floating point still tells 0.001 µm apart
-_LONGEST_STEP_RAD = 0.5 * np.pi  # of an ellipse however small, so that it stays round the place it is round
+_LONGEST_STEP_RAD = 0.5 * np.pi  # of an ellipse, however small: its lines still go round its centre
 
 
 class Flat(NamedTuple):
@@ -125,7 +125,7 @@ def _is_slanted(forms: Floats) -> NDArray[np.bool_]:
 
 
 def _exact(forms: Floats) -> Curves:
-    """Lines, and circles as arcs; those whose arc is flatter than anything files tell are lines too."""
+    """Lines, and circles as arcs; an arc that is flatter than files can tell becomes a line too."""
     major = forms[:, MAJOR]
     radius = np.hypot(major[:, 0], major[:, 1])
     sweep = forms[:, SWEEP] * np.sign(_cross(major, forms[:, MINOR]))
@@ -140,8 +140,8 @@ def _exact(forms: Floats) -> Curves:
 def _chords(forms: Floats, rho: Floats, tolerance_um: float) -> tuple[Curves, Ints]:
     """Lines (m,) between places on ellipses (k,), and which ellipse each is of.
 
-    Over a step h of the angle, a chord lies h²/8 times the second derivative off the curve at most, which nowhere
-    exceeds half the length of the ellipse.
+    Over a step h of the angle, a chord lies off the curve by at most h²/8 times the second derivative. That is nowhere
+    more than half the length of the ellipse.
     """
     step = np.minimum(np.sqrt(8.0 * tolerance_um / np.maximum(rho, tolerance_um)), _LONGEST_STEP_RAD)
     parts = np.ceil(np.abs(forms[:, SWEEP]) / step).astype(np.int64)

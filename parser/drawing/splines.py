@@ -49,7 +49,7 @@ def _ends(spline: Spline) -> Floats:
 
 
 def _corners(spline: Spline) -> Floats:
-    """Parameters of the ends and of the knots between, where a spline may have corners, each span cut as its degree."""
+    """Parameters of the ends and the knots, where a spline may have corners; each span is cut into `degree` parts."""
     first, last = _ends(spline)
     knot = np.unique(np.clip(spline.knot, first, last))
     return _parted(knot, np.full(len(knot) - 1, spline.degree, dtype=np.int64))

@@ -21,8 +21,8 @@ def closure_tolerance_um(arcs: int) -> float:
 def ends_closed(toolpath: Toolpath, begin: int, past: int) -> bool:
     """Whether the figure of the rows from `begin` up to but without `past` ends where it should.
 
-    That is at its start or at another corner of its own, such as the end of its lead-in; or past that in an overcut,
-    one block that leaves such a corner in the direction of the block that it cuts once more.
+    It should end at its start, or at another of its corners, such as the end of its lead-in. It may also overcut: its
+    last block leaves such a corner in the direction of the block that it cuts once more.
     """
     last = past - 1
     if corners_at(toolpath, begin, past, toolpath.end_um[last]).size:

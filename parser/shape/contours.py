@@ -94,11 +94,11 @@ def _length(pair: Floats) -> float:
 
 
 def _returns(toolpath: Toolpath, before: Ints, last: int, arriving: Floats, tolerance_um: float) -> bool:
-    """Whether the row `last`, arriving so, ends at the start of a row of `before`, or on such a row in its direction.
+    """Whether the row `last`, `arriving` so, ends at the start of a row of `before`, or on such a row in its direction.
 
-    `before` are the rows up to the first pause: an end on what was cut after it is no closure, since a faulty figure
-    and the next one make one contour there. Neither is one back along the lead-in, short of its start: the direction
-    tells it from an overlap.
+    `before` are the rows up to the first pause. An end on what was cut after the pause is no closure: there a faulty
+    figure and the next one make one contour. Nor is an end on the way back along the lead-in, short of its start: its
+    direction tells it from an overlap.
     """
     end = toolpath.end_um[last]
     turned = abs(toolpath.sweep_rad[last])

@@ -20,7 +20,7 @@ FULL_TURN_UM = 4.0
 _COUNT_TOLERANCE_UM = 1  # a CAM may round X or Y and J apart
 _SMALL_UM = 100  # X:Y of a slope that was reduced are small numbers
 _SLOPE_UM = 1000  # X:Y of a slope by hand, such as 577:1000, are no longer than this
-_SLOPE_TIMES = 10  # J of a line whose X:Y is a slope and no length is so many times as long or longer
+_SLOPE_TIMES = 10  # where X:Y of a line is a slope and no length, J is at least so many times as long
 _WAYS = ("+X", "+Y", "−X", "−Y")
 
 
@@ -43,9 +43,10 @@ def ruled_label(words: StepWords) -> Ints:
 
 
 def counts_fit(words: StepWords) -> NDArray[np.bool_]:
-    """(n,) False on lines whose J is neither their length on the counted axis nor a multiple of a reduced one.
+    """(n,) False on lines whose J fits none of the ways in which a line is written.
 
-    Where X:Y is a slope in lowest terms, small against J, the J written by hand need not be a multiple.
+    J is the length on the counted axis, or a multiple of it where X and Y are reduced. Where X:Y is a slope in lowest
+    terms and small against J, a J written by hand need not be a multiple.
     """
     counted = _counted(words)
     line = (words.turn == 0) & (counted > 0) & (words.count_um > 0)
@@ -89,7 +90,7 @@ def _neighbour_labels(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]
 
 
 def _line_counts(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
-    """Counts of lines that are neither the length on the counted axis nor a multiple of a reduced one."""
+    """Counts of lines that do not fit (3B208), or are a multiple though X and Y are not reduced (3B209)."""
     words = decoded_words(toolpath)
     counted = _counted(words)
     off = ~counts_fit(words)
@@ -120,7 +121,7 @@ def _turns(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
 
 
 def _radii(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
-    """Radii that 4B arcs write beside an X and Y that mean another."""
+    """Radii of 4B arcs that differ from the radius that their X and Y give."""
     written = decoded_words(toolpath).radius_um
     off = (written > 0) & toolpath.is_arc & (np.abs(written - toolpath.radius_um) > RADIUS_TOLERANCE_UM)
     for row in np.flatnonzero(off).tolist():

@@ -74,7 +74,7 @@ def _reading(records: Records, toolpath: Toolpath, counts: BlockCounts) -> Readi
 
 
 def _up_to_end(records: Records) -> tuple[Records, list[Finding], int]:
-    """Records without what stands after the end code, finding 3B103 where blocks do, and how many of these are damaged.
+    """Records up to the end code; finding 3B103 where blocks stand after it; and how many of these are damaged.
 
     Marks before the first block are words of the header.
     """

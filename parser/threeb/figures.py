@@ -58,10 +58,10 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
 
     Notes
     -----
-    Up to three lines alone between two pauses (wire out, wire in) are jumps, however badly the figure before them
-    closed, unless they close it: then they are its last cut, behind the pause in which the slug is clamped. More of
-    them are a figure with the jump to it. Else the first line after a pause is the jump if the figure before is closed,
-    and if the next one does not need that line to close.
+    Up to three lines alone between two pauses (wire out, wire in) are jumps, even if the figure before them did not
+    close. But if they close it, they are its last cut, behind a pause in which the slug is clamped. More blocks after a
+    pause are a figure with the jump to it: their first line is the jump if the figure before is closed, and if their
+    own figure does not need that line to close.
     """
     rows: list[int] = []
     begin = 0  # first row of the figure being cut

@@ -18,7 +18,7 @@ from parser.toolpath import Toolpath
 from parser.units import UM_PER_MM
 
 _HALF_DIGITS = 3.0
-"""A print off by this many halves of its last digit is wrong: 2 µm of a block are, rounded to 1 µm, 1.5 µm or more.
+"""A printed end that is off by this many halves of its last digit is wrong: 2 µm, rounded to 1 µm, are 1.5 µm or more.
 
 Sound ends, rounded to half a digit on both axes, lie within 2·sqrt(2) halves of one another."""
 _FINEST_HALF_DIGIT_UM = 0.5  # blocks are whole µm
@@ -39,10 +39,10 @@ def print_findings(toolpath: Toolpath, header: Header, lines: LineIndex, damaged
 
 
 def _misprinted_rows(toolpath: Toolpath, missing: Ints) -> list[int]:
-    """Rows at which the printed end leaves the decoded end by more than at the last of them; at first, by more than 0.
+    """Rows at which the printed end begins to lie off the decoded end, or to lie off it by another way than before.
 
-    The first row with a printed end behind a missing block is none, of which there are some before the rows `missing`;
-    nor is the one behind a printed end that alone is wrong.
+    Before the rows `missing` blocks are missing: the first printed end behind such a gap is not judged, and the next
+    ones are compared with it. Where one printed end alone is wrong, the next ones are compared with those before it.
     """
     rows, off = _shifts(toolpath)
     if not _may_be_apart(off).any():
@@ -62,7 +62,7 @@ def _misprinted_rows(toolpath: Toolpath, missing: Ints) -> list[int]:
 
 
 def is_misprint(toolpath: Toolpath, row: int) -> bool | None:
-    """Whether the end printed beside a row is wrong and not its block: the next printed end is as the ones before.
+    """Whether the end printed beside a row is wrong, and not its block: then those before and after it agree.
 
     None where no printed end follows that could tell.
     """
@@ -72,7 +72,7 @@ def is_misprint(toolpath: Toolpath, row: int) -> bool | None:
 
 
 def _shifts(toolpath: Toolpath) -> tuple[Ints, Floats]:
-    """Rows (m,) with printed ends, and (m + 1, 2) µm by which they lie off the decoded ones, from the start on."""
+    """Rows (m,) with printed ends, and how far (m + 1, 2) µm these lie off the decoded ones; (0, 0) for the start."""
     rows = np.flatnonzero(~np.isnan(toolpath.printed_end_um[:, 0]))
     return rows, np.concatenate([np.zeros((1, 2)), toolpath.printed_end_um[rows] - toolpath.end_um[rows]])
 
@@ -110,9 +110,9 @@ def _print_span(toolpath: Toolpath, row: int) -> tuple[int, int]:
 
 
 def print_change(toolpath: Toolpath, row: int) -> Floats:
-    """(2,) µm by which the end printed beside a row lies off from where the row leads to from the end printed before.
+    """(2,) µm from where the path leads, if it runs on from the last end printed before a row, to the row's own one.
 
-    Without an end printed before, from where the program starts.
+    Where no end is printed before, the path runs on from where the program starts.
     """
     rows, off = _shifts(toolpath)
     at = int(np.searchsorted(rows, row)) + 1
@@ -121,7 +121,7 @@ def print_change(toolpath: Toolpath, row: int) -> Floats:
 
 
 def ends_as_printed(toolpath: Toolpath, row: int) -> bool:
-    """Whether a row leads to the end printed beside it from the one printed before; False where none is printed."""
+    """Whether the path leads from the last printed end to the one printed beside a row; False where none is printed."""
     if np.isnan(toolpath.printed_end_um[row]).any():
         return False
     return not _apart(toolpath, row, print_change(toolpath, row).tolist(), (0.0, 0.0))
@@ -150,9 +150,9 @@ def _wrong_lengths(toolpath: Toolpath, header: Header, lines: LineIndex) -> Iter
 
 
 def _lengths(runs: list[Floats], after: int, past: int) -> Floats:
-    """Lengths that a header may mean, µm: the cut or the whole way, of all, of what follows it, of its own figure.
+    """Lengths that a header may mean, µm: of the cuts or of the whole way, in all, behind it, or in its own figure.
 
-    `runs` are the lengths of both before each row and after the last.
+    `runs` are the cuts and the whole way, each as its length before each row and after the last.
     """
     meant = [(run[-1], run[-1] - run[after], run[past] - run[after]) for run in runs]
     return np.array(meant).ravel()

@@ -14,11 +14,11 @@ _B = re.compile("B", re.IGNORECASE)
 
 
 def without_strays(raw: RawBlocks, covered: list[int], folded: str) -> tuple[RawBlocks, list[int]]:
-    """3B blocks that took the last number of a damaged block before them for their own first get it off again.
+    """Take from 3B blocks the number that they took from a damaged block before them, as if it were their own first.
 
-    ``B1B2B3 B4B5B6GXL1`` holds a block without its end and a whole one, not a 4B block ``B3B4B5B6GXL1``: it is one
-    only in a program of 4B blocks and with an R as 4B has it, or with a curve mark. In ``B5 B1B0B1GXL1`` the last three
-    numbers make a line.
+    ``B1B2B3 B4B5B6GXL1`` holds a block without its end and a whole 3B block, not a 4B block ``B3B4B5B6GXL1``. Four
+    numbers make a 4B block only with a curve mark, or in a program of 4B blocks and with an R as 4B has it. In
+    ``B5 B1B0B1GXL1`` the last three numbers make a line.
     """
     is_four = raw.radius_um >= 0
     stray = is_four & (raw.curve == 0)
@@ -46,9 +46,9 @@ def without_strays(raw: RawBlocks, covered: list[int], folded: str) -> tuple[Raw
 
 
 def misfits(raw: RawBlocks) -> list[int]:
-    """Rows of four numbers that are damaged: lines with a radius and, among 3B blocks, an R that X and Y do not make.
+    """Rows of four numbers that are damaged: lines with a radius and, among 3B blocks, arcs whose R is not of X and Y.
 
-    With a curve mark, or in a program of 4B blocks, such an arc is a 4B block whose R is wrong.
+    An arc with a curve mark, or in a program of 4B blocks, is no damaged block then, but a 4B block whose R is wrong.
     """
     is_four = raw.radius_um >= 0
     if not is_four.any():
@@ -62,7 +62,7 @@ def misfits(raw: RawBlocks) -> list[int]:
 
 
 def left_out(raw: RawBlocks, covered: list[int], rows: list[int]) -> tuple[RawBlocks, list[int]]:
-    """Blocks without the rows, and what tokens cover without their blocks; printed ends stay covered."""
+    """The blocks without these rows, and what tokens cover without their text; printed ends stay covered."""
     edges = np.array(covered, dtype=np.int64)
     edges[np.searchsorted(edges[1::2], raw.span[rows, 0], side="right") * 2 - 1] = raw.span[rows, 1]
     columns = {name: np.delete(column, rows, axis=0) for name, column in raw._asdict().items() if name != "label"}

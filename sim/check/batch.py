@@ -60,7 +60,7 @@ def check_program(program: Program, settings: CheckSettings = _DEFAULTS) -> Chec
 
 
 def _mendable(program: Program, checked: Checked) -> tuple[Finding, ...]:
-    """The findings with their edits; those of all, since what is not shown may speak against a mend."""
+    """All findings with their edits, also those that are not shown: they may speak against a mend."""
     if not checked.findings:
         return ()
     from sim.check.fixes import with_edits  # noqa: PLC0415 - a sound program needs no mend, and starts sooner
@@ -85,7 +85,7 @@ def _excerpts(lines: LineIndex, text: str, findings: Iterable[Finding]) -> dict[
 
 
 def _unreadable(job: Job, data: bytes, why: Finding, others: tuple[Finding, ...]) -> CheckResult:
-    """Result of a file that holds no program: why not always shows, and of the others what was asked for."""
+    """Result of a file that holds no program: the finding `why` always shows, the others as the settings ask."""
     excerpts: dict[int, str] = {}
     findings = (why, *others)
     if any(finding.line for finding in findings):

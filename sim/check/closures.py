@@ -17,11 +17,11 @@ from parser.shape.loops import end_in_waste
 STEPPED_CLOSURE_UM = 12.0
 """A sound arc may end up to 9.9 µm off when stepped (sim/check/count_axes.py)."""
 STEPPED_CLOSURE_UM_PER_ROOT_ARC = 6.0
-"""Arcs end about 2 µm off, each in its own direction: of many the sum grows as the root of their number. Three times
-that is not met by chance."""
+"""Arcs end about 2 µm off, each in its own direction, so the sum of many grows as the root of their number. Three times
+that does not happen by chance."""
 
 MOST_SUSPECTED = 50
-"""Contours of a program of which the broken block is looked for: where more do not close, it is no slip of a digit."""
+"""Contours of a program in which a broken block is looked for. If more stay open, the cause is no slip of a digit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,11 +44,11 @@ def contour_findings(
 ) -> list[Finding]:
     """Open contours (3B301) with their suspects (3B304) unless they may stay open; poor stepped closure (3B302).
 
-    `rows` (n,) is each row's contour. One whose loop is closed may be left by another way than it was entered (3B311).
-    A block that is `known` to be wrong explains its contour: no other is suspected then, nor is its stepped closure
-    named. Of the contours that neither close nor are explained the first `MOST_SUSPECTED` get suspects: also those that
-    run forward, since a triangle with a wrong quadrant does so too; hardly a parting cut has a block that would close
-    it.
+    `rows` (n,) is each row's contour. A contour with a closed loop may lead out elsewhere than it led in (3B311). A
+    block that is `known` to be wrong explains its contour: then no other block is suspected, and the stepped closure is
+    not named. Of the contours that neither close nor are explained, the first `MOST_SUSPECTED` get suspects. Among them
+    are contours that only run forward: a triangle with a wrong quadrant does so too, and a parting cut hardly ever has
+    a block that would close it.
     """
     guilty = np.sort(np.array([finding.block for finding, _ in telling(known, WrongBlock)], dtype=np.int64))
     found: list[Finding] = []
@@ -81,7 +81,7 @@ def contour_findings(
 def _left_elsewhere(program: Program, rows: Ints, contours: list[Contour]) -> set[int]:
     """First blocks of those open contours whose loop is closed, and whose lead-out ends in the waste.
 
-    What ends within some µm of its start was to end there.
+    A contour that ends within some µm of its start was to end there, and is not among them.
     """
     far = (contour.first for contour in contours if contour.closure_exact_um > CLOSED_WITHIN_UM)
     first = np.fromiter(far, dtype=np.int64)
@@ -112,7 +112,7 @@ def _ends_of(contour: Contour) -> dict[str, Value]:
 
 
 def _suspects(program: Program, contour: Contour) -> list[Finding]:
-    """Notes at blocks of which one changed field would close the contour."""
+    """Notes at blocks that would close the contour if one of their fields were written otherwise."""
     if program.mender is None:
         return []
     found = program.mender.suspects(program.toolpath, contour.first - 1, contour.last)

@@ -25,7 +25,7 @@ _EITHER_AXIS_UM = 5.0  # so near 45° rounding decides which axis the rule names
 
 @dataclass(frozen=True, slots=True)
 class WrongAxis(WrongBlock):
-    """The block counts on the other axis than the one that is `ruled`; on that it would have the J `count_um`."""
+    """The block does not count on the axis that the rule names, `ruled`; on that axis its J would be `count_um`."""
 
     ruled: Axis
     count_um: int

@@ -33,7 +33,7 @@ PATH_CHECKS = (Check.STEPS, Check.CONTOURS, Check.SENSES, Check.CROSSINGS, Check
 
 
 class Demands(NamedTuple):
-    """What a program is held against.
+    """What a program is checked against.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Checked(NamedTuple):
     steps
         Of the program; None where they were not worked out.
     contours, judged
-        All contours, and those of them that no damaged block leaves open.
+        All contours, and those with no damaged block in or beside them and no block that never ends.
     """
 
     findings: tuple[Finding, ...]
@@ -102,7 +102,7 @@ def too_many_steps(program: Program, steps: Steps) -> list[Finding]:
 
 
 class _PathChecks:
-    """The checks that look at the path, with their states; what a damaged block leaves open is not judged."""
+    """The checks that look at the path, with their states. Contours with a damaged or endless block are not judged."""
 
     def __init__(self, program: Program, steps: Steps, contours: tuple[Contour, ...], demands: Demands) -> None:
         self._program, self._steps, self._demands = program, steps, demands
@@ -123,7 +123,7 @@ class _PathChecks:
         closures = contour_findings(program, self.judged, self._rows, known, may_stay_open=demands.may_stay_open)
         yield from closures
         self._done(Check.CONTOURS, self._left_out)
-        rows = _closed(self._rows, closures)  # where an open contour runs follows from why it is open
+        rows = _closed(self._rows, closures)  # an open contour may not run where it was meant to
         open_ones = "" if rows is self._rows else "reason-open"
         yield from _undoubted(sense_findings(program, rows), known)
         self._done(Check.SENSES, self._left_out or open_ones)
@@ -166,13 +166,13 @@ class _PathChecks:
 
 
 def _closed(rows: Ints, closures: list[Finding]) -> Ints:
-    """The contour column without the contours that are found open; itself where there are none."""
+    """The contour column with −1 for contours that were found open; the same array where there are none."""
     ends = np.array([finding.block - 1 for finding, _ in telling(closures, OpenContour)], dtype=np.int64)
     return np.where(np.isin(rows, rows[ends]), -1, rows) if len(ends) else rows
 
 
 def _undoubted(senses: list[Finding], known: tuple[Finding, ...]) -> list[Finding]:
-    """Those findings about arcs that no wrong count length or end, of the arc or of a neighbour, explains."""
+    """Findings about arcs, save where a wrong count length or end explains one: of the arc itself or of a neighbour."""
     doubtful = {finding.block for finding, _ in telling(known, DoubtfulEnd)}
     return [finding for finding in senses if not doubtful & {finding.block - 1, finding.block, finding.block + 1}]
 
@@ -200,7 +200,7 @@ def _parser_states(program: Program) -> tuple[CheckState, ...]:
 
 
 def _state_of(program: Program, name: Check, reason: str) -> CheckState:
-    """State of a check that stops short for a reason, if any, and was not asked for where the text gives no cause."""
+    """State of a check: not asked where the text gives no cause for it, else incomplete if there is a reason."""
     causeless = program.reading.not_asked.get(name)
     return CheckState(name, "not asked", causeless) if causeless else CheckState(name, *_state(reason))
 

@@ -1,4 +1,4 @@
-"""Certain mends of findings, as edits of the program's text; and the possible ones among which a person may choose."""
+"""Certain mends of findings, as edits of the program's text; and possible mends, for a person to choose from."""
 
 import re
 from bisect import bisect_right
@@ -22,7 +22,7 @@ from sim.check.engine import Checked
 _MOST_PRINTED = 50  # printed ends that are mended; where more are wrong, it is not by slips in single blocks
 _LINE_END = re.compile(r"\r\n|\r|\n")
 _SETTLED = (Field.COUNT, Field.AXIS)
-"""Fields that a printed end settles: the others shape the path on the way to it too."""
+"""Fields that a printed end settles. The others also change the path on the way to that end."""
 _LETTERS = {Field.X: "X ", Field.Y: "Y ", Field.COUNT: "J "}
 
 
@@ -34,7 +34,7 @@ class Choice(NamedTuple):
 
 
 def with_edits(program: Program, checked: Checked) -> tuple[Finding, ...]:
-    """All findings of a program, each with the edits that certainly mend it; one may make another uncertain."""
+    """All findings of a program, each with the edits that certainly mend it; other findings may make them uncertain."""
     if program.mender is None:
         return checked.findings
     mends = _Mends(program, program.mender, checked)
@@ -42,7 +42,7 @@ def with_edits(program: Program, checked: Checked) -> tuple[Finding, ...]:
 
 
 def choices(program: Program, finding: Finding, findings: tuple[Finding, ...]) -> tuple[Choice, ...]:
-    """Mends of a finding, each enough alone; one or none leave no choice."""
+    """Possible mends of a finding, each enough alone; there is a choice only where there are two or more."""
     block = finding.block
     match finding.fact:
         case PrintedElsewhere() if program.mender is not None:
@@ -67,7 +67,7 @@ def choices(program: Program, finding: Finding, findings: tuple[Finding, ...]) -
 
 
 class _Mends:
-    """Certain mends of one program: what is known of the ends of its blocks, and who is suspected where they are not.
+    """Certain mends of one program, by what its findings say: which ends are doubtful, and which blocks are suspected.
 
     Blocks are numbered from 1.
     """
@@ -113,7 +113,7 @@ class _Mends:
         text, reading = self._program.text, self._program.reading
         if any(damage.after >= reading.counts.run for damage in reading.damages):
             return ()
-        at = len(text.rstrip("\x1a\0"))  # DOS ends a text with the one, and fills its last sector with the other
+        at = len(text.rstrip("\x1a\0"))  # DOS ends a text with ^Z, and fills its last sector with NUL
         match = _LINE_END.search(text)
         newline, end = match[0] if match else "\n", reading.spelling.end
         return (Edit(at, at, f"{end}{newline}" if text[:at].endswith(("\r", "\n")) else f"{newline}{end}"),)
@@ -135,7 +135,7 @@ class _Mends:
     def _printed_end(self, block: int) -> tuple[Edit, ...]:
         """The one count length or count axis with which the block ends where it is printed to end.
 
-        Nothing where the printed end may be what is wrong: the next one, or a closed contour, tells.
+        Nothing where the printed end itself may be wrong: the next printed end tells, or else a closed contour.
         """
         if self._misprinted > _MOST_PRINTED:
             return ()

@@ -48,7 +48,7 @@ def _loops(toolpath: Toolpath, contour: Ints) -> tuple[Ints, Ints]:
 
 
 def _latest_return(toolpath: Toolpath, contour: Ints) -> Ints:
-    """(n,) the latest row of its contour at whose start each row ends, −1 where there is none.
+    """(n,) for each row the latest row of its contour that starts where it ends; itself for a circle, −1 for none.
 
     Places within 5 µm of each other share a cell of one of four grids of 10 µm that lie 5 µm apart.
     """

@@ -49,7 +49,7 @@ def remains_of(program: Program, trace: Trace, contours: tuple[Contour, ...], sc
 def pieces_left(
     remains: Remains | None, program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario
 ) -> Pieces:
-    """Pieces of a run: those of what it leaves, worked out from the rest where nobody had asked for that."""
+    """Pieces of a run: those of its remains, or worked out here where nobody asked for the remains."""
     if remains is not None:
         return remains.pieces
     return _pieces(kerf_of(program.toolpath, trace, contours, scenario.wire.reach_um), scenario)

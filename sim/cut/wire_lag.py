@@ -4,17 +4,17 @@ The discharges press the middle of the wire back against its advance, always wit
 tension pulls it toward the line of its guides. So it advances only where it hangs behind by the full lag, and then
 straight toward the guides; nearer to them it stays where it has cut, for the slot behind it is open. That is dragging
 a load on a rope: in the plane the way of the wire is the tractrix of the way of its guides, and where the rope is slack
-the sweeping process by a disc (J. J. Moreau, J. Differential Equations 26 (1977) 347). That the force keeps its amount
-whatever the turn is assumed. What the lag does to parts is measured in A. B. Puri, B. Bhattacharyya, Int. J. Machine
-Tools & Manufacture 43 (2003) 151, to straight cuts in S. K. Sinha, Int. J. Engineering Science and Technology 2 (2010)
-6622, and to circles in S. Sarkar et al., Precision Engineering 35 (2011) 339.
+the sweeping process by a disc (J. J. Moreau, J. Differential Equations 26 (1977) 347). We assume that the force keeps
+its amount in every turn. What the lag does was measured on parts by A. B. Puri, B. Bhattacharyya, Int. J. Machine Tools
+& Manufacture 43 (2003) 151, on straight cuts by S. K. Sinha, Int. J. Engineering Science and Technology 2 (2010) 6622,
+and on circles by S. Sarkar et al., Precision Engineering 35 (2011) 339.
 
 * Straight on, it runs exactly behind its guides.
 * Round a corner of φ₀ ≤ 90° it turns as tan(φ/2) = tan(φ₀/2) e^(−s/lag) over the way s of the guides.
 * Past a turn of more than 90° it waits until the guides are at the full lag again, 2 lag |cos φ₀| on, and then turns
   as from a corner of π − φ₀.
-* On a circle of R > lag it comes to the circle of √(R² − lag²). Of R ≤ lag it cuts none: it winds inward, and stays
-  where the guides no longer reach the full lag from it.
+* When the guides go round a circle of R > lag, it comes to the circle of √(R² − lag²). When R ≤ lag it cuts no circle:
+  it winds inward, and stays where the guides no longer reach the full lag from it.
 """
 
 from dataclasses import replace
@@ -31,7 +31,7 @@ Complexes = NDArray[np.complex128]
 _Entry = TypeVar("_Entry", bound=np.generic)
 
 _AGREE_UM = 1e-9
-"""Stretches whose ends and beginnings differ by less are joined: of two wires the distance never grows."""
+"""A stretch may begin this far from where the one before it ended: two wires on the same way never move apart."""
 
 
 class _Moves(NamedTuple):
@@ -53,8 +53,8 @@ def bowed(trace: Trace, toolpath: Toolpath, lag_um: float) -> Trace:
     """The trace with the place of a wire that bows back by up to `lag_um`; the table is where the guides are.
 
     At the start of a cut the wire is straight. On jumps there is no discharge, and it goes with its guides. Between
-    two samples the guides move straight; the way of the wire is exact for that, so it hangs on no step of its own.
-    The steps of 1 µm are in the guides' way, and a lag that is long beside them smooths them.
+    two samples the guides move straight. For that the wire's way is exact, and so it depends on no step size. The
+    guides' way has steps of 1 µm, and a lag much longer than that smooths them.
     """
     if lag_um <= 0.0:
         return trace
@@ -84,7 +84,7 @@ def _behind(guides_um: Floats, cuts: Bools, lag_um: float) -> Floats:
 
 
 def _stretches(guides_um: Floats, cuts: Bools) -> _Moves:
-    """About as many stretches as each has moves, filled up with moves of no length."""
+    """The moves cut into stretches, about as many as each has moves; the last is filled up with moves of no length."""
     n = len(cuts)
     width = int(np.ceil(np.sqrt(n)))
     filled = -(-n // width) * width

@@ -1,4 +1,4 @@
-"""The table follows: pulses stream in, slab by slab it moves, and what is kept does not grow with the ticks."""
+"""The table follows the pulses as they stream in, slab by slab; what it keeps does not grow with the ticks."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -37,11 +37,11 @@ class Setup(NamedTuple):
     start_um
         Place of the program's start on the table, from the corner of the travel.
     origin_um
-        The same in program coordinates, where the pulses begin.
+        The same place in program coordinates, where the pulses begin.
     slow
         What slow steps do to its slides (`sim.table.solve.trial`).
     speed_limit_um_s
-        Of X and Y, that their peaks are held against; infinite where there is none.
+        Speed limits of X and Y, for their peaks; infinite where there is none.
     """
 
     model: TableModel
@@ -59,7 +59,7 @@ class Setup(NamedTuple):
 
 
 class Following:
-    """A table that follows pulses, standing still at the program's start; `ticks` tell when it is worked out."""
+    """A table that follows pulses, from rest at the program's start; `ticks` tell when its motion is worked out."""
 
     def __init__(self, setup: Setup, ticks: Ticks) -> None:
         self._setup, self._ticks = setup, ticks
@@ -74,7 +74,7 @@ class Following:
         # Slabs end where the trace has a sample, so that no long tick is cut off from what follows it.
         self._ends = np.flatnonzero(ticks.sampled) + 1
         self._ticks_before = np.concatenate([[0], np.cumsum(_likely_parts(ticks, rhythm(setup.model)))])
-        self._share = 1.0  # of the ticks that are likely, those that the last slab really had
+        self._share = 1.0  # of the likely ticks: how many of them the last slab really had
         self._done = 0
         samples = len(self._ends) + 1
         self._t_s, self._row = np.zeros(samples), np.zeros(samples, dtype=np.int64)
@@ -101,7 +101,7 @@ class Following:
         return done_s - max(RATE_WINDOW_S, float(self._ticks.t_s[self._done]) - done_s)
 
     def _advance(self, until_s: float, *, whole: bool) -> None:
-        """Follow up to a time; a slab that is not yet full waits unless the `whole` rest is asked for."""
+        """Follow up to a time; the last slab waits while it is not full, unless `whole` asks for all of it."""
         setup = self._setup
         for part in self._slabs(until_s, whole=whole):
             slab = slab_of(self._ticks, part, self._motors, setup.model, self._felt_s)
@@ -122,7 +122,7 @@ class Following:
         return min((loss.t_s for loss in self._losses.result() if loss.kind == "trip"), default=np.inf)
 
     def _slabs(self, until_s: float, *, whole: bool) -> Iterator[slice]:
-        """Stretches of each slab of about `SLAB_TICKS`, up to a time."""
+        """Cut the stretches up to a time into slabs of about `SLAB_TICKS` ticks."""
         last = int(np.searchsorted(self._ticks.t_s[self._ends - 1], until_s, side="right"))
         ends = self._ends[:last]
         while self._done < (ends[-1] if last else 0):
@@ -145,6 +145,6 @@ class Following:
 
 
 def _likely_parts(ticks: Ticks, rhythm: Rhythm) -> Floats:
-    """About how many ticks each stretch makes (n,): a long tick waits for steps at both ends to be felt no more."""
+    """About how many ticks (n,) each stretch makes: a long tick gets short ones at both ends, while steps are felt."""
     waiting = np.minimum(np.diff(ticks.t_s, prepend=0.0), 2.0 * rhythm.felt_s) / rhythm.step_tick_s
     return np.where(ticks.long, waiting, ticks.parts)

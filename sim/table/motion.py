@@ -46,7 +46,7 @@ class Motion(NamedTuple):
 
 
 class Moved(NamedTuple):
-    """What the table made of a motion: its places, what its drives lost, how near they came to limits, its history."""
+    """How the table moved: its trace, the losses of its drives, their peaks against the limits, and its history."""
 
     trace: Trace
     losses: tuple[Loss, ...]

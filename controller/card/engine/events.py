@@ -81,10 +81,10 @@ def events_of(stretch: Stretch, card: CardState, settings: CardSettings) -> Even
 
 
 def grows_s(stretch: Stretch, entries: Sequence[Entry], now_s: float, settings: CardSettings) -> float:
-    """When what stands behind a stretch in the list has to be taken into its plan; inf where the stretch ends at rest.
+    """When a stretch has to take the entries behind it in the list into its plan; inf where it ends at rest.
 
-    `entries` are those of the list, those of the stretch in front. A plan that changes at the end of a servo period
-    changes no pulse before.
+    `entries` are all of the list, the stretch's own in front. A plan that changes at the end of a servo period leaves
+    the pulses before as they were.
     """
     planned = len(stretch.entries)
     if len(entries) <= planned or not stretch.rows:

@@ -80,7 +80,7 @@ def _braking(limits: RowLimits, speed_um_s: float, deceleration_um_s2: float) ->
 
 
 def _ends(waits_s: Floats, row_of: Ints, before_um: Floats, plan: Plan, stops: bool) -> Floats:
-    """Time of the plan (m,) at which each entry is done; none is from where a stop ends on, nor a wait in which it is.
+    """Time of the plan (m,) at which each entry is done. A stop leaves undone what lies behind its end, or at a wait.
 
     The plan tells when a border is reached; the waits at that border follow one after another.
     """

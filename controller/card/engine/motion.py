@@ -93,7 +93,7 @@ class CardMotion:
         return all(abs(a - b) <= _NEAR for a, b in zip(self._rest_place, place, strict=True))
 
     def rest(self, state: Resting, place: Place) -> None:
-        """Come to rest at a place; of what is broken then, the place is the break point."""
+        """Come to rest at a place; where a list or a move is broken, its place becomes the break point."""
         self.state, self._rest_place = state, place
         if isinstance(state, BrokenList | BrokenMove):
             self.break_place = state.place

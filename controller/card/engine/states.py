@@ -115,7 +115,7 @@ def ended(state: Running) -> Resting:
 
 
 def stopped(state: Braking, place: Place, left: Collection[Entry]) -> Resting:
-    """Rest at a place with what is left of the task; where nothing is, there is nothing to go on with of it."""
+    """Rest at a place with what is left of the task; if nothing is left, the task is over."""
     if isinstance(state.task, Move):
         return BrokenMove(place, state.task, tuple(left)) if left else state.task.beneath
     return BrokenList(place) if left else Idle()

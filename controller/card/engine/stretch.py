@@ -127,10 +127,10 @@ class Stretch:
         return self._moves(slice(max(row, 0), row + 1))
 
     def grows_s(self, now_s: float) -> float:
-        """When the plan begins to run otherwise than it would with entries behind, or soon before that.
+        """When the plan begins to differ from one that takes in entries behind, or soon before that.
 
-        It does so where it begins to brake for its end. Under a jerk limit its last S-curve may become part of a
-        longer one, so that it begins where that one begins to rise, if that is still to come.
+        That is where it begins to brake for its end. Under a jerk limit its last S-curve may become part of a longer
+        one: then it is where the S-curve begins to rise, if that is still to come.
         """
         plan = self.plan
         span, a, j = np.diff(plan.along_um), plan.acceleration_um_s2, plan.jerk_um_s3

@@ -1,7 +1,8 @@
 """How likely a block is in a sound contour, by the trade's rules and by how it joins its neighbours.
 
-Points are logarithms of odds, rounded to whole numbers: what few sound blocks do takes points, what sound blocks do far
-more often than chance would have it gives them. They were set on broken contours (tests/tools/suspects_rates.py).
+Points are logarithms of odds, rounded to whole numbers. A block loses points by what few sound blocks do, and gains
+points by what sound blocks do far more often than chance would have it. The points were set on broken contours
+(tests/tools/suspects_rates.py).
 """
 
 import numpy as np
@@ -58,14 +59,14 @@ def _wrong_axis(words: StepWords, made: Moves, is_arc: Flags) -> Flags:
 
 
 def _line_like(words: StepWords) -> Flags:
-    """J is the longer of X and Y, and neither is 0: in a line always, in an arc by chance."""
+    """Blocks whose J is the longer of X and Y, with neither 0: a line is written so, an arc has it by chance alone."""
     shorter, longer = np.minimum(words.x_um, words.y_um), np.maximum(words.x_um, words.y_um)
     alike: Flags = (shorter > 0) & (words.count_um == longer)
     return alike
 
 
 def _uneven(words: StepWords) -> Flags:
-    """Lines whose J is no multiple of their longer side, as it is in both spellings, reduced or not."""
+    """Lines whose J is no multiple of their longer side; that of sound lines is, with X and Y reduced or not."""
     uneven: Flags = words.count_um % np.maximum(np.maximum(words.x_um, words.y_um), 1) != 0
     return uneven
 
@@ -86,7 +87,7 @@ def joint(arriving: Floats, leaving: Floats, slack_rad: Floats) -> Ints:
 
 
 def sizes(made: Moves) -> Floats:
-    """(n,) radii of arcs, and lengths of lines below 0, apart from them."""
+    """(n,) radii of arcs, and lengths of lines with a minus sign, so that no line has the size of an arc."""
     return np.where(np.isnan(made.radius_um), -made.length_um, made.radius_um)
 
 

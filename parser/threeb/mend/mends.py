@@ -1,4 +1,4 @@
-"""Mends: blocks of which one field is written otherwise, so that they end at a wanted place.
+"""Mends: blocks with one field written otherwise, so that they end at a wanted place.
 
 Words stand here as an (n, 6) int64 table, one row a block, in the order of the columns of `StepWords`.
 """
@@ -127,7 +127,7 @@ def _near(word: Ints, solved: Mends) -> Mends:
 def _ruled(word: Ints, field: int) -> Ints:
     """The number that the rest of a block asks for.
 
-    Of an unreduced line J is its longer side; of an arc, the nearest that whole quarters of its circle count.
+    J of an unreduced line is its longer side. J of an arc is the nearest count of whole quarters of its circle.
     """
     if field == COUNT:
         radius = np.maximum(np.hypot(word[:, X], word[:, Y]), 1.0)
@@ -158,7 +158,7 @@ def _digit(missing: Ints, place: Ints) -> Ints:
 
 
 def _that_end(made: Mends, want_um: Floats, tolerance_um: float) -> Mends:
-    """Those whose blocks end where wanted."""
+    """The mends whose blocks end where wanted."""
     off = moves_of(made.word).by_um - want_um[made.row]
     ends = np.hypot(off[:, 0], off[:, 1]) <= tolerance_um
     return Mends(*(column[ends] for column in made))

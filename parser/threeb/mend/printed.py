@@ -1,4 +1,4 @@
-"""Mends of a block that ends elsewhere than printed: fields of which one, written otherwise, ends it there."""
+"""Mends of a block that ends elsewhere than printed: one of its fields, written otherwise, would end it there."""
 
 import numpy as np
 

@@ -82,10 +82,11 @@ def _phase(arc: StepWords, place_um: Floats) -> Floats:
 
 
 def _arc_guesses(arc: StepWords, want_um: Floats, field: int) -> list[Floats]:
-    """X or Y of arcs. Start and end lie on one circle, which settles the start unless it lies across the chord.
+    """Four guesses of X or Y of each arc.
 
-    Then J does: of a full turn and of the greater arc over a chord, of the arcs over a chord that J counts across; and
-    an arc that starts on an axis has 0.
+    Start and end lie on one circle: that settles the first guess, unless the number lies across the chord. Then J
+    settles it: the second guess is for a full turn and for the greater arc over a chord, the third for arcs over a
+    chord that J counts across. The fourth is 0, for an arc that starts on an axis.
     """
     extent = np.stack([arc.x_um, arc.y_um], axis=1).astype(np.float64)
     signs, count = arc.signs, arc.count_um

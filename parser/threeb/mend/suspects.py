@@ -22,14 +22,14 @@ MOST = 5
 _ROWS_AT_ONCE = 4096
 _MOST_OFF_UM = 100.0  # however many arcs: errors of a CAM do not add up (docs/3b.md §1)
 _OWN_START = 2  # points for ending at the first start, not at the end of a lead-in
-_CLOSED_LOOP = 6  # points for a loop that closes between lead-in and lead-out, one of which is at fault then
+_CLOSED_LOOP = 6  # points if a loop closes between lead-in and lead-out: then one of these two is at fault
 _LEAST = 7  # points of a mend worth naming: one slip that makes the contour no less likely
 
 
 class _Ring(NamedTuple):
     """A contour as it should close: from `end` back to the start of `begin`; `rows` (n,) may be at fault.
 
-    `is_led` where it closes as a lead-out on a lead-in, which is no joint.
+    `is_led` tells that it closes where a lead-out ends on a lead-in, which is no joint.
     """
 
     rows: Ints
@@ -70,7 +70,8 @@ def suspects(toolpath: Toolpath, first_row: int, past_row: int) -> tuple[Suspect
 def _rings(toolpath: Toolpath, first: int, past: int, tolerance_um: float) -> list[_Ring]:
     """Where the contour may close, and which rows may be at fault then.
 
-    A lead-in that is cut back as the lead-out, or a loop between the two that closes, clears the one or the other.
+    If the lead-out goes back along the lead-in, these two are cleared. If the loop between them closes, one of these
+    two is likelier at fault than the other rows.
     """
     last = past - 1
     start, end = toolpath.start_um, toolpath.end_um
@@ -138,7 +139,7 @@ def _directions(made: Moves, fraction: float) -> Floats:
 
 
 def _leading(found: list[_Ranked]) -> Mends:
-    """Those with the most points of all; of one row and field the one that closes best. Rows are the toolpath's."""
+    """The mends with the most points of all, the best closing one of each row and field. Rows are the toolpath's."""
     best = max([_LEAST, *(int(ranked.points.max()) for ranked in found if len(ranked.points))])
     row, field, word, off = (
         np.concatenate([ranked[column][ranked.points >= best] for ranked in found]) for column in (0, 1, 2, 4)

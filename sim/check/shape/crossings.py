@@ -18,7 +18,8 @@ from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Point, Toolpath
 
 CLEAR_UM = 5.0
-"""Both ends of each block lie this far, measured across the other block; two curves overlap this far at their lens."""
+"""In a crossing both ends of each block lie this far off the other, measured across it; two curves overlap this far at
+their lens."""
 
 _CORNER_LOOP_UM = 5000.0
 _KERF_UM = 200.0
@@ -126,8 +127,8 @@ def _back_to_hole(toolpath: Toolpath, contour_of_row: Ints) -> NDArray[np.bool_]
 def _clearance(toolpath: Toolpath, meets: Meets) -> tuple[Floats, Floats, Floats]:
     """How blocks meet, (k,) each.
 
-    Sines of their angles, how far µm their nearest ends lie off the other's direction, and how far the start of the
-    later one does.
+    The sine of their angle; how far µm the nearest of their ends lies off the other block's direction; and how far the
+    start of the later block does.
     """
     a, b = (headings_at(toolpath, row, meets.place_um) for row in (meets.early, meets.late))
     sine = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])

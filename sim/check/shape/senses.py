@@ -79,9 +79,9 @@ def reversed_arcs(toolpath: Toolpath, contour_of_row: Ints) -> ReversedArcs:
 
 
 def retraced_arcs(toolpath: Toolpath, contour_of_row: Ints) -> Ints:
-    """Rows (k,) of the first arcs that run back, where arcs of one full turn in all only go there and back.
+    """Rows (k,) at which the arcs of a circle turn back, if they are one turn long in all but only go there and back.
 
-    Two passes there and back run round twice, and a slit that happens to be half a circle is not told from a fault.
+    Two passes there and back make two turns. A slit that happens to be half a circle is not told from a fault.
 
     Parameters
     ----------

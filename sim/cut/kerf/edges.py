@@ -1,7 +1,8 @@
 """The edges of the kerf beside each block: how far it reaches to the left and to the right of the ideal path.
 
-Measured along the normals of stations on the path: a disc about a place of the wire reaches as far as the normal runs
-in it. A block's own discs alone count, since at an inner corner those of its neighbour cut on beyond its edge.
+It is measured at stations on the path, along the normal of each. The wire removes a disc about each of its places; the
+kerf reaches to where the normal leaves the farthest of these discs. Only the discs of the block itself count: at an
+inner corner the neighbouring block cuts on beyond this block's edge.
 """
 
 from typing import NamedTuple
@@ -31,8 +32,8 @@ class Edges(NamedTuple):
     left_um, right_um
         (m,) float64, how far the kerf reaches to both sides; NaN where no disc of the block comes.
     inner
-        (m,) True on stations an offset and more from both ends of their block, the middle ones in short blocks: the
-        ends are shaped by the corner.
+        (m,) bool, True on stations at least one offset from both ends of their block: nearer to an end, the corner
+        shapes the edge. A block too short for that has its middle stations instead.
     """
 
     row: Ints
@@ -52,7 +53,7 @@ class Range(NamedTuple):
 
 
 class _Stations(NamedTuple):
-    """Rows (m,) and places (m, 2); of the rows (n,): the first, how many, and how far apart."""
+    """Row (m,), place and left normal (m, 2) of each station; by row (n,): first station, number and spacing."""
 
     row: Ints
     place_um: Floats
@@ -103,10 +104,13 @@ def _stations(curves: Curves, rows: Ints) -> _Stations:
 def _reach(
     curves: Curves, stations: _Stations, places: tuple[Ints, Floats], offset_um: float, into: tuple[Floats, Floats]
 ) -> None:
-    """Raise the reach at each block's stations to that of the discs about its places: rows (m,) and places (m, 2)."""
+    """Raise the reaches `into` (left and right, at the stations) to where the discs of each station's block end.
+
+    `places` are those of the wire: rows (p,) and places (p, 2).
+    """
     row, place = places
     nearest = np.rint(_along_um(curves, row, place) / stations.spacing_um[row]).astype(np.int64)
-    # Where there are more stations than two, they are farther apart than half the usual spacing.
+    # A block with more than two stations has them more than half the usual spacing apart: no disc meets more of them.
     most = int(np.ceil(2.0 * offset_um / _SPACING_UM)) + 1
     for by in range(-most, most + 1):
         near = np.flatnonzero((nearest + by >= 0) & (nearest + by < stations.number[row]))
@@ -122,13 +126,13 @@ def _reach(
 
 
 def _along_um(curves: Curves, row: Ints, place_um: Floats) -> Floats:
-    """How far along their blocks (m,) places (m, 2) stand: beside a line, or by their angle about an arc's centre."""
+    """Distances (m,) of places (m, 2) along their blocks: projected on a line, or by angle about an arc's centre."""
     heading = headings(curves, row, np.zeros(len(row)))
     out = np.where(curves.is_arc[row][:, None], place_um - curves.center_um[row], place_um - curves.start_um[row])
     sweep = curves.sweep_rad[row]
     turned = (np.arctan2(out[:, 1], out[:, 0]) - curves.start_angle_rad[row]) * np.sign(sweep)
     reach = np.minimum(np.abs(sweep), 2.0 * np.pi)
-    # Past either end, the nearer end counts.
+    # An angle outside the arc is counted from the nearer end.
     before = -0.5 * (2.0 * np.pi - reach)
     angle = np.mod(turned - before, 2.0 * np.pi) + before
     return np.where(curves.is_arc[row], angle * curves.radius_um[row], (out * heading).sum(axis=1))
@@ -138,7 +142,7 @@ def _inner(stations: _Stations, offset_um: float) -> NDArray[np.bool_]:
     row = stations.row
     after = np.arange(len(row)) - stations.first[row]
     from_end = np.minimum(after, stations.number[row] - 1 - after)
-    # Whole stations, so that the two middle ones of an even number count both.
+    # In whole stations: of an even number of stations, both middle ones count.
     needed = np.minimum(np.ceil(offset_um / stations.spacing_um[row]), (stations.number[row] - 1) // 2)
     inner: NDArray[np.bool_] = from_end >= needed
     return inner

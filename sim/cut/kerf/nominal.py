@@ -1,4 +1,4 @@
-"""The nominal kerf: what a wire removes that follows the ideal path, as rectangles and sectors of rings."""
+"""The nominal kerf: what a wire on the ideal path would remove, as rectangles and sectors of rings."""
 
 from dataclasses import replace
 
@@ -12,7 +12,7 @@ from sim.cut.kerf.swept import Region, Regions, filled
 
 _CHORD_UM = 0.01
 _CHORDS = 16  # of a sector
-_SEAL = 16  # corners of a polygon that covers where two shapes abut, which rounding may leave open
+_SEAL = 16  # corners of the polygon over each joint: rounding may leave a gap between two shapes that abut
 
 
 def nominal_region(curves: Curves, cut: NDArray[np.bool_], offset_um: float) -> Region:
@@ -31,13 +31,13 @@ def nominal_region(curves: Curves, cut: NDArray[np.bool_], offset_um: float) -> 
 
 
 def _discs(place_um: Floats) -> Curves:
-    """Full turns about places (m, 2): inside an arc within the offset, discs reach beyond its centre."""
+    """Full discs about places (m, 2), the ends of arcs tighter than the offset: they reach beyond the centre."""
     turn = np.full(len(place_um), 2.0 * np.pi)
     return replace(curves_between(place_um, place_um, place_um, turn), start_angle_rad=np.zeros(len(place_um)))
 
 
 def _corners(curves: Curves, cut: NDArray[np.bool_]) -> Curves:
-    """Arcs of radius 0 by which the wire turns between blocks; half a turn before the first one and behind the last."""
+    """Arcs of radius 0 for the turns of the wire between blocks, and for the round start and end of each cut."""
     ways = directions(curves)
     meet = cut[1:] & cut[:-1]
     arriving, leaving = ways.arriving[:-1][meet], ways.leaving[1:][meet]

@@ -1,8 +1,8 @@
 """The region that the wire sweeps on its way: a union of stars, one to each stretch of the way.
 
-The kerf is the union of discs about all places of the wire. Along a stretch no longer than the disc's diameter every
-disc holds the stretch's middle, so their union is star-shaped about it: one ray in each direction from there meets its
-border once, where it leaves the farthest disc, and that is known in closed form. No buffer of a line is used: GEOS
+The kerf is the union of discs about all places of the wire. Take a stretch no longer than a disc's diameter: every disc
+on it holds the middle of the stretch. So their union is star-shaped about the middle: each ray from there meets the
+border once, where it leaves the farthest disc. That place is known in closed form. No buffer of a line is used: GEOS
 simplifies the line by 1 % of the distance first, 1 µm here (`BufferInputLineSimplifier`).
 """
 
@@ -24,7 +24,7 @@ Regions = NDArray[np.object_]
 
 _SCALLOP_UM = 0.02  # left standing between two rays
 _SIMPLER_UM = 0.01  # polygons are simplified by
-_STRETCH = 1.9  # offsets; at 2 the ends would be an offset from the middle
+_STRETCH = 1.9  # offsets, at most; at 2 the discs at its ends would only just reach its middle
 _TURN_RAD = 0.5  # of a stretch, at most
 _CHUNK = 1 << 10  # places looked at in one go, each along some 300 rays: 2.6 MB, which stay in the cache
 
@@ -61,16 +61,16 @@ def swath(curves: Curves, passage: Passage, offset_um: float) -> Swath:
 
 
 def _longest_um(curves: Curves, offset_um: float) -> Floats:
-    """How long stretches in each row (n,) may be: on tight arcs not so long that they turn far."""
+    """Longest stretch allowed in each row (n,), µm; on tight arcs it is shorter, so that no stretch turns far."""
     longest = np.full(len(curves), _STRETCH * offset_um)
     shorter: Floats = np.fmin(longest, _TURN_RAD * curves.radius_um)
     return shorter
 
 
 def _stretches(passage: Passage, longest_um: Floats) -> Ints:
-    """First places (s,) of the stretches, which end with their block too.
+    """Indices (s,) of the first place of each stretch. No stretch runs on into the next block.
 
-    A star's rays pass by the notch between two discs; so sharp ones, in corners, are left between two stars.
+    The rays of a star miss the notch between two discs. Notches are sharp at corners only, and there a new star begins.
     """
     if not len(passage.row):
         return np.empty(0, dtype=np.int64)
@@ -81,7 +81,7 @@ def _stretches(passage: Passage, longest_um: Floats) -> Ints:
 
 
 def middles(passage: Passage, first: Ints) -> Floats:
-    """Places (s, 2) half the way along stretches that begin at the places `first` (s,) and go on to the next."""
+    """Places (s, 2) half way along each stretch; `first` (s,) are the indices at which the stretches begin."""
     last = np.append(first, len(passage.along_um))[1:] - 1
     half = 0.5 * (passage.along_um[first] + passage.along_um[last])
     middle: Floats = passage.place_um[np.searchsorted(passage.along_um, half)]
@@ -89,7 +89,7 @@ def middles(passage: Passage, first: Ints) -> Floats:
 
 
 def stars(place_um: Floats, first: Ints, middle_um: Floats, offset_um: float) -> Regions:
-    """Unions of the discs about the places of each stretch, all of which hold its middle."""
+    """Union of the discs of each stretch, (s,); every disc must hold the stretch's middle (s, 2)."""
     toward = rays(offset_um)
     bounds = np.append(first, len(place_um))
     reach = [_reach_um(place_um, bounds[low:past], middle_um[low : past - 1], offset_um) for low, past in _runs(bounds)]
@@ -101,7 +101,7 @@ def stars(place_um: Floats, first: Ints, middle_um: Floats, offset_um: float) ->
 
 
 def filled(border_um: Floats) -> Regions:
-    """Polygons (n,) with so many corners (n, k, 2)."""
+    """Polygons (n,) with the corners `border_um` (n, k, 2)."""
     polygons: Regions = np.asarray(shapely.polygons(border_um))
     return polygons
 
@@ -109,8 +109,8 @@ def filled(border_um: Floats) -> Regions:
 def rays(offset_um: float) -> Floats:
     """Unit vectors (k, 2) all round, so many that chords between them stay within 0.02 µm of the discs.
 
-    From its middle, the far side of a disc at the end of a stretch is two offsets away, so that chords there are twice
-    as long: d²/8r high.
+    At the end of a stretch, the far side of the disc is two offsets from the middle. There the chords between rays are
+    twice as long as on a circle of one offset; a chord of length d is d²/8r high.
     """
     number = int(np.ceil(4.0 * np.pi * np.sqrt(offset_um / (8.0 * _SCALLOP_UM))))
     angle = np.arange(number) * (2.0 * np.pi / number)
@@ -118,7 +118,7 @@ def rays(offset_um: float) -> Floats:
 
 
 def _runs(bounds: Ints) -> list[tuple[int, int]]:
-    """Stretches in runs of some `_CHUNK` places: the first, and one past the last and its end."""
+    """Runs of stretches of about `_CHUNK` places each, as slices of the bounds, the end of the last one included."""
     if len(bounds) < 2:
         return []
     chunk = bounds[:-1] // _CHUNK
@@ -131,7 +131,7 @@ def _reach_um(place: Floats, bounds: Ints, middle: Floats, offset_um: float) -> 
     toward = rays(offset_um)
     out = place[bounds[0] : bounds[-1]] - np.repeat(middle, np.diff(bounds), axis=0)
     half = out @ np.stack([-toward[:, 1], toward[:, 0]])
-    # In place: the arrays are the work here, and stay in the cache.
+    # In place, so that the arrays stay in the cache: reading and writing them is the work here.
     np.square(half, out=half)
     np.subtract(offset_um**2, half, out=half)
     np.sqrt(np.maximum(half, 0.0, out=half), out=half)

@@ -21,7 +21,7 @@ class Passage(NamedTuple):
     place_um
         (m, 2) float64, the wire's centre.
     along_um
-        (m,) float64, length of the way from its begin.
+        (m,) float64, length of the way from its start.
     t_s
         (m,) float64.
     row

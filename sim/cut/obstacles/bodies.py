@@ -1,4 +1,4 @@
-"""BodyShapes that stand still, as convex shapes of pymunk: clamps grown by what moves past them, and the work."""
+"""Bodies that stand still, as convex shapes of pymunk: clamps grown by what moves past them, and the work."""
 
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -10,7 +10,7 @@ from parser.geometry.curves import Floats
 from sim.setup.obstacles import Outline
 
 ALL = pymunk.ShapeFilter()
-_ON_UM = 1e-3  # the engine counts what is nearer than this: a point on a seam between two pieces is inside
+_ON_UM = 1e-3  # a point this near to a shape lies in it, and so does one on the seam between two shapes
 
 Place = tuple[float, float]
 _FLAT_UM = 1e-6
@@ -44,8 +44,9 @@ def grown(outline_um: Outline, radius_um: float) -> BodyShapes:
 def swept(outline_um: Outline, moving_um: Outline) -> BodyShapes:
     """Where the origin of a moving outline stands when it touches an outline that stands still.
 
-    That is the Minkowski sum of the one and the other mirrored at the origin (M. de Berg et al., "Computational
-    Geometry", 3rd ed. 2008, 13.2); of two convex pieces it is the hull of the differences of their corners.
+    That is the Minkowski sum of the standing outline and the moving one mirrored at the origin (M. de Berg et al.,
+    "Computational Geometry", 3rd ed. 2008, 13.2). For two convex pieces it is the hull of the differences of their
+    corners.
     """
     still, moving = triangles(outline_um), triangles(moving_um)
     return _pieces((one[:, None] - other for one in still for other in moving), 0.0)
@@ -54,7 +55,7 @@ def swept(outline_um: Outline, moving_um: Outline) -> BodyShapes:
 def sides(outline_um: Outline, radius_um: float) -> BodyShapes:
     """All places within a radius of the sides of an outline.
 
-    As polygons of two corners: a query along a line misses the round ends of pymunk's own segments.
+    The sides are polygons of two corners: a query along a line misses the round ends of pymunk's own segments.
     """
     corners = np.array(outline_um)
     return _pieces(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), radius_um)
@@ -85,7 +86,7 @@ def triangles(outline_um: Outline) -> Floats:
 
 
 def _clearances_um(corners: Floats) -> Floats:
-    """How far the nearest other corner lies outside the ear at each corner of (n, 2); −inf where that is reflex.
+    """How far outside the ear at each corner of (n, 2) the nearest other corner lies; −inf at reflex corners.
 
     A polygon has two ears or more (G. H. Meisters, "Polygons have ears", 1975): the clearest corner is one.
     """

@@ -87,7 +87,7 @@ def _of_contour(cut: Way, trace: Trace, contour: Contour) -> Way:
 
 
 def _first_out(way: Way, trace: Trace, contour: Contour, work: BodyShapes, edges: BodyShapes) -> Iterator[Touch]:
-    """The first leaving that counts, if any: where the edge was crossed before the wire was clear of it outside."""
+    """The first leaving that counts, if any: the last crossing of the edge before the wire is clear of it outside."""
     begins_inside = inside = work.hold(_at(way.place_um, int(way.ends[0, 0])))
     quiet = {contour.last - 1} if begins_inside else {contour.first - 1, contour.last - 1}
     crossing: Touch | None = None

@@ -17,7 +17,7 @@ from sim.cut.obstacles.bodies import BodyShapes
 STRETCH = 256
 """Samples in a stretch, at most."""
 
-_GRACE_UM = 1e-3  # the band is wider than all its samples, whichever way they were rounded
+_GRACE_UM = 1e-3  # added to the band, so that it holds all its samples whichever way they were rounded
 
 
 class Way(NamedTuple):
@@ -28,8 +28,8 @@ class Way(NamedTuple):
     place_um
         (n, 2) float64.
     ends
-        (k, 2) int64, first and last sample of each stretch, in order; the last is the first of the next one, if that
-        follows at once.
+        (k, 2) int64, first and last sample of each stretch, in order. Where the next stretch follows at once, it begins
+        with the sample that this one ends with.
     boxes_um
         (k, 2, 2) float64, lowest and highest (x, y) of each stretch.
     """
@@ -87,7 +87,7 @@ def _meet(boxes_um: Floats, box_um: Floats) -> NDArray[np.bool_]:
 
 
 def _halved(shapes: Sequence[pymunk.Shape], place_um: Floats, low: int, high: int) -> Iterator[Touch]:
-    """Touches between two samples, halves before the whole."""
+    """Touches between two samples, in order: the halves are looked at where the band round the chord meets a body."""
     first, last = place_um[low].tolist(), place_um[high].tolist()
     band = _bulge_um(place_um[low : high + 1]) + _GRACE_UM if high - low > 1 else 0.0
     hits = [hit for shape in shapes if (hit := shape.segment_query(first, last, band)) is not None]

@@ -10,11 +10,11 @@ from parser.geometry.curves import Floats
 from parser.toolpath import Point
 from sim.cut.kerf.ways import Passage
 
-_FRESH = 3.0  # offsets of way behind the wire that are the kerf it is cutting, not one it closes on to
+_FRESH = 3.0  # offsets: so far back along its way the wire is in the kerf it is cutting, and closes on to nothing
 _ON_IT = 0.1  # offsets: a start this near to the loop lies on it, and is no lead-in
 _NOTCH = 1.5  # offsets that an outline grows and shrinks by, which closes notches two offsets wide
 _COARSE_UM = 1.0
-_LAST_UM = 1000.0  # of way before a piece comes free, at which it is still held well
+_LAST_UM = 1000.0  # of way before a piece comes free: here it is still held well
 
 
 class Bridge(NamedTuple):
@@ -23,13 +23,13 @@ class Bridge(NamedTuple):
     Attributes
     ----------
     place_um
-        Half the way from the wire to the older place of it that it closes on to.
+        Half way between the wire and its older place that it closes on to; at the edge of the work, the wire's place.
     closes_on_block
         Block number of the older kerf; None where there is none, at the edge of the work.
     left_um
-        How far the wire had to go at the begin of the block that freed the piece.
+        How far the wire had to go at the start of the block that freed the piece.
     last_mm_block, last_mm_t_s
-        Block number and time one millimetre before it came free; at the begin of a shorter contour.
+        Block number and time one millimetre of way before it came free; of a shorter contour, those at its start.
     """
 
     place_um: Point
@@ -40,7 +40,7 @@ class Bridge(NamedTuple):
 
 
 class Older(NamedTuple):
-    """An older place of the wire: index of its contour and on the passage, and its distance."""
+    """An older place of the wire: index of its contour, its index on that passage, and its distance from the wire."""
 
     contour: int
     at: int
@@ -50,7 +50,7 @@ class Older(NamedTuple):
 def older_place(
     passages: Sequence[Passage], earlier: Sequence[int], contour: int, at: int, offset_um: float
 ) -> Older | None:
-    """The place, of earlier contours or this one, that the wire closes on to; None at the edge of the work."""
+    """The older place, on an earlier contour or on this one, that the wire closes on to; None at the work's edge."""
     passage = passages[contour]
     wire = passage.place_um[at]
     fresh = int(np.searchsorted(passage.along_um, passage.along_um[at] - _FRESH * offset_um))
@@ -79,7 +79,7 @@ def bridge_of(passages: Sequence[Passage], contour: int, at: int, older: Older |
 
 
 def came_from_inside(passage: Passage, begin: int, end: int, offset_um: float) -> bool:
-    """Whether a passage starts inside the loop that it makes from one place to another, by index, and not on it."""
+    """Whether a passage starts inside the loop between its places `begin` and `end` (indices), and not on the loop."""
     if end - begin < 3:
         return False
     loop = shapely.Polygon(passage.place_um[begin : end + 1])

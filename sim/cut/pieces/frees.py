@@ -11,7 +11,7 @@ from parser.geometry.curves import Floats
 from sim.cut.kerf.swept import Region, Swath, middles, stars
 from sim.cut.kerf.ways import Passage
 
-_SPARED = 0.1  # offsets: a wire that reaches no deeper takes nothing but what closure and a second run leave
+_SPARED = 0.1  # offsets: a wire that reaches less deep into a piece only takes off what an earlier cut left on it
 
 
 class FreeMoment(NamedTuple):
@@ -33,7 +33,7 @@ class FreeMoment(NamedTuple):
 
 
 class FreeQuestion(NamedTuple):
-    """Is a piece free? Of a stock, by a point of the piece and one of the frame."""
+    """The question whether a piece is free of its frame: the stock of both, a point in the piece, one in the frame."""
 
     stock_um: shapely.Polygon
     piece: shapely.Point
@@ -66,7 +66,7 @@ def moment_of(
 
 
 def _within(question: FreeQuestion, before: Region, swath: Swath, offset_um: float, whole: FreeMoment) -> FreeMoment:
-    """The moment on a passage that frees the piece as a whole: by halves of its stretches, then by its places."""
+    """The moment on a passage whose whole kerf frees the piece: the stretches are halved, then the places of one."""
     stretch = 0
     for level in swath.levels[-2::-1]:
         stretch *= 2
@@ -101,7 +101,7 @@ def _inside(piece_um: shapely.Polygon, way: Passage, offset_um: float) -> tuple[
 
 
 def _again(place_um: Floats, along_um: Floats, offset_um: float) -> NDArray[np.bool_]:
-    """Which of the places (m, 2) lie on the way up to there, an offset and more behind along it (m,)."""
+    """Whether the way was at each of the places (m, 2) before: more than an offset earlier by its length (m,)."""
     points = np.asarray(shapely.points(place_um))
     one, other = shapely.STRtree(points).query(points, predicate="dwithin", distance=_SPARED * offset_um)
     again = np.zeros(len(points), dtype=np.bool_)

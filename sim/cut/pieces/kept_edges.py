@@ -65,7 +65,7 @@ def _middles(edges: Edges) -> Ints:
 def _beside(pieces: tuple[Piece, ...], place_um: Floats) -> Ints:
     """Indices (m,) of the pieces that hold places (m, 2); −1 outside all."""
     found = np.full(len(place_um), _NONE)
-    # The outlines ask, since those that ask are prepared: many places against one long outline.
+    # The places are in the tree and the outlines query it: shapely prepares what queries, here few long outlines.
     tree = shapely.STRtree(list(shapely.points(place_um)))  # type: ignore[arg-type]
     piece, at = tree.query(np.array([piece.outline_um for piece in pieces], dtype=np.object_), predicate="contains")
     found[at] = piece

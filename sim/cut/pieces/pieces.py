@@ -14,7 +14,7 @@ from sim.setup.obstacles import Outline
 
 _CRUMB_MM2 = 0.001  # some 30 µm square, or cusps where the wire leaves its kerf: nothing that anyone picks up
 _BESIDE_UM = 1.0  # from a part to the kerfs that bound it: far more than their regions are inexact by
-_EARLY = 2.0  # kerfs cut on in a piece that is free
+_EARLY = 2.0  # kerf widths that the wire may still cut in a piece that is free
 
 
 class Material(NamedTuple):
@@ -53,10 +53,10 @@ class Piece(NamedTuple):
     bridge
         What held it last.
     cut_after_um
-        How far the wire goes on to cut in it: the contour that freed it, and in a part those after it.
+        How far the wire still cuts in it once it is free: on the contour that freed it and, in a part, on later ones.
     early
-        Whether that is more than two kerfs, in a slug besides a lead-out as long as its lead-in: it comes free before
-        the wire has left it.
+        Whether it comes free before its cut is done: whether `cut_after_um` is more than two kerf widths. In a slug the
+        wire may also cut a lead-out, as long as its lead-in.
     """
 
     kind: Literal["part", "slug"]
@@ -158,12 +158,12 @@ def _piece(
 
 
 def _is_slug(kerf: Kerf, part: shapely.Polygon, contours: list[int], moment: FreeMoment, older: Older | None) -> bool:
-    """Whether the wire came from inside of a part; it never did where the edge of the work parts it."""
+    """Whether the wire came from inside of a part; never where it was the edge of the work that closed the cut."""
     if older is None:
         return False
     if older.contour == moment.contour:
         return came_from_inside(kerf.swaths[moment.contour].passage, older.at, moment.at, kerf.offset_um)
-    # Several contours went round it, as round a bridge that was left: the first of them tells.
+    # Several contours cut round it, since a bridge was left for later: the start of the first one tells.
     return began_in(kerf.swaths[contours[0]].passage, part, kerf.offset_um)
 
 
@@ -183,7 +183,8 @@ def _ways_after(
 ) -> list[Passage]:
     """Ways that may cut in a piece once it is free.
 
-    A slug is taken out before the next contour; and what has some of the work's own edge may be held there by a clamp.
+    Later contours count in a part alone: a slug is taken out before them. They do not count either in a part with some
+    of the work's own edge, since a clamp may hold it there.
     """
     rest = behind(kerf.swaths[moment.contour].passage, moment.at)
     if is_slug or moment.piece_um.intersects(question.stock_um.exterior):

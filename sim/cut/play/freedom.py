@@ -13,7 +13,7 @@ from sim.cut.pieces.pieces import Pieces
 from sim.cut.play.touching import Sides, shifted_until, sides_of, turned_until
 
 _DIRECTIONS = 16
-_COARSE_UM = 0.5  # that outlines are simplified by, and twice as much until few corners are left
+_COARSE_UM = 0.5  # outlines are simplified by this, then by twice as much, until few corners are left
 _CORNERS = 1000
 _COARSEST_UM = 8.0
 
@@ -42,7 +42,7 @@ class Pinch(NamedTuple):
     Attributes
     ----------
     wall_um
-        The place of what stands round the piece that is nearest to the wire.
+        The place on the walls round the piece that is nearest to the wire.
     width_um
         From there to the piece as it was cut.
     narrowest_um
@@ -61,7 +61,7 @@ class Pinch(NamedTuple):
 
 
 class Play(NamedTuple):
-    """How a free piece can move: shifts in 16 directions, turns to both sides, and the wire between.
+    """How a free piece can move: shifts in 16 directions, turns to both sides, and whether it pinches the wire.
 
     The outlines it is measured on lie within `exact_to_um` of the real ones.
     """
@@ -73,7 +73,10 @@ class Play(NamedTuple):
 
 
 def plays_of(pieces: Pieces, wire_radius_um: float) -> tuple[Play, ...]:
-    """Play of each piece between the frame and what is not free yet; what comes free inside it moves with it."""
+    """Play of each piece when it comes free, between the frame and the pieces that come free later.
+
+    Holes in a piece are filled: what came free inside it moves with it.
+    """
     if not pieces.freed:
         return ()
     rooms = _rooms(pieces)
@@ -94,7 +97,7 @@ def play_between(outline_um: shapely.Polygon, walls_um: BaseGeometry, wire_um: P
 
 
 class _Rooms(NamedTuple):
-    """All rings of what is left, filled, in a tree, and until when they stand (r,) s."""
+    """The rings of frame and pieces, each filled, in a tree; and the time (r,) until which each of them stands, s."""
 
     tree: shapely.STRtree
     until_s: Floats
@@ -109,7 +112,7 @@ def _rooms(pieces: Pieces) -> _Rooms:
 
 
 def _walls(rooms: _Rooms, filled: shapely.Polygon, t_s: float) -> BaseGeometry:
-    """Rings round an outline that stand after a time: those in the smallest opening that holds it, or else all."""
+    """Rings that still stand round an outline after a time: in the smallest ring that holds it, or all if none does."""
     polygons = rooms.tree.geometries
     holding = rooms.tree.query(filled, predicate="within")
     holding = holding[rooms.until_s[holding] > t_s]
@@ -121,7 +124,7 @@ def _walls(rooms: _Rooms, filled: shapely.Polygon, t_s: float) -> BaseGeometry:
 
 
 class _Scene(NamedTuple):
-    """Edge of what moves, and walls, as lines and as their sides; the centre of gravity that it turns about."""
+    """The piece's edge and the walls, as lines and as their sides; the centre of gravity that the piece turns about."""
 
     edge: BaseGeometry
     moving: Sides

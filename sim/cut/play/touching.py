@@ -1,7 +1,7 @@
 """When outlines that move come into touch, exact between polygons.
 
-Two that move into touch do so with a corner of the one on a side of the other. Where the corner meets the side is known
-in closed form, along a shift and about a turn. A physics engine would add its slop to that.
+When two polygons come into touch, a corner of one meets a side of the other. Where it meets the side is known in closed
+form, for a shift and for a turn. A physics engine would let them overlap a little first.
 """
 
 from collections.abc import Callable
@@ -50,7 +50,7 @@ def sides_of(lines_um: BaseGeometry) -> Sides:
 
 
 def shifted_until(moving: Sides, standing: Sides, toward_rad: float) -> Contact:
-    """How far the one shifts in a direction until it touches the other."""
+    """How far `moving` shifts in a direction until it touches `standing`."""
     u = np.array([np.cos(toward_rad), np.sin(toward_rad)])
     there = _first(moving, standing, lambda corner, side: _along(corner, side, u))
     back = _first(standing, moving, lambda corner, side: _along(corner, side, -u))
@@ -60,7 +60,7 @@ def shifted_until(moving: Sides, standing: Sides, toward_rad: float) -> Contact:
 
 
 def turned_until(moving: Sides, standing: Sides, about_um: Floats, sense: int) -> Contact:
-    """Angle that the one turns about a place until it touches the other, counter-clockwise with +1."""
+    """Angle by which `moving` turns about a place until it touches `standing`; a sense of +1 is counter-clockwise."""
     there = _first(moving, standing, lambda corner, side: _round(corner - about_um, side, about_um, sense))
     back = _first(standing, moving, lambda corner, side: _round(corner - about_um, side, about_um, -sense))
     if back.by < there.by:
@@ -90,7 +90,7 @@ def _along(corner: Floats, side: Sides, u: Floats) -> Floats:
     """Ways of corners in the direction u."""
     across = np.array([-u[1], u[0]])
     level, low, high = corner @ across, side.start @ across, side.end @ across
-    # Few sides lie at the level of a corner; those that run along u end at sides that do not.
+    # Few sides cross the level of a corner. A side along u crosses none, but it ends at sides that do.
     one, other = np.nonzero((low <= level[:, None]) != (high <= level[:, None]))
     share = (level[one] - low[other]) / (high - low)[other]
     ahead = (side.start @ u)[other] + share * ((side.end - side.start) @ u)[other] - (corner @ u)[one]
@@ -98,7 +98,7 @@ def _along(corner: Floats, side: Sides, u: Floats) -> Floats:
 
 
 def _round(out: Floats, side: Sides, about: Floats, sense: int) -> Floats:
-    """Angles by which corners, (c, 2) seen from a place, turn about it."""
+    """Angles (c,) by which corners, (c, 2) seen from the place `about`, turn about it until they meet a side."""
     start, by = side.start - about, side.end - side.start
     square, radius = (by * by).sum(axis=1), (out * out).sum(axis=1)
     foot = np.clip(-(start * by).sum(axis=1) / square, 0.0, 1.0)
@@ -113,7 +113,7 @@ def _round(out: Floats, side: Sides, about: Floats, sense: int) -> Floats:
 
 
 def _turn(out: Floats, start: Floats, by: Floats, share: Floats, sense: int) -> Floats:
-    """Angles (k,) from places to those at a share of sides, seen from (0, 0); infinite beyond the sides' ends."""
+    """Angles (k,) at (0, 0) from corners to points on sides, at a `share` of each; infinite beyond the side's ends."""
     to = start + share[:, None] * by
     angle = np.arctan2(to[:, 1], to[:, 0]) - np.arctan2(out[:, 1], out[:, 0])
     return np.where((share >= 0.0) & (share <= 1.0), np.mod(sense * angle, 2.0 * np.pi), np.inf)

@@ -53,7 +53,7 @@ def _lines(curves: Curves, kept: Kept) -> _Lines:
 
 
 def _overlaps(lines: _Lines) -> tuple[Floats, Floats]:
-    """Where along each line (m, 1) each other one (1, m) lies beside it, from and to."""
+    """From where and to where along each line each other line lies beside it; both (m, m) µm."""
     ends = lines.start_um + lines.length_um[:, None] * lines.way
     along = [
         (lines.way @ place.T) - (lines.way * lines.start_um).sum(axis=1)[:, None] for place in (lines.start_um, ends)
@@ -63,7 +63,7 @@ def _overlaps(lines: _Lines) -> tuple[Floats, Floats]:
 
 
 def _nearest(lines: _Lines, facing: NDArray[np.bool_]) -> tuple[Ints, Ints]:
-    """Indices of each line that has a facing one, and of the nearest of these, every pair once."""
+    """Pairs of each line with the nearest line that faces it, every pair once; indices of both."""
     across = to_left(lines.way)
     middle = lines.start_um + 0.5 * lines.length_um[:, None] * lines.way
     off = np.abs(across @ middle.T - (across * lines.start_um).sum(axis=1)[:, None])

@@ -1,4 +1,4 @@
-"""Sizes of what is kept, as it was cut and as the path and the offset mean it: boxes, radii, and distances of edges."""
+"""Sizes of what is kept, as cut and nominal (from the ideal path and the offset): boxes, radii, distances of edges."""
 
 from collections.abc import Iterator
 from typing import Literal, NamedTuple
@@ -18,10 +18,10 @@ from sim.cut.pieces.pieces import Pieces, stock_of
 from sim.cut.sizes.parallels import Pairs, facing_pairs
 from sim.setup.obstacles import Outline
 
-_LEAST_SWEEP_RAD = np.radians(30.0)  # over less, 1 µm off the edge moves the radius by 30 µm and more
+_LEAST_SWEEP_RAD = np.radians(30.0)  # on a shorter arc, 1 µm on the edge changes the radius by 30 µm and more
 _MOST_PAIRS = 50  # more than anyone reads
 _FEWEST = 4  # places of a circle that can tell its form
-_ROUNDS = 4  # of Gauss and Newton; each squares the error, which begins at some µm in mm
+_ROUNDS = 4  # of Gauss-Newton; each squares the relative error, at first some µm in some mm
 
 
 class BoxSize(NamedTuple):
@@ -77,7 +77,7 @@ class _Shape(NamedTuple):
 
 
 def sizes_of(toolpath: Toolpath, kerf: Kerf, pieces: Pieces, work_um: Outline | None) -> Sizes:
-    """Sizes of parts and openings; those that the ideal path does not come to are left out."""
+    """Sizes of parts and openings; a shape that the ideal path would not leave has no nominal size and is left out."""
     kept = kept_edges(kerf, pieces)
     parts = parted(stock_of(kerf, work_um), nominal_region(toolpath, ~toolpath.is_jump, kerf.offset_um))
     return Sizes(
@@ -88,7 +88,7 @@ def sizes_of(toolpath: Toolpath, kerf: Kerf, pieces: Pieces, work_um: Outline | 
 
 
 def _shapes(pieces: Pieces) -> Iterator[_Shape]:
-    """Parts, holes in them, and openings in the frame where slugs were that did not fall out of a part."""
+    """Parts, holes in them, and openings that slugs left in the frame; a slug out of a part left one of the holes."""
     parts = [shapely.Polygon(piece.outline_um.exterior) for piece in pieces.freed if piece.kind == "part"]
     openings = pieces.frame.openings_um
     for index, piece in enumerate(pieces.freed):
@@ -103,7 +103,7 @@ def _shapes(pieces: Pieces) -> Iterator[_Shape]:
 
 
 def _boxes(shapes: list[_Shape], nominal_parts: list[shapely.Polygon]) -> Iterator[BoxSize]:
-    """Boxes of shapes that the nominal parts have as well, or as holes."""
+    """Boxes of shapes with a nominal partner: of a part among the parts, of a hole or an opening among their holes."""
     holes = [shapely.Polygon(ring) for part in nominal_parts for ring in part.interiors]
     trees = shapely.STRtree(nominal_parts), shapely.STRtree(holes)
     for what, piece, outline in shapes:
@@ -161,7 +161,7 @@ def _within(edges: Edges, row: int, along_um: Floats, span_um: tuple[float, floa
 
 
 class Fits(NamedTuple):
-    """Circles (k,) with centres (k, 2), and how far the places reach inside and outside of them together, all µm."""
+    """Circles (k,): centres (k, 2), radii, and the width of the ring that holds the places of each, all µm."""
 
     center_um: Floats
     radius_um: Floats
@@ -171,8 +171,8 @@ class Fits(NamedTuple):
 def fitted_circles(place_um: Floats, of: Ints, center_um: Floats) -> Fits:
     """Circles that lie nearest to the places (m, 2) of each arc, by the sum of squares of the distances.
 
-    `of` (m,) tells which of the k arcs a place is of, never falling and each occurring; `center_um` (k, 2) is near the
-    centres. Gauss-Newton on the distances from the circle: r ≈ R + x cos φ + y sin φ.
+    `of` (m,) is the index of each place's arc; it never falls, and each of the k arcs has a place. `center_um` (k, 2)
+    are first guesses of the centres. Gauss-Newton on the distances from the circle: r ≈ R + x cos φ + y sin φ.
     """
     first, center = np.flatnonzero(np.diff(of, prepend=-1)), center_um
     for _ in range(_ROUNDS):

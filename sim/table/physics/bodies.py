@@ -1,7 +1,7 @@
 """Many tables in one pymunk space: a saddle on X guides carries a carriage on Y guides, held by stops at their ends.
 
-The engine's lengths are µm, its masses kg. Its clock counts ticks: a velocity is the way in a tick, so that each table
-may have ticks of its own length while all of them are stepped at once. All data go in and out in batches.
+The engine's lengths are µm, its masses kg. Its clock counts ticks, and a velocity is the way in a tick. So each table
+may have ticks of its own length, although one call steps all tables. All data go in and out in batches.
 """
 
 import numpy as np
@@ -15,18 +15,18 @@ _MOVED = batch.BodyFields.POSITION | batch.BodyFields.VELOCITY
 _ITERATIONS = 2  # guides hold at right angles, so one pass would do; the second is for the stops at their ends
 
 
-_BATCH = 64  # tables come in such numbers, so that an engine serves many times
+_BATCH = 64  # the number of tables is rounded up to multiples of this, so that an engine can be used again
 
 
 class Engines:
-    """Engines with tables of one kind, by how many they hold; parameters as of `Tables`."""
+    """Engines with tables of one kind, one for each number of tables; parameters as in `Tables`."""
 
     def __init__(self, model: TableModel, room_um: Floats) -> None:
         self._model, self._room = model, room_um
         self._engines: dict[int, Tables] = {}
 
     def of(self, count: int) -> "Tables":
-        """An engine with `count` tables or some more; it is the same one each time."""
+        """An engine with at least `count` tables; the same count gives the same engine."""
         size = count if count < _BATCH else -(-count // _BATCH) * _BATCH
         if size not in self._engines:
             self._engines[size] = Tables(self._model, self._room, size)
@@ -34,14 +34,14 @@ class Engines:
 
 
 class Tables:
-    """`count` tables alike, side by side and not touching; fewer may be in use.
+    """`count` tables that are alike and do not touch; fewer may be in use.
 
     Parameters
     ----------
     model
         Masses.
     room_um
-        (2, 2), lowest and highest place of the travel; at it stand the stops.
+        (2, 2), lowest and highest place of the travel, where the stops stand.
     """
 
     def __init__(self, model: TableModel, room_um: Floats, count: int) -> None:

@@ -76,10 +76,10 @@ def _column(pair: tuple[float, float]) -> Floats:
 
 
 def kicked(drives: Drives, at_um: Floats, velocity: Floats, kick: Kick) -> tuple[Floats, Floats]:
-    """Velocities after a kick, µm/s, and what the drives pulled with, force over mass in µm/s²; each (2, n).
+    """Velocities after a kick, µm/s, and the drives' force over mass, µm/s²; each (2, n).
 
-    `at_um` and `velocity` (2, n) are places and velocities before it. What resists is taken at the mean of the
-    velocities before and after.
+    `at_um` and `velocity` (2, n) are places and velocities before it. Dampers and viscous friction act on the mean of
+    the velocities before and after.
     """
     half = kick.length_s / 2.0
     flank, touching = _flanks(drives, kick.place_um - at_um, (kick.speed_um_s - velocity) * half)
@@ -98,9 +98,9 @@ def kicked(drives: Drives, at_um: Floats, velocity: Floats, kick: Kick) -> tuple
 
 
 def _flanks(drives: Drives, lag: Floats, half: Floats) -> tuple[Floats, Floats]:
-    """Means over a kick, in which the lag goes from `lag - half` to `lag + half`: way past the slack, share in contact.
+    """Mean way past the slack, and mean share in contact, while the lag goes from `lag - half` to `lag + half`.
 
-    Means, so that a flank that is met within a tick is met at the right time.
+    The means over the kick make the nut meet its flank at the right time, also in the middle of a tick.
     """
     slack = drives.slack_um
     if not slack.any():

@@ -5,14 +5,14 @@ import numpy as np
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 
-_GRACE_S = 1e-9  # a pulse due at a time is out by then, whichever way its time was rounded
+_GRACE_S = 1e-9  # a pulse due at a time counts as out at that time, whichever way its time was rounded
 
 
 class Motors:
     """Places of both motors over time, as pulses stream in.
 
     A motor takes `step_time_s` for a step and turns at constant speed meanwhile; steps that come faster add up. So its
-    place is the mean of the commanded place over the step time gone by.
+    place is the mean of the commanded place over the last step time.
 
     Parameters
     ----------
@@ -46,13 +46,13 @@ class Motors:
         self._moment = np.concatenate([np.zeros((1, 2)), np.cumsum(moments, axis=0)])
 
     def commanded_um(self, t_s: Floats) -> Floats:
-        """Places (n, 2) that the pulses out by (n,) rising times come to."""
+        """Places (n, 2) that the pulses have commanded by rising times (n,)."""
         return self._place[np.searchsorted(self._t_s, t_s + _GRACE_S, side="right")]
 
     def calm_s(self, t_s: Floats, wait_s: float) -> Floats:
-        """The last times (n,), at or before each of (n,) times, with no pulse in the `wait_s` before.
+        """For each of (n,) times, the latest time up to it that has no pulse in the `wait_s` before it.
 
-        −inf where none is known: pulses that were not needed any more are forgotten.
+        −inf where no such time is known: the oldest pulses are forgotten.
         """
         before = np.searchsorted(self._t_s, t_s, side="right")
         if not len(self._t_s):
@@ -65,9 +65,9 @@ class Motors:
         return np.where(waited, t_s, np.where(last >= 0, self._t_s[last] - 2.0 * _GRACE_S, -np.inf))
 
     def hasty_s(self, felt_s: float) -> Floats:
-        """Windows (n, 2) of steps that are not slow, each from before its first step until the last is felt no more.
+        """Windows (n, 2) of steps that are not slow, each from before its first step until its last is felt no more.
 
-        Steps are slow that come later than `felt_s` after the last step of the same motor, and go on the same way.
+        A step is slow when it comes `felt_s` or more after the last step of the same motor, in the same direction.
         """
         pulses = len(self._t_s)
         hasty = np.zeros(pulses, dtype=bool)

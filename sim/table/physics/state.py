@@ -16,7 +16,7 @@ class State(NamedTuple):
     at_um, velocity
         (n, 2), places, µm, and velocities, µm/s.
     lost_um
-        (n, 2), way that the motors have lost so far: a motor stands that far behind what it was asked for.
+        (n, 2), way that the motors have lost so far: how far each stands behind the place commanded.
     tripped
         (n,), whether a servo has given up.
     """
@@ -31,7 +31,7 @@ class State(NamedTuple):
         return State(self.at_um[tables], self.velocity[tables], self.lost_um[tables], self.tripped[tables])
 
     def put(self, tables: Ints, state: "State") -> None:
-        """Write the state of some of them over."""
+        """Overwrite the state of some of them."""
         self.at_um[tables], self.velocity[tables] = state.at_um, state.velocity
         self.lost_um[tables], self.tripped[tables] = state.lost_um, state.tripped
 

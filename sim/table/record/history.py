@@ -1,7 +1,7 @@
 """History: velocity, acceleration, lag, following error and force of each axis over the time of a whole run.
 
-Its memory does not grow with the ticks: time is cut into up to some thousand bins, and each keeps the lowest, the
-highest and the mean of what the ticks in it did.
+Its memory does not grow with the ticks: time is cut into at most 2000 bins, and each bin keeps the lowest, the highest
+and the mean value of the ticks in it.
 """
 
 from collections.abc import Iterator
@@ -26,26 +26,26 @@ BINS: Final = 2000
 """Most bins of a run: about one for each pixel across a picture."""
 LEAST_BINS: Final = 100
 SAMPLES_A_BIN: Final = 2
-"""Samples of the trace to a bin where that makes fewer: between them, creeping is one."""
+"""Samples of the trace in a bin, where a run has too few for `BINS`: between two samples the slide may only creep."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class History:
     """Motion of the table over time, in b bins.
 
-    Where slow steps are not worked out one by one, lowest and highest are those of a slow step, and means those of the
-    slide as it creeps and of its rests.
+    In long ticks (`Ticks.long`) slow steps are not worked out one by one. There the lowest and the highest value are
+    those within one slow step, and the mean is that of a slide that creeps, and of its rests.
 
     Attributes
     ----------
     t_s
         (b + 1,) float64, borders of the bins, from 0 until the table has come to rest, or a drive tripped.
     velocity_um_s, acceleration_um_s2
-        Of the table. Means are way, and change of velocity, over time.
+        Of the table. The mean velocity is way over time, the mean acceleration is change of velocity over time.
     lag_um
-        Of the table behind its motors: what pull-out and the limit of a servo are held against.
+        Of the table behind its motors. A stepper's pull-out and a servo's limit are limits of the lag.
     following_error_um
-        Of the table behind the place commanded; what its motors lost stays in it.
+        Of the table behind the place commanded; way that its motors lost stays in it.
     force_n
         Of the drives.
     """
@@ -59,7 +59,7 @@ class History:
 
 
 class SlabRun(NamedTuple):
-    """A slab of n ticks that a table has run: its lanes, all of it in order, and the places (n, 2) commanded then."""
+    """A slab of n ticks that a table has run: its lanes, its ticks in order, and the places (n, 2) commanded then."""
 
     slab: Slab
     lanes: Lanes
@@ -80,7 +80,7 @@ class HistoryMeter:
         self._tallies = {name: Tally(bins) for name in QUANTITIES}
 
     def take(self, run: SlabRun, trip_s: float) -> None:
-        """Take the next ticks; those after a drive tripped, at `trip_s`, count no more."""
+        """Take the next ticks; ticks after `trip_s`, when a drive tripped, do not count."""
         count = int(np.searchsorted(run.travelled.t_s, trip_s, side="right"))
         if not count:
             return
@@ -101,7 +101,7 @@ class HistoryMeter:
         return History(t_s, **{name: tally.result(np.diff(t_s)) for name, tally in self._tallies.items()})
 
     def _values(self, run: SlabRun) -> Iterator[Floats]:
-        """What ticks have of each quantity, (n, 2)."""
+        """Values (n, 2) of the ticks, for each of `QUANTITIES` in turn."""
         yield run.travelled.velocity
         yield _acceleration(run)
         yield run.travelled.lag_um
@@ -109,7 +109,7 @@ class HistoryMeter:
         yield newtons(self._force(run) * self._drives.mass_kg[:, 0])
 
     def _show_steps(self, share: Share, run: SlabRun) -> None:
-        """Let bins in which slides creep show what single steps do; following errors about what was lost before."""
+        """Widen bins in which slides creep by the ripple of single steps; following errors add the way lost so far."""
         count = len(share.length_s)
         steps = np.rint(run.travelled.velocity[:count] * share.length_s) * run.slab.long[:count, None]
         lost = np.rint(run.commanded_um - run.travelled.place_um - run.travelled.lag_um)[:count]
@@ -123,9 +123,9 @@ class HistoryMeter:
                 self._tallies[name].show(share, about[0] + lowest, about[1] + highest)
 
     def _error_um(self, run: SlabRun) -> Floats:
-        """Following error (n, 2); in long ticks on the mean.
+        """Following error (n, 2); in a long tick its mean.
 
-        A motor is late by half the time of a step on the mean, which the rest that a long tick ends with does not show.
+        On the mean, a motor is late by half the time of a step. A long tick ends at rest, where that does not show.
         """
         long = _long(run)
         before = np.concatenate([self._commanded_um, run.commanded_um[:-1]])
@@ -135,7 +135,7 @@ class HistoryMeter:
         return error
 
     def _force(self, run: SlabRun) -> Floats:
-        """Force over mass (n, 2); in long ticks that of the trains, wound up as they are at rest."""
+        """Force over mass (n, 2); in a long tick that of the drive train at rest, whose spring stays wound up."""
         long, travelled = _long(run), run.travelled
         slack, spring = self._drives.slack_um[:, 0], self._drives.spring[:, 0]
         lag, limit, force = travelled.lag_um[long], travelled.limit[long], travelled.force.copy()
@@ -148,7 +148,7 @@ def _long(run: SlabRun) -> Ints:
 
 
 def _at_rest(run: SlabRun, velocity: Floats) -> Floats:
-    """Velocity (n, 2) at the end of each tick: in a long one, however short it is, the mean may hold a whole step."""
+    """Velocity (n, 2) at the end of each tick, 0 in a long one: its recorded mean may hold a whole step."""
     after = velocity.copy()
     after[_long(run)] = 0.0
     return after
@@ -157,7 +157,7 @@ def _at_rest(run: SlabRun, velocity: Floats) -> Floats:
 def _acceleration(run: SlabRun) -> Floats:
     """Acceleration (n, 2); a long tick begins and ends at rest.
 
-    Each lane counts from the state that it began with, from which the lane ahead may end a hair apart.
+    Each lane counts from its own first state: the lane before it may have ended a hair away from that.
     """
     after = _at_rest(run, run.travelled.velocity)
     before = np.concatenate([after[:1], after[:-1]])

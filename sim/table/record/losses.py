@@ -24,11 +24,11 @@ class Loss(NamedTuple):
     row
         Row of the toolpath that was running (block number less one).
     t_s
-        Time of it, of the first of several.
+        Time of the loss; where there are several slips, that of the first.
     amount_um
-        Lost way, all of the block's slips together: positive where the table stands short of its command in the
-        positive direction. Where slips back make good those forth, the way of all of them. Of a trip the following
-        error, command less place.
+        Of lost steps, the sum of the block's slips: positive where the table stands short of its command in the
+        positive direction. Where the slips cancel out, the sum of their magnitudes instead. Of a trip, the following
+        error: command less place.
     x_um, y_um
         Place of the table then, in program coordinates.
     """

@@ -25,8 +25,8 @@ class Peak(NamedTuple):
     axis
         Whose.
     value, limit
-        Largest magnitude, and the limit that held there; infinite where there is none. Where the limit changes with
-        the step rate, the pair with the largest share.
+        Largest magnitude, and the limit at that moment, infinite where there is none. Where the limit changes with the
+        step rate, they are those of the moment with the largest share.
     row, t_s, x_um, y_um
         Block (row of the toolpath), time, and place of the table in program coordinates.
     """

@@ -1,4 +1,4 @@
-"""Ripple: what a slow step does to a slide that creeps; tried once, for such steps are not worked out one by one."""
+"""Ripple: what a slow step does to a slide that creeps. One step is tried, since a run does not work out each."""
 
 from typing import Final, NamedTuple
 
@@ -28,7 +28,7 @@ class Ripple(NamedTuple):
 
 
 def ripple(model: TableModel, slow: SlowStep) -> Ripple:
-    """Ripple of slides that rest between slow steps where all steps before have left them."""
+    """Ripple of slides that rest between slow steps, each at the lag at which such steps leave it."""
     lag_um = slow.play_um[:, None]
     slab, record, end = after_a_step(model, rhythm(model), lag_um)
     velocity = record.velocity[:, :, 0]

@@ -1,4 +1,4 @@
-"""What came of a slab, in order of time."""
+"""The ticks of a slab that the table has run, in order of time."""
 
 from typing import NamedTuple
 

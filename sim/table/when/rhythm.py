@@ -26,7 +26,8 @@ class Rhythm(NamedTuple):
     fastest
         Natural frequency of the faster axis, 1/s.
     felt_s
-        How long a step is felt: until its ringing has died, or friction has caught what it throws, half a period on.
+        How long a step is felt: from its start until its ringing has died, or until friction has caught the slide half
+        a period after the step.
     """
 
     frequency: float

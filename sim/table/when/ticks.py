@@ -1,9 +1,9 @@
 """Ticks: when the table's physics is worked out. Fine where the drives are shaken, long where nothing happens.
 
-Cutting is quasi-static: at 60 µm/s each step shakes the table for a few milliseconds and then leaves it alone. What the
-trace samples is worked out in ticks of a fraction of the period at which the axes ring, from the last moment before the
-sample at which no step was felt (`sim.table.solve.slab`); between, a tick may be as long as it likes. Where the
-velocity itself changes by enough to be felt, ticks are finer still until that has died.
+Cutting is quasi-static: at 60 µm/s each step shakes the table for a few milliseconds and then leaves it alone. Before
+each sample of the trace, ticks are a fraction of the period at which the axes ring. They begin at the last moment
+before the sample at which no step was felt (`sim.table.solve.slab`). Between samples a tick may be as long as it likes.
+Where the velocity itself changes by enough to be felt, ticks are finer still until that shake has died.
 """
 
 import math
@@ -19,13 +19,13 @@ from parser.toolpath import Toolpath
 from sim.table.when.rhythm import STEP_RAD, Rhythm
 
 SPACED = 500_000
-"""Samples along the path past which they are set wider apart; each border of blocks stays one."""
+"""Most samples along the path, about: a longer path has them wider apart. Each border of blocks is a sample besides."""
 SHAKEN_RAD = 0.05
 """Phase of the ringing in one tick while the axes are shaken by more than a step."""
 
 _COINCIDE_S = 1e-6
 FELT_UM = 0.25
-"""Ringing of less than this is not finer resolved than a step."""
+"""A ringing smaller than this gets no finer ticks than a single step does."""
 
 
 class Ticks(NamedTuple):
@@ -36,7 +36,7 @@ class Ticks(NamedTuple):
     t_s
         (n,) float64, end of each stretch, strictly rising.
     tick_s
-        (n,) float64, longest tick in it; infinite where it is one long tick, in which the axes only creep.
+        (n,) float64, longest tick in it; infinite where the stretch is one long tick, in which the axes only creep.
     sampled
         (n,) bool, whether the trace has a sample at its end.
     row
@@ -63,7 +63,7 @@ class Ticks(NamedTuple):
 
 
 def parts(length_s: Floats, tick_s: Floats) -> Ints:
-    """How many equal ticks (n,) of at most `tick_s` stretches of some lengths are cut into."""
+    """Number (n,) of equal ticks, of at most `tick_s` each, that stretches of these lengths are cut into."""
     return np.maximum(np.ceil(length_s / tick_s - 1e-9), 1.0).astype(np.int64)
 
 
@@ -97,7 +97,7 @@ def choose_ticks(toolpath: Toolpath, plan: Plan, rhythm: Rhythm, spacing_um: flo
 
 
 def _spaced(before: Floats, spacing_um: float) -> Floats:
-    """Path lengths at most `spacing_um` apart where that makes up to `SPACED`, every border of blocks among them."""
+    """Path lengths of the samples: at most `spacing_um` apart, or wider so that `SPACED` do; borders of blocks too."""
     length = np.diff(before)
     spacing = max(spacing_um, float(before[-1]) / SPACED)
     parts = np.maximum(np.ceil(length / spacing), 1.0).astype(np.int64)
@@ -107,7 +107,7 @@ def _spaced(before: Floats, spacing_um: float) -> Floats:
 
 
 def _apart(t_s: Floats, kept: Floats | None = None) -> Floats:
-    """Rising times without those that all but coincide with the next one, or with one of those to be kept."""
+    """Rising times, with those left out that all but coincide with the next time, or with a time in `kept`."""
     if kept is None:
         return t_s[np.diff(t_s, append=np.inf) > _COINCIDE_S]
     near = np.searchsorted(kept, t_s)
