@@ -1,1 +1,1 @@
-"""Motion in time: the path, the limits that hold along it, and the plan that keeps them. `RowLimits` in, `Plan` out."""
+"""Motion in time: the path, the limits along it, and the plan that keeps them. `Path`, `RowLimits` in, `Plan` out."""

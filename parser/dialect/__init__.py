@@ -1,1 +1,1 @@
-"""What every dialect has in common: what its reader gives and offers; the border type is `Reader`."""
+"""What every dialect has in common: what its reader gives and offers; the border types are `Reader` and `Mender`."""

@@ -1,1 +1,1 @@
-"""A program on a machine, from start to end; what crosses the border is a `DryRun`, and the dict of its report."""
+"""A program on a machine, from start to end; what crosses the border are `DryRun`, `Recording`, `Course`, report."""

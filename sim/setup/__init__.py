@@ -1,1 +1,1 @@
-"""What is to be run and on what: files of people, read strictly; what crosses the border is a `Scenario`."""
+"""What is to be run and on what: files of people, read strictly; across the border go `Scenario` and `Machine`."""

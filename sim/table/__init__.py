@@ -1,1 +1,1 @@
-"""The two-axis table: motors, drives, guides and slides that follow pulses; what crosses the border is a `Trace`."""
+"""The two-axis table: motors, drives and slides follow pulses; out come `Trace`, `History`, `Loss`, `Peak`."""
