@@ -15,7 +15,7 @@ from sim.show.draw import style
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import LIGHT, Paint
 from sim.show.draw.sheet import pixels
-from sim.show.pictures.cut.outlines import BodyShapes, _hatching, _within
+from sim.show.pictures.cut.outlines import Bodies, _hatching, _within
 from sim.show.pictures.cut.picture import draw_cut, layout_of
 from sim.show.pictures.cut.subject import NOTHING, Cut
 
@@ -29,15 +29,15 @@ def box(left: float, bottom: float, right: float, top: float) -> Outline:
     return read_outline({"outline_mm": [[x, y] for x, y in corners]}, "test")
 
 
-def cut(bodies: BodyShapes) -> Cut:
+def cut(bodies: Bodies) -> Cut:
     return Cut(TOOLPATH, KERF_UM, "x", bodies=bodies)
 
 
-def picture(bodies: BodyShapes = NOTHING) -> Image.Image:
+def picture(bodies: Bodies = NOTHING) -> Image.Image:
     return draw_cut(pixels(800), cut(bodies)).image()
 
 
-def colour_at(drawn: Image.Image, bodies: BodyShapes, x_mm: float, y_mm: float) -> tuple[int, int, int]:
+def colour_at(drawn: Image.Image, bodies: Bodies, x_mm: float, y_mm: float) -> tuple[int, int, int]:
     """The usual colour round a place, hatching and grid aside."""
     x, y = layout_of(pixels(800), cut(bodies)).page.view.to_px(np.array([x_mm, y_mm]) * 1000.0)
     about = np.asarray(drawn)[round(y) - 8 : round(y) + 8, round(x) - 8 : round(x) + 8].reshape(-1, 3)
@@ -46,7 +46,7 @@ def colour_at(drawn: Image.Image, bodies: BodyShapes, x_mm: float, y_mm: float) 
 
 
 def test_work_and_clamps_lie_where_they_are() -> None:
-    bodies = BodyShapes(box(-1, -1, 9, 9), (box(5, 3, 7, 5),))
+    bodies = Bodies(box(-1, -1, 9, 9), (box(5, 3, 7, 5),))
     drawn = picture(bodies)
     assert colour_at(drawn, bodies, 3, 4) == LIGHT[Paint.WORK]
     assert colour_at(drawn, bodies, 6, 4) == LIGHT[Paint.CLAMP]
@@ -54,7 +54,7 @@ def test_work_and_clamps_lie_where_they_are() -> None:
 
 
 def test_the_kerf_is_drawn_over_a_clamp() -> None:
-    over = picture(BodyShapes(None, (box(-0.1, -0.1, 10.1, 10.1),)))  # as large as the path, so drawn to the same scale
+    over = picture(Bodies(None, (box(-0.1, -0.1, 10.1, 10.1),)))  # as large as the path, so drawn to the same scale
     kerf, alone = ((np.asarray(drawn) == LIGHT[Paint.KERF]).all(axis=2).sum() for drawn in (over, picture()))
     assert alone > 10_000
     assert kerf == alone
@@ -63,19 +63,19 @@ def test_the_kerf_is_drawn_over_a_clamp() -> None:
 def test_the_frame_takes_in_what_is_near_and_nothing_far() -> None:
     path = np.array([[0.0, 0.0], [10_000.0, 10_000.0]])
     reach = style.BODIES_NEAR * 10_000.0
-    assert BodyShapes(None, (box(10.5, 2, 11, 3),)).around(path).tolist() == [[0, 0], [11_000, 10_000]]
-    assert BodyShapes(None, (box(10.5, 2, 900, 3),)).around(path).tolist() == [[0, 0], [10_000 + reach, 10_000]]
-    assert BodyShapes(box(-900, -900, 900, 900)).around(path).tolist() == [[-reach, -reach], [10_000 + reach] * 2]
-    assert BodyShapes(None, (box(50, 2, 60, 3),)).around(path).tolist() == path.tolist()
+    assert Bodies(None, (box(10.5, 2, 11, 3),)).around(path).tolist() == [[0, 0], [11_000, 10_000]]
+    assert Bodies(None, (box(10.5, 2, 900, 3),)).around(path).tolist() == [[0, 0], [10_000 + reach, 10_000]]
+    assert Bodies(box(-900, -900, 900, 900)).around(path).tolist() == [[-reach, -reach], [10_000 + reach] * 2]
+    assert Bodies(None, (box(50, 2, 60, 3),)).around(path).tolist() == path.tolist()
 
 
 def test_what_is_far_changes_no_pixel() -> None:
-    far = BodyShapes(None, (box(1000, 1000, 1100, 1100),))
+    far = Bodies(None, (box(1000, 1000, 1100, 1100),))
     assert ImageChops.difference(picture(), picture(far)).getbbox() is None
 
 
 def test_bodies_stay_inside_the_frame_and_leave_it_whole() -> None:
-    bodies = BodyShapes(box(-1e5, -1e5, 1e5, 1e5), (box(-1e5, 4, 1e5, 6),))
+    bodies = Bodies(box(-1e5, -1e5, 1e5, 1e5), (box(-1e5, 4, 1e5, 6),))
     drawn = np.asarray(picture(bodies))
     plot = layout_of(pixels(800), cut(bodies)).page.plot
     top, left = round(plot.top), round(plot.left)
@@ -87,13 +87,13 @@ def test_bodies_stay_inside_the_frame_and_leave_it_whole() -> None:
 @pytest.mark.parametrize(
     ("bodies", "colours"),
     [
-        (BodyShapes(), set()),
-        (BodyShapes(box(-1, -1, 11, 11)), {LIGHT[Paint.WORK]}),
-        (BodyShapes(None, (box(1, 1, 2, 2),)), {LIGHT[Paint.CLAMP]}),
-        (BodyShapes(box(-1, -1, 11, 11), (box(1, 1, 2, 2),)), {LIGHT[Paint.WORK], LIGHT[Paint.CLAMP]}),
+        (Bodies(), set()),
+        (Bodies(box(-1, -1, 11, 11)), {LIGHT[Paint.WORK]}),
+        (Bodies(None, (box(1, 1, 2, 2),)), {LIGHT[Paint.CLAMP]}),
+        (Bodies(box(-1, -1, 11, 11), (box(1, 1, 2, 2),)), {LIGHT[Paint.WORK], LIGHT[Paint.CLAMP]}),
     ],
 )
-def test_the_legend_has_a_sample_of_what_shows(bodies: BodyShapes, colours: set[Paint]) -> None:
+def test_the_legend_has_a_sample_of_what_shows(bodies: Bodies, colours: set[Paint]) -> None:
     below = np.asarray(picture(bodies))[-70:].reshape(-1, 3)
     assert {
         colour for colour in (LIGHT[Paint.WORK], LIGHT[Paint.CLAMP]) if (below == colour).all(axis=1).sum() > 100
