@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Floats, Ints, total_before
 from parser.toolpath import Toolpath
 
 
@@ -41,7 +41,7 @@ class Path:
     @property
     def before_um(self) -> Floats:
         """(n + 1,) path length before each row and at the end."""
-        return np.concatenate([[0.0], np.cumsum(self.length_um)])
+        return total_before(self.length_um)
 
     @property
     def leaving(self) -> Floats:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.motion.phases import Phases, times_of_lengths
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Floats, Ints, total_before
 
 
 class Instant(NamedTuple):
@@ -133,7 +133,7 @@ def plan_of(phases: Phases, wait_s: Floats) -> Plan:
         fills = [wait_s[waits] * is_time for is_time in (False, True, False, False, False)]
         columns = [np.insert(column, at, fill) for column, fill in zip(columns, fills, strict=True)]
     span, time, speed, acceleration, jerk = columns
-    return Plan(_summed(span), _summed(time), speed, acceleration, jerk)
+    return Plan(total_before(span), total_before(time), speed, acceleration, jerk)
 
 
 def on_borders(plan: Plan, border_um: Floats) -> Plan:
@@ -151,7 +151,3 @@ def on_borders(plan: Plan, border_um: Floats) -> Plan:
     along[waits] = along[waits + 1] = border_um[above - nearer]
     along[-1] = border_um[-1]
     return replace(plan, along_um=np.maximum.accumulate(along))
-
-
-def _summed(steps: Floats) -> Floats:
-    return np.concatenate([[0.0], np.cumsum(steps)])

@@ -12,7 +12,7 @@ from controller.motion.lookahead import reachable
 from controller.motion.phases import Phases
 from controller.motion.plan import EMPTY_PLAN, Plan, on_borders, plan_of
 from controller.motion.s_curve import Stretches, border_speeds, braked_from, ramp_lengths, s_curves
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Floats, total_before
 
 ALIKE = 1e-9
 """Limits that differ by less, relative, are the same to S-curves: the direction of a line cut in two is rounded."""
@@ -53,7 +53,7 @@ def plan_rows(limits: RowLimits, from_um_s: float | None = None, jerk_um_s3: flo
         plan = _plan_s_curves(limits, from_um_s, jerk_um_s3)
     else:
         plan = plan_of(_phases(limits, border_speeds_sq(limits, from_um_s)), limits.wait_s)
-    return on_borders(plan, np.concatenate([[0.0], np.cumsum(limits.length_um)]))
+    return on_borders(plan, total_before(limits.length_um))
 
 
 def border_speeds_sq(limits: RowLimits, from_um_s: float | None = None) -> Floats:
@@ -62,7 +62,7 @@ def border_speeds_sq(limits: RowLimits, from_um_s: float | None = None) -> Float
     limit = _border_limits(limits) ** 2
     if from_um_s is not None:
         # What cannot be braked any more is allowed.
-        too_fast = from_um_s**2 - np.concatenate([[0.0], np.cumsum(room)])
+        too_fast = from_um_s**2 - total_before(room)
         limit = np.maximum(limit, too_fast)
         limit[0] = from_um_s**2
     return reachable(limit, room)

@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.motion.phases import Phases
+from controller.motion.phases import NEWTON_STEPS, Phases
 from parser.geometry.curves import Floats
 
 ROUNDING = 1e-12
@@ -30,9 +30,6 @@ ROUNDING = 1e-12
 
 HALVINGS = 64
 """Steps of a bisection from any interval of doubles of one scale down to its last bit (53) and beyond."""
-
-NEWTON_STEPS = 6
-"""From the cube root of L √j to the last bits of the cubic's root, one step to spare (tried over 40 decades of v0)."""
 
 
 class Stretches(NamedTuple):

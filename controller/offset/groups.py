@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from parser.geometry.cells import cell_keys
 from parser.geometry.curves import Floats, Ints
 
-# Mixes x and y of a cell; sums wrap round.
-_HASH = np.array([-7046029254386353131, 7809847782465536322])
+_CORNERS = np.array([[0, 0], [1, 0], [0, 1], [1, 1]])  # a place belongs to the cells of all four that meet near it
 
 
 def groups(count: int, one: Ints, other: Ints) -> Ints:
@@ -27,8 +27,8 @@ def same_places(place_um: Floats, within_um: float) -> Ints:
 
     Two places within the distance are one. Two places three times as far apart are one only through others.
     """
-    cells = np.floor(place_um / within_um - 0.5).astype(np.int64) @ _HASH
-    cells = np.add.outer(cells, np.array([0, _HASH[0], _HASH[1], _HASH[0] + _HASH[1]])).ravel()
+    low = np.floor(place_um / within_um - 0.5).astype(np.int64)
+    cells = cell_keys(*(low[:, None, :] + _CORNERS).reshape(-1, 2).T)
     order = np.argsort(cells)
     same = np.flatnonzero(cells[order[1:]] == cells[order[:-1]])
     one, other = order[same] // 4, order[same + 1] // 4

@@ -5,10 +5,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from parser.geometry.cells import cell_keys
 from parser.geometry.curves import Floats, Ints
 
 _NEIGHBOURS = ((0, 0), (1, 0), (-1, 1), (0, 1), (1, 1))  # half of the cells round one; the other half look back
-_HASH = (-7046029254386353131, 7809847782465536322)  # mixes x and y of a cell
 _CROWD = 24  # ends in a cell; no contour goes on from there in a way that anyone could tell
 
 
@@ -79,13 +79,13 @@ def _matched(pair: Ints) -> Ints:
 def _near(place: Floats, within_um: float) -> tuple[Ints, Ints]:
     """Pairs (k, 2) of places in one cell of a grid or in neighbouring ones, and places (c,) in cells with a crowd."""
     cell = np.floor(place / within_um).astype(np.int64)
-    key = _keys(cell)
+    key = cell_keys(*cell.T)  # two cells of one key cost time, not truth
     order = np.argsort(key, kind="stable")
     crowded = _count(key[order], key) > _CROWD
     order = order[~crowded[order]]
     pairs = [np.empty((0, 2), dtype=np.int64)]
     for right, up in _NEIGHBOURS:
-        wanted = _keys(cell[order] + (right, up))
+        wanted = cell_keys(*(cell[order] + (right, up)).T)
         low, number = np.searchsorted(key[order], wanted), _count(key[order], wanted)
         one = np.repeat(np.arange(len(order)), number)
         other = low[one] + np.arange(len(one)) - (np.cumsum(number) - number)[one]
@@ -93,11 +93,6 @@ def _near(place: Floats, within_um: float) -> tuple[Ints, Ints]:
             one, other = one[one < other], other[one < other]
         pairs.append(np.column_stack([order[one], order[other]]))
     return np.concatenate(pairs), np.flatnonzero(crowded)
-
-
-def _keys(cell: Ints) -> Ints:
-    """One number a cell (k, 2); two cells of one number cost time, not truth."""
-    return cell[:, 0] * _HASH[0] + cell[:, 1] * _HASH[1]
 
 
 def _count(sorted_keys: Ints, wanted: Ints) -> Ints:

@@ -5,11 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.geometry.cells import cell_keys
 from parser.geometry.curves import Curves, Floats, Ints
 
 _WIDEST_RAD = np.pi / 2.0  # of a piece of an arc: its sagitta is 0.29 R, so that its box is not much larger than it
 _CHUNK = 1 << 18  # pairs looked at in one go: some 20 MB
-_HASH = (-7046029254386353131, 7809847782465536322, -4417276706812531889)  # mixes x, y and contour of a cell
 
 
 class Boxes(NamedTuple):
@@ -85,7 +85,7 @@ def entered(boxes: Boxes) -> tuple[Ints, Ints]:
     at = np.arange(len(piece)) - (np.cumsum(cells) - cells)[piece]
     up, right = np.divmod(at, wide[piece])
     # Two cells of one hash cost time, not truth: the boxes are compared.
-    key = (left[piece] + right) * _HASH[0] + (low[piece] + up) * _HASH[1] + boxes.contour[piece] * _HASH[2]
+    key = cell_keys(left[piece] + right, low[piece] + up, boxes.contour[piece])
     order = np.argsort(key)
     return piece[order], key[order]
 

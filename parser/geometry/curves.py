@@ -59,11 +59,16 @@ class Curves:
     @property
     def before_um(self) -> Floats:
         """(n + 1,) length of all curves before each one, and of all at the end."""
-        return np.concatenate([[0.0], np.cumsum(self.length_um)])
+        return total_before(self.length_um)
 
     def picked(self, row: Ints | slice | Bools) -> "Curves":
         """The rows `row`, as bare curves."""
         return Curves(*(getattr(self, field.name)[row] for field in fields(Curves)))
+
+
+def total_before(values: Floats) -> Floats:
+    """(n + 1,) total of the values (n,) before each one, and of all at the end."""
+    return np.concatenate([[0.0], np.cumsum(values)])
 
 
 def curves_between(start_um: Floats, end_um: Floats, center_um: Floats, sweep_rad: Floats) -> Curves:

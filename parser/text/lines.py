@@ -1,10 +1,15 @@
 """Places in a text: lines, columns, and which stretches are blank, by arrays over all characters."""
 
+import re
+
 import numpy as np
 from numpy.typing import NDArray
 
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
+
+LINE_END = re.compile(r"\r\n|\r|\n")
+"""What ends a line of a program: LF, CRLF or CR, and no other character that Python's `splitlines` cuts at."""
 
 _LF, _CR, _SPACE = 0x0A, 0x0D, 0x20
 

@@ -14,6 +14,7 @@ from parser.text.source import Field
 from parser.threeb.decode import decoded_words
 from parser.threeb.stolen_numbers import RADIUS_TOLERANCE_UM
 from parser.toolpath import Axis, StepWords, Toolpath
+from parser.words.labels import label
 
 FULL_TURN_UM = 4.0
 """J of a full circle is 4R within about this; more is more than one turn (docs/3b.md §1)."""
@@ -82,9 +83,9 @@ def _neighbour_labels(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]
     words = decoded_words(toolpath)
     ruled = ruled_label(words)
     for row in np.flatnonzero(ruled != words.quadrant).tolist():
-        sense = ("L", "NR", "SR")[words.turn[row]]
-        way = (int(ruled[row]) - 1 + (words.turn[row] < 0)) % 4
-        values = {"written": f"{sense}{words.quadrant[row]}", "ruled": f"{sense}{ruled[row]}", "way": _WAYS[way]}
+        turn, quadrant = int(words.turn[row]), int(ruled[row])
+        way = (quadrant - 1 + (turn < 0)) % 4
+        values = {"written": label(turn, int(words.quadrant[row])), "ruled": label(turn, quadrant), "way": _WAYS[way]}
         found = at_block(toolpath, lines, "3B203", row, Field.SENSE, **values)
         yield found.with_fact(WrongLabel(values["ruled"]))
 

@@ -7,14 +7,13 @@ import numpy as np
 
 from parser.geometry.curves import Ints
 from parser.text.lines import LineIndex
-from parser.threeb.grammar import BLOCK_FIELDS, GROUPS
+from parser.threeb.grammar import BLOCK_FIELDS, GROUP_AT, GROUPS
 from parser.units import from_mm
 
 MAX_WORD_UM = 999_999_999
 """Largest X, Y, J or R taken, in µm: a kilometre, a thousand times the travel of the largest table (DK7780, 1 m)."""
 
 _OVER_UM = MAX_WORD_UM + 1
-_AT = {name: place for place, name in enumerate(GROUPS)}
 
 _AXES = {"X": 0, "Y": 1}
 _TURNS = {"L": 0, "N": 1, "S": -1}  # by the first letter: blanks may stand before the R
@@ -49,7 +48,7 @@ def read_mm(digits: str) -> float:
 
 def columns_of(words: list[str | None], span: Ints, lines: LineIndex) -> RawBlocks:
     """Columns of n blocks: `words` are the groups of the token pattern, one block's after the other's."""
-    column = {name: words[place :: len(GROUPS)] for name, place in _AT.items()}
+    column = {name: words[place :: len(GROUPS)] for name, place in GROUP_AT.items()}
     end_x, end_y = column["end_x"], column["end_y"]
     printed = np.full((len(span), 2), np.nan)
     for row in [row for row, end in enumerate(end_x) if end]:

@@ -17,8 +17,9 @@ from parser.threeb.order_checks import damaged_after, dialect, lost_blocks, orde
 from parser.threeb.print_checks import print_findings
 from parser.threeb.reader import Records, read_records
 from parser.toolpath import Toolpath
+from parser.words.labels import SENSES
 
-_SPELLING = Spelling(clockwise="SR", counter_clockwise="NR", end="DD")
+_SPELLING = Spelling(clockwise=SENSES[-1], counter_clockwise=SENSES[1], end="DD")
 
 
 class ThreeB:

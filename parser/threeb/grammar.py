@@ -51,6 +51,9 @@ GROUPS = (
 )
 """Groups of the token pattern, in its order."""
 
+GROUP_AT = {name: place for place, name in enumerate(GROUPS)}
+"""Places of the groups in `GROUPS`, from 0."""
+
 
 @cache
 def token_pattern(marks: Marks) -> re.Pattern[str]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from parser.findings.facts import PrintedElsewhere
 from parser.findings.findings import Finding
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Floats, Ints, total_before
 from parser.text.encoding import narrow
 from parser.text.lines import LineIndex
 from parser.threeb.header import Header
@@ -137,7 +137,7 @@ def _misprinted(toolpath: Toolpath, lines: LineIndex, missing: Ints) -> Iterator
 
 def _wrong_lengths(toolpath: Toolpath, header: Header, lines: LineIndex) -> Iterator[Finding]:
     cut = np.where(toolpath.is_jump, 0.0, toolpath.length_um)
-    runs = [np.concatenate([[0.0], np.cumsum(column)]) for column in (cut, toolpath.length_um)]
+    runs = [total_before(column) for column in (cut, toolpath.length_um)]
     stops = [*(stop.after for stop in toolpath.stops), len(toolpath)]
     for length in header.lengths:
         after = int(np.searchsorted(toolpath.source.span[:, 0], length.span[0]))

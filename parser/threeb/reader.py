@@ -19,16 +19,15 @@ from parser.threeb.columns import MAX_WORD_UM, RawBlocks, columns_of, read_mm
 from parser.threeb.damage import Unread, unread
 from parser.threeb.grammar import (
     FOREIGN_ENDS,
-    GROUPS,
+    GROUP_AT,
     HIDDEN_BLOCK,
     LIKE_A_BLOCK,
     token_pattern,
 )
 from parser.threeb.header import Header, HeaderLength, read_header, read_length
-from parser.threeb.stolen_numbers import left_out, misfits, without_strays
+from parser.threeb.stolen_numbers import left_out, misfits, without_stolen_numbers
 
-_AT = {name: place for place, name in enumerate(GROUPS)}
-_MARK, _PASSED = _AT["mark"], _AT["passed"]
+_MARK, _PASSED = GROUP_AT["mark"], GROUP_AT["passed"]
 
 _LINE = re.compile(r"[^\r\n]+")
 
@@ -74,7 +73,7 @@ def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
     passed: list[tuple[int, int]] = []
     lengths: list[HeaderLength] = []
     covered = [0]
-    block = _AT["block"] + 1
+    block = GROUP_AT["block"] + 1
     for match in token_pattern(marks).finditer(folded):
         span, groups = match.span(), match.groups()
         covered += span
@@ -89,7 +88,7 @@ def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
             lengths += read_length(folded, span)
     covered.append(len(folded))
     raw = columns_of(words, np.array(spans, dtype=np.int64).reshape(-1, 2), lines)
-    raw, covered = without_strays(raw, covered, folded)
+    raw, covered = without_stolen_numbers(raw, covered, folded)
     damaged_rows = misfits(raw)
     if damaged_rows:
         raw, covered = left_out(raw, covered, damaged_rows)

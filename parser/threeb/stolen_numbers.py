@@ -13,7 +13,7 @@ _ENDS_IN_NUMBER = re.compile(r"B\s*\d*\s*$", re.IGNORECASE)
 _B = re.compile("B", re.IGNORECASE)
 
 
-def without_strays(raw: RawBlocks, covered: list[int], folded: str) -> tuple[RawBlocks, list[int]]:
+def without_stolen_numbers(raw: RawBlocks, covered: list[int], folded: str) -> tuple[RawBlocks, list[int]]:
     """Take from 3B blocks the number that they took from a damaged block before them, as if it were their own first.
 
     ``B1B2B3 B4B5B6GXL1`` holds a block without its end and a whole 3B block, not a 4B block ``B3B4B5B6GXL1``. Four
@@ -21,12 +21,12 @@ def without_strays(raw: RawBlocks, covered: list[int], folded: str) -> tuple[Raw
     ``B5 B1B0B1GXL1`` the last three numbers make a line.
     """
     is_four = raw.radius_um >= 0
-    stray = is_four & (raw.curve == 0)
+    doubtful = is_four & (raw.curve == 0)
     if 2 * int(is_four.sum()) >= len(raw.line):
-        stray &= (raw.turn == 0) & (raw.radius_um > 0)
+        doubtful &= (raw.turn == 0) & (raw.radius_um > 0)
     counted = np.where(raw.count_axis == 0, raw.y_um, raw.count_um)
     makes_line = (raw.turn == 0) & (raw.radius_um > 0) & (counted == raw.radius_um)
-    four = np.flatnonzero(stray)
+    four = np.flatnonzero(doubtful)
     if not len(four):
         return raw, covered
     columns = {name: column.copy() for name, column in raw._asdict().items() if name not in ("label", "printed_um")}

@@ -20,7 +20,7 @@ from sim.check.count_axes import stepped_end_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
 from sim.check.result import CheckState, Coverage, State
 from sim.check.travel import travel_findings
-from sim.check.uncut_jumps import passage_findings
+from sim.check.uncut_jumps import uncut_jump_findings
 
 if TYPE_CHECKING:  # most checks know no machine
     from sim.setup.machine.table_model import TableModel
@@ -117,9 +117,9 @@ class _PathChecks:
         program, demands = self._program, self._demands
         stepped = self._stepped()
         yield from stepped
-        passages = passage_findings(program, self._rows)
-        yield from passages
-        known = (*program.findings, *stepped, *passages)
+        uncut = uncut_jump_findings(program, self._rows)
+        yield from uncut
+        known = (*program.findings, *stepped, *uncut)
         closures = contour_findings(program, self.judged, self._rows, known, may_stay_open=demands.may_stay_open)
         yield from closures
         self._done(Check.CONTOURS, self._left_out)

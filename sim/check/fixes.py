@@ -1,6 +1,5 @@
 """Certain mends of findings, as edits of the program's text; and possible mends, for a person to choose from."""
 
-import re
 from bisect import bisect_right
 from collections import Counter
 from itertools import islice
@@ -13,6 +12,7 @@ from parser.findings.findings import Edit, Finding
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.shape.loops import is_circle
+from parser.text.lines import LINE_END
 from parser.text.source import Field
 from parser.toolpath import Axis
 from sim.check.closures import OpenContour, Suspected
@@ -20,7 +20,6 @@ from sim.check.count_axes import WrongAxis
 from sim.check.engine import Checked
 
 _MOST_PRINTED = 50  # printed ends that are mended; where more are wrong, it is not by slips in single blocks
-_LINE_END = re.compile(r"\r\n|\r|\n")
 _SETTLED = (Field.COUNT, Field.AXIS)
 """Fields that a printed end settles. The others also change the path on the way to that end."""
 _LETTERS = {Field.X: "X ", Field.Y: "Y ", Field.COUNT: "J "}
@@ -114,7 +113,7 @@ class _Mends:
         if any(damage.after >= reading.counts.run for damage in reading.damages):
             return ()
         at = len(text.rstrip("\x1a\0"))  # DOS ends a text with ^Z, and fills its last sector with NUL
-        match = _LINE_END.search(text)
+        match = LINE_END.search(text)
         newline, end = match[0] if match else "\n", reading.spelling.end
         return (Edit(at, at, f"{end}{newline}" if text[:at].endswith(("\r", "\n")) else f"{newline}{end}"),)
 

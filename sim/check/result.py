@@ -62,7 +62,7 @@ class CheckResult:
     name
         File as the user named it; ``<stdin>`` for the standard input.
     encoding, dialect
-        Of the file; empty where it could not be read. The dialect is ``3B``, ``4B`` or ``3B+4B``.
+        Of the file; empty where it could not be read. The dialect is named as its reader names it, such as ``3B+4B``.
     findings
         In file order, those that were selected.
     excerpts

@@ -16,7 +16,7 @@ _APART_UM = 1000.0
 _CELLS = 1 << 31  # more cells than any path has across
 
 
-def passage_findings(program: Program, contour: Ints) -> list[Finding]:
+def uncut_jump_findings(program: Program, contour: Ints) -> list[Finding]:
     """Finding 3B310 at the first line cut on the way from a closed figure to the next one.
 
     `contour` (n,) is each row's contour, −1 where it has none.

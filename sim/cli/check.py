@@ -60,7 +60,6 @@ def check(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     Reads files, all .3b and .4b files of folders, globs, and - for the standard input. Settings stand in drycut.toml,
     or in [tool.drycut] of pyproject.toml, in the folder of the file or above it; options come first.
 
-    \b
     Exit code: 0 nothing as severe as --fail-on, 1 a finding that is, or a check that could not look at everything,
     2 bad use or unreadable input.
 

@@ -1,7 +1,6 @@
 """Certain mends written into a program file: nothing else in it changes."""
 
 import difflib
-import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,13 +13,12 @@ from parser.findings.findings import Edit, Finding
 from parser.program import Program, load_program
 from parser.text.encoding import encode_text, printable
 from parser.text.excerpt import place
+from parser.text.lines import LINE_END
 from sim.check.engine import run_checks
 from sim.check.fixes import Choice, choices, with_edits
 from sim.check.settings import CheckSettings
 from sim.files import replace_file
 from sim.show.words import Words
-
-_LINE_END = re.compile(r"\r\n|\r|\n")
 
 
 class Unmended(NamedTuple):
@@ -97,5 +95,5 @@ def _errors(program: Program, settings: CheckSettings) -> Counter[tuple[str, int
 
 def _diff(program: Program, text: str) -> str:
     """Unified diff for people: line ends of any kind as newlines, other control characters as U+FFFD."""
-    before, after = ([printable(line) + "\n" for line in _LINE_END.split(version)] for version in (program.text, text))
+    before, after = ([printable(line) + "\n" for line in LINE_END.split(version)] for version in (program.text, text))
     return "".join(difflib.unified_diff(before, after, f"{program.name}", f"{program.name} (mended)", n=1))

@@ -11,7 +11,7 @@ from controller.stepping.pulses import Pulses
 from parser.drawing.model import Drawing
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, file_order
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Floats, total_before
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.toolpath import Toolpath
@@ -102,7 +102,7 @@ class DryRun:
     @property
     def border_s(self) -> Floats:
         """(n + 1,) float64, planned times at which the blocks begin, and the end of the last one."""
-        return np.concatenate([[0.0], np.cumsum(self.block_time_s)])
+        return total_before(self.block_time_s)
 
     @property
     def tripped(self) -> Loss | None:

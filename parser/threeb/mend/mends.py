@@ -15,6 +15,7 @@ from parser.threeb.decode import decoded_words
 from parser.threeb.mend.likelihood import slip
 from parser.threeb.mend.solved import solved_numbers
 from parser.toolpath import Axis, StepWords, Toolpath
+from parser.words.labels import label
 from parser.words.moves import Moves, moves, with_axes_named
 
 X, Y, COUNT, AXIS, QUADRANT, TURN = range(6)
@@ -25,7 +26,6 @@ FIELDS = (Field.X, Field.Y, Field.COUNT, Field.AXIS, Field.SENSE)
 
 _COLUMNS = ("x_um", "y_um", "count_um", "count_axis", "quadrant", "turn")
 _OTHER_FIELD = 7  # points of a changed letter or label, like one changed digit
-_LETTERS = {0: "L", 1: "NR", -1: "SR"}
 _SENSES = tuple(product((0, 1, -1), (1, 2, 3, 4)))  # (turn, quadrant): what Z can say
 _PLACES = 10 ** np.arange(9)  # places of the digits of a word of up to nine
 
@@ -188,4 +188,4 @@ def field_text(word: Ints, field: int) -> str:
     """A field as 3B writes it."""
     if field == AXIS:
         return f"G{Axis(int(word[AXIS])).name}"
-    return f"{_LETTERS[int(word[TURN])]}{word[QUADRANT]}" if field == SENSE else str(word[field])
+    return label(int(word[TURN]), int(word[QUADRANT])) if field == SENSE else str(word[field])

@@ -14,7 +14,7 @@ from parser.geometry.along import headings_along, places_at
 from parser.geometry.boxes import reach_um
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import headings, to_left
-from sim.cut.kerf.ways import Passage
+from sim.cut.kerf.ways import WireWay
 
 _SPACING_UM = 20.0  # a fifth of the usual offset: discs smooth the edge over more than that
 _MOST_STATIONS = 20_000  # in a block, 400 mm: longer ones have them farther apart
@@ -63,14 +63,12 @@ class _Stations(NamedTuple):
     spacing_um: Floats
 
 
-def edges_of(curves: Curves, cut: NDArray[np.bool_], passages: tuple[Passage, ...], offset_um: float) -> Edges:
+def edges_of(curves: Curves, cut: NDArray[np.bool_], ways: tuple[WireWay, ...], offset_um: float) -> Edges:
     """Edges beside the rows that are `cut` (n,), by where the wire went."""
     stations = _stations(curves, np.flatnonzero(cut))
     left, right = np.full((2, len(stations.row)), -np.inf)
-    if passages:
-        row, place = (
-            np.concatenate(column) for column in zip(*((one.row, one.place_um) for one in passages), strict=True)
-        )
+    if ways:
+        row, place = (np.concatenate(column) for column in zip(*((one.row, one.place_um) for one in ways), strict=True))
         _reach(curves, stations, (row, place), offset_um, (left, right))
     left[np.isinf(left)], right[np.isinf(right)] = np.nan, np.nan
     return Edges(stations.row, stations.place_um, stations.left, left, right, _inner(stations, offset_um))

@@ -8,8 +8,8 @@ import shapely
 from parser.shape.contours import Contour
 from parser.toolpath import Toolpath
 from sim.cut.kerf.edges import Edges, Range, edges_of, ranges
-from sim.cut.kerf.swept import Region, Swath, swath
-from sim.cut.kerf.ways import passages
+from sim.cut.kerf.swept import Region, Swept, swept_along
+from sim.cut.kerf.ways import wire_ways
 from sim.table.trace import Trace
 
 
@@ -20,8 +20,8 @@ class Kerf(NamedTuple):
     ----------
     offset_um
         Half the width that the wire cuts: its radius plus the spark gap.
-    swaths
-        What each contour removed, with its polygon `region_um`.
+    swept
+        What the wire swept on each contour, with its polygon `region_um`.
     region_um
         All of it: a shapely polygon or multipolygon.
     area_mm2
@@ -33,7 +33,7 @@ class Kerf(NamedTuple):
     """
 
     offset_um: float
-    swaths: tuple[Swath, ...]
+    swept: tuple[Swept, ...]
     region_um: Region
     area_mm2: float
     edges: Edges
@@ -44,14 +44,14 @@ class Kerf(NamedTuple):
 
 def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], offset_um: float) -> Kerf:
     """Kerf of a run by where the wire really was, an offset above 0 to all sides of it."""
-    ways = passages(trace, contours, offset_um)
-    swaths = tuple(swath(toolpath, way, offset_um) for way in ways)
-    region = shapely.union_all([one.region_um for one in swaths])
+    ways = wire_ways(trace, contours, offset_um)
+    swept = tuple(swept_along(toolpath, way, offset_um) for way in ways)
+    region = shapely.union_all([one.region_um for one in swept])
     edges = edges_of(toolpath, ~toolpath.is_jump, ways, offset_um)
     left, right = edges.left_um, edges.right_um
     return Kerf(
         offset_um=offset_um,
-        swaths=swaths,
+        swept=swept,
         region_um=region,
         area_mm2=region.area * 1e-6,
         edges=edges,

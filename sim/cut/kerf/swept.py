@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
 from parser.geometry.curves import Curves, Floats, Ints
-from sim.cut.kerf.ways import Passage
+from sim.cut.kerf.ways import WireWay
 
 Region = BaseGeometry
 """A polygon or a multipolygon, µm."""
@@ -29,20 +29,20 @@ _TURN_RAD = 0.5  # of a stretch, at most
 _CHUNK = 1 << 10  # places looked at in one go, each along some 300 rays: 2.6 MB, which stay in the cache
 
 
-class Swath(NamedTuple):
-    """What the wire removes on one passage.
+class Swept(NamedTuple):
+    """The region that the wire sweeps on its way through one contour.
 
     Attributes
     ----------
-    passage
-        Its way.
+    way
+        The wire's way.
     first
         (s,) int64, first place of each stretch.
     levels
         Regions of the stretches, then of pairs of these, and so on up to the whole.
     """
 
-    passage: Passage
+    way: WireWay
     first: Ints
     levels: tuple[Regions, ...]
 
@@ -53,11 +53,11 @@ class Swath(NamedTuple):
         return whole
 
 
-def swath(curves: Curves, passage: Passage, offset_um: float) -> Swath:
-    """What a wire with this offset removes on a passage along the rows of some curves."""
-    first = _stretches(passage, _longest_um(curves, offset_um))
-    regions = stars(passage.place_um, first, middles(passage, first), offset_um)
-    return Swath(passage, first, _levels(regions))
+def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
+    """The region that a wire with this offset sweeps on its way along the rows of some curves."""
+    first = _stretches(way, _longest_um(curves, offset_um))
+    regions = stars(way.place_um, first, middles(way, first), offset_um)
+    return Swept(way, first, _levels(regions))
 
 
 def _longest_um(curves: Curves, offset_um: float) -> Floats:
@@ -67,24 +67,24 @@ def _longest_um(curves: Curves, offset_um: float) -> Floats:
     return shorter
 
 
-def _stretches(passage: Passage, longest_um: Floats) -> Ints:
+def _stretches(way: WireWay, longest_um: Floats) -> Ints:
     """Indices (s,) of the first place of each stretch. No stretch runs on into the next block.
 
     The rays of a star miss the notch between two discs. Notches are sharp at corners only, and there a new star begins.
     """
-    if not len(passage.row):
+    if not len(way.row):
         return np.empty(0, dtype=np.int64)
-    changes = np.diff(passage.row, prepend=-1) != 0
-    begin = passage.along_um[changes][np.cumsum(changes) - 1]
-    number = np.floor((passage.along_um - begin) / longest_um[passage.row])
+    changes = np.diff(way.row, prepend=-1) != 0
+    begin = way.along_um[changes][np.cumsum(changes) - 1]
+    number = np.floor((way.along_um - begin) / longest_um[way.row])
     return np.flatnonzero(changes | (np.diff(number, prepend=-1.0) != 0.0))
 
 
-def middles(passage: Passage, first: Ints) -> Floats:
+def middles(way: WireWay, first: Ints) -> Floats:
     """Places (s, 2) half way along each stretch; `first` (s,) are the indices at which the stretches begin."""
-    last = np.append(first, len(passage.along_um))[1:] - 1
-    half = 0.5 * (passage.along_um[first] + passage.along_um[last])
-    middle: Floats = passage.place_um[np.searchsorted(passage.along_um, half)]
+    last = np.append(first, len(way.along_um))[1:] - 1
+    half = 0.5 * (way.along_um[first] + way.along_um[last])
+    middle: Floats = way.place_um[np.searchsorted(way.along_um, half)]
     return middle
 
 

@@ -8,7 +8,7 @@ import shapely
 
 from parser.geometry.curves import Floats
 from parser.toolpath import Point
-from sim.cut.kerf.ways import Passage
+from sim.cut.kerf.ways import WireWay
 
 _FRESH = 3.0  # offsets: so far back along its way the wire is in the kerf it is cutting, and closes on to nothing
 _ON_IT = 0.1  # offsets: a start this near to the loop lies on it, and is no lead-in
@@ -40,7 +40,7 @@ class Bridge(NamedTuple):
 
 
 class Older(NamedTuple):
-    """An older place of the wire: index of its contour, its index on that passage, and its distance from the wire."""
+    """An older place of the wire: index of its contour, its index on that way, and its distance from the wire."""
 
     contour: int
     at: int
@@ -48,53 +48,53 @@ class Older(NamedTuple):
 
 
 def older_place(
-    passages: Sequence[Passage], earlier: Sequence[int], contour: int, at: int, offset_um: float
+    ways: Sequence[WireWay], earlier: Sequence[int], contour: int, at: int, offset_um: float
 ) -> Older | None:
     """The older place, on an earlier contour or on this one, that the wire closes on to; None at the work's edge."""
-    passage = passages[contour]
-    wire = passage.place_um[at]
-    fresh = int(np.searchsorted(passage.along_um, passage.along_um[at] - _FRESH * offset_um))
-    ways = [(index, passages[index].place_um) for index in earlier] + [(contour, passage.place_um[:fresh])]
-    older = [_nearest(way, wire, index) for index, way in ways if len(way)]
+    way = ways[contour]
+    wire = way.place_um[at]
+    fresh = int(np.searchsorted(way.along_um, way.along_um[at] - _FRESH * offset_um))
+    places = [(index, ways[index].place_um) for index in earlier] + [(contour, way.place_um[:fresh])]
+    older = [_nearest(place, wire, index) for index, place in places if len(place)]
     nearest = min(older, key=lambda one: one.off_um, default=None)
     # Discs that touch are two offsets apart; a place farther off has no part in it.
     return nearest if nearest is not None and nearest.off_um < _FRESH * offset_um else None
 
 
-def bridge_of(passages: Sequence[Passage], contour: int, at: int, older: Older | None) -> Bridge:
+def bridge_of(ways: Sequence[WireWay], contour: int, at: int, older: Older | None) -> Bridge:
     """The bridge that the wire cuts at a place of a contour, on to an older place."""
-    passage = passages[contour]
-    wire = passage.place_um[at]
-    other = None if older is None else passages[older.contour]
+    way = ways[contour]
+    wire = way.place_um[at]
+    other = None if older is None else ways[older.contour]
     x, y = (wire if other is None or older is None else 0.5 * (wire + other.place_um[older.at])).tolist()
-    begin = int(np.searchsorted(passage.row, passage.row[at]))
-    last = int(np.searchsorted(passage.along_um, passage.along_um[at] - _LAST_UM))
+    begin = int(np.searchsorted(way.row, way.row[at]))
+    last = int(np.searchsorted(way.along_um, way.along_um[at] - _LAST_UM))
     return Bridge(
         place_um=Point(x, y),
         closes_on_block=None if other is None or older is None else int(other.row[older.at]) + 1,
-        left_um=float(passage.along_um[at] - passage.along_um[begin]),
-        last_mm_block=int(passage.row[last]) + 1,
-        last_mm_t_s=float(passage.t_s[last]),
+        left_um=float(way.along_um[at] - way.along_um[begin]),
+        last_mm_block=int(way.row[last]) + 1,
+        last_mm_t_s=float(way.t_s[last]),
     )
 
 
-def came_from_inside(passage: Passage, begin: int, end: int, offset_um: float) -> bool:
-    """Whether a passage starts inside the loop between its places `begin` and `end` (indices), and not on the loop."""
+def came_from_inside(way: WireWay, begin: int, end: int, offset_um: float) -> bool:
+    """Whether a way starts inside the loop between its places `begin` and `end` (indices), and not on the loop."""
     if end - begin < 3:
         return False
-    loop = shapely.Polygon(passage.place_um[begin : end + 1])
-    start = shapely.Point(passage.place_um[0])
+    loop = shapely.Polygon(way.place_um[begin : end + 1])
+    start = shapely.Point(way.place_um[0])
     return bool(loop.contains(start) and loop.exterior.distance(start) > _ON_IT * offset_um)
 
 
-def began_in(passage: Passage, piece_um: shapely.Polygon, offset_um: float) -> bool:
-    """Whether a passage starts within the outline of a piece, or in the notch that its lead-in left in there."""
+def began_in(way: WireWay, piece_um: shapely.Polygon, offset_um: float) -> bool:
+    """Whether the wire starts within the outline of a piece, or in the notch that its lead-in left in there."""
     outline = shapely.simplify(shapely.Polygon(piece_um.exterior), _COARSE_UM)
     closed = outline.buffer(_NOTCH * offset_um).buffer(-_NOTCH * offset_um)
-    return bool(closed.contains(shapely.Point(passage.place_um[0])))
+    return bool(closed.contains(shapely.Point(way.place_um[0])))
 
 
-def _nearest(way: Floats, wire: Floats, contour: int) -> Older:
-    off = np.hypot(way[:, 0] - wire[0], way[:, 1] - wire[1])
+def _nearest(place: Floats, wire: Floats, contour: int) -> Older:
+    off = np.hypot(place[:, 0] - wire[0], place[:, 1] - wire[1])
     at = int(np.argmin(off))
     return Older(contour, at, float(off[at]))

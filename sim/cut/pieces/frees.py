@@ -8,8 +8,8 @@ import shapely
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats
-from sim.cut.kerf.swept import Region, Swath, middles, stars
-from sim.cut.kerf.ways import Passage
+from sim.cut.kerf.swept import Region, Swept, middles, stars
+from sim.cut.kerf.ways import WireWay
 
 _SPARED = 0.1  # offsets: a wire that reaches less deep into a piece only takes off what an earlier cut left on it
 
@@ -22,7 +22,7 @@ class FreeMoment(NamedTuple):
     contour
         Index of the contour.
     at
-        Index of the place on its passage.
+        Index of the place on the wire's way through it.
     piece_um
         The piece at that moment; what is cut later may still take from it.
     """
@@ -52,41 +52,41 @@ def parted(stock_um: shapely.Polygon, kerf_um: Region) -> list[shapely.Polygon]:
 
 
 def moment_of(
-    question: FreeQuestion, swaths: tuple[Swath, ...], contours: list[int], offset_um: float
+    question: FreeQuestion, swept: tuple[Swept, ...], contours: list[int], offset_um: float
 ) -> FreeMoment | None:
     """The first moment at which the kerfs of some contours, in the order they are cut, answer the question with yes."""
     before: Region = shapely.Polygon()
     for contour in contours:
-        kerf = shapely.union(before, swaths[contour].region_um)
+        kerf = shapely.union(before, swept[contour].region_um)
         piece = question.free(kerf)
         if piece is not None:
-            return _within(question, before, swaths[contour], offset_um, FreeMoment(contour, -1, piece))
+            return _within(question, before, swept[contour], offset_um, FreeMoment(contour, -1, piece))
         before = kerf
     return None
 
 
-def _within(question: FreeQuestion, before: Region, swath: Swath, offset_um: float, whole: FreeMoment) -> FreeMoment:
-    """The moment on a passage whose whole kerf frees the piece: the stretches are halved, then the places of one."""
+def _within(question: FreeQuestion, before: Region, swept: Swept, offset_um: float, whole: FreeMoment) -> FreeMoment:
+    """The moment on the wire's way whose whole kerf frees the piece: the stretches are halved, then the places of one."""
     stretch = 0
-    for level in swath.levels[-2::-1]:
+    for level in swept.levels[-2::-1]:
         stretch *= 2
         if stretch + 1 < len(level):
             kerf = shapely.union(before, level[stretch])
             if question.free(kerf) is None:
                 before, stretch = kerf, stretch + 1
-    passage, piece = swath.passage, whole.piece_um
-    middle = middles(passage, swath.first)[stretch : stretch + 1]
-    first, past = np.append(swath.first, len(passage.row))[stretch : stretch + 2].tolist()
+    way, piece = swept.way, whole.piece_um
+    middle = middles(way, swept.first)[stretch : stretch + 1]
+    first, past = np.append(swept.first, len(way.row))[stretch : stretch + 2].tolist()
     low, high = first - 1, past - 1
     while high - low > 1:
         at = (low + high) // 2
-        star = stars(passage.place_um[first : at + 1], np.zeros(1, dtype=np.int64), middle, offset_um)
+        star = stars(way.place_um[first : at + 1], np.zeros(1, dtype=np.int64), middle, offset_um)
         found = question.free(shapely.union(before, star[0]))
         low, high, piece = (at, high, piece) if found is None else (low, at, found)
     return FreeMoment(whole.contour, high, piece)
 
 
-def cut_on_um(piece_um: shapely.Polygon, ways: Iterable[Passage], offset_um: float) -> float:
+def cut_on_um(piece_um: shapely.Polygon, ways: Iterable[WireWay], offset_um: float) -> float:
     """How far the wire goes on in a piece along some ways, not counting where it runs along its own kerf again."""
     shapely.prepare(piece_um)
     inside = [_inside(piece_um, way, offset_um) for way in ways]
@@ -95,7 +95,7 @@ def cut_on_um(piece_um: shapely.Polygon, ways: Iterable[Passage], offset_um: flo
     return float(length[~_again(place, np.cumsum(length), offset_um)].sum())
 
 
-def _inside(piece_um: shapely.Polygon, way: Passage, offset_um: float) -> tuple[Passage, NDArray[np.bool_]]:
+def _inside(piece_um: shapely.Polygon, way: WireWay, offset_um: float) -> tuple[WireWay, NDArray[np.bool_]]:
     cuts = shapely.dwithin(piece_um, shapely.points(way.place_um), (1.0 - _SPARED) * offset_um)
     return way, np.asarray(cuts)
 

@@ -7,7 +7,7 @@ import shapely
 
 from parser.toolpath import Point
 from sim.cut.kerf.region import Kerf
-from sim.cut.kerf.ways import Passage, behind
+from sim.cut.kerf.ways import WireWay, behind
 from sim.cut.pieces.bridges import Bridge, Older, began_in, bridge_of, came_from_inside, older_place
 from sim.cut.pieces.frees import FreeMoment, FreeQuestion, cut_on_um, moment_of, parted
 from sim.setup.obstacles import Outline
@@ -95,7 +95,7 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material) -> Pieces
     others = [part for part in parts if part is not frame]
     whole = [part for part in others if part.area * 1e-6 >= _CRUMB_MM2]
     held = shapely.point_on_surface(frame)
-    kerfs = shapely.STRtree([swath.region_um for swath in kerf.swaths])
+    kerfs = shapely.STRtree([one.region_um for one in kerf.swept])
     found = [
         _piece(kerf, kerfs, part, FreeQuestion(stock, part.representative_point(), held), material) for part in whole
     ]
@@ -133,15 +133,15 @@ def _piece(
 ) -> Piece | None:
     """A part as a piece; None where the contours that have a share in its outer edge do not free it."""
     contours = _round(kerfs, part)
-    moment = moment_of(question, kerf.swaths, contours, kerf.offset_um)
+    moment = moment_of(question, kerf.swept, contours, kerf.offset_um)
     if moment is None:
         return None
     contour, at = moment.contour, moment.at
-    passages = [swath.passage for swath in kerf.swaths]
+    ways = [one.way for one in kerf.swept]
     earlier = [index for index in contours if index < contour]
-    older = older_place(passages, earlier, contour, at, kerf.offset_um)
+    older = older_place(ways, earlier, contour, at, kerf.offset_um)
     is_slug = _is_slug(kerf, part, contours, moment, older)
-    lead_um = float(passages[contour].along_um[older.at]) if is_slug and older and older.contour == contour else 0.0
+    lead_um = float(ways[contour].along_um[older.at]) if is_slug and older and older.contour == contour else 0.0
     area = part.area * 1e-6
     after = cut_on_um(moment.piece_um, _ways_after(kerf, kerfs, question, moment, is_slug), kerf.offset_um)
     return Piece(
@@ -150,8 +150,8 @@ def _piece(
         area_mm2=area,
         mass_g=material.mass_g(area),
         center_um=Point(part.centroid.x, part.centroid.y),
-        freed=_freed(passages[contour], moment),
-        bridge=bridge_of(passages, contour, at, older),
+        freed=_freed(ways[contour], moment),
+        bridge=bridge_of(ways, contour, at, older),
         cut_after_um=after,
         early=after > _EARLY * 2.0 * kerf.offset_um + lead_um,
     )
@@ -162,14 +162,14 @@ def _is_slug(kerf: Kerf, part: shapely.Polygon, contours: list[int], moment: Fre
     if older is None:
         return False
     if older.contour == moment.contour:
-        return came_from_inside(kerf.swaths[moment.contour].passage, older.at, moment.at, kerf.offset_um)
+        return came_from_inside(kerf.swept[moment.contour].way, older.at, moment.at, kerf.offset_um)
     # Several contours cut round it, since a bridge was left for later: the start of the first one tells.
-    return began_in(kerf.swaths[contours[0]].passage, part, kerf.offset_um)
+    return began_in(kerf.swept[contours[0]].way, part, kerf.offset_um)
 
 
-def _freed(passage: Passage, moment: FreeMoment) -> Freed:
-    x, y = passage.place_um[moment.at].tolist()
-    return Freed(moment.contour + 1, int(passage.row[moment.at]) + 1, float(passage.t_s[moment.at]), Point(x, y))
+def _freed(way: WireWay, moment: FreeMoment) -> Freed:
+    x, y = way.place_um[moment.at].tolist()
+    return Freed(moment.contour + 1, int(way.row[moment.at]) + 1, float(way.t_s[moment.at]), Point(x, y))
 
 
 def _round(kerfs: shapely.STRtree, part: shapely.Polygon) -> list[int]:
@@ -180,14 +180,14 @@ def _round(kerfs: shapely.STRtree, part: shapely.Polygon) -> list[int]:
 
 def _ways_after(
     kerf: Kerf, kerfs: shapely.STRtree, question: FreeQuestion, moment: FreeMoment, is_slug: bool
-) -> list[Passage]:
+) -> list[WireWay]:
     """Ways that may cut in a piece once it is free.
 
     Later contours count in a part alone: a slug is taken out before them. They do not count either in a part with some
     of the work's own edge, since a clamp may hold it there.
     """
-    rest = behind(kerf.swaths[moment.contour].passage, moment.at)
+    rest = behind(kerf.swept[moment.contour].way, moment.at)
     if is_slug or moment.piece_um.intersects(question.stock_um.exterior):
         return [rest]
     met = np.sort(kerfs.query(moment.piece_um, predicate="intersects"))
-    return [rest, *(kerf.swaths[at].passage for at in met[met > moment.contour].tolist())]
+    return [rest, *(kerf.swept[at].way for at in met[met > moment.contour].tolist())]

@@ -102,6 +102,12 @@ class Page(NamedTuple):
     plot: Box
     view: View
 
+    @property
+    def inside(self) -> Box:
+        """The plot without the line of its frame."""
+        line = style.GRID_WIDTH * self.unit
+        return Box(self.plot.left + line, self.plot.top + line, self.plot.right - line, self.plot.bottom - line)
+
 
 class Margins(NamedTuple):
     """What is kept free at the four sides of something, in the sizes of `sim.show.draw.style`."""

@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.geometry.curves import Bools, Floats
+from parser.geometry.curves import Bools, Floats, total_before
 from sim.show.draw.layout import Box, View
 from sim.show.draw.silent_pygame import pygame
 from sim.table.trace import Trace
@@ -62,7 +62,7 @@ class Span(NamedTuple):
 def discs_of(trace: Trace, is_jump: Bools, view: View, plot: Box, radius: float) -> Discs:
     """Discs of the cut that show in a plot; `is_jump` (n,) by row, `radius` in px."""
     way = view.to_px(trace.wire_um)
-    travel = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(way, axis=0).T))])
+    travel = total_before(np.hypot(*np.diff(way, axis=0).T))
     spacing = max(1.0, math.sqrt(8.0 * radius * SCALLOP_PX))
     at = np.append(np.arange(0.0, travel[-1], spacing), travel[-1])
     centers = np.stack([np.interp(at, travel, way[:, axis]) for axis in (0, 1)], axis=1)

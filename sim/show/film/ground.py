@@ -50,9 +50,9 @@ def draw_ground(canvas: Canvas, page: Page, scenario: Scenario, pieces: Iterable
     """Draw the plot before the wire comes, with the pieces as far as they are free."""
     draw_frame(canvas, page)
     if scenario.work_um is None:  # a plate without end
-        canvas.box(inside(page), Paint.WORK, Paint.WORK, 0.0)
+        canvas.box(page.inside, Paint.WORK, Paint.WORK, 0.0)
     draw_bodies(canvas, page, Bodies(scenario.work_um, [clamp.outline_um for clamp in scenario.clamps]))
-    with canvas.clipped(inside(page)):
+    with canvas.clipped(page.inside):
         for outline, fate in pieces:
             if fate != "held":
                 _draw_outline(canvas, page, outline, Paint.SLUG if fate == "free" else Paint.PAGE)
@@ -61,14 +61,14 @@ def draw_ground(canvas: Canvas, page: Page, scenario: Scenario, pieces: Iterable
 
 def draw_behind(canvas: Canvas, page: Page) -> None:
     """Draw the plot as if all of it were kerf."""
-    canvas.box(inside(page), Paint.KERF, Paint.KERF, 0.0)
+    canvas.box(page.inside, Paint.KERF, Paint.KERF, 0.0)
     if page.view.px_per_um >= TRACE_FROM:  # at smaller scales the grid looks like cracks in the kerf
         draw_axes(canvas, page)
 
 
 def draw_path(canvas: Canvas, page: Page, course: Course) -> None:
     """Draw the ideal path, its jumps and its start; near by, the way of the wire and the single steps too."""
-    toolpath, view, unit, room = course.run.toolpath, page.view, page.unit, inside(page)
+    toolpath, view, unit, room = course.run.toolpath, page.view, page.unit, page.inside
     points_um, row = flatten(toolpath, CHORD_PX / view.px_per_um)
     with canvas.clipped(room):
         for run in cut_runs(points_um, row, toolpath.is_jump):
@@ -83,13 +83,6 @@ def draw_path(canvas: Canvas, page: Page, course: Course) -> None:
         if view.px_per_um >= STEPS_FROM:
             _draw_steps(canvas, page, course)
         draw_start(canvas, view.to_px(toolpath.start_um[0]), unit)
-
-
-def inside(page: Page) -> Box:
-    """The plot without its frame."""
-    left, top, right, bottom = page.plot
-    line = style.GRID_WIDTH * page.unit
-    return Box(left + line, top + line, right - line, bottom - line)
 
 
 def _draw_run(canvas: Canvas, points_um: Floats, page: Page, paint: Paint, width: float) -> None:

@@ -5,7 +5,6 @@ from typing import Final
 
 import numpy as np
 
-from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.toolpath import Stop
@@ -15,17 +14,12 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import Paint
+from sim.show.pictures.cut.flags import SEVERITY_PAINTS
 
 BAR: Final = (30.0, 48.0)
 """Top and foot of the bar, from the strip's top on."""
 MARK: Final = 8.0
 BORDERS_APART: Final = 4.0
-_PAINTS: Final = {
-    Severity.ERROR: Paint.ERROR,
-    Severity.WARNING: Paint.WARNING,
-    Severity.NOTE: Paint.GREY,
-}
-"""Of findings by their severity."""
 
 
 def bar_of(strip: Box, unit: float) -> Box:
@@ -47,7 +41,7 @@ def paint_of(event: Event) -> Paint | None:
     """What a film shows something that happens in; None where it does not: findings tell of losses, too."""
     match event:
         case Finding():
-            return _PAINTS[event.severity]
+            return SEVERITY_PAINTS[event.severity]
         case Piece():
             return Paint.SLUG_EDGE
         case Stop(kind="pause"):

@@ -3,12 +3,12 @@
 A table counts what was found in all files together, in plain columns.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import click
 
 from parser.findings.catalogue import Language, length, page, texts
-from parser.findings.codes import CODES, Severity
+from parser.findings.codes import CODES
 from parser.findings.findings import Finding
 from parser.text.encoding import printable
 from parser.text.excerpt import caret_lines, cells, place
@@ -17,16 +17,9 @@ from sim.show.findings.options import Options
 from sim.show.findings.tidy import spot
 from sim.show.findings.totals import Totals
 from sim.show.findings.wording import coverage, message, summary, verdicts
+from sim.show.terminal.colours import COLOURS
 from sim.show.words import Words
 
-_COLOURS: Mapping[str, str] = {
-    Severity.ERROR: "red",
-    Severity.WARNING: "yellow",
-    Severity.NOTE: "cyan",
-    "pass": "green",
-    "fail": "red",
-    "incomplete": "yellow",
-}
 _GAP = "  "  # between the columns of the table
 
 
@@ -46,13 +39,13 @@ def _file(result: CheckResult, options: Options) -> Iterator[str]:
         yield from _finding(result, finding, options)
     if result.findings or result.verdict != "pass" or not options.quiet:
         line = f"{printable(result.name)}: {coverage(result, options.language)}"
-        yield _styled(line, options, fg=_COLOURS[result.verdict])
+        yield _styled(line, options, fg=COLOURS[result.verdict])
 
 
 def _finding(result: CheckResult, finding: Finding, options: Options) -> Iterator[str]:
     where = _styled(place(printable(result.name), finding.line, finding.column), options, bold=True)
     severity = Words(options.language)(f"findings.{finding.severity}")
-    label = _styled(f"{severity}[{finding.code}]", options, fg=_COLOURS[finding.severity], bold=True)
+    label = _styled(f"{severity}[{finding.code}]", options, fg=COLOURS[finding.severity], bold=True)
     yield f"{where}: {label}: {printable(message(finding, options.language))}"
     gutter = " " * len(str(finding.line))
     yield from _source(result, finding, gutter, options)
@@ -67,7 +60,7 @@ def _source(result: CheckResult, finding: Finding, gutter: str, options: Options
     shown, carets = caret_lines(result.excerpts[finding.line], max(at.column, 1), at.end_column - at.column)
     yield f"  {finding.line} | {shown}".rstrip()
     if at.column:
-        yield f"  {gutter} | {_styled(carets, options, fg=_COLOURS[finding.severity], bold=True)}"
+        yield f"  {gutter} | {_styled(carets, options, fg=COLOURS[finding.severity], bold=True)}"
 
 
 def _hint(finding: Finding, gutter: str, language: Language) -> Iterator[str]:

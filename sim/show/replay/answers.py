@@ -7,6 +7,7 @@ import numpy as np
 
 from parser.findings.catalogue import Said
 from parser.geometry.curves import Floats
+from parser.words.labels import SENSES, label
 from sim.setup.quiz import About, WrittenQuestion
 from sim.show.replay.asked_block import AskedBlock, in_mm, plain, signed, way
 from sim.show.words import said
@@ -29,13 +30,13 @@ def written_out(about: About, block: AskedBlock) -> WrittenQuestion | None:
 
 
 def _quadrant(block: AskedBlock) -> WrittenQuestion:
-    label = f"{block.sense}{block.motion}"
+    right = label(block.turn, block.motion)
     from_x, from_y = (plain(um) for um in _from_center(block, block.start_um))
     why = said(
-        f"quiz.quadrant_{block.kind}_why", label=label, turn=_turn(block), from_x=from_x, from_y=from_y, **_moves(block)
+        f"quiz.quadrant_{block.kind}_why", label=right, turn=_turn(block), from_x=from_x, from_y=from_y, **_moves(block)
     )
     return _among(
-        [f"{block.sense}{digit}" for digit in range(1, 5)], label, _ask(f"quiz.quadrant_{block.kind}", block), why
+        [label(block.turn, digit) for digit in range(1, 5)], right, _ask(f"quiz.quadrant_{block.kind}", block), why
     )
 
 
@@ -74,7 +75,7 @@ def _turning(block: AskedBlock) -> WrittenQuestion:
     return WrittenQuestion(_ask("quiz.turn", block), tuple(answers), int(block.turn > 0), why)
 
 
-_SENSES = (("clockwise", "SR"), ("counter_clockwise", "NR"))
+_SENSES = (("clockwise", SENSES[-1]), ("counter_clockwise", SENSES[1]))
 
 
 def _count_length(block: AskedBlock) -> WrittenQuestion:
@@ -89,7 +90,7 @@ def _count_length(block: AskedBlock) -> WrittenQuestion:
 
 def _next_step(block: AskedBlock) -> WrittenQuestion:
     right = way(block.first_step)
-    why = said(f"quiz.next_step_{block.kind}_why", way=right, label=f"{block.sense}{block.motion}")
+    why = said(f"quiz.next_step_{block.kind}_why", way=right, label=label(block.turn, block.motion))
     return _among(["+X", "−X", "+Y", "−Y"], right, _ask("quiz.next_step", block), why)
 
 

@@ -9,6 +9,7 @@ from controller.stepping.words import words_of
 from parser.geometry.curves import Floats
 from parser.toolpath import Axis
 from parser.units import mm
+from parser.words.labels import SENSES, label
 from sim.run.dryrun import DryRun
 
 
@@ -63,12 +64,12 @@ class AskedBlock(NamedTuple):
     @property
     def sense(self) -> str:
         """Letters before the digit of its direction."""
-        return {0: "L", 1: "NR", -1: "SR"}[self.turn]
+        return SENSES[self.turn]
 
     @property
     def label(self) -> str:
         """Direction as it is written."""
-        return f"{self.sense}{self.quadrant}"
+        return label(self.turn, self.quadrant)
 
     @property
     def motion(self) -> int:

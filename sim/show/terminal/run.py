@@ -10,7 +10,6 @@ from rich.text import Text
 
 from controller.offset.path import Made
 from parser.findings.catalogue import texts
-from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.findings.remarks import remark_text
 from parser.text.encoding import printable
@@ -19,11 +18,11 @@ from parser.units import mm
 from sim.cut.pieces.pieces import Piece
 from sim.measure.deviation.deviation import Where
 from sim.run.dryrun import DryRun, verdict
+from sim.setup.key_words import value_word
+from sim.show.terminal.colours import COLOURS
 from sim.table.record.peaks import Peak
 from sim.units import clock, three_figures
 
-_COLOURS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
-_INTERPOLATORS = {"point-by-point": "point by point", "card": "by the card at equal times"}
 _CAUSES = {
     "interpolation": "by interpolation",
     "carried": "carried over",
@@ -51,8 +50,8 @@ def print_summary(run: DryRun, output: Path | None) -> None:
         table.add_row(name, escape(value))
     console.print(table)
     _print_findings(console, run, output)
-    passed = verdict(run.findings) == "pass"
-    console.print(Text(f"verdict: {'pass' if passed else 'fail'}", style="bold green" if passed else "bold red"))
+    reached = verdict(run.findings)
+    console.print(Text(f"verdict: {reached}", style=f"bold {COLOURS[reached]}"))
 
 
 def _print_findings(console: Console, run: DryRun, output: Path | None) -> None:
@@ -71,7 +70,7 @@ def _line(name: str, finding: Finding) -> Text:
     at = place(name, finding.line, finding.column)
     block = f" block {finding.block}:" if finding.block else ""
     text = Text(f"{at}: ")
-    text.append(f"{finding.severity}[{finding.code}]", style=_COLOURS[finding.severity])
+    text.append(f"{finding.severity}[{finding.code}]", style=COLOURS[finding.severity])
     return text.append(f":{block} {texts(finding).message}")
 
 
@@ -89,7 +88,7 @@ def summary_rows(run: DryRun) -> list[Row]:
         ("path length", f"{mm(float(toolpath.length_um.sum())):,.3f} mm"),
         ("kerf", f"{mm(scenario.wire.kerf_um):g} mm ({wire})"),
         *([("wire lag", f"{scenario.wire_lag_um:g} µm")] if scenario.wire_lag_um else []),
-        ("steps", f"{len(run.stepped):,} of 1 µm, {_INTERPOLATORS[scenario.machine.controller.interpolation]}"),
+        ("steps", f"{len(run.stepped):,} of 1 µm, {value_word(scenario.machine.controller.interpolation).en}"),
         ("estimated cutting time", f"{clock(run.plan.duration_s)} in {scenario.thickness_mm:g} mm"),
         *_times(run),
         *_closures(run),

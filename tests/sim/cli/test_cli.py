@@ -8,10 +8,13 @@ from importlib import resources
 from pathlib import Path
 
 import pytest
+from click import Context
+from click.testing import CliRunner
 from command import run_command
 from places import ROOT, SCENARIOS
 
 from sim import __version__
+from sim.cli import cli
 
 SOUND = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 DD"
 
@@ -219,6 +222,13 @@ def test_version_and_help() -> None:
     assert "drycut run part.3b -o out/\n" in drycut("run", "--help").stdout
     assert drycut().returncode == 2
     assert drycut("frobnicate").returncode == 2
+
+
+@pytest.mark.parametrize("command", sorted(cli.list_commands(Context(cli))))
+def test_help_fits_a_terminal(command: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    shown = CliRunner().invoke(cli, [command, "--help"]).output.splitlines()
+    assert [line for line in shown if len(line) > 80] == []
 
 
 def test_version_imports_nothing_heavy() -> None:

@@ -77,7 +77,7 @@ def test_a_wire_that_waits_removes_no_more():
 def test_jumps_cut_nothing():
     path = Pen().to(1000, 0).jump(5000, 0).to(6000, 0).path()
     kerf = kerf_along(path)
-    assert len(kerf.swaths) == 2
+    assert len(kerf.swept) == 2
     assert [part.bounds for part in kerf.region_um.geoms] == [
         pytest.approx((-F, -F, 1000 + F, F), abs=0.02),
         pytest.approx((5000 - F, -F, 6000 + F, F), abs=0.02),
@@ -90,7 +90,7 @@ def test_what_the_wire_does_not_come_to_is_not_cut():
     kerf = kerf_along(path, trace_of(path).until(0.3))
     assert kerf.region_um.bounds[3] == pytest.approx(500.0 + F, abs=0.02)
     assert np.isnan(kerf.width.mean_um).tolist() == [False, False, True, True]
-    assert kerf.swaths[1].region_um.is_empty
+    assert kerf.swept[1].region_um.is_empty
 
 
 def test_no_cut_at_all_leaves_no_kerf():
@@ -159,6 +159,4 @@ def test_arcs_within_the_offset_are_cut_to_their_middle():
 def test_contours_keep_their_own_kerfs():
     path = Pen().to(1000, 0).jump(3000, 0).to(4000, 0).path()
     kerf = kerf_of(path, trace_of(path), contours_of(path), F)
-    assert [swath.region_um.area for swath in kerf.swaths] == pytest.approx(
-        [2 * F * 1000 + math.pi * F**2] * 2, rel=1e-4
-    )
+    assert [one.region_um.area for one in kerf.swept] == pytest.approx([2 * F * 1000 + math.pi * F**2] * 2, rel=1e-4)

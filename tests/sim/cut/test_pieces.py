@@ -67,11 +67,11 @@ def test_the_kerf_just_before_the_moment_does_not_free_the_piece(path):
     kerf = kerf_along(path)
     pieces = pieces_of(kerf, None, STEEL)
     (piece,) = pieces.freed
-    passage = kerf.swaths[0].passage
-    at = int(np.searchsorted(passage.t_s, piece.freed.t_s))
+    way = kerf.swept[0].way
+    at = int(np.searchsorted(way.t_s, piece.freed.t_s))
 
     def encloses(past: int, radius: float) -> bool:
-        places = np.concatenate([passage.place_um[: past - 20 : 4], passage.place_um[past - 20 : past]])
+        places = np.concatenate([way.place_um[: past - 20 : 4], way.place_um[past - 20 : past]])
         discs = shapely.buffer(shapely.points(places), radius, quad_segs=24)
         return len(shapely.union_all(discs).interiors) > 0
 

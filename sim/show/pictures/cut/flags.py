@@ -19,7 +19,7 @@ from sim.show.draw.layout import Box, box_around
 from sim.show.draw.paints import Paint
 from sim.show.pictures.cut.subject import Board
 
-PAINTS: Final = {Severity.ERROR: Paint.ERROR, Severity.WARNING: Paint.WARNING, Severity.NOTE: Paint.GREY}
+SEVERITY_PAINTS: Final = {Severity.ERROR: Paint.ERROR, Severity.WARNING: Paint.WARNING, Severity.NOTE: Paint.GREY}
 _WORST_FIRST: Final = tuple(Severity)
 _SHARES: Final = (0.5, 0.35, 0.65, 0.2, 0.8)
 _MOST_CODES: Final = 2
@@ -130,7 +130,7 @@ def draw_flags(board: Board, flags: Sequence[Flag], *, codes: bool) -> None:
 
 def draw_flag(canvas: Canvas, center: Floats, severity: Severity, unit: float) -> None:
     """Draw a marker: a diamond for an error, a triangle for a warning, a disc for a note."""
-    reach, paint = style.FLAG * unit, PAINTS[severity]
+    reach, paint = style.FLAG * unit, SEVERITY_PAINTS[severity]
     for size, colour in ((reach, Paint.PAGE), (reach - 2.0 * unit, paint)):
         if severity is Severity.NOTE:
             canvas.disc(center, 0.72 * size, colour)
@@ -148,9 +148,9 @@ def _write(board: Board, flag: Flag, center: Floats) -> None:
     wide, tall = canvas.text_width(flag.text, size) + 2 * style.NUMBER_INSET * unit, 1.25 * size
     box = board.room.take(_round(center, (wide, tall), style.FLAG * unit))
     if box:
-        canvas.box(box, Paint.PAGE, PAINTS[flag.severity], unit)
+        canvas.box(box, Paint.PAGE, SEVERITY_PAINTS[flag.severity], unit)
         middle = (box.left + box.right) / 2, (box.top + box.bottom) / 2
-        canvas.text(middle, flag.text, size, PAINTS[flag.severity], align=0.5)
+        canvas.text(middle, flag.text, size, SEVERITY_PAINTS[flag.severity], align=0.5)
 
 
 def _round(center: Floats, size: tuple[float, float], reach: float) -> list[Box]:

@@ -36,7 +36,7 @@ class Bodies(NamedTuple):
 
 def draw_bodies(canvas: Canvas, page: Page, bodies: Bodies) -> None:
     """Draw what of the bodies lies in the plot."""
-    with canvas.clipped(_inside(page)):
+    with canvas.clipped(page.inside):
         for corners in works_on(page, bodies):
             draw_work(canvas, corners, page.unit)
         for corners in clamps_on(page, bodies):
@@ -83,13 +83,6 @@ def _hatching(corners: Floats, spacing: float) -> Floats:
     order = np.lexsort((places[:, 0], line))  # a line enters and leaves by turns
     lines: Floats = places[order].reshape(-1, 2, 2)
     return lines
-
-
-def _inside(page: Page) -> Box:
-    """The plot within its frame."""
-    left, top, right, bottom = page.plot
-    line = style.GRID_WIDTH * page.unit
-    return Box(left + line, top + line, right - line, bottom - line)
 
 
 def _on_page(outlines: Sequence[Outline], page: Page) -> list[Floats]:

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Floats, total_before
 from parser.toolpath import Axis
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
@@ -59,7 +59,7 @@ def _draw_hatch(canvas: Canvas, chart: Chart, t: Floats, ends: Floats) -> None:
 def _draw_dashes(canvas: Canvas, chart: Chart, values: Floats) -> None:
     """Draw a line through points (n, 2) in dashes that go on from chord to chord."""
     points = simplify(chart.to_px(values), CHORD_PX)
-    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+    along = total_before(np.hypot(*np.diff(points, axis=0).T))
     begins = np.arange(0.0, along[-1], (style.DASH + style.DASH_GAP) * chart.unit)
     cuts = np.stack([begins, np.minimum(begins + style.DASH * chart.unit, along[-1])], axis=1)
     at = np.union1d(along, cuts)

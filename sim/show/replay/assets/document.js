@@ -159,7 +159,7 @@ import { element } from "../../html/assets/elements.js";
  */
 
 /**
- * Steps and samples; texts are packed columns (sim/show/replay/packed.py).
+ * Steps and samples; texts are packed columns (sim/show/replay/tape.py).
  * @typedef {object} Tape
  * @property {number} tick_s
  * @property {number} grain_um
