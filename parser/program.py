@@ -79,3 +79,17 @@ def parse_program(text: str, name: str = "program", encoding: str = "utf-8", mar
 def suffixes() -> tuple[str, ...]:
     """Ends of names by which programs are known, of all readers in turn; files may be named otherwise."""
     return tuple(suffix for reader in READERS for suffix in reader.suffixes)
+
+
+def own_marks() -> Marks:
+    """Marks that the dialects of all readers have themselves, in capitals."""
+    own = [reader.own_marks for reader in READERS]
+    return Marks(
+        end=tuple(word for marks in own for word in marks.end),
+        pause=tuple(word for marks in own for word in marks.pause),
+    )
+
+
+def block_words() -> tuple[str, ...]:
+    """Words of letters that blocks are written with, of all readers, in capitals: none of them can be a mark."""
+    return tuple(word for reader in READERS for word in reader.block_words)

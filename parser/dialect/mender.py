@@ -2,8 +2,16 @@
 
 from typing import NamedTuple, Protocol
 
+from parser.findings.findings import Edit
 from parser.text.source import Field
-from parser.toolpath import Toolpath
+from parser.toolpath import Axis, Toolpath
+
+
+class Mend(NamedTuple):
+    """A field of a block, and what it would say, as the dialect writes it, such as ``24900`` or ``GX``."""
+
+    field: Field
+    text: str
 
 
 class Suspect(NamedTuple):
@@ -24,12 +32,10 @@ class Suspect(NamedTuple):
     written: str
     other: str
 
-
-class PrintedMend(NamedTuple):
-    """A field, and what it would say, as the dialect writes it, so that its block ends where it is printed to end."""
-
-    field: Field
-    text: str
+    @property
+    def mend(self) -> Mend:
+        """What would close the contour."""
+        return Mend(self.field, self.other)
 
 
 class Mender(Protocol):
@@ -38,11 +44,23 @@ class Mender(Protocol):
     def suspects(self, toolpath: Toolpath, first_row: int, past_row: int) -> tuple[Suspect, ...]:
         """The likeliest blocks that keep the contour from `first_row` up to but without `past_row` open, best first."""
 
-    def printed_mends(self, toolpath: Toolpath, row: int) -> tuple[PrintedMend, ...]:
-        """The likeliest mends of a block that ends elsewhere than printed, at most one a field."""
+    def printed_mends(self, toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
+        """The likeliest mends with which a row ends where it is printed to end, at most one a field."""
 
     def is_misprint(self, toolpath: Toolpath, row: int) -> bool | None:
         """Whether the end printed beside a row is wrong and not its block; None where nothing tells."""
 
     def ends_as_printed(self, toolpath: Toolpath, row: int) -> bool:
         """Whether a row ends where it is printed to end; False where nothing is printed beside it."""
+
+    def counted_on(self, axis: Axis) -> Mend:
+        """The mend with which a block counts on an axis."""
+
+    def counting(self, count_um: int) -> Mend:
+        """The mend with which a block counts so many µm."""
+
+    def edit(self, toolpath: Toolpath, row: int, mend: Mend) -> Edit:
+        """What a mend changes in the program's text. ValueError where the block in the row has no such field."""
+
+    def told(self, mends: tuple[Mend, ...]) -> str:
+        """Mends of one block for people, so that they see which fields are meant."""

@@ -126,6 +126,14 @@ class Reader(Protocol):
     def suffixes(self) -> tuple[str, ...]:
         """Ends of names of its files, in small letters, with the dot; the first is the usual one."""
 
+    @property
+    def own_marks(self) -> Marks:
+        """Marks of the family itself, in capitals."""
+
+    @property
+    def block_words(self) -> tuple[str, ...]:
+        """Words of letters that its blocks are written with, in capitals: none of them can be a further mark."""
+
     def recognises(self, text: str) -> bool:
         """Whether a text holds a block of the family, or what was meant for one."""
 

@@ -11,7 +11,7 @@ from parser.text.encoding import narrow, no_program
 from parser.threeb.block_checks import block_findings
 from parser.threeb.columns import RawBlocks
 from parser.threeb.decode import decode
-from parser.threeb.grammar import LIKE_A_BLOCK
+from parser.threeb.grammar import BLOCK_WORDS, LIKE_A_BLOCK, OWN_MARKS
 from parser.threeb.mend import MENDER
 from parser.threeb.order_checks import damaged_after, dialect, lost_blocks, order_findings
 from parser.threeb.print_checks import print_findings
@@ -19,7 +19,7 @@ from parser.threeb.reader import Records, read_records
 from parser.toolpath import Toolpath
 from parser.words.labels import SENSES
 
-_SPELLING = Spelling(clockwise=SENSES[-1], counter_clockwise=SENSES[1], end="DD")
+_SPELLING = Spelling(clockwise=SENSES[-1], counter_clockwise=SENSES[1], end=OWN_MARKS.end[0])
 
 
 class ThreeB:
@@ -27,6 +27,8 @@ class ThreeB:
 
     name = "3B"
     suffixes = (".3b", ".4b")
+    own_marks = OWN_MARKS
+    block_words = BLOCK_WORDS
 
     def recognises(self, text: str) -> bool:
         """Whether a text holds a block, or what was meant for one."""

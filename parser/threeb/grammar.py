@@ -5,9 +5,12 @@ Spellings and their grades: docs/3b.md, sections 1, 2 and 6.
 
 import re
 from functools import cache
+from itertools import chain
 
 from parser.dialect.reader import Marks
 
+OWN_MARKS = Marks(end=("DD",), pause=("D",))
+"""Marks of the dialect itself (docs/3b.md §2)."""
 FOREIGN_ENDS = ("E", "FF", "MJ")
 """End marks of other controllers (docs/3b.md §2, recalled): read as the end, with a warning."""
 
@@ -28,6 +31,8 @@ BLOCK = (
     rf"({_NUMBER}{_NUMBER}{_NUMBER}(?:{_RADIUS})?"
     rf"G{WS}([XY]){WS}(?:{_CURVE}{WS})?(L|[SN]{WS}R){WS}([1-4])(?!\d))"
 )
+BLOCK_WORDS = ("B", "N", "L", "S", "G", "X", "Y", "GX", "GY", "NR", "SR")
+"""Words of letters that stand in blocks and their labels, in parts and whole: as marks they would break blocks up."""
 _START_NODE = rf"Start{WS}Point{WS}[=:]{WS}\(?{_MM},{_MM}[^\r\n]*"
 _HEADER = r"(?:\*{2}|CAXA|Co(?:nn?|rn)er\s?R|Offset|Length)[^\r\n]*"
 _REMARK = r"//[^\r\n]*|;[^\r\n]*|\([^()\r\n]*\)"
@@ -58,7 +63,8 @@ GROUP_AT = {name: place for place, name in enumerate(GROUPS)}
 @cache
 def token_pattern(marks: Marks) -> re.Pattern[str]:
     """Pattern whose matches are the blocks, marks, start nodes, headers and remarks of a text."""
-    words = sorted({"DD", "D", *FOREIGN_ENDS, *marks.end, *marks.pause}, key=lambda word: (-len(word), word))
+    known = {*chain(*OWN_MARKS, *marks), *FOREIGN_ENDS}
+    words = sorted(known, key=lambda word: (-len(word), word))
     # A mark is a token: `D` in a word, in `part-D` or in `3D` is none; glued to a block or behind `N7` it is.
     mark = (
         rf"((?(1)|(?(3)|(?:(?<![A-Z0-9_-])|(?<=[LR][1-4]))))(?:{'|'.join(map(re.escape, words))}))"

@@ -22,6 +22,7 @@ from parser.threeb.grammar import (
     GROUP_AT,
     HIDDEN_BLOCK,
     LIKE_A_BLOCK,
+    OWN_MARKS,
     token_pattern,
 )
 from parser.threeb.header import Header, HeaderLength, read_header, read_length
@@ -111,7 +112,7 @@ def _mark(groups: tuple[str | None, ...], span: tuple[int, int], after: int, lin
     if not word:
         return Mark("node", after, line, span, "", read_mm(x or ""), read_mm(y or ""))
     word = word.upper()
-    ends = word in {"DD", *marks.end} or (word in FOREIGN_ENDS and word not in marks.pause)
+    ends = word in {*OWN_MARKS.end, *marks.end} or (word in FOREIGN_ENDS and word not in marks.pause)
     return Mark("end" if ends else "pause", after, line, span, word)
 
 

@@ -6,7 +6,7 @@ from itertools import islice
 from typing import NamedTuple
 
 from controller.stepping.words import words_of
-from parser.dialect.mender import Mender
+from parser.dialect.mender import Mend, Mender
 from parser.findings.facts import CountedElsewhere, DoubtfulEnd, NoEnd, PrintedElsewhere, WrongLabel, telling
 from parser.findings.findings import Edit, Finding
 from parser.program import Program
@@ -22,11 +22,10 @@ from sim.check.engine import Checked
 _MOST_PRINTED = 50  # printed ends that are mended; where more are wrong, it is not by slips in single blocks
 _SETTLED = (Field.COUNT, Field.AXIS)
 """Fields that a printed end settles. The others also change the path on the way to that end."""
-_LETTERS = {Field.X: "X ", Field.Y: "Y ", Field.COUNT: "J "}
 
 
 class Choice(NamedTuple):
-    """A possible mend: the block, and what one of its fields would say."""
+    """A possible mend: the block, and what its fields would say, for people."""
 
     block: int
     text: str
@@ -42,27 +41,35 @@ def with_edits(program: Program, checked: Checked) -> tuple[Finding, ...]:
 
 def choices(program: Program, finding: Finding, findings: tuple[Finding, ...]) -> tuple[Choice, ...]:
     """Possible mends of a finding, each enough alone; there is a choice only where there are two or more."""
+    mender = program.mender
+    if mender is None:
+        return ()
+    possible = _possible(program, mender, finding, findings)
+    return tuple(Choice(block, mender.told(mends)) for block, mends in possible)
+
+
+def _possible(
+    program: Program, mender: Mender, finding: Finding, findings: tuple[Finding, ...]
+) -> list[tuple[int, tuple[Mend, ...]]]:
+    """Blocks from 1, each with mends of its fields that together are enough."""
     block = finding.block
     match finding.fact:
-        case PrintedElsewhere() if program.mender is not None:
+        case PrintedElsewhere():
             if next(islice(telling(findings, PrintedElsewhere), _MOST_PRINTED, None), None):
-                return ()
-            possible = program.mender.printed_mends(program.toolpath, block - 1)
-            return tuple(Choice(block, _LETTERS.get(field, "") + text) for field, text in possible)
+                return []
+            return [(block, (mend,)) for mend in mender.printed_mends(program.toolpath, block - 1)]
         case WrongLabel(ruled) if not finding.edits:
             here = [one.suspect for other, one in telling(findings, Suspected) if other.block == block]
-            others = [suspect.other for suspect in here if suspect.field is Field.SENSE]
-            return tuple(Choice(block, text) for text in (ruled, *others))
+            others = [suspect.mend for suspect in here if suspect.field is Field.SENSE]
+            return [(block, (mend,)) for mend in (Mend(Field.SENSE, ruled), *others)]
         case WrongAxis(ruled, count_um) if not finding.edits:
-            axis, written = f"G{ruled.name}", int(words_of(program.toolpath).count_um[block - 1])
-            other = (Choice(block, f"{axis} J {count_um}"),) if count_um != written else ()
-            return (Choice(block, axis), *other)
+            axis, count = mender.counted_on(ruled), mender.counting(count_um)
+            is_other = count_um != words_of(program.toolpath).count_um[block - 1]
+            return [(block, (axis,)), *([(block, (axis, count))] if is_other else [])]
         case OpenContour(first):
-            suspected = [
-                (other.block, one.suspect) for other, one in telling(findings, Suspected) if one.first == first
-            ]
-            return tuple(Choice(at, _LETTERS.get(suspect.field, "") + suspect.other) for at, suspect in suspected)
-    return ()
+            suspected = telling(findings, Suspected)
+            return [(other.block, (one.suspect.mend,)) for other, one in suspected if one.first == first]
+    return []
 
 
 class _Mends:
@@ -93,7 +100,7 @@ class _Mends:
             case NoEnd():
                 edits = self._end_code()
             case WrongLabel(ruled):
-                edits = self._label(finding, ruled)
+                edits = self._label(finding.block, ruled)
             case WrongAxis() as wrong:
                 edits = self._count_axis(finding.block, wrong)
             case PrintedElsewhere():
@@ -117,19 +124,18 @@ class _Mends:
         newline, end = match[0] if match else "\n", reading.spelling.end
         return (Edit(at, at, f"{end}{newline}" if text[:at].endswith(("\r", "\n")) else f"{newline}{end}"),)
 
-    def _label(self, finding: Finding, ruled: str) -> tuple[Edit, ...]:
-        """The quadrant digit that the rule names: the path stays the same. Nothing where that path is in doubt."""
-        past = finding.span[1]
-        return (Edit(past - 1, past, ruled[-1]),) if self._way_is_certain(finding.block) else ()
+    def _label(self, block: int, ruled: str) -> tuple[Edit, ...]:
+        """The label that the rule names: the path stays the same. Nothing where that path is in doubt."""
+        return (self._edit(block, Mend(Field.SENSE, ruled)),) if self._way_is_certain(block) else ()
 
     def _count_axis(self, block: int, wrong: WrongAxis) -> tuple[Edit, ...]:
-        """The other axis, with the J that ends the block where it ends; nothing where that end is not proved."""
+        """The other axis, with the count that ends the block where it ends; nothing where that end is not proved."""
         if not self._end_is_proved(block):
             return ()
-        edits = [self._field(block, Field.AXIS, wrong.ruled.name)]
+        mends = [self._mender.counted_on(wrong.ruled)]
         if wrong.count_um != self._words.count_um[block - 1]:
-            edits.append(self._field(block, Field.COUNT, str(wrong.count_um)))
-        return tuple(edits)
+            mends.append(self._mender.counting(wrong.count_um))
+        return tuple(self._edit(block, mend) for mend in mends)
 
     def _printed_end(self, block: int) -> tuple[Edit, ...]:
         """The one count length or count axis with which the block ends where it is printed to end.
@@ -147,30 +153,25 @@ class _Mends:
         possible = self._mender.printed_mends(self._toolpath, block - 1)
         if len(possible) != 1 or possible[0].field not in _SETTLED:
             return ()
-        field, text = possible[0]
-        return (self._field(block, field, text.removeprefix("G")),)
+        return (self._edit(block, possible[0]),)
 
     def _swapped_axis(self, block: int) -> tuple[Edit, ...]:
-        """The other axis, where J is the line's length on that one to the micrometre."""
+        """The other axis, where the count is the line's length on that one to the micrometre."""
         row, words = block - 1, self._words
         x, y, count = int(words.x_um[row]), int(words.y_um[row]), int(words.count_um[row])
         other = Axis.Y if words.count_axis[row] == Axis.X else Axis.X
         swapped = count == max(x, y) == (x if other == Axis.X else y)
-        return (self._field(block, Field.AXIS, other.name),) if swapped else ()
+        return (self._edit(block, self._mender.counted_on(other)),) if swapped else ()
 
     def _suspect(self, block: int, suspected: Suspected) -> tuple[Edit, ...]:
         """The count axis of the only suspect of an open contour."""
         alone = self._suspects[suspected.first] == 1 and suspected.first in self._open
         if not alone or suspected.suspect.field is not Field.AXIS:
             return ()
-        return (self._field(block, Field.AXIS, suspected.suspect.other.removeprefix("G")),)
+        return (self._edit(block, suspected.suspect.mend),)
 
-    def _field(self, block: int, field: Field, text: str) -> Edit:
-        span = self._toolpath.source.field(block - 1, field)
-        if span is None:
-            raise ValueError(f"block {block} has no {field}")
-        low, high = span
-        return Edit(high - 1 if field is Field.AXIS else low, high, text)
+    def _edit(self, block: int, mend: Mend) -> Edit:
+        return self._mender.edit(self._toolpath, block - 1, mend)
 
     def _end_is_proved(self, block: int) -> bool:
         """Whether a full turn, a closed contour or a printed end says that the block ends where it is read to end."""

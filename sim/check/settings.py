@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from parser.dialect.reader import Marks
 from parser.findings.codes import CODES, Severity
 from parser.findings.errors import SettingsError
+from parser.program import block_words, own_marks
 from parser.units import from_mm
 from sim.check.engine import Demands
 from sim.setup.toml.reader import load_toml, number, pair, refuse_unknown, section, truth
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 FILE = "drycut.toml"
 _KEYS = ("machine", "start_mm", "open", "select", "ignore", "fail_on", "end_marks", "pause_marks", "wire")
 _WIRE = {"diameter_mm": WIRE_DIAMETER_MM, "spark_gap_mm": SPARK_GAP_MM}
-_BLOCK_WORDS = ("B", "N", "L", "S", "G", "X", "Y", "GX", "GY", "NR", "SR")
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,11 +144,12 @@ def _machine(content: Mapping[str, Any], file: Path) -> "Machine | None":
 
 
 def _marks(content: Mapping[str, Any], where: str) -> Marks:
-    """Marks that neither are a block's letters nor mean two things at once."""
+    """Marks that neither are a word of blocks nor mean two things at once."""
+    own, of_blocks = own_marks(), block_words()
     end, pause = _words(content, "end_marks", where), _words(content, "pause_marks", where)
-    for key, words, other in (("end_marks", end, ("D", *pause)), ("pause_marks", pause, ("DD", *end))):
+    for key, words, other in (("end_marks", end, (*own.pause, *pause)), ("pause_marks", pause, (*own.end, *end))):
         for word in words:
-            if word in _BLOCK_WORDS:
+            if word in of_blocks:
                 raise SettingsError(f"{where}: {key}: {word!r} is a word of blocks; a mark is another")
             if word in other:
                 raise SettingsError(f"{where}: {key}: {word!r} cannot both end and pause a program")

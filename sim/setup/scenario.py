@@ -114,12 +114,17 @@ class Scenario:
         return from_mm(x), from_mm(y)
 
 
+def _usual_names() -> tuple[str, ...]:
+    """Names that programs in scenario folders go by, the most usual first."""
+    return tuple(f"program{suffix}" for suffix in suffixes())
+
+
 TOP = Section(
     "scenario",
     (
         Key("title", Name(), default=None),
         Key("provenance", Text(), default="not given"),
-        Key("program", FileName(), default="program.3b"),
+        Key("program", FileName(), default=_usual_names()[0]),
         Key("machine", Text(), default=DEFAULT_MACHINE, get=lambda _: MACHINE_FILE),
         Key("interpolator", INTERPOLATOR, default=None, get=lambda _: None),  # the machine file says it
         Key("start_mm", TablePlace(), default=None),
@@ -183,5 +188,5 @@ def scenario_sections(scenario: Scenario) -> list[WrittenSection]:
 
 def _usual_name(folder: Path) -> str:
     """Name of the program in a scenario folder that names none: of the usual ones the first that is there."""
-    names = [f"program{suffix}" for suffix in suffixes()]
+    names = _usual_names()
     return next((name for name in names if (folder / name).exists()), names[0])

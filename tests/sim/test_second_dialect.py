@@ -24,7 +24,7 @@ from parser.program import load_program, parse_program
 from parser.units import mm
 from sim.check.batch import Job, check_file
 from sim.check.files import find_files
-from sim.check.settings import CheckSettings
+from sim.check.settings import CheckSettings, settings_near
 from sim.cli.run_into import FILES
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.report import build_report
@@ -117,6 +117,21 @@ def test_what_is_wrong_is_found_at_its_place(text: str, found: list[tuple[str, i
 def test_findings_speak_the_words_of_the_dialect() -> None:
     result = check_file(Job("part.tiny", SLOT.replace("4 2 left", "4 2 right").encode(), CheckSettings()))
     assert result.findings[0].values == {"written": "right", "other": "left"}
+
+
+@pytest.mark.parametrize(
+    ("line", "why"),
+    [
+        ('end_marks = ["arc"]', "'ARC' is a word of blocks"),
+        ('pause_marks = ["end"]', "'END' cannot both end and pause"),
+        ('end_marks = ["GX"]', "'GX' is a word of blocks"),
+        ('pause_marks = ["dd"]', "'DD' cannot both end and pause"),
+    ],
+)
+def test_no_word_of_any_reader_can_be_a_mark_that_says_otherwise(tmp_path: Path, line: str, why: str) -> None:
+    (tmp_path / "drycut.toml").write_text(line, "utf-8")
+    with pytest.raises(SettingsError, match=why):
+        settings_near(tmp_path)
 
 
 # The run, against closed forms
@@ -243,15 +258,22 @@ def test_every_command_takes_it(tmp_path: Path) -> None:
 
 # Nobody behind the parser knows 3B
 
-_TOKEN = re.compile(r"(?<![A-Za-z0-9_/])(?:GX|GY|NR\d?|SR\d?|DD|L[1-4]|[34]B|\w*\.[34]b)(?![A-Za-z0-9.])")
+_WORDS = r"J|GX|GY|NR\d?|SR\d?|DD|L[1-4]|[34]B|\w*\.[34]b"
+_TOKEN = re.compile(rf"(?<![A-Za-z0-9_/])(?:{_WORDS}|\AG\Z|G(?=\$\{{))(?![A-Za-z0-9.])")
+"""Tokens of 3B; G where an axis is put behind it, not that of the circular test."""
 _SPEAK_3B = {
-    "sim/check/settings.py": "end_marks and pause_marks are settings for marks between blocks of 3B",
     "sim/cli/scenario_options.py": "the help names the controllers of 3B, which step point by point",
     "sim/run/ballbar/circle.py": "writes the circle of the test as a 3B program",
-    "sim/setup/scenario.py": "the usual name of the program in a scenario folder, as the documents give it",
+    "sim/show/replay/assets/decisions.js": "what a counting controller does in each quadrant, where there are words",
+    "sim/show/replay/assets/readouts.js": "the count that is left and the comparison, where a program has words",
+    "sim/show/replay/assets/words.js": "a block's words beside its geometry, where a program has them",
     "sim/show/replay/answers.py": "the quiz asks in words of 3B, where a program has them",
+    "sim/show/replay/asked_block.py": "the quiz asks in words of 3B, where a program has them",
+    "sim/show/report_page/results.py": "the table of blocks shows the count axis, where a program has words",
 }
-"""Modules behind the parser with tokens of 3B in their texts, docstrings aside, and why."""
+"""Files behind the parser with tokens of 3B in their texts, docstrings and comments aside, and why."""
+_COMMENT = re.compile(r"/\*.*?\*/|\{#.*?#\}|<!--.*?-->|(?<![:\"'])//[^\n]*", re.DOTALL)
+"""Comments of scripts and templates."""
 
 
 def modules() -> Iterator[tuple[str, ast.Module]]:
@@ -281,6 +303,14 @@ def test_nothing_behind_the_parser_imports_a_dialect() -> None:
     assert found == set()
 
 
+def pages() -> Iterator[tuple[str, str]]:
+    """Scripts and templates of pages, without their comments."""
+    for package in ("sim", "controller"):
+        for path in sorted(path for end in ("js", "j2") for path in (ROOT / package).rglob(f"*.{end}")):
+            yield path.relative_to(ROOT).as_posix(), _COMMENT.sub(" ", path.read_text("utf-8"))
+
+
 def test_few_texts_behind_the_parser_speak_3b() -> None:
     found = {path for path, tree in modules() if any(map(_TOKEN.search, texts(tree)))}
+    found |= {path for path, text in pages() if _TOKEN.search(text)}
     assert found == set(_SPEAK_3B)

@@ -32,6 +32,8 @@ class TinyReader:
 
     name = "tiny"
     suffixes = (".tiny",)
+    own_marks = Marks(end=("END",))
+    block_words = ("GO", "ARC", "LEFT", "RIGHT")
 
     def recognises(self, text: str) -> bool:
         return re.search(r"^(?:\d+: )?(?:go|arc)\b", text, re.MULTILINE) is not None

@@ -3,9 +3,11 @@
 What looks for mends is imported when it is asked for: most programs need none, and start sooner without.
 """
 
-from parser.dialect.mender import Mender, PrintedMend, Suspect
+from parser.dialect.mender import Mend, Mender, Suspect
+from parser.findings.findings import Edit
 from parser.threeb import print_checks
-from parser.toolpath import Toolpath
+from parser.threeb.mend import edits
+from parser.toolpath import Axis, Toolpath
 
 
 class _Mender:
@@ -16,7 +18,7 @@ class _Mender:
 
         return suspects(toolpath, first_row, past_row)
 
-    def printed_mends(self, toolpath: Toolpath, row: int) -> tuple[PrintedMend, ...]:
+    def printed_mends(self, toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
         from parser.threeb.mend.printed import printed_mends  # noqa: PLC0415
 
         return printed_mends(toolpath, row)
@@ -26,6 +28,18 @@ class _Mender:
 
     def ends_as_printed(self, toolpath: Toolpath, row: int) -> bool:
         return print_checks.ends_as_printed(toolpath, row)
+
+    def counted_on(self, axis: Axis) -> Mend:
+        return edits.counted_on(axis)
+
+    def counting(self, count_um: int) -> Mend:
+        return edits.counting(count_um)
+
+    def edit(self, toolpath: Toolpath, row: int, mend: Mend) -> Edit:
+        return edits.edit(toolpath, row, mend)
+
+    def told(self, mends: tuple[Mend, ...]) -> str:
+        return edits.told(mends)
 
 
 MENDER: Mender = _Mender()

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from parser.geometry.curves import Floats, Ints
 from parser.text.source import Field
 from parser.threeb.decode import decoded_words
+from parser.threeb.mend.edits import counted_on
 from parser.threeb.mend.likelihood import slip
 from parser.threeb.mend.solved import solved_numbers
 from parser.toolpath import Axis, StepWords, Toolpath
@@ -187,5 +188,5 @@ def ease(written: Ints, made: Mends) -> Ints:
 def field_text(word: Ints, field: int) -> str:
     """A field as 3B writes it."""
     if field == AXIS:
-        return f"G{Axis(int(word[AXIS])).name}"
+        return counted_on(Axis(int(word[AXIS]))).text
     return label(int(word[TURN]), int(word[QUADRANT])) if field == SENSE else str(word[field])

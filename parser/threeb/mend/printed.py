@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from parser.dialect.mender import PrintedMend
+from parser.dialect.mender import Mend
 from parser.threeb.block_checks import counts_fit
 from parser.threeb.mend.likelihood import obedience
 from parser.threeb.mend.mends import FIELDS, Mends, ease, field_text, mends, moves_of, word_table, words_of
@@ -13,7 +13,7 @@ _PRINTED_UM = 1.5  # a printed end is rounded to 1 µm, and so is J
 _AS_LIKELY = 6  # points; one broken rule, or a number changed in more than a digit, is less likely
 
 
-def printed_mends(toolpath: Toolpath, row: int) -> tuple[PrintedMend, ...]:
+def printed_mends(toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
     """The likeliest mends of the block in a row that ends elsewhere than printed, at most one a field."""
     gap = print_change(toolpath, row)
     word = word_table(toolpath, np.array([row]))
@@ -28,8 +28,8 @@ def printed_mends(toolpath: Toolpath, row: int) -> tuple[PrintedMend, ...]:
     points = obedience(words_of(made.word), now) + ease(word[made.row], made)
     off = np.hypot(*(now.by_um - by - gap).T)
     order = np.lexsort([off, -points])
-    best: dict[int, PrintedMend] = {}
+    best: dict[int, Mend] = {}
     for at in order[points[order] >= points.max() - _AS_LIKELY].tolist():
         field = int(made.field[at])
-        best.setdefault(field, PrintedMend(FIELDS[field], field_text(made.word[at], field)))
+        best.setdefault(field, Mend(FIELDS[field], field_text(made.word[at], field)))
     return tuple(best[field] for field in sorted(best))

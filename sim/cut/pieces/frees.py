@@ -66,7 +66,7 @@ def moment_of(
 
 
 def _within(question: FreeQuestion, before: Region, swept: Swept, offset_um: float, whole: FreeMoment) -> FreeMoment:
-    """The moment on the wire's way whose whole kerf frees the piece: the stretches are halved, then the places of one."""
+    """The moment on the wire's way whose whole kerf frees the piece: halves the stretches, then the places of one."""
     stretch = 0
     for level in swept.levels[-2::-1]:
         stretch *= 2
