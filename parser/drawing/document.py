@@ -13,6 +13,7 @@ from ezdxf.lldxf.encoding import decode_dxf_unicode
 from ezdxf.lldxf.tagger import binary_tags_loader
 
 from parser.findings.errors import DrawingError, FileUnreadableError
+from parser.findings.remarks import Remark
 from parser.text.encoding import printable
 
 _DWG = re.compile(rb"AC1\.|AC10\d\d|MC0\.0|AC2\.10")  # first bytes of a DWG file name its release
@@ -26,7 +27,7 @@ _LONGEST = 120  # characters of a foreign message
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it finds stands in the notes, not on stderr
 
 
-def read_document(path: Path) -> tuple[Document, list[str]]:
+def read_document(path: Path) -> tuple[Document, list[Remark]]:
     """The document of a file, and notes on what was mended.
 
     Raises FileUnreadableError where there is no readable file, DrawingError where it is no DXF or beyond mending.
@@ -38,7 +39,7 @@ def read_document(path: Path) -> tuple[Document, list[str]]:
     return document, notes
 
 
-def _loaded(path: Path, data: bytes) -> tuple[Document, list[str]]:
+def _loaded(path: Path, data: bytes) -> tuple[Document, list[Remark]]:
     if not data.strip():
         raise DrawingError(f"{path}: is empty; expected a DXF drawing")
     if _DWG.match(data):
@@ -50,7 +51,7 @@ def _loaded(path: Path, data: bytes) -> tuple[Document, list[str]]:
     if _END.search(data[-4096:]):
         early = []
     else:
-        data, early = _ended(data), ["the file ends early, without EOF; what would follow is missing"]
+        data, early = _ended(data), [Remark("ends-early")]
     try:
         return _text(data), early
     except Exception:  # damaged files end in any error
@@ -88,7 +89,7 @@ def _text(data: bytes) -> Document:
     return Document.read(io.StringIO(decode_dxf_unicode(text), newline=None))
 
 
-def _recovered(path: Path, data: bytes) -> tuple[Document, list[str]]:
+def _recovered(path: Path, data: bytes) -> tuple[Document, list[Remark]]:
     try:
         document, audit = recover.read(io.BytesIO(data))
         document.modelspace()
@@ -98,7 +99,7 @@ def _recovered(path: Path, data: bytes) -> tuple[Document, list[str]]:
     named = "; ".join(
         f"{text} ({times} times)" if times > 1 else text for text, times in faults.most_common(_MOST_FAULTS)
     )
-    return document, [f"the file is damaged and was read in recover mode; look at what is missing. {named}".rstrip()]
+    return document, [Remark("recovered-from", {"faults": named}) if named else Remark("recovered")]
 
 
 def _beyond_mending(path: Path, error: Exception) -> DrawingError:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from parser.findings.remarks import Remark
 from parser.geometry.curves import CurveKind, Curves, Ints
 
 DEFAULT_GAP_UM = 10.0
@@ -80,7 +81,7 @@ class Drawing:
     flattened, flatten_um
         How many ellipses and splines were made lines, and how far these lie off them at most.
     notes
-        What was left out, assumed or mended, one line each.
+        What was left out, assumed or mended.
     """
 
     name: str
@@ -92,7 +93,7 @@ class Drawing:
     loops: tuple[DrawnLoop, ...]
     flattened: int
     flatten_um: float
-    notes: tuple[str, ...]
+    notes: tuple[Remark, ...]
 
 
 def running(curves: Curves, row: Ints, backwards: NDArray[np.bool_]) -> Curves:

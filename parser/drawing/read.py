@@ -16,6 +16,7 @@ from parser.drawing.forms import scaled
 from parser.drawing.gather import Gathered, gather
 from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity
 from parser.findings.errors import DrawingError
+from parser.findings.remarks import Remark
 from parser.text.encoding import printable
 from parser.units import UM_PER_MM, mm
 
@@ -61,7 +62,7 @@ def read_drawing(
         raise DrawingError(f"{path}: is damaged ({type(error).__name__}); expected a DXF drawing") from None
 
 
-def _drawing(name: str, document: Document, asked: _Asked, notes: list[str]) -> Drawing:
+def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) -> Drawing:
     unit, assumed = unit_of(document.header.get("$INSUNITS", None))
     placed = list(placed_entities(document, scaled(unit.um)))
     wanted = _wanted(document, placed, asked.layer)
@@ -132,44 +133,46 @@ _UNITS = {
 }
 
 
-def unit_of(code: object) -> tuple[Unit, str | None]:
+def unit_of(code: object) -> tuple[Unit, Remark | None]:
     """The unit that $INSUNITS names, mm where it names none; with a note on what was assumed."""
     if isinstance(code, int) and code in _UNITS:
         return _UNITS[code], None
-    said = "names no unit" if code in (None, 0) else f"names a unit that no part is drawn in ($INSUNITS {code})"
-    return _UNITS[4], f"the file {said}; taken as mm"
+    assumed = Remark("no-unit") if code in (None, 0) else Remark("strange-unit", {"code": str(code)})
+    return _UNITS[4], assumed
 
 
 def notes_of(
     placed: Sequence[Placed], wanted: Sequence[Placed], gathered: Gathered, curves: int, chained: Chained
-) -> Iterator[str]:
-    """Notes, one line each; `curves` is how many are left after what is drawn twice."""
+) -> Iterator[Remark]:
+    """What was left out or mended; `curves` is how many are left after what is drawn twice."""
     counts = gathered.counts
     if len(wanted) < len(placed):
-        yield f"{len(placed) - len(wanted)} entities on other layers, or on layers that are off or frozen, left out"
+        yield Remark("other-layers", {"number": len(placed) - len(wanted)})
     if counts.no_curves:
-        yield f"left out, as no curves: {_listed(counts.no_curves)}"
+        yield Remark("no-curves", {"kinds": _listed(counts.no_curves)})
     if counts.unreadable:
-        yield f"left out, as their numbers cannot be: {_listed(counts.unreadable)}"
-    for number, text in (
-        (counts.beyond, "curves left out, as they lie beyond 10 km or nowhere"),
-        (counts.upright, "circles or ellipses left out, as they stand upright and are lines from above"),
-        (counts.slanted, "curves are not level; taken as they are seen from above"),
-        (len(gathered.curves) - curves, "curves left out, as they are drawn twice"),
+        yield Remark("unreadable", {"kinds": _listed(counts.unreadable)})
+    for number, name in (
+        (counts.beyond, "beyond"),
+        (counts.upright, "upright"),
+        (counts.slanted, "slanted"),
+        (len(gathered.curves) - curves, "drawn-twice"),
     ):
         if number:
-            yield f"{number} {text}"
+            yield Remark(name, {"number": number})
     yield from _of_chain(chained)
 
 
-def _of_chain(chained: Chained) -> Iterator[str]:
+def _of_chain(chained: Chained) -> Iterator[Remark]:
     bridged = [loop.gap_um for loop in chained.loops if loop.gap_um > 0.0]
     if bridged:
-        yield f"gaps of up to {max(bridged):.3g} µm bridged in {len(bridged)} loops"
+        yield Remark("bridged", {"gap": max(bridged), "loops": len(bridged)})
     places = [f"({mm(x):g}, {mm(y):g})" for x, y in chained.branches_um[:_MOST_PLACES].tolist()]
-    if places:
-        more = len(chained.branches_um) - len(places)
-        yield f"more than two ends meet at {', '.join(places)} mm{f' and {more} more places' if more else ''}"
+    more = len(chained.branches_um) - len(places)
+    if more:
+        yield Remark("many-branches", {"places": ", ".join(places), "more": more})
+    elif places:
+        yield Remark("branches", {"places": ", ".join(places)})
 
 
 def _listed(counts: Counter[str]) -> str:

@@ -2,17 +2,20 @@
 
 import time
 from types import TracebackType
-from typing import Self
+from typing import Final, Self
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
 
+from sim.show.words.words import Words
+
+SAY: Final = Words("en")
 _QUIET_S = 1.0
 _BETWEEN_LINES_S = 5.0
 
 
 class StageProgress:
-    """Progress of named stages; call it with stage, done and total."""
+    """Progress of stages that ``progress.toml`` names; call it with stage, done and total."""
 
     def __init__(self) -> None:
         self._console = Console(stderr=True)
@@ -36,12 +39,12 @@ class StageProgress:
                 self._bar = _bar(self._console)
                 self._show(self._bar, stage, done, total)
             else:
-                self._console.print(f"drycut: {stage}, {done / total:.0%}", highlight=False)
+                self._console.print(f"drycut: {SAY(f'progress.{stage}')}, {done / total:.0%}", highlight=False)
                 self._next_s = time.monotonic() + _BETWEEN_LINES_S
 
     def _show(self, bar: Progress, stage: str, done: int, total: int) -> None:
         if stage not in self._tasks:
-            self._tasks[stage] = bar.add_task(stage, total=total)
+            self._tasks[stage] = bar.add_task(SAY(f"progress.{stage}"), total=total)
         bar.update(self._tasks[stage], completed=done, total=total)
 
 

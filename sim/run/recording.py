@@ -51,7 +51,7 @@ def recording_of(run: DryRun, files: Mapping[str, Path], progress: Progress) -> 
     x, y, block, t_s = (
         np.load(files[f"step_{name}"], mmap_mode="r", allow_pickle=False) for name in ("x_um", "y_um", "block", "t_s")
     )
-    progress("working out the pieces", 0, 1)
+    progress("pieces", 0, 1)
     return Recording(run, pieces_of_run(run), Pulses(t_s, x[1:], y[1:], block - 1))
 
 

@@ -26,7 +26,7 @@ from sim.table.when.ticks import Ticks, choose_ticks
 
 
 class Progress(Protocol):
-    """Told how far a stage has come."""
+    """Told how far a stage has come; the stage by its name, of which people read the text in ``progress.toml``."""
 
     def __call__(self, stage: str, done: int, total: int) -> None:
         """`done` of `total` units of the stage."""
@@ -95,7 +95,7 @@ def simulate(
         table.take(pulses)
         if log is not None:
             log.count(pulses)
-        progress("running card and table", min(int(pulses.t_s[-1]), total), total)
+        progress("run", min(int(pulses.t_s[-1]), total), total)
 
     host = Host(motion.drive, motion.card, taken, log)
     host.run()

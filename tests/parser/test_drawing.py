@@ -23,7 +23,9 @@ from parser.drawing import blocks
 from parser.drawing.ends import Ends, joints
 from parser.drawing.model import Drawing, DrawnLoop, running
 from parser.drawing.read import read_drawing
+from parser.findings.catalogue import Language
 from parser.findings.errors import DrawingError, DrycutError, FileUnreadableError
+from parser.findings.remarks import remark_text
 from parser.geometry.curves import CurveKind, Curves
 
 EXACT_UM = 1e-6
@@ -31,6 +33,10 @@ EXACT_UM = 1e-6
 
 def _read(folder: Path, draw: Callable[[Modelspace], object], **asked: float) -> Drawing:
     return read_drawing(drawn(folder, draw), **asked)
+
+
+def notes(drawing: Drawing, language: Language = "en") -> list[str]:
+    return [remark_text(note, language) for note in drawing.notes]
 
 
 def _ran(drawing: Drawing, loop: DrawnLoop) -> Curves:
@@ -217,7 +223,8 @@ def test_a_file_that_names_no_unit_is_in_mm(tmp_path):
     path.write_text("0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n0\n20\n0\n40\n10\n0\nENDSEC\n0\nEOF\n", "ascii")
     drawing = read_drawing(path)
     assert (drawing.unit, drawing.curves.radius_um.tolist()) == ("mm", [10_000.0])
-    assert drawing.notes == ("the file names no unit; taken as mm",)
+    assert notes(drawing) == ["the file names no unit; taken as mm"]
+    assert notes(drawing, "zh") == ["文件没有给出单位；按 mm 处理"]
 
 
 @pytest.mark.parametrize("version", ["R12", "R2000", "R2018"])
@@ -236,7 +243,7 @@ def test_without_a_unit_mm_is_taken_and_said(tmp_path, code, said):
     document.modelspace().add_line((0, 0), (3, 4))
     drawing = read_drawing(saved(document, tmp_path))
     assert (drawing.unit, drawing.curves.length_um.tolist()) == ("mm", [5000.0])
-    assert any(said in note and "taken as mm" in note for note in drawing.notes)
+    assert any(said in note and "taken as mm" in note for note in notes(drawing))
 
 
 def _dense(entity: DXFGraphic) -> list[Vec3]:
@@ -348,8 +355,8 @@ def test_what_is_not_level_is_seen_from_above_and_said(tmp_path):
     drawing = _read(tmp_path, draw)
     assert drawing.curves.length_um[0] == pytest.approx(3000)
     assert np.ptp(drawing.curves.start_um[1:, 1]) == pytest.approx(4000 / math.sqrt(2), abs=1)
-    assert any(note.startswith("2 curves are not level") for note in drawing.notes)
-    assert any(note.startswith("1 circles or ellipses left out") for note in drawing.notes)
+    assert any(note.startswith("2 curves are not level") for note in notes(drawing))
+    assert any(note.startswith("1 circles or ellipses left out") for note in notes(drawing))
 
 
 def test_a_block_that_inserts_itself_or_is_missing_ends_in_a_note(tmp_path):
@@ -361,7 +368,7 @@ def test_a_block_that_inserts_itself_or_is_missing_ends_in_a_note(tmp_path):
     document.modelspace().add_blockref("NONE", (0, 0))
     drawing = read_drawing(saved(document, tmp_path))
     assert len(drawing.curves) == 1
-    assert any("INSERT of A" in note and "INSERT of NONE" in note for note in drawing.notes)
+    assert any("INSERT of A" in note and "INSERT of NONE" in note for note in notes(drawing))
 
 
 def test_blocks_that_multiply_without_end_are_refused(tmp_path, monkeypatch):
@@ -398,8 +405,8 @@ def _layered(folder: Path) -> Path:
 def test_layers_that_are_off_or_frozen_are_left_out_and_counted(tmp_path):
     drawing = read_drawing(_layered(tmp_path))
     assert [entity.layer for entity in drawing.entities] == ["Cut", "中文", "Cut"]
-    assert any(note.startswith("2 entities on other layers") for note in drawing.notes)
-    assert "left out, as no curves: 1 TEXT" in drawing.notes
+    assert any(note.startswith("2 entities on other layers") for note in notes(drawing))
+    assert "left out, as no curves: 1 TEXT" in notes(drawing)
 
 
 def test_one_layer_is_read_whatever_its_case_with_what_blocks_draw_on_it(tmp_path):
@@ -416,7 +423,7 @@ def test_an_entity_of_another_program_is_left_out_by_its_name(tmp_path):
     data = _bytes("R2010").replace(b"\nCIRCLE\n", b"\nMYCAM\n")
     path = tmp_path / "part.dxf"
     path.write_bytes(data)
-    assert "left out, as no curves: 1 MYCAM" in read_drawing(path).notes
+    assert "left out, as no curves: 1 MYCAM" in notes(read_drawing(path))
 
 
 def test_what_is_drawn_twice_is_kept_once_whichever_way_it_runs(tmp_path):
@@ -431,7 +438,7 @@ def test_what_is_drawn_twice_is_kept_once_whichever_way_it_runs(tmp_path):
 
     drawing = _read(tmp_path, draw)
     assert len(drawing.curves) == 4
-    assert "3 curves left out, as they are drawn twice" in drawing.notes
+    assert "3 curves left out, as they are drawn twice" in notes(drawing)
 
 
 # Chaining
@@ -513,7 +520,7 @@ def test_gaps_are_bridged_up_to_the_tolerance_and_measured(tmp_path, gap_mm, clo
     assert [loop.closed for loop in drawing.loops] == [closed]
     expected = gap_mm * 1000 if closed else 0.0
     assert drawing.loops[0].gap_um == pytest.approx(expected, abs=1e-6)
-    assert any("bridged" in note for note in drawing.notes) == (closed and gap_mm > 0)
+    assert any("bridged" in note for note in notes(drawing)) == (closed and gap_mm > 0)
 
 
 @pytest.mark.parametrize("step_mm", [0.001, 0.005, 0.02])
@@ -537,7 +544,7 @@ def test_a_line_that_ends_on_a_corner_does_not_break_the_loop_and_is_told(tmp_pa
     for order in (pieces, pieces[::-1]):
         drawing = _read(tmp_path, lambda space, order=order: [space.add_line(*ends) for ends in order])
         assert sorted((loop.closed, len(loop.row)) for loop in drawing.loops) == [(False, 1), (True, 4)]
-        assert "more than two ends meet at (10, 0) mm" in drawing.notes
+        assert "more than two ends meet at (10, 0) mm" in notes(drawing)
 
 
 def test_where_four_ends_meet_the_straightest_way_is_taken(tmp_path):
@@ -610,7 +617,7 @@ def test_a_damaged_file_gives_what_is_left_of_it_and_says_so(tmp_path):
     path.write_bytes(data[: data.index(b"CIRCLE", data.index(b"ENTITIES"))])
     drawing = read_drawing(path)
     assert [entity.kind for entity in drawing.entities][:2] == ["LINE", "ARC"]
-    assert any("ends early" in note for note in drawing.notes)
+    assert any("ends early" in note for note in notes(drawing))
 
 
 def test_a_number_that_is_none_costs_its_entity_alone_and_is_said(tmp_path):
@@ -621,7 +628,7 @@ def test_a_number_that_is_none_costs_its_entity_alone_and_is_said(tmp_path):
     kinds = [entity.kind for entity in drawing.entities]
     assert kinds[:2] == ["LINE", "ARC"]
     assert "SPLINE" in kinds
-    assert any(note.startswith("the file is damaged and was read in recover mode") for note in drawing.notes)
+    assert any(note.startswith("the file is damaged and was read in recover mode") for note in notes(drawing))
 
 
 def test_an_entity_with_numbers_that_cannot_be_is_left_out_and_the_rest_is_read(tmp_path):
@@ -634,8 +641,8 @@ def test_an_entity_with_numbers_that_cannot_be_is_left_out_and_the_rest_is_read(
 
     drawing = _read(tmp_path, draw)
     assert len(drawing.curves) == 1
-    assert any(note.startswith("2 curves left out, as they lie beyond") for note in drawing.notes)
-    assert any("numbers cannot be: 1 SPLINE" in note for note in drawing.notes)
+    assert any(note.startswith("2 curves left out, as they lie beyond") for note in notes(drawing))
+    assert any("numbers cannot be: 1 SPLINE" in note for note in notes(drawing))
 
 
 def damaged(data: bytes, rng: random.Random) -> bytes:

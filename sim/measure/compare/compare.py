@@ -59,7 +59,7 @@ def _loop_of_row(drawing: Drawing) -> Ints:
 
 def _of_drawing(drawing: Drawing) -> Iterator[Remark]:
     """What its reader notes, and signs that it holds more than the contours of a part: construction lines, a frame."""
-    yield from (Remark("of-drawing", {"text": note}) for note in drawing.notes)
+    yield from drawing.notes
     loose = sum(not loop.closed for loop in drawing.loops)
     if loose:
         yield Remark("open-chains", {"open": loose, "all": len(drawing.loops)})

@@ -142,7 +142,7 @@ def _run(test: CircleTest, sense: Sense, progress: Progress) -> _Run:
         motors.take(pulses, start_s)
 
     def told(stage: str, done: int, total: int) -> None:
-        progress(f"{stage}, {NAMES[sense]}", done, total)
+        progress(f"{stage}-{NAMES[sense]}", done, total)
 
     trace, losses, *_ = simulate(motion, take, told)
     measured = (trace.t_s >= start_s) & (trace.t_s <= end_s)

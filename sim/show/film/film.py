@@ -55,7 +55,7 @@ def write_film(  # noqa: PLR0913, PLR0917 - a file, what it shows, and how
 
     def made() -> Iterator[Pixels]:
         for number, t_s in enumerate(clock.times_s.tolist()):
-            progress("drawing the film", number, clock.frames)
+            progress("film", number, clock.frames)
             yield shown(t_s)
 
     with staged(path.parent, [path.name]) as stage:

@@ -24,7 +24,7 @@ def inline_pictures(recording: Recording, progress: Progress) -> list[Inline]:
     subject = subject_of(recording)
     found: list[Inline] = []
     for done, name in enumerate(PICTURES):
-        progress("drawing pictures", done, len(PICTURES))
+        progress("pictures", done, len(PICTURES))
         found.append(_inline(name, subject))
     return [picture for picture in found if picture.svg]
 

@@ -1,21 +1,25 @@
 """The table of a circular test on the terminal."""
 
+from typing import Final
+
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
 from sim.run.ballbar.circle import Ballbar
-from sim.run.ballbar.rows import FIGURES, PARTS, Row, figure_rows, loss_text, part_rows, setup_rows, um
 from sim.run.ballbar.turn import NAMES
+from sim.show.circular_test import Row, figure_rows, loss_text, part_rows, setup_rows, um
+from sim.show.words.words import Words
+
+SAY: Final = Words("en")
 
 
 def print_ballbar(ballbar: Ballbar, tolerance_um: float | None) -> None:
     """Print what was run, its figures and parts, what was lost, and the verdict to stdout."""
     console = Console(highlight=False)
     console.soft_wrap = not console.is_terminal
-    title = "Circular test, both directions (ISO 230-4, about the least-squares centre)"
-    table = Table(title=title, title_justify="left", show_header=False, title_style="bold")
+    table = Table(title=SAY("ballbar.title-table"), title_justify="left", show_header=False, title_style="bold")
     table.add_column(style="dim")
     table.add_column()
     for group in _groups(ballbar):
@@ -24,30 +28,31 @@ def print_ballbar(ballbar: Ballbar, tolerance_um: float | None) -> None:
         table.add_section()
     console.print(table)
     for loss in ballbar.losses:
-        console.print(Text(f"error: {loss_text(*loss)}", style="red"))
+        console.print(Text(SAY("ballbar.loss", loss=loss_text(*loss, SAY)), style="red"))
     console.print(_no_turn(ballbar), end="")
     passed = ballbar.passes(tolerance_um)
-    verdict = f"verdict: {'pass' if passed else 'fail'}{_against(ballbar, tolerance_um)}"
+    verdict = SAY("ballbar.pass" if passed else "ballbar.fail") + _against(ballbar, tolerance_um)
     console.print(Text(verdict, style="bold green" if passed else "bold red"))
 
 
 def _groups(ballbar: Ballbar) -> list[list[Row]]:
-    groups = [setup_rows(ballbar)]
+    groups = [setup_rows(ballbar, SAY)]
     if ballbar.measured is not None:
         figures, parts, interpolation_um = ballbar.measured
-        groups.append([Row(FIGURES, ""), *figure_rows(figures)])
-        groups.append([Row(PARTS, ""), *part_rows(parts, interpolation_um)])
+        groups.append([Row(SAY("ballbar.figures"), ""), *figure_rows(figures, SAY)])
+        groups.append([Row(SAY("ballbar.parts"), ""), *part_rows(parts, interpolation_um, SAY)])
     return groups
 
 
 def _no_turn(ballbar: Ballbar) -> str:
     """Why there are no figures, where there are none."""
-    stopped = [NAMES[turn.sense] for turn in ballbar.turns if not turn.goes_round]
-    return f"no figures: the table does not go round, {' and '.join(stopped)}\n" if stopped else ""
+    stopped = [SAY(f"ballbar.{NAMES[turn.sense]}") for turn in ballbar.turns if not turn.goes_round]
+    return SAY("ballbar.no-figures", directions=SAY("ballbar.and").join(stopped)) + "\n" if stopped else ""
 
 
 def _against(ballbar: Ballbar, tolerance_um: float | None) -> str:
     """Circularity against its tolerance, where there are both."""
     if tolerance_um is None or ballbar.measured is None:
         return ""
-    return f", G(b) {um(ballbar.measured.figures.circularity_um)} of {um(tolerance_um)} allowed"
+    found = um(ballbar.measured.figures.circularity_um)
+    return SAY("ballbar.allowed", found=found, allowed=um(tolerance_um))

@@ -1,5 +1,6 @@
 """Words for people: every text in both languages with the same places, each of them used, and none of them in code."""
 
+import ast
 import re
 import string
 import subprocess
@@ -10,6 +11,7 @@ import pytest
 from places import ROOT
 
 from parser.findings.catalogue import LANGUAGES, Said
+from sim.run.ballbar.turn import NAMES, SENSES
 from sim.show.words import Words, said
 from sim.show.words.words import FOLDER, texts
 
@@ -17,9 +19,25 @@ PACKAGES = ("parser", "controller", "sim")
 FILES = sorted(path.stem for path in FOLDER.glob("*.toml"))
 CODE = (".py", ".js", ".j2")
 CHINESE = re.compile(r"[\u2e80-\u9fff\uf900-\ufaff\uff00-\uffef]")
+ESCAPE = re.compile(r"(?:\\u\{?|\\U0000|\\|&#x)0{0,4}([0-9a-f]{4})(?![0-9a-f])|&#(\d{5});", re.IGNORECASE)
+"""A character by its number: in Python and scripts, in style sheets, in pages."""
 COUNTED = ("findings.one-", "findings.some-", "phrases.one-", "phrases.some-")
-FROM_DATA = ("report.is-", "report.of-", "report.by-", "report.kind-", "report.as-cut-", "report.nominal-", *COUNTED)
-"""Texts of kinds, axes and numbers that the report page meets in the report, and a check in its findings."""
+OF_REPORT = ("report.is-", "report.of-", "report.by-", "report.kind-", "report.as-cut-", "report.nominal-")
+FROM_DATA = (*OF_REPORT, *COUNTED, "progress.run-")
+"""Texts of kinds, axes, numbers and directions: of the report, of the findings of a check, of a circular test."""
+
+ENGINE = ("sim/run", "sim/measure", "sim/cut", "sim/table", "parser/drawing", "controller")
+SENTENCE = re.compile(r"[A-Za-z]+(?:\W* \W*[A-Za-z]+){2}")
+"""Three words with spaces between them."""
+NO_SENTENCES = {
+    "--radius in mm (travel of {})": "what the error about a number calls it",
+    "--feed in mm/min": "what the error about a number calls it",
+    "holds no line, arc or curve{}{}; expected the contour of a part": "text of a DrawingError",
+    " ({} entities on layers that are off or frozen)": "of the same text",
+    "a whole number ": "of the text of a ValueError",
+    "drycut card log 1": "first line of a file, by which it is known",
+}
+"""Texts of the engine that look like sentences, and why they stand there."""
 
 CHECK = """
 import atexit, sys
@@ -34,6 +52,39 @@ main()
 def sources(*suffixes: str) -> dict[Path, str]:
     paths = (path for package in PACKAGES for path in sorted((ROOT / package).rglob("*")) if path.suffix in suffixes)
     return {path: path.read_text(encoding="utf-8") for path in paths}
+
+
+def sentences(source: str) -> list[tuple[int, str]]:
+    """Line and text of what reads like a sentence in Python; places of an f-string are ``{}``.
+
+    Docstrings, what errors and asserts say, and regular expressions are none.
+    """
+    tree = ast.parse(source)
+    other = {id(node) for part in ast.walk(tree) if for_no_one(part) for node in ast.walk(part)}
+    found = []
+    for node in ast.walk(tree):
+        if id(node) in other:
+            continue
+        if isinstance(node, ast.JoinedStr):
+            other |= {id(value) for value in node.values}
+            text = "".join(str(value.value) if isinstance(value, ast.Constant) else "{}" for value in node.values)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            text = node.value
+        else:
+            continue
+        if SENTENCE.search(text):
+            found.append((node.lineno, text))
+    return found
+
+
+def for_no_one(node: ast.AST) -> bool:
+    """Whether no text in this part of a program is for people, or it is that of an error."""
+    if isinstance(node, ast.Expr):
+        return isinstance(node.value, ast.Constant)
+    if isinstance(node, ast.Call):
+        called = ast.unparse(node.func)
+        return called.endswith("Error") or called.startswith("re.")
+    return isinstance(node, ast.Raise | ast.Assert)
 
 
 def places(text: str) -> list[str]:
@@ -75,14 +126,78 @@ def test_scripts_ask_for_texts_that_their_page_hands_over(page: str) -> None:
     assert {key for keys in asked for key in keys if key} == set(texts(f"{page}_scripts"))
 
 
+def test_every_stage_of_the_work_has_a_text() -> None:
+    source = "\n".join(sources(".py").values())
+    stages = set(re.findall(r"""\bprogress\("([\w-]+)",""", source)) | {f"run-{NAMES[sense]}" for sense in SENSES}
+    assert stages == set(texts("progress"))
+
+
+def spelled_out(line: str) -> str:
+    """The line with characters in place of their numbers."""
+    return ESCAPE.sub(lambda match: chr(int(match[1], 16) if match[1] else int(match[2])), line)
+
+
 def test_no_chinese_stands_in_code() -> None:
     found = [
         f"{path.relative_to(ROOT)}:{number}: {line.strip()}"
-        for path, text in sources(*CODE).items()
+        for path, text in sources(*CODE, ".css").items()
         for number, line in enumerate(text.splitlines(), start=1)
-        if CHINESE.search(line)
+        if CHINESE.search(spelled_out(line))
     ]
     assert found == []
+
+
+@pytest.mark.parametrize(
+    "line", ["中", r"'\u4e2d'", r"'\U00004e2d'", r"`\u{4e2d}`", r"content: '\4e2d'", "&#x4E2D;", "&#20013;"]
+)
+def test_chinese_is_seen_however_it_is_written(line: str) -> None:
+    assert CHINESE.search(spelled_out(line))
+
+
+@pytest.mark.parametrize("line", [r"'\u2013'", "&#8211;", r"content: '\2013'", r"\d4e2d", "#4e2d4e"])
+def test_no_chinese_is_seen_where_there_is_none(line: str) -> None:
+    assert not CHINESE.search(spelled_out(line))
+
+
+@pytest.mark.parametrize("room", ENGINE)
+def test_the_engine_makes_no_sentences(room: str) -> None:
+    found = [
+        f"{path.relative_to(ROOT)}:{line}: {text}"
+        for path in sorted((ROOT / room).rglob("*.py"))
+        for line, text in sentences(path.read_text(encoding="utf-8"))
+        if text not in NO_SENTENCES
+    ]
+    assert found == []
+
+
+def test_what_is_no_sentence_still_stands_in_the_engine() -> None:
+    texts = {
+        text
+        for room in ENGINE
+        for path in (ROOT / room).rglob("*.py")
+        for _, text in sentences(path.read_text("utf-8"))
+    }
+    assert set(NO_SENTENCES) - texts == set()
+
+
+@pytest.mark.parametrize(
+    ("source", "found"),
+    [
+        ('note = "the file is damaged"', ["the file is damaged"]),
+        ('note = f"{number} curves left out, as they are slanted"', ["{} curves left out, as they are slanted"]),
+        ('Row("radial deviation F, max", 1)', ["radial deviation F, max"]),
+        ('"""What stands in a docstring."""', []),
+        ('raise ValueError(f"{name} is no whole number")', []),
+        ('return SettingsError("names no such machine")', []),
+        ('assert found, "the plan is never empty"', []),
+        ('re.compile("one of these words")', []),
+        ('raise Damaged("the settings are no JSON") from None', []),
+        ('name = "radial-deviation"', []),
+        ('unit = f"{value:g} mm"', []),
+    ],
+)
+def test_a_sentence_is_told_from_other_texts(source: str, found: list[str]) -> None:
+    assert [text for _, text in sentences(source)] == found
 
 
 def test_a_text_is_filled_in_each_language_with_its_own() -> None:

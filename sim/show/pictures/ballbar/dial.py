@@ -6,13 +6,14 @@ import numpy as np
 
 from parser.geometry.curves import Floats
 from sim.run.ballbar.parts import Reversal
-from sim.run.ballbar.rows import um
 from sim.run.ballbar.turn import NAMES, Sense
+from sim.show.circular_test import um
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.dial import RIM, Dial
 from sim.show.draw.paints import Paint
 from sim.show.draw.simplify import CHORD_PX, simplify
+from sim.show.words.words import Words
 
 COLOURS: Final[dict[Sense, Paint]] = {1: Paint.CCW, -1: Paint.CW}
 """Blue and vermilion of Okabe and Ito; in grey the clockwise curve is told by its dashes."""
@@ -73,12 +74,12 @@ def _dashes(points: Floats, angle_rad: Floats, sense: Sense) -> list[Floats]:
     return [run for run, is_drawn in zip(np.split(points, borders), drawn, strict=True) if is_drawn]
 
 
-def write_reversals(canvas: Canvas, dial: Dial, reversals: tuple[Reversal, ...]) -> None:
+def write_reversals(canvas: Canvas, dial: Dial, reversals: tuple[Reversal, ...], say: Words) -> None:
     """Write at each end of the axes what the eight reversals do there."""
     for quarter in range(4):
         here = (reversals[quarter], reversals[4 + quarter])
-        lines = _beside(here) if quarter % 2 == 0 else _above(here)
-        _write(canvas, dial, quarter, [(_name(here[0]), Paint.INK), *lines])
+        lines = _beside(here, say) if quarter % 2 == 0 else _above(here, say)
+        _write(canvas, dial, quarter, [(_name(here[0], say), Paint.INK), *lines])
 
 
 def mark_spike(canvas: Canvas, place_px: Floats, reversal: Reversal, unit: float) -> None:
@@ -86,23 +87,25 @@ def mark_spike(canvas: Canvas, place_px: Floats, reversal: Reversal, unit: float
     canvas.ring(place_px, SPIKE * unit, COLOURS[reversal.sense], SPIKE_WIDTH * unit)
 
 
-def _name(reversal: Reversal) -> str:
-    return f"{reversal.side.replace('-', '−')}{reversal.axis.name}, {reversal.axis.name} reverses"
+def _name(reversal: Reversal, say: Words) -> str:
+    return say("ballbar.reverses", side=reversal.side.replace("-", "−"), axis=reversal.axis.name)
 
 
-def _beside(here: tuple[Reversal, ...]) -> ColouredLines:
+def _beside(here: tuple[Reversal, ...], say: Words) -> ColouredLines:
     """Short lines, a figure each."""
-    return [(text, COLOURS[reversal.sense]) for reversal in here for text in _texts(reversal)]
+    return [(text, COLOURS[reversal.sense]) for reversal in here for text in _texts(reversal, say)]
 
 
-def _above(here: tuple[Reversal, ...]) -> ColouredLines:
+def _above(here: tuple[Reversal, ...], say: Words) -> ColouredLines:
     """A line for each direction."""
-    return [(", ".join(_texts(reversal)), COLOURS[reversal.sense]) for reversal in here]
+    return [(", ".join(_texts(reversal, say)), COLOURS[reversal.sense]) for reversal in here]
 
 
-def _texts(reversal: Reversal) -> list[str]:
-    step = f"{NAMES[reversal.sense]}: step {um(reversal.step_um)}"
-    return [step] + [f"spike {um(reversal.spike_um)}"] * (reversal.spike_deg is not None)
+def _texts(reversal: Reversal, say: Words) -> list[str]:
+    direction = say(f"ballbar.{NAMES[reversal.sense]}")
+    step = say("ballbar.step", direction=direction, length=um(reversal.step_um))
+    spike = say("ballbar.spike", length=um(reversal.spike_um))
+    return [step] + [spike] * (reversal.spike_deg is not None)
 
 
 def _write(canvas: Canvas, dial: Dial, quarter: int, lines: ColouredLines) -> None:

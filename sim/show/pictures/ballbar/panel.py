@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from sim.run.ballbar.rows import Row
+from sim.show.circular_test import Row
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.dial import NOMINAL_WIDTH

@@ -9,8 +9,8 @@ from PIL import Image
 from parser.geometry.curves import Floats
 from sim.run.ballbar.circle import Ballbar, Measured
 from sim.run.ballbar.parts import Reversal
-from sim.run.ballbar.rows import FIGURES, PARTS, figure_rows, part_rows, setup_rows, um
 from sim.run.ballbar.turn import Sense
+from sim.show.circular_test import figure_rows, part_rows, setup_rows, um
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.dial import Dial, draw_ring_values, draw_rings, ring_for
@@ -19,6 +19,7 @@ from sim.show.draw.paints import Paint
 from sim.show.draw.raster import Raster
 from sim.show.pictures.ballbar.dial import draw_band, draw_curve, draw_zone_edge, mark_spike, write_reversals
 from sim.show.pictures.ballbar.panel import FiguresPanel
+from sim.show.words.words import Words
 
 CELLS: Final = 1440
 CELL_RAD: Final = np.asarray((np.arange(CELLS) + 0.5) * (2.0 * np.pi / CELLS), dtype=np.float64)
@@ -27,6 +28,7 @@ ASPECT: Final = 0.72
 """Height over width."""
 CENTER: Final = (572.0, 638.0)
 """Middle of the dial."""
+SAY: Final = Words("en")
 
 
 def draw_ballbar(ballbar: Ballbar, measured: Measured, width_px: int = 1600) -> Image.Image:
@@ -52,7 +54,7 @@ def draw_ballbar(ballbar: Ballbar, measured: Measured, width_px: int = 1600) -> 
         draw_curve(canvas, dial, curve.sense, CELL_RAD, curve.mean_um)
     draw_ring_values(canvas, dial)
     _write_middle(canvas, dial, measured)
-    write_reversals(canvas, dial, measured.parts.reversals)
+    write_reversals(canvas, dial, measured.parts.reversals, SAY)
     for reversal in measured.parts.reversals:
         _mark(canvas, dial, reversal, curves[0 if reversal.sense == 1 else 1])
     _write_panel(canvas, dial, width_px, ballbar, measured)
@@ -81,10 +83,10 @@ def _curve(ballbar: Ballbar, measured: Measured, row: int) -> _Curve:
 
 
 def _write_head(canvas: Canvas, unit: float, ballbar: Ballbar, measured: Measured) -> None:
-    machine, *rest = setup_rows(ballbar)
+    machine, *rest = setup_rows(ballbar, SAY)
     radius, feed = rest[0], rest[1]
     note = f"{machine.value} · R {radius.value} · {feed.value} · G(b) {um(measured.figures.circularity_um)}"
-    draw_header(canvas, unit, "Circular test ISO 230-4, about the least-squares centre", note)
+    draw_header(canvas, unit, SAY("ballbar.title"), note)
 
 
 def _write_middle(canvas: Canvas, dial: Dial, measured: Measured) -> None:
@@ -108,11 +110,11 @@ def _write_panel(canvas: Canvas, dial: Dial, width_px: int, ballbar: Ballbar, me
     panel = FiguresPanel(canvas, dial.unit, width_px)
     panel.legend(
         [
-            "ccw, mean over ¼°; pale: all places",
-            "cw, likewise",
-            f"nominal circle; deviation × {magnified}",
-            "zone of G(b), holds both paths",
+            SAY("ballbar.curve-ccw"),
+            SAY("ballbar.curve-cw"),
+            SAY("ballbar.nominal", magnified=magnified),
+            SAY("ballbar.zone"),
         ]
     )
-    panel.table(FIGURES, figure_rows(measured.figures))
-    panel.table(PARTS, part_rows(measured.parts, measured.interpolation_um))
+    panel.table(SAY("ballbar.figures"), figure_rows(measured.figures, SAY))
+    panel.table(SAY("ballbar.parts"), part_rows(measured.parts, measured.interpolation_um, SAY))
