@@ -51,8 +51,7 @@ def laid(*rings: Curves) -> Curves:
 
 def passes_of(shifts_um: list[float], rows: int = 8) -> list[Pass]:
     return [
-        Pass(0, at + 1, at * rows, (at + 1) * rows - 1, False, True, False, shift)
-        for at, shift in enumerate(shifts_um)
+        Pass(0, at + 1, at * rows, (at + 1) * rows - 1, False, True, False, shift) for at, shift in enumerate(shifts_um)
     ]
 
 
