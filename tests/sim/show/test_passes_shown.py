@@ -5,6 +5,8 @@ import re
 import numpy as np
 import pytest
 from browser import OpenPage
+from golden_pictures import assert_golden
+from page_checks import complaints
 from recorder import recording_sheet
 from trimmed import trimmed_run, untrimmed_run
 
@@ -16,10 +18,12 @@ from sim.run.course import course_of
 from sim.run.recording import Recording
 from sim.run.report import build_report
 from sim.show.draw.paints import LIGHT, Paint
+from sim.show.draw.sheet import pixels
 from sim.show.draw.tones import paint_of_pass, tones_of
 from sim.show.film.readout import read_out
 from sim.show.film.screen import Look, Screen
 from sim.show.pictures.cut.picture import draw_cut_of_run
+from sim.show.pictures.motion.picture import draw_motion
 from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
 from sim.show.report_page.results import pass_table
@@ -115,9 +119,24 @@ def test_the_replay_names_and_groups_passes(open_page: OpenPage) -> None:
     tops = page.evaluate("[...document.querySelectorAll('.line')].map((line) => line.getBoundingClientRect().top)")
     heads = page.evaluate("[...document.querySelectorAll('.pass-head')].map((one) => one.getBoundingClientRect().top)")
     assert len({*tops, *heads}) == len(tops) + len(heads)  # no head covers a line
+    assert complaints(page) == []
 
 
 def test_the_replay_of_a_contour_cut_once_has_nothing_of_passes(open_page: OpenPage) -> None:
     page = open_page(replay_page(untrimmed_run())).page
     page.wait_for_function("document.getElementById('loading').hidden")
     assert page.locator(".pass-head, [data-out=pass], .legend .pass, #bar.grouped").count() == 0
+
+
+def test_the_picture_of_the_motion_has_a_band_for_each_pass() -> None:
+    bands = {paint_of_pass(number) for number in range(1, 5)}
+    drawn = [box for box in draw_motion(recording_sheet(), trimmed_run().run).of("box") if box.paint in bands]
+    *passes, sample = drawn
+    assert [box.paint for box in passes] == [paint_of_pass(number) for number in range(1, 5)]
+    assert sample.paint is Paint.KERF
+    assert not [box for box in draw_motion(recording_sheet(), untrimmed_run().run).of("box") if box.paint in bands]
+
+
+def test_the_picture_of_a_cut_with_passes_is_the_golden_one() -> None:
+    recording = trimmed_run()
+    assert_golden(draw_cut_of_run(pixels(800), recording.run, recording.pieces).image(), "cut-passes.png")
