@@ -14,6 +14,7 @@ from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Floats, total_before
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
+from parser.shape.passes import Passes, find_passes
 from parser.toolpath import Toolpath
 from sim.check.result import Coverage
 from sim.cut.obstacles.findings import obstacle_findings
@@ -24,6 +25,7 @@ from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
 from sim.measure.deviation.measured import Deviations, Meters
 from sim.measure.deviation.meters import BlockSteps
+from sim.measure.passes.figures import PassFigures, figures_of_passes, wire_taken
 from sim.run.offsetting import Offsetting
 from sim.run.prepare import prepare
 from sim.setup.expectations import Missed
@@ -67,6 +69,8 @@ class DryRun:
         Of steps, table and wire.
     contours
         Contours with their closures.
+    passes, pass_figures
+        Which blocks make each pass over an edge, and what it came to, one behind the other.
     block_time_s
         (n,) float64, planned time in each block.
     remains
@@ -92,6 +96,8 @@ class DryRun:
     history: History
     deviations: Deviations
     contours: tuple[Contour, ...]
+    passes: Passes
+    pass_figures: tuple[PassFigures, ...]
     block_time_s: Floats
     remains: Remains | None
     comparison: Comparison | None
@@ -103,6 +109,11 @@ class DryRun:
     def border_s(self) -> Floats:
         """(n + 1,) float64, planned times at which the blocks begin, and the end of the last one."""
         return total_before(self.block_time_s)
+
+    @property
+    def has_trims(self) -> bool:
+        """Whether any edge is cut in more than one pass; those who show a run speak of passes only then."""
+        return any(one.number > 1 for one in self.passes.passes)
 
     @property
     def tripped(self) -> Loss | None:
@@ -164,6 +175,8 @@ def dry_run(
     lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     plan = motion.drive.plan
     cut = _cut(trace, moved.losses)
+    passes, block_time_s = find_passes(toolpath), _block_times(plan, ready.steps.along_um)
+    way = wire_taken(toolpath, plan, cut)
     remains, comparison, left = _left(program, cut, contours, scenario, drawing)
     return DryRun(
         program=program,
@@ -177,7 +190,9 @@ def dry_run(
         history=moved.history,
         deviations=meters.deviations(cut),
         contours=contours,
-        block_time_s=_block_times(plan, ready.steps.along_um),
+        passes=passes,
+        pass_figures=figures_of_passes(toolpath, passes, block_time_s, way, scenario.wire.reach_um),
+        block_time_s=block_time_s,
         remains=remains,
         comparison=comparison,
         findings=tuple(sorted([*ready.findings, *met, *lost, *left], key=file_order)),
