@@ -31,6 +31,18 @@ class Length(click.ParamType):  # type: ignore[type-arg]  # generic in newer cli
         return value if isinstance(value, float) else parse_length(value)
 
 
+class Lengths(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """Lengths with their units, with commas between them, in µm."""
+
+    name = "length,…"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
+        """The lengths in µm. SettingsError for what is none."""
+        from sim.units import parse_length
+
+        return value if isinstance(value, tuple) else tuple(parse_length(one) for one in value.split(","))
+
+
 def chosen(asked: str | None) -> Language:
     """The language asked for; else Chinese where the locale is, else English (POSIX: LC_ALL, LC_MESSAGES, LANG)."""
     if asked in LANGUAGES:
@@ -50,11 +62,16 @@ _OPTIONS = (
         type=click.Choice(["point-by-point", "card"]),
         help="How the path becomes steps: as 3B controllers do, or by a motion card at equal times.",
     ),
-    click.option("--offset", type=Length(), help="Offset that the controller is to add, such as 0.1mm; with --side."),
+    click.option(
+        "--offset",
+        type=Lengths(),
+        help="Offset that the controller is to add, such as 0.1mm, or one for each pass: 0.18mm,0.12mm,0.1mm; "
+        "with --side.",
+    ),
     click.option(
         "--side",
         type=click.Choice(["left", "right"]),
-        help="Side of the contour on which the wire runs, along the cutting direction.",
+        help="Side of the contour on which the wire runs, along the cutting direction of the first pass.",
     ),
     click.option("--kerf", is_flag=True, help="Work out the kerf, the pieces that it leaves, and their sizes."),
     click.option(

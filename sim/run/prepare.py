@@ -3,6 +3,9 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import numpy as np
+
+from controller.motion.limits import Feeds
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.findings.codes import Check
@@ -29,6 +32,8 @@ class Prepared(NamedTuple):
         Of that toolpath, point by point.
     offset
         What the offset made of the program; None where it runs as written.
+    feeds
+        How fast each block is to be run.
     findings, coverage
         Of the program as it was read, and of its offset; and how far their checks came.
     """
@@ -36,6 +41,7 @@ class Prepared(NamedTuple):
     program: Program
     steps: Steps
     offset: Offsetting | None
+    feeds: Feeds
     findings: tuple[Finding, ...]
     coverage: Coverage
 
@@ -50,8 +56,9 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     checked = run_checks(program, _demands(scenario))
     if checked.steps is None:
         raise _refusal(program, checked.findings)
+    feeds = scenario.machine.feeds(scenario.thickness_mm)
     if scenario.offset is None:
-        return Prepared(program, checked.steps, None, checked.findings, checked.coverage)
+        return Prepared(program, checked.steps, None, feeds, checked.findings, checked.coverage)
     offset = offsetting(program, scenario.offset)
     steps = interpolate(offset.program.toolpath)
     beyond = too_many_steps(offset.program, steps)
@@ -59,7 +66,9 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
         raise _refusal(program, beyond)
     travel = travel_findings(offset.program, steps, scenario.machine.table, scenario.start_um)
     coverage = _looked_at(checked.coverage, (Check.CORNERS, Check.TRAVEL))
-    return Prepared(offset.program, steps, offset, (*checked.findings, *offset.findings, *travel), coverage)
+    by_pass = np.array([scenario.pass_feed_um_s(one) for one in scenario.offset.passes])
+    feeds = feeds._replace(cut_um_s=by_pass[offset.pass_of_row])
+    return Prepared(offset.program, steps, offset, feeds, (*checked.findings, *offset.findings, *travel), coverage)
 
 
 def _demands(scenario: Scenario) -> Demands:

@@ -62,8 +62,9 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B490": {"path": "summary.steps", "found": "99000", "wanted": "at most 5"},
     "3B501": {"radius": 50.0, "offset": 100.0, "left": 20.7, "x_mm": 12.5, "y_mm": 0.0},
     "3B502": {"offset": 100.0, "left": 3.2, "x_mm": 12.5, "y_mm": 0.0},
-    "3B503": {"other": 9, "depth": 110.0, "offset": 100.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B503": {"other": 9, "pass": 2, "depth": 110.0, "offset": 100.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B504": {"loops": 2, "offset": 100.0},
+    "3B505": {"first": 1, "last": 7, "before": 1, "number": 2, "gap": 1414.2},
     "3B601": {"what": "edge-off", "off": 7.0, "tolerance": 5.0, "x_mm": 12.5, "y_mm": 0.0, "entity": "ARC 2F"},
     "3B602": {"what": "wrong-side"},
 }

@@ -81,7 +81,7 @@ def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words) -> Cut:
         title=scenario.title,
         note=_note(run, say),
         trace=run.cut,
-        contour=None if run.offset is None else run.offset.drawn,
+        contour=None if run.offset is None else run.offset.passes.drawn,
         bodies=Bodies(scenario.work_um, [clamp.outline_um for clamp in scenario.clamps]),
         pieces=pieces,
         sizes=None if run.remains is None else run.remains.sizes,
