@@ -20,7 +20,7 @@ class PassedRound(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Passes:
+class PassedPath:
     """A toolpath in passes: all of one round before the next begins. n rows, in the order in which they run.
 
     Attributes
@@ -79,7 +79,7 @@ class _Stretch(NamedTuple):
         return rows[::-1] if self.is_back else rows
 
 
-def in_passes(toolpath: Toolpath, rounds: Sequence[Round], back: Sequence[bool]) -> Passes:
+def in_passes(toolpath: Toolpath, rounds: Sequence[Round], back: Sequence[bool]) -> PassedPath:
     """A toolpath with each of its rounds run once for each pass; `back` (k,) says which passes run backwards."""
     stretches: list[_Stretch] = []
     passed: list[PassedRound] = []
@@ -98,7 +98,7 @@ def in_passes(toolpath: Toolpath, rounds: Sequence[Round], back: Sequence[bool])
     number_of_row = np.repeat(np.array([stretch.number for stretch in stretches]), length)
     turned = np.repeat(np.array([stretch.is_back for stretch in stretches]), length)
     curves = _turned(toolpath.picked(row), turned)
-    return Passes(toolpath, curves, row, number_of_row, turned, tuple(passed), _stops(toolpath, rounds, back))
+    return PassedPath(toolpath, curves, row, number_of_row, turned, tuple(passed), _stops(toolpath, rounds, back))
 
 
 def first_without_way_back(toolpath: Toolpath, rounds: Sequence[Round], back: Sequence[bool]) -> NoWayBack | None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from controller.offset.gouges import TOLERANCE_UM, Gouge
-from controller.offset.passes import NoWayBack, Passes
+from controller.offset.passes import NoWayBack, PassedPath
 from controller.offset.path import OffsetPath
 from controller.offset.sections import OffsetSection
 from parser.dialect.at_block import at_block
@@ -33,7 +33,9 @@ def no_way_back(program: Program, stuck: NoWayBack) -> Finding:
     return at_block(drawn, program.lines, "3B505", stuck.round.past - 1, **values)
 
 
-def uncut_findings(program: Program, offset: Offset, passes: Passes, gone: Ints, left_um: Floats) -> Iterator[Finding]:
+def uncut_findings(
+    program: Program, offset: Offset, passed: PassedPath, gone: Ints, left_um: Floats
+) -> Iterator[Finding]:
     """Findings at the rows `gone` (v,) of the passes, along which `left_um` (v,) of material stay.
 
     3B501 at an inner arc no larger than the offset, 3B502 where some material stays along another block. Only what all
@@ -41,8 +43,8 @@ def uncut_findings(program: Program, offset: Offset, passes: Passes, gone: Ints,
     """
     drawn, side = program.toolpath, offset.side
     nearest = [number for number, one in enumerate(offset.passes) if one.by_um == offset.by_um]
-    last = np.isin(passes.number[gone], nearest)
-    rows, of, times = np.unique(passes.row[gone[last]], return_inverse=True, return_counts=True)
+    last = np.isin(passed.number[gone], nearest)
+    rows, of, times = np.unique(passed.row[gone[last]], return_inverse=True, return_counts=True)
     least = np.full(len(rows), np.inf)
     np.minimum.at(least, of, left_um[last])
     stays = times == len(nearest)
@@ -59,7 +61,7 @@ def uncut_findings(program: Program, offset: Offset, passes: Passes, gone: Ints,
 
 
 def gouge_findings(
-    program: Program, offset: Offset, passes: Passes, path: OffsetPath, gouges: Iterable[Gouge]
+    program: Program, offset: Offset, passed: PassedPath, path: OffsetPath, gouges: Iterable[Gouge]
 ) -> Iterator[Finding]:
     """Finding 3B503 for each place where the wire cuts into the contour of the program as read.
 
@@ -68,8 +70,8 @@ def gouge_findings(
     drawn = program.toolpath
     told: dict[tuple[int, int], dict[int, list[Gouge]]] = {}
     for gouge in gouges:
-        row, number = path.source_row[gouge.path_row], int(passes.number[gouge.row])
-        pair = int(passes.row[row]), int(passes.row[gouge.row])
+        row, number = path.source_row[gouge.path_row], int(passed.number[gouge.row])
+        pair = int(passed.row[row]), int(passed.row[gouge.row])
         told.setdefault(pair, {}).setdefault(number, []).append(gouge)
     for (row, into), by_pass in told.items():
         deepest = max(by_pass, key=lambda number: max(gouge.depth_um for gouge in by_pass[number]))
@@ -86,7 +88,7 @@ def gouge_findings(
 
 
 def loop_findings(
-    program: Program, offset: Offset, passes: Passes, loops: Mapping[OffsetSection, int]
+    program: Program, offset: Offset, passed: PassedPath, loops: Mapping[OffsetSection, int]
 ) -> Iterator[Finding]:
     """Finding 3B504 at each closed section that does not allow one closed path without a gouge, but none or several.
 
@@ -94,5 +96,5 @@ def loop_findings(
     """
     for section, count in loops.items():
         if count != 1:
-            first = int(passes.row[[section.first, section.last]].min())
+            first = int(passed.row[[section.first, section.last]].min())
             yield at_block(program.toolpath, program.lines, "3B504", first, loops=count, offset=offset.by_um)

@@ -76,14 +76,14 @@ def _offset(offset: "Offset | None", options: Overrides) -> "Offset | None":
 
     Lengths take the place of all passes: each makes one in the program's direction, at the machine's feed.
     """
-    from sim.setup.part import OFFSET_MM, PASSES, SIDES, Offset, Pass
+    from sim.setup.part import OFFSET_MM, PASSES, SIDES, Offset, OffsetPass
 
     if options.offset is None and options.side is None:
         return offset
     passes = offset and offset.passes
     if options.offset is not None:
         number(len(options.offset), PASSES, "--offset: the number of passes")
-        passes = tuple(Pass(by_um) for by_um in options.offset)
+        passes = tuple(OffsetPass(by_um) for by_um in options.offset)
         for one in passes:
             number(mm(one.by_um), OFFSET_MM, "--offset in mm")
     side = SIDES[options.side] if options.side is not None else offset and offset.side

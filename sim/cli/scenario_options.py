@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from parser.findings.catalogue import LANGUAGES, Language
-from parser.findings.errors import ProgramError
+from parser.findings.errors import ProgramError, SettingsError
 from parser.text.encoding import printable
 from parser.text.excerpt import place, with_caret
 
@@ -37,10 +37,15 @@ class Lengths(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
     name = "length,…"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
-        """The lengths in µm. SettingsError for what is none."""
+        """The lengths in µm. SettingsError for what is none, and where one is missing beside a comma."""
         from sim.units import parse_length
 
-        return value if isinstance(value, tuple) else tuple(parse_length(one) for one in value.split(","))
+        if isinstance(value, tuple):
+            return value
+        lengths = value.split(",")
+        if len(lengths) > 1 and not all(one.strip() for one in lengths):
+            raise SettingsError(f"{value!r} lacks a length beside a comma; write them such as 0.18mm,0.12mm,0.1mm")
+        return tuple(parse_length(one) for one in lengths)
 
 
 def chosen(asked: str | None) -> Language:

@@ -7,7 +7,7 @@ import numpy as np
 
 from controller.offset.compensate import compensate
 from controller.offset.gouges import TOLERANCE_UM, Gouge, gouges
-from controller.offset.passes import PassedRound, Passes, first_without_way_back, in_passes
+from controller.offset.passes import PassedPath, PassedRound, first_without_way_back, in_passes
 from controller.offset.path import Made, OffsetPath, offset_toolpath
 from controller.offset.reach import reach
 from controller.offset.sections import OffsetSection, Side, rounds_of
@@ -27,7 +27,7 @@ class Offsetting:
 
     Attributes
     ----------
-    passes
+    passed
         The program's own toolpath, which runs along the drawing's contour, in the passes that were asked for.
     program
         The program with the offset path as its toolpath.
@@ -43,7 +43,7 @@ class Offsetting:
         3B501 to 3B504, in file order.
     """
 
-    passes: Passes
+    passed: PassedPath
     program: Program
     path: OffsetPath
     left_um: Floats
@@ -54,7 +54,7 @@ class Offsetting:
     @property
     def pass_of_row(self) -> Ints:
         """(m,) pass of each row of the path, from 0; −1 where it belongs to none, as a jump."""
-        return self.passes.number[self.path.source_row]
+        return self.passed.number[self.path.source_row]
 
 
 def offsetting(program: Program, offset: Offset) -> Offsetting:
@@ -68,27 +68,27 @@ def offsetting(program: Program, offset: Offset) -> Offsetting:
     if stuck is not None:
         finding = no_way_back(program, stuck)
         raise ProgramError(finding, excerpt=program.excerpt(finding.line))
-    passes = in_passes(drawn, rounds, offset.back)
-    of = np.array([one.number for one in passes.rounds], dtype=np.int64)
+    passed = in_passes(drawn, rounds, offset.back)
+    of = np.array([one.number for one in passed.rounds], dtype=np.int64)
     by_um = np.array([one.by_um for one in offset.passes])
     side = np.where(offset.back, -offset.side, offset.side)
-    path = compensate(passes.curves, passes.sections, by_um[of], side[of])
-    parts = [_beside_round(passes, path, one, offset) for one in passes.rounds]
+    path = compensate(passed.curves, passed.sections, by_um[of], side[of])
+    parts = [_beside_round(passed, path, one, offset) for one in passed.rounds]
     left_um = np.concatenate([np.zeros(0), *(one.left_um for one in parts)])
     met = tuple(gouge for one in parts for gouge in one.gouges)
     closed = {
         one.round.section: beside.loops
-        for one, beside in zip(passes.rounds, parts, strict=True)
+        for one, beside in zip(passed.rounds, parts, strict=True)
         if beside.loops is not None
     }
     found = [
-        *uncut_findings(program, offset, passes, path.vanished, left_um),
-        *gouge_findings(program, offset, passes, path, met),
-        *loop_findings(program, offset, passes, closed),
+        *uncut_findings(program, offset, passed, path.vanished, left_um),
+        *gouge_findings(program, offset, passed, path, met),
+        *loop_findings(program, offset, passed, closed),
     ]
     return Offsetting(
-        passes=passes,
-        program=replace(program, toolpath=offset_toolpath(passes, path)),
+        passed=passed,
+        program=replace(program, toolpath=offset_toolpath(passed, path)),
         path=path,
         left_um=left_um,
         gouges=met,
@@ -105,7 +105,7 @@ class _Beside(NamedTuple):
     loops: int | None
 
 
-def _beside_round(passes: Passes, path: OffsetPath, one: PassedRound, offset: Offset) -> _Beside:
+def _beside_round(passed: PassedPath, path: OffsetPath, one: PassedRound, offset: Offset) -> _Beside:
     """What a pass over one round does to the contour.
 
     A wide pass leaves stock, which the pass at the least offset takes: what that one leaves stays. A gouge is one if it
@@ -113,7 +113,7 @@ def _beside_round(passes: Passes, path: OffsetPath, one: PassedRound, offset: Of
     """
     section, by_um = one.round.section, offset.passes[one.number].by_um
     side = Side(-offset.side if offset.back[one.number] else offset.side)
-    contour = passes.curves.picked(slice(section.first, section.last + 1))
+    contour = passed.curves.picked(slice(section.first, section.last + 1))
     beside = slice(*np.searchsorted(path.source_row, one.round[:2]).tolist())
     # Leads of an open section are left out: where it has none of its own, they begin and end on it.
     near = np.arange(beside.start, beside.stop)[section.closed | (path.made[beside] != Made.LEAD)]

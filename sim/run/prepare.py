@@ -1,6 +1,6 @@
 """Before anything moves: a program checked, and the offset added where the controller is to add one."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +10,7 @@ from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
-from parser.findings.facts import TooLarge, telling
+from parser.findings.facts import TooLarge, WithoutOffset, telling
 from parser.findings.findings import Finding
 from parser.program import Program
 from sim.check.engine import Demands, run_checks, too_many_steps
@@ -68,7 +68,8 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     coverage = _looked_at(checked.coverage, (Check.CORNERS, Check.TRAVEL))
     by_pass = np.array([scenario.pass_feed_um_s(one) for one in scenario.offset.passes])
     feeds = feeds._replace(cut_um_s=by_pass[offset.pass_of_row])
-    return Prepared(offset.program, steps, offset, feeds, (*checked.findings, *offset.findings, *travel), coverage)
+    findings = (*_under_offset(checked.findings), *offset.findings, *travel)
+    return Prepared(offset.program, steps, offset, feeds, findings, coverage)
 
 
 def _demands(scenario: Scenario) -> Demands:
@@ -76,6 +77,15 @@ def _demands(scenario: Scenario) -> Demands:
     if scenario.offset is not None:
         return Demands(may_stay_open=scenario.may_stay_open)
     return Demands(scenario.machine.table, scenario.start_um, scenario.wire.reach_um, scenario.may_stay_open)
+
+
+def _under_offset(findings: Sequence[Finding]) -> Iterator[Finding]:
+    """The findings, where one says that the path is without the controller's offset mended to say that it has it."""
+    for found in findings:
+        if isinstance(found.fact, WithoutOffset):
+            yield found._replace(values={**found.values, "path": "path-with-offset"})
+        else:
+            yield found
 
 
 def _looked_at(coverage: Coverage, names: Sequence[Check]) -> Coverage:

@@ -32,7 +32,7 @@ DEFAULT_DENSITY_G_CM3 = 7.85
 Direction = Literal["same", "back"]
 
 
-class Pass(NamedTuple):
+class OffsetPass(NamedTuple):
     """One pass over each contour.
 
     Attributes
@@ -64,7 +64,7 @@ class Offset(NamedTuple):
         of the material.
     """
 
-    passes: tuple[Pass, ...]
+    passes: tuple[OffsetPass, ...]
     side: Side
 
     @property
@@ -86,7 +86,7 @@ class Offset(NamedTuple):
     @property
     def is_plain(self) -> bool:
         """Whether it is one pass at the feed of the machine."""
-        return self.passes == (Pass(self.by_um),)
+        return self.passes == (OffsetPass(self.by_um),)
 
 
 class DrawingTarget(NamedTuple):
@@ -180,15 +180,15 @@ def read_offset(scenario: Mapping[str, Any], where: str) -> Offset | None:
     if "pass" not in scenario:
         if by_um is None:
             raise SettingsError(f"{where}: [offset]: by_mm is missing; or give it in a [[pass]] for each pass")
-        return Offset((Pass(by_um),), side)
+        return Offset((OffsetPass(by_um),), side)
     if by_um is not None:
         raise SettingsError(f"{where}: [offset]: by_mm is left out where there are [[pass]], which have their own")
     number(len(passes), PASSES, f"{where}: the number of [[pass]]")
     return Offset(tuple(_pass(table, at, f"{where}: [[pass]] {at}") for at, table in enumerate(passes, start=1)), side)
 
 
-def _pass(table: Mapping[str, Any], at: int, where: str) -> Pass:
-    one = Pass(**PASS.read(table, where))
+def _pass(table: Mapping[str, Any], at: int, where: str) -> OffsetPass:
+    one = OffsetPass(**PASS.read(table, where))
     if at == 1 and one.direction == "back":
         raise SettingsError(f"{where}: direction is that of the program in the first pass; a later one may run back")
     if one.feed_um_s is not None and one.area_rate_mm2_min is not None:

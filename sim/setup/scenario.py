@@ -22,7 +22,7 @@ from sim.setup.part import (
     PASS,
     DrawingTarget,
     Offset,
-    Pass,
+    OffsetPass,
     read_drawing_target,
     read_offset,
 )
@@ -109,11 +109,11 @@ class Scenario:
         return self.wire.lag_um(self.thickness_mm)
 
     @property
-    def pass_tables(self) -> tuple[Pass, ...]:
+    def pass_tables(self) -> tuple[OffsetPass, ...]:
         """Passes that its file tells one by one: none where ``[offset]`` says all of it."""
         return () if self.offset is None or self.offset.is_plain else self.offset.passes
 
-    def pass_feed_um_s(self, one: Pass) -> float:
+    def pass_feed_um_s(self, one: OffsetPass) -> float:
         """Feed of a pass as the controller runs it, µm/s."""
         if one.feed_um_s is not None:
             return self.machine.held_um_s(one.feed_um_s)

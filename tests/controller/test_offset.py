@@ -16,7 +16,7 @@ from paths import Pen, flipped
 from sound_shapes import SHAPES, Shape
 
 from controller.offset.compensate import compensate
-from controller.offset.passes import Passes, in_passes
+from controller.offset.passes import PassedPath, in_passes
 from controller.offset.path import Made, OffsetPath, offset_toolpath
 from controller.offset.sections import OffsetSection, Side
 from controller.stepping.words import interpolate
@@ -55,7 +55,7 @@ def polyline(places: Floats | list[tuple[float, float]]) -> Curves:
     return curves_between(places[:-1], places[1:], np.full((n, 2), np.nan), np.zeros(n))
 
 
-def once(toolpath: Toolpath) -> Passes:
+def once(toolpath: Toolpath) -> PassedPath:
     return in_passes(toolpath, [], [False])
 
 

@@ -29,7 +29,7 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B107": {"label": "N2", "line": 2},
     "3B108": {"header": 65437.0, "decoded": 82003.53},
     "3B109": {"three": 3, "four": 1},
-    "3B110": {"blocks": 3},
+    "3B110": {"blocks": 3, "path": "path-without-offset"},
     "3B201": {"x": 0, "y": 0},
     "3B202": {"axis": "Y", "other": "X"},
     "3B203": {"written": "L1", "ruled": "L2", "way": "+Y"},

@@ -72,7 +72,7 @@ def offset_entry(run: DryRun) -> dict[str, Any] | None:
     asked, made = run.scenario.offset, run.offset
     if asked is None or made is None:
         return None
-    of_row, of_drawn = run.toolpath.source.block, made.passes.drawn.source.block
+    of_row, of_drawn = run.toolpath.source.block, made.passed.drawn.source.block
     return {
         "by_um": rounded(asked.by_um),
         "side": asked.side.name.lower(),
@@ -87,8 +87,8 @@ def offset_entry(run: DryRun) -> dict[str, Any] | None:
         "blocks": _blocks(made, of_row),
         "vanished": [
             {
-                "source_block": int(of_drawn[made.passes.row[row]]),
-                "pass": int(made.passes.number[row]) + 1,
+                "source_block": int(of_drawn[made.passed.row[row]]),
+                "pass": int(made.passed.number[row]) + 1,
                 "left_um": rounded(left_um),
             }
             for row, left_um in zip(made.path.vanished.tolist(), made.left_um.tolist(), strict=True)
@@ -97,7 +97,7 @@ def offset_entry(run: DryRun) -> dict[str, Any] | None:
             {
                 "block": gouge.path_row + 1,
                 "source_block": int(of_row[gouge.path_row]),
-                "into_source_block": int(of_drawn[made.passes.row[gouge.row]]),
+                "into_source_block": int(of_drawn[made.passed.row[gouge.row]]),
                 "where_um": [rounded(gouge.place_um.x), rounded(gouge.place_um.y)],
                 "depth_um": rounded(gouge.depth_um),
             }

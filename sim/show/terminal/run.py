@@ -19,7 +19,6 @@ from sim.cut.pieces.pieces import Piece
 from sim.measure.deviation.deviation import Where
 from sim.run.dryrun import DryRun, verdict
 from sim.setup.key_words import value_word
-from sim.setup.part import Pass
 from sim.show.terminal.colours import COLOURS
 from sim.table.record.peaks import Peak
 from sim.units import clock, three_figures
@@ -145,17 +144,12 @@ def _offset(run: DryRun) -> list[Row]:
     bridges = int((made.path.made == Made.BRIDGE).sum())
     parts = [(bridges, "bridge", "added"), (len(made.path.vanished), "block", "left out")]
     told = [f"{number} {name}{'s' * (number > 1)} {what}" for number, name, what in parts if number]
-    side = f"to the {asked.side.name.lower()}"
-    if asked.is_plain:
-        return [("offset", ", ".join([f"{mm(asked.by_um):g} mm {side}", *told]))]
-    passes = zip(asked.passes, asked.back, strict=True)
-    rows = [(f"  pass {at}", _pass(run, one, is_back)) for at, (one, is_back) in enumerate(passes, start=1)]
-    return [("offset", ", ".join([f"in {len(rows)} pass{'es' * (len(rows) > 1)} {side}", *told])), *rows]
-
-
-def _pass(run: DryRun, one: Pass, is_back: bool) -> str:
-    feed = mm(run.scenario.pass_feed_um_s(one)) * 60.0
-    return f"{mm(one.by_um):g} mm, {'back, ' * is_back}{three_figures(feed)} mm/min"
+    by = ", ".join(f"{mm(one.by_um):g}" for one in asked.passes)
+    rows = [("offset", ", ".join([f"{by} mm to the {asked.side.name.lower()}", *told]))]
+    feeds = [run.scenario.pass_feed_um_s(one) for one in asked.passes]
+    if len(set(feeds)) == 1:
+        return rows
+    return [*rows, ("  feed", f"{', '.join(three_figures(mm(feed) * 60.0) for feed in feeds)} mm/min")]
 
 
 def _pieces(run: DryRun) -> list[Row]:

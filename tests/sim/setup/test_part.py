@@ -7,7 +7,7 @@ import pytest
 from controller.offset.sections import Side
 from parser.findings.errors import SettingsError
 from sim.cli.overrides import Overrides, overridden
-from sim.setup.part import DrawingTarget, Offset, Pass
+from sim.setup.part import DrawingTarget, Offset, OffsetPass
 from sim.setup.scenario import load_scenario
 
 NONE = Overrides(
@@ -56,7 +56,7 @@ def test_all_that_can_be_asked_is_read(tmp_path: Path) -> None:
     scenario = load_scenario(scenario_of(tmp_path, text))
     assert scenario.kerf
     assert scenario.density_g_cm3 == 8.4
-    assert scenario.offset == Offset((Pass(100.0),), Side.LEFT)
+    assert scenario.offset == Offset((OffsetPass(100.0),), Side.LEFT)
     assert scenario.drawing == DrawingTarget(tmp_path / "part.dxf", "CUT", 3.0, 2.5, fit=False)
 
 
@@ -86,16 +86,16 @@ def test_options_take_the_place_of_the_scenarios_values(tmp_path: Path) -> None:
     folder = scenario_of(tmp_path, "[offset]\nby_mm = 0.1\nside = 'left'\n[drawing]\nfile = 'a.dxf'\nlayer = 'CUT'")
     scenario = overridden(folder, NONE)
     assert (scenario.offset, scenario.kerf, scenario.drawing) == (
-        Offset((Pass(100.0),), Side.LEFT),
+        Offset((OffsetPass(100.0),), Side.LEFT),
         False,
         DrawingTarget(tmp_path / "a.dxf", "CUT"),
     )
     other = NONE._replace(side="right", kerf=True, drawing=Path("b.dxf"), tolerance=2.0, no_fit=True)
     scenario = overridden(folder, other)
-    assert scenario.offset == Offset((Pass(100.0),), Side.RIGHT)
+    assert scenario.offset == Offset((OffsetPass(100.0),), Side.RIGHT)
     assert scenario.kerf
     assert scenario.drawing == DrawingTarget(Path("b.dxf"), "CUT", 2.0, fit=False)
-    assert overridden(folder, NONE._replace(offset=(50.0,))).offset == Offset((Pass(50.0),), Side.LEFT)
+    assert overridden(folder, NONE._replace(offset=(50.0,))).offset == Offset((OffsetPass(50.0),), Side.LEFT)
 
 
 @pytest.mark.parametrize(
