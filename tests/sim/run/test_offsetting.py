@@ -44,8 +44,18 @@ def square(pen: Pen) -> Pen:
             square(square(Pen().to(0, 2000)).to(0, 0).jump(9000, 0).to(9000, 2000)).to(9000, 0).path(),
             [OffsetSection(1, 5, closed=True), OffsetSection(9, 13, closed=True)],
         ),
+        # A second way through the start hole is a lead, though no jump parts it from the first.
+        (
+            square(square(Pen().to(0, 2000)).to(0, 0).to(0, 2000)).to(0, 0).path(),
+            [OffsetSection(1, 5, closed=True), OffsetSection(8, 12, closed=True)],
+        ),
+        (
+            square(square(Pen().to(0, 2000)).to(700, 2000).to(0, 0).to(0, -1000)).to(0, 0).path(),
+            [OffsetSection(1, 6, closed=False), OffsetSection(9, 13, closed=True)],
+        ),
+        (square(Pen().to(0, 2000)).to(0, 0).to(0, -700).path(), [OffsetSection(1, 5, closed=True)]),
     ],
-    ids=["led", "bare", "led by two", "circle", "overcut", "parting cut", "two"],
+    ids=["led", "bare", "led by two", "circle", "overcut", "parting cut", "two", "twice", "two from one hole", "on"],
 )
 def test_the_loop_is_offset_and_its_leads_are_not(path: Toolpath, expected: list[OffsetSection]) -> None:
     assert [one.section for one in rounds_of(path)] == expected
