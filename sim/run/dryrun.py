@@ -6,6 +6,7 @@ from typing import Protocol
 import numpy as np
 
 from controller.card.log.writer import CardLog
+from controller.motion.limits import Feeds
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
 from parser.drawing.model import Drawing
@@ -32,7 +33,7 @@ from sim.setup.expectations import Missed
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
-from sim.table.motion import Motion, Progress, motion_of, silent, simulate
+from sim.table.motion import Progress, motion_of, silent, simulate
 from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
@@ -59,6 +60,8 @@ class DryRun:
         What was run: the toolpath of the program is the one that ran.
     offset
         What the controller's compensation made of the program; None where it ran as written.
+    feeds
+        How fast each block was to be run.
     stepped, plan, trace
         What the controller made of it, and table and wire.
     losses, peaks
@@ -88,6 +91,7 @@ class DryRun:
     program: Program
     scenario: Scenario
     offset: Offsetting | None
+    feeds: Feeds
     stepped: BlockSteps
     plan: Plan
     trace: Trace
@@ -156,7 +160,7 @@ def dry_run(
     drawing = _drawing(scenario.drawing)
     ready = prepare(program, scenario)
     program, toolpath = ready.program, ready.program.toolpath
-    motion = _motion(toolpath, scenario)
+    motion = motion_of(toolpath, ready.feeds, scenario.machine, scenario.start_um, scenario.trace_spacing_um)
     meters = Meters(motion, ready.steps)
     sinks = [meters.take]
     if sink is not None:
@@ -182,6 +186,7 @@ def dry_run(
         program=program,
         scenario=scenario,
         offset=ready.offset,
+        feeds=ready.feeds,
         stepped=stepped,
         plan=plan,
         trace=trace,
@@ -234,9 +239,3 @@ def _block_times(plan: Plan, before_um: Floats) -> Floats:
     reached = plan.time_at(before_um)
     reached[-1] = plan.duration_s
     return np.diff(reached)
-
-
-def _motion(toolpath: Toolpath, scenario: Scenario) -> Motion:
-    machine = scenario.machine
-    feeds = machine.feeds(scenario.thickness_mm)
-    return motion_of(toolpath, feeds, machine, scenario.start_um, scenario.trace_spacing_um)
