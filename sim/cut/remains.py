@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from parser.program import Program
 from parser.shape.contours import Contour
+from parser.toolpath import Toolpath
 from sim.cut.kerf.region import Kerf, kerf_of
 from sim.cut.pieces.pieces import Material, Pieces, pieces_of
 from sim.cut.play.freedom import Play, plays_of
@@ -40,7 +41,7 @@ def remains_of(program: Program, trace: Trace, contours: tuple[Contour, ...], sc
     toolpath = program.toolpath
     with cut_by_blocks(1, len(toolpath)):
         kerf = kerf_of(toolpath, trace, contours, scenario.wire.reach_um)
-        pieces = _pieces(kerf, scenario)
+        pieces = _pieces(kerf, toolpath, scenario)
         return Remains(
             kerf=kerf,
             pieces=pieces,
@@ -59,8 +60,10 @@ def pieces_left(
     if remains is not None:
         return remains.pieces
     with cut_by_blocks(1, len(program.toolpath)):
-        return _pieces(kerf_of(program.toolpath, trace, contours, scenario.wire.reach_um), scenario)
+        kerf = kerf_of(program.toolpath, trace, contours, scenario.wire.reach_um)
+        return _pieces(kerf, program.toolpath, scenario)
 
 
-def _pieces(kerf: Kerf, scenario: Scenario) -> Pieces:
-    return pieces_of(kerf, scenario.work_um, Material(scenario.thickness_mm, scenario.density_g_cm3))
+def _pieces(kerf: Kerf, toolpath: Toolpath, scenario: Scenario) -> Pieces:
+    pauses = [stop.after for stop in toolpath.stops if stop.kind == "pause"]
+    return pieces_of(kerf, scenario.work_um, Material(scenario.thickness_mm, scenario.density_g_cm3), pauses)
