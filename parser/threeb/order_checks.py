@@ -6,7 +6,7 @@ import numpy as np
 
 from parser.dialect.at_block import at_block
 from parser.dialect.reader import Marks
-from parser.findings.facts import NoEnd
+from parser.findings.facts import NoEnd, WithoutOffset
 from parser.findings.findings import Finding
 from parser.shape.closing import ends_closed
 from parser.shape.passes import Passes, find_passes
@@ -89,7 +89,8 @@ def _dialect(records: Records) -> Iterator[Finding]:
     n = int(four.sum())
     if not n:
         return
-    yield records.lines.finding("3B110", _span(records, int(np.argmax(four))), blocks=n)
+    found = records.lines.finding("3B110", _span(records, int(np.argmax(four))), blocks=n, path="path-without-offset")
+    yield found.with_fact(WithoutOffset())
     if n < len(four):
         rarer = four if 2 * n <= len(four) else ~four
         row = int(np.argmax(rarer))
