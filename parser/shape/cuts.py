@@ -24,27 +24,24 @@ class Cuts(NamedTuple):
     ----------
     first, last, contour
         (k,) rows, both included, and contours.
-    is_closed
-        (k,) whether they close.
-    tab_of
-        (k,) of a cut over a tab the first row of a stretch over the edge that left it; −1 of others.
+    is_closed, is_tab
+        (k,) whether they close, and whether they cut a tab.
+    edge_row
+        (k,) first row of the first stretch that is known to be over the same edge, or to have left the tab.
     """
 
     first: Ints
     last: Ints
     contour: Ints
     is_closed: Bools
-    tab_of: Ints
-
-    @property
-    def is_tab(self) -> Bools:
-        """(k,) True on cuts over a tab."""
-        tab: Bools = self.tab_of >= 0
-        return tab
+    is_tab: Bools
+    edge_row: Ints
 
     def take(self, at: Ints | Bools) -> "Cuts":
         """Those at the indices `at`."""
-        return Cuts(self.first[at], self.last[at], self.contour[at], self.is_closed[at], self.tab_of[at])
+        return Cuts(
+            self.first[at], self.last[at], self.contour[at], self.is_closed[at], self.is_tab[at], self.edge_row[at]
+        )
 
     @property
     def stretches(self) -> Stretches:
@@ -56,8 +53,8 @@ def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
     """Stretches of the contours; `contour` (n,) is each row's, −1 on jumps."""
     first, last, is_sure = several_loops(toolpath, contour)
     closed = np.ones(len(first), dtype=np.bool_)
-    loops = Cuts(first, last, contour[first], closed, np.full(len(first), -1))
-    edge = edges_of(toolpath, loops.stretches)
+    edge = edges_of(toolpath, Stretches(first, last))
+    loops = Cuts(first, last, contour[first], closed, ~closed, first[edge])
     is_trimmed = np.bincount(edge, minlength=len(edge))[edge] > 1
     sections = _open(toolpath, contour, loops, edge)
     opened = np.array(sorted(sections), dtype=np.int64)
@@ -73,8 +70,9 @@ def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
 
 
 def _joined(*parts: Cuts) -> Cuts:
-    first, last, contour, tab_of = (np.concatenate([part[k] for part in parts]) for k in (0, 1, 2, 4))
-    return Cuts(first, last, contour, np.concatenate([part.is_closed for part in parts]), tab_of)
+    first, last, contour, edge_row = (np.concatenate([part[k] for part in parts]) for k in (0, 1, 2, 5))
+    closed, tab = (np.concatenate([getattr(part, name) for part in parts]) for name in ("is_closed", "is_tab"))
+    return Cuts(first, last, contour, closed, tab, edge_row)
 
 
 def _open(toolpath: Toolpath, contour: Ints, loops: Cuts, edge: Ints) -> dict[int, list[Section]]:
@@ -127,9 +125,9 @@ def _turned(contour: Ints, turns: Turns) -> dict[int, Turns]:
 
 def _of_sections(sections: list[tuple[Section, int, int]]) -> Cuts:
     """Sections with their contours, and with the first row of their edge."""
-    rows = [(one.first, one.last, at, of if one.is_tab else -1) for one, at, of in sections]
-    first, last, contour, tab_of = np.array(rows, dtype=np.int64).reshape(-1, 4).T
-    return Cuts(first, last, contour, np.zeros(len(first), dtype=np.bool_), tab_of)
+    rows = [(one.first, one.last, at, of, one.is_tab) for one, at, of in sections]
+    first, last, contour, edge_row, tab = np.array(rows, dtype=np.int64).reshape(-1, 5).T
+    return Cuts(first, last, contour, np.zeros(len(first), dtype=np.bool_), tab.astype(np.bool_), edge_row)
 
 
 def _cut_once(toolpath: Toolpath, contour: Ints, wanted: Ints) -> tuple[Cuts, Cuts]:
@@ -137,6 +135,6 @@ def _cut_once(toolpath: Toolpath, contour: Ints, wanted: Ints) -> tuple[Cuts, Cu
     loops = find_loops(toolpath, contour, wanted)
     rest = np.setdiff1d(wanted, loops.contour)
     first, past = runs(toolpath)[rest].T
-    closed, open_ = np.ones(len(loops.first), dtype=np.bool_), np.zeros(len(rest), dtype=np.bool_)
-    looped = Cuts(loops.first, loops.last, loops.contour, closed, np.full(len(closed), -1))
-    return looped, Cuts(first, past - 1, rest, open_, np.full(len(rest), -1))
+    closed, plain = np.ones(len(loops.first), dtype=np.bool_), np.zeros(len(rest), dtype=np.bool_)
+    looped = Cuts(loops.first, loops.last, loops.contour, closed, ~closed, loops.first)
+    return looped, Cuts(first, past - 1, rest, plain, plain, first)

@@ -94,12 +94,23 @@ def find_passes(toolpath: Toolpath) -> Passes:
 
 
 def _edges(toolpath: Toolpath, cuts: Cuts) -> Ints:
-    """Which edge each cut (k,) is over: the number of the first one over it."""
-    main, tab = np.flatnonzero(~cuts.is_tab), np.flatnonzero(cuts.is_tab)
-    edge = np.arange(len(cuts.first))
-    edge[main] = main[edges_of(toolpath, cuts.take(main).stretches)]
-    edge[tab] = edge[np.searchsorted(cuts.first, cuts.tab_of[tab])]
-    return edge
+    """Which edge each cut (k,) is over: the number of the first one over it.
+
+    The last cut over each edge that is known by now is held against others: trims may follow behind a jump.
+    """
+    number = np.arange(len(cuts.first))
+    known = np.minimum(np.searchsorted(cuts.first, cuts.edge_row), len(number) - 1)
+    known = np.where(cuts.first[known] == cuts.edge_row, known, number)  # that one may be no cut after all
+    last = np.full(len(known), -1, dtype=np.int64)
+    main = np.flatnonzero(~cuts.is_tab)
+    last[known[main]] = main
+    group = np.flatnonzero(last >= 0)
+    group = group[np.argsort(last[group])]
+    together = edges_of(toolpath, cuts.take(last[group]).stretches)
+    edge, first = number, np.full(len(group), len(known), dtype=np.int64)
+    np.minimum.at(first, together, group)
+    edge[group] = first[together]
+    return edge[known]
 
 
 def _senses(toolpath: Toolpath, cuts: Cuts, edge: Ints) -> Ints:
