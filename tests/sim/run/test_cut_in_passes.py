@@ -20,6 +20,7 @@ from controller.motion.planner import plan_rows
 from controller.offset.sections import Side
 from parser.findings.catalogue import texts
 from parser.findings.errors import ProgramError
+from parser.findings.findings import Finding
 from parser.geometry.along import places_at
 from parser.geometry.curves import CurveKind, Curves, Floats
 from parser.program import parse_program
@@ -29,6 +30,7 @@ from sim.run.offsetting import Offsetting, offsetting
 from sim.run.prepare import Prepared, prepare
 from sim.run.report import build_report
 from sim.setup.part import Direction, Offset, OffsetPass
+from sim.show.pictures.cut.flags import places_um
 
 SCHEMA = json.loads((ROOT / "docs" / "report.schema.json").read_text("utf-8"))
 REACH_UM = 100.0
@@ -267,3 +269,11 @@ def test_the_note_on_4b_says_whether_its_path_has_the_offset() -> None:
         run = run_text(text, offset=offset)
         assert codes(run) == ["3B110"]
         assert told in texts(run.findings[0]).machine
+
+
+def test_a_finding_on_a_block_has_its_place_there_whatever_way_the_passes_run() -> None:
+    """In the last pass block 7 comes first; a finding of block 2 lies beside the first half of the lower side."""
+    run = run_text(SQUARE + "DD", offset=Offset(passes(120.0, 100.0, turns=1), Side.RIGHT))
+    x, y = places_um(run.toolpath, [Finding("3B203", block=2)], 0.0)[0].tolist()
+    assert 0.0 < x < 2120.0
+    assert 1880.0 <= y <= 1900.0
