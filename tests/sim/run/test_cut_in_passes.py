@@ -31,6 +31,7 @@ from sim.run.prepare import Prepared, prepare
 from sim.run.report import build_report
 from sim.setup.part import Direction, Offset, OffsetPass
 from sim.show.pictures.cut.flags import places_um
+from sim.show.pictures.motion.panels import feed_levels
 
 SCHEMA = json.loads((ROOT / "docs" / "report.schema.json").read_text("utf-8"))
 REACH_UM = 100.0
@@ -156,8 +157,10 @@ def planned_s(ready: Prepared) -> float:
 
 
 def test_the_report_of_passes_is_lawful_and_names_the_pass_of_each_block() -> None:
-    run = run_text(SQUARE + "DD", offset=Offset(passes(180.0, 120.0, 100.0, turns=1), Side.RIGHT))
+    slow, *trims = passes(180.0, 120.0, 100.0, turns=1)
+    run = run_text(SQUARE + "DD", offset=Offset((slow._replace(feed_um_s=25.0), *trims), Side.RIGHT))
     assert codes(run) == []
+    assert [level.value for level in feed_levels(run)] == [0.025, 0.04375]
     report = build_report(run)
     jsonschema.validate(report, SCHEMA)
     entry = report["offset"]
