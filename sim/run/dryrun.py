@@ -1,7 +1,7 @@
 """The dry run: one program through controller, card and table, and what came of it."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Final, NamedTuple, Protocol
 
 import numpy as np
 
@@ -15,16 +15,19 @@ from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Floats, total_before
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
+from parser.shape.passes import Passes, find_passes
 from parser.toolpath import Toolpath
-from sim.check.result import Coverage
+from sim.check.result import CheckState, Coverage
 from sim.cut.obstacles.findings import obstacle_findings
-from sim.cut.pieces.findings import piece_findings
+from sim.cut.pieces.findings import piece_findings, region_finding
+from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
 from sim.cut.wire_lag import bowed
 from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
 from sim.measure.deviation.measured import Deviations, Meters
 from sim.measure.deviation.meters import BlockSteps
+from sim.measure.passes.figures import PassFigures, figures_of_passes, wire_taken
 from sim.run.offsetting import Offsetting
 from sim.run.prepare import prepare
 from sim.setup.expectations import Missed
@@ -36,6 +39,9 @@ from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
 from sim.table.trace import Trace
+
+REMAINS: Final = "check-remains"
+"""Name of the check of what a cut leaves, which only a run makes."""
 
 
 class PulseSink(Protocol):
@@ -70,6 +76,8 @@ class DryRun:
         Of steps, table and wire.
     contours
         Contours with their closures.
+    passes, pass_figures
+        Which blocks make each pass over an edge, and what it came to, one behind the other.
     block_time_s
         (n,) float64, planned time in each block.
     remains
@@ -96,6 +104,8 @@ class DryRun:
     history: History
     deviations: Deviations
     contours: tuple[Contour, ...]
+    passes: Passes
+    pass_figures: tuple[PassFigures, ...]
     block_time_s: Floats
     remains: Remains | None
     comparison: Comparison | None
@@ -107,6 +117,11 @@ class DryRun:
     def border_s(self) -> Floats:
         """(n + 1,) float64, planned times at which the blocks begin, and the end of the last one."""
         return total_before(self.block_time_s)
+
+    @property
+    def has_trims(self) -> bool:
+        """Whether any edge is cut in more than one pass; those who show a run speak of passes only then."""
+        return any(one.number > 1 for one in self.passes.passes)
 
     @property
     def tripped(self) -> Loss | None:
@@ -168,7 +183,9 @@ def dry_run(
     lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     plan = motion.drive.plan
     cut = _cut(trace, moved.losses)
-    remains, comparison, left = _left(program, cut, contours, scenario, drawing)
+    passes, block_time_s = find_passes(toolpath), _block_times(plan, ready.steps.along_um)
+    way = wire_taken(toolpath, plan, cut)
+    left = _left(program, cut, contours, scenario, drawing)
     return DryRun(
         program=program,
         scenario=scenario,
@@ -182,11 +199,13 @@ def dry_run(
         history=moved.history,
         deviations=meters.deviations(cut),
         contours=contours,
-        block_time_s=_block_times(plan, ready.steps.along_um),
-        remains=remains,
-        comparison=comparison,
-        findings=tuple(sorted([*ready.findings, *met, *lost, *left], key=file_order)),
-        coverage=ready.coverage,
+        passes=passes,
+        pass_figures=figures_of_passes(toolpath, passes, block_time_s, way, scenario.wire.reach_um),
+        block_time_s=block_time_s,
+        remains=left.remains,
+        comparison=left.comparison,
+        findings=tuple(sorted([*ready.findings, *met, *lost, *left.findings], key=file_order)),
+        coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
 
 
@@ -198,19 +217,33 @@ def _drawing(target: DrawingTarget | None) -> Drawing | None:
     return read_drawing(target.file, layer=target.layer, gap_um=target.gap_um)
 
 
+class _Left(NamedTuple):
+    """What the cut leaves, beside the drawing, with findings; and how far the check of it came."""
+
+    remains: Remains | None
+    comparison: Comparison | None
+    findings: list[Finding]
+    state: CheckState
+
+
 def _left(
     program: Program, cut: Trace, contours: tuple[Contour, ...], scenario: Scenario, drawing: Drawing | None
-) -> tuple[Remains | None, Comparison | None, list[Finding]]:
-    """What the cut leaves, beside the drawing, with findings; as far as the scenario asks for it."""
+) -> _Left:
+    """What the cut leaves, as far as the scenario asks for it."""
     target = scenario.drawing
     if not scenario.kerf and target is None:
-        return None, None, []
-    remains = remains_of(program, cut, contours, scenario)
+        return _Left(None, None, [], CheckState(REMAINS, "not asked", "reason-no-kerf"))
+    try:
+        remains = remains_of(program, cut, contours, scenario)
+    except RegionError as error:
+        return _Left(
+            None, None, [region_finding(program, error)], CheckState(REMAINS, "incomplete", "reason-no-region")
+        )
     found = piece_findings(program, remains.pieces)
     if target is None or drawing is None:
-        return remains, None, found
+        return _Left(remains, None, found, CheckState(REMAINS))
     comparison = compare_cut(program, remains.pieces, scenario.wire.reach_um, drawing, target)
-    return remains, comparison, [*found, *drawing_findings(program, comparison)]
+    return _Left(remains, comparison, [*found, *drawing_findings(program, comparison)], CheckState(REMAINS))
 
 
 def _cut(trace: Trace, losses: tuple[Loss, ...]) -> Trace:
