@@ -16,6 +16,7 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import Floats, Ints
 from parser.shape.passes import Pass
 from parser.toolpath import Stop
+from sim.check.offset import InPass
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.measure.deviation.across import Across, across
 from sim.run.dryrun import DryRun
@@ -212,7 +213,18 @@ def findings_of(run: DryRun) -> tuple[Happening[Finding], ...]:
     first_row = dict(zip(blocks.tolist(), rows.tolist(), strict=True))
     begins_s = [*run.border_s.tolist()[:-1], math.nan]
     placed = [(finding, first_row.get(finding.block, -1)) for finding in run.findings]
+    placed = [(finding, _row_in_pass(run, finding, row)) for finding, row in placed]
     return tuple(Happening(float(one.values.get("t_s", begins_s[row])), row, one) for one, row in placed)
+
+
+def _row_in_pass(run: DryRun, finding: Finding, row: int) -> int:
+    """The first row of a finding's block in the pass that it is about, if it is about one; else the row given."""
+    if run.offset is None or not isinstance(finding.fact, InPass):
+        return row
+    rows = np.flatnonzero(
+        (run.toolpath.source.block == finding.block) & (run.offset.pass_of_row == finding.fact.number)
+    )
+    return int(rows[0]) if len(rows) else row
 
 
 def stops_of(run: DryRun) -> tuple[Happening[Stop], ...]:

@@ -173,7 +173,12 @@ def _offset(run: DryRun) -> list[Row]:
     bridges = int((made.path.made == Made.BRIDGE).sum())
     parts = [(bridges, "bridge", "added"), (len(made.path.vanished), "block", "left out")]
     told = [f"{number} {name}{'s' * (number > 1)} {what}" for number, name, what in parts if number]
-    return [("offset", ", ".join([f"{mm(asked.by_um):g} mm to the {asked.side.name.lower()}", *told]))]
+    by = ", ".join(f"{mm(one.by_um):g}" for one in asked.passes)
+    rows = [("offset", ", ".join([f"{by} mm to the {asked.side.name.lower()}", *told]))]
+    feeds = [run.scenario.pass_feed_um_s(one) for one in asked.passes]
+    if len(set(feeds)) == 1:
+        return rows
+    return [*rows, ("  feed", f"{', '.join(three_figures(mm(feed) * 60.0) for feed in feeds)} mm/min")]
 
 
 def _pieces(run: DryRun) -> list[Row]:

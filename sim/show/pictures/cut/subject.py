@@ -86,7 +86,7 @@ def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words) -> Cut:
         note=_note(run, say),
         trace=run.cut,
         passes=run.passes if run.has_trims else None,
-        contour=None if run.offset is None else run.offset.drawn,
+        contour=None if run.offset is None else run.offset.passed.drawn,
         bodies=Bodies(scenario.work_um, [clamp.outline_um for clamp in scenario.clamps]),
         pieces=pieces,
         sizes=None if run.remains is None else run.remains.sizes,
@@ -113,5 +113,6 @@ def _note(run: DryRun, say: Words) -> str:
         clock(run.ran_s),
     ]
     if offset is not None:
-        parts.append(say(f"cut.offset_{offset.side.name.lower()}", by=f"{mm(offset.by_um):g}"))
+        by = ", ".join(f"{mm(one.by_um):g}" for one in offset.passes)
+        parts.append(say(f"cut.offset_{offset.side.name.lower()}", by=by))
     return " · ".join(parts)
