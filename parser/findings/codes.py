@@ -102,6 +102,7 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B502": FindingCode(Severity.WARNING, check=None, placed=True),
         "3B503": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B504": FindingCode(Severity.ERROR, check=None),
+        "3B505": FindingCode(Severity.ERROR, check=None),
         "3B601": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B602": FindingCode(Severity.ERROR, check=None),
     }
