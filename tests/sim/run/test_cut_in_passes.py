@@ -4,11 +4,13 @@ import json
 import math
 import random
 from itertools import pairwise
+from pathlib import Path
 
 import jsonschema
 import numpy as np
 import pytest
 import shapely
+from command import run_inside
 from drawn_programs import DrawnProgram, drawn_program
 from paths import flipped
 from places import ROOT, SCENARIOS
@@ -200,6 +202,18 @@ def test_a_pass_that_cannot_begin_where_the_wire_is_is_refused_and_may_run_back(
     # The second pass has led the wire back to where the program begins: the jump sets off from there.
     assert made.path.curves.start_um[jump].tolist() == [0.0, 0.0]
     assert made.path.curves.end_um[jump].tolist() == program.toolpath.end_um[7].tolist()
+
+
+def test_commands_point_at_the_block_behind_which_a_pass_cannot_begin(tmp_path: Path) -> None:
+    (tmp_path / "program.3b").write_text(ENDS_ELSEWHERE + "DD", "ascii")
+    passes_toml = "[offset]\nside = 'right'\n[[pass]]\nby_mm = 0.12\n[[pass]]\nby_mm = 0.1\n"
+    (tmp_path / "scenario.toml").write_text(passes_toml, "utf-8")
+    drawing = SCENARIOS / "die" / "drawing.dxf"
+    for done in (run_inside("run", tmp_path), run_inside("compare", tmp_path, drawing)):
+        assert (done.returncode, done.stdout) == (2, b"")
+        first, *excerpt = done.stderr.decode().splitlines()
+        assert "program.3b:2:1: error[3B505]: pass 1 ends behind block 7, 1.000 mm from where pass 2" in first
+        assert len(excerpt) == 2
 
 
 def test_a_parting_cut_goes_there_and_back_on_one_side_of_the_material() -> None:
