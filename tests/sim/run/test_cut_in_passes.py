@@ -263,6 +263,20 @@ def lines(places: list[tuple[int, int]]) -> str:
     return " ".join([*words, "DD"])
 
 
+def test_passes_in_the_wrong_order_and_trims_wider_than_a_kerf_are_told() -> None:
+    """A kerf is 0.2 mm wide; a trim may take 0.12 mm, and not 0.25 mm; its side is never in doubt."""
+    for by_um, told in (
+        ((220.0, 100.0), []),
+        ((100.0, 100.0), []),
+        ((100.0, 120.0), ["3B312"]),
+        ((350.0, 100.0), ["3B313"]),
+    ):
+        for turns in (0, 1):
+            asked = plain_scenario(offset=Offset(passes(*by_um, turns=turns), Side.RIGHT))
+            found = prepare(parse_program(SQUARE + "DD"), asked).findings
+            assert [one.code for one in found] == told, (by_um, turns)
+
+
 def test_a_finding_about_a_pass_is_shown_when_that_pass_runs() -> None:
     """Of offsets that grow, the second pass cuts deepest past the middle of a slot of 0.3 mm."""
     slot = [(0, 0), (0, -150), (3000, -150), (3000, 150), (-3000, 150), (-3000, -150), (0, -150), (0, 0)]
