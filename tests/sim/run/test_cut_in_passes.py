@@ -4,11 +4,13 @@ import json
 import math
 import random
 from itertools import pairwise
+from pathlib import Path
 
 import jsonschema
 import numpy as np
 import pytest
 import shapely
+from command import run_inside
 from drawn_programs import DrawnProgram, drawn_program
 from paths import flipped
 from places import ROOT, SCENARIOS
@@ -202,6 +204,18 @@ def test_a_pass_that_cannot_begin_where_the_wire_is_is_refused_and_may_run_back(
     assert made.path.curves.end_um[jump].tolist() == program.toolpath.end_um[7].tolist()
 
 
+def test_commands_point_at_the_block_behind_which_a_pass_cannot_begin(tmp_path: Path) -> None:
+    (tmp_path / "program.3b").write_text(ENDS_ELSEWHERE + "DD", "ascii")
+    passes_toml = "[offset]\nside = 'right'\n[[pass]]\nby_mm = 0.12\n[[pass]]\nby_mm = 0.1\n"
+    (tmp_path / "scenario.toml").write_text(passes_toml, "utf-8")
+    drawing = SCENARIOS / "die" / "drawing.dxf"
+    for done in (run_inside("run", tmp_path), run_inside("compare", tmp_path, drawing)):
+        assert (done.returncode, done.stdout) == (2, b"")
+        first, *excerpt = done.stderr.decode().splitlines()
+        assert "program.3b:2:1: error[3B505]: pass 1 ends behind block 7, 1.000 mm from where pass 2" in first
+        assert len(excerpt) == 2
+
+
 def test_a_parting_cut_goes_there_and_back_on_one_side_of_the_material() -> None:
     cut = "B0B5000B5000GYL2 B3000B4000B4000GYL1 DD"
     made = offsetting(parse_program(cut), Offset(passes(120.0, 100.0, turns=1), Side.LEFT))
@@ -247,6 +261,20 @@ def lines(places: list[tuple[int, int]]) -> str:
         x, y = abs(x1 - x0), abs(y1 - y0)
         words.append(f"B{x}B{y}B{x + y}G{'XL' if x else 'YL'}{(1 if x1 > x0 else 3) if x else (2 if y1 > y0 else 4)}")
     return " ".join([*words, "DD"])
+
+
+def test_passes_in_the_wrong_order_and_trims_wider_than_a_kerf_are_told() -> None:
+    """A kerf is 0.2 mm wide; a trim may take 0.12 mm, and not 0.25 mm; its side is never in doubt."""
+    for by_um, told in (
+        ((220.0, 100.0), []),
+        ((100.0, 100.0), []),
+        ((100.0, 120.0), ["3B312"]),
+        ((350.0, 100.0), ["3B313"]),
+    ):
+        for turns in (0, 1):
+            asked = plain_scenario(offset=Offset(passes(*by_um, turns=turns), Side.RIGHT))
+            found = prepare(parse_program(SQUARE + "DD"), asked).findings
+            assert [one.code for one in found] == told, (by_um, turns)
 
 
 def test_a_finding_about_a_pass_is_shown_when_that_pass_runs() -> None:
