@@ -78,6 +78,8 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B210": FindingCode(Severity.WARNING, Check.BLOCKS),
         "3B211": FindingCode(Severity.WARNING, Check.SENSES),
         "3B212": FindingCode(Severity.WARNING, Check.BLOCKS),
+        "3B213": FindingCode(Severity.WARNING, Check.PRINTED_ENDS),
+        "3B217": FindingCode(Severity.ERROR, Check.PRINTED_ENDS),
         "3B301": FindingCode(Severity.ERROR, Check.CONTOURS),
         "3B302": FindingCode(Severity.WARNING, Check.CONTOURS),
         "3B303": FindingCode(Severity.ERROR, Check.STEPS),

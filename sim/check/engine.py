@@ -12,7 +12,7 @@ from parser.findings.codes import Check
 from parser.findings.facts import DoubtfulEnd, TooLarge, telling
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
-from parser.program import Program
+from parser.program import Program, parse_program
 from parser.shape.contours import Contour, contour_rows, find_contours
 from parser.text.source import Field
 from sim.check.closures import OpenContour, contour_findings
@@ -74,7 +74,19 @@ class Checked(NamedTuple):
 
 
 def run_checks(program: Program, demands: Demands) -> Checked:
-    """Run every check on a program."""
+    """Run every check on a program, and blame the word that explains what they find."""
+    checked = _every_check(program, demands)
+    if checked.steps is None or not checked.findings:
+        return checked
+    from sim.check.blame.settle import settled  # noqa: PLC0415 - a sound program has nobody to blame, and starts sooner
+
+    def again(text: str) -> tuple[Finding, ...]:
+        return _every_check(parse_program(text, program.name, program.encoding, program.marks), demands).findings
+
+    return checked._replace(findings=settled(program, checked.findings, checked.judged, again))
+
+
+def _every_check(program: Program, demands: Demands) -> Checked:
     if any(telling(program.findings, TooLarge)):
         return _without_path(program, "reason-too-large")
     steps = interpolate(program.toolpath)

@@ -32,22 +32,24 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B110": {"blocks": 3},
     "3B201": {"x": 0, "y": 0},
     "3B202": {"axis": "Y", "other": "X"},
-    "3B203": {"written": "L1", "ruled": "L2", "way": "+Y"},
+    "3B203": {"written": "L1", "ruled": "L2", "way": "+Y", "others": ""},
     "3B204": {"axis": "X", "ruled": "Y", "cost": 140.0, "right": 0.0, "count": 39600},
     "3B205": {},
     "3B206": {"what": "number-too-large", "limit": 999_999_999},
-    "3B207": {"px": 9900.0, "py": -0.0, "x": 9800.0, "y": 0.0, "off": 100.0},
+    "3B207": {"px": 9900.0, "py": -0.0, "x": 9800.0, "y": 0.0, "off": 100.0, "advice": "restore-block"},
     "3B208": {"count": 9990, "extent": 9900, "axis": "X", "off": 90.0, "goes": "too-far", "by": 90.0},
     "3B209": {"count": 19800, "extent": 9900, "axis": "X", "times": 2},
     "3B210": {"count": 79200, "full": 39600, "turns": 2.0},
     "3B211": {"written": "SR", "other": "NR", "sweep": 270, "minor": 90},
     "3B212": {"radius": 9990, "decoded": 9900.0},
+    "3B213": {"px": 9900.0, "py": 0.0, "x": 9897.0, "y": 0.0, "off": 3.0},
+    "3B217": {"field": "field-sense", "written": "L3", "other": "L1", "px": 9900.0, "py": 0.0, "off": 19800.0},
     "3B301": {"first": 1, "last": 4, "gap": 6929.65},
     "3B302": {"first": 1, "last": 12, "gap": 35.2, "limit": 26.7},
     "3B303": {"miss": 12.5, "limit": 12.0},
-    "3B304": {"first": 1, "last": 6, "field": "field-sense", "written": "L4", "other": "L2"},
+    "3B304": {"first": 1, "last": 6, "field": "field-sense", "written": "L4", "other": "L2", "others": ""},
     "3B305": {"radius": 50.0, "offset": 100.0},
-    "3B306": {"written": "SR", "other": "NR"},
+    "3B306": {"written": "SR", "other": "NR", "word": "NR2"},
     "3B307": {"crossing": 7, "other": 4, "x": -2000.0, "y": 2000.0, "more": 0},
     "3B308": {},
     "3B309": {"length": 30000.0},
@@ -160,6 +162,9 @@ def test_lengths_terms_and_asides() -> None:
     )
     values = VALUES["3B207"] | {"px": -0.2}
     assert texts(Finding("3B207", values)).found.startswith("the printed end is 0.000, 0.000 mm, 100.00 µm")
+    labels = VALUES["3B203"] | {"others": "SR3 / NR2"}
+    assert texts(Finding("3B203", labels)).hint.endswith(" or SR3 / NR2")
+    assert texts(Finding("3B203", labels), "zh").hint.endswith("或 SR3 / NR2")
     unknown = VALUES["3B106"] | {"field": "field-y", "found": "O"}
     assert texts(Finding("3B106", unknown)).found == "Y after the second B: `O`"
     assert texts(Finding("3B106", VALUES["3B106"]), "zh").found == "计数方向 G：空缺"
