@@ -18,6 +18,7 @@ from parser.text.source import Field
 from sim.check.closures import OpenContour, contour_findings
 from sim.check.count_axes import stepped_end_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
+from sim.check.radius_rule import radius_rule_findings, vanishing_findings
 from sim.check.result import CheckState, Coverage, State
 from sim.check.travel import travel_findings
 from sim.check.uncut_jumps import uncut_jump_findings
@@ -43,12 +44,15 @@ class Demands(NamedTuple):
         Distance of the cut edge from the wire's centre; None where no wire is known.
     may_stay_open
         Whether contours may end away from their own path.
+    added_um
+        Offset that the controller adds; None where nobody asked for one.
     """
 
     table: "TableModel | None" = None
     start_um: tuple[float, float] | None = None
     offset_um: float | None = None
     may_stay_open: bool = False
+    added_um: float | None = None
 
 
 class Checked(NamedTuple):
@@ -138,6 +142,7 @@ class _PathChecks:
         rows = _closed(self._rows, closures)  # an open contour may not run where it was meant to
         open_ones = "" if rows is self._rows else "reason-open"
         yield from _undoubted(sense_findings(program, rows), known)
+        yield from radius_rule_findings(program, rows, self._offset_um)
         self._done(Check.SENSES, self._left_out or open_ones)
         crossings, all_pairs = crossing_findings(program, rows)
         yield from crossings
@@ -159,6 +164,12 @@ class _PathChecks:
             return ""
         return "reason-damaged" if self._program.reading.damages else "reason-endless"
 
+    @property
+    def _offset_um(self) -> float | None:
+        """What the controller adds: as asked for, as the header says, or as the wire needs it."""
+        told = self._program.header.get("offset_um")
+        return self._demands.added_um or (told if isinstance(told, float) and told > 0.0 else self._demands.offset_um)
+
     def _asked_for(self) -> Iterator[Finding]:
         """Checks that need to know the wire or the machine."""
         program, demands = self._program, self._demands
@@ -166,6 +177,7 @@ class _PathChecks:
             self.states.append(CheckState(Check.CORNERS, "not asked", "reason-no-wire"))
         else:
             yield from corner_findings(program, self._rows, demands.offset_um)
+            yield from vanishing_findings(program, self._rows, self._offset_um or demands.offset_um)
             self._done(Check.CORNERS, self._left_out)
         if demands.table is None or demands.start_um is None:
             self.states.append(CheckState(Check.TRAVEL, "not asked", "reason-no-machine"))

@@ -72,6 +72,8 @@ def corner_findings(program: Program, contour: Ints, offset_um: float) -> list[F
     """Arcs that a wire of this offset cannot cut as drawn (3B305)."""
     toolpath = program.toolpath
     rows = tight_corners(toolpath, contour, offset_um, program.reading.is_drawing)
+    if toolpath.words is not None:
+        rows = rows[toolpath.words.radius_um[rows] < 0]  # those of 4B are 3B216
     return [
         at_block(toolpath, program.lines, "3B305", row, radius=float(toolpath.radius_um[row]), offset=offset_um)
         for row in rows.tolist()
