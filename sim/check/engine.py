@@ -18,6 +18,7 @@ from parser.text.source import Field
 from sim.check.closures import OpenContour, contour_findings
 from sim.check.count_axes import stepped_end_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
+from sim.check.header_offset import header_offset_findings
 from sim.check.radius_rule import radius_rule_findings, vanishing_findings
 from sim.check.result import CheckState, Coverage, State
 from sim.check.travel import travel_findings
@@ -148,6 +149,8 @@ class _PathChecks:
         yield from crossings
         self._done(Check.CROSSINGS, self._left_out or open_ones if all_pairs else "reason-many")
         yield from self._asked_for()
+        reach_um = demands.offset_um if demands.table is not None else None
+        yield from header_offset_findings(program, self._rows, reach_um, demands.added_um)
 
     def _stepped(self) -> list[Finding]:
         """Findings about the words that steps are counted by, where the program has such."""
