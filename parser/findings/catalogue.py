@@ -112,8 +112,9 @@ def instant(t_s: float) -> str:
 class _Filler(string.Formatter):
     """Fills templates; besides Python's own formats it knows ``um``, ``mm``, ``instant``, ``term`` and those of texts.
 
-    ``aside`` is a text in parentheses, ``or`` another choice, and both are nothing where there is none. ``span`` is a
-    range, two ends with `TO` between of which one may be missing, or a value that is none.
+    ``aside`` is a text in parentheses, ``or`` another choice, both nothing where there is none; ``pass`` the number of
+    a pass, nothing for 0. ``span`` is a range, two ends with `TO` between of which one may be missing, or a value that
+    is none.
     """
 
     def __init__(self, language: Language) -> None:
@@ -128,6 +129,7 @@ class _Filler(string.Formatter):
             "span": lambda ends: self._span(str(ends)),
             "aside": lambda text: self._joined("aside", text) if text else "",
             "or": lambda text: self._joined("or", text) if text else "",
+            "pass": lambda number: self._joined("pass", str(number)) if number else "",
         }
         return own[format_spec](value) if format_spec in own else str(super().format_field(value, format_spec))
 

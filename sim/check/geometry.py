@@ -7,6 +7,7 @@ from parser.dialect.at_block import at_block
 from parser.findings.findings import Fact, Finding, Value
 from parser.geometry.curves import Ints
 from parser.program import Program
+from parser.shape.passes import Passes
 from parser.text.source import Field
 from sim.check.shape.corners import tight_corners
 from sim.check.shape.crossings import find_crossings
@@ -50,9 +51,9 @@ def _senses(program: Program, row: int) -> tuple[str, str]:
     return both if program.toolpath.turn[row] < 0 else both[::-1]
 
 
-def crossing_findings(program: Program, contour: Ints) -> tuple[list[Finding], bool]:
+def crossing_findings(program: Program, contour: Ints, passes: Passes) -> tuple[list[Finding], bool]:
     """The first crossing of each contour with itself (3B307), and whether all pairs of blocks were looked at."""
-    crossings = find_crossings(program.toolpath, contour)
+    crossings = find_crossings(program.toolpath, contour, passes)
     found = []
     for one in crossings:
         if one.first is not None:
@@ -68,10 +69,10 @@ def crossing_findings(program: Program, contour: Ints) -> tuple[list[Finding], b
     return found, all(one.is_complete for one in crossings)
 
 
-def corner_findings(program: Program, contour: Ints, offset_um: float) -> list[Finding]:
+def corner_findings(program: Program, contour: Ints, passes: Passes, offset_um: float) -> list[Finding]:
     """Arcs that a wire of this offset cannot cut as drawn (3B305)."""
     toolpath = program.toolpath
-    rows = tight_corners(toolpath, contour, offset_um, program.reading.is_drawing)
+    rows = tight_corners(toolpath, contour, passes, offset_um, program.reading.is_drawing)
     if toolpath.words is not None:
         rows = rows[toolpath.words.radius_um[rows] < 0]  # those of 4B are 3B216
     return [

@@ -13,6 +13,7 @@ from parser.geometry.curves import Floats, Ints
 from parser.geometry.directions import directions, headings_at
 from parser.program import Program
 from parser.shape.loops import find_loops
+from parser.shape.passes import Passes
 from parser.toolpath import StepWords, Toolpath
 from sim.check.shape.corners import ROUNDING_UM, tight_corners
 
@@ -49,12 +50,12 @@ def radius_rule_findings(program: Program, contour: Ints, offset_um: float | Non
             yield from _mismarked(program, words, rows, turn)
 
 
-def vanishing_findings(program: Program, contour: Ints, offset_um: float) -> list[Finding]:
+def vanishing_findings(program: Program, contour: Ints, passes: Passes, offset_um: float) -> list[Finding]:
     """Arcs in 4B of which the offset leaves no radius (3B216): those about a centre on the side of the waste."""
     toolpath, words = program.toolpath, program.toolpath.words
     if words is None:
         return []
-    rows = tight_corners(toolpath, contour, offset_um + ROUNDING_UM + _RADIUS_UM, is_drawing=True)
+    rows = tight_corners(toolpath, contour, passes, offset_um + ROUNDING_UM + _RADIUS_UM, is_drawing=True)
     return [
         at_block(toolpath, program.lines, "3B216", row, radius=float(toolpath.radius_um[row]), offset=offset_um)
         for row in rows.tolist()
