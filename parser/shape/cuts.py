@@ -12,22 +12,39 @@ from parser.shape.edges import edges_of
 from parser.shape.loops import find_loops
 from parser.shape.open_edges import LEAST_ASIDE_UM, MOST_ASIDE_UM, Section, is_slot, open_sections, sections_of_tours
 from parser.shape.several_loops import several_loops
+from parser.shape.tabs import cut_elsewhere
 from parser.shape.turns import Turns, find_turns
 from parser.toolpath import Toolpath
 
 
 class Cuts(NamedTuple):
-    """Stretches (k,) in the order they are cut: rows, both included, contours, what closes, what is cut over a tab."""
+    """Stretches (k,) in the order they are cut.
+
+    Attributes
+    ----------
+    first, last, contour
+        (k,) rows, both included, and contours.
+    is_closed
+        (k,) whether they close.
+    tab_of
+        (k,) of a cut over a tab the first row of a stretch over the edge that left it; −1 of others.
+    """
 
     first: Ints
     last: Ints
     contour: Ints
     is_closed: Bools
-    is_tab: Bools
+    tab_of: Ints
+
+    @property
+    def is_tab(self) -> Bools:
+        """(k,) True on cuts over a tab."""
+        tab: Bools = self.tab_of >= 0
+        return tab
 
     def take(self, at: Ints | Bools) -> "Cuts":
         """Those at the indices `at`."""
-        return Cuts(self.first[at], self.last[at], self.contour[at], self.is_closed[at], self.is_tab[at])
+        return Cuts(self.first[at], self.last[at], self.contour[at], self.is_closed[at], self.tab_of[at])
 
     @property
     def stretches(self) -> Stretches:
@@ -39,7 +56,7 @@ def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
     """Stretches of the contours; `contour` (n,) is each row's, −1 on jumps."""
     first, last, is_sure = several_loops(toolpath, contour)
     closed = np.ones(len(first), dtype=np.bool_)
-    loops = Cuts(first, last, contour[first], closed, ~closed)
+    loops = Cuts(first, last, contour[first], closed, np.full(len(first), -1))
     edge = edges_of(toolpath, loops.stretches)
     is_trimmed = np.bincount(edge, minlength=len(edge))[edge] > 1
     sections = _open(toolpath, contour, loops, edge)
@@ -47,14 +64,17 @@ def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
     together = np.isin(loops.contour, loops.contour[is_trimmed]) & ~np.isin(loops.contour, opened)
     kept = loops.take(together & (is_sure | is_trimmed))
     others = np.setdiff1d(np.arange(contour.max(initial=-1) + 1), np.concatenate([opened, kept.contour]))
-    found = _joined(kept, _of_sections(sections), *_cut_once(toolpath, contour, others))
+    elsewhere = cut_elsewhere(toolpath, contour, sections, others)
+    others = np.setdiff1d(others, np.array(sorted(elsewhere), dtype=np.int64))
+    rows = [(one, at, several[0].first) for at, several in sections.items() for one in several]
+    rows += [(one, at, sections[of][0].first) for at, (of, several) in elsewhere.items() for one in several]
+    found = _joined(kept, _of_sections(rows), *_cut_once(toolpath, contour, others))
     return found.take(np.argsort(found.first))
 
 
 def _joined(*parts: Cuts) -> Cuts:
-    first, last, contour = (np.concatenate([part[k] for part in parts]) for k in range(3))
-    closed, tab = (np.concatenate([part[k] for part in parts]).astype(np.bool_) for k in (3, 4))
-    return Cuts(first, last, contour, closed, tab)
+    first, last, contour, tab_of = (np.concatenate([part[k] for part in parts]) for k in (0, 1, 2, 4))
+    return Cuts(first, last, contour, np.concatenate([part.is_closed for part in parts]), tab_of)
 
 
 def _open(toolpath: Toolpath, contour: Ints, loops: Cuts, edge: Ints) -> dict[int, list[Section]]:
@@ -105,10 +125,11 @@ def _turned(contour: Ints, turns: Turns) -> dict[int, Turns]:
     }
 
 
-def _of_sections(sections: dict[int, list[Section]]) -> Cuts:
-    rows = [(one.first, one.last, at, one.is_tab) for at, several in sections.items() for one in several]
-    first, last, contour, tab = np.array(rows, dtype=np.int64).reshape(-1, 4).T
-    return Cuts(first, last, contour, np.zeros(len(first), dtype=np.bool_), tab.astype(np.bool_))
+def _of_sections(sections: list[tuple[Section, int, int]]) -> Cuts:
+    """Sections with their contours, and with the first row of their edge."""
+    rows = [(one.first, one.last, at, of if one.is_tab else -1) for one, at, of in sections]
+    first, last, contour, tab_of = np.array(rows, dtype=np.int64).reshape(-1, 4).T
+    return Cuts(first, last, contour, np.zeros(len(first), dtype=np.bool_), tab_of)
 
 
 def _cut_once(toolpath: Toolpath, contour: Ints, wanted: Ints) -> tuple[Cuts, Cuts]:
@@ -116,5 +137,6 @@ def _cut_once(toolpath: Toolpath, contour: Ints, wanted: Ints) -> tuple[Cuts, Cu
     loops = find_loops(toolpath, contour, wanted)
     rest = np.setdiff1d(wanted, loops.contour)
     first, past = runs(toolpath)[rest].T
-    closed, plain = np.ones(len(loops.first), dtype=np.bool_), np.zeros(len(rest), dtype=np.bool_)
-    return Cuts(loops.first, loops.last, loops.contour, closed, ~closed), Cuts(first, past - 1, rest, plain, plain)
+    closed, open_ = np.ones(len(loops.first), dtype=np.bool_), np.zeros(len(rest), dtype=np.bool_)
+    looped = Cuts(loops.first, loops.last, loops.contour, closed, np.full(len(closed), -1))
+    return looped, Cuts(first, past - 1, rest, open_, np.full(len(rest), -1))

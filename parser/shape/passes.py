@@ -94,12 +94,12 @@ def find_passes(toolpath: Toolpath) -> Passes:
 
 
 def _edges(toolpath: Toolpath, cuts: Cuts) -> Ints:
-    """Which edge each cut (k,) is over: the number of the first one over it. A tab is of the edge before it."""
-    main = np.flatnonzero(~cuts.is_tab)
+    """Which edge each cut (k,) is over: the number of the first one over it."""
+    main, tab = np.flatnonzero(~cuts.is_tab), np.flatnonzero(cuts.is_tab)
     edge = np.arange(len(cuts.first))
     edge[main] = main[edges_of(toolpath, cuts.take(main).stretches)]
-    before = np.maximum.accumulate(np.where(cuts.is_tab, -1, np.arange(len(edge))))
-    return edge[before]
+    edge[tab] = edge[np.searchsorted(cuts.first, cuts.tab_of[tab])]
+    return edge
 
 
 def _senses(toolpath: Toolpath, cuts: Cuts, edge: Ints) -> Ints:
@@ -140,4 +140,4 @@ def _shifts(toolpath: Toolpath, cuts: Cuts, edge: Ints, part_side: Ints) -> Floa
     # Without a lead-in the waste lies where the first one is cut.
     waste = np.where(part_side != 0, -part_side, 0.0)[last[other]]
     aside[other] *= np.where(waste != 0.0, waste, np.sign(aside[first[other]]))
-    return aside
+    return aside + 0.0  # no −0

@@ -36,7 +36,7 @@ def tight_corners(toolpath: Toolpath, contour_of_row: Ints, passes: Passes, offs
     if not len(row):
         return row
     of = passes.of_row[row]
-    side = np.append([one.part_side for one in passes.passes], 0)[of]  # on leads, −1, the last one: unknown
+    side = np.array([one.part_side if one.number == 1 else 0 for one in passes.passes] + [0])[of]  # on leads the last
     center_side = np.sign(toolpath.sweep_rad[row])
     wrong_side = -side if is_drawing else side
     tight: Ints = row[(side != 0) & (center_side == wrong_side)]
