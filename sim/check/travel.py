@@ -21,12 +21,8 @@ def travel_findings(
 ) -> list[Finding]:
     """Finding 3B401 for the first block that leaves the travel, as stepped from a start on the table."""
     toolpath = program.toolpath
-    low, high = extents(toolpath)
-    # The table stands where the steps of earlier blocks left it, not where these should have ended.
-    shift = np.array(start_um) + steps.corner_um[:-1] - toolpath.start_um
-    travel = from_mm(np.array([table.travel_x_mm, table.travel_y_mm]))
-    beyond = np.maximum(-(low + shift), high + shift - travel)
-    out = np.flatnonzero((beyond > _ROUNDING_UM).any(axis=1))
+    beyond = beyond_um(toolpath, steps, table, start_um)
+    out = np.flatnonzero((beyond > ROUNDING_UM).any(axis=1))
     if not len(out):
         return []
     row = int(out[0])
@@ -43,6 +39,18 @@ def travel_findings(
             by=float(beyond[row, axis]),
         )
     ]
+
+
+def beyond_um(toolpath: Toolpath, steps: Steps, table: "TableModel", start_um: tuple[float, float]) -> Floats:
+    """How far (n, 2) µm each block goes beyond the travel in X and Y, as stepped from a start on the table; ≤ 0 within.
+
+    The table stands where the steps of earlier blocks left it, not where these should have ended.
+    """
+    low, high = extents(toolpath)
+    shift = np.array(start_um) + steps.corner_um[:-1] - toolpath.start_um
+    travel = from_mm(np.array([table.travel_x_mm, table.travel_y_mm]))
+    beyond: Floats = np.maximum(-(low + shift), high + shift - travel)
+    return beyond
 
 
 def extents(toolpath: Toolpath) -> tuple[Floats, Floats]:
@@ -62,4 +70,5 @@ def extents(toolpath: Toolpath) -> tuple[Floats, Floats]:
     return low, high
 
 
-_ROUNDING_UM = 0.5  # half a step
+ROUNDING_UM = 0.5
+"""Half a step: a path may go so far beyond the travel."""

@@ -27,6 +27,7 @@ class Overrides(NamedTuple):
     interpolator: str | None
     offset: float | None
     side: str | None
+    past_stop: bool
     kerf: bool
     drawing: Path | None
     layer: str | None
@@ -50,6 +51,7 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
         thickness_mm=thickness_mm,
         wire=_wire(scenario.wire, options),
         offset=_offset(scenario.offset, options),
+        past_stop=scenario.past_stop or options.past_stop,
         kerf=scenario.kerf or options.kerf,
         drawing=_drawing(scenario.drawing, options),
     )

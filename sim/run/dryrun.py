@@ -11,7 +11,7 @@ from controller.stepping.pulses import Pulses
 from parser.drawing.model import Drawing
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, file_order
-from parser.geometry.curves import Floats, total_before
+from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.toolpath import Toolpath
@@ -24,8 +24,9 @@ from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
 from sim.measure.deviation.measured import Deviations, Meters
 from sim.measure.deviation.meters import BlockSteps
+from sim.run.ending import Ending, travel_end, trip_of
 from sim.run.offsetting import Offsetting
-from sim.run.prepare import prepare
+from sim.run.prepare import Prepared, prepare
 from sim.setup.expectations import Missed
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
@@ -57,8 +58,13 @@ class DryRun:
         What was run: the toolpath of the program is the one that ran.
     offset
         What the controller's compensation made of the program; None where it ran as written.
-    stepped, plan, trace
-        What the controller made of it, and table and wire.
+    plan
+        What the controller planned for the whole of it.
+    ended
+        Where the machine stopped before its program was through; None where it ran to its end. Steps, figures and times
+        are of what ran, save where they are said to be planned.
+    stepped, trace
+        The steps that it made, and table and wire.
     losses, peaks
         What the drives lost, and how near they came to their limits.
     history
@@ -66,9 +72,9 @@ class DryRun:
     deviations
         Of steps, table and wire.
     contours
-        Contours with their closures.
-    block_time_s
-        (n,) float64, planned time in each block.
+        Contours of the program with their closures.
+    border_s
+        (n + 1,) float64, planned times at which the blocks begin, and the end of the last one.
     remains
         Kerf, pieces and sizes; None where nobody asked for them or for a drawing.
     comparison
@@ -84,15 +90,16 @@ class DryRun:
     program: Program
     scenario: Scenario
     offset: Offsetting | None
-    stepped: BlockSteps
     plan: Plan
+    ended: Ending | None
+    stepped: BlockSteps
     trace: Trace
     losses: tuple[Loss, ...]
     peaks: tuple[Peak, ...]
     history: History
     deviations: Deviations
     contours: tuple[Contour, ...]
-    block_time_s: Floats
+    border_s: Floats
     remains: Remains | None
     comparison: Comparison | None
     findings: tuple[Finding, ...]
@@ -100,24 +107,32 @@ class DryRun:
     missed: tuple[Missed, ...] = ()
 
     @property
-    def border_s(self) -> Floats:
-        """(n + 1,) float64, planned times at which the blocks begin, and the end of the last one."""
-        return total_before(self.block_time_s)
-
-    @property
-    def tripped(self) -> Loss | None:
-        """Where a drive tripped; None where none did."""
-        return next((loss for loss in self.losses if loss.kind == "trip"), None)
-
-    @property
     def ran_s(self) -> float:
-        """How long the machine ran: until a drive tripped, else as planned."""
-        return self.plan.duration_s if self.tripped is None else self.tripped.t_s
+        """How long the machine ran: until it stopped early, else as planned."""
+        return self.plan.duration_s if self.ended is None else self.ended.t_s
+
+    @property
+    def ran_um(self) -> float:
+        """Length of the exact path that ran, jumps included."""
+        if self.ended is None:
+            return float(self.toolpath.length_um.sum())
+        return float(self.plan.at(self.ended.t_s).along_um)
+
+    @property
+    def block_time_s(self) -> Floats:
+        """(n,) float64, time that each block ran, which add up to that of the run."""
+        return np.diff(np.minimum(self.border_s, self.ran_s))
+
+    @property
+    def whole_contours(self) -> tuple[Contour, ...]:
+        """The contours that the run came to the end of."""
+        ended = self.ended
+        return tuple(one for one in self.contours if ended is None or one.last <= ended.row)
 
     @property
     def cut(self) -> Trace:
         """The trace as far as the machine ran: after a trip it stands, and cuts nothing of what follows."""
-        return _cut(self.trace, self.losses)
+        return _cut(self.trace, self.ended)
 
     @property
     def toolpath(self) -> Toolpath:
@@ -146,6 +161,9 @@ def dry_run(
     ready = prepare(program, scenario)
     program, toolpath = ready.program, ready.program.toolpath
     motion = _motion(toolpath, scenario)
+    ended = None if scenario.past_stop else _travel_end(ready, scenario, motion.drive.plan)
+    if ended:
+        motion = motion.until(ended.t_s)
     meters = Meters(motion, ready.steps)
     sinks = [meters.take]
     if sink is not None:
@@ -163,21 +181,23 @@ def dry_run(
     met = obstacle_findings(program, trace, contours, scenario)
     lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     plan = motion.drive.plan
-    cut = _cut(trace, moved.losses)
+    ended = trip_of(moved.losses) or ended
+    cut = _cut(trace, ended)
     remains, comparison, left = _left(program, cut, contours, scenario, drawing)
     return DryRun(
         program=program,
         scenario=scenario,
         offset=ready.offset,
-        stepped=stepped,
         plan=plan,
+        ended=ended,
+        stepped=stepped,
         trace=trace,
         losses=moved.losses,
         peaks=moved.peaks,
         history=moved.history,
         deviations=meters.deviations(cut),
         contours=contours,
-        block_time_s=_block_times(plan, ready.steps.along_um),
+        border_s=_borders(plan, ready.steps.along_um),
         remains=remains,
         comparison=comparison,
         findings=tuple(sorted([*ready.findings, *met, *lost, *left], key=file_order)),
@@ -208,17 +228,20 @@ def _left(
     return remains, comparison, [*found, *drawing_findings(program, comparison)]
 
 
-def _cut(trace: Trace, losses: tuple[Loss, ...]) -> Trace:
+def _travel_end(ready: Prepared, scenario: Scenario, plan: Plan) -> Ending | None:
+    return travel_end(ready.program.toolpath, ready.steps, plan, scenario.machine.table, scenario.start_um)
+
+
+def _cut(trace: Trace, ended: Ending | None) -> Trace:
     """The trace as far as the machine ran: after a trip it stands, and cuts nothing of what follows."""
-    trip = next((loss for loss in losses if loss.kind == "trip"), None)
-    return trace.until(trip.t_s) if trip else trace
+    return trace.until(ended.t_s) if ended else trace
 
 
-def _block_times(plan: Plan, before_um: Floats) -> Floats:
-    """Planned time (n,) s in each block, which add up to the whole."""
+def _borders(plan: Plan, before_um: Floats) -> Floats:
+    """Planned times (n + 1,) s at which blocks begin, and the end of the last one."""
     reached = plan.time_at(before_um)
     reached[-1] = plan.duration_s
-    return np.diff(reached)
+    return reached
 
 
 def _motion(toolpath: Toolpath, scenario: Scenario) -> Motion:

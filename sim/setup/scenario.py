@@ -59,6 +59,9 @@ class Scenario:
         Where the program comes from.
     may_stay_open
         Whether contours may end away from their own path; else that is a finding.
+    past_stop
+        Whether the run goes on where the path leaves the travel and the table stands against its end stop; else it ends
+        there.
     trace_spacing_um
         Path between two samples of the trace.
     clamps, work_um
@@ -85,6 +88,7 @@ class Scenario:
     start_mm: tuple[float, float] | None = None
     provenance: str = "not given"
     may_stay_open: bool = False
+    past_stop: bool = False
     trace_spacing_um: float = DEFAULT_TRACE_SPACING_UM
     clamps: tuple[Clamp, ...] = ()
     work_um: Outline | None = None
@@ -129,6 +133,7 @@ TOP = Section(
         Key("interpolator", INTERPOLATOR, default=None, get=lambda _: None),  # the machine file says it
         Key("start_mm", TablePlace(), default=None),
         Key("open", Truth(), "may_stay_open", default=False),
+        Key("past_stop", Truth(), default=False),
         Key("trace_spacing_um", Number(TRACE_SPACING_UM, "µm"), default=DEFAULT_TRACE_SPACING_UM),
         Key("kerf", Truth(), default=False),
     ),

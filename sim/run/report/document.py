@@ -14,7 +14,7 @@ from sim.measure.compare.result import Comparison
 from sim.run.dryrun import DryRun, verdict
 from sim.run.report.blocks import block_entries
 from sim.run.report.drawing import comparison_document
-from sim.run.report.figures import deviation_entries, limit_entry, loss_entry, offset_entry
+from sim.run.report.figures import deviation_entries, ended_entry, limit_entry, loss_entry, offset_entry
 from sim.run.report.remains import remains_entry
 from sim.run.report.rounded import column, rounded
 
@@ -47,16 +47,17 @@ def build_report(run: DryRun) -> dict[str, Any]:
         "offset": offset_entry(run),
         "summary": {
             "blocks": len(toolpath),
-            "length_um": rounded(float(toolpath.length_um.sum())),
+            "length_um": rounded(run.ran_um),
             "steps": len(run.stepped),
         },
-        "time_s": {"total": rounded(run.plan.duration_s), "by_block": column(run.block_time_s)},
-        "contours": [_contour(contour, run.block_time_s) for contour in run.contours],
+        "time_s": {"total": rounded(run.ran_s), "by_block": column(run.block_time_s)},
+        "ended": ended_entry(run),
+        "contours": [_contour(contour, run.block_time_s) for contour in run.whole_contours],
         "interpolator": _interpolator(run),
-        "deviation": deviation_entries(run.deviations),
-        "limits": [limit_entry(peak) for peak in run.peaks],
-        "losses": [loss_entry(loss) for loss in run.losses],
-        "remains": remains_entry(run.remains),
+        "deviation": deviation_entries(run.deviations, run.ran_s),
+        "limits": [limit_entry(peak, run.ran_s) for peak in run.peaks],
+        "losses": [loss_entry(loss, run.ran_s) for loss in run.losses],
+        "remains": remains_entry(run.remains, run.ran_s),
         "drawing": _drawing(run.comparison),
         "coverage": _coverage(run.coverage),
         "findings": [_finding(finding) for finding in run.findings],

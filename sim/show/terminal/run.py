@@ -85,11 +85,11 @@ def summary_rows(run: DryRun) -> list[Row]:
     return [
         ("machine", scenario.machine.name),
         ("blocks", f"{len(toolpath):,} ({kinds})"),
-        ("path length", f"{mm(float(toolpath.length_um.sum())):,.3f} mm"),
+        ("path length", f"{mm(run.ran_um):,.3f} mm"),
         ("kerf", f"{mm(scenario.wire.kerf_um):g} mm ({wire})"),
         *([("wire lag", f"{scenario.wire_lag_um:g} µm")] if scenario.wire_lag_um else []),
         ("steps", f"{len(run.stepped):,} of 1 µm, {value_word(scenario.machine.controller.interpolation).en}"),
-        ("estimated cutting time", f"{clock(run.plan.duration_s)} in {scenario.thickness_mm:g} mm"),
+        ("estimated cutting time", f"{clock(run.ran_s)} in {scenario.thickness_mm:g} mm"),
         *_times(run),
         *_closures(run),
         *_stopped(run),
@@ -103,23 +103,23 @@ def summary_rows(run: DryRun) -> list[Row]:
 
 def _times(run: DryRun) -> list[Row]:
     """Time of each contour, where there are some but few."""
-    if not 1 < len(run.contours) <= _MOST_CLOSURES:
+    if not 1 < len(run.whole_contours) <= _MOST_CLOSURES:
         return []
-    times = [(c, float(run.block_time_s[c.first - 1 : c.last].sum())) for c in run.contours]
+    times = [(c, float(run.block_time_s[c.first - 1 : c.last].sum())) for c in run.whole_contours]
     return [(f"  blocks {c.first}–{c.last}", clock(time_s)) for c, time_s in times]
 
 
 def _closures(run: DryRun) -> list[Row]:
     """Closure of each contour; of many, the worst."""
-    shown = run.contours
+    shown = run.whole_contours
     if len(shown) > _MOST_CLOSURES:
         worst = max(shown, key=lambda contour: contour.encloses * (contour.closure_stepped_um + contour.is_open * 1e9))
         shown = (worst,)
     rows = []
     for contour in shown:
         name = "closure"
-        if len(run.contours) > 1:
-            name += f" {contour.first}–{contour.last}" + (" (worst)" if len(shown) < len(run.contours) else "")
+        if len(run.whole_contours) > 1:
+            name += f" {contour.first}–{contour.last}" + (" (worst)" if len(shown) < len(run.whole_contours) else "")
         if not contour.encloses:
             rows.append((name, "none: a parting cut"))
             continue
@@ -131,9 +131,12 @@ def _closures(run: DryRun) -> list[Row]:
 
 
 def _stopped(run: DryRun) -> list[Row]:
-    """Where a drive tripped, and all that follows is not cut."""
-    trip = run.tripped
-    return [("stopped", f"in block {trip.row + 1:,} after {clock(trip.t_s)}: a drive tripped")] if trip else []
+    """Where the machine stopped before its program was through, so that what follows is not cut."""
+    ended = run.ended
+    if ended is None:
+        return []
+    why = {"trip": "servo tripped", "travel": "travel ends here; --past-stop goes on"}[ended.cause]
+    return [("stopped", f"in block {ended.row + 1:,} after {clock(ended.t_s)}: the {ended.axis.name} {why}")]
 
 
 def _offset(run: DryRun) -> list[Row]:

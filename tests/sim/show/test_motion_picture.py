@@ -178,7 +178,7 @@ def test_after_a_trip_the_machine_stands() -> None:
     assert max(line[:, 0].max() for line in lines) == pytest.approx(shaded[0].left, abs=0.5)
     assert "3B403 X" in canvas.texts
     assert not drawn(plain()).of("box", Paint.GRID)
-    assert run.tripped
+    assert run.ended
 
 
 @pytest.mark.parametrize("width_px", [SIZES_PX["thumbnail"], 600, 1600, SIZES_PX["a3"]])

@@ -29,7 +29,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {Contour[]} contours
  * @property {Finding[]} findings
  * @property {Loss[]} losses
- * @property {Loss | null} tripped
+ * @property {Ending | null} ended
  * @property {Piece[]} pieces
  * @property {Question[]} quiz
  * @property {Tape} tape
@@ -132,6 +132,15 @@ import { element } from "../../html/assets/elements.js";
  * @property {number} row
  * @property {number} t_s
  * @property {number} amount_um
+ * @property {Place} place_um
+ */
+
+/**
+ * @typedef {object} Ending
+ * @property {string} cause
+ * @property {Axis} axis
+ * @property {number} row
+ * @property {number} t_s
  * @property {Place} place_um
  */
 
