@@ -21,7 +21,7 @@ from sim.run.dryrun import DryRun, verdict
 from sim.setup.key_words import value_word
 from sim.show.terminal.colours import COLOURS
 from sim.table.record.peaks import Peak
-from sim.units import clock, three_figures
+from sim.units import clock, in_figures
 
 _CAUSES = {
     "interpolation": "by interpolation",
@@ -203,7 +203,7 @@ def _limits(peaks: tuple[Peak, ...]) -> list[Row]:
 
 def _limit(peak: Peak) -> str:
     scale, unit = _UNITS[peak.quantity]
-    met = f"{peak.quantity} {peak.axis.name} {_percent(peak.share)} of {three_figures(peak.limit * scale)} {unit}"
+    met = f"{peak.quantity} {peak.axis.name} {_percent(peak.share)} of {in_figures(peak.limit * scale)} {unit}"
     return f"{met}, block {peak.row + 1:,} at {_mm(peak.x_um, 1)}, {_mm(peak.y_um, 1)} mm"
 
 
