@@ -107,9 +107,9 @@ def instant(t_s: float) -> str:
 
 
 class _Filler(string.Formatter):
-    """Fills templates; besides Python's own formats it knows ``um``, ``mm``, ``instant``, ``term`` and ``aside``.
+    """Fills templates; beside Python's own formats it knows ``um``, ``mm``, ``instant``, ``term``, ``aside``, ``pass``.
 
-    ``aside`` is a text in parentheses, and nothing where there is none.
+    ``aside`` is a text in parentheses, and nothing where there is none; ``pass`` the number of a pass, nothing for 0.
     """
 
     def __init__(self, language: Language) -> None:
@@ -124,8 +124,8 @@ class _Filler(string.Formatter):
             return instant(float(value))
         if format_spec == "term":
             return term(str(value), self._language)
-        if format_spec == "aside":
-            return str(_read("joints")[self._language]["aside"].format(value)) if value else ""
+        if format_spec in ("aside", "pass"):
+            return str(_read("joints")[self._language][format_spec].format(value)) if value else ""
         return str(super().format_field(value, format_spec))
 
 

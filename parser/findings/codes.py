@@ -95,11 +95,13 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B404": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B405": FindingCode(Severity.WARNING, check=None, placed=True),
         "3B406": FindingCode(Severity.WARNING, check=None, placed=True),
+        "3B407": FindingCode(Severity.WARNING, check=None),
         "3B490": FindingCode(Severity.ERROR, check=None),
         "3B501": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B502": FindingCode(Severity.WARNING, check=None, placed=True),
         "3B503": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B504": FindingCode(Severity.ERROR, check=None),
+        "3B505": FindingCode(Severity.ERROR, check=None),
         "3B601": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B602": FindingCode(Severity.ERROR, check=None),
     }

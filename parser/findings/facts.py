@@ -32,6 +32,11 @@ class TooLarge(Fact):
 
 
 @dataclass(frozen=True, slots=True)
+class WithoutOffset(Fact):
+    """The program's controller adds an offset, and the path is without it."""
+
+
+@dataclass(frozen=True, slots=True)
 class NoEnd(Fact):
     """The program ends without an end code."""
 

@@ -50,8 +50,11 @@ class _Part(NamedTuple):
     of: Ints
 
 
-def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints) -> Loops:
-    """Loops of the contours `wanted` (k,), numbers that occur in `contour_of_row` (n,), in order."""
+def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints, within_um: float = CLOSED_WITHIN_UM) -> Loops:
+    """Loops of the contours `wanted` (k,), numbers that occur in `contour_of_row` (n,), in order.
+
+    A path comes back where it passes a place within `within_um` of its start.
+    """
     row = np.flatnonzero(np.isin(contour_of_row, wanted))
     contour, begin, of, number = np.unique(
         contour_of_row[row], return_index=True, return_inverse=True, return_counts=True
@@ -60,23 +63,25 @@ def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints) -> Loops:
     first, last = begin.copy(), np.full(len(contour), len(toolpath), dtype=np.int64)
     for skipped in range(_LEAD_IN_BLOCKS + 1):
         met = np.where(
-            skipped < number, _first_met(toolpath, part, np.minimum(begin + skipped, row[-1])), len(toolpath)
+            skipped < number,
+            _first_met(toolpath, part, np.minimum(begin + skipped, len(toolpath) - 1), within_um),
+            len(toolpath),
         )
         earlier = met < last
         first[earlier], last[earlier] = begin[earlier] + skipped, met[earlier]
     closed = np.flatnonzero(last < len(toolpath))
     contour, begin, first, last = (column[closed] for column in (contour, begin, first, last))
-    return Loops(contour, first, last, _part_side(toolpath, begin, first, last))
+    return Loops(contour, first, last, part_sides(toolpath, begin, first, last))
 
 
-def _first_met(toolpath: Toolpath, part: _Part, first: Ints) -> Ints:
+def _first_met(toolpath: Toolpath, part: _Part, first: Ints, within_um: float) -> Ints:
     """Rows (k,) that are the first to pass the start of the rows `first` (k,) again; n where none does."""
     place = toolpath.start_um[first][part.of]
     off, _ = distance_to_curves(toolpath, part.row, place[:, 0], place[:, 1])
     run = np.cumsum(toolpath.length_um) - toolpath.length_um
     since = run[part.row] - run[first][part.of]
     # Short first blocks are still near the place they leave; a circle comes back by itself.
-    met = (off <= CLOSED_WITHIN_UM) & (part.row > first[part.of]) & (since > 2.0 * CLOSED_WITHIN_UM)
+    met = (off <= within_um) & (part.row > first[part.of]) & (since > 2.0 * within_um)
     met |= (part.row == first[part.of]) & is_circle(toolpath)[part.row]
     at = np.flatnonzero(met)
     which, once = np.unique(part.of[at], return_index=True)
@@ -108,7 +113,7 @@ def end_in_waste(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints) -> Ints
     return in_waste
 
 
-def _part_side(toolpath: Toolpath, begin: Ints, first: Ints, last: Ints) -> Ints:
+def part_sides(toolpath: Toolpath, begin: Ints, first: Ints, last: Ints) -> Ints:
     """Side (k,) of the loops from `first` to `last` that the part lies on, the wire coming in from row `begin`."""
     ring = _ring(toolpath, first, last)
     joint = toolpath.start_um[first][ring.of]

@@ -14,6 +14,7 @@ from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
 from parser.program import Program
 from parser.shape.contours import Contour, contour_rows, find_contours
+from parser.shape.passes import find_passes
 from parser.text.source import Field
 from sim.check.closures import OpenContour, contour_findings
 from sim.check.count_axes import stepped_end_findings
@@ -110,6 +111,7 @@ class _PathChecks:
         self._broken = _broken_contours(program, rows)
         self.judged = tuple(contour for number, contour in enumerate(contours) if number not in self._broken)
         self._rows = np.where(np.isin(rows, list(self._broken)), -1, rows)
+        self._passes = find_passes(program.toolpath)
         self.states: list[CheckState] = []
 
     def findings(self) -> Iterator[Finding]:
@@ -117,7 +119,7 @@ class _PathChecks:
         program, demands = self._program, self._demands
         stepped = self._stepped()
         yield from stepped
-        uncut = uncut_jump_findings(program, self._rows)
+        uncut = uncut_jump_findings(program, self._rows, self._passes)
         yield from uncut
         known = (*program.findings, *stepped, *uncut)
         closures = contour_findings(program, self.judged, self._rows, known, may_stay_open=demands.may_stay_open)
@@ -127,7 +129,7 @@ class _PathChecks:
         open_ones = "" if rows is self._rows else "reason-open"
         yield from _undoubted(sense_findings(program, rows), known)
         self._done(Check.SENSES, self._left_out or open_ones)
-        crossings, all_pairs = crossing_findings(program, rows)
+        crossings, all_pairs = crossing_findings(program, rows, self._passes)
         yield from crossings
         self._done(Check.CROSSINGS, self._left_out or open_ones if all_pairs else "reason-many")
         yield from self._asked_for()
@@ -153,7 +155,7 @@ class _PathChecks:
         if demands.offset_um is None:
             self.states.append(CheckState(Check.CORNERS, "not asked", "reason-no-wire"))
         else:
-            yield from corner_findings(program, self._rows, demands.offset_um)
+            yield from corner_findings(program, self._rows, self._passes, demands.offset_um)
             self._done(Check.CORNERS, self._left_out)
         if demands.table is None or demands.start_um is None:
             self.states.append(CheckState(Check.TRAVEL, "not asked", "reason-no-machine"))

@@ -6,6 +6,7 @@ from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
 from parser.program import Program
+from parser.shape.passes import Passes
 from parser.text.source import Field
 from sim.check.shape.corners import tight_corners
 from sim.check.shape.crossings import find_crossings
@@ -40,9 +41,9 @@ def _senses(program: Program, row: int) -> tuple[str, str]:
     return both if program.toolpath.turn[row] < 0 else both[::-1]
 
 
-def crossing_findings(program: Program, contour: Ints) -> tuple[list[Finding], bool]:
+def crossing_findings(program: Program, contour: Ints, passes: Passes) -> tuple[list[Finding], bool]:
     """The first crossing of each contour with itself (3B307), and whether all pairs of blocks were looked at."""
-    crossings = find_crossings(program.toolpath, contour)
+    crossings = find_crossings(program.toolpath, contour, passes)
     found = []
     for one in crossings:
         if one.first is not None:
@@ -58,10 +59,10 @@ def crossing_findings(program: Program, contour: Ints) -> tuple[list[Finding], b
     return found, all(one.is_complete for one in crossings)
 
 
-def corner_findings(program: Program, contour: Ints, offset_um: float) -> list[Finding]:
+def corner_findings(program: Program, contour: Ints, passes: Passes, offset_um: float) -> list[Finding]:
     """Arcs that a wire of this offset cannot cut as drawn (3B305)."""
     toolpath = program.toolpath
-    rows = tight_corners(toolpath, contour, offset_um, program.reading.is_drawing)
+    rows = tight_corners(toolpath, contour, passes, offset_um, program.reading.is_drawing)
     return [
         at_block(toolpath, program.lines, "3B305", row, radius=float(toolpath.radius_um[row]), offset=offset_um)
         for row in rows.tolist()

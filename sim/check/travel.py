@@ -8,6 +8,7 @@ from controller.stepping.steps import Steps
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
+from parser.geometry.extents import extents
 from parser.program import Program
 from parser.toolpath import Axis, Toolpath
 from parser.units import from_mm
@@ -51,23 +52,6 @@ def beyond_um(toolpath: Toolpath, steps: Steps, table: "TableModel", start_um: t
     travel = from_mm(np.array([table.travel_x_mm, table.travel_y_mm]))
     beyond: Floats = np.maximum(-(low + shift), high + shift - travel)
     return beyond
-
-
-def extents(toolpath: Toolpath) -> tuple[Floats, Floats]:
-    """Lowest and highest places (n, 2) µm of each block."""
-    low = np.minimum(toolpath.start_um, toolpath.end_um)
-    high = np.maximum(toolpath.start_um, toolpath.end_um)
-    arc = np.flatnonzero(toolpath.is_arc)
-    first = np.minimum(toolpath.start_angle_rad[arc], toolpath.end_angle_rad[arc])
-    reach = np.abs(toolpath.sweep_rad[arc])
-    for quarter, (sign_x, sign_y) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
-        passed = np.mod(quarter * np.pi / 2.0 - first, 2.0 * np.pi) <= reach
-        rows = arc[passed]
-        extreme = toolpath.center_um[rows] + toolpath.radius_um[rows, None] * np.array([sign_x, sign_y])
-        axis = int(sign_x == 0)
-        low[rows, axis] = np.minimum(low[rows, axis], extreme[:, axis])
-        high[rows, axis] = np.maximum(high[rows, axis], extreme[:, axis])
-    return low, high
 
 
 ROUNDING_UM = 0.5

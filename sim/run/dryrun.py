@@ -1,11 +1,12 @@
 """The dry run: one program through controller, card and table, and what came of it."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Final, NamedTuple, Protocol
 
 import numpy as np
 
 from controller.card.log.writer import CardLog
+from controller.motion.limits import Feeds
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
 from parser.drawing.model import Drawing
@@ -14,16 +15,19 @@ from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
+from parser.shape.passes import Passes, find_passes
 from parser.toolpath import Toolpath
-from sim.check.result import Coverage
+from sim.check.result import CheckState, Coverage
 from sim.cut.obstacles.findings import obstacle_findings
-from sim.cut.pieces.findings import piece_findings
+from sim.cut.pieces.findings import piece_findings, region_finding
+from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
 from sim.cut.wire_lag import bowed
 from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
 from sim.measure.deviation.measured import Deviations, Meters
 from sim.measure.deviation.meters import BlockSteps
+from sim.measure.passes.figures import PassFigures, figures_of_passes, wire_taken
 from sim.run.ending import Ending, travel_end, trip_of
 from sim.run.offsetting import Offsetting
 from sim.run.prepare import Prepared, prepare
@@ -36,6 +40,9 @@ from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
 from sim.table.trace import Trace
+
+REMAINS: Final = "check-remains"
+"""Name of the check of what a cut leaves, which only a run makes."""
 
 
 class PulseSink(Protocol):
@@ -58,6 +65,8 @@ class DryRun:
         What was run: the toolpath of the program is the one that ran.
     offset
         What the controller's compensation made of the program; None where it ran as written.
+    feeds
+        How fast each block was to be run.
     plan
         What the controller planned for the whole of it.
     ended
@@ -73,6 +82,8 @@ class DryRun:
         Of steps, table and wire.
     contours
         Contours of the program with their closures.
+    passes, pass_figures
+        Which blocks make each pass over an edge, and what it came to, one behind the other.
     border_s
         (n + 1,) float64, planned times at which the blocks begin, and the end of the last one.
     remains
@@ -90,6 +101,7 @@ class DryRun:
     program: Program
     scenario: Scenario
     offset: Offsetting | None
+    feeds: Feeds
     plan: Plan
     ended: Ending | None
     stepped: BlockSteps
@@ -99,12 +111,19 @@ class DryRun:
     history: History
     deviations: Deviations
     contours: tuple[Contour, ...]
+    passes: Passes
+    pass_figures: tuple[PassFigures, ...]
     border_s: Floats
     remains: Remains | None
     comparison: Comparison | None
     findings: tuple[Finding, ...]
     coverage: Coverage
     missed: tuple[Missed, ...] = ()
+
+    @property
+    def has_trims(self) -> bool:
+        """Whether any edge is cut in more than one pass; those who show a run speak of passes only then."""
+        return any(one.number > 1 for one in self.passes.passes)
 
     @property
     def ran_s(self) -> float:
@@ -121,7 +140,7 @@ class DryRun:
     @property
     def block_time_s(self) -> Floats:
         """(n,) float64, time that each block ran, which add up to that of the run."""
-        return np.diff(np.minimum(self.border_s, self.ran_s))
+        return _times_within(self.border_s, self.ran_s)
 
     @property
     def whole_contours(self) -> tuple[Contour, ...]:
@@ -160,10 +179,7 @@ def dry_run(
     drawing = _drawing(scenario.drawing)
     ready = prepare(program, scenario)
     program, toolpath = ready.program, ready.program.toolpath
-    motion = _motion(toolpath, scenario)
-    ended = None if scenario.past_stop else _travel_end(ready, scenario, motion.drive.plan)
-    if ended:
-        motion = motion.until(ended.t_s)
+    motion, ended = _motion(ready, scenario)
     meters = Meters(motion, ready.steps)
     sinks = [meters.take]
     if sink is not None:
@@ -183,11 +199,15 @@ def dry_run(
     plan = motion.drive.plan
     ended = trip_of(moved.losses) or ended
     cut = _cut(trace, ended)
-    remains, comparison, left = _left(program, cut, contours, scenario, drawing)
+    passes, border_s = find_passes(toolpath), _borders(plan, ready.steps.along_um)
+    block_time_s = _times_within(border_s, ended.t_s if ended else plan.duration_s)
+    way = wire_taken(toolpath, plan, cut)
+    left = _left(program, cut, contours, scenario, drawing)
     return DryRun(
         program=program,
         scenario=scenario,
         offset=ready.offset,
+        feeds=ready.feeds,
         plan=plan,
         ended=ended,
         stepped=stepped,
@@ -197,11 +217,13 @@ def dry_run(
         history=moved.history,
         deviations=meters.deviations(cut),
         contours=contours,
-        border_s=_borders(plan, ready.steps.along_um),
-        remains=remains,
-        comparison=comparison,
-        findings=tuple(sorted([*ready.findings, *met, *lost, *left], key=file_order)),
-        coverage=ready.coverage,
+        passes=passes,
+        pass_figures=figures_of_passes(toolpath, passes, block_time_s, way, scenario.wire.reach_um),
+        border_s=border_s,
+        remains=left.remains,
+        comparison=left.comparison,
+        findings=tuple(sorted([*ready.findings, *met, *lost, *left.findings], key=file_order)),
+        coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
 
 
@@ -213,23 +235,33 @@ def _drawing(target: DrawingTarget | None) -> Drawing | None:
     return read_drawing(target.file, layer=target.layer, gap_um=target.gap_um)
 
 
+class _Left(NamedTuple):
+    """What the cut leaves, beside the drawing, with findings; and how far the check of it came."""
+
+    remains: Remains | None
+    comparison: Comparison | None
+    findings: list[Finding]
+    state: CheckState
+
+
 def _left(
     program: Program, cut: Trace, contours: tuple[Contour, ...], scenario: Scenario, drawing: Drawing | None
-) -> tuple[Remains | None, Comparison | None, list[Finding]]:
-    """What the cut leaves, beside the drawing, with findings; as far as the scenario asks for it."""
+) -> _Left:
+    """What the cut leaves, as far as the scenario asks for it."""
     target = scenario.drawing
     if not scenario.kerf and target is None:
-        return None, None, []
-    remains = remains_of(program, cut, contours, scenario)
+        return _Left(None, None, [], CheckState(REMAINS, "not asked", "reason-no-kerf"))
+    try:
+        remains = remains_of(program, cut, contours, scenario)
+    except RegionError as error:
+        return _Left(
+            None, None, [region_finding(program, error)], CheckState(REMAINS, "incomplete", "reason-no-region")
+        )
     found = piece_findings(program, remains.pieces)
     if target is None or drawing is None:
-        return remains, None, found
+        return _Left(remains, None, found, CheckState(REMAINS))
     comparison = compare_cut(program, remains.pieces, scenario.wire.reach_um, drawing, target)
-    return remains, comparison, [*found, *drawing_findings(program, comparison)]
-
-
-def _travel_end(ready: Prepared, scenario: Scenario, plan: Plan) -> Ending | None:
-    return travel_end(ready.program.toolpath, ready.steps, plan, scenario.machine.table, scenario.start_um)
+    return _Left(remains, comparison, [*found, *drawing_findings(program, comparison)], CheckState(REMAINS))
 
 
 def _cut(trace: Trace, ended: Ending | None) -> Trace:
@@ -244,7 +276,16 @@ def _borders(plan: Plan, before_um: Floats) -> Floats:
     return reached
 
 
-def _motion(toolpath: Toolpath, scenario: Scenario) -> Motion:
-    machine = scenario.machine
-    feeds = machine.feeds(scenario.thickness_mm)
-    return motion_of(toolpath, feeds, machine, scenario.start_um, scenario.trace_spacing_um)
+def _times_within(border_s: Floats, until_s: float) -> Floats:
+    """Time (n,) s of each block up to a time."""
+    return np.diff(np.minimum(border_s, until_s))
+
+
+def _motion(ready: Prepared, scenario: Scenario) -> tuple[Motion, Ending | None]:
+    """The motion of a program, and where it ends early because the path leaves the travel."""
+    toolpath, machine, start_um = ready.program.toolpath, scenario.machine, scenario.start_um
+    motion = motion_of(toolpath, ready.feeds, machine, start_um, scenario.trace_spacing_um)
+    if scenario.past_stop:
+        return motion, None
+    ended = travel_end(toolpath, ready.steps, motion.drive.plan, machine.table, start_um)
+    return (motion.until(ended.t_s), ended) if ended else (motion, None)

@@ -51,7 +51,7 @@ def sound_program(rng: random.Random) -> Sound:
     for number, one in enumerate(cuts):
         here = moved if number == 0 else (moved[0] + sum(1.6 * c.size + 30_000.0 for c in cuts[:number]), moved[1])
         _write(rng, post, one, here, is_first=number == 0, at_nodes=at_nodes)
-    text = _text(rng, post)
+    text = program_text(rng, post)
     name = " + ".join(one.name for one in cuts) + (" nodes" if at_nodes else "")
     return Sound(name, text.encode(), post.blocks, post.origin, all(one.fits_wire for one in cuts))
 
@@ -78,7 +78,7 @@ def _shifted(move: Move, by: Place) -> Move:
     return Line(to) if isinstance(move, Line) else Arc(to, (move.center[0] + by[0], move.center[1] + by[1]), move.turn)
 
 
-def _text(rng: random.Random, post: Post) -> str:
+def program_text(rng: random.Random, post: Post) -> str:
     style = Style(
         label=rng.choice(("", "N{}: ", "N {} : ", "{}: ")),
         gap=rng.choice(("", " ")),

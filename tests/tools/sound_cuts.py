@@ -25,7 +25,7 @@ class Cut(NamedTuple):
     size: float
 
 
-class _Path(NamedTuple):
+class WirePath(NamedTuple):
     """A contour as the wire runs it; `scrap` +1 with the scrap on its left, −1 on its right."""
 
     shape: Shape
@@ -73,9 +73,9 @@ def random_cut(rng: random.Random) -> Cut:
     if shape.neck > 4.0 * by and rng.random() < 0.8:
         moved = offset(shape, by if punch else -by, round_corners)
         shape, fits = (moved, True) if moved else (shape, False)
-    path = _Path(shape, -1 if punch else 1)
+    path = WirePath(shape, -1 if punch else 1)
     if rng.random() < 0.5:
-        path = _Path(reverse(path.shape), -path.scrap)
+        path = WirePath(reverse(path.shape), -path.scrap)
     style = rng.choice((_bare, _straight, _straight, _tangent, _overcut, _trimmed, _tabbed, _looped))
     start, moves, stops = style(rng, path, _Nearer(drawn, by if punch else -by, round_corners) if fits else None)
     name = f"{shape.name} {size:.0f} {'punch' if punch else 'die'}{' offset' if fits else ''} {style.__name__[1:]}"
@@ -85,18 +85,18 @@ def random_cut(rng: random.Random) -> Cut:
 _Styled = tuple[Place, list[Move], tuple[int, ...]]
 
 
-def _bare(rng: random.Random, path: _Path, nearer: _Nearer | None) -> _Styled:
+def _bare(rng: random.Random, path: WirePath, nearer: _Nearer | None) -> _Styled:
     return path.shape.start, list(path.shape.moves), ()
 
 
-def _straight(rng: random.Random, path: _Path, nearer: _Nearer | None) -> _Styled:
+def _straight(rng: random.Random, path: WirePath, nearer: _Nearer | None) -> _Styled:
     """In along a line, square to the contour or not, and out the same way, or left at the contour."""
-    hole = _hole(rng, path)
+    hole = thread_hole(rng, path)
     out: list[Move] = [Line(hole)] if rng.random() < 0.7 else []
     return hole, [Line(path.shape.start), *path.shape.moves, *out], ()
 
 
-def _tangent(rng: random.Random, path: _Path, nearer: _Nearer | None) -> _Styled:
+def _tangent(rng: random.Random, path: WirePath, nearer: _Nearer | None) -> _Styled:
     """In along a quarter circle that ends on the contour's tangent; out the same way, or by another quarter circle."""
     at, n = path.shape.start, path.normal
     t = heading(at, path.shape.moves[0], False)
@@ -113,9 +113,9 @@ def _tangent(rng: random.Random, path: _Path, nearer: _Nearer | None) -> _Styled
     return hole, [*into, *path.shape.moves, *out], ()
 
 
-def _overcut(rng: random.Random, path: _Path, nearer: _Nearer | None) -> _Styled:
+def _overcut(rng: random.Random, path: WirePath, nearer: _Nearer | None) -> _Styled:
     """Past the start by some of the first move, and there an end, or back and out."""
-    hole, first, start = _hole(rng, path), path.shape.moves[0], path.shape.start
+    hole, first, start = thread_hole(rng, path), path.shape.moves[0], path.shape.start
     share = min(rng.uniform(0.1, 0.4), 2000.0 / length(start, first))
     over = cut(start, first, share)
     ahead = Line(over) if isinstance(first, Line) else first._replace(to=over)
@@ -124,36 +124,36 @@ def _overcut(rng: random.Random, path: _Path, nearer: _Nearer | None) -> _Styled
     return hole, [Line(start), *path.shape.moves, ahead, *out], ()
 
 
-def _trimmed(rng: random.Random, path: _Path, nearer: _Nearer | None) -> _Styled:
+def _trimmed(rng: random.Random, path: WirePath, nearer: _Nearer | None) -> _Styled:
     """A second pass 10 to 30 µm nearer to the part, forward or back."""
     way = nearer and nearer.by(rng.choice((10.0, 20.0, 30.0)))
     if not way:
         return _straight(rng, path, nearer)
     way = way if rng.random() < 0.5 else reverse(way)
-    hole = _hole(rng, path)
+    hole = thread_hole(rng, path)
     return hole, [Line(path.shape.start), *path.shape.moves, Line(way.start), *way.moves, Line(hole)], ()
 
 
-def _tabbed(rng: random.Random, path: _Path, nearer: _Nearer | None) -> _Styled:
+def _tabbed(rng: random.Random, path: WirePath, nearer: _Nearer | None) -> _Styled:
     """The last of the contour stays until the part is held: a D before it."""
     start, last = _before_last(path.shape), path.shape.moves[-1]
     if length(start, last) < 300.0:
         return _straight(rng, path, nearer)
-    hole = _hole(rng, path)
+    hole = thread_hole(rng, path)
     tab = cut(start, last, 0.7)
     most = Line(tab) if isinstance(last, Line) else last._replace(to=tab)
     moves = [Line(path.shape.start), *path.shape.moves[:-1], most, last, Line(hole)]
     return hole, moves, (len(moves) - 2,)
 
 
-def _looped(rng: random.Random, path: _Path, nearer: _Nearer | None) -> _Styled:
+def _looped(rng: random.Random, path: WirePath, nearer: _Nearer | None) -> _Styled:
     """Sharp outer corners run past and come back to from behind, through the scrap."""
     sharp = path.shape.name in ("polygon", "rectangle") and all(isinstance(m, Line) for m in path.shape.moves)
     if not sharp or path.scrap * _turned(path.shape) > 0.0:
         return _straight(rng, path, nearer)
     starts = [path.shape.start, *(move.to for move in path.shape.moves)]
     size = min(rng.uniform(200.0, 1500.0), 0.2 * min(math.dist(a, b) for a, b in pairwise(starts)))
-    hole = _hole(rng, path)
+    hole = thread_hole(rng, path)
     moves: list[Move] = [Line(starts[0])]
     for k, move in enumerate(path.shape.moves):
         moves.append(move)
@@ -179,7 +179,7 @@ def _before_last(shape: Shape) -> Place:
     return shape.start if len(shape.moves) == 1 else shape.moves[-2].to
 
 
-def _hole(rng: random.Random, path: _Path) -> Place:
+def thread_hole(rng: random.Random, path: WirePath) -> Place:
     """Where the wire is threaded: in the scrap, off the start, square to the contour or up to 40° aside."""
     room = min(_room(path), 10_000.0)
     angle = rng.choice((0.0, rng.uniform(-0.7, 0.7))) if path.is_smooth else 0.0
@@ -189,7 +189,7 @@ def _hole(rng: random.Random, path: _Path) -> Place:
     return path.shape.start[0] + far * u[0], path.shape.start[1] + far * u[1]
 
 
-def _room(path: _Path, way: Place | None = None) -> float:
+def _room(path: WirePath, way: Place | None = None) -> float:
     """How far the scrap reaches from the start, in its direction; 20 mm where nothing is in the way."""
     at, u = path.shape.start, way or path.normal
     places = [at]

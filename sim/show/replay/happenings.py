@@ -1,4 +1,4 @@
-"""What a replay's document says of what happens in a run: stops, findings, contours and losses."""
+"""What a replay's document says of what happens in a run: stops, findings, contours, passes and losses."""
 
 import math
 from collections.abc import Iterable
@@ -9,9 +9,11 @@ from parser.findings.findings import Finding
 from parser.shape.contours import Contour
 from parser.toolpath import Stop
 from parser.units import from_mm
-from sim.run.course import Happening
+from sim.run.course import Happening, PassOf
 from sim.run.ending import Ending
 from sim.run.report.rounded import rounded
+from sim.show.draw.tones import paint_of_pass
+from sim.show.words.phrases import named_pass
 from sim.table.record.losses import Loss
 
 
@@ -61,6 +63,20 @@ def ending_entry(ended: Ending) -> dict[str, Any]:
         "t_s": rounded(ended.t_s),
         "place_um": [rounded(ended.x_um), rounded(ended.y_um)],
     }
+
+
+def pass_entries(passes: Iterable[PassOf]) -> list[dict[str, Any]]:
+    """Passes by the rows of their first and last blocks, with the paint of their tone, and their names."""
+    return [
+        {
+            "first_row": one.first,
+            "last_row": one.last,
+            "number": one.number,
+            "paint": str(paint_of_pass(one.number)),
+            "name": named_pass(one, among)._asdict(),
+        }
+        for one, among in passes
+    ]
 
 
 def loss_entry(loss: Loss) -> dict[str, Any]:

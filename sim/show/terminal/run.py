@@ -1,6 +1,7 @@
 """The summary table of a run on the terminal."""
 
 import math
+from collections import Counter
 from pathlib import Path
 
 from rich.console import Console
@@ -12,11 +13,13 @@ from controller.offset.path import Made
 from parser.findings.catalogue import texts
 from parser.findings.findings import Finding
 from parser.findings.remarks import remark_text
+from parser.shape.passes import Pass
 from parser.text.encoding import printable
 from parser.text.excerpt import place, with_caret
 from parser.units import mm
 from sim.cut.pieces.pieces import Piece
 from sim.measure.deviation.deviation import Where
+from sim.measure.passes.figures import PassFigures
 from sim.run.dryrun import DryRun, verdict
 from sim.setup.key_words import value_word
 from sim.show.terminal.colours import COLOURS
@@ -35,6 +38,7 @@ _MOST_FINDINGS = 20
 _MOST_CLOSURES = 4
 _MOST_LIMITS = 3
 _MOST_PIECES = 4
+_MOST_PASSES = 8
 _LEAST_UM = 0.005  # shown as 0.00
 Row = tuple[str, str]
 
@@ -91,6 +95,7 @@ def summary_rows(run: DryRun) -> list[Row]:
         ("steps", f"{len(run.stepped):,} of 1 µm, {value_word(scenario.machine.controller.interpolation).en}"),
         ("estimated cutting time", f"{clock(run.ran_s)} in {scenario.thickness_mm:g} mm"),
         *_times(run),
+        *_passes(run),
         *_closures(run),
         *_stopped(run),
         *_offset(run),
@@ -107,6 +112,30 @@ def _times(run: DryRun) -> list[Row]:
         return []
     times = [(c, float(run.block_time_s[c.first - 1 : c.last].sum())) for c in run.whole_contours]
     return [(f"  blocks {c.first}–{c.last}", clock(time_s)) for c, time_s in times]
+
+
+def _passes(run: DryRun) -> list[Row]:
+    """What each pass comes to, where any contour has more than one."""
+    if not run.has_trims:
+        return []
+    among = Counter(figures.of.edge for figures in run.pass_figures)
+    named = [_pass_name(figures.of, among) for figures in run.pass_figures]
+    told = [_pass(figures, run.scenario.wire.reach_um) for figures in run.pass_figures]
+    rows = list(zip(named, told, strict=True))
+    more = [("", f"and {len(rows) - _MOST_PASSES} passes more")] if len(rows) > _MOST_PASSES else []
+    return [*rows[:_MOST_PASSES], *more]
+
+
+def _pass_name(one: Pass, among: Counter[int]) -> str:
+    contour = f"contour {one.edge + 1}, " if len(among) > 1 else ""
+    return f"{contour}pass {one.number} of {among[one.edge]}"
+
+
+def _pass(figures: PassFigures, reach_um: float) -> str:
+    one, stock = figures.of, figures.stock
+    way = ("tab, " if one.is_tab else "") + ("back" if one.is_back else "forward")
+    taken = "not cut" if stock is None else f"takes {stock.mean_um:,.0f} µm"
+    return f"{way}, offset {reach_um + one.shift_um:,.0f} µm, {taken}, {clock(figures.time_s)}"
 
 
 def _closures(run: DryRun) -> list[Row]:
@@ -147,7 +176,12 @@ def _offset(run: DryRun) -> list[Row]:
     bridges = int((made.path.made == Made.BRIDGE).sum())
     parts = [(bridges, "bridge", "added"), (len(made.path.vanished), "block", "left out")]
     told = [f"{number} {name}{'s' * (number > 1)} {what}" for number, name, what in parts if number]
-    return [("offset", ", ".join([f"{mm(asked.by_um):g} mm to the {asked.side.name.lower()}", *told]))]
+    by = ", ".join(f"{mm(one.by_um):g}" for one in asked.passes)
+    rows = [("offset", ", ".join([f"{by} mm to the {asked.side.name.lower()}", *told]))]
+    feeds = [run.scenario.pass_feed_um_s(one) for one in asked.passes]
+    if len(set(feeds)) == 1:
+        return rows
+    return [*rows, ("  feed", f"{', '.join(in_figures(mm(feed) * 60.0) for feed in feeds)} mm/min")]
 
 
 def _pieces(run: DryRun) -> list[Row]:

@@ -105,11 +105,12 @@ def _pool(envelope: Envelope, first: Ints, width_s: Floats) -> Envelope:
 
 
 def feed_levels(run: DryRun) -> list[Level]:
-    """Feeds of cuts and jumps, mm/s, as far as there are any."""
-    feeds = run.scenario.machine.feeds(run.scenario.thickness_mm)
+    """Feeds of cuts, those of passes from the lowest, and of jumps, mm/s, as far as there are any."""
     jumps = run.toolpath.is_jump
-    shown = (("motion.cut_feed", feeds.cut_um_s, not jumps.all()), ("motion.jump_feed", feeds.jump_um_s, jumps.any()))
-    return [Level(key, mm(feed), "", Paint.GREY) for key, feed, there in shown if there]
+    cut = np.unique(np.broadcast_to(run.feeds.cut_um_s, len(jumps))[~jumps])
+    jump = [run.feeds.jump_um_s] if jumps.any() else []
+    shown = [("motion.cut_feed", cut.tolist()), ("motion.jump_feed", jump)]
+    return [Level(key, mm(feed), "", Paint.GREY) for key, feeds in shown for feed in feeds]
 
 
 def limit_levels(run: DryRun, quantity: Quantity, key: str, scale: float = 1.0) -> list[Level]:
