@@ -42,7 +42,7 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
 
     scenario = scenarios.load_scenario(path)
     if options.machine is not None:
-        scenario = replace(scenario, machine=load_machine(options.machine))
+        scenario = replace(scenario, machine=load_machine(options.machine), machine_by_default=False)
     thickness_mm = scenario.thickness_mm
     if options.thickness is not None:
         thickness_mm = number(mm(options.thickness), scenarios.THICKNESS_MM, "--thickness in mm")

@@ -3,7 +3,7 @@
 A folder holds ``scenario.toml`` and the program it names; a program alone is a scenario with the defaults.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError, SettingsError
@@ -80,6 +80,8 @@ class Scenario:
         What the replay asks a trainee.
     expect
         What the scenario promises of its report; checked after the run.
+    machine_by_default
+        Whether nobody named a machine. A file that is written names it, and makes the same run all the same.
     """
 
     title: str
@@ -100,6 +102,7 @@ class Scenario:
     density_g_cm3: float = DEFAULT_DENSITY_G_CM3
     quiz: tuple[Question, ...] = ()
     expect: tuple[Expectation, ...] = ()
+    machine_by_default: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
         """Check the numbers, and that the wire has a lag in this work."""
@@ -175,7 +178,7 @@ def load_scenario(path: Path | str) -> Scenario:
     except OSError as error:
         raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
     if not is_folder:
-        return Scenario(printable(path.name), path, load_machine(DEFAULT_MACHINE))
+        return Scenario(printable(path.name), path, load_machine(DEFAULT_MACHINE), machine_by_default=True)
     file = path / "scenario.toml"
     if not file.exists():
         raise SettingsError(f"{path}: is a folder without scenario.toml; give a program or a scenario folder")
@@ -193,6 +196,7 @@ def load_scenario(path: Path | str) -> Scenario:
         drawing=read_drawing_target(content, where, path),
         quiz=read_quiz(content, where),
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
+        machine_by_default="machine" not in content,
         **value,
         **WORK.read_in(content, where),
     )

@@ -11,6 +11,7 @@ from parser.geometry.curves import Floats
 from parser.shape.contours import Contour
 from sim.check.result import CheckState, Coverage
 from sim.measure.compare.result import Comparison
+from sim.run.assumptions import assumptions_of
 from sim.run.dryrun import DryRun, verdict
 from sim.run.report.blocks import block_entries
 from sim.run.report.drawing import comparison_document
@@ -38,6 +39,7 @@ def build_report(run: DryRun) -> dict[str, Any]:
             "header": {key: _header_value(value) for key, value in run.program.header.items()},
         },
         "machine": {"name": scenario.machine.name, "start_um": [rounded(place) for place in scenario.start_um]},
+        "assumptions": _assumptions(run),
         "wire": {
             "diameter_um": rounded(scenario.wire.diameter_um),
             "spark_gap_um": rounded(scenario.wire.spark_gap_um),
@@ -74,6 +76,16 @@ def report_text(report: dict[str, Any]) -> str:
     Compact lines keep to json's fast encoder; indenting a hundred thousand blocks takes ten times as long.
     """
     return "{\n" + ",\n".join(f"{_line(key)}: {_lines(value)}" for key, value in report.items()) + "\n}\n"
+
+
+def _assumptions(run: DryRun) -> dict[str, Any]:
+    found = assumptions_of(run)
+    return {
+        "machine_by_default": found.by_default,
+        "machine_values": list(found.values),
+        "drawing_compared": found.compared,
+        "wire_bows": found.wire_bows,
+    }
 
 
 def _drawing(comparison: Comparison | None) -> dict[str, Any] | None:

@@ -77,6 +77,8 @@ def _setting(section: Section, key: Key, value: Any) -> Setting:
 def _value(value: Any) -> Said:
     if isinstance(value, bool):
         return said("report.yes" if value else "report.no")
+    if isinstance(value, list) and isinstance(value[0], str):
+        return same(", ".join(value))
     if isinstance(value, list):
         return same("; ".join(", ".join(f"{number:.10g}" for number in pair) for pair in _pairs(value)))
     return same(f"{value:.10g}" if isinstance(value, float) else value)

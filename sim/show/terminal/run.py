@@ -22,6 +22,7 @@ from sim.measure.deviation.deviation import Where
 from sim.measure.passes.figures import PassFigures
 from sim.run.dryrun import DryRun, verdict
 from sim.setup.key_words import value_word
+from sim.show.assumptions import taken_for_granted
 from sim.show.terminal.colours import COLOURS
 from sim.table.record.peaks import Peak
 from sim.units import clock, in_figures
@@ -54,6 +55,7 @@ def print_summary(run: DryRun, output: Path | None) -> None:
         table.add_row(name, escape(value))
     console.print(table)
     _print_findings(console, run, output)
+    console.print(Text(" ".join(sentence.en for sentence in taken_for_granted(run)), style="dim"))
     reached = verdict(run.findings)
     console.print(Text(f"verdict: {reached}", style=f"bold {COLOURS[reached]}"))
 

@@ -231,6 +231,7 @@ def test_the_files_in_the_page_make_the_scenario_that_ran(name: str, tmp_path: P
 
 FULL_MACHINE = """
 name = "every \\"setting\\""
+assumed = ["saddle_mass_kg", "force_at_rate"]
 [table]
 travel_x_mm = 400.3
 travel_y_mm = 500.7
