@@ -30,6 +30,7 @@ class Check(StrEnum):
     CONTOURS = "check-contours"
     SENSES = "check-senses"
     CROSSINGS = "check-crossings"
+    PASSES = "check-passes"
     CORNERS = "check-corners"
     TRAVEL = "check-travel"
 
@@ -89,6 +90,11 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B309": FindingCode(Severity.ERROR, Check.ORDER),
         "3B310": FindingCode(Severity.WARNING, Check.CONTOURS),
         "3B311": FindingCode(Severity.NOTE, Check.CONTOURS),
+        "3B312": FindingCode(Severity.WARNING, Check.PASSES),
+        "3B313": FindingCode(Severity.WARNING, Check.PASSES),
+        "3B314": FindingCode(Severity.ERROR, Check.PASSES),
+        "3B315": FindingCode(Severity.WARNING, Check.PASSES),
+        "3B316": FindingCode(Severity.WARNING, Check.PASSES),
         "3B401": FindingCode(Severity.ERROR, Check.TRAVEL),
         "3B402": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B403": FindingCode(Severity.ERROR, check=None, placed=True),
@@ -96,6 +102,7 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B405": FindingCode(Severity.WARNING, check=None, placed=True),
         "3B406": FindingCode(Severity.WARNING, check=None, placed=True),
         "3B407": FindingCode(Severity.WARNING, check=None),
+        "3B408": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B490": FindingCode(Severity.ERROR, check=None),
         "3B501": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B502": FindingCode(Severity.WARNING, check=None, placed=True),

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.distance import distance_to_curves
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
@@ -82,7 +82,7 @@ def _first_met(toolpath: Toolpath, part: _Part, first: Ints, within_um: float) -
     since = run[part.row] - run[first][part.of]
     # Short first blocks are still near the place they leave; a circle comes back by itself.
     met = (off <= within_um) & (part.row > first[part.of]) & (since > 2.0 * within_um)
-    met |= (part.row == first[part.of]) & is_circle(toolpath)[part.row]
+    met |= (part.row == first[part.of]) & is_circle(toolpath.picked(first))[part.of]
     at = np.flatnonzero(met)
     which, once = np.unique(part.of[at], return_index=True)
     result = np.full(len(first), len(toolpath), dtype=np.int64)
@@ -90,10 +90,10 @@ def _first_met(toolpath: Toolpath, part: _Part, first: Ints, within_um: float) -
     return result
 
 
-def is_circle(toolpath: Toolpath) -> NDArray[np.bool_]:
+def is_circle(curves: Curves) -> NDArray[np.bool_]:
     """(n,) True on arcs of a full turn or more, and on those that J leaves a few µm short of it."""
-    chord = np.hypot(*(toolpath.end_um - toolpath.start_um).T)
-    turn = np.abs(toolpath.sweep_rad)
+    chord = np.hypot(*(curves.end_um - curves.start_um).T)
+    turn = np.abs(curves.sweep_rad)
     circle: NDArray[np.bool_] = (turn >= 2.0 * np.pi) | ((turn > np.pi) & (chord <= CLOSED_WITHIN_UM))
     return circle
 

@@ -19,6 +19,7 @@ from parser.text.source import Field
 from sim.check.closures import OpenContour, contour_findings
 from sim.check.count_axes import stepped_end_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
+from sim.check.passes import pass_findings
 from sim.check.result import CheckState, Coverage, State
 from sim.check.travel import travel_findings
 from sim.check.uncut_jumps import uncut_jump_findings
@@ -30,7 +31,7 @@ MAX_STEPS = 300_000_000
 """Steps that one run takes: 240 m of path, two months of cutting; a word damaged to nine digits asks for more."""
 
 PARSER_CHECKS = (Check.GRAMMAR, Check.ORDER, Check.BLOCKS, Check.PRINTED_ENDS, Check.HEADER)
-PATH_CHECKS = (Check.STEPS, Check.CONTOURS, Check.SENSES, Check.CROSSINGS, Check.CORNERS, Check.TRAVEL)
+PATH_CHECKS = (Check.STEPS, Check.CONTOURS, Check.SENSES, Check.CROSSINGS, Check.PASSES, Check.CORNERS, Check.TRAVEL)
 
 
 class Demands(NamedTuple):
@@ -132,6 +133,10 @@ class _PathChecks:
         crossings, all_pairs = crossing_findings(program, rows, self._passes)
         yield from crossings
         self._done(Check.CROSSINGS, self._left_out or open_ones if all_pairs else "reason-many")
+        yield from pass_findings(
+            program, self._rows, self._passes, demands.offset_um, may_stay_open=demands.may_stay_open
+        )
+        self._done(Check.PASSES, self._left_out)
         yield from self._asked_for()
 
     def _stepped(self) -> list[Finding]:

@@ -18,7 +18,7 @@ from parser.shape.contours import Contour, find_contours
 from parser.shape.passes import Passes, find_passes
 from parser.toolpath import Toolpath
 from sim.check.result import CheckState, Coverage
-from sim.cut.obstacles.findings import obstacle_findings
+from sim.cut.obstacles.findings import missed_work_findings, obstacle_findings
 from sim.cut.pieces.findings import piece_findings, region_finding
 from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
@@ -195,6 +195,7 @@ def dry_run(
     stepped = meters.tally.result()
     contours = find_contours(toolpath, stepped.corner_um)
     met = obstacle_findings(program, trace, contours, scenario)
+    missed = missed_work_findings(program, trace, scenario)
     lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     plan = motion.drive.plan
     ended = trip_of(moved.losses) or ended
@@ -222,7 +223,7 @@ def dry_run(
         border_s=border_s,
         remains=left.remains,
         comparison=left.comparison,
-        findings=tuple(sorted([*ready.findings, *met, *lost, *left.findings], key=file_order)),
+        findings=tuple(sorted([*ready.findings, *met, *missed, *lost, *left.findings], key=file_order)),
         coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
 

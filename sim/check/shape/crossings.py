@@ -2,7 +2,8 @@
 
 Only a clear crossing counts. Sound programs touch, overlap and retrace their own path all the time (lead-out along the
 lead-in, overcut), each time off by a rounding of 1 µm or two: none of these is a crossing. Where an edge is cut by
-several passes, leads and steps to one of them run through the others: nor are these.
+several passes, leads and steps to one of them run through the others: nor are these, so near their ends. There passes
+may run through each other as well: that one comes nearer to the part than the last is told by itself (3B314).
 """
 
 from typing import NamedTuple
@@ -14,6 +15,7 @@ from parser.geometry.broad_phase_pairs import near_pairs
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.directions import headings_at
 from parser.geometry.meets import Meets, by_xy, curves_meet
+from parser.shape.beside import BESIDE_UM
 from parser.shape.passes import Passes
 from parser.toolpath import Point, Toolpath
 
@@ -22,8 +24,6 @@ CLEAR_UM = 5.0
 their lens."""
 
 _CORNER_LOOP_UM = 5000.0
-_KERF_UM = 200.0
-"""Passes over one edge lie this near each other: a lead that runs on so far behind one of them ends at another."""
 _LEAST_SINE = 0.05
 MOST_PAIRS = 4_000_000
 
@@ -74,7 +74,7 @@ def find_crossings(
     pairs = near_pairs(toolpath, contour_of_row, 2.0 * CLEAR_UM, most_pairs)
     if not len(pairs.early) and not len(pairs.incomplete):
         return ()
-    meets = _proper(toolpath, curves_meet(toolpath, pairs.early, pairs.late, CLEAR_UM), _leads(contour_of_row, passes))
+    meets = _proper(toolpath, curves_meet(toolpath, pairs.early, pairs.late, CLEAR_UM), contour_of_row, passes)
     contour = contour_of_row[meets.late]
     numbers, first, count = np.unique(contour, return_index=True, return_counts=True)
     found = dict(zip(numbers.tolist(), zip(first.tolist(), count.tolist(), strict=True), strict=True))
@@ -95,7 +95,7 @@ def _crossing(meets: Meets, at: int) -> Crossing:
     return Crossing(int(meets.late[at]), int(meets.early[at]), Point(x, y))
 
 
-def _proper(toolpath: Toolpath, meets: Meets, is_lead: Bools) -> Meets:
+def _proper(toolpath: Toolpath, meets: Meets, contour_of_row: Ints, passes: Passes) -> Meets:
     """Those of the places that are crossings, in the order the wire meets them."""
     on_late, kept = np.empty(0), np.arange(len(meets.late))
     for row in (meets.early, meets.late):
@@ -106,8 +106,7 @@ def _proper(toolpath: Toolpath, meets: Meets, is_lead: Bools) -> Meets:
     sine, sides = _sides(toolpath, meets)
     corner_loop = _is_corner_loop(toolpath, meets)
     clearance = np.minimum(*sides)
-    early, late = is_lead[meets.early], is_lead[meets.late]
-    at_pass = (early & late) | (early & (sides[0] <= _KERF_UM)) | (late & (sides[1] <= _KERF_UM))
+    at_pass = _between_passes(contour_of_row, passes, meets, sides)
     crossing = np.flatnonzero((sine > _LEAST_SINE) & (clearance > CLEAR_UM) & ~corner_loop & ~at_pass)
     return meets.take(crossing[np.lexsort((on_late[crossing], meets.late[crossing]))])
 
@@ -120,12 +119,21 @@ def _is_corner_loop(toolpath: Toolpath, meets: Meets) -> Bools:
     return is_loop
 
 
-def _leads(contour_of_row: Ints, passes: Passes) -> Bools:
-    """(n,) True on leads and steps of contours that hold a pass over an edge that is cut by several."""
+def _between_passes(contour_of_row: Ints, passes: Passes, meets: Meets, sides: tuple[Floats, Floats]) -> Bools:
+    """Where a lead or a step ends at another pass over the edge than the one it runs through, or two such passes meet.
+
+    `sides` are how far µm the nearer end of the earlier and of the later block lies off the other one.
+    """
     trimmed = {one.edge for one in passes.passes if one.number > 1}
-    first = [one.first for one in passes.passes if one.edge in trimmed]
-    is_lead: Bools = (passes.of_row < 0) & np.isin(contour_of_row, contour_of_row[first])
-    return is_lead
+    edge = np.array([one.edge if one.edge in trimmed else -1 for one in passes.passes] + [-1])[passes.of_row]
+    side = np.array([one.part_side for one in passes.passes] + [0])[passes.of_row]
+    is_lead = (passes.of_row < 0) & np.isin(contour_of_row, contour_of_row[edge >= 0])
+    early, late = is_lead[meets.early], is_lead[meets.late]
+    near_early, near_late = sides[0] <= BESIDE_UM, sides[1] <= BESIDE_UM
+    of_edge = (edge[meets.early] == edge[meets.late]) & (edge[meets.late] >= 0) & (side[meets.late] != 0)
+    two = of_edge & (passes.of_row[meets.early] != passes.of_row[meets.late])
+    between: Bools = (early & late) | (early & near_early) | (late & near_late) | (two & (near_early | near_late))
+    return between
 
 
 def _sides(toolpath: Toolpath, meets: Meets) -> tuple[Floats, tuple[Floats, Floats]]:

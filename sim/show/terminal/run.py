@@ -201,7 +201,12 @@ def _pieces(run: DryRun) -> list[Row]:
 def _piece(piece: Piece) -> str:
     freed = piece.freed
     mass = f"{piece.mass_g:,.1f} g" if piece.mass_g >= 1.0 else f"{piece.mass_g * 1e3:,.0f} mg"
-    return f"{piece.kind} of {piece.area_mm2:,.2f} mm², {mass}, free in block {freed.block:,} after {clock(freed.t_s)}"
+    told = f"{piece.kind} of {piece.area_mm2:,.2f} mm², {mass}, free in block {freed.block:,} after {clock(freed.t_s)}"
+    if piece.early:
+        return f"{told}, {mm(piece.cut_after_um):,.3f} mm of it still to be cut"
+    if piece.held_after_block is not None:
+        return f"{told}, can be clamped at the D behind block {piece.held_after_block:,}"
+    return told
 
 
 def _drawing(run: DryRun) -> list[Row]:

@@ -290,8 +290,14 @@ thickness_mm = 33.3
 density_g_cm3 = 8.93
 outline_mm = [[-1.1, -1.3], [1.7, -1.3], [0.1, 2.9]]
 [offset]
-by_mm = 0.117
 side = "right"
+[[pass]]
+by_mm = 0.161
+feed_mm_min = 3.1
+[[pass]]
+by_mm = 0.117
+direction = "back"
+area_rate_mm2_min = 61.7
 [drawing]
 file = "part.dxf"
 layer = "<i>"
