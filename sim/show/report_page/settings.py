@@ -38,9 +38,9 @@ def setting_groups(scenario: Scenario, program: Program) -> list[SettingGroup]:
     Expectations have a table of their own, and the quiz is the replay's.
     """
     whole, *parts = scenario_sections(scenario)
-    _, *of_machine = machine_sections(scenario.machine)
-    settings = {setting.key: setting for setting in _settings(whole)}
-    del settings["machine"]  # shown by its own sections
+    named, *of_machine = machine_sections(scenario.machine)
+    settings = {setting.key: setting for setting in (*_settings(whole), *_settings(named))}
+    del settings["machine"], settings["name"]  # shown by its own sections, and beside the time
     read = (
         settings.pop("title"),
         settings.pop("provenance"),
