@@ -1,6 +1,7 @@
 """Every scenario of the project runs and is as it expects."""
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -9,16 +10,27 @@ from runs import codes, run_folder
 
 from parser.findings.catalogue import texts
 from sim.run.findings import expectation_findings
+from sim.run.report import build_report
 from sim.setup.expectations import missed, read_expectation
 from sim.setup.scenario import load_scenario
 
 FOLDERS = sorted(path for path in SCENARIOS.iterdir() if path.is_dir())
 
 
+def times_in(part: object) -> Iterator[float]:
+    """All times of what happened that a part of a report tells."""
+    for key, value in part.items() if isinstance(part, dict) else enumerate(part if isinstance(part, list) else ()):
+        if str(key).endswith("t_s") and value is not None:
+            yield value
+        yield from times_in(value)
+
+
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
 def test_scenario_is_as_it_expects(folder: Path) -> None:
     run = run_folder(folder)
     assert [finding for finding in run.findings if finding.code == "3B490"] == []
+    report = build_report(run)
+    assert max(times_in(report), default=0.0) <= report["time_s"]["total"]
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
