@@ -78,7 +78,7 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
         if until - at <= _MOST_JUMPS:
             is_way = is_closed or not _close(toolpath, begin, at, until)
         else:
-            is_way = is_closed and is_open_way(toolpath, at, until) and ends_closed(toolpath, until, after)
+            is_way = is_closed and ends_closed(toolpath, until, after) and is_open_way(toolpath, at, until, after)
         if lines and is_way:
             past = until
         elif is_closed and not (ends_closed(toolpath, at, until) and not ends_closed(toolpath, at + 1, until)):
@@ -91,9 +91,13 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
     return np.array(rows, dtype=np.int64)
 
 
-def is_open_way(toolpath: Toolpath, at: int, until: int) -> bool:
-    """Whether the rows from `at` up to but without `until` close no figure, neither with the first nor without it."""
-    return not ends_closed(toolpath, at, until) and not ends_closed(toolpath, at + 1, until)
+def is_open_way(toolpath: Toolpath, at: int, until: int, after: int) -> bool:
+    """Whether the rows from `at` up to but without `until` close no figure, neither with the first nor without it.
+
+    Nor may the rows from there up to but without `after` close it, behind a pause in which the slug is clamped.
+    """
+    closed = ends_closed(toolpath, at, until) or ends_closed(toolpath, at + 1, until)
+    return not closed and not _close(toolpath, at + 1, until, after)
 
 
 def _close(toolpath: Toolpath, begin: int, at: int, until: int) -> bool:

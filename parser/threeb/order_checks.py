@@ -1,7 +1,6 @@
 """Findings about what stands between the blocks: marks, labels, dialects."""
 
 from collections.abc import Iterator
-from itertools import pairwise
 
 import numpy as np
 
@@ -141,10 +140,12 @@ def _unpaused_nodes(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
 
 def _long_ways(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
     """Lines between two pauses that are cut and close no figure: they may be the way to the next one."""
-    pauses = [row for row, mark in placed_marks(records.marks) if mark.kind == "pause"]
+    placed = placed_marks(records.marks)
+    pauses = [row for row, mark in placed if mark.kind == "pause"]
+    nodes = {row for row, mark in placed if mark.kind == "node"}
     jump = toolpath.is_jump
-    for at, until in pairwise(pauses):
+    for at, until, after in zip(pauses, pauses[1:], [*pauses[2:], len(toolpath)], strict=False):
         is_way = until - at > 1 and jump[at] and not (jump[at + 1 : until] | toolpath.is_arc[at + 1 : until]).any()
-        if is_way and until < len(toolpath) and is_open_way(toolpath, at, until):
+        if is_way and at not in nodes and until < len(toolpath) and is_open_way(toolpath, at, until, after):
             length = float(toolpath.length_um[at + 1 : until].sum())
             yield at_block(toolpath, records.lines, "3B320", at + 1, lines=until - at - 1, last=until, length=length)
