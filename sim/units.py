@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Mapping
+from decimal import Decimal
 from fractions import Fraction
 from typing import TypeVar
 
@@ -72,6 +73,12 @@ def clock(seconds: float) -> str:
     return f"{hours} h {minutes} min"
 
 
-def three_figures(value: float) -> str:
-    """A value above 0 for people, to three figures."""
-    return f"{round(value, 2 - math.floor(math.log10(value))):,.10g}"
+def in_figures(value: float) -> str:
+    """A value above 0 for people: to three figures, and from 100 on to a tenth."""
+    rounded = round(value, 1 if value >= 100.0 else 2 - math.floor(math.log10(value)))
+    return f"{Decimal(repr(rounded)):,f}".removesuffix(".0")
+
+
+def in_digits(value: float) -> str:
+    """A number as a file has it, with all of its digits and no exponent."""
+    return f"{Decimal(repr(float(value))):f}".removesuffix(".0") if math.isfinite(value) else str(value)

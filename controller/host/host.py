@@ -33,6 +33,9 @@ class Host:
         toolpath.
     on_call
         Told every call.
+    until_s
+        Time from the start of motion at which the machine is to stop, whatever is left of the program. Pulses that the
+        card makes while it brakes from there are handed out too.
     """
 
     def __init__(
@@ -41,7 +44,9 @@ class Host:
         settings: CardSettings,
         take: Callable[[Pulses], None],
         on_call: Callable[[Logged], None] | None = None,
+        until_s: float = math.inf,
     ) -> None:
+        self._until_s = until_s
         self.card = GECard(settings, on_pulses=self._pulses, on_call=on_call)
         self._drive, self._take = drive, take
         self._entries = entries_of(drive)
@@ -72,6 +77,8 @@ class Host:
             if ends[entry] >= 0.0:  # else NaN
                 self._must(self.card.GT_SetDccVel, ends[entry])
             push(entry)
+            if self._is_over:
+                break
             self._pushed += 1
             if waits[entry]:
                 self._push(self.card.GT_Delay, waits[entry])
@@ -106,6 +113,8 @@ class Host:
         """Make a call that needs room in the list, when there is room."""
         while (code := call(*arguments)) == Code.COMMAND and self.card.GT_GetCmdSts()[1] == LIST_FULL:
             self._make_room()
+            if self._is_over:
+                return
         if code != Code.OK:
             raise _refused(call, arguments, code)
 
@@ -113,6 +122,11 @@ class Host:
         code = call(*arguments)
         if code != Code.OK:
             raise _refused(call, arguments, code)
+
+    @property
+    def _is_over(self) -> bool:
+        """Whether the time has come at which the machine is to stop."""
+        return self._began_s is not None and self.card.time_s >= self._began_s + self._until_s
 
     def _make_room(self) -> None:
         """Let the card run until about half of its list is done."""
@@ -124,7 +138,7 @@ class Host:
         if self._began_s is None:
             self._start()
         began = self._began_s or 0.0
-        self.card.sleep(max((began + t_s - self.card.time_s) * 1e3, 1.0))
+        self.card.sleep(max((began + min(t_s, self._until_s) - self.card.time_s) * 1e3, 1.0))
 
     def _start(self) -> None:
         """Start the list with a servo period, so that what the card samples does not depend on the calls before."""
@@ -136,10 +150,12 @@ class Host:
         self._began_s = card.time_s
 
     def _finish(self) -> None:
-        """Close the list, wait for its end, ask where the axes stand."""
+        """Close the list, wait for its end or stop it, ask where the axes stand."""
         card = self.card
         self._must(card.GT_EndList)
         self._sleep_until(self._drive.plan.duration_s)
+        if self._is_over:
+            self._must(card.GT_EStpMtn)
         while not card.GT_GetCrdSts()[1] & CrdSts.IDLE:
             card.sleep(1.0)
         for axis in AXES:

@@ -8,7 +8,7 @@ import numpy as np
 
 from controller.offset.sections import OffsetSection, Round
 from parser.geometry.curves import Bools, Curves, Floats, Ints
-from parser.shape.closing import closure_tolerance_um
+from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Stop, Toolpath
 
 
@@ -105,10 +105,9 @@ def first_without_way_back(toolpath: Toolpath, rounds: Sequence[Round], back: Se
     """The first pass that does not begin where the one before it ended; None where all do."""
     for one in rounds:
         ends = toolpath.start_um[one.begin], toolpath.end_um[one.past - 1]
-        arcs = int(toolpath.is_arc[one.begin : one.past].sum())
         gap_um = float(np.hypot(*(ends[1] - ends[0])))
         for number in range(1, len(back)):
-            if back[number] == back[number - 1] and gap_um > closure_tolerance_um(arcs):
+            if back[number] == back[number - 1] and gap_um > CLOSED_WITHIN_UM:
                 return NoWayBack(one, number, gap_um)
     return None
 

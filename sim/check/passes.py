@@ -37,10 +37,7 @@ def pass_findings(
     `contour` (n,) is each row's, −1 where it is not judged; `offset_um` is the distance of the wire's centre from the
     edge. Where no wire is known it is None, and no band between two passes is told (3B313).
     """
-    of_edge: dict[int, list[Pass]] = {}
-    for one in passes.passes:
-        of_edge.setdefault(one.edge, []).append(one)
-    judged = [several for several in of_edge.values() if len(several) > 1 and contour[several[0].first] >= 0]
+    judged = [several for several in _by_edge(passes) if contour[several[0].first] >= 0]
     found: list[Finding] = []
     for several in judged:
         main, tab = ([one for one in several if one.is_tab == is_tab] for is_tab in (False, True))
@@ -48,6 +45,23 @@ def pass_findings(
         if not tab and not may_stay_open:
             found += _uncut_tab(program, main)
     return [*found, *(_deeper(program, passes, judged) if judged else ())]
+
+
+def asked_pass_findings(program: Program, passes: Passes, offset_um: float) -> list[Finding]:
+    """Findings 3B312 and 3B313 of passes by a controller that added the offsets of a scenario.
+
+    It keeps to one side of the material, which no direction can have wrong (3B316).
+    """
+    several = _by_edge(Passes(tuple(one._replace(part_side=0) for one in passes.passes), passes.of_row))
+    return [found for of in several for found in _offsets(program, of, offset_um)]
+
+
+def _by_edge(passes: Passes) -> list[list[Pass]]:
+    """Passes over each edge that is cut by several."""
+    of_edge: dict[int, list[Pass]] = {}
+    for one in passes.passes:
+        of_edge.setdefault(one.edge, []).append(one)
+    return [several for several in of_edge.values() if len(several) > 1]
 
 
 def _offsets(program: Program, passes: list[Pass], offset_um: float | None) -> Iterator[Finding]:

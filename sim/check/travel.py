@@ -7,9 +7,10 @@ import numpy as np
 from controller.stepping.steps import Steps
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
+from parser.geometry.curves import Floats
 from parser.geometry.extents import extents
 from parser.program import Program
-from parser.toolpath import Axis
+from parser.toolpath import Axis, Toolpath
 from parser.units import from_mm
 
 if TYPE_CHECKING:
@@ -21,12 +22,8 @@ def travel_findings(
 ) -> list[Finding]:
     """Finding 3B401 for the first block that leaves the travel, as stepped from a start on the table."""
     toolpath = program.toolpath
-    low, high = extents(toolpath)
-    # The table stands where the steps of earlier blocks left it, not where these should have ended.
-    shift = np.array(start_um) + steps.corner_um[:-1] - toolpath.start_um
-    travel = from_mm(np.array([table.travel_x_mm, table.travel_y_mm]))
-    beyond = np.maximum(-(low + shift), high + shift - travel)
-    out = np.flatnonzero((beyond > _ROUNDING_UM).any(axis=1))
+    beyond = beyond_um(toolpath, steps, table, start_um)
+    out = np.flatnonzero((beyond > ROUNDING_UM).any(axis=1))
     if not len(out):
         return []
     row = int(out[0])
@@ -45,4 +42,17 @@ def travel_findings(
     ]
 
 
-_ROUNDING_UM = 0.5  # half a step
+def beyond_um(toolpath: Toolpath, steps: Steps, table: "TableModel", start_um: tuple[float, float]) -> Floats:
+    """How far (n, 2) µm each block goes beyond the travel in X and Y, as stepped from a start on the table; ≤ 0 within.
+
+    The table stands where the steps of earlier blocks left it, not where these should have ended.
+    """
+    low, high = extents(toolpath)
+    shift = np.array(start_um) + steps.corner_um[:-1] - toolpath.start_um
+    travel = from_mm(np.array([table.travel_x_mm, table.travel_y_mm]))
+    beyond: Floats = np.maximum(-(low + shift), high + shift - travel)
+    return beyond
+
+
+ROUNDING_UM = 0.5
+"""Half a step: a path may go so far beyond the travel."""

@@ -27,6 +27,7 @@ class Overrides(NamedTuple):
     interpolator: str | None
     offset: tuple[float, ...] | None
     side: str | None
+    past_stop: bool
     kerf: bool
     drawing: Path | None
     layer: str | None
@@ -41,7 +42,7 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
 
     scenario = scenarios.load_scenario(path)
     if options.machine is not None:
-        scenario = replace(scenario, machine=load_machine(options.machine))
+        scenario = replace(scenario, machine=load_machine(options.machine), machine_by_default=False)
     thickness_mm = scenario.thickness_mm
     if options.thickness is not None:
         thickness_mm = number(mm(options.thickness), scenarios.THICKNESS_MM, "--thickness in mm")
@@ -50,6 +51,7 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
         thickness_mm=thickness_mm,
         wire=_wire(scenario.wire, options),
         offset=_offset(scenario.offset, options),
+        past_stop=scenario.past_stop or options.past_stop,
         kerf=scenario.kerf or options.kerf,
         drawing=_drawing(scenario.drawing, options),
     )

@@ -78,6 +78,7 @@ _OPTIONS = (
         type=click.Choice(["left", "right"]),
         help="Side of the contour on which the wire runs, along the cutting direction of the first pass.",
     ),
+    click.option("--past-stop", is_flag=True, help="Go on where the table meets its end stop, else it ends there."),
     click.option("--kerf", is_flag=True, help="Work out the kerf, the pieces that it leaves, and their sizes."),
     click.option(
         "--drawing",

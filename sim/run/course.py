@@ -1,7 +1,4 @@
-"""The course of a recorded run: what goes on at any moment of it, and what happens on the way.
-
-A servo that trips ends the run, though its card goes on: the course ends there.
-"""
+"""The course of a recorded run: what goes on at any moment of it, and what happens on the way."""
 
 import math
 from collections import Counter
@@ -86,7 +83,7 @@ class Moment(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Course:
-    """A run of n blocks up to where it ended, of itself or by a trip.
+    """A run of n blocks up to where it ended, of itself or before.
 
     Attributes
     ----------
@@ -174,18 +171,14 @@ class Course:
 
 def course_of(recording: Recording) -> Course:
     """The course of a recorded run."""
-    run, steps, trace = recording.run, recording.steps, recording.run.cut
-    if run.tripped is None:
-        duration_s = max(run.plan.duration_s, float(trace.t_s[-1]))
-    else:
-        duration_s = run.tripped.t_s
-        steps = steps.part(0, int(np.searchsorted(steps.t_s, duration_s, side="right")))
+    run, trace = recording.run, recording.run.cut
+    duration_s = run.ran_s if run.ended else max(run.ran_s, float(trace.t_s[-1]))
     findings, stops, losses = findings_of(run), stops_of(run), losses_of(run)
     pieces = pieces_freed(recording.pieces)
     met = (one for one in chain[Happening[Event]](findings, stops, pieces, losses) if one.t_s <= duration_s)
     return Course(
         run=run,
-        steps=steps,
+        steps=recording.steps,
         trace=trace,
         duration_s=duration_s,
         across=across(run.toolpath, trace, trace.wire_um, run.plan.at(trace.t_s).along_um),

@@ -12,13 +12,13 @@ from controller.stepping.pulses import Pulses
 from parser.drawing.model import Drawing
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, file_order
-from parser.geometry.curves import Floats, total_before
+from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.shape.passes import Passes, find_passes
 from parser.toolpath import Toolpath
 from sim.check.result import CheckState, Coverage
-from sim.cut.obstacles.findings import obstacle_findings
+from sim.cut.obstacles.findings import missed_work_findings, obstacle_findings
 from sim.cut.pieces.findings import piece_findings, region_finding
 from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
@@ -28,13 +28,14 @@ from sim.measure.compare.result import Comparison
 from sim.measure.deviation.measured import Deviations, Meters
 from sim.measure.deviation.meters import BlockSteps
 from sim.measure.passes.figures import PassFigures, figures_of_passes, wire_taken
+from sim.run.ending import Ending, travel_end, trip_of
 from sim.run.offsetting import Offsetting
-from sim.run.prepare import prepare
+from sim.run.prepare import Prepared, prepare
 from sim.setup.expectations import Missed
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
-from sim.table.motion import Progress, motion_of, silent, simulate
+from sim.table.motion import Motion, Progress, motion_of, silent, simulate
 from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
@@ -66,8 +67,13 @@ class DryRun:
         What the controller's compensation made of the program; None where it ran as written.
     feeds
         How fast each block was to be run.
-    stepped, plan, trace
-        What the controller made of it, and table and wire.
+    plan
+        What the controller planned for the whole of it.
+    ended
+        Where the machine stopped before its program was through; None where it ran to its end. Steps, figures and times
+        are of what ran, save where they are said to be planned.
+    stepped, trace
+        The steps that it made, and table and wire.
     losses, peaks
         What the drives lost, and how near they came to their limits.
     history
@@ -75,11 +81,11 @@ class DryRun:
     deviations
         Of steps, table and wire.
     contours
-        Contours with their closures.
+        Contours of the program with their closures.
     passes, pass_figures
         Which blocks make each pass over an edge, and what it came to, one behind the other.
-    block_time_s
-        (n,) float64, planned time in each block.
+    border_s
+        (n + 1,) float64, planned times at which the blocks begin, and the end of the last one.
     remains
         Kerf, pieces and sizes; None where nobody asked for them or for a drawing.
     comparison
@@ -96,8 +102,9 @@ class DryRun:
     scenario: Scenario
     offset: Offsetting | None
     feeds: Feeds
-    stepped: BlockSteps
     plan: Plan
+    ended: Ending | None
+    stepped: BlockSteps
     trace: Trace
     losses: tuple[Loss, ...]
     peaks: tuple[Peak, ...]
@@ -106,7 +113,7 @@ class DryRun:
     contours: tuple[Contour, ...]
     passes: Passes
     pass_figures: tuple[PassFigures, ...]
-    block_time_s: Floats
+    border_s: Floats
     remains: Remains | None
     comparison: Comparison | None
     findings: tuple[Finding, ...]
@@ -114,29 +121,37 @@ class DryRun:
     missed: tuple[Missed, ...] = ()
 
     @property
-    def border_s(self) -> Floats:
-        """(n + 1,) float64, planned times at which the blocks begin, and the end of the last one."""
-        return total_before(self.block_time_s)
-
-    @property
     def has_trims(self) -> bool:
         """Whether any edge is cut in more than one pass; those who show a run speak of passes only then."""
         return any(one.number > 1 for one in self.passes.passes)
 
     @property
-    def tripped(self) -> Loss | None:
-        """Where a drive tripped; None where none did."""
-        return next((loss for loss in self.losses if loss.kind == "trip"), None)
+    def ran_s(self) -> float:
+        """How long the machine ran: until it stopped early, else as planned."""
+        return self.plan.duration_s if self.ended is None else self.ended.t_s
 
     @property
-    def ran_s(self) -> float:
-        """How long the machine ran: until a drive tripped, else as planned."""
-        return self.plan.duration_s if self.tripped is None else self.tripped.t_s
+    def ran_um(self) -> float:
+        """Length of the exact path that ran, jumps included."""
+        if self.ended is None:
+            return float(self.toolpath.length_um.sum())
+        return float(self.plan.at(self.ended.t_s).along_um)
+
+    @property
+    def block_time_s(self) -> Floats:
+        """(n,) float64, time that each block ran, which add up to that of the run."""
+        return _times_within(self.border_s, self.ran_s)
+
+    @property
+    def whole_contours(self) -> tuple[Contour, ...]:
+        """The contours that the run came to the end of."""
+        ended = self.ended
+        return tuple(one for one in self.contours if ended is None or one.last <= ended.row)
 
     @property
     def cut(self) -> Trace:
         """The trace as far as the machine ran: after a trip it stands, and cuts nothing of what follows."""
-        return _cut(self.trace, self.losses)
+        return _cut(self.trace, self.ended)
 
     @property
     def toolpath(self) -> Toolpath:
@@ -164,7 +179,7 @@ def dry_run(
     drawing = _drawing(scenario.drawing)
     ready = prepare(program, scenario)
     program, toolpath = ready.program, ready.program.toolpath
-    motion = motion_of(toolpath, ready.feeds, scenario.machine, scenario.start_um, scenario.trace_spacing_um)
+    motion, ended = _motion(ready, scenario)
     meters = Meters(motion, ready.steps)
     sinks = [meters.take]
     if sink is not None:
@@ -180,10 +195,13 @@ def dry_run(
     stepped = meters.tally.result()
     contours = find_contours(toolpath, stepped.corner_um)
     met = obstacle_findings(program, trace, contours, scenario)
+    missed = missed_work_findings(program, trace, scenario)
     lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     plan = motion.drive.plan
-    cut = _cut(trace, moved.losses)
-    passes, block_time_s = find_passes(toolpath), _block_times(plan, ready.steps.along_um)
+    ended = trip_of(moved.losses) or ended
+    cut = _cut(trace, ended)
+    passes, border_s = find_passes(toolpath), _borders(plan, ready.steps.along_um)
+    block_time_s = _times_within(border_s, ended.t_s if ended else plan.duration_s)
     way = wire_taken(toolpath, plan, cut)
     left = _left(program, cut, contours, scenario, drawing)
     return DryRun(
@@ -191,8 +209,9 @@ def dry_run(
         scenario=scenario,
         offset=ready.offset,
         feeds=ready.feeds,
-        stepped=stepped,
         plan=plan,
+        ended=ended,
+        stepped=stepped,
         trace=trace,
         losses=moved.losses,
         peaks=moved.peaks,
@@ -201,10 +220,10 @@ def dry_run(
         contours=contours,
         passes=passes,
         pass_figures=figures_of_passes(toolpath, passes, block_time_s, way, scenario.wire.reach_um),
-        block_time_s=block_time_s,
+        border_s=border_s,
         remains=left.remains,
         comparison=left.comparison,
-        findings=tuple(sorted([*ready.findings, *met, *lost, *left.findings], key=file_order)),
+        findings=tuple(sorted([*ready.findings, *met, *missed, *lost, *left.findings], key=file_order)),
         coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
 
@@ -246,14 +265,28 @@ def _left(
     return _Left(remains, comparison, [*found, *drawing_findings(program, comparison)], CheckState(REMAINS))
 
 
-def _cut(trace: Trace, losses: tuple[Loss, ...]) -> Trace:
+def _cut(trace: Trace, ended: Ending | None) -> Trace:
     """The trace as far as the machine ran: after a trip it stands, and cuts nothing of what follows."""
-    trip = next((loss for loss in losses if loss.kind == "trip"), None)
-    return trace.until(trip.t_s) if trip else trace
+    return trace.until(ended.t_s) if ended else trace
 
 
-def _block_times(plan: Plan, before_um: Floats) -> Floats:
-    """Planned time (n,) s in each block, which add up to the whole."""
+def _borders(plan: Plan, before_um: Floats) -> Floats:
+    """Planned times (n + 1,) s at which blocks begin, and the end of the last one."""
     reached = plan.time_at(before_um)
     reached[-1] = plan.duration_s
-    return np.diff(reached)
+    return reached
+
+
+def _times_within(border_s: Floats, until_s: float) -> Floats:
+    """Time (n,) s of each block up to a time."""
+    return np.diff(np.minimum(border_s, until_s))
+
+
+def _motion(ready: Prepared, scenario: Scenario) -> tuple[Motion, Ending | None]:
+    """The motion of a program, and where it ends early because the path leaves the travel."""
+    toolpath, machine, start_um = ready.program.toolpath, scenario.machine, scenario.start_um
+    motion = motion_of(toolpath, ready.feeds, machine, start_um, scenario.trace_spacing_um)
+    if scenario.past_stop:
+        return motion, None
+    ended = travel_end(toolpath, ready.steps, motion.drive.plan, machine.table, start_um)
+    return (motion.until(ended.t_s), ended) if ended else (motion, None)

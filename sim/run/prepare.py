@@ -13,7 +13,9 @@ from parser.findings.errors import ProgramError
 from parser.findings.facts import TooLarge, WithoutOffset, telling
 from parser.findings.findings import Finding
 from parser.program import Program
+from parser.shape.passes import find_passes
 from sim.check.engine import Demands, run_checks, too_many_steps
+from sim.check.passes import asked_pass_findings
 from sim.check.result import CheckState, Coverage
 from sim.check.travel import travel_findings
 from sim.run.offsetting import Offsetting, offsetting
@@ -68,14 +70,14 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     coverage = _looked_at(checked.coverage, (Check.CORNERS, Check.TRAVEL))
     by_pass = np.array([scenario.pass_feed_um_s(one) for one in scenario.offset.passes])
     feeds = feeds._replace(cut_um_s=by_pass[offset.pass_of_row])
-    findings = (*_under_offset(checked.findings), *offset.findings, *travel)
+    findings = (*_under_offset(checked.findings), *offset.findings, *_between_passes(offset, scenario), *travel)
     return Prepared(offset.program, steps, offset, feeds, findings, coverage)
 
 
 def _demands(scenario: Scenario) -> Demands:
     """What the program is held against; with an offset, corners and travel are those of the offset path."""
     if scenario.offset is not None:
-        return Demands(may_stay_open=scenario.may_stay_open)
+        return Demands(may_stay_open=scenario.may_stay_open, added_um=scenario.offset.by_um)
     return Demands(scenario.machine.table, scenario.start_um, scenario.wire.reach_um, scenario.may_stay_open)
 
 
@@ -86,6 +88,16 @@ def _under_offset(findings: Sequence[Finding]) -> Iterator[Finding]:
             yield found._replace(values={**found.values, "path": "path-with-offset"})
         else:
             yield found
+
+
+def _between_passes(offset: Offsetting, scenario: Scenario) -> list[Finding]:
+    """Findings on how the passes that were asked for follow each other.
+
+    Passes of the program's own, and figures that it leaves open, are told of the program as it was read.
+    """
+    if scenario.offset is None or len(scenario.offset.passes) == 1:
+        return []
+    return asked_pass_findings(offset.program, find_passes(offset.program.toolpath), scenario.wire.reach_um)
 
 
 def _looked_at(coverage: Coverage, names: Sequence[Check]) -> Coverage:

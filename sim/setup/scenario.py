@@ -3,7 +3,7 @@
 A folder holds ``scenario.toml`` and the program it names; a program alone is a scenario with the defaults.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError, SettingsError
@@ -61,6 +61,9 @@ class Scenario:
         Where the program comes from.
     may_stay_open
         Whether contours may end away from their own path; else that is a finding.
+    past_stop
+        Whether the run goes on where the path leaves the travel and the table stands against its end stop; else it ends
+        there.
     trace_spacing_um
         Path between two samples of the trace.
     clamps, work_um
@@ -77,6 +80,8 @@ class Scenario:
         What the replay asks a trainee.
     expect
         What the scenario promises of its report; checked after the run.
+    machine_by_default
+        Whether nobody named a machine. A file that is written names it, and makes the same run all the same.
     """
 
     title: str
@@ -87,6 +92,7 @@ class Scenario:
     start_mm: tuple[float, float] | None = None
     provenance: str = "not given"
     may_stay_open: bool = False
+    past_stop: bool = False
     trace_spacing_um: float = DEFAULT_TRACE_SPACING_UM
     clamps: tuple[Clamp, ...] = ()
     work_um: Outline | None = None
@@ -96,6 +102,7 @@ class Scenario:
     density_g_cm3: float = DEFAULT_DENSITY_G_CM3
     quiz: tuple[Question, ...] = ()
     expect: tuple[Expectation, ...] = ()
+    machine_by_default: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
         """Check the numbers, and that the wire has a lag in this work."""
@@ -142,6 +149,7 @@ TOP = Section(
         Key("interpolator", INTERPOLATOR, default=None, get=lambda _: None),  # the machine file says it
         Key("start_mm", TablePlace(), default=None),
         Key("open", Truth(), "may_stay_open", default=False),
+        Key("past_stop", Truth(), default=False),
         Key("trace_spacing_um", Number(TRACE_SPACING_UM, "µm"), default=DEFAULT_TRACE_SPACING_UM),
         Key("kerf", Truth(), default=False),
     ),
@@ -170,7 +178,7 @@ def load_scenario(path: Path | str) -> Scenario:
     except OSError as error:
         raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
     if not is_folder:
-        return Scenario(printable(path.name), path, load_machine(DEFAULT_MACHINE))
+        return Scenario(printable(path.name), path, load_machine(DEFAULT_MACHINE), machine_by_default=True)
     file = path / "scenario.toml"
     if not file.exists():
         raise SettingsError(f"{path}: is a folder without scenario.toml; give a program or a scenario folder")
@@ -188,6 +196,7 @@ def load_scenario(path: Path | str) -> Scenario:
         drawing=read_drawing_target(content, where, path),
         quiz=read_quiz(content, where),
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
+        machine_by_default="machine" not in content,
         **value,
         **WORK.read_in(content, where),
     )

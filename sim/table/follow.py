@@ -97,8 +97,17 @@ class Following:
         """Time from which on pulses are still needed."""
         if self._done == len(self._ticks.t_s):
             return float(self._ticks.t_s[-1])
-        done_s = float(self._ticks.t_s[self._done - 1]) if self._done else 0.0
-        return done_s - max(RATE_WINDOW_S, float(self._ticks.t_s[self._done]) - done_s)
+        return self.followed_s - max(RATE_WINDOW_S, float(self._ticks.t_s[self._done]) - self.followed_s)
+
+    @property
+    def followed_s(self) -> float:
+        """Time up to which the table has followed."""
+        return float(self._ticks.t_s[self._done - 1]) if self._done else 0.0
+
+    @property
+    def tripped_s(self) -> float:
+        """When a drive tripped, as far as the table has followed; infinite where none did."""
+        return min((loss.t_s for loss in self._losses.result() if loss.kind == "trip"), default=np.inf)
 
     def _advance(self, until_s: float, *, whole: bool) -> None:
         """Follow up to a time; the last slab waits while it is not full, unless `whole` asks for all of it."""
@@ -109,17 +118,13 @@ class Following:
             self._state = lanes.end.of(np.array([-1]))
             travelled = travelled_of(slab, lanes, self._ticks.row)
             self._losses.take(travelled)
-            self._peaks.take(travelled)
+            self._peaks.take(travelled.until(self.tripped_s))
             commanded_um = self._motors.commanded_um(travelled.t_s)
-            self._history.take(SlabRun(slab, lanes, travelled, commanded_um), self._trip_s())
+            self._history.take(SlabRun(slab, lanes, travelled, commanded_um), self.tripped_s)
             self._sample(slab, part, travelled)
             likely = self._ticks_before[part.stop] - self._ticks_before[part.start]
             self._share = min(max(len(slab) / likely, 0.1), 1.0)
             self._done = part.stop
-
-    def _trip_s(self) -> float:
-        """When a drive tripped; infinite where none did yet."""
-        return min((loss.t_s for loss in self._losses.result() if loss.kind == "trip"), default=np.inf)
 
     def _slabs(self, until_s: float, *, whole: bool) -> Iterator[slice]:
         """Cut the stretches up to a time into slabs of about `SLAB_TICKS` ticks."""

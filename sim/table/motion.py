@@ -1,5 +1,7 @@
 """A run's motion: the host drives the card, the card hands out its pulses, the table follows them tick by tick."""
 
+import math
+from collections import deque
 from collections.abc import Callable
 from typing import NamedTuple, Protocol
 
@@ -37,12 +39,28 @@ def silent(stage: str, done: int, total: int) -> None:
 
 
 class Motion(NamedTuple):
-    """What is to be run, by which card, and on which table, with the ticks to follow it by."""
+    """What is to be run, by which card, and on which table.
+
+    Attributes
+    ----------
+    drive, card, table
+        What is driven, the settings of its card, and the table.
+    ticks
+        When the table is looked at.
+    until_s
+        When the machine stops, whatever is left of the plan.
+    """
 
     drive: Drive
     card: CardSettings
     table: Setup
     ticks: Ticks
+    until_s: float = math.inf
+
+    def until(self, t_s: float) -> "Motion":
+        """The same motion, stopped at a time."""
+        ticks = self.ticks.until(max(t_s, self.ticks.step_tick_s))
+        return self._replace(ticks=ticks, until_s=t_s)
 
 
 class Moved(NamedTuple):
@@ -86,19 +104,39 @@ def simulate(
     progress: Progress,
     log: CardLog | None = None,
 ) -> Moved:
-    """Run the motion on card and table. Every pulse goes to `take`, every call to `log`, in program coordinates."""
+    """Run the motion on card and table. Every call goes to `log`, every pulse to `take`, in program coordinates.
+
+    The pulses end where the machine stops: at the motion's `until_s`, or where a servo trips.
+    """
     table = Following(motion.table, motion.ticks)
-    total = int(motion.drive.plan.duration_s)
+    total = int(min(motion.drive.plan.duration_s, motion.until_s))
+    waiting: deque[Pulses] = deque()
+
+    def hand_on(until_s: float) -> None:
+        while waiting and waiting[0].t_s[-1] <= until_s:
+            ran = _up_to(waiting.popleft(), table.tripped_s)
+            if len(ran.t_s):
+                take(ran)
 
     def taken(pulses: Pulses) -> None:
-        take(pulses)
-        table.take(pulses)
         if log is not None:
             log.count(pulses)
-        progress("run", min(int(pulses.t_s[-1]), total), total)
+        pulses = _up_to(pulses, motion.until_s)
+        if len(pulses.t_s):
+            waiting.append(pulses)
+            table.take(pulses)
+            hand_on(table.followed_s)
+            progress("run", min(int(pulses.t_s[-1]), total), total)
 
-    host = Host(motion.drive, motion.card, taken, log)
+    host = Host(motion.drive, motion.card, taken, log, motion.until_s)
     host.run()
     if log is not None:
         log.close(host.card)
-    return Moved(*table.finish())
+    moved = Moved(*table.finish())
+    hand_on(math.inf)
+    return moved
+
+
+def _up_to(pulses: Pulses, t_s: float) -> Pulses:
+    """The pulses up to a time."""
+    return pulses.part(0, int(np.searchsorted(pulses.t_s, t_s, side="right")))

@@ -644,7 +644,7 @@ def _ran(run: DryRun, program: object, plan: object, pulses: Pulses) -> DryRun:
         plan=plan,
         stepped=stepped,
         trace=trace,
-        block_time_s=np.diff(border),
+        border_s=border,
         findings=(),
         contours=(),
     )

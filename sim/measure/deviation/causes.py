@@ -21,6 +21,14 @@ class Part(NamedTuple):
 
 
 NOTHING = Part(0.0, None)
+_ROUNDING_UM = 1e-6
+
+
+class Stage(NamedTuple):
+    """Where a stage puts the m samples of a trace: places (m, 2) µm, and how far (m,) from the path, left positive."""
+
+    place_um: Floats
+    off_um: Floats
 
 
 class Causes(NamedTuple):
@@ -53,22 +61,18 @@ def whole(deviation: Deviation) -> Part:
     return Part(deviation.max_um, deviation.where) if deviation.max_um > 0.0 else NOTHING
 
 
-def added(trace: Trace, place_um: Floats, off_um: Floats, before_um: Floats) -> Part:
-    """What a stage adds: its places (m, 2) lie (m,) from the path, those of the stage before it `before_um` (m,)."""
-    return _largest(trace, place_um, np.abs(off_um - before_um))
+def added(trace: Trace, stage: Stage, before: Stage) -> Part:
+    """What a stage adds across the path to the one before it.
 
-
-def carried(toolpath: Toolpath, trace: Trace, drift_um: Floats, along_um: Floats) -> Part:
-    """How far across the path the steps lie by what they were off when their block began: `drift_um` (n, 2).
-
-    `along_um` (m,) is the path length that is planned at each sample.
+    Places on two sides of a block are at least as far apart as both distances together. Where they are nearer, the
+    block does not lie between them: one lies past its end, or each is measured from a block of its own. There the sides
+    say nothing, and only the distances are compared. So no stage adds more than it moves.
     """
-    if not drift_um.any():
-        return NOTHING
-    path = path_of(toolpath)
-    since = np.clip(along_um - path.before_um[trace.row], 0.0, path.length_um[trace.row])
-    toward, drift = path.direction(trace.row, since), drift_um[trace.row]
-    return _largest(trace, trace.commanded_um, np.abs(toward[:, 0] * drift[:, 1] - toward[:, 1] * drift[:, 0]))
+    moved = np.hypot(*(stage.place_um - before.place_um).T)
+    across = np.abs(stage.off_um - before.off_um)
+    nearer = np.abs(np.abs(stage.off_um) - np.abs(before.off_um))
+    parted = across <= moved + _ROUNDING_UM
+    return _largest(trace, stage.place_um, np.where(parted, across, np.minimum(nearer, moved)))
 
 
 def _largest(trace: Trace, place_um: Floats, away_um: Floats) -> Part:

@@ -8,7 +8,7 @@ from controller.stepping.pulses import Pulses
 from controller.stepping.steps import Steps
 from parser.geometry.curves import Floats
 from sim.measure.deviation.across import across_um, summed
-from sim.measure.deviation.causes import NOTHING, Causes, added, carried, cut_off, whole
+from sim.measure.deviation.causes import NOTHING, Causes, Part, Stage, added, cut_off, whole
 from sim.measure.deviation.deviation import Deviation
 from sim.measure.deviation.meters import Sampling, SamplingMeter, StepMeters, StepTally
 from sim.table.motion import Motion
@@ -56,24 +56,32 @@ class Meters:
 
     def deviations(self, trace: Trace) -> Deviations:
         """Of all pulses so far, and of the trace that they made."""
-        along = self._plan.at(trace.t_s).along_um
-        commanded = across_um(self._toolpath, trace, trace.commanded_um, along)
-        table = across_um(self._toolpath, trace, trace.table_um, along)
+        commanded, table = (self._stage(trace, place) for place in (trace.commanded_um, trace.table_um))
         bows = trace.wire_um is not trace.table_um
-        wire = across_um(self._toolpath, trace, trace.wire_um, along) if bows else table
+        wire = self._stage(trace, trace.wire_um) if bows else table
         sampling = self._sampling.result() if self._sampling is not None else None
-        of_table = summed(self._toolpath, trace, trace.table_um, table)
+        of_table = summed(self._toolpath, trace, *table)
         return Deviations(
             interpolation=self._steps.own,
             steps=self._steps.placed,
             table=of_table,
-            wire=summed(self._toolpath, trace, trace.wire_um, wire) if bows else of_table,
+            wire=summed(self._toolpath, trace, *wire) if bows else of_table,
             by_cause=Causes(
                 interpolation=whole(self._steps.own if sampling is None else sampling.rounding),
-                carried=carried(self._toolpath, trace, self._drift, along),
+                carried=self._carried(trace, commanded),
                 planning=NOTHING if sampling is None else cut_off(self._toolpath, trace, self._plan, self._period_s),
-                table=added(trace, trace.table_um, table, commanded),
-                wire=added(trace, trace.wire_um, wire, table) if bows else NOTHING,
+                table=added(trace, table, commanded),
+                wire=added(trace, wire, table) if bows else NOTHING,
             ),
             sampling=sampling,
         )
+
+    def _stage(self, trace: Trace, place_um: Floats) -> Stage:
+        return Stage(place_um, across_um(self._toolpath, trace, place_um, self._plan.at(trace.t_s).along_um))
+
+    def _carried(self, trace: Trace, commanded: Stage) -> Part:
+        """What the command adds to where it would be without what the blocks before missed."""
+        if not self._drift.any():
+            return NOTHING
+        own_um = trace.commanded_um - self._drift[trace.row]
+        return added(trace, commanded, self._stage(trace, own_um))

@@ -1,7 +1,7 @@
 """How thick the material is that a pass takes off, at stations along it.
 
 A first pass cuts through solid material: it takes the whole width of its kerf. A later one takes what its kerf reaches
-beyond those of the passes before it, on the part's side::
+beyond those of the passes before it, on the part's side, or on both where that is not known::
 
         part
     ------------------ edge of the kerf of this pass    |
@@ -32,8 +32,6 @@ _SPACING_UM: Final = 20.0
 """Of stations: a fifth of the usual reach of a wire, which smooths over more than that."""
 _MOST_BEFORE: Final = 8
 """Passes to look back at. More than nine over one edge are no trims; a path may run round in one place 1,900 times."""
-_SAME_UM: Final = 0.5
-"""Offsets that differ by less do not tell on which side the part is."""
 
 
 class Stock(NamedTuple):
@@ -118,7 +116,7 @@ def _stock(cut: _Cut, one: Pass, before: Sequence[Pass]) -> Stock | None:
     at = np.flatnonzero(np.diff(np.floor(taken.along_um / _SPACING_UM), prepend=-1.0) > 0.0)
     stations = _Stations(taken.place_um[at], headings_at(cut.toolpath, taken.row[at], taken.place_um[at]))
     seen = [_beside(cut, other, stations) for other in before]
-    sides = _part_sides(one, before, seen)
+    sides = (one.part_side,) if one.part_side else (-1, 1)
     thick = np.full(len(at), 2.0 * cut.reach_um)
     for beside in seen:
         thick = np.fmin(thick, np.max([_beyond(beside, side, cut.reach_um) for side in sides], axis=0))
@@ -145,21 +143,6 @@ def _beside(cut: _Cut, other: Pass, stations: _Stations) -> _Beside:
     ahead[station] = (by * heading).sum(axis=1)
     left[station] = (by * to_left(heading)).sum(axis=1)
     return _Beside(ahead, left)
-
-
-def _part_sides(one: Pass, before: Sequence[Pass], seen: Sequence[_Beside]) -> tuple[int, ...]:
-    """On which side of a pass the part lies, +1 left, −1 right; both where no pass before it tells.
-
-    A pass of a larger offset runs farther from the part. The one that differs most tells best.
-    """
-    told = [
-        (other.shift_um - one.shift_um, float(np.nanmedian(beside.left_um)))
-        for other, beside in zip(before, seen, strict=True)
-        if not np.isnan(beside.left_um).all()
-    ]
-    apart, left = max(told, key=lambda pair: abs(pair[0]), default=(0.0, 0.0))
-    unknown = abs(apart) < _SAME_UM or left == 0.0
-    return (-1, 1) if unknown else (int(-np.sign(apart * left)),)
 
 
 def _beyond(beside: _Beside, side: int, reach_um: float) -> Floats:

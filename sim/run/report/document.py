@@ -11,10 +11,11 @@ from parser.geometry.curves import Floats
 from parser.shape.contours import Contour
 from sim.check.result import CheckState, Coverage
 from sim.measure.compare.result import Comparison
+from sim.run.assumptions import assumptions_of
 from sim.run.dryrun import DryRun, verdict
 from sim.run.report.blocks import block_entries
 from sim.run.report.drawing import comparison_document
-from sim.run.report.figures import deviation_entries, limit_entry, loss_entry, offset_entry
+from sim.run.report.figures import deviation_entries, ended_entry, limit_entry, loss_entry, offset_entry
 from sim.run.report.passes import pass_entries
 from sim.run.report.remains import remains_entry
 from sim.run.report.rounded import column, rounded
@@ -38,6 +39,7 @@ def build_report(run: DryRun) -> dict[str, Any]:
             "header": {key: _header_value(value) for key, value in run.program.header.items()},
         },
         "machine": {"name": scenario.machine.name, "start_um": [rounded(place) for place in scenario.start_um]},
+        "assumptions": _assumptions(run),
         "wire": {
             "diameter_um": rounded(scenario.wire.diameter_um),
             "spark_gap_um": rounded(scenario.wire.spark_gap_um),
@@ -48,17 +50,18 @@ def build_report(run: DryRun) -> dict[str, Any]:
         "offset": offset_entry(run),
         "summary": {
             "blocks": len(toolpath),
-            "length_um": rounded(float(toolpath.length_um.sum())),
+            "length_um": rounded(run.ran_um),
             "steps": len(run.stepped),
         },
-        "time_s": {"total": rounded(run.plan.duration_s), "by_block": column(run.block_time_s)},
-        "contours": [_contour(contour, run.block_time_s) for contour in run.contours],
+        "time_s": {"total": rounded(run.ran_s), "by_block": column(run.block_time_s)},
+        "ended": ended_entry(run),
+        "contours": [_contour(contour, run.block_time_s) for contour in run.whole_contours],
         "passes": pass_entries(run),
         "interpolator": _interpolator(run),
-        "deviation": deviation_entries(run.deviations),
-        "limits": [limit_entry(peak) for peak in run.peaks],
-        "losses": [loss_entry(loss) for loss in run.losses],
-        "remains": remains_entry(run.remains),
+        "deviation": deviation_entries(run.deviations, run.ran_s),
+        "limits": [limit_entry(peak, run.ran_s) for peak in run.peaks],
+        "losses": [loss_entry(loss, run.ran_s) for loss in run.losses],
+        "remains": remains_entry(run.remains, run.ran_s),
         "drawing": _drawing(run.comparison),
         "coverage": _coverage(run.coverage),
         "findings": [_finding(finding) for finding in run.findings],
@@ -73,6 +76,16 @@ def report_text(report: dict[str, Any]) -> str:
     Compact lines keep to json's fast encoder; indenting a hundred thousand blocks takes ten times as long.
     """
     return "{\n" + ",\n".join(f"{_line(key)}: {_lines(value)}" for key, value in report.items()) + "\n}\n"
+
+
+def _assumptions(run: DryRun) -> dict[str, Any]:
+    found = assumptions_of(run)
+    return {
+        "machine_by_default": found.by_default,
+        "machine_values": list(found.values),
+        "drawing_compared": found.compared,
+        "wire_bows": found.wire_bows,
+    }
 
 
 def _drawing(comparison: Comparison | None) -> dict[str, Any] | None:

@@ -11,40 +11,42 @@ from sim.measure.deviation.causes import Part
 from sim.measure.deviation.deviation import Deviation, Where
 from sim.measure.deviation.measured import Deviations
 from sim.run.dryrun import DryRun
+from sim.run.ending import Ending
 from sim.run.offsetting import Offsetting
-from sim.run.report.rounded import DEG_DIGITS, column, points, rounded, rows
+from sim.run.report.rounded import DEG_DIGITS, column, moment, points, rounded, rows
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
 
 
-def deviation_entries(deviations: Deviations) -> dict[str, Any]:
-    """``deviation``: of steps, table and wire, and what each cause adds."""
+def deviation_entries(deviations: Deviations, ran_s: float) -> dict[str, Any]:
+    """``deviation`` in a run of `ran_s`: of steps, table and wire, and what each cause adds."""
     kinds = ("interpolation", "steps", "table", "wire")
-    causes = {name: _part(part) for name, part in deviations.by_cause._asdict().items()}
-    return {kind: _deviation(getattr(deviations, kind)) for kind in kinds} | {"by_cause": causes}
+    causes = {name: _part(part, ran_s) for name, part in deviations.by_cause._asdict().items()}
+    return {kind: _deviation(getattr(deviations, kind), ran_s) for kind in kinds} | {"by_cause": causes}
 
 
-def _deviation(deviation: Deviation) -> dict[str, Any]:
+def _deviation(deviation: Deviation, ran_s: float) -> dict[str, Any]:
     return {
         "max_um": rounded(deviation.max_um),
         "rms_um": rounded(deviation.rms_um),
         "p95_um": rounded(deviation.p95_um),
-        "where": _where(deviation.where),
+        "where": _where(deviation.where, ran_s),
     }
 
 
-def _part(part: Part) -> dict[str, Any]:
-    return {"max_um": rounded(part.max_um), "where": _where(part.where)}
+def _part(part: Part, ran_s: float) -> dict[str, Any]:
+    return {"max_um": rounded(part.max_um), "where": _where(part.where, ran_s)}
 
 
-def _where(where: Where | None) -> dict[str, Any] | None:
+def _where(where: Where | None, ran_s: float) -> dict[str, Any] | None:
     if where is None:
         return None
-    return {"block": where.block, "x_um": rounded(where.x_um), "y_um": rounded(where.y_um), "t_s": rounded(where.t_s)}
+    x, y = rounded(where.x_um), rounded(where.y_um)
+    return {"block": where.block, "x_um": x, "y_um": y, "t_s": moment(where.t_s, ran_s)}
 
 
-def limit_entry(peak: Peak) -> dict[str, Any]:
-    """One entry of ``limits[]``: force N, speed µm/s, lag µm."""
+def limit_entry(peak: Peak, ran_s: float) -> dict[str, Any]:
+    """One entry of ``limits[]`` of a run of `ran_s`: force N, speed µm/s, lag µm."""
     limited = math.isfinite(peak.limit)
     return {
         "quantity": peak.quantity,
@@ -52,19 +54,25 @@ def limit_entry(peak: Peak) -> dict[str, Any]:
         "value": rounded(peak.value),
         "limit": rounded(peak.limit) if limited else None,
         "share": rounded(peak.share) if limited else None,
-        **_met(peak),
+        **_met(peak, ran_s),
     }
 
 
-def loss_entry(loss: Loss) -> dict[str, Any]:
-    """One entry of ``losses[]``."""
-    return {"kind": loss.kind, "axis": loss.axis.name, "amount_um": rounded(loss.amount_um), **_met(loss)}
+def loss_entry(loss: Loss, ran_s: float) -> dict[str, Any]:
+    """One entry of ``losses[]`` of a run of `ran_s`."""
+    return {"kind": loss.kind, "axis": loss.axis.name, "amount_um": rounded(loss.amount_um), **_met(loss, ran_s)}
 
 
-def _met(event: Peak | Loss) -> dict[str, Any]:
-    """Block, time and place of what happened."""
+def ended_entry(run: DryRun) -> dict[str, Any] | None:
+    """``ended``; None where the program ran to its end."""
+    ended = run.ended
+    return ended and {"cause": ended.cause, "axis": ended.axis.name, **_met(ended, ended.t_s)}
+
+
+def _met(event: Peak | Loss | Ending, ran_s: float) -> dict[str, Any]:
+    """Block, time and place of what happened in a run of `ran_s`."""
     x, y = rounded(event.x_um), rounded(event.y_um)
-    return {"block": event.row + 1, "t_s": rounded(event.t_s), "x_um": x, "y_um": y}
+    return {"block": event.row + 1, "t_s": moment(event.t_s, ran_s), "x_um": x, "y_um": y}
 
 
 def offset_entry(run: DryRun) -> dict[str, Any] | None:

@@ -14,20 +14,20 @@ from sim.cut.pieces.pieces import Frame, Piece
 from sim.cut.play.freedom import Play
 from sim.cut.remains import Remains
 from sim.cut.sizes.sizes import BoxSize, DistanceSize, RadiusSize, Sizes
-from sim.run.report.rounded import column, known, points, rounded, rows
+from sim.run.report.rounded import column, known, moment, points, rounded, rows
 
 _OUTLINE_UM = 1.0  # one step, as exact as the cut is known anyway
 
 
-def remains_entry(remains: Remains | None) -> dict[str, Any] | None:
-    """``remains``; None where nobody asked for it."""
+def remains_entry(remains: Remains | None, ran_s: float) -> dict[str, Any] | None:
+    """``remains`` of a run of `ran_s`; None where nobody asked for it."""
     if remains is None:
         return None
     pieces = remains.pieces
     return {
         "kerf": _kerf(remains.kerf),
         "frame": _frame(pieces.frame),
-        "pieces": [_piece(piece, play) for piece, play in zip(pieces.freed, remains.plays, strict=True)],
+        "pieces": [_piece(piece, play, ran_s) for piece, play in zip(pieces.freed, remains.plays, strict=True)],
         "crumbs": pieces.crumbs,
         "sizes": _sizes(remains.sizes),
     }
@@ -54,7 +54,7 @@ def _frame(frame: Frame) -> dict[str, Any]:
     }
 
 
-def _piece(piece: Piece, play: Play) -> dict[str, Any]:
+def _piece(piece: Piece, play: Play, ran_s: float) -> dict[str, Any]:
     freed, bridge = piece.freed, piece.bridge
     return {
         "kind": piece.kind,
@@ -64,7 +64,7 @@ def _piece(piece: Piece, play: Play) -> dict[str, Any]:
         "freed": {
             "contour": freed.contour,
             "block": freed.block,
-            "t_s": rounded(freed.t_s),
+            "t_s": moment(freed.t_s, ran_s),
             "wire_um": _place(freed.wire_um),
         },
         "bridge": {
@@ -72,8 +72,9 @@ def _piece(piece: Piece, play: Play) -> dict[str, Any]:
             "closes_on_block": bridge.closes_on_block,
             "left_um": rounded(bridge.left_um),
             "last_mm_block": bridge.last_mm_block,
-            "last_mm_t_s": rounded(bridge.last_mm_t_s),
+            "last_mm_t_s": moment(bridge.last_mm_t_s, ran_s),
         },
+        "held_after_block": piece.held_after_block,
         "cut_after_um": rounded(piece.cut_after_um),
         "early": piece.early,
         "play": _play(play),

@@ -16,6 +16,11 @@ def rounded(value: float) -> float:
     return round(value, _DIGITS) + 0.0
 
 
+def moment(t_s: float, ran_s: float) -> float:
+    """Time of what happened in a run of `ran_s`; what the table does while it comes to rest counts at the last step."""
+    return rounded(min(t_s, ran_s))
+
+
 def known(value: float | None) -> float | None:
     """Rounded, or None."""
     return None if value is None else rounded(value)

@@ -12,23 +12,28 @@ from sim.setup.machine.controller_model import CONTROLLER, ControllerModel, read
 from sim.setup.machine.table_model import MOTOR, TABLE, TableModel, read_table
 from sim.setup.obstacles import ARM, Outline
 from sim.setup.toml.keys import Key, Section, WrittenSection
-from sim.setup.toml.kinds import Number, Text
+from sim.setup.toml.kinds import Keys, Number, Text
 from sim.setup.toml.reader import AREA_RATE_MM2_MIN, load_toml
 
-TOP = Section("machine", (Key("name", Text()),), form="top")
+TOP = Section("machine", (Key("name", Text()), Key("assumed", Keys(), default=())), form="top")
 CUTTING = Section("cutting", (Key("area_rate_mm2_min", Number(AREA_RATE_MM2_MIN, "mm²/min")),))
 SECTIONS = (TOP, TABLE, MOTOR, CONTROLLER, CUTTING, ARM)
 """Sections of a machine file."""
 
 
 class Machine(NamedTuple):
-    """One machine as its file gives it; units as named. `arm_um` is the outline of the arm round the wire, if known."""
+    """One machine as its file gives it; units as named.
+
+    `arm_um` is the outline of the arm round the wire, if known. `assumed` are the keys of the values that nobody has
+    measured.
+    """
 
     name: str
     table: TableModel
     controller: ControllerModel
     area_rate_mm2_min: float
     arm_um: Outline | None = None
+    assumed: tuple[str, ...] = ()
 
     def stepping_by(self, interpolation: Interpolation) -> "Machine":
         """The machine with another interpolator."""
@@ -73,8 +78,13 @@ def machine_sections(machine: Machine) -> list[WrittenSection]:
 def _read(path: Path) -> Machine:
     content, where = load_toml(path), str(path)
     arm = ARM.read_in(content, where) if ARM.name in content else {}
+    top = TOP.read(content, where, beside=(section.name for section in SECTIONS[1:]))
+    known = {key.name for section in SECTIONS[1:] for key in section.keys}
+    for name in top["assumed"]:
+        if name not in known:
+            raise SettingsError(f"{where}: assumed names {name!r}, which is no key of a machine file")
     return Machine(
-        **TOP.read(content, where, beside=(section.name for section in SECTIONS[1:])),
+        **top,
         table=read_table(content, where),
         controller=read_controller(content, where),
         **CUTTING.read_in(content, where),

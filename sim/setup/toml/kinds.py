@@ -88,6 +88,23 @@ class FileName(Text):
         return printable(value.name)
 
 
+class Keys(ValueKind):
+    """Names of keys of the file."""
+
+    name = "keys"
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> tuple[str, ...]:
+        """The names."""
+        names = table[key]
+        if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+            raise SettingsError(f"{where}: {key} is a list of names of keys; found {names!r}")
+        return tuple(names)
+
+    def written(self, value: Any) -> list[str] | None:
+        """A list of them; nothing where there are none."""
+        return list(value) or None
+
+
 @dataclass(frozen=True)
 class OneOf(ValueKind):
     """One of a few words."""

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from parser.findings.errors import FileUnreadableError, SettingsError
+from sim.units import in_digits
 
 
 class Bound(NamedTuple):
@@ -82,7 +83,8 @@ def number(value: object, bound: Bound, where: str) -> float:
     if isinstance(value, int) and abs(value) > 1e300:
         value = math.inf if value > 0 else -math.inf
     if not bound.low <= value <= bound.high:  # also refuses NaN
-        raise SettingsError(f"{where} is {value:g}; it must lie between {bound.low:g} and {bound.high:g}")
+        found, low, high = (in_digits(one) for one in (value, *bound))
+        raise SettingsError(f"{where} is {found}; it must lie between {low} and {high}")
     return float(value)
 
 

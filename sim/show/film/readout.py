@@ -57,9 +57,9 @@ def _running(course: Course, moment: Moment, say: Words) -> list[Line]:
 def told(course: Course, t_s: float, speed: float, say: Words) -> Line:
     """What happened last, or that the run is over; empty where nothing did of late."""
     if t_s >= course.duration_s:
-        tripped = course.run.tripped
-        if tripped is not None:
-            return Line("", say("film.tripped", axis=tripped.axis.name), Paint.ERROR)
+        ended = course.run.ended
+        if ended is not None:
+            return Line("", say(f"film.ended_{ended.cause}", axis=ended.axis.name), Paint.ERROR)
         return Line("", say("film.end"))
     late = (one for one in course.happenings if t_s - _TOLD_S * speed <= one.t_s <= t_s)
     shown = [(one, paint) for one in late if (paint := paint_of(one.what)) is not None]

@@ -16,17 +16,13 @@ _ANGLE_DIGITS = 12
 """On a radius of a metre they tell a place to 10⁻⁶ µm, as its own digits do."""
 
 
-def block_columns(run: DryRun, steps: int) -> dict[str, list[Any]]:
-    """Columns of n blocks, one entry a block; `place_*`, `first_step` and `border_s` have n + 1.
-
-    Only so many `steps` were made.
-    """
-    before = np.concatenate([[0], np.cumsum(run.stepped.count)])
+def block_columns(run: DryRun) -> dict[str, list[Any]]:
+    """Columns of n blocks, one entry a block; `place_*`, `first_step` and `border_s` have n + 1."""
     return {
         **_exact(run.toolpath),
         **_words(words_of(run.toolpath)),
         **_source(run.program),
-        "first_step": np.minimum(before, steps).tolist(),
+        "first_step": [0, *np.cumsum(run.stepped.count).tolist()],
         "border_s": column(run.border_s),
     }
 

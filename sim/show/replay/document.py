@@ -12,7 +12,14 @@ from sim.run.recording import Recording
 from sim.show.draw.tones import tones_of
 from sim.show.html.environment import rendered
 from sim.show.replay.block_columns import block_columns, plan_columns
-from sim.show.replay.happenings import contour_entries, finding_entry, loss_entry, pass_entries, stop_entry
+from sim.show.replay.happenings import (
+    contour_entries,
+    ending_entry,
+    finding_entry,
+    loss_entry,
+    pass_entries,
+    stop_entry,
+)
 from sim.show.replay.questions import question_entries
 from sim.show.replay.scene import piece_entry, scene
 from sim.show.replay.tape import tape
@@ -32,7 +39,7 @@ def replay_page(recording: Recording) -> str:
 def replay_document(recording: Recording) -> dict[str, Any]:
     """Document of a recorded run as lists, dicts, texts, numbers and None; rows of blocks count from 0.
 
-    Where a servo tripped, steps, samples and the duration end there.
+    Where the machine stopped early, steps, samples and the duration end there.
     """
     run, course = recording.run, course_of(recording)
     return {
@@ -44,14 +51,14 @@ def replay_document(recording: Recording) -> dict[str, Any]:
         "duration_s": course.duration_s,
         "program": _program(run.program),
         **scene(run),
-        "blocks": block_columns(run, len(course.steps.t_s)),
+        "blocks": block_columns(run),
         "plan": plan_columns(run.plan),
         "stops": [stop_entry(one.what) for one in course.stops],
-        "contours": contour_entries(run.contours),
+        "contours": contour_entries(run.whole_contours),
         "passes": pass_entries(course.passes),
         "findings": [finding_entry(one) for one in course.findings],
         "losses": [loss_entry(one.what) for one in course.losses],
-        "tripped": None if run.tripped is None else loss_entry(run.tripped),
+        "ended": None if run.ended is None else ending_entry(run.ended),
         "pieces": [piece_entry(one) for one in course.pieces],
         "quiz": question_entries(run, course.steps),
         "tape": tape(course.steps, origin_um(run.toolpath), course.trace, course.across.row),

@@ -10,6 +10,7 @@ from parser.shape.contours import Contour
 from parser.toolpath import Stop
 from parser.units import from_mm
 from sim.run.course import Happening, PassOf
+from sim.run.ending import Ending
 from sim.run.report.rounded import rounded
 from sim.show.draw.tones import paint_of_pass
 from sim.show.words.phrases import named_pass
@@ -51,6 +52,17 @@ def contour_entries(contours: Iterable[Contour]) -> list[dict[str, Any]]:
         }
         for contour in contours
     ]
+
+
+def ending_entry(ended: Ending) -> dict[str, Any]:
+    """Where the machine stopped before its program was through, and why."""
+    return {
+        "cause": ended.cause,
+        "axis": ended.axis.name,
+        "row": ended.row,
+        "t_s": rounded(ended.t_s),
+        "place_um": [rounded(ended.x_um), rounded(ended.y_um)],
+    }
 
 
 def pass_entries(passes: Iterable[PassOf]) -> list[dict[str, Any]]:

@@ -43,7 +43,7 @@ class Figure(NamedTuple):
 
 def why(run: DryRun) -> list[Said]:
     """Sentences on the verdict, the first of them why it is so."""
-    return [_first(run), *_tripped(run), *_incomplete(run)]
+    return [_first(run), *_ended(run), *_incomplete(run)]
 
 
 def key_figures(run: DryRun, report: Mapping[str, Any]) -> list[Figure]:
@@ -87,9 +87,12 @@ def _counts(findings: tuple[Finding, ...]) -> Said:
     return numbered({severity: number[severity] for severity in Severity})
 
 
-def _tripped(run: DryRun) -> list[Said]:
-    trip = run.tripped
-    return [said("report.tripped", block=trip.row + 1, time=lasting(trip.t_s))] if trip else []
+def _ended(run: DryRun) -> list[Said]:
+    ended = run.ended
+    if ended is None:
+        return []
+    told = {"axis": ended.axis.name, "block": ended.row + 1, "time": lasting(ended.t_s)}
+    return [said(f"report.ended-{ended.cause}", **told)]
 
 
 def _incomplete(run: DryRun) -> list[Said]:
@@ -127,15 +130,15 @@ def _worst(report: Mapping[str, Any]) -> Iterator[Figure]:
 
 def _closure(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     """The worst closure as stepped; open contours are worse than any that return."""
-    closing = [at for at, contour in enumerate(run.contours) if contour.encloses]
+    closing = [at for at, contour in enumerate(run.whole_contours) if contour.encloses]
     if not closing:
         return
-    at = max(closing, key=lambda at: (run.contours[at].is_open, run.contours[at].closure_stepped_um))
+    at = max(closing, key=lambda at: (run.whole_contours[at].is_open, run.whole_contours[at].closure_stepped_um))
     contour = report["contours"][at]
     told: dict[str, object] = {"exact": f"{contour['closure_exact_um']:,.2f}"}
-    if len(run.contours) > 1:
-        told |= {"n": len(run.contours), "first": contour["first_block"], "last": contour["last_block"]}
-    beside = said("report.closure-worst" if len(run.contours) > 1 else "report.closure-exact", **told)
+    if len(run.whole_contours) > 1:
+        told |= {"n": len(run.whole_contours), "first": contour["first_block"], "last": contour["last_block"]}
+    beside = said("report.closure-worst" if len(run.whole_contours) > 1 else "report.closure-exact", **told)
     yield _figure("closure", report, f"contours.{at}.closure_stepped_um", 2)._replace(unit="µm", beside=beside)
 
 

@@ -9,6 +9,7 @@ from markupsafe import Markup
 from sim.run.dryrun import DryRun
 from sim.setup.expectations import Expectation, wanted
 from sim.setup.toml.writer import toml_value
+from sim.show.assumptions import taken_for_granted
 from sim.show.draw.paints import DARK, Theme, hexadecimal
 from sim.show.html.environment import rendered
 from sim.show.pictures.inline import Inline
@@ -49,6 +50,7 @@ def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inlin
         verdict=report["verdict"],
         verdict_word=said(f"report.{report['verdict']}"),
         why=why(run),
+        granted=taken_for_granted(run),
         figures=key_figures(run, report),
         times=time_figures(report),
         findings=findings,

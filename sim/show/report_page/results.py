@@ -74,7 +74,7 @@ def contour_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
             counted("number", list(range(1, len(entries) + 1))),
             counted("first-block", column_of(entries, "first_block")),
             counted("last-block", column_of(entries, "last_block")),
-            worded("state", [_state(contour) for contour in run.contours]),
+            worded("state", [_state(contour) for contour in run.whole_contours]),
             micrometres("exact-closure", column_of(entries, "closure_exact_um")),
             micrometres("stepped-closure", column_of(entries, "closure_stepped_um")),
             timed("seconds", column_of(entries, "time_s")),

@@ -38,9 +38,9 @@ def setting_groups(scenario: Scenario, program: Program) -> list[SettingGroup]:
     Expectations have a table of their own, and the quiz is the replay's.
     """
     whole, *parts = scenario_sections(scenario)
-    _, *of_machine = machine_sections(scenario.machine)
-    settings = {setting.key: setting for setting in _settings(whole)}
-    del settings["machine"]  # shown by its own sections
+    named, *of_machine = machine_sections(scenario.machine)
+    settings = {setting.key: setting for setting in (*_settings(whole), *_settings(named))}
+    del settings["machine"], settings["name"]  # shown by its own sections, and beside the time
     read = (
         settings.pop("title"),
         settings.pop("provenance"),
@@ -77,6 +77,8 @@ def _setting(section: Section, key: Key, value: Any) -> Setting:
 def _value(value: Any) -> Said:
     if isinstance(value, bool):
         return said("report.yes" if value else "report.no")
+    if isinstance(value, list) and isinstance(value[0], str):
+        return same(", ".join(value))
     if isinstance(value, list):
         return same("; ".join(", ".join(f"{number:.10g}" for number in pair) for pair in _pairs(value)))
     return same(f"{value:.10g}" if isinstance(value, float) else value)

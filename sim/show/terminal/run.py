@@ -10,7 +10,6 @@ from rich.table import Table
 from rich.text import Text
 
 from controller.offset.path import Made
-from parser.findings.catalogue import texts
 from parser.findings.findings import Finding
 from parser.findings.remarks import remark_text
 from parser.shape.passes import Pass
@@ -22,9 +21,11 @@ from sim.measure.deviation.deviation import Where
 from sim.measure.passes.figures import PassFigures
 from sim.run.dryrun import DryRun, verdict
 from sim.setup.key_words import value_word
+from sim.show.assumptions import taken_for_granted
 from sim.show.terminal.colours import COLOURS
+from sim.show.terminal.finding import hint, message
 from sim.table.record.peaks import Peak
-from sim.units import clock, three_figures
+from sim.units import clock, in_figures
 
 _CAUSES = {
     "interpolation": "by interpolation",
@@ -54,6 +55,7 @@ def print_summary(run: DryRun, output: Path | None) -> None:
         table.add_row(name, escape(value))
     console.print(table)
     _print_findings(console, run, output)
+    console.print(Text(" ".join(sentence.en for sentence in taken_for_granted(run)), style="dim"))
     reached = verdict(run.findings)
     console.print(Text(f"verdict: {reached}", style=f"bold {COLOURS[reached]}"))
 
@@ -65,6 +67,9 @@ def _print_findings(console: Console, run: DryRun, output: Path | None) -> None:
             width = finding.span[1] - finding.span[0]
             excerpt = with_caret(run.program.excerpt(finding.line), finding.column, width)
             console.print(Text(excerpt, style="dim"))
+        told = hint(finding, "en")
+        if told:
+            console.print(Text(f"    = {printable(told)}"))
     if len(run.findings) > _MOST_FINDINGS:
         there = "in report.json" if output else "in the report; -o DIR or --json shows them"
         console.print(f"… and {len(run.findings) - _MOST_FINDINGS} findings more, {there}")
@@ -72,10 +77,9 @@ def _print_findings(console: Console, run: DryRun, output: Path | None) -> None:
 
 def _line(name: str, finding: Finding) -> Text:
     at = place(name, finding.line, finding.column)
-    block = f" block {finding.block}:" if finding.block else ""
     text = Text(f"{at}: ")
     text.append(f"{finding.severity}[{finding.code}]", style=COLOURS[finding.severity])
-    return text.append(f":{block} {texts(finding).message}")
+    return text.append(f": {message(finding, 'en')}")
 
 
 def summary_rows(run: DryRun) -> list[Row]:
@@ -89,11 +93,11 @@ def summary_rows(run: DryRun) -> list[Row]:
     return [
         ("machine", scenario.machine.name),
         ("blocks", f"{len(toolpath):,} ({kinds})"),
-        ("path length", f"{mm(float(toolpath.length_um.sum())):,.3f} mm"),
+        ("path length", f"{mm(run.ran_um):,.3f} mm"),
         ("kerf", f"{mm(scenario.wire.kerf_um):g} mm ({wire})"),
         *([("wire lag", f"{scenario.wire_lag_um:g} µm")] if scenario.wire_lag_um else []),
         ("steps", f"{len(run.stepped):,} of 1 µm, {value_word(scenario.machine.controller.interpolation).en}"),
-        ("estimated cutting time", f"{clock(run.plan.duration_s)} in {scenario.thickness_mm:g} mm"),
+        ("estimated cutting time", f"{clock(run.ran_s)} in {scenario.thickness_mm:g} mm"),
         *_times(run),
         *_passes(run),
         *_closures(run),
@@ -108,9 +112,9 @@ def summary_rows(run: DryRun) -> list[Row]:
 
 def _times(run: DryRun) -> list[Row]:
     """Time of each contour, where there are some but few."""
-    if not 1 < len(run.contours) <= _MOST_CLOSURES:
+    if not 1 < len(run.whole_contours) <= _MOST_CLOSURES:
         return []
-    times = [(c, float(run.block_time_s[c.first - 1 : c.last].sum())) for c in run.contours]
+    times = [(c, float(run.block_time_s[c.first - 1 : c.last].sum())) for c in run.whole_contours]
     return [(f"  blocks {c.first}–{c.last}", clock(time_s)) for c, time_s in times]
 
 
@@ -140,15 +144,15 @@ def _pass(figures: PassFigures, reach_um: float) -> str:
 
 def _closures(run: DryRun) -> list[Row]:
     """Closure of each contour; of many, the worst."""
-    shown = run.contours
+    shown = run.whole_contours
     if len(shown) > _MOST_CLOSURES:
         worst = max(shown, key=lambda contour: contour.encloses * (contour.closure_stepped_um + contour.is_open * 1e9))
         shown = (worst,)
     rows = []
     for contour in shown:
         name = "closure"
-        if len(run.contours) > 1:
-            name += f" {contour.first}–{contour.last}" + (" (worst)" if len(shown) < len(run.contours) else "")
+        if len(run.whole_contours) > 1:
+            name += f" {contour.first}–{contour.last}" + (" (worst)" if len(shown) < len(run.whole_contours) else "")
         if not contour.encloses:
             rows.append((name, "none: a parting cut"))
             continue
@@ -160,9 +164,12 @@ def _closures(run: DryRun) -> list[Row]:
 
 
 def _stopped(run: DryRun) -> list[Row]:
-    """Where a drive tripped, and all that follows is not cut."""
-    trip = run.tripped
-    return [("stopped", f"in block {trip.row + 1:,} after {clock(trip.t_s)}: a drive tripped")] if trip else []
+    """Where the machine stopped before its program was through, so that what follows is not cut."""
+    ended = run.ended
+    if ended is None:
+        return []
+    why = {"trip": "servo tripped", "travel": "travel ends here; --past-stop goes on"}[ended.cause]
+    return [("stopped", f"in block {ended.row + 1:,} after {clock(ended.t_s)}: the {ended.axis.name} {why}")]
 
 
 def _offset(run: DryRun) -> list[Row]:
@@ -178,7 +185,7 @@ def _offset(run: DryRun) -> list[Row]:
     feeds = [run.scenario.pass_feed_um_s(one) for one in asked.passes]
     if len(set(feeds)) == 1:
         return rows
-    return [*rows, ("  feed", f"{', '.join(three_figures(mm(feed) * 60.0) for feed in feeds)} mm/min")]
+    return [*rows, ("  feed", f"{', '.join(in_figures(mm(feed) * 60.0) for feed in feeds)} mm/min")]
 
 
 def _pieces(run: DryRun) -> list[Row]:
@@ -196,7 +203,12 @@ def _pieces(run: DryRun) -> list[Row]:
 def _piece(piece: Piece) -> str:
     freed = piece.freed
     mass = f"{piece.mass_g:,.1f} g" if piece.mass_g >= 1.0 else f"{piece.mass_g * 1e3:,.0f} mg"
-    return f"{piece.kind} of {piece.area_mm2:,.2f} mm², {mass}, free in block {freed.block:,} after {clock(freed.t_s)}"
+    told = f"{piece.kind} of {piece.area_mm2:,.2f} mm², {mass}, free in block {freed.block:,} after {clock(freed.t_s)}"
+    if piece.early:
+        return f"{told}, {mm(piece.cut_after_um):,.3f} mm of it still to be cut"
+    if piece.held_after_block is not None:
+        return f"{told}, can be clamped at the D behind block {piece.held_after_block:,}"
+    return told
 
 
 def _drawing(run: DryRun) -> list[Row]:
@@ -234,7 +246,7 @@ def _limits(peaks: tuple[Peak, ...]) -> list[Row]:
 
 def _limit(peak: Peak) -> str:
     scale, unit = _UNITS[peak.quantity]
-    met = f"{peak.quantity} {peak.axis.name} {_percent(peak.share)} of {three_figures(peak.limit * scale)} {unit}"
+    met = f"{peak.quantity} {peak.axis.name} {_percent(peak.share)} of {in_figures(peak.limit * scale)} {unit}"
     return f"{met}, block {peak.row + 1:,} at {_mm(peak.x_um, 1)}, {_mm(peak.y_um, 1)} mm"
 
 

@@ -56,6 +56,8 @@ class PeakMeter:
 
     def take(self, travelled: Travelled) -> None:
         """Take the next ticks."""
+        if not len(travelled.t_s):
+            return
         mass = self._drives.mass_kg[:, 0]
         most_n = newtons(travelled.limit * mass)
         self._hold("force", newtons(np.abs(travelled.force) * mass), most_n, travelled)

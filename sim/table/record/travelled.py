@@ -33,6 +33,11 @@ class Travelled(NamedTuple):
     lag_um: Floats
     lost_um: Floats
 
+    def until(self, t_s: float) -> "Travelled":
+        """The ticks that end by a time."""
+        count = int(np.searchsorted(self.t_s, t_s, side="right"))
+        return Travelled._make(column[:count] for column in self)
+
 
 def travelled_of(slab: Slab, lanes: Lanes, row: Ints) -> Travelled:
     """Ticks of a slab in order of time; `row` is that of each stretch of the run."""

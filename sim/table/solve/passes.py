@@ -9,6 +9,7 @@ from sim.table.physics.state import State
 from sim.table.solve.lanes import Lanes
 from sim.table.solve.march import RunTable
 from sim.table.solve.slab import Slab
+from sim.table.solve.stops import lost_at_stops_um
 
 LANE_TICKS = 256
 """Ticks of a lane: enough of them that a table forgets how it began, few enough that many run side by side."""
@@ -60,25 +61,33 @@ def _borders(slab: Slab) -> Ints:
 
 
 def _guessed(slab: Slab, borders: Ints, state: State, table: RunTable) -> State:
-    """States that the lanes begin with if all goes slowly: each slide where its motor has drawn it."""
+    """States that the lanes begin with if all goes slowly: each slide where its motor has drawn it.
+
+    Where a motor drives it against a stop, it stands there, and the motor loses what it goes on.
+    """
     begin = state.of(np.zeros(len(borders) - 1, dtype=np.int64))
-    begin.at_um[1:] = _drawn(slab, borders, state.at_um[0] + state.lost_um[0], table.slow.play_um) - state.lost_um[0]
-    np.clip(begin.at_um, *table.room_um, out=begin.at_um)
-    begin.velocity[1:] = np.where(slab.from_rest[borders[1:-1], None], 0.0, slab.speed_um_s[borders[1:-1]])
+    lost_um = lost_at_stops_um(slab, state.lost_um[0], table)
+    drawn_um = _drawn(slab.place_um - lost_um, borders, state.at_um[0], table.slow.play_um)
+    begin.at_um[1:] = np.clip(drawn_um, *table.room_um)
+    begin.lost_um[1:] = lost_um[borders[1:-1]]
+    stands = slab.from_rest[borders[1:-1], None] | (begin.at_um[1:] != drawn_um)
+    begin.velocity[1:] = np.where(stands, 0.0, slab.speed_um_s[borders[1:-1]])
     return begin
 
 
-def _drawn(slab: Slab, borders: Ints, at_um: Floats, play_um: Floats) -> Floats:
-    """Places (k - 1, 2) of the slides at the borders between lanes, each drawn along within its play.
+def _drawn(motor_um: Floats, borders: Ints, at_um: Floats, play_um: Floats) -> Floats:
+    """Places (k - 1, 2) of the slides at the borders between lanes, each drawn along within its play from `at_um`.
+
+    `motor_um` (n + 1, 2) are the places of the motors, less what they lost.
 
     A slide stays within backlash and friction's hold of its motor, the play operator (M. Brokate, J. Sprekels,
     "Hysteresis and Phase Transitions", 1996, ch. 2): each tick clips its place, and clips in a row are one clip.
     """
     if not play_um.any():
-        return slab.place_um[borders[1:-1]]
+        return motor_um[borders[1:-1]]
     low, high = np.full((len(borders) - 2, 2), -np.inf), np.full((len(borders) - 2, 2), np.inf)
     for number in range(int(np.diff(borders).max())):
-        place = slab.place_um[np.minimum(borders[:-2] + number, borders[1:-1] - 1)]
+        place = motor_um[np.minimum(borders[:-2] + number, borders[1:-1] - 1)]
         low, high = (np.clip(end, place - play_um, place + play_um) for end in (low, high))
     drawn = np.empty_like(low)
     for lane, (least, most) in enumerate(zip(low, high, strict=True)):

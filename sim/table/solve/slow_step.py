@@ -36,7 +36,9 @@ class SlowStep(NamedTuple):
             if np.abs(new - lag).max() < _SAME_UM:
                 break
             lag = new
-        return np.where(way == 0.0, lag_um, lag * way)
+        # Without a step, a slide that a stop let go of is drawn to it again.
+        stays = np.clip(lag_um, *(end[:, None] for end in self.before_um[:, [0, -1]].T))
+        return np.where(way == 0.0, stays, lag * way)
 
     @property
     def play_um(self) -> Floats:

@@ -61,6 +61,24 @@ class Ticks(NamedTuple):
         """Ticks in each stretch, (n,)."""
         return parts(np.diff(self.t_s, prepend=0.0), self.tick_s)
 
+    def until(self, t_s: float) -> "Ticks":
+        """The ticks up to a time above 0, where the trace gets its last sample; those before it are short."""
+        at = int(np.searchsorted(self.t_s, t_s - _COINCIDE_S))
+        since_s = float(self.t_s[at - 1]) if at else 0.0
+        ends_s = np.array([t_s - self.step_tick_s, t_s])
+        new = ends_s - since_s > _COINCIDE_S
+        ends_s, within = ends_s[new], np.full(int(new.sum()), min(at, len(self.t_s) - 1))
+        tick_s = self.tick_s[within]
+        tick_s[-1:] = np.minimum(tick_s[-1:], self.step_tick_s)
+        sampled = np.concatenate([self.sampled[:at], np.zeros(len(ends_s), dtype=bool)])
+        sampled[-1:] = True
+        return self._replace(
+            t_s=np.concatenate([self.t_s[:at], ends_s]),
+            tick_s=np.concatenate([self.tick_s[:at], tick_s]),
+            sampled=sampled,
+            row=np.concatenate([self.row[:at], self.row[within]]),
+        )
+
 
 def parts(length_s: Floats, tick_s: Floats) -> Ints:
     """Number (n,) of equal ticks, of at most `tick_s` each, that stretches of these lengths are cut into."""

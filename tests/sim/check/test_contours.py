@@ -145,5 +145,5 @@ def test_words_of_a_line(dx: int, dy: int, axis: str, quadrant: int) -> None:
 def test_each_edge_of_the_travel_is_watched(start_mm: tuple[float, float], text: str) -> None:
     header = "Start Point = 50.0 , 60.0\n"  # where the program says it is does not move it on the table
     # At the stop the motors lose steps.
-    assert codes(run_text(f"{header}{text} DD", start_mm=start_mm)) == ["3B401", "3B402"]
+    assert codes(run_text(f"{header}{text} DD", start_mm=start_mm, past_stop=True)) == ["3B401", "3B402"]
     assert codes(run_text(f"{header}{text.replace('2000', '900')} DD", start_mm=start_mm)) == []

@@ -161,7 +161,7 @@ def test_output_is_a_picture_or_a_folder(tmp_path: Path) -> None:
         (["--radius", "201mm"], "--radius in mm (travel of DK7740 class, stepper drives) is 201; it must lie between"),
         (["--radius", "50"], "'50' is no length"),
         (["--feed", "500"], "'500' is no speed"),
-        (["--feed", "1000m/s"], "--feed in mm/min is 6e+07"),
+        (["--feed", "1000m/s"], "--feed in mm/min is 60000000"),
         (["--tolerance", "0um"], "--tolerance"),
         (["-o", f"{__file__}/x.png"], "is a file"),
         (["--nonsense"], "No such option"),

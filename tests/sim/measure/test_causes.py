@@ -15,8 +15,9 @@ from controller.motion.plan import Plan
 from parser.program import read_program
 from parser.toolpath import Toolpath
 from sim.measure.deviation.across import across_um, summed
-from sim.measure.deviation.causes import NOTHING, added, cut_off
+from sim.measure.deviation.causes import NOTHING, Stage, added, cut_off
 from sim.measure.deviation.deviation import DeviationMeter, distance
+from sim.measure.deviation.measured import Deviations
 from sim.run.dryrun import DryRun, dry_run
 from sim.setup.machine.controller_model import read_controller
 from sim.setup.scenario import load_scenario
@@ -119,10 +120,51 @@ def test_a_part_is_the_way_across_with_its_place() -> None:
     before = np.full(101, 0.5)
     across = before.copy()
     across[40] = -1.5
-    part = added(trace, trace.table_um, across, before)
+    aside = np.array([[0.0, 1.0]])
+    stage = Stage(trace.commanded_um + across[:, None] * aside, across)
+    command = Stage(trace.commanded_um + before[:, None] * aside, before)
+    part = added(trace, stage, command)
     assert part.max_um == 2.0
-    assert part.where == (1, 40.0, 0.0, 40.0)
-    assert added(trace, trace.table_um, before, before) == NOTHING
+    assert part.where == (1, 40.0, -1.5, 40.0)
+    assert added(trace, command, command) == NOTHING
+
+
+def test_a_side_that_changes_past_the_end_of_a_block_adds_nothing() -> None:
+    path = Pen(0.0, 0.0).to(100.0, 0.0).path()
+    trace, along = at_rate(path, np.array([100.0]))
+    # 94 µm past the end, on either side of the line prolonged, 2 µm apart: 188 µm by the sides alone.
+    left, right = (np.array([[194.0, y]]) for y in (1.0, -1.0))
+    one, other = (Stage(place, across_um(path, trace, place, along)) for place in (left, right))
+    assert abs(one.off_um[0] - other.off_um[0]) == pytest.approx(188.0, abs=0.1)
+    assert added(trace, one, other).max_um == pytest.approx(0.0, abs=1e-9)
+
+
+def missing_their_ends(seed: int) -> str:
+    """Lines and arcs of which some are counted on the axis along which they hardly run, and so end off their ends."""
+    rng = np.random.default_rng(seed)
+
+    def block() -> str:
+        x, y = rng.integers(1, 250, 2)
+        axis = rng.choice(["X", "Y"])
+        if rng.random() < 0.3:
+            return f"B{x}B{y}B{rng.integers(1, 500)}G{axis}{rng.choice(['NR', 'SR'])}{rng.integers(1, 5)}"
+        if rng.random() < 0.4:
+            x, y = (rng.integers(1, 5), y) if axis == "X" else (x, rng.integers(1, 5))
+        return f"B{x}B{y}B{x if axis == 'X' else y}G{axis}L{rng.integers(1, 5)}"
+
+    return " ".join([*(block() for _ in range(8)), "DD"])
+
+
+@pytest.mark.parametrize("lag", [0.0, 20.0])
+def test_no_stage_adds_more_than_it_moves_where_blocks_miss_their_ends(lag: float) -> None:
+    for seed in range(6):
+        run = run_text(missing_their_ends(seed), wire=replace(DEFAULT_WIRE, lag=lag))
+        assert_causes_bound_the_whole(run.deviations)
+        causes, trace = run.deviations.by_cause, run.cut
+        assert causes.table.max_um <= np.hypot(*(trace.table_um - trace.commanded_um).T).max() + 1e-6  # µm
+        assert causes.wire.max_um <= np.hypot(*(trace.wire_um - trace.table_um).T).max() + 1e-6
+        missed = run.stepped.corner_um[:-1] - run.toolpath.start_um
+        assert causes.carried.max_um <= np.hypot(*missed.T).max() + 1e-6
 
 
 def chords_away(path: Toolpath, plan: Plan, period: float) -> float:
@@ -228,7 +270,10 @@ def test_without_lag_the_wire_is_the_table() -> None:
 )
 def test_no_deviation_exceeds_the_sum_of_the_causes_up_to_it(text: str, interpolator: str, lag: float) -> None:
     by = machine().stepping_by(interpolator)  # type: ignore[arg-type]
-    found = run_text(text, machine=by, wire=replace(DEFAULT_WIRE, lag=lag)).deviations
+    assert_causes_bound_the_whole(run_text(text, machine=by, wire=replace(DEFAULT_WIRE, lag=lag)).deviations)
+
+
+def assert_causes_bound_the_whole(found: Deviations) -> None:
     causes = found.by_cause
     steps = causes.interpolation.max_um + causes.carried.max_um + causes.planning.max_um
     assert found.steps.max_um <= steps + 1e-3  # µm: of what lies between two samples

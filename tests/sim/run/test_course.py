@@ -94,9 +94,9 @@ def test_a_finding_about_no_block_has_no_time_and_does_not_happen() -> None:
 
 def test_a_trip_ends_what_happens() -> None:
     course = course_of_scenario("servo-trip")
-    trip = course.run.tripped
+    trip = course.run.ended
     assert trip is not None
-    assert (course.losses[-1].what, course.losses[-1].t_s, course.losses[-1].row) == (trip, trip.t_s, trip.row)
+    assert (course.losses[-1].what.kind, course.losses[-1].t_s, course.losses[-1].row) == ("trip", trip.t_s, trip.row)
     assert any(isinstance(one.what, Loss) for one in course.happenings)
     end = course.stops[-1]
     assert end.what.kind == "end"

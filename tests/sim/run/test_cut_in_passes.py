@@ -4,11 +4,13 @@ import json
 import math
 import random
 from itertools import pairwise
+from pathlib import Path
 
 import jsonschema
 import numpy as np
 import pytest
 import shapely
+from command import run_inside
 from drawn_programs import DrawnProgram, drawn_program
 from paths import flipped
 from places import ROOT, SCENARIOS
@@ -20,6 +22,7 @@ from controller.motion.planner import plan_rows
 from controller.offset.sections import Side
 from parser.findings.catalogue import texts
 from parser.findings.errors import ProgramError
+from parser.findings.findings import Finding
 from parser.geometry.along import places_at
 from parser.geometry.curves import CurveKind, Curves, Floats
 from parser.program import parse_program
@@ -29,6 +32,8 @@ from sim.run.offsetting import Offsetting, offsetting
 from sim.run.prepare import Prepared, prepare
 from sim.run.report import build_report
 from sim.setup.part import Direction, Offset, OffsetPass
+from sim.show.pictures.cut.flags import places_um
+from sim.show.pictures.motion.panels import feed_levels
 
 SCHEMA = json.loads((ROOT / "docs" / "report.schema.json").read_text("utf-8"))
 REACH_UM = 100.0
@@ -154,8 +159,10 @@ def planned_s(ready: Prepared) -> float:
 
 
 def test_the_report_of_passes_is_lawful_and_names_the_pass_of_each_block() -> None:
-    run = run_text(SQUARE + "DD", offset=Offset(passes(180.0, 120.0, 100.0, turns=1), Side.RIGHT))
+    slow, *trims = passes(180.0, 120.0, 100.0, turns=1)
+    run = run_text(SQUARE + "DD", offset=Offset((slow._replace(feed_um_s=25.0), *trims), Side.RIGHT))
     assert codes(run) == []
+    assert [level.value for level in feed_levels(run)] == [0.025, 0.04375]
     report = build_report(run)
     jsonschema.validate(report, SCHEMA)
     entry = report["offset"]
@@ -195,6 +202,18 @@ def test_a_pass_that_cannot_begin_where_the_wire_is_is_refused_and_may_run_back(
     # The second pass has led the wire back to where the program begins: the jump sets off from there.
     assert made.path.curves.start_um[jump].tolist() == [0.0, 0.0]
     assert made.path.curves.end_um[jump].tolist() == program.toolpath.end_um[7].tolist()
+
+
+def test_commands_point_at_the_block_behind_which_a_pass_cannot_begin(tmp_path: Path) -> None:
+    (tmp_path / "program.3b").write_text(ENDS_ELSEWHERE + "DD", "ascii")
+    passes_toml = "[offset]\nside = 'right'\n[[pass]]\nby_mm = 0.12\n[[pass]]\nby_mm = 0.1\n"
+    (tmp_path / "scenario.toml").write_text(passes_toml, "utf-8")
+    drawing = SCENARIOS / "die" / "drawing.dxf"
+    for done in (run_inside("run", tmp_path), run_inside("compare", tmp_path, drawing)):
+        assert (done.returncode, done.stdout) == (2, b"")
+        first, *excerpt = done.stderr.decode().splitlines()
+        assert "program.3b:2:1: error[3B505]: pass 1 ends behind block 7, 1.000 mm from where pass 2" in first
+        assert len(excerpt) == 2
 
 
 def test_a_parting_cut_goes_there_and_back_on_one_side_of_the_material() -> None:
@@ -244,6 +263,20 @@ def lines(places: list[tuple[int, int]]) -> str:
     return " ".join([*words, "DD"])
 
 
+def test_passes_in_the_wrong_order_and_trims_wider_than_a_kerf_are_told() -> None:
+    """A kerf is 0.2 mm wide; a trim may take 0.12 mm, and not 0.25 mm; its side is never in doubt."""
+    for by_um, told in (
+        ((220.0, 100.0), []),
+        ((100.0, 100.0), []),
+        ((100.0, 120.0), ["3B312"]),
+        ((350.0, 100.0), ["3B313"]),
+    ):
+        for turns in (0, 1):
+            asked = plain_scenario(offset=Offset(passes(*by_um, turns=turns), Side.RIGHT))
+            found = prepare(parse_program(SQUARE + "DD"), asked).findings
+            assert [one.code for one in found] == told, (by_um, turns)
+
+
 def test_a_finding_about_a_pass_is_shown_when_that_pass_runs() -> None:
     """Of offsets that grow, the second pass cuts deepest past the middle of a slot of 0.3 mm."""
     slot = [(0, 0), (0, -150), (3000, -150), (3000, 150), (-3000, 150), (-3000, -150), (0, -150), (0, 0)]
@@ -267,3 +300,11 @@ def test_the_note_on_4b_says_whether_its_path_has_the_offset() -> None:
         run = run_text(text, offset=offset)
         assert codes(run) == ["3B110"]
         assert told in texts(run.findings[0]).machine
+
+
+def test_a_finding_on_a_block_has_its_place_there_whatever_way_the_passes_run() -> None:
+    """In the last pass block 7 comes first; a finding of block 2 lies beside the first half of the lower side."""
+    run = run_text(SQUARE + "DD", offset=Offset(passes(120.0, 100.0, turns=1), Side.RIGHT))
+    x, y = places_um(run.toolpath, [Finding("3B203", block=2)], 0.0)[0].tolist()
+    assert 0.0 < x < 2120.0
+    assert 1880.0 <= y <= 1900.0

@@ -74,7 +74,7 @@ def test_leaving_the_travel_names_the_first_block_out() -> None:
 
 
 def test_the_table_stops_at_its_travel() -> None:
-    run = run_text("B150B0B150GXL1 DD", start_mm=(399.95, 250.0))
+    run = run_text("B150B0B150GXL1 DD", start_mm=(399.95, 250.0), past_stop=True)
     assert run.trace.table_um[:, 0].max() == pytest.approx(50.0, abs=1.0)
     assert run.trace.table_um[-1, 0] == pytest.approx(50.0, abs=1.0)
     assert run.deviations.table.max_um < 2.0  # where it stands is on the path
@@ -155,7 +155,7 @@ def test_a_start_node_off_the_grid_keeps_its_place() -> None:
 
 def test_what_follows_a_trip_is_not_measured() -> None:
     run = run_folder(SCENARIOS / "servo-trip")
-    trip = run.tripped
+    trip = run.ended
     assert trip is not None
     assert np.isnan(run.deviations.table.by_row_um[trip.row + 1 :]).all()
     assert not np.isnan(run.deviations.table.by_row_um[: trip.row + 1]).any()

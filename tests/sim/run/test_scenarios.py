@@ -1,5 +1,7 @@
 """Every scenario of the project runs and is as it expects."""
 
+import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -8,16 +10,27 @@ from runs import codes, run_folder
 
 from parser.findings.catalogue import texts
 from sim.run.findings import expectation_findings
+from sim.run.report import build_report
 from sim.setup.expectations import missed, read_expectation
 from sim.setup.scenario import load_scenario
 
 FOLDERS = sorted(path for path in SCENARIOS.iterdir() if path.is_dir())
 
 
+def times_in(part: object) -> Iterator[float]:
+    """All times of what happened that a part of a report tells."""
+    for key, value in part.items() if isinstance(part, dict) else enumerate(part if isinstance(part, list) else ()):
+        if str(key).endswith("t_s") and value is not None:
+            yield value
+        yield from times_in(value)
+
+
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
 def test_scenario_is_as_it_expects(folder: Path) -> None:
     run = run_folder(folder)
     assert [finding for finding in run.findings if finding.code == "3B490"] == []
+    report = build_report(run)
+    assert max(times_in(report), default=0.0) <= report["time_s"]["total"]
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
@@ -87,12 +100,16 @@ def test_expectations_can_be_met_and_missed(expect: dict, met: bool) -> None:
 @pytest.mark.parametrize(
     ("expect", "found", "wanted"),
     [
-        ({"a.b": {"max": 2}}, "2.5", "at most 2"),
-        ({"a.b": {"min": 3}}, "2.5", "at least 3"),
-        ({"a.b": {"min": 3, "max": 4.5}}, "2.5", "3 to 4.5"),
-        ({"a.nowhere": "x"}, "None", "x"),
+        ({"a.b": {"max": 2}}, "`2.5`", "at most 2"),
+        ({"a.b": {"min": 3}}, "`2.5`", "at least 3"),
+        ({"a.b": {"min": 3, "max": 4.5}}, "`2.5`", "3 to 4.5"),
+        ({"a.nowhere": "x"}, "nothing", '"x"'),
+        ({"findings": []}, '`["3B204", "3B301"]`', "[]"),
     ],
 )
 def test_a_missed_expectation_says_what_was_found_and_wanted(expect: dict, found: str, wanted: str) -> None:
-    (finding,) = expectation_findings(missed(REPORT, read_expectation(expect, "test")))
-    assert finding.values == {"path": next(iter(expect)), "found": found, "wanted": wanted}
+    tables = [{"code": "3B204", "block": 2, "message": "…"}, {"code": "3B301", "block": 3, "message": "…"}]
+    (finding,) = expectation_findings(missed(REPORT | {"findings": tables}, read_expectation(expect, "test")))
+    told = texts(finding)
+    assert (told.found, told.expected) == (f"`{next(iter(expect))}` is {found}", wanted)
+    assert not re.search("[A-Za-z]{2}", texts(finding, "zh").expected.replace('"x"', ""))

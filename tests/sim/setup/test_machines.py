@@ -70,7 +70,7 @@ def test_keys_of_table_and_motor_go_where_they_belong(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("line", "complaint"),
     [
-        ("friction_x_n = -1", r"\[table\]: friction_x_n is -1; it must lie between 0 and 1e\+06"),
+        ("friction_x_n = -1", r"\[table\]: friction_x_n is -1; it must lie between 0 and 1000000"),
         ("friction_y_n = '20'", r"\[table\]: friction_y_n is a number; found '20'"),
         ("viscous_x_n_s_mm = nan", r"\[table\]: viscous_x_n_s_mm is nan"),
         ("viscous_y_n_s_mm = inf", r"\[table\]: viscous_y_n_s_mm is inf"),

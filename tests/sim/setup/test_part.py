@@ -28,6 +28,7 @@ NONE = Overrides(
     layer=None,
     tolerance=None,
     no_fit=False,
+    past_stop=False,
 )
 
 

@@ -153,13 +153,13 @@ def test_wire_that_bows_is_told_from_its_table() -> None:
 
 def test_nothing_is_measured_past_a_trip_or_on_a_jump() -> None:
     of = of_scenario("servo-trip")
-    trip = of.run.tripped
+    trip = of.run.ended
     assert trip is not None
     assert of.trace.t_s[-1] <= trip.t_s < of.run.trace.t_s[-1]
     jumps = of.run.toolpath.is_jump[of.trace.row]
     assert jumps.any()
     assert (of.cutting == ~jumps).all()
-    assert of.max_um < 0.01 < np.abs(samples_of(replace(of.run, losses=())).wire_um).max()
+    assert of.max_um < 0.01 < np.abs(samples_of(replace(of.run, ended=None)).wire_um).max()
 
 
 @pytest.mark.parametrize("name", ["wire-lag-corner", "backlash"])
@@ -284,7 +284,7 @@ def test_tolerance_is_the_drawing_s_where_there_is_one() -> None:
 
 def test_jump_breaks_the_line_and_is_named() -> None:
     of = of_scenario("servo-trip")
-    whole = samples_of(replace(of.run, losses=()))
+    whole = samples_of(replace(of.run, ended=None))
     canvas = draw_along(recording_sheet(), whole)
     assert len(canvas.of("region", Paint.ACTUAL_PALE)) == 2
     assert "jump, no cutting" in canvas.texts

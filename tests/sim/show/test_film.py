@@ -256,7 +256,7 @@ def test_of_what_falls_together_the_finding_is_told() -> None:
 
 
 def test_a_trip_ends_the_run_and_says_so(tripped: Course) -> None:
-    trip = tripped.run.tripped
+    trip = tripped.run.ended
     assert trip is not None
     assert tripped.duration_s == trip.t_s < tripped.run.plan.duration_s
     assert tripped.steps.t_s[-1] <= trip.t_s

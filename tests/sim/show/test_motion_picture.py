@@ -20,7 +20,7 @@ from sim.show.draw.sheet import SIZES_PX, drawing, pixels
 from sim.show.pictures.motion.picture import draw_motion
 from sim.table.record.bins import Envelope
 from sim.table.record.history import History
-from sim.units import three_figures
+from sim.units import in_figures
 
 TEXT = "B800B0B800GXL1 D B0B500B500GYL2 B300B0B300GXL3 DD"
 
@@ -178,7 +178,7 @@ def test_after_a_trip_the_machine_stands() -> None:
     assert max(line[:, 0].max() for line in lines) == pytest.approx(shaded[0].left, abs=0.5)
     assert "3B403 X" in canvas.texts
     assert not drawn(plain()).of("box", Paint.GRID)
-    assert run.tripped
+    assert run.ended
 
 
 @pytest.mark.parametrize("width_px", [SIZES_PX["thumbnail"], 600, 1600, SIZES_PX["a3"]])
@@ -226,6 +226,17 @@ def test_a_program_of_thousands_of_blocks_shows_round_numbers_that_do_not_overla
     assert "every 50th block number" in canvas.texts
 
 
-@pytest.mark.parametrize(("value", "text"), [(0.04374, "0.0437"), (15_750.0, "15,800"), (6.0, "6"), (1e6, "1,000,000")])
-def test_values_have_three_figures(value: float, text: str) -> None:
-    assert three_figures(value) == text
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.04374, "0.0437"),
+        (15_750.0, "15,750"),
+        (6.0, "6"),
+        (1e6, "1,000,000"),
+        (1234.56, "1,234.6"),
+        (999_999.96, "1,000,000"),
+        (1e17, "100,000,000,000,000,000"),
+    ],
+)
+def test_values_are_in_figures_that_people_write(value: float, text: str) -> None:
+    assert in_figures(value) == text

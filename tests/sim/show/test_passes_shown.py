@@ -8,7 +8,7 @@ from browser import OpenPage
 from golden_pictures import assert_golden
 from page_checks import complaints
 from recorder import recording_sheet
-from trimmed import trimmed_run, untrimmed_run
+from trimmed import offset_run, trimmed_run, untrimmed_run
 
 from parser.findings.catalogue import LANGUAGES
 from parser.geometry.along import places
@@ -34,7 +34,7 @@ NAMES = ["pass 1 of 4, forward", "pass 2 of 4, back", "pass 3 of 4, tab, back", 
 
 
 def test_passes_have_their_tones_and_later_ones_share_the_last() -> None:
-    passes = [Pass(0, number, 0, 0, False, True, False, 0.0) for number in range(1, 9)]
+    passes = [Pass(0, number, 0, 0, False, True, False, 0.0, 1) for number in range(1, 9)]
     assert paint_of_pass(1) is Paint.KERF
     assert [tone.name.en for tone in tones_of(passes[:2])] == ["pass 1", "pass 2"]
     tones = tones_of(passes)
@@ -82,7 +82,8 @@ def test_in_the_picture_a_pass_covers_only_what_no_earlier_one_took() -> None:
     canvas = draw_cut_of_run(recording_sheet(), recording.run, recording.pieces)
     paints = [one.paint for one in canvas.of("polyline") if one.paint in {paint_of_pass(n) for n in range(1, 6)}]
     legend = 5  # samples of kerf and passes
-    assert list(dict.fromkeys(paints[:-legend])) == [Paint.TRIM_3, Paint.TRIM_2, Paint.TRIM_1, Paint.KERF]
+    assert paints[-legend - 1] is Paint.KERF
+    assert list(dict.fromkeys(paints[:-legend])) == [Paint.KERF, Paint.TRIM_3, Paint.TRIM_2, Paint.TRIM_1]
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -122,6 +123,14 @@ def test_the_replay_names_and_groups_passes(open_page: OpenPage) -> None:
     assert complaints(page) == []
 
 
+def test_passes_that_the_controller_makes_of_one_contour_have_no_heads_over_its_lines(open_page: OpenPage) -> None:
+    page = open_page(replay_page(offset_run())).page
+    page.wait_for_function("document.getElementById('loading').hidden")
+    assert page.locator(".legend .pass").count() == 1
+    assert page.locator(".pass-head").count() == 0
+    assert page.locator(".line").count() == 8
+
+
 def test_the_replay_of_a_contour_cut_once_has_nothing_of_passes(open_page: OpenPage) -> None:
     page = open_page(replay_page(untrimmed_run())).page
     page.wait_for_function("document.getElementById('loading').hidden")
@@ -138,5 +147,4 @@ def test_the_picture_of_the_motion_has_a_band_for_each_pass() -> None:
 
 
 def test_the_picture_of_a_cut_with_passes_is_the_golden_one() -> None:
-    recording = trimmed_run()
-    assert_golden(draw_cut_of_run(pixels(800), recording.run, recording.pieces).image(), "cut-passes.png")
+    assert_golden(draw_cut_of_run(pixels(800), trimmed_run().run, None).image(), "cut-passes.png")

@@ -71,7 +71,7 @@ FREE: dict[str, object] = {"block": 1, "ask": "a", "answers": ["b", "c"], "right
     ("table", "complaint"),
     [
         ({}, "block is missing"),
-        ({"block": 0, "about": "turn"}, "block is 0; it must lie between 1 and 1e\\+06"),
+        ({"block": 0, "about": "turn"}, "block is 0; it must lie between 1 and 1000000"),
         ({"block": 1.5, "about": "turn"}, "block is a whole number; found 1.5"),
         ({"block": "1", "about": "turn"}, "block is a number; found '1'"),
         ({"block": 1, "abuot": "turn"}, "unknown key 'abuot'; did you mean about?"),

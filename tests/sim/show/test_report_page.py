@@ -181,8 +181,15 @@ def test_the_verdict_is_told_in_a_sentence(text: str, en: str, zh: str) -> None:
 
 def test_a_tripped_drive_is_told_with_the_verdict() -> None:
     run = run_folder(SCENARIOS / "servo-trip")
-    time = lasting(run.tripped.t_s)
-    assert why(run)[1].en == f"A drive tripped in block 5 after {time.en}: nothing after it is cut."
+    time = lasting(run.ended.t_s)
+    assert why(run)[1].en.startswith(f"The X drive tripped in block 5 after {time.en}: nothing after it is cut")
+    assert time.zh in why(run)[1].zh
+
+
+def test_the_end_of_the_travel_is_told_with_the_verdict() -> None:
+    run = run_text("B100B0B100GXL1 B60B0B60GXL1 DD", start_mm=(399.85, 250.0), may_stay_open=True)
+    time = lasting(run.ended.t_s)
+    assert why(run)[1].en.startswith(f"The path leaves the travel in X in block 2 after {time.en}.")
     assert time.zh in why(run)[1].zh
 
 
@@ -224,6 +231,7 @@ def test_the_files_in_the_page_make_the_scenario_that_ran(name: str, tmp_path: P
 
 FULL_MACHINE = """
 name = "every \\"setting\\""
+assumed = ["saddle_mass_kg", "force_at_rate"]
 [table]
 travel_x_mm = 400.3
 travel_y_mm = 500.7
@@ -282,8 +290,14 @@ thickness_mm = 33.3
 density_g_cm3 = 8.93
 outline_mm = [[-1.1, -1.3], [1.7, -1.3], [0.1, 2.9]]
 [offset]
-by_mm = 0.117
 side = "right"
+[[pass]]
+by_mm = 0.161
+feed_mm_min = 3.1
+[[pass]]
+by_mm = 0.117
+direction = "back"
+area_rate_mm2_min = 61.7
 [drawing]
 file = "part.dxf"
 layer = "<i>"

@@ -12,8 +12,10 @@ from sim.show.draw.flatten import bounds_um, cut_runs, flatten
 from sim.show.draw.layout import View
 from sim.show.draw.paints import Paint
 from sim.show.draw.simplify import CHORD_PX, simplify
-from sim.show.draw.tones import paint_of_pass, tone_number
+from sim.show.draw.tones import TONES, paint_of_pass, tone_number
 from sim.show.pictures.cut.subject import Cut
+
+_LEAD = len(TONES) + 1
 
 
 class Band(NamedTuple):
@@ -67,7 +69,7 @@ def lines_of(cut: Cut, view: View) -> Lines:
 
 
 def _bands(cut: Cut, view: View) -> list[Band]:
-    """The kerf in the tones of the passes that took it off: an earlier pass lies over the later ones."""
+    """The kerf in the tones of the passes that took it off: leads below, and each pass over those that came later."""
     toolpath = cut.toolpath
     if cut.trace is None:
         points, row = flatten(toolpath, CHORD_PX / view.px_per_um)
@@ -75,17 +77,17 @@ def _bands(cut: Cut, view: View) -> list[Band]:
         points, row = cut.trace.wire_um, cut.trace.row
     tone = _tones(cut)
     return [
-        Band(run, paint_of_pass(number))
+        Band(run, Paint.KERF if number == _LEAD else paint_of_pass(number))
         for number in sorted(set(tone.tolist()) - {0}, reverse=True)
         for run in _runs_px(points, row, tone != number, view)
     ]
 
 
 def _tones(cut: Cut) -> Ints:
-    """Number of the pass whose tone each row (n,) has: 1 for leads, 0 for jumps."""
+    """Number of the pass whose tone each row (n,) has; 0 for jumps."""
     numbers = np.ones(len(cut.toolpath), dtype=np.int64)
     if cut.passes is not None:
-        own = np.array([*(tone_number(one.number) for one in cut.passes.passes), 1])
+        own = np.array([*(tone_number(one.number) for one in cut.passes.passes), _LEAD])
         numbers = own[cut.passes.of_row]  # the last for the rows of no pass, −1
     return np.where(cut.toolpath.is_jump, 0, numbers)
 

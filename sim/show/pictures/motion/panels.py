@@ -16,12 +16,13 @@ from sim.show.words import Words
 from sim.table.record.bins import Envelope
 from sim.table.record.history import History
 from sim.table.record.peaks import Quantity
-from sim.units import three_figures
+from sim.units import in_figures
 
 ROOM: Final = 0.08
 """Share of its range that a panel leaves free at either side."""
 REACH: Final = 0.3
 """Share of the range by which a panel grows to show a level."""
+_MOST_FEEDS = 3
 
 
 class Level(NamedTuple):
@@ -46,7 +47,7 @@ class Level(NamedTuple):
 
     def text(self, say: Words) -> str:
         """What it is, with three figures of its value."""
-        return say(self.key, value=three_figures(self.value), axes=self.axes)
+        return say(self.key, value=in_figures(self.value), axes=self.axes)
 
 
 class Panel(NamedTuple):
@@ -105,9 +106,11 @@ def _pool(envelope: Envelope, first: Ints, width_s: Floats) -> Envelope:
 
 
 def feed_levels(run: DryRun) -> list[Level]:
-    """Feeds of cuts, those of passes from the lowest, and of jumps, mm/s, as far as there are any."""
+    """Feeds of cuts and of jumps, mm/s, as far as there are any; of many passes the lowest and the highest."""
     jumps = run.toolpath.is_jump
     cut = np.unique(np.broadcast_to(run.feeds.cut_um_s, len(jumps))[~jumps])
+    if len(cut) > _MOST_FEEDS:
+        cut = cut[[0, -1]]
     jump = [run.feeds.jump_um_s] if jumps.any() else []
     shown = [("motion.cut_feed", cut.tolist()), ("motion.jump_feed", jump)]
     return [Level(key, mm(feed), "", Paint.GREY) for key, feeds in shown for feed in feeds]
@@ -116,7 +119,7 @@ def feed_levels(run: DryRun) -> list[Level]:
 def limit_levels(run: DryRun, quantity: Quantity, key: str, scale: float = 1.0) -> list[Level]:
     """Limits of both axes at the moments when the axes came nearest to them, times `scale`; equal ones as one level."""
     limits = [(peak.limit * scale, peak.axis) for peak in run.peaks if peak.quantity == quantity]
-    finite = [(three_figures(value), value, axis) for value, axis in limits if math.isfinite(value)]
+    finite = [(in_figures(value), value, axis) for value, axis in limits if math.isfinite(value)]
     same = {figures: value for figures, value, _ in finite}
     return [
         Level(key, value, _axes(axis for of, _, axis in finite if of == figures), Paint.ERROR)

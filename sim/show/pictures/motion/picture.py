@@ -111,7 +111,7 @@ def _draw_panels(canvas: Canvas, layout: _Layout, run: DryRun, time: _Time, shee
     charts = [Chart(frame, across, panel.range, sheet.unit) for frame, panel in zip(layout.frames, panels, strict=True)]
     for chart, panel, name in zip(charts, panels, layout.names, strict=True):
         draw_chart(canvas, chart, x_values=chart is charts[-1])
-        if run.tripped:
+        if run.ended:
             _draw_standing(canvas, chart, t_s[-1] / time.unit_s, sheet.say)
         draw_envelope(canvas, chart, t_s / time.unit_s, panel.envelope, (Axis.X, Axis.Y))
         for level in panel.levels:
@@ -122,7 +122,7 @@ def _draw_panels(canvas: Canvas, layout: _Layout, run: DryRun, time: _Time, shee
 
 
 def _draw_standing(canvas: Canvas, chart: Chart, since: float, say: Words) -> None:
-    """Shade a panel from the time on at which the machine tripped."""
+    """Shade a panel from the time on at which the machine stood still."""
     frame, size = chart.frame, style.TEXT * chart.unit
     left = float(chart.x_px(since))
     canvas.box(frame._replace(left=left), Paint.GRID, Paint.FRAME, style.GRID_WIDTH * chart.unit)

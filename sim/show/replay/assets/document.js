@@ -30,7 +30,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {Pass[]} passes none where every edge is cut once
  * @property {Finding[]} findings
  * @property {Loss[]} losses
- * @property {Loss | null} tripped
+ * @property {Ending | null} ended
  * @property {Piece[]} pieces
  * @property {Question[]} quiz
  * @property {Tape} tape
@@ -145,6 +145,15 @@ import { element } from "../../html/assets/elements.js";
  * @property {number} row
  * @property {number} t_s
  * @property {number} amount_um
+ * @property {Place} place_um
+ */
+
+/**
+ * @typedef {object} Ending
+ * @property {string} cause
+ * @property {Axis} axis
+ * @property {number} row
+ * @property {number} t_s
  * @property {Place} place_um
  */
 

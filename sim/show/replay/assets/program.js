@@ -30,14 +30,22 @@ function rowsByLine(blocks) {
 }
 
 /**
- * The head of a pass over its first line, so many rows above it.
- * @param {Pass} pass
- * @param {number} above
+ * Passes that have a head over their first lines: none where two of them share a line, as passes do that the controller
+ * makes of one contour.
+ * @param {ReplayDocument} doc
  */
-function headOf({ name, paint }, above) {
+function headedPasses({ blocks: { line }, passes }) {
+  const areApart = passes.every((pass, at) => !at || line[pass.first_row] > line[passes[at - 1].last_row]);
+  return areApart ? passes : [];
+}
+
+/**
+ * The head of a pass, which stands over its first line.
+ * @param {Pass} pass
+ */
+function headOf({ name, paint }) {
   const made = make("span", { className: "pass-head" }, ...both(name));
   made.style.setProperty("--tone", `var(--${paint})`);
-  made.style.top = `${-above * ROW}px`;
   return made;
 }
 
@@ -50,7 +58,8 @@ function headOf({ name, paint }, above) {
 export function programIn(box, doc, { onPick, onHover }) {
   const { blocks, program: { lines } } = doc;
   const rows = rowsByLine(blocks);
-  const headed = doc.passes.map((pass) => blocks.line[pass.first_row]); // the line under the head of each pass
+  const headed = headedPasses(doc);
+  const underHeads = headed.map((pass) => blocks.line[pass.first_row]);
   const inner = make("div", { className: "lines" });
   /** @type {Map<number, HTMLElement>} */
   const shown = new Map(); // line number to its element
@@ -64,7 +73,7 @@ export function programIn(box, doc, { onPick, onHover }) {
    * How far down a line stands, px.
    * @param {number} line
    */
-  const topOf = (line) => (line - 1 + countUpTo(headed, line)) * ROW;
+  const topOf = (line) => (line - 1 + countUpTo(underHeads, line)) * ROW;
 
   /**
    * The last line that stands no farther down, or 0.
@@ -125,8 +134,8 @@ export function programIn(box, doc, { onPick, onHover }) {
    */
   function build(line) {
     const number = make("span", { className: "number" }, String(line));
-    const passes = doc.passes.slice(countUpTo(headed, line - 1), countUpTo(headed, line));
-    const heads = passes.map((pass, at) => headOf(pass, passes.length - at));
+    const over = headed.slice(countUpTo(underHeads, line - 1), countUpTo(underHeads, line));
+    const heads = over.map(headOf);
     const made = make("div", { className: "line", id: `line-${line}` }, ...heads, number, ...pieces(line));
     made.setAttribute("role", "option");
     made.setAttribute("aria-setsize", String(lines.length));

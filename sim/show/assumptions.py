@@ -1,0 +1,25 @@
+"""What a run took for granted, in words, for terminal and page."""
+
+from parser.findings.catalogue import Said
+from sim.run.assumptions import assumptions_of
+from sim.run.dryrun import DryRun
+from sim.setup.key_words import words_of
+from sim.setup.machine.machine import SECTIONS
+from sim.show.words import said
+from sim.show.words.phrases import listed
+
+
+def taken_for_granted(run: DryRun) -> list[Said]:
+    """A sentence for the machine, and one for each thing that nobody has measured or that was not looked at."""
+    found = assumptions_of(run)
+    told = [said("assumptions.by-default" if found.by_default else "assumptions.chosen", machine=found.machine)]
+    if found.values:
+        names = {key.name: words_of(section, key).name for section in SECTIONS for key in section.keys}
+        told.append(
+            said("assumptions.values", count=len(found.values), values=listed(names[key] for key in found.values))
+        )
+    if not found.compared:
+        told.append(said("assumptions.no-drawing"))
+    if not found.wire_bows:
+        told.append(said("assumptions.straight"))
+    return told
