@@ -228,3 +228,20 @@ def test_every_wait_begins_where_its_row_ends(jerk: float) -> None:
         least = limits.length_um / limits.speed_um_s + wait[:-1]
         assert (since >= least * (1.0 - 1e-9)).all()  # a wait before a row counts to it, and never to the row before
         assert plan.at(plan.time_at(before)[wait > 0.0] + 0.125).speed_um_s.max(initial=0.0) == 0.0
+
+
+@pytest.mark.parametrize("loosened", [1.001, 1.02, 1.2])
+def test_under_a_jerk_limit_a_row_that_may_accelerate_more_makes_no_plan_slower(loosened: float) -> None:
+    for seed in range(150):
+        rng = np.random.default_rng(seed)
+        n = int(rng.integers(2, 12))
+        length, speed = rng.uniform(50.0, 3000.0, n), np.full(n, rng.choice([2000.0, 10_000.0, 50_000.0]))
+        acceleration = np.full(n, rng.choice([3e4, 1e5])) if seed % 2 else rng.choice([3e4, 1e5], n)
+        border = np.where(rng.random(n + 1) < 0.1, rng.uniform(0.0, 500.0, n + 1), np.inf)
+        border[[0, -1]] = 0.0
+        limits = RowLimits(length, speed, acceleration, border, np.zeros(n + 1))
+        jerk = float(rng.choice([1e6, 1e7, 1e8]))
+        more = acceleration.copy()
+        more[rng.integers(n)] *= loosened
+        slower = plan_rows(limits._replace(acceleration_um_s2=more), jerk_um_s3=jerk).duration_s
+        assert slower <= plan_rows(limits, jerk_um_s3=jerk).duration_s * 1.001
