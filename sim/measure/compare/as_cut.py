@@ -19,10 +19,10 @@ _SIMPLER_UM = 0.05
 _LONGEST_UM = 100.0  # of a side: two blocks may make one straight edge
 
 
-def edge_as_cut(toolpath: Toolpath, pieces: Pieces) -> Edge | None:
+def edge_as_cut(toolpath: Toolpath, pieces: Pieces, reach_um: float) -> Edge | None:
     """Outlines of all parts, and of the openings that slugs leave in the frame; None where nothing came free.
 
-    Each side belongs to the block that ran nearest to its middle.
+    The wire cut `reach_um` past its centre. Each side belongs to the block that ran nearest to its middle.
     """
     rings = list(_rings(pieces))
     if not rings:
@@ -35,6 +35,7 @@ def edge_as_cut(toolpath: Toolpath, pieces: Pieces) -> Edge | None:
         block=_blocks(toolpath, edge),
         loop=np.repeat(np.arange(len(rings)), number),
         part_side=np.repeat([side for _, side in rings], number),
+        reach_um=reach_um,
     )
 
 

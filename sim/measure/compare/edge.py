@@ -32,6 +32,8 @@ class Edge:
         (n,) +1 with the part on the left of the curve, −1 on its right, 0 where that is not known.
     offset_um
         How far the wire cuts past its path, where the edge is made of that; None of an edge as cut.
+    reach_um
+        How far the wire cuts past its centre: what no inside corner can be sharper than; 0 where any can.
     gouges
         Where lead-ins and lead-outs cut into the part beside it.
     notes
@@ -43,5 +45,6 @@ class Edge:
     loop: Ints
     part_side: Ints
     offset_um: float | None = None
+    reach_um: float = 0.0
     gouges: tuple[LeadGouge, ...] = ()
     notes: tuple[Remark, ...] = ()

@@ -27,6 +27,11 @@ class ProgramEdges(NamedTuple):
     sides: tuple[Ints, ...]
     offset_um: float
 
+    def alone(self, at: int) -> "ProgramEdges":
+        """One of the rings by itself."""
+        rings = self.rings._replace(rings=self.rings.rings[at : at + 1], open_blocks=())
+        return self._replace(rings=rings, sides=tuple(sides[[at]] for sides in self.sides))
+
 
 def program_edges(toolpath: Toolpath, offset_um: float) -> ProgramEdges:
     """Loops and sides of a program whose wire cuts `offset_um` past its path; no loop where no contour closes."""
@@ -49,7 +54,10 @@ def _nested_sides(rings: Sequence[PathLoop]) -> Ints:
 
 
 def edge_at(of: ProgramEdges, sides: Ints, offset_um: float) -> Edge:
-    """The edge `offset_um` to the side of the part, negative to the other side, 0 for the path itself."""
+    """The edge `offset_um` to the side of the part, negative to the other side, 0 for the path itself.
+
+    A wire cuts it where the offset is above 0; the others tell only where an edge would lie.
+    """
     loops, notes = [], []
     for ring, side in zip(of.rings.rings, sides.tolist(), strict=True):
         made = _moved(ring, side, offset_um)
@@ -68,6 +76,7 @@ def edge_at(of: ProgramEdges, sides: Ints, offset_um: float) -> Edge:
         loop=np.repeat(np.arange(len(loops)), number),
         part_side=np.repeat(np.array([loop.part_side for loop in loops], dtype=np.int64), number),
         offset_um=offset_um,
+        reach_um=max(offset_um, 0.0),
         notes=tuple(notes),
     )
 

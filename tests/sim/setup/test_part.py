@@ -24,6 +24,7 @@ NONE = Overrides(
     layer=None,
     tolerance=None,
     no_fit=False,
+    sharp_corners=None,
 )
 
 
