@@ -60,13 +60,13 @@ def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints) -> Loops:
     first, last = begin.copy(), np.full(len(contour), len(toolpath), dtype=np.int64)
     for skipped in range(_LEAD_IN_BLOCKS + 1):
         met = np.where(
-            skipped < number, _first_met(toolpath, part, np.minimum(begin + skipped, row[-1])), len(toolpath)
+            skipped < number, _first_met(toolpath, part, np.minimum(begin + skipped, len(toolpath) - 1)), len(toolpath)
         )
         earlier = met < last
         first[earlier], last[earlier] = begin[earlier] + skipped, met[earlier]
     closed = np.flatnonzero(last < len(toolpath))
     contour, begin, first, last = (column[closed] for column in (contour, begin, first, last))
-    return Loops(contour, first, last, _part_side(toolpath, begin, first, last))
+    return Loops(contour, first, last, part_sides(toolpath, begin, first, last))
 
 
 def _first_met(toolpath: Toolpath, part: _Part, first: Ints) -> Ints:
@@ -108,7 +108,7 @@ def end_in_waste(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints) -> Ints
     return in_waste
 
 
-def _part_side(toolpath: Toolpath, begin: Ints, first: Ints, last: Ints) -> Ints:
+def part_sides(toolpath: Toolpath, begin: Ints, first: Ints, last: Ints) -> Ints:
     """Side (k,) of the loops from `first` to `last` that the part lies on, the wire coming in from row `begin`."""
     ring = _ring(toolpath, first, last)
     joint = toolpath.start_um[first][ring.of]

@@ -10,12 +10,15 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import CurveKind, Floats, Ints
+from parser.geometry.distance import distance_to_curves
+from parser.shape.beside import BESIDE_UM
 from parser.shape.closing import corners_at, ends_closed
 from parser.threeb.columns import RawBlocks
 from parser.threeb.reader import Mark
 from parser.toolpath import Toolpath
 
 _MOST_JUMPS = 3  # lines in one way to the next figure; a figure of lines and the jump to it make more
+_KERF_SHARE = 0.05  # of the length of a figure: no kerf is wider
 
 
 class Nodes(NamedTuple):
@@ -61,7 +64,8 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
     Up to three lines alone between two pauses (wire out, wire in) are jumps, even if the figure before them did not
     close. But if they close it, they are its last cut, behind a pause in which the slug is clamped. More blocks after a
     pause are a figure with the jump to it: their first line is the jump if the figure before is closed, and if their
-    own figure does not need that line to close.
+    own figure does not need that line to close. No wire is threaded within the kerf of what the figure before cut: a
+    line that ends there goes to another pass over its edge, or cuts the tab that held the slug.
     """
     rows: list[int] = []
     begin = 0  # first row of the figure being cut
@@ -72,17 +76,28 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
         is_closed = ends_closed(toolpath, begin, at)
         few_lines = until - at <= _MOST_JUMPS and not (toolpath.kind[at:until] == CurveKind.ARC).any()
         if few_lines and until < len(toolpath) and (is_closed or not _close(toolpath, begin, at, until)):
-            rows.extend(range(at, until))
-            begin = until
+            past = until
         elif is_closed and not (ends_closed(toolpath, at, until) and not ends_closed(toolpath, at + 1, until)):
-            rows.append(at)
-            begin = at + 1
+            past = at + 1
+        else:
+            continue
+        if not _in_kerf(toolpath, begin, at, past - 1):
+            rows.extend(range(at, past))
+            begin = past
     return np.array(rows, dtype=np.int64)
 
 
 def _close(toolpath: Toolpath, begin: int, at: int, until: int) -> bool:
     """Whether one of the rows from `at` up to but without `until` ends at a corner of the figure begun at `begin`."""
     return any(corners_at(toolpath, begin, at, end).size for end in toolpath.end_um[at:until])
+
+
+def _in_kerf(toolpath: Toolpath, begin: int, at: int, row: int) -> bool:
+    """Whether a row ends within the kerf of what the rows from `begin` up to but without `at` cut."""
+    cut = np.arange(begin, at)
+    x, y = toolpath.end_um[row]
+    off, _ = distance_to_curves(toolpath, cut, np.full(len(cut), x), np.full(len(cut), y))
+    return bool((off <= min(BESIDE_UM, _KERF_SHARE * float(toolpath.length_um[cut].sum()))).any())
 
 
 def _insert(blocks: RawBlocks, nodes: Sequence[Mark]) -> RawBlocks:

@@ -7,9 +7,9 @@ import numpy as np
 from controller.stepping.steps import Steps
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
-from parser.geometry.curves import Floats
+from parser.geometry.extents import extents
 from parser.program import Program
-from parser.toolpath import Axis, Toolpath
+from parser.toolpath import Axis
 from parser.units import from_mm
 
 if TYPE_CHECKING:
@@ -43,23 +43,6 @@ def travel_findings(
             by=float(beyond[row, axis]),
         )
     ]
-
-
-def extents(toolpath: Toolpath) -> tuple[Floats, Floats]:
-    """Lowest and highest places (n, 2) µm of each block."""
-    low = np.minimum(toolpath.start_um, toolpath.end_um)
-    high = np.maximum(toolpath.start_um, toolpath.end_um)
-    arc = np.flatnonzero(toolpath.is_arc)
-    first = np.minimum(toolpath.start_angle_rad[arc], toolpath.end_angle_rad[arc])
-    reach = np.abs(toolpath.sweep_rad[arc])
-    for quarter, (sign_x, sign_y) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
-        passed = np.mod(quarter * np.pi / 2.0 - first, 2.0 * np.pi) <= reach
-        rows = arc[passed]
-        extreme = toolpath.center_um[rows] + toolpath.radius_um[rows, None] * np.array([sign_x, sign_y])
-        axis = int(sign_x == 0)
-        low[rows, axis] = np.minimum(low[rows, axis], extreme[:, axis])
-        high[rows, axis] = np.maximum(high[rows, axis], extreme[:, axis])
-    return low, high
 
 
 _ROUNDING_UM = 0.5  # half a step

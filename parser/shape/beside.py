@@ -1,0 +1,145 @@
+"""Which stretches of a path run beside one another, and how far aside: passes over one edge do."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.along import headings_along, places_at
+from parser.geometry.broad_phase_places import near_places
+from parser.geometry.curves import Floats, Ints, total_before
+from parser.geometry.directions import headings_at
+from parser.geometry.feet import feet
+from parser.toolpath import Toolpath
+
+BESIDE_UM = 400.0
+"""Passes of one cut lie this near each other: an offset is a wire's radius and a gap, and one leaves some of another's
+(docs/3b.md §5)."""
+_SAME_WAY = 0.9  # cosine of the angle between two ways that run beside each other
+_UNLIKE_UM, _UNLIKE_SHARE = 10.0, 0.3  # a trim takes about as much all along
+_SAMPLES = 32  # of a stretch, at equal lengths
+
+
+class Stretches(NamedTuple):
+    """Stretches (k,) of the path, by their first and last rows, both included."""
+
+    first: Ints
+    last: Ints
+
+    def take(self, at: Ints) -> "Stretches":
+        """Those at the indices `at`."""
+        return Stretches(self.first[at], self.last[at])
+
+
+class Samples(NamedTuple):
+    """Places (m, 2) µm on the path with the direction (m, 2) of travel there, and which stretch (m,) each is of."""
+
+    of: Ints
+    place_um: Floats
+    way: Floats
+
+
+class Neighbours(NamedTuple):
+    """Rows (k,) that run beside places.
+
+    Attributes
+    ----------
+    at, row
+        Which place, and the row beside it.
+    aside_um
+        How far the row runs to the left of the place, looking along the path there; negative to the right.
+    sense
+        +1 where it runs the same way, −1 where it runs the other.
+    """
+
+    at: Ints
+    row: Ints
+    aside_um: Floats
+    sense: Ints
+
+
+class Beside(NamedTuple):
+    """How k pairs of stretches run beside each other.
+
+    Attributes
+    ----------
+    share
+        Share of the second one's samples that have the first one beside them, about as far aside as most have it.
+    sense
+        Mean sense of these, +1 where all run the same way, −1 where all run the other way; 0 without any.
+    aside_um
+        Median of how far the first one runs to the left of the second; 0 without any.
+    """
+
+    share: Floats
+    sense: Floats
+    aside_um: Floats
+
+
+def sampled(toolpath: Toolpath, stretches: Stretches, samples: int = _SAMPLES) -> Samples:
+    """Places at the middles of `samples` equal parts of each stretch."""
+    before = total_before(toolpath.length_um)
+    low, high = before[stretches.first], before[stretches.last + 1]
+    share = (np.arange(samples) + 0.5) / samples
+    run = (low[:, None] + (high - low)[:, None] * share).reshape(-1)
+    of = np.repeat(np.arange(len(low)), samples)
+    row = np.clip(np.searchsorted(before, run, side="right") - 1, stretches.first[of], stretches.last[of])
+    since = np.clip(run - before[row], 0.0, toolpath.length_um[row])
+    return Samples(of, places_at(toolpath, row, since), headings_along(toolpath, row, since))
+
+
+def neighbours(toolpath: Toolpath, rows: Ints, place_um: Floats, way: Floats) -> Neighbours:
+    """Those of the `rows` (r,) that run beside places (m, 2) µm on the path, passed in the directions (m, 2)."""
+    curves = toolpath.picked(rows)
+    near = near_places(curves, place_um, BESIDE_UM)
+    foot = feet(curves, near.row, place_um[near.other]).place_um
+    heading = headings_at(curves, near.row, foot)
+    out, along = foot - place_um[near.other], way[near.other]
+    aside = along[:, 0] * out[:, 1] - along[:, 1] * out[:, 0]
+    ahead = (along * out).sum(axis=1)
+    cosine = (along * heading).sum(axis=1)
+    # A foot at the end of a row lies aside, not ahead, where the row runs beside the place.
+    beside = (np.abs(cosine) >= _SAME_WAY) & (np.abs(aside) <= BESIDE_UM) & (np.abs(ahead) <= 0.5 * np.abs(aside) + 5.0)
+    which = np.flatnonzero(beside)
+    return Neighbours(near.other[which], rows[near.row[which]], aside[which], np.sign(cosine[which]).astype(np.int64))
+
+
+def run_beside(toolpath: Toolpath, stretches: Stretches, one: Ints, other: Ints) -> Beside:
+    """How the stretches `one` (k,) run beside the stretches `other` (k,), by their numbers; no stretches overlap."""
+    nothing = np.zeros(len(one))
+    if not len(one):
+        return Beside(nothing, nothing, nothing)
+    looked_at, of = np.unique(other, return_inverse=True)
+    places = sampled(toolpath, stretches.take(looked_at))
+    stretch_of_row = np.full(len(toolpath), -1, dtype=np.int64)
+    needed, _ = np.unique(one, return_index=True)
+    for number in needed.tolist():
+        stretch_of_row[stretches.first[number] : stretches.last[number] + 1] = number
+    beside = neighbours(toolpath, np.flatnonzero(stretch_of_row >= 0), places.place_um, places.way)
+    base = len(stretches.first)
+    has = places.of[beside.at] * base + stretch_of_row[beside.row]
+    return _by_pair(beside, has, of.reshape(-1) * base + one)
+
+
+def _by_pair(beside: Neighbours, has: Ints, wanted: Ints) -> Beside:
+    """The neighbours of places summed up by the pairs `wanted` (k,); `has` is the pair that each neighbour makes."""
+    order = np.argsort(wanted, kind="stable")
+    at = np.minimum(np.searchsorted(wanted[order], has), len(wanted) - 1)
+    hit = np.flatnonzero(wanted[order][at] == has)
+    pair, place, aside = order[at[hit]], beside.at[hit], beside.aside_um[hit]
+    # Of the rows of one stretch the nearest one counts at a place.
+    nearest = np.lexsort((np.abs(aside), place, pair))
+    pair, place, aside, sense = pair[nearest], place[nearest], aside[nearest], beside.sense[hit][nearest]
+    once = np.flatnonzero((np.diff(pair, prepend=-1) != 0) | (np.diff(place, prepend=-1) != 0))
+    pair, aside, sense = pair[once], aside[once], sense[once]
+    count = np.bincount(pair, minlength=len(wanted))
+    usual = _medians(pair, aside, count)
+    like = np.abs(aside - usual[pair]) <= _UNLIKE_UM + _UNLIKE_SHARE * np.abs(usual[pair])
+    share = np.bincount(pair, like, len(wanted)) / _SAMPLES
+    return Beside(share, np.bincount(pair, sense, len(wanted)) / np.maximum(count, 1), usual)
+
+
+def _medians(group: Ints, value: Floats, count: Ints) -> Floats:
+    """Medians of the values of each group, of the two in the middle the lower one; 0 of an empty group."""
+    value = value[np.lexsort((value, group))]
+    middle = np.cumsum(count) - count + (count - 1) // 2
+    return np.where(count > 0, np.append(value, 0.0)[np.minimum(middle, len(value))], 0.0)

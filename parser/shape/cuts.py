@@ -1,0 +1,127 @@
+"""Which stretches of contours cut along an edge: loops, open sections, or the whole contour where it is cut once."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Bools, Ints
+from parser.shape.beside import Stretches
+from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.contours import runs
+from parser.shape.edges import edges_of
+from parser.shape.loops import find_loops
+from parser.shape.open_edges import LEAST_ASIDE_UM, MOST_ASIDE_UM, Section, open_sections, sections_of_tours
+from parser.shape.returns import loops_in_order
+from parser.shape.turns import Turns, find_turns
+from parser.toolpath import Toolpath
+
+
+class Cuts(NamedTuple):
+    """Stretches (k,) in the order they are cut: rows, both included, contours, what closes, what is cut over a tab."""
+
+    first: Ints
+    last: Ints
+    contour: Ints
+    is_closed: Bools
+    is_tab: Bools
+
+    def take(self, at: Ints | Bools) -> "Cuts":
+        """Those at the indices `at`."""
+        return Cuts(self.first[at], self.last[at], self.contour[at], self.is_closed[at], self.is_tab[at])
+
+    @property
+    def stretches(self) -> Stretches:
+        """Their rows alone."""
+        return Stretches(self.first, self.last)
+
+
+def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
+    """Stretches of the contours; `contour` (n,) is each row's, −1 on jumps."""
+    loops = _loops(toolpath, contour)
+    edge = edges_of(toolpath, loops.stretches)
+    trimmed = loops.contour[np.bincount(edge, minlength=len(edge))[edge] > 1]
+    sections = _open(toolpath, contour, loops, edge)
+    opened = np.array(sorted(sections), dtype=np.int64)
+    kept = loops.take(np.isin(loops.contour, trimmed) & ~np.isin(loops.contour, opened))
+    others = np.setdiff1d(np.arange(contour.max(initial=-1) + 1), np.concatenate([opened, kept.contour]))
+    found = _joined(kept, _of_sections(sections), *_cut_once(toolpath, contour, others))
+    return found.take(np.argsort(found.first))
+
+
+def _joined(*parts: Cuts) -> Cuts:
+    first, last, contour = (np.concatenate([part[k] for part in parts]) for k in range(3))
+    closed, tab = (np.concatenate([part[k] for part in parts]).astype(np.bool_) for k in (3, 4))
+    return Cuts(first, last, contour, closed, tab)
+
+
+def _loops(toolpath: Toolpath, contour: Ints) -> Cuts:
+    """Loops of contours that close several, one behind the other; a way out and back by two blocks is none."""
+    first, last = loops_in_order(toolpath, contour)
+    row = np.maximum(last - 1, first)
+    arcs = toolpath.is_arc[row] & toolpath.is_arc[last]
+    lines = ~toolpath.is_arc[row] & ~toolpath.is_arc[last]
+    back = np.sign(toolpath.sweep_rad[row]) * np.sign(toolpath.sweep_rad[last]) < 0.0
+    center = np.hypot(*(toolpath.center_um[row] - toolpath.center_um[last]).T)
+    out_and_back = (row < last) & (first == row) & (lines | (arcs & back & (center <= CLOSED_WITHIN_UM)))
+    first, last = first[~out_and_back], last[~out_and_back]
+    of = contour[first]
+    several = np.bincount(of, minlength=1)[of] > 1
+    first, last, of = first[several], last[several], of[several]
+    return Cuts(first, last, of, np.ones(len(first), dtype=np.bool_), np.zeros(len(first), dtype=np.bool_))
+
+
+def _open(toolpath: Toolpath, contour: Ints, loops: Cuts, edge: Ints) -> dict[int, list[Section]]:
+    """Sections of the contours that run over one edge several times and leave it open, by contour."""
+    bounds = [(first, past) for first, past in runs(toolpath).tolist()]
+    found: dict[int, list[Section]] = {}
+    again = _trimmed(loops, edge)
+    for at, stretches in again.items():
+        one, other = (np.arange(first, last + 1) for first, last in stretches)
+        if np.hypot(*(toolpath.start_um[one[0]] - toolpath.start_um[other[0]])) <= CLOSED_WITHIN_UM:
+            found[at] = sections_of_tours(toolpath, bounds[at], one, other)
+    turned = {at: of for at, of in _turned(contour, find_turns(toolpath, contour)).items() if at not in again}
+    loop = find_loops(toolpath, contour, np.array(sorted(turned), dtype=np.int64))
+    ends = zip(loop.first.tolist(), loop.last.tolist(), strict=True)
+    loop_of = dict(zip(loop.contour.tolist(), ends, strict=True))
+    for at, of in turned.items():
+        found[at] = open_sections(toolpath, bounds[at], of, loop_of.get(at))
+    return {at: sections for at, sections in found.items() if sections}
+
+
+def _trimmed(loops: Cuts, edge: Ints) -> dict[int, list[tuple[int, int]]]:
+    """The first two loops over one edge, by their rows, of each contour that closes two over one."""
+    seen: dict[tuple[int, int], tuple[int, int]] = {}
+    found: dict[int, list[tuple[int, int]]] = {}
+    columns = (loops.contour, edge, loops.first, loops.last)
+    for contour, of, first, last in zip(*(column.tolist() for column in columns), strict=True):
+        earlier = seen.setdefault((contour, of), (first, last))
+        if earlier != (first, last):
+            found.setdefault(contour, [earlier, (first, last)])
+    return found
+
+
+def _turned(contour: Ints, turns: Turns) -> dict[int, Turns]:
+    """Turns of the contours that step aside at one of them as from one pass to the next one, by contour."""
+    aside = np.abs(turns.aside_um)
+    of = contour[turns.leave]
+    wanted = np.unique(of[(aside >= LEAST_ASIDE_UM) & (aside <= MOST_ASIDE_UM)])
+    first, past = np.searchsorted(of, wanted), np.searchsorted(of, wanted, side="right")
+    return {
+        at: turns.take(slice(low, high))
+        for at, low, high in zip(wanted.tolist(), first.tolist(), past.tolist(), strict=True)
+    }
+
+
+def _of_sections(sections: dict[int, list[Section]]) -> Cuts:
+    rows = [(one.first, one.last, at, one.is_tab) for at, several in sections.items() for one in several]
+    first, last, contour, tab = np.array(rows, dtype=np.int64).reshape(-1, 4).T
+    return Cuts(first, last, contour, np.zeros(len(first), dtype=np.bool_), tab.astype(np.bool_))
+
+
+def _cut_once(toolpath: Toolpath, contour: Ints, wanted: Ints) -> tuple[Cuts, Cuts]:
+    """Contours that are cut once: their loops, and all of those that close none."""
+    loops = find_loops(toolpath, contour, wanted)
+    rest = np.setdiff1d(wanted, loops.contour)
+    first, past = runs(toolpath)[rest].T
+    closed, plain = np.ones(len(loops.first), dtype=np.bool_), np.zeros(len(rest), dtype=np.bool_)
+    return Cuts(loops.first, loops.last, loops.contour, closed, ~closed), Cuts(first, past - 1, rest, plain, plain)

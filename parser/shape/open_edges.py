@@ -1,0 +1,158 @@
+"""Passes over an edge that is left open: there and back up to a tab, and the passes that cut the tab.
+
+Where the first pass turns back, the second one runs beside it. What both have in common is the open edge. Its two ends
+are known then, and every other stretch of the contour is told by the ends that it runs between: from one end to the
+other beside the edge it is a pass, and away from the edge a pass over the tab. All else is lead or step.
+"""
+
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.along import places
+from parser.geometry.curves import Bools, Floats, Ints
+from parser.geometry.directions import headings
+from parser.shape.beside import neighbours
+from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.turns import Turns
+from parser.toolpath import Toolpath
+
+MOST_ASIDE_UM = 150.0
+"""Trims take no more; two sides of a slot are farther apart."""
+LEAST_ASIDE_UM = 3.0  # nearer, it is a slit that is left on the line it was cut on
+_LEAST_LENGTH_UM = 1000.0
+_LEAST_SHARE = 0.6
+_AT_END_UM = 450.0  # passes over one edge end this near each other
+_MOST_TURNS = 8  # of a contour at which two passes are looked for
+
+
+class Section(NamedTuple):
+    """Rows of one pass, both included."""
+
+    first: int
+    last: int
+    is_tab: bool
+
+
+def open_sections(
+    toolpath: Toolpath, bounds: tuple[int, int], turns: Turns, loop: tuple[int, int] | None
+) -> list[Section]:
+    """Passes over the open edge of a contour; none where it has none.
+
+    Parameters
+    ----------
+    bounds
+        First row of the contour, and the one past its last.
+    turns
+        Those of the contour.
+    loop
+        First and last row of the loop that the contour closes, if it does.
+    """
+    aside = np.abs(turns.aside_um)
+    trims = np.flatnonzero((aside >= LEAST_ASIDE_UM) & (aside <= MOST_ASIDE_UM))
+    # There the part lies on the one side, back on the other; round a slot the wire goes aside to one side always.
+    to_part = np.sign(turns.aside_um[trims]) * np.where(trims % 2 == 0, 1.0, -1.0)
+    if (to_part != to_part[:1]).any():
+        return []
+    low, past = bounds
+    leave, arrive = np.concatenate([[low], turns.leave]), np.concatenate([turns.arrive, [past]])
+    for at in trims[:_MOST_TURNS].tolist():
+        there, back = np.arange(leave[at], arrive[at]), np.arange(leave[at + 1], arrive[at + 1])
+        edge = _common(toolpath, there, back)
+        if len(edge):
+            sections = _sections(toolpath, low, past, edge)
+            return [] if loop and _is_slot(sections, low, loop) else sections
+    return []
+
+
+def _is_slot(sections: list[Section], low: int, loop: tuple[int, int]) -> bool:
+    """Whether the sections are sides of a slot, without a tab, in the loop that a contour from the row `low` closes."""
+    within = loop[0] <= sections[0].first and sections[-1].last <= loop[1]
+    is_figure = loop[0] > low or sections[0].first == low  # else it goes from the hole back to it
+    return within and is_figure and not any(section.is_tab for section in sections)
+
+
+def sections_of_tours(toolpath: Toolpath, bounds: tuple[int, int], one: Ints, other: Ints) -> list[Section]:
+    """Passes over the open edge that two ways from the hole and back to it have in common; `bounds` are the contour's.
+
+    The ways `one` and `other` are given by their rows.
+    """
+    edge = _common(toolpath, one, other)
+    return _sections(toolpath, *bounds, edge) if len(edge) else []
+
+
+def _common(toolpath: Toolpath, early: Ints, late: Ints) -> Ints:
+    """Rows of a later stretch up to the last that runs beside an earlier one as most of it does; none if few do.
+
+    `early` and `late` are their rows. Leads of both run on one line, not as far aside as passes.
+    """
+    row, aside, _ = _row_by_row(toolpath, early, late)
+    length = toolpath.length_um[row]
+    if length.sum() < _LEAST_LENGTH_UM:
+        return late[:0]
+    order = np.argsort(aside)
+    half = np.searchsorted(np.cumsum(length[order]), 0.5 * length.sum())
+    usual = float(aside[order][half])
+    if not LEAST_ASIDE_UM <= abs(usual) <= MOST_ASIDE_UM:
+        return late[:0]
+    like = row[np.abs(aside - usual) <= max(CLOSED_WITHIN_UM, 0.4 * abs(usual))]
+    if not len(like):
+        return late[:0]
+    held = np.arange(like[0], like[-1] + 1)
+    share = toolpath.length_um[like].sum() / toolpath.length_um[held].sum()
+    return held if share >= _LEAST_SHARE else late[:0]
+
+
+def _row_by_row(toolpath: Toolpath, early: Ints, late: Ints) -> tuple[Ints, Floats, Ints]:
+    """Those of the rows `late` whose middle has one of `early` beside it, how far aside to the left, and its sense."""
+    half = np.full(len(late), 0.5)
+    beside = neighbours(toolpath, early, places(toolpath, late, half), headings(toolpath, late, half))
+    nearest = np.lexsort((np.abs(beside.aside_um), beside.at))
+    once = nearest[np.flatnonzero(np.diff(beside.at[nearest], prepend=-1))]
+    return late[beside.at[once]], beside.aside_um[once], beside.sense[once]
+
+
+def _sections(toolpath: Toolpath, low: int, past: int, edge: Ints) -> list[Section]:
+    """What runs between the ends of the open edge of the rows `edge`."""
+    corner = np.concatenate([toolpath.start_um[low:past], toolpath.end_um[past - 1 : past]])
+    rows = np.arange(low, past)
+    beside = np.zeros(past - low, dtype=np.bool_)
+    beside[_row_by_row(toolpath, edge, rows)[0] - low] = True
+    found: list[tuple[Section, bool]] = []
+    at = _visits(toolpath, corner, edge)
+    for (here, _, leave), (there, arrive, _) in pairwise(at):
+        length = toolpath.length_um[low + leave : low + arrive]
+        share = float(length[beside[leave:arrive]].sum() / max(float(length.sum()), 1.0))
+        is_beside = share >= _LEAST_SHARE
+        if is_beside or (here != there and not _by_hole(corner, leave, arrive)):
+            found.append((Section(low + leave, low + arrive - 1, False), is_beside))
+    # What is cut first is the edge, the other one its tab.
+    sections = [section._replace(is_tab=is_beside != found[0][1]) for section, is_beside in found]
+    return sections if sum(not section.is_tab for section in sections) > 1 else []
+
+
+def _visits(toolpath: Toolpath, corner: Floats, edge: Ints) -> list[tuple[int, int, int]]:
+    """Visits of the corners (m, 2) to the ends of the edge: which end, the corners of arriving there and leaving it."""
+    ends = np.stack([toolpath.start_um[edge[0]], toolpath.end_um[edge[-1]]])
+    ways = headings(toolpath, edge[[0, -1]], np.array([0.0, 1.0]))
+    off = corner[:, None, :] - ends
+    away = np.hypot(off[:, :, 0], off[:, :, 1])
+    apart = float(np.hypot(*(ends[1] - ends[0])))
+    end = np.where(away.min(axis=1) <= min(_AT_END_UM, 0.5 * apart), away.argmin(axis=1), -1)
+    along = np.abs((off * ways).sum(axis=2))
+    first = np.flatnonzero(np.diff(end, prepend=-1) != 0)
+    found = []
+    for begin, until in zip(first.tolist(), [*first[1:].tolist(), len(end)], strict=True):
+        if end[begin] >= 0:
+            near = along[begin:until, end[begin]]
+            level = begin + np.flatnonzero(near <= near.min() + CLOSED_WITHIN_UM)
+            found.append((int(end[begin]), int(level[0]), int(level[-1])))
+    return found
+
+
+def _by_hole(corner: Floats, leave: int, arrive: int) -> bool:
+    """Whether the corners (m, 2) from one to another one come by the first, where the wire is threaded."""
+    off = corner[leave + 1 : arrive] - corner[0]
+    near: Bools = np.hypot(off[:, 0], off[:, 1]) <= CLOSED_WITHIN_UM
+    return bool(near.any())

@@ -1,0 +1,133 @@
+"""Passes: which stretches of a path run over one edge, however they are written.
+
+A contour may be cut at once, or roughed and then trimmed: in runs of their own, by its start hole, or there and back
+without leaving it, with a tab left to the last. A contour that is cut once is one pass.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Floats, Ints
+from parser.shape.beside import run_beside
+from parser.shape.contours import contour_rows, runs
+from parser.shape.cuts import Cuts, find_cuts
+from parser.shape.edges import edges_of
+from parser.shape.loops import part_sides
+from parser.toolpath import Toolpath
+
+
+class Pass(NamedTuple):
+    """Rows of the toolpath that cut once along an edge.
+
+    Attributes
+    ----------
+    edge
+        Which edge, from 0 in the order first cut: passes over one edge share it.
+    number
+        From 1 within the edge, in the order cut; passes over its tab go on counting.
+    first, last
+        Rows, both included; leads left out.
+    is_back
+        Whether it runs against the first pass over this edge.
+    is_closed
+        Whether it ends where it began.
+    is_tab
+        Whether it cuts what the earlier passes left standing.
+    shift_um
+        How far its path lies from that of the last pass over this edge, positive on the side of the waste; 0 of the
+        last. A pass over the tab is held against the last one over the tab.
+    """
+
+    edge: int
+    number: int
+    first: int
+    last: int
+    is_back: bool
+    is_closed: bool
+    is_tab: bool
+    shift_um: float
+
+
+class Passes(NamedTuple):
+    """Passes of a toolpath.
+
+    Attributes
+    ----------
+    passes
+        In the order they are cut.
+    of_row
+        (n,) index into `passes`; −1 on leads, steps between passes and jumps.
+    """
+
+    passes: tuple[Pass, ...]
+    of_row: Ints
+
+
+def find_passes(toolpath: Toolpath) -> Passes:
+    """Passes of a toolpath, in the order they are cut."""
+    cuts = find_cuts(toolpath, contour_rows(toolpath))
+    edge = _edges(toolpath, cuts)
+    sense = _senses(toolpath, cuts, edge)
+    passes, of_row = [], np.full(len(toolpath), -1, dtype=np.int64)
+    of_edge: dict[int, int] = {}
+    counted: dict[int, int] = {}
+    columns = (
+        edge,
+        cuts.first,
+        cuts.last,
+        sense < 0,
+        cuts.is_closed,
+        cuts.is_tab,
+        _shifts(toolpath, cuts, edge, sense),
+    )
+    for number, (of, low, high, *rest) in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
+        at = of_edge.setdefault(of, len(of_edge))
+        counted[at] = counted.get(at, 0) + 1
+        passes.append(Pass(at, counted[at], low, high, *rest))
+        of_row[low : high + 1] = number
+    return Passes(tuple(passes), of_row)
+
+
+def _edges(toolpath: Toolpath, cuts: Cuts) -> Ints:
+    """Which edge each cut (k,) is over: the number of the first one over it. A tab is of the edge before it."""
+    main = np.flatnonzero(~cuts.is_tab)
+    edge = np.arange(len(cuts.first))
+    edge[main] = main[edges_of(toolpath, cuts.take(main).stretches)]
+    before = np.maximum.accumulate(np.where(cuts.is_tab, -1, np.arange(len(edge))))
+    return edge[before]
+
+
+def _senses(toolpath: Toolpath, cuts: Cuts, edge: Ints) -> Ints:
+    """+1 (k,) where a cut runs as the first one over its edge does, −1 where it runs against it.
+
+    A tab is cut from the end of the first one on to its start, or the other way.
+    """
+    other = np.flatnonzero((edge != np.arange(len(edge))) & ~cuts.is_tab)
+    beside = run_beside(toolpath, cuts.stretches, edge[other], other)
+    sense = np.ones(len(edge), dtype=np.int64)
+    sense[other[beside.sense < 0.0]] = -1
+    tab = np.flatnonzero(cuts.is_tab)
+    start = toolpath.start_um[cuts.first[tab]]
+    from_start = np.hypot(*(start - toolpath.start_um[cuts.first[edge[tab]]]).T)
+    from_end = np.hypot(*(start - toolpath.end_um[cuts.last[edge[tab]]]).T)
+    sense[tab[from_start < from_end]] = -1
+    return sense
+
+
+def _shifts(toolpath: Toolpath, cuts: Cuts, edge: Ints, sense: Ints) -> Floats:
+    """How far (k,) µm each cut lies from the last one over its edge, or over its tab, on the side of the waste."""
+    number = np.arange(len(edge))
+    last, first = np.zeros(2 * len(edge), dtype=np.int64), np.zeros(2 * len(edge), dtype=np.int64)
+    group = 2 * edge + cuts.is_tab
+    last[group], first[group[::-1]] = number, number[::-1]
+    last, first = last[group], first[group]
+    other = np.flatnonzero(number != last)
+    aside = np.zeros(len(edge))
+    aside[other] = run_beside(toolpath, cuts.stretches, other, last[other]).aside_um
+    of, begin = cuts.contour[edge[other]], runs(toolpath)[:, 0]
+    part = part_sides(toolpath, begin[of], cuts.first[edge[other]], cuts.last[edge[other]]) * sense[last[other]]
+    # Without a lead-in the waste lies where the first one is cut.
+    waste = np.where(part != 0, -part, np.sign(aside[first[other]]))
+    aside[other] *= waste
+    return aside

@@ -1,0 +1,52 @@
+"""Where a path turns back: at once, or behind a short step aside, as from one pass to the next one."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Floats, Ints, total_before
+from parser.geometry.directions import directions
+from parser.toolpath import Toolpath
+
+_BACK = -0.96  # cosine of the angle between the ways there and back; whole µm tilt short blocks
+_MOST_STEP_UM = 400.0
+_MOST_STEPS = 3  # blocks of a step aside
+
+
+class Turns(NamedTuple):
+    """Turns (k,) in the order they are met.
+
+    Attributes
+    ----------
+    arrive, leave
+        Rows up to but without `arrive` run there, those from `leave` on back; rows between them are the step.
+    aside_um
+        How far the way back lies to the left of the way there.
+    """
+
+    arrive: Ints
+    leave: Ints
+    aside_um: Floats
+
+    def take(self, at: Ints | slice) -> "Turns":
+        """Those at the indices `at`."""
+        return Turns(self.arrive[at], self.leave[at], self.aside_um[at])
+
+
+def find_turns(toolpath: Toolpath, contour: Ints) -> Turns:
+    """Turns within contours; `contour` (n,) is each row's, −1 on jumps."""
+    n = len(toolpath)
+    ways, before = directions(toolpath), total_before(toolpath.length_um)
+    leave = np.full(n, -1, dtype=np.int64)
+    for blocks in range(_MOST_STEPS, -1, -1):
+        there = np.arange(n - blocks - 1)
+        back = there + blocks + 1
+        turned = (ways.arriving[there] * ways.leaving[back]).sum(axis=1) <= _BACK
+        turned &= (contour[there] >= 0) & (contour[there] == contour[back])
+        turned &= before[back] - before[there + 1] <= _MOST_STEP_UM
+        leave[there[turned]] = back[turned]
+    there = np.flatnonzero(leave >= 0)
+    back = leave[there]
+    by = toolpath.start_um[back] - toolpath.end_um[there]
+    way = ways.arriving[there]
+    return Turns(there + 1, back, way[:, 0] * by[:, 1] - way[:, 1] * by[:, 0])
