@@ -95,6 +95,7 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B404": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B405": FindingCode(Severity.WARNING, check=None, placed=True),
         "3B406": FindingCode(Severity.WARNING, check=None, placed=True),
+        "3B407": FindingCode(Severity.WARNING, check=None),
         "3B490": FindingCode(Severity.ERROR, check=None),
         "3B501": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B502": FindingCode(Severity.WARNING, check=None, placed=True),

@@ -4,9 +4,11 @@ from dataclasses import dataclass
 
 from parser.program import Program
 from parser.shape.contours import Contour
+from parser.toolpath import Toolpath
 from sim.cut.kerf.region import Kerf, kerf_of
 from sim.cut.pieces.pieces import Material, Pieces, pieces_of
 from sim.cut.play.freedom import Play, plays_of
+from sim.cut.regions import cut_by_blocks
 from sim.cut.sizes.sizes import Sizes, sizes_of
 from sim.setup.scenario import Scenario
 from sim.table.trace import Trace
@@ -35,25 +37,33 @@ class Remains:
 
 
 def remains_of(program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario) -> Remains:
-    """Kerf, pieces and sizes by where the wire really was."""
-    kerf = kerf_of(program.toolpath, trace, contours, scenario.wire.reach_um)
-    pieces = _pieces(kerf, scenario)
-    return Remains(
-        kerf=kerf,
-        pieces=pieces,
-        plays=plays_of(pieces, scenario.wire.radius_um),
-        sizes=sizes_of(program.toolpath, kerf, pieces, scenario.work_um),
-    )
+    """Kerf, pieces and sizes by where the wire really was; RegionError where they could not be worked out."""
+    toolpath = program.toolpath
+    with cut_by_blocks(1, len(toolpath)):
+        kerf = kerf_of(toolpath, trace, contours, scenario.wire.reach_um)
+        pieces = _pieces(kerf, toolpath, scenario)
+        return Remains(
+            kerf=kerf,
+            pieces=pieces,
+            plays=plays_of(pieces, scenario.wire.radius_um),
+            sizes=sizes_of(toolpath, kerf, pieces, scenario.work_um),
+        )
 
 
 def pieces_left(
     remains: Remains | None, program: Program, trace: Trace, contours: tuple[Contour, ...], scenario: Scenario
 ) -> Pieces:
-    """Pieces of a run: those of its remains, or worked out here where nobody asked for the remains."""
+    """Pieces of a run: those of its remains, or worked out here where nobody asked for the remains.
+
+    RegionError where they could not be worked out.
+    """
     if remains is not None:
         return remains.pieces
-    return _pieces(kerf_of(program.toolpath, trace, contours, scenario.wire.reach_um), scenario)
+    with cut_by_blocks(1, len(program.toolpath)):
+        kerf = kerf_of(program.toolpath, trace, contours, scenario.wire.reach_um)
+        return _pieces(kerf, program.toolpath, scenario)
 
 
-def _pieces(kerf: Kerf, scenario: Scenario) -> Pieces:
-    return pieces_of(kerf, scenario.work_um, Material(scenario.thickness_mm, scenario.density_g_cm3))
+def _pieces(kerf: Kerf, toolpath: Toolpath, scenario: Scenario) -> Pieces:
+    pauses = [stop.after for stop in toolpath.stops if stop.kind == "pause"]
+    return pieces_of(kerf, scenario.work_um, Material(scenario.thickness_mm, scenario.density_g_cm3), pauses)

@@ -1,7 +1,7 @@
 """The dry run: one program through controller, card and table, and what came of it."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Final, NamedTuple, Protocol
 
 import numpy as np
 
@@ -15,9 +15,10 @@ from parser.geometry.curves import Floats, total_before
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.toolpath import Toolpath
-from sim.check.result import Coverage
+from sim.check.result import CheckState, Coverage
 from sim.cut.obstacles.findings import obstacle_findings
-from sim.cut.pieces.findings import piece_findings
+from sim.cut.pieces.findings import piece_findings, region_finding
+from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
 from sim.cut.wire_lag import bowed
 from sim.measure.compare.findings import compare_cut, drawing_findings
@@ -35,6 +36,9 @@ from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
 from sim.table.trace import Trace
+
+REMAINS: Final = "check-remains"
+"""Name of the check of what a cut leaves, which only a run makes."""
 
 
 class PulseSink(Protocol):
@@ -164,7 +168,7 @@ def dry_run(
     lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     plan = motion.drive.plan
     cut = _cut(trace, moved.losses)
-    remains, comparison, left = _left(program, cut, contours, scenario, drawing)
+    left = _left(program, cut, contours, scenario, drawing)
     return DryRun(
         program=program,
         scenario=scenario,
@@ -178,10 +182,10 @@ def dry_run(
         deviations=meters.deviations(cut),
         contours=contours,
         block_time_s=_block_times(plan, ready.steps.along_um),
-        remains=remains,
-        comparison=comparison,
-        findings=tuple(sorted([*ready.findings, *met, *lost, *left], key=file_order)),
-        coverage=ready.coverage,
+        remains=left.remains,
+        comparison=left.comparison,
+        findings=tuple(sorted([*ready.findings, *met, *lost, *left.findings], key=file_order)),
+        coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
 
 
@@ -193,19 +197,33 @@ def _drawing(target: DrawingTarget | None) -> Drawing | None:
     return read_drawing(target.file, layer=target.layer, gap_um=target.gap_um)
 
 
+class _Left(NamedTuple):
+    """What the cut leaves, beside the drawing, with findings; and how far the check of it came."""
+
+    remains: Remains | None
+    comparison: Comparison | None
+    findings: list[Finding]
+    state: CheckState
+
+
 def _left(
     program: Program, cut: Trace, contours: tuple[Contour, ...], scenario: Scenario, drawing: Drawing | None
-) -> tuple[Remains | None, Comparison | None, list[Finding]]:
-    """What the cut leaves, beside the drawing, with findings; as far as the scenario asks for it."""
+) -> _Left:
+    """What the cut leaves, as far as the scenario asks for it."""
     target = scenario.drawing
     if not scenario.kerf and target is None:
-        return None, None, []
-    remains = remains_of(program, cut, contours, scenario)
+        return _Left(None, None, [], CheckState(REMAINS, "not asked", "reason-no-kerf"))
+    try:
+        remains = remains_of(program, cut, contours, scenario)
+    except RegionError as error:
+        return _Left(
+            None, None, [region_finding(program, error)], CheckState(REMAINS, "incomplete", "reason-no-region")
+        )
     found = piece_findings(program, remains.pieces)
     if target is None or drawing is None:
-        return remains, None, found
+        return _Left(remains, None, found, CheckState(REMAINS))
     comparison = compare_cut(program, remains.pieces, scenario.wire.reach_um, drawing, target)
-    return remains, comparison, [*found, *drawing_findings(program, comparison)]
+    return _Left(remains, comparison, [*found, *drawing_findings(program, comparison)], CheckState(REMAINS))
 
 
 def _cut(trace: Trace, losses: tuple[Loss, ...]) -> Trace:

@@ -12,6 +12,7 @@ import numpy as np
 from controller.stepping.pulses import Pulses
 from parser.program import Program
 from sim.cut.pieces.pieces import Frame, Pieces
+from sim.cut.regions import RegionError
 from sim.cut.remains import pieces_left
 from sim.files import StepFiles
 from sim.run.dryrun import DryRun, dry_run
@@ -75,11 +76,15 @@ def check_expectations(run: DryRun) -> DryRun:
 def pieces_of_run(run: DryRun) -> Pieces:
     """What the cut leaves of the work, worked out here where the scenario did not ask for it.
 
-    `NO_PIECES` where it did not, and the path runs over itself so often that this would take minutes.
+    `NO_PIECES` where it did not, and the path runs over itself so often that this would take minutes; and where they
+    could not be worked out.
     """
     if run.remains is None and _passes(run) > MOST_PASSES:
         return NO_PIECES
-    return pieces_left(run.remains, run.program, run.cut, run.contours, run.scenario)
+    try:
+        return pieces_left(run.remains, run.program, run.cut, run.contours, run.scenario)
+    except RegionError:
+        return NO_PIECES
 
 
 def _passes(run: DryRun) -> float:

@@ -58,6 +58,7 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B403": {"axis": "Y", "lag": 100.2, "limit": 100.0, "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B404": {"body": "arm", "name": "left clamp", "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B405": {"t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B407": {"first": 3, "last": 17},
     "3B406": {"kind": "slug", "area_mm2": 12.5, "cut_after": 5000.0, "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B490": {"path": "summary.steps", "found": "99000", "wanted": "at most 5"},
     "3B501": {"radius": 50.0, "offset": 100.0, "left": 20.7, "x_mm": 12.5, "y_mm": 0.0},

@@ -3,12 +3,12 @@
 from dataclasses import replace
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Curves, Floats, curves_between, joined
 from parser.geometry.directions import directions, to_left
-from sim.cut.kerf.swept import Region, Regions, filled
+from sim.cut.kerf.swept import filled
+from sim.cut.regions import Region, Regions, union_all
 
 _CHORD_UM = 0.01
 _CHORDS = 16  # of a sector
@@ -25,9 +25,7 @@ def nominal_region(curves: Curves, cut: NDArray[np.bool_], offset_um: float) -> 
     seals = filled(
         _on_circles(curves.end_um[cut], np.full(int(cut.sum()), offset_um), np.tile(angle, (int(cut.sum()), 1)))
     )
-    return shapely.union_all(
-        np.concatenate([seals, round_ends, _along_lines(lines, offset_um), _along_arcs(arcs, offset_um)])
-    )
+    return union_all(np.concatenate([seals, round_ends, _along_lines(lines, offset_um), _along_arcs(arcs, offset_um)]))
 
 
 def _discs(place_um: Floats) -> Curves:

@@ -3,13 +3,12 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-import shapely
-
 from parser.shape.contours import Contour
 from parser.toolpath import Toolpath
 from sim.cut.kerf.edges import Edges, Range, edges_of, ranges
-from sim.cut.kerf.swept import Region, Swept, swept_along
-from sim.cut.kerf.ways import wire_ways
+from sim.cut.kerf.swept import Swept, swept_along
+from sim.cut.kerf.ways import WireWay, wire_ways
+from sim.cut.regions import Region, cut_by_blocks, union_all
 from sim.table.trace import Trace
 
 
@@ -43,10 +42,13 @@ class Kerf(NamedTuple):
 
 
 def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], offset_um: float) -> Kerf:
-    """Kerf of a run by where the wire really was, an offset above 0 to all sides of it."""
+    """Kerf of a run by where the wire really was, an offset above 0 to all sides of it.
+
+    RegionError with the blocks of a contour whose kerf could not be worked out.
+    """
     ways = wire_ways(trace, contours, offset_um)
-    swept = tuple(swept_along(toolpath, way, offset_um) for way in ways)
-    region = shapely.union_all([one.region_um for one in swept])
+    swept = tuple(_swept(toolpath, contour, way, offset_um) for contour, way in zip(contours, ways, strict=True))
+    region = union_all(one.region_um for one in swept)
     edges = edges_of(toolpath, ~toolpath.is_jump, ways, offset_um)
     left, right = edges.left_um, edges.right_um
     return Kerf(
@@ -59,3 +61,8 @@ def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], offse
         right=ranges(edges, right, len(toolpath)),
         width=ranges(edges, left + right, len(toolpath)),
     )
+
+
+def _swept(toolpath: Toolpath, contour: Contour, way: WireWay, offset_um: float) -> Swept:
+    with cut_by_blocks(contour.first, contour.last):
+        return swept_along(toolpath, way, offset_um)

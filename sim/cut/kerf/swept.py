@@ -10,17 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
-from shapely.geometry.base import BaseGeometry
 
 from parser.geometry.curves import Curves, Floats, Ints
 from sim.cut.kerf.ways import WireWay
-
-Region = BaseGeometry
-"""A polygon or a multipolygon, µm."""
-
-Regions = NDArray[np.object_]
-"""(n,) of them; shapely's arrays have no type of their own."""
+from sim.cut.regions import Region, Regions, unions
 
 _SCALLOP_UM = 0.02  # left standing between two rays
 _SIMPLER_UM = 0.01  # polygons are simplified by
@@ -144,6 +137,6 @@ def _levels(regions: Regions) -> tuple[Regions, ...]:
     levels = [regions]
     while len(levels[-1]) > 1:
         last = levels[-1]
-        pairs = shapely.union(last[:-1:2], last[1::2])
+        pairs = unions(last[:-1:2], last[1::2])
         levels.append(np.append(pairs, last[-1:]) if len(last) % 2 else pairs)
     return tuple(levels)

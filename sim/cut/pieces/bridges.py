@@ -4,16 +4,12 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-import shapely
 
 from parser.geometry.curves import Floats
 from parser.toolpath import Point
 from sim.cut.kerf.ways import WireWay
 
 _FRESH = 3.0  # offsets: so far back along its way the wire is in the kerf it is cutting, and closes on to nothing
-_ON_IT = 0.1  # offsets: a start this near to the loop lies on it, and is no lead-in
-_NOTCH = 1.5  # offsets that an outline grows and shrinks by, which closes notches two offsets wide
-_COARSE_UM = 1.0
 _LAST_UM = 1000.0  # of way before a piece comes free: here it is still held well
 
 
@@ -76,22 +72,6 @@ def bridge_of(ways: Sequence[WireWay], contour: int, at: int, older: Older | Non
         last_mm_block=int(way.row[last]) + 1,
         last_mm_t_s=float(way.t_s[last]),
     )
-
-
-def came_from_inside(way: WireWay, begin: int, end: int, offset_um: float) -> bool:
-    """Whether a way starts inside the loop between its places `begin` and `end` (indices), and not on the loop."""
-    if end - begin < 3:
-        return False
-    loop = shapely.Polygon(way.place_um[begin : end + 1])
-    start = shapely.Point(way.place_um[0])
-    return bool(loop.contains(start) and loop.exterior.distance(start) > _ON_IT * offset_um)
-
-
-def began_in(way: WireWay, piece_um: shapely.Polygon, offset_um: float) -> bool:
-    """Whether the wire starts within the outline of a piece, or in the notch that its lead-in left in there."""
-    outline = shapely.simplify(shapely.Polygon(piece_um.exterior), _COARSE_UM)
-    closed = outline.buffer(_NOTCH * offset_um).buffer(-_NOTCH * offset_um)
-    return bool(closed.contains(shapely.Point(way.place_um[0])))
 
 
 def _nearest(place: Floats, wire: Floats, contour: int) -> Older:

@@ -8,8 +8,9 @@ import shapely
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats
-from sim.cut.kerf.swept import Region, Swept, middles, stars
+from sim.cut.kerf.swept import Swept, middles, stars
 from sim.cut.kerf.ways import WireWay
+from sim.cut.regions import Region, difference, union
 
 _SPARED = 0.1  # offsets: a wire that reaches less deep into a piece only takes off what an earlier cut left on it
 
@@ -47,7 +48,7 @@ class FreeQuestion(NamedTuple):
 
 def parted(stock_um: shapely.Polygon, kerf_um: Region) -> list[shapely.Polygon]:
     """Parts of a stock, µm, that a kerf leaves, each a polygon; none where it leaves nothing."""
-    parts: list[shapely.Polygon] = shapely.get_parts(shapely.difference(stock_um, kerf_um)).tolist()
+    parts: list[shapely.Polygon] = shapely.get_parts(difference(stock_um, kerf_um)).tolist()
     return parts
 
 
@@ -57,7 +58,7 @@ def moment_of(
     """The first moment at which the kerfs of some contours, in the order they are cut, answer the question with yes."""
     before: Region = shapely.Polygon()
     for contour in contours:
-        kerf = shapely.union(before, swept[contour].region_um)
+        kerf = union(before, swept[contour].region_um)
         piece = question.free(kerf)
         if piece is not None:
             return _within(question, before, swept[contour], offset_um, FreeMoment(contour, -1, piece))
@@ -71,7 +72,7 @@ def _within(question: FreeQuestion, before: Region, swept: Swept, offset_um: flo
     for level in swept.levels[-2::-1]:
         stretch *= 2
         if stretch + 1 < len(level):
-            kerf = shapely.union(before, level[stretch])
+            kerf = union(before, level[stretch])
             if question.free(kerf) is None:
                 before, stretch = kerf, stretch + 1
     way, piece = swept.way, whole.piece_um
@@ -81,7 +82,7 @@ def _within(question: FreeQuestion, before: Region, swept: Swept, offset_um: flo
     while high - low > 1:
         at = (low + high) // 2
         star = stars(way.place_um[first : at + 1], np.zeros(1, dtype=np.int64), middle, offset_um)
-        found = question.free(shapely.union(before, star[0]))
+        found = question.free(union(before, star[0]))
         low, high, piece = (at, high, piece) if found is None else (low, at, found)
     return FreeMoment(whole.contour, high, piece)
 

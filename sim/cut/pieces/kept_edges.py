@@ -1,72 +1,78 @@
-"""The edge of each block that is kept: that of the part, or of the frame where a slug falls out of it."""
+"""The edges that are kept, at stations along the blocks: where the edge of a block's kerf lies on a shape that is kept.
+
+They come from the region that the wire left. A pass whose edge another pass cut away has none there, and what stays of
+it beside a tab has one.
+"""
 
 from typing import NamedTuple
 
 import numpy as np
 import shapely
 
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints
 from sim.cut.kerf.edges import Edges
-from sim.cut.kerf.region import Kerf
-from sim.cut.pieces.pieces import Piece, Pieces
+from sim.cut.pieces.kept_shapes import KeptShape
+from sim.cut.regions import Region
 
-_INTO_UM = 10.0  # from the edge into what lies beside it
-_FRAME = 1
-_WORTH = {"slug": 0, "part": 2}
+_ON_UM = 0.2  # a region is exact to 0.1 µm, and so is the edge of a block
 _NONE = -1
 
 
-class Kept(NamedTuple):
-    """Kept edges of n blocks.
+class KeptEdges(NamedTuple):
+    """Kept edges at k places, in the order of their blocks, those on the left of the path first.
 
     Attributes
     ----------
+    station
+        (k,) int64, indices of the stations, inner ones.
+    row
+        (k,) int64.
     side
-        (n,) int64: +1 the left edge is kept, −1 the right one, 0 neither or both: a lead-in, an open cut.
-    piece
-        (n,) int64, index of the piece that comes free beside the block; −1 where there is none.
+        (k,) int64, +1 on the left of the path, −1 on the right.
+    shape
+        (k,) int64, index of the shape whose outline it is.
+    cut_um, nominal_um
+        (k, 2) float64, the edge as the wire left it, and as the ideal path would.
     """
 
+    station: Ints
+    row: Ints
     side: Ints
-    piece: Ints
+    shape: Ints
+    cut_um: Floats
+    nominal_um: Floats
+
+    def picked(self, which: Bools | Ints | slice) -> "KeptEdges":
+        """Some of them."""
+        return KeptEdges(*(column[which] for column in self))
 
 
-def kept_edges(kerf: Kerf, pieces: Pieces) -> Kept:
-    """Which edges are kept: rather a part's than the frame's, and the frame's rather than a slug's."""
-    edges, rows = kerf.edges, len(kerf.width.mean_um)
-    at = _middles(edges)
-    place, out = edges.place_um[at], edges.left[at]
-    left = _beside(pieces.freed, place + (edges.left_um[at] + _INTO_UM)[:, None] * out)
-    right = _beside(pieces.freed, place - (edges.right_um[at] + _INTO_UM)[:, None] * out)
-    worth = np.array([*(_WORTH[piece.kind] for piece in pieces.freed), _FRAME])
-    side, beside = np.zeros(rows, dtype=np.int64), np.full(rows, _NONE)
-    row = edges.row[at]
-    side[row] = np.sign(worth[left] - worth[right])
-    beside[row] = np.maximum(left, right)
-    return Kept(side, beside)
+def kept_edges(edges: Edges, offset_um: float, shapes: tuple[KeptShape, ...], nominal: list[Region]) -> KeptEdges:
+    """Edges that are kept, and would be if the wire were on the ideal path, which leaves the `nominal` parts."""
+    inner = np.flatnonzero(edges.inner & ~np.isnan(edges.left_um))
+    station, side = np.tile(inner, 2), np.repeat(np.array([1, -1]), len(inner))
+    out = side[:, None] * edges.left[station]
+    reach = np.where(side > 0, edges.left_um[station], edges.right_um[station])
+    cut, ideal = edges.place_um[station] + reach[:, None] * out, edges.place_um[station] + offset_um * out
+    shape = _lying_on([one.outline_um.exterior for one in shapes], cut)
+    kept = KeptEdges(station, edges.row[station], side, shape, cut, ideal).picked(shape != _NONE)
+    kept = kept.picked(_lying_on(shapely.get_rings(nominal).tolist(), kept.nominal_um) != _NONE)
+    return kept.picked(np.lexsort((kept.station, -kept.side, kept.row)))
 
 
-def edge_places(edges: Edges, side: Ints) -> Floats:
-    """Places (m, 2) on the edges to a side (m,) of the stations."""
-    reach = np.where(side > 0, edges.left_um, -edges.right_um)
-    places: Floats = edges.place_um + reach[:, None] * edges.left
-    return places
+def runs_of(*columns: Ints) -> Ints:
+    """First indices of the runs in which none of some columns (k,) changes."""
+    if not len(columns[0]):
+        return np.empty(0, dtype=np.int64)
+    changes = [np.diff(column) != 0 for column in columns]
+    return np.append(0, np.flatnonzero(np.any(changes, axis=0)) + 1)
 
 
-def _middles(edges: Edges) -> Ints:
-    """Indices of the middle inner stations that were cut, one of each row at most."""
-    cut = np.flatnonzero(edges.inner & ~np.isnan(edges.left_um))
-    row = edges.row[cut]
-    first = np.flatnonzero(np.diff(row, prepend=-1))
-    middle: Ints = cut[first + np.diff(first, append=len(row)) // 2]
-    return middle
-
-
-def _beside(pieces: tuple[Piece, ...], place_um: Floats) -> Ints:
-    """Indices (m,) of the pieces that hold places (m, 2); −1 outside all."""
+def _lying_on(rings: list[shapely.LinearRing], place_um: Floats) -> Ints:
+    """Indices (m,) of the rings that places (m, 2) lie on; −1 on none."""
     found = np.full(len(place_um), _NONE)
-    # The places are in the tree and the outlines query it: shapely prepares what queries, here few long outlines.
+    # The places are in the tree and the rings query it: shapely prepares what queries, here few long rings.
     tree = shapely.STRtree(list(shapely.points(place_um)))  # type: ignore[arg-type]
-    piece, at = tree.query(np.array([piece.outline_um for piece in pieces], dtype=np.object_), predicate="contains")
-    found[at] = piece
+    ring, at = tree.query(np.array(rings, dtype=np.object_), predicate="dwithin", distance=_ON_UM)
+    found[at] = ring
     return found

@@ -1,5 +1,6 @@
 """The pieces that the kerf leaves: what each is, which contour frees it and when, and what held it last."""
 
+from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -8,8 +9,10 @@ import shapely
 from parser.toolpath import Point
 from sim.cut.kerf.region import Kerf
 from sim.cut.kerf.ways import WireWay, behind
-from sim.cut.pieces.bridges import Bridge, Older, began_in, bridge_of, came_from_inside, older_place
+from sim.cut.pieces.bridges import Bridge, bridge_of, older_place
 from sim.cut.pieces.frees import FreeMoment, FreeQuestion, cut_on_um, moment_of, parted
+from sim.cut.pieces.holds import held_after
+from sim.cut.pieces.kinds import Loose, are_slugs
 from sim.setup.obstacles import Outline
 
 _CRUMB_MM2 = 0.001  # some 30 µm square, or cusps where the wire leaves its kerf: nothing that anyone picks up
@@ -52,11 +55,15 @@ class Piece(NamedTuple):
         When and by what.
     bridge
         What held it last.
+    held_after_block
+        The program pauses behind this block, where the piece still hangs on its last bridge: there the operator can
+        clamp it. None where there is no such pause.
     cut_after_um
-        How far the wire still cuts in it once it is free: on the contour that freed it and, in a part, on later ones.
+        How far the wire still cuts in it once it is free: on the contour that freed it and, in a part, on later ones,
+        such as trims.
     early
-        Whether it comes free before its cut is done: whether `cut_after_um` is more than two kerf widths. In a slug the
-        wire may also cut a lead-out, as long as its lead-in.
+        Whether it comes free before its cut is done, and nobody holds it: whether `cut_after_um` is more than two kerf
+        widths. In a slug the wire may also cut a lead-out, as long as its lead-in.
     """
 
     kind: Literal["part", "slug"]
@@ -66,6 +73,7 @@ class Piece(NamedTuple):
     center_um: Point
     freed: Freed
     bridge: Bridge
+    held_after_block: int | None
     cut_after_um: float
     early: bool
 
@@ -87,8 +95,11 @@ class Pieces(NamedTuple):
     crumbs: int
 
 
-def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material) -> Pieces:
-    """Pieces that a kerf leaves of the work, or of a plane without end where its outline is not known."""
+def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material, pauses: Sequence[int] = ()) -> Pieces:
+    """Pieces that a kerf leaves of the work, or of a plane without end where its outline is not known.
+
+    `pauses` tell how many blocks run before each pause of the program, in order.
+    """
     stock = stock_of(kerf, work_um)
     parts = parted(stock, kerf.region_um)
     frame = _frame(parts, stock)
@@ -96,10 +107,13 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material) -> Pieces
     whole = [part for part in others if part.area * 1e-6 >= _CRUMB_MM2]
     held = shapely.point_on_surface(frame)
     kerfs = shapely.STRtree([one.region_um for one in kerf.swept])
-    found = [
-        _piece(kerf, kerfs, part, FreeQuestion(stock, part.representative_point(), held), material) for part in whole
-    ]
-    pieces = sorted((piece for piece in found if piece is not None), key=lambda piece: piece.freed.t_s)
+    questions = [FreeQuestion(stock, part.representative_point(), held) for part in whole]
+    told = [_loose(kerf, kerfs, part, question) for part, question in zip(whole, questions, strict=True)]
+    loose = [piece for piece in told if piece is not None]
+    slugs = are_slugs(loose, kerf.swept, kerf.offset_um)
+    cuts = _Cuts(kerf, kerfs, pauses, material)
+    found = [_piece(cuts, piece, is_slug=is_slug) for piece, is_slug in zip(loose, slugs, strict=True)]
+    pieces = sorted(found, key=lambda piece: piece.freed.t_s)
     return Pieces(_as_frame(frame, work_um, material), tuple(pieces), len(others) - len(whole))
 
 
@@ -128,43 +142,47 @@ def _as_frame(frame: shapely.Polygon, work_um: Outline | None, material: Materia
     return Frame(frame, area, material.mass_g(area), openings)
 
 
-def _piece(
-    kerf: Kerf, kerfs: shapely.STRtree, part: shapely.Polygon, question: FreeQuestion, material: Material
-) -> Piece | None:
-    """A part as a piece; None where the contours that have a share in its outer edge do not free it."""
+class _Cuts(NamedTuple):
+    """The kerf, the kerfs of its contours in a tree, the pauses between the blocks, and what is cut."""
+
+    kerf: Kerf
+    kerfs: shapely.STRtree
+    pauses: Sequence[int]
+    material: Material
+
+
+def _loose(kerf: Kerf, kerfs: shapely.STRtree, part: shapely.Polygon, question: FreeQuestion) -> Loose | None:
+    """A part as it comes free; None where the contours that have a share in its outer edge do not free it."""
     contours = _round(kerfs, part)
     moment = moment_of(question, kerf.swept, contours, kerf.offset_um)
     if moment is None:
         return None
-    contour, at = moment.contour, moment.at
     ways = [one.way for one in kerf.swept]
-    earlier = [index for index in contours if index < contour]
-    older = older_place(ways, earlier, contour, at, kerf.offset_um)
-    is_slug = _is_slug(kerf, part, contours, moment, older)
+    earlier = [index for index in contours if index < moment.contour]
+    older = older_place(ways, earlier, moment.contour, moment.at, kerf.offset_um)
+    return Loose(part, question, contours, moment, older)
+
+
+def _piece(cuts: _Cuts, loose: Loose, *, is_slug: bool) -> Piece:
+    kerf, part, older = cuts.kerf, loose.outline_um, loose.older
+    contour, at = loose.moment.contour, loose.moment.at
+    ways = [one.way for one in kerf.swept]
     lead_um = float(ways[contour].along_um[older.at]) if is_slug and older and older.contour == contour else 0.0
     area = part.area * 1e-6
-    after = cut_on_um(moment.piece_um, _ways_after(kerf, kerfs, question, moment, is_slug), kerf.offset_um)
+    after = cut_on_um(loose.moment.piece_um, _ways_after(cuts, loose, is_slug=is_slug), kerf.offset_um)
+    held = held_after(loose, kerf.swept, cuts.pauses, kerf.offset_um)
     return Piece(
         kind="slug" if is_slug else "part",
         outline_um=part,
         area_mm2=area,
-        mass_g=material.mass_g(area),
+        mass_g=cuts.material.mass_g(area),
         center_um=Point(part.centroid.x, part.centroid.y),
-        freed=_freed(ways[contour], moment),
+        freed=_freed(ways[contour], loose.moment),
         bridge=bridge_of(ways, contour, at, older),
+        held_after_block=held,
         cut_after_um=after,
-        early=after > _EARLY * 2.0 * kerf.offset_um + lead_um,
+        early=held is None and after > _EARLY * 2.0 * kerf.offset_um + lead_um,
     )
-
-
-def _is_slug(kerf: Kerf, part: shapely.Polygon, contours: list[int], moment: FreeMoment, older: Older | None) -> bool:
-    """Whether the wire came from inside of a part; never where it was the edge of the work that closed the cut."""
-    if older is None:
-        return False
-    if older.contour == moment.contour:
-        return came_from_inside(kerf.swept[moment.contour].way, older.at, moment.at, kerf.offset_um)
-    # Several contours cut round it, since a bridge was left for later: the start of the first one tells.
-    return began_in(kerf.swept[contours[0]].way, part, kerf.offset_um)
 
 
 def _freed(way: WireWay, moment: FreeMoment) -> Freed:
@@ -178,16 +196,15 @@ def _round(kerfs: shapely.STRtree, part: shapely.Polygon) -> list[int]:
     return near
 
 
-def _ways_after(
-    kerf: Kerf, kerfs: shapely.STRtree, question: FreeQuestion, moment: FreeMoment, is_slug: bool
-) -> list[WireWay]:
+def _ways_after(cuts: _Cuts, loose: Loose, *, is_slug: bool) -> list[WireWay]:
     """Ways that may cut in a piece once it is free.
 
     Later contours count in a part alone: a slug is taken out before them. They do not count either in a part with some
     of the work's own edge, since a clamp may hold it there.
     """
-    rest = behind(kerf.swept[moment.contour].way, moment.at)
-    if is_slug or moment.piece_um.intersects(question.stock_um.exterior):
+    swept, moment = cuts.kerf.swept, loose.moment
+    rest = behind(swept[moment.contour].way, moment.at)
+    if is_slug or moment.piece_um.intersects(loose.question.stock_um.exterior):
         return [rest]
-    met = np.sort(kerfs.query(moment.piece_um, predicate="intersects"))
-    return [rest, *(kerf.swept[at].way for at in met[met > moment.contour].tolist())]
+    met = np.sort(cuts.kerfs.query(moment.piece_um, predicate="intersects"))
+    return [rest, *(swept[at].way for at in met[met > moment.contour].tolist())]

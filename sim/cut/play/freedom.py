@@ -11,6 +11,7 @@ from parser.geometry.curves import Floats
 from parser.toolpath import Point
 from sim.cut.pieces.pieces import Pieces
 from sim.cut.play.touching import Sides, shifted_until, sides_of, turned_until
+from sim.cut.regions import union_all
 
 _DIRECTIONS = 16
 _COARSE_UM = 0.5  # outlines are simplified by this, then by twice as much, until few corners are left
@@ -120,7 +121,7 @@ def _walls(rooms: _Rooms, filled: shapely.Polygon, t_s: float) -> BaseGeometry:
     near = np.arange(len(polygons)) if opening is None else rooms.tree.query(opening, predicate="intersects")
     walls = polygons[near[rooms.until_s[near] > t_s]]
     walls = walls[~shapely.contains(filled, walls) & ~shapely.contains_properly(walls, opening)]
-    return shapely.union_all(shapely.boundary(walls))
+    return union_all(shapely.boundary(walls))
 
 
 class _Scene(NamedTuple):

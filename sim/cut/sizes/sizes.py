@@ -6,16 +6,16 @@ from typing import Literal, NamedTuple
 import numpy as np
 import shapely
 
-from parser.geometry.curves import Floats, Ints
-from parser.shape.contours import contour_rows
+from parser.geometry.curves import Bools, Floats, Ints
 from parser.toolpath import Point, Toolpath
 from sim.cut.kerf.edges import Edges
 from sim.cut.kerf.nominal import nominal_region
 from sim.cut.kerf.region import Kerf
 from sim.cut.pieces.frees import parted
-from sim.cut.pieces.kept_edges import Kept, edge_places, kept_edges
+from sim.cut.pieces.kept_edges import KeptEdges, kept_edges, runs_of
+from sim.cut.pieces.kept_shapes import KeptShape, kept_shapes
 from sim.cut.pieces.pieces import Pieces, stock_of
-from sim.cut.sizes.parallels import Pairs, facing_pairs
+from sim.cut.sizes.parallels import KeptLines, facing_pairs, kept_lines
 from sim.setup.obstacles import Outline
 
 _LEAST_SWEEP_RAD = np.radians(30.0)  # on a shorter arc, 1 µm on the edge changes the radius by 30 µm and more
@@ -68,41 +68,19 @@ class Sizes(NamedTuple):
     distances: tuple[DistanceSize, ...]
 
 
-class _Shape(NamedTuple):
-    """A filled outline to be measured, and what it is."""
-
-    what: Literal["part", "hole", "opening"]
-    piece: int
-    outline_um: shapely.Polygon
-
-
 def sizes_of(toolpath: Toolpath, kerf: Kerf, pieces: Pieces, work_um: Outline | None) -> Sizes:
-    """Sizes of parts and openings; a shape that the ideal path would not leave has no nominal size and is left out."""
-    kept = kept_edges(kerf, pieces)
+    """Sizes of parts and openings; what the ideal path would not leave has no nominal size and is left out."""
+    shapes = kept_shapes(pieces)
     parts = parted(stock_of(kerf, work_um), nominal_region(toolpath, ~toolpath.is_jump, kerf.offset_um))
+    kept = kept_edges(kerf.edges, kerf.offset_um, shapes, parts)
     return Sizes(
-        tuple(_boxes(list(_shapes(pieces)), parts)),
+        tuple(_boxes(shapes, parts)),
         tuple(_radii(toolpath, kerf, kept)),
-        tuple(_distances(toolpath, kerf, kept, facing_pairs(toolpath, kept, contour_rows(toolpath)))),
+        tuple(_distances(kept, kept_lines(toolpath, kerf.edges, kept))),
     )
 
 
-def _shapes(pieces: Pieces) -> Iterator[_Shape]:
-    """Parts, holes in them, and openings that slugs left in the frame; a slug out of a part left one of the holes."""
-    parts = [shapely.Polygon(piece.outline_um.exterior) for piece in pieces.freed if piece.kind == "part"]
-    openings = pieces.frame.openings_um
-    for index, piece in enumerate(pieces.freed):
-        inside = piece.outline_um.representative_point()
-        if piece.kind == "part":
-            yield _Shape("part", index, piece.outline_um)
-            yield from (_Shape("hole", index, shapely.Polygon(ring)) for ring in piece.outline_um.interiors)
-        elif not shapely.contains(parts, inside).any():
-            yield from (
-                _Shape("opening", index, openings[at]) for at in np.flatnonzero(shapely.contains(openings, inside))
-            )
-
-
-def _boxes(shapes: list[_Shape], nominal_parts: list[shapely.Polygon]) -> Iterator[BoxSize]:
+def _boxes(shapes: tuple[KeptShape, ...], nominal_parts: list[shapely.Polygon]) -> Iterator[BoxSize]:
     """Boxes of shapes with a nominal partner: of a part among the parts, of a hole or an opening among their holes."""
     holes = [shapely.Polygon(ring) for part in nominal_parts for ring in part.interiors]
     trees = shapely.STRtree(nominal_parts), shapely.STRtree(holes)
@@ -121,43 +99,54 @@ def _box(outline: shapely.Polygon) -> tuple[Point, Point]:
     return Point((low_x + high_x) / 2.0, (low_y + high_y) / 2.0), Point(high_x - low_x, high_y - low_y)
 
 
-def _radii(toolpath: Toolpath, kerf: Kerf, kept: Kept) -> Iterator[RadiusSize]:
-    """Radii of the arcs of 30° and more with a kept edge."""
-    boss = np.sign(toolpath.sweep_rad) == kept.side
-    nominal = toolpath.radius_um + np.where(boss, -kerf.offset_um, kerf.offset_um)
-    wanted = toolpath.is_arc & (np.abs(toolpath.sweep_rad) >= _LEAST_SWEEP_RAD) & (kept.side != 0) & (nominal > 0.0)
-    edges = kerf.edges
-    at = np.flatnonzero(edges.inner & ~np.isnan(edges.left_um) & wanted[edges.row])
-    row, of, number = np.unique(edges.row[at], return_inverse=True, return_counts=True)
-    at, row = at[(number >= _FEWEST)[of]], row[number >= _FEWEST]
-    if not len(row):
+def _radii(toolpath: Toolpath, kerf: Kerf, kept: KeptEdges) -> Iterator[RadiusSize]:
+    """Radii of the arcs with 30° and more of a kept edge."""
+    boss = np.sign(toolpath.sweep_rad[kept.row]) == kept.side
+    nominal = toolpath.radius_um[kept.row] + np.where(boss, -kerf.offset_um, kerf.offset_um)
+    first = runs_of(kept.row, kept.side)
+    number = np.diff(first, append=len(kept.row))
+    swept = np.abs(toolpath.sweep_rad[kept.row[first]]) * _shares(kerf.edges, kept, first, number)
+    wanted = (number >= _FEWEST) & (swept >= _LEAST_SWEEP_RAD) & (np.nan_to_num(nominal[first]) > 0.0)
+    if not wanted.any():
         return
-    place = edge_places(edges, kept.side[edges.row])[at]
-    fits = fitted_circles(place, np.searchsorted(row, edges.row[at]), toolpath.center_um[row])
-    for center, radius, form, block in zip(fits.center_um, fits.radius_um, fits.form_um, row.tolist(), strict=True):
-        what: Literal["hole", "boss"] = "boss" if boss[block] else "hole"
-        yield RadiusSize(what, block + 1, Point(*center.tolist()), float(radius), float(nominal[block]), float(form))
+    at, first, number = np.flatnonzero(np.repeat(wanted, number)), first[wanted], number[wanted]
+    of = np.repeat(np.arange(len(first)), number)
+    fits = fitted_circles(kept.cut_um[at], of, toolpath.center_um[kept.row[first]])
+    for center, radius, form, edge in zip(fits.center_um, fits.radius_um, fits.form_um, first.tolist(), strict=True):
+        what: Literal["hole", "boss"] = "boss" if boss[edge] else "hole"
+        block = int(kept.row[edge]) + 1
+        yield RadiusSize(what, block, Point(*center.tolist()), float(radius), float(nominal[edge]), float(form))
 
 
-def _distances(toolpath: Toolpath, kerf: Kerf, kept: Kept, pairs: Pairs) -> Iterator[DistanceSize]:
-    edges, side = kerf.edges, kept.side[kerf.edges.row]
-    cut, nominal = edge_places(edges, side), edges.place_um + (side * kerf.offset_um)[:, None] * edges.left
+def _shares(edges: Edges, kept: KeptEdges, first: Ints, number: Ints) -> Floats:
+    """Share (k,) of its block, but for the corners, that each edge spans: k of them by first places and numbers."""
+    inner = np.bincount(edges.row[edges.inner], minlength=int(edges.row.max(initial=0)) + 1)
+    spanned = kept.station[first + number - 1] - kept.station[first]
+    shares: Floats = spanned / np.maximum(inner[kept.row[first]] - 1, 1)
+    return shares
+
+
+def _distances(kept: KeptEdges, lines: KeptLines) -> Iterator[DistanceSize]:
+    pairs = facing_pairs(lines)
     longest = np.sort(np.argsort(pairs.from_um - pairs.to_um, kind="stable")[:_MOST_PAIRS])
     for one, other, low, high in zip(*(column[longest].tolist() for column in pairs), strict=True):
-        start = toolpath.start_um[one]
-        way = (toolpath.end_um[one] - start) / toolpath.length_um[one]
-        out = kept.side[one] * np.array([-way[1], way[0]])
-        at = [_within(edges, row, (edges.place_um - start) @ way, (low, high)) for row in (one, other)]
-        if all(len(stations) for stations in at):
-            by = [float((place[at[1]] @ out).mean() - (place[at[0]] @ out).mean()) for place in (cut, nominal)]
-            what: Literal["material", "slot"] = "material" if by[1] > 0.0 else "slot"
-            yield DistanceSize(what, (one + 1, other + 1), abs(by[0]), abs(by[1]))
+        start, way = lines.start_um[one], lines.way[one]
+        places = [kept.picked(slice(*lines.places[line].tolist())) for line in (one, other)]
+        spans = [place.picked(_within((place.nominal_um - start) @ way, low, high)) for place in places]
+        if all(len(span.row) for span in spans):
+            out = np.array([-way[1], way[0]])
+            cut, nominal = (
+                float((last @ out).mean() - (first @ out).mean())
+                for first, last in ((spans[0].cut_um, spans[1].cut_um), (spans[0].nominal_um, spans[1].nominal_um))
+            )
+            what: Literal["material", "slot"] = "material" if nominal > 0.0 else "slot"
+            blocks = (int(lines.row[one]) + 1, int(lines.row[other]) + 1)
+            yield DistanceSize(what, blocks, abs(cut), abs(nominal))
 
 
-def _within(edges: Edges, row: int, along_um: Floats, span_um: tuple[float, float]) -> Ints:
-    """Inner stations of a row that the wire cut and that lie in a span along the other line."""
-    found = (edges.row == row) & edges.inner & ~np.isnan(edges.left_um)
-    return np.flatnonzero(found & (along_um >= span_um[0]) & (along_um <= span_um[1]))
+def _within(along_um: Floats, low_um: float, high_um: float) -> Bools:
+    within: Bools = (along_um >= low_um) & (along_um <= high_um)
+    return within
 
 
 class Fits(NamedTuple):

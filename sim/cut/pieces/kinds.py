@@ -1,0 +1,104 @@
+"""Which pieces are parts and which are waste: slugs, and what falls off between cuts.
+
+The wire is threaded in the waste, and its leads run through it. So a piece is waste where the wire came from inside of
+it. Besides, two kinds of waste fall beside a larger piece that the same contour cuts: a sliver between two passes, no
+wider than the kerf anywhere, and a scrap between a lead-in and a lead-out that part from it.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from sim.cut.kerf.makers import share_made
+from sim.cut.kerf.swept import Swept
+from sim.cut.kerf.ways import WireWay
+from sim.cut.pieces.bridges import Older
+from sim.cut.pieces.frees import FreeMoment, FreeQuestion
+
+_ON_IT = 0.1  # offsets: a start this near to the loop lies on it, and is no lead-in
+_NOTCH = 1.5  # offsets that an outline grows and shrinks by, which closes notches two offsets wide
+_COARSE_UM = 1.0
+_LED = 2.0  # offsets of edge that the lead-in made: more than where a lead-in meets its loop
+
+
+class Loose(NamedTuple):
+    """What comes free, before it is known what it is.
+
+    Attributes
+    ----------
+    outline_um
+        What stays of it in the end.
+    question
+        Whether it is free of the frame.
+    contours
+        Indices of the contours whose kerfs have a share in its outer edge, in order.
+    moment
+        When it comes free.
+    older
+        The older place that the wire closes on to then.
+    """
+
+    outline_um: shapely.Polygon
+    question: FreeQuestion
+    contours: list[int]
+    moment: FreeMoment
+    older: Older | None
+
+
+def are_slugs(found: list[Loose], swept: tuple[Swept, ...], offset_um: float) -> list[bool]:
+    """Whether each of the pieces is waste."""
+    largest: dict[int, float] = {}
+    for piece in found:
+        for contour in piece.contours:
+            largest[contour] = max(largest.get(contour, 0.0), piece.outline_um.area)
+    return [
+        _held_the_start(piece, swept, offset_um)
+        or (
+            any(largest[contour] > piece.outline_um.area for contour in piece.contours)
+            and (_is_sliver(piece.outline_um, offset_um) or _was_led_by(piece, swept, offset_um))
+        )
+        for piece in found
+    ]
+
+
+def _held_the_start(piece: Loose, swept: tuple[Swept, ...], offset_um: float) -> bool:
+    """Whether the wire came from inside of a piece; never where it was the edge of the work that closed the cut."""
+    if piece.older is None:
+        return False
+    if piece.older.contour == piece.moment.contour:
+        return came_from_inside(swept[piece.moment.contour].way, piece.older.at, piece.moment.at, offset_um)
+    # Several contours cut round it, since a bridge was left for later: the start of the first one tells.
+    return began_in(swept[piece.contours[0]].way, piece.outline_um, offset_um)
+
+
+def came_from_inside(way: WireWay, begin: int, end: int, offset_um: float) -> bool:
+    """Whether a way starts inside the loop between its places `begin` and `end` (indices), and not on the loop."""
+    if end - begin < 3:
+        return False
+    loop = way.place_um[begin : end + 1]
+    out = loop - way.place_um[0]
+    angle = np.arctan2(out[:, 1], out[:, 0])
+    turned = np.diff(np.unwrap(np.append(angle, angle[0]))).sum()
+    ring = shapely.LinearRing(loop)
+    return bool(abs(turned) > np.pi and ring.distance(shapely.Point(way.place_um[0])) > _ON_IT * offset_um)
+
+
+def began_in(way: WireWay, piece_um: shapely.Polygon, offset_um: float) -> bool:
+    """Whether the wire starts within the outline of a piece, or in the notch that its lead-in left in there."""
+    outline = shapely.simplify(shapely.Polygon(piece_um.exterior), _COARSE_UM)
+    closed = outline.buffer(_NOTCH * offset_um).buffer(-_NOTCH * offset_um)
+    return bool(closed.contains(shapely.Point(way.place_um[0])))
+
+
+def _is_sliver(piece_um: shapely.Polygon, offset_um: float) -> bool:
+    """Whether a piece is nowhere wider than the kerf; the mean width of a strip is twice its area by its length."""
+    return 2.0 * piece_um.area < 2.0 * offset_um * piece_um.length and bool(piece_um.buffer(-offset_um).is_empty)
+
+
+def _was_led_by(piece: Loose, swept: tuple[Swept, ...], offset_um: float) -> bool:
+    """Whether the first block of the contour that frees a piece made some of its outer edge."""
+    way = swept[piece.moment.contour].way
+    lead_in = way.place_um[way.row == way.row[0]]
+    edge = piece.outline_um.exterior
+    return share_made(edge, [lead_in], offset_um) * edge.length > _LED * offset_um
