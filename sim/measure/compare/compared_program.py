@@ -9,6 +9,7 @@ from parser.findings.remarks import Remark
 from parser.geometry.curves import Ints
 from parser.toolpath import Toolpath
 from parser.units import mm
+from sim.cut.regions import RegionError
 from sim.measure.compare.compare import compare
 from sim.measure.compare.contour_names import contour_names, failing_contours, most_left_um, offset_faults
 from sim.measure.compare.program_edge import ProgramEdges, edge_at, program_edges, with_gouges
@@ -18,12 +19,15 @@ from sim.measure.compare.result import Asked, Comparison
 def compare_program(toolpath: Toolpath, offset_um: float, drawing: Drawing, asked: Asked) -> Comparison:
     """The edge of a program whose wire cuts `offset_um` past its path, against a drawing.
 
-    SettingsError where no contour closes, or where the offset leaves no edge.
+    SettingsError where no contour closes, where the offset leaves no edge, or where it could not be worked out.
     """
     of = program_edges(toolpath, offset_um)
     if not of.rings.rings:
         raise SettingsError("no contour of the program closes a loop, so that there is no edge to compare")
-    tried = [(edge_at(of, sides, offset_um), sides) for sides in of.sides]
+    try:
+        tried = [(edge_at(of, sides, offset_um), sides) for sides in of.sides]
+    except RegionError as error:
+        raise SettingsError(f"{error}, so that there is no edge to compare") from None
     tried = [(with_gouges(of, edge), sides) for edge, sides in tried if len(edge.curves)]
     if not tried:
         raise SettingsError(f"an offset of {mm(offset_um):g} mm leaves no edge of the program's contours")

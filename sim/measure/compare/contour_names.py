@@ -14,6 +14,7 @@ from sim.measure.compare.nearest import Index, indexed
 from sim.measure.compare.placement import placed
 from sim.measure.compare.program_edge import ProgramEdges, edge_at
 from sim.measure.compare.result import Comparison
+from sim.measure.compare.rings import PathEdge
 from sim.measure.compare.spread import centroid, spread
 
 _FAR_BETTER = 0.25  # of the deviations: what another edge of the same path must come to, to be named
@@ -31,7 +32,7 @@ class FailingContour(NamedTuple):
 
 def failing_contours(found: Comparison, of: ProgramEdges) -> list[FailingContour]:
     """The contours that lie past the tolerance, in their order."""
-    each = (FailingContour(at, _off(found, ring.block)) for at, ring in enumerate(of.rings.rings))
+    each = (FailingContour(at, _off(found, ring)) for at, ring in enumerate(of.rings.rings))
     return [contour for contour in each if contour.off_um > found.asked.tolerance_um]
 
 
@@ -54,15 +55,14 @@ def most_left_um(off_um: float, tolerance_um: float) -> float:
     return max(tolerance_um, _FAR_BETTER * off_um)
 
 
-def _off(found: Comparison, block: Ints) -> float:
-    """How far the edge of blocks lies off the drawing at most."""
-    return float(found.edge_to_drawing.max_um[np.isin(found.edge.block, block)].max(initial=0.0))
+def _off(found: Comparison, ring: PathEdge) -> float:
+    """How far the edge of a contour lies off the drawing at most."""
+    return float(found.edge_to_drawing.max_um[np.isin(found.edge.block, ring.block)].max(initial=0.0))
 
 
 def _named(found: Comparison, of: ProgramEdges, sides: Ints, off_um: float, drawn: Index) -> Remark | None:
     """The fault of a program's one contour `of`, whose edge is off by `off_um`."""
-    block = of.rings.rings[0].block
-    span = {"first": int(block.min()), "last": int(block.max())}
+    span = dict(zip(("first", "last"), of.rings.rings[0].last_blocks, strict=True))
     most = most_left_um(off_um, found.asked.tolerance_um)
     if of.offset_um > found.asked.tolerance_um:
         for name, other_um, inside_um in offset_faults(of.offset_um):

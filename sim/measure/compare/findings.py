@@ -13,7 +13,7 @@ from parser.findings.remarks import Remark
 from parser.program import Program
 from parser.text.encoding import printable
 from parser.units import mm
-from sim.cut.pieces.pieces import Pieces
+from sim.cut.remains import Remains
 from sim.measure.compare.as_cut import edge_as_cut
 from sim.measure.compare.compare import compare
 from sim.measure.compare.compared_program import compare_program
@@ -27,14 +27,12 @@ _CONTOUR = ("contour-wrong-side", "contour-offset-missing", "contour-shifted")
 """And with one contour of several."""
 
 
-def compare_cut(
-    program: Program, pieces: Pieces, offset_um: float, drawing: Drawing, target: DrawingTarget
-) -> Comparison | None:
+def compare_cut(program: Program, remains: Remains, drawing: Drawing, target: DrawingTarget) -> Comparison | None:
     """The edge as cut beside the drawing; None where nothing came free, so that there is no edge.
 
     Whether the offset is wrong is told by the exact path, which has another side.
     """
-    edge = edge_as_cut(program.toolpath, pieces, offset_um)
+    edge = edge_as_cut(program.toolpath, remains.kerf, remains.pieces)
     if edge is None:
         return None
     asked = Asked(target.tolerance_um, target.fit, target.sharp_corners)
@@ -42,7 +40,7 @@ def compare_cut(
     if found.passes:
         return found
     try:
-        exact = compare_program(program.toolpath, offset_um, drawing, asked)
+        exact = compare_program(program.toolpath, remains.kerf.offset_um, drawing, asked)
     except SettingsError:  # no edge of its own
         return found
     known = {named.name for named in found.names}

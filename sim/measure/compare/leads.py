@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 from parser.geometry.along import places
-from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.toolpath import Point
 from sim.measure.compare.edge import Edge, LeadGouge
 from sim.measure.compare.nearest import Index, indexed, nearest
@@ -43,12 +43,23 @@ def gouges(edge: Edge, leads: Curves, block: Ints, offset_um: float) -> tuple[Le
     return tuple(sorted(found))
 
 
-def _part(edge: Edge) -> _Part:
-    loops = [edge.curves.picked(edge.loop == of) for of in range(int(edge.loop.max()) + 1)]
+def within_loops(edge: Edge) -> Bools:
+    """(k,) whether the part lies within each loop of an edge, as a punch does."""
+    loops = _loops(edge)
     sides = edge.part_side[np.searchsorted(edge.loop, np.arange(len(loops)))]
-    inside = sides == np.array([orientation(loop) for loop in loops])
+    within: Bools = sides == np.array([orientation(loop) for loop in loops])
+    return within
+
+
+def _loops(edge: Edge) -> list[Curves]:
+    return [edge.curves.picked(edge.loop == of) for of in range(int(edge.loop.max()) + 1)]
+
+
+def _part(edge: Edge) -> _Part:
+    loops = _loops(edge)
     shapes = shapely.STRtree([polygon(loop) for loop in loops])
-    return _Part(indexed(edge.curves), edge.loop, shapes, inside.astype(np.int64), (sides != 0).astype(np.int64))
+    known = edge.part_side[np.searchsorted(edge.loop, np.arange(len(loops)))] != 0
+    return _Part(indexed(edge.curves), edge.loop, shapes, within_loops(edge).astype(np.int64), known.astype(np.int64))
 
 
 def _depth(part: _Part, place_um: Floats, offset_um: float) -> Floats:

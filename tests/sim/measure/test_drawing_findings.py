@@ -107,7 +107,7 @@ def test_without_a_piece_there_is_no_edge(tmp_path: Path) -> None:
 
 def test_outlines_become_edges_with_their_blocks_and_the_side_of_the_part(tmp_path: Path) -> None:
     run = run_held(LED_SQUARE, DrawingTarget(square(tmp_path / "part.dxf")))
-    edge = edge_as_cut(run.toolpath, run.remains.pieces, 100.0)
+    edge = edge_as_cut(run.toolpath, run.remains.kerf, run.remains.pieces)
     assert set(edge.part_side.tolist()) == {1}
     assert set(edge.block.tolist()) == {2, 3, 4, 5, 6}
     length = edge.curves.length_um
