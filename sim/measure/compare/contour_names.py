@@ -81,9 +81,9 @@ def _shift(found: Comparison, edge: Curves, most_um: float) -> Floats | None:
         return None
     index = indexed(found.laid)
     tried = [shifted_onto(edge, index, start) for start in (np.zeros(2), *_starts(found, edge))]
-    best = min(tried, key=lambda fitted: fitted.max_um)
-    shift: Floats = -best.motion.shift_um
-    return shift if best.max_um <= most_um else None
+    # Of loops that are alike the nearest one is meant.
+    shifts = [-fitted.motion.shift_um for fitted in tried if fitted.max_um <= most_um]
+    return min(shifts, key=lambda shift: float(np.hypot(*shift)), default=None)
 
 
 def _starts(found: Comparison, edge: Curves) -> Iterator[Floats]:

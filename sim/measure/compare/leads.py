@@ -43,9 +43,19 @@ def gouges(edge: Edge, leads: Curves, block: Ints, offset_um: float) -> tuple[Le
     return tuple(sorted(found))
 
 
-def within_loops(edge: Edge) -> Bools:
-    """(k,) whether the part lies within each loop of an edge, as a punch does."""
+def of_parts(edge: Edge) -> Bools:
+    """(k,) whether each loop of an edge is round a part, or round an opening of one; else it is one of the frame."""
     loops = _loops(edge)
+    within = _within(edge, loops)
+    shapes = shapely.STRtree([polygon(loops[at]) for at in np.flatnonzero(within).tolist()])
+    begins = shapely.points([loop.start_um[0] for loop in loops])
+    found = within.copy()
+    found[shapes.query(begins, predicate="within")[0]] = True
+    return found
+
+
+def _within(edge: Edge, loops: list[Curves]) -> Bools:
+    """(k,) whether the part lies within each loop."""
     sides = edge.part_side[np.searchsorted(edge.loop, np.arange(len(loops)))]
     within: Bools = sides == np.array([orientation(loop) for loop in loops])
     return within
@@ -59,7 +69,7 @@ def _part(edge: Edge) -> _Part:
     loops = _loops(edge)
     shapes = shapely.STRtree([polygon(loop) for loop in loops])
     known = edge.part_side[np.searchsorted(edge.loop, np.arange(len(loops)))] != 0
-    return _Part(indexed(edge.curves), edge.loop, shapes, within_loops(edge).astype(np.int64), known.astype(np.int64))
+    return _Part(indexed(edge.curves), edge.loop, shapes, _within(edge, loops).astype(np.int64), known.astype(np.int64))
 
 
 def _depth(part: _Part, place_um: Floats, offset_um: float) -> Floats:

@@ -13,7 +13,7 @@ from parser.findings.remarks import Remark
 from parser.geometry.curves import Ints, joined
 from parser.toolpath import Toolpath
 from sim.measure.compare.edge import Edge
-from sim.measure.compare.leads import gouges, within_loops
+from sim.measure.compare.leads import gouges, of_parts
 from sim.measure.compare.rings import PathEdge, PathLoop, Rings, orientation, polygon, rings_of
 from sim.measure.compare.several_passes import left_by_passes
 
@@ -87,18 +87,18 @@ def edge_at(of: ProgramEdges, sides: Ints, offset_um: float) -> Edge:
 def with_gouges(of: ProgramEdges, edge: Edge) -> Edge:
     """The edge with what the program's leads cut into parts.
 
-    A lead is held against every part that lies within its loop, and against the frame round the openings of its own
-    contour: what it cuts of the frame beside the openings of others, as on its way to a punch, is no gouge.
+    A lead is held against every part that is cut out, and against the frame round the openings of its own contour: what
+    it cuts of the frame beside the openings of others, as on its way to a punch, is no gouge.
     """
     rings, reach_um = of.rings, of.offset_um
-    within, ring_of_loop = within_loops(edge), _ring_of_loop(of, edge)
-    found = [gouges(edge.on(np.flatnonzero(within)), rings.leads, rings.lead_block, reach_um)]
+    cut_out, ring_of_loop = of_parts(edge), _ring_of_loop(of, edge)
+    found = [gouges(edge.on(np.flatnonzero(cut_out)), rings.leads, rings.lead_block, reach_um)]
     in_contour: dict[int, list[int]] = {}
     for at, ring in enumerate(rings.rings):
         for contour in ring.contours.tolist():
             in_contour.setdefault(contour, []).append(at)
     for contour in np.unique(rings.lead_contour).tolist():
-        own = np.flatnonzero(np.isin(ring_of_loop, in_contour[contour]) & ~within)
+        own = np.flatnonzero(np.isin(ring_of_loop, in_contour[contour]) & ~cut_out)
         leads = np.flatnonzero(rings.lead_contour == contour)
         found.append(gouges(edge.on(own), rings.leads.picked(leads), rings.lead_block[leads], reach_um))
     return replace(edge, gouges=tuple(sorted(gouge for each in found for gouge in each)))
