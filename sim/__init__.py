@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from sim.run.recording import recorded
     from sim.run.report import build_report
     from sim.setup.machine.machine import load_machine
-    from sim.setup.part import DrawingTarget, Offset
+    from sim.setup.part import DrawingTarget, Offset, OffsetPass
     from sim.setup.scenario import Scenario, load_scenario
     from sim.setup.wire import Wire
 
@@ -36,6 +36,7 @@ __all__ = [
     "DrycutError",
     "Finding",
     "Offset",
+    "OffsetPass",
     "Program",
     "Scenario",
     "Wire",
@@ -62,6 +63,7 @@ _HOMES = {
     "DrycutError": "parser.findings.errors",
     "Finding": "parser.findings.findings",
     "Offset": "sim.setup.part",
+    "OffsetPass": "sim.setup.part",
     "Program": "parser.program",
     "Scenario": "sim.setup.scenario",
     "Wire": "sim.setup.wire",

@@ -21,9 +21,9 @@ list is not cluttered with accelerations that differ in their tenth digit."""
 
 
 class Feeds(NamedTuple):
-    """How fast the path is run: µm/s for cuts and for jumps, above 0."""
+    """How fast the path is run: µm/s for cuts, the same for all rows or (n,) one for each, and for jumps, above 0."""
 
-    cut_um_s: float
+    cut_um_s: float | Floats
     jump_um_s: float
 
 

@@ -43,8 +43,12 @@ class _Edges(NamedTuple):
     is_left: NDArray[np.bool_]
 
 
-def compensate(toolpath: Curves, sections: Sequence[OffsetSection], offset_um: float, side: Side) -> OffsetPath:
-    """Path of the wire's centre, `offset_um` (≥ 0) to a side of the blocks of all sections, none of them a jump.
+def compensate(
+    toolpath: Curves, sections: Sequence[OffsetSection], offset_um: float | Floats, side: Side | Ints
+) -> OffsetPath:
+    """Path of the wire's centre, an offset (≥ 0) to a side of the blocks of k sections, none of them a jump.
+
+    Offset and side are the same for all sections, or one (k,) for each.
 
     The row before a section leads in: a line from where it begins to where the offset begins. One that is an arc
     becomes a line, as a controller without a radius for it runs it. A section without such a row, behind a jump or
@@ -52,12 +56,14 @@ def compensate(toolpath: Curves, sections: Sequence[OffsetSection], offset_um: f
 
     Blocks that have no place on the path vanish, and their neighbours are joined with each other; where their curves
     do not meet, by a straight bridge, so that there always is a path. Where a section vanishes as a whole the path
-    goes to where it begins without offset, and on from there.
+    goes to where it begins without offset, and on from there. Lines and jumps that begin elsewhere than the row before
+    them ends, as behind a pass that ended some µm off, begin where that one ends.
     """
     n = len(toolpath)
     if not sections:
         return OffsetPath(toolpath.picked(slice(None)), np.arange(n), np.full(n, Made.AS_IT_IS), np.arange(0))
-    blocks = shifted_blocks(toolpath, sections, offset_um * side)
+    left_um = np.broadcast_to(np.asarray(offset_um * side, dtype=np.float64), len(sections))
+    blocks = shifted_blocks(toolpath, sections, left_um)
     chain = joined_blocks(blocks, sections)
     edges = _edges(toolpath, sections, blocks, chain)
     left = np.flatnonzero(chain.is_left)
@@ -73,7 +79,7 @@ def compensate(toolpath: Curves, sections: Sequence[OffsetSection], offset_um: f
         for values in ([part.made for part in parts], [part.place for part in parts])
     )
     order = np.lexsort((place, source_row))
-    curves = joined([part.curves for part in parts]).picked(order)
+    curves = _continued(joined([part.curves for part in parts]).picked(order))
     return OffsetPath(curves, source_row[order], made[order].astype(np.int64), np.sort(blocks.row[~chain.is_left]))
 
 
@@ -102,7 +108,7 @@ def _bridges(blocks: Blocks, chain: Chain, bridged: Ints) -> list[_Rows]:
     arc, line = (bridged[chain.bridge[bridged] == kind] for kind in (Joining.ARC, Joining.LINE))
     lines = _lines(chain.end_um[line], chain.start_um[chain.late[line]])
     arcs = curves_between(chain.end_um[arc], chain.start_um[chain.late[arc]], chain.corner_um[arc], chain.turn_rad[arc])
-    radius = np.full(len(arc), abs(blocks.left_um))
+    radius = np.abs(blocks.left_um[arc])
     arcs = replace(arcs, radius_um=radius, length_um=radius * np.abs(arcs.sweep_rad))
     return [_Rows(curves, blocks.row[of], Made.BRIDGE, _BRIDGE) for curves, of in ((arcs, arc), (lines, line))]
 
@@ -162,6 +168,16 @@ def _leads(toolpath: Curves, edges: _Edges) -> list[_Rows]:
         _Rows(lead_in, first[into], Made.LEAD, _LEAD_IN),
         _Rows(lead_out, last[out], Made.LEAD, _LEAD_OUT),
     ]
+
+
+def _continued(curves: Curves) -> Curves:
+    """Curves of which each line and jump begins where the one before it ends."""
+    off = (curves.start_um[1:] != curves.end_um[:-1]).any(axis=1) & ~curves.is_arc[1:]
+    late = np.flatnonzero(off) + 1
+    start, length = curves.start_um.copy(), curves.length_um.copy()
+    start[late] = curves.end_um[late - 1]
+    length[late] = _lines(start[late], curves.end_um[late]).length_um
+    return replace(curves, start_um=start, length_um=length)
 
 
 def _lines(start_um: Floats, end_um: Floats) -> Curves:

@@ -76,14 +76,15 @@ class _Met(NamedTuple):
 
 def joints(blocks: Blocks, early: Ints, late: Ints) -> Joints:
     """Joints of the blocks `early` (k,) with the blocks `late` (k,)."""
-    offset = abs(blocks.left_um)
+    left = blocks.left_um[early]
+    farthest = _FARTHEST * np.abs(left)
     end, start = blocks.shifted.end_um[early], blocks.shifted.start_um[late]
     corner = 0.5 * (blocks.drawn.end_um[early] + blocks.drawn.start_um[late])
     is_apart = _length(blocks.drawn.end_um[early] - blocks.drawn.start_um[late]) > APART_UM
     turn = _turn(blocks, early, late)
-    is_inner = turn * blocks.left_um > 0.0
+    is_inner = turn * left > 0.0
     met = _met(blocks, early, late, corner, is_apart)
-    lengthens = (np.abs(turn) <= _SHARPEST_RAD) & (met.off_um <= _FARTHEST * offset) & (met.beyond_um >= -NOTHING_UM)
+    lengthens = (np.abs(turn) <= _SHARPEST_RAD) & (met.off_um <= farthest) & (met.beyond_um >= -NOTHING_UM)
     middle, wide = 0.5 * (end + start), _length(end - start)
     is_far = met.is_met & (_length(met.place_um - middle) > _FAR_PER_GAP * wide)
     is_smooth = (wide <= _SMOOTH_UM) | (is_far & is_inner & ~is_apart & (wide <= _TANGENT_UM))
@@ -110,7 +111,8 @@ def _turn(blocks: Blocks, early: Ints, late: Ints) -> Floats:
     """Angles (k,) that the path turns between blocks, positive to the left; straight back it turns outward."""
     u, v = blocks.arriving[early], blocks.leaving[late]
     turn: Floats = np.arctan2(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0], (u * v).sum(axis=1))
-    turn[np.abs(turn) >= _BACK_RAD] = -np.pi * np.sign(blocks.left_um)
+    is_back = np.abs(turn) >= _BACK_RAD
+    turn[is_back] = -np.pi * np.sign(blocks.left_um[early[is_back]])
     return turn
 
 
@@ -123,7 +125,7 @@ def _met(blocks: Blocks, early: Ints, late: Ints, corner_um: Floats, is_apart: B
     ends = _beyond(shifted, early[joint], place, True), _beyond(shifted, late[joint], place, False)
     off = _length(place - corner_um[joint])
     apart = np.flatnonzero(is_apart[joint])
-    is_far = np.maximum(ends[0][apart], ends[1][apart]) > abs(blocks.left_um) + NOTHING_UM
+    is_far = np.maximum(ends[0][apart], ends[1][apart]) > np.abs(blocks.left_um[early[joint[apart]]]) + NOTHING_UM
     off[apart[is_far | _is_flat(shifted, early[joint[apart]], late[joint[apart]], place[apart])]] = np.inf
     offs, least = np.full((len(early), 2), np.inf), np.full((len(early), 2), np.nan)
     offs[joint, which], least[joint, which] = off, np.minimum(*ends)
@@ -158,7 +160,7 @@ def _too_small(blocks: Blocks, early: Ints, late: Ints, misses: Bools) -> tuple[
     An arc of radius R at an inner corner of angle θ misses the offset f of a line where R (1 + cos θ) < 2 f. An arc of
     R ≥ 2 f is not too small: its corner is sharp, or what lay between the two blocks has vanished.
     """
-    smaller = (blocks.drawn.sweep_rad * blocks.left_um > 0.0) & (blocks.drawn.radius_um < 2.0 * abs(blocks.left_um))
+    smaller = (blocks.drawn.sweep_rad * blocks.left_um > 0.0) & (blocks.drawn.radius_um < 2.0 * np.abs(blocks.left_um))
     one, other = misses & smaller[early], misses & smaller[late]
     length = blocks.shifted.radius_um * np.abs(blocks.shifted.sweep_rad)
     longer = one & other & ~np.isclose(length[early], length[late], rtol=1e-6, atol=0.0)

@@ -5,6 +5,7 @@ from enum import IntEnum
 
 import numpy as np
 
+from controller.offset.passes import PassedPath
 from controller.stepping.words import stepped_words
 from parser.geometry.curves import Curves, Ints
 from parser.toolpath import Toolpath
@@ -34,11 +35,11 @@ class OffsetPath:
         Its geometry, each row from the end of the one before it. Offset arcs have the centres of their blocks, and
         radii that differ from theirs by the offset, exactly.
     source_row
-        (m,) row of the toolpath that each comes from; a bridge has that of the block before it.
+        (m,) row that each comes from, rising; a bridge has that of the block before it.
     made
         (m,) values of `Made`.
     vanished
-        (v,) rows of the toolpath that have no place on the offset path.
+        (v,) rows that have no place on the offset path.
     """
 
     curves: Curves
@@ -47,18 +48,19 @@ class OffsetPath:
     vanished: Ints
 
 
-def offset_toolpath(toolpath: Toolpath, path: OffsetPath) -> Toolpath:
-    """Toolpath of the offset `path` of a `toolpath`: its exact curves, to be stepped like any other.
+def offset_toolpath(passed: PassedPath, path: OffsetPath) -> Toolpath:
+    """Toolpath of the offset `path` of a toolpath in passes: its exact curves, to be stepped like any other.
 
     If the program has words, its offset has words too, in whole µm. Every row has the source of the block that it comes
-    from, and stops keep their places among these blocks. Only blocks without offset keep their printed ends.
+    from, and stops keep their places among these blocks. Only blocks without offset keep their printed ends, and only
+    where they run as they are drawn.
     """
-    row = path.source_row
-    as_it_is = (path.made == Made.AS_IT_IS)[:, None]
+    drawn, row = passed.drawn, passed.row[path.source_row]
+    as_it_is = (path.made == Made.AS_IT_IS) & ~passed.is_back[path.source_row]
     return Toolpath(
         **{field.name: getattr(path.curves, field.name) for field in fields(Curves)},
-        printed_end_um=np.where(as_it_is, toolpath.printed_end_um[row], np.nan),
-        words=None if toolpath.words is None else stepped_words(path.curves),
-        source=toolpath.source.picked(row),
-        stops=tuple(stop._replace(after=int(np.searchsorted(row, stop.after))) for stop in toolpath.stops),
+        printed_end_um=np.where(as_it_is[:, None], drawn.printed_end_um[row], np.nan),
+        words=None if drawn.words is None else stepped_words(path.curves),
+        source=drawn.source.picked(row),
+        stops=tuple(stop._replace(after=int(np.searchsorted(path.source_row, stop.after))) for stop in passed.stops),
     )

@@ -29,7 +29,7 @@ class Blocks(NamedTuple):
     leaving, arriving
         (m, 2) directions at the start and the end of each.
     left_um
-        How far they are moved to the left, negative to the right.
+        (m,) how far they are moved to the left, negative to the right.
     """
 
     row: Ints
@@ -37,7 +37,7 @@ class Blocks(NamedTuple):
     shifted: Curves
     leaving: Floats
     arriving: Floats
-    left_um: float
+    left_um: Floats
 
     @property
     def is_left_over(self) -> NDArray[np.bool_]:
@@ -47,22 +47,24 @@ class Blocks(NamedTuple):
         return left_over
 
 
-def shifted_blocks(toolpath: Curves, sections: Sequence[OffsetSection], left_um: float) -> Blocks:
-    """Blocks of all sections, one or more, moved aside."""
+def shifted_blocks(toolpath: Curves, sections: Sequence[OffsetSection], left_um: Floats) -> Blocks:
+    """Blocks of k sections, one or more, each moved to the left by its `left_um` (k,), negative to the right."""
     row = np.concatenate([np.arange(section.first, section.last + 1) for section in sections])
-    past = np.cumsum([section.last - section.first + 1 for section in sections])
-    first = np.append(0, past[:-1])
+    number = np.array([section.last - section.first + 1 for section in sections])
+    past = np.cumsum(number)
+    first = past - number
+    left = np.repeat(left_um, number)
     closing = np.array([section.closed and section.last > section.first for section in sections])
     drawn = _closed_up(toolpath.picked(row), first[closing], past[closing] - 1)
     leaving, arriving = directions(drawn)
     turn = np.sign(drawn.sweep_rad)
     moved = replace(
         drawn,
-        start_um=drawn.start_um + left_um * to_left(leaving),
-        end_um=drawn.end_um + left_um * to_left(arriving),
-        radius_um=drawn.radius_um - left_um * turn,
+        start_um=drawn.start_um + left[:, None] * to_left(leaving),
+        end_um=drawn.end_um + left[:, None] * to_left(arriving),
+        radius_um=drawn.radius_um - left * turn,
     )
-    return Blocks(row, drawn, moved, leaving, arriving, left_um)
+    return Blocks(row, drawn, moved, leaving, arriving, left)
 
 
 def turned_rad(curves: Curves, row: Ints, from_rad: Floats, place_um: Floats) -> Floats:

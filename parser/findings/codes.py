@@ -30,6 +30,7 @@ class Check(StrEnum):
     CONTOURS = "check-contours"
     SENSES = "check-senses"
     CROSSINGS = "check-crossings"
+    PASSES = "check-passes"
     CORNERS = "check-corners"
     TRAVEL = "check-travel"
 
@@ -66,6 +67,9 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B108": FindingCode(Severity.WARNING, Check.HEADER),
         "3B109": FindingCode(Severity.WARNING, Check.ORDER),
         "3B110": FindingCode(Severity.NOTE, Check.ORDER),
+        "3B111": FindingCode(Severity.ERROR, Check.HEADER),
+        "3B112": FindingCode(Severity.WARNING, Check.HEADER),
+        "3B113": FindingCode(Severity.WARNING, check=None),
         "3B201": FindingCode(Severity.ERROR, Check.BLOCKS),
         "3B202": FindingCode(Severity.ERROR, Check.BLOCKS),
         "3B203": FindingCode(Severity.WARNING, Check.BLOCKS),
@@ -78,6 +82,11 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B210": FindingCode(Severity.WARNING, Check.BLOCKS),
         "3B211": FindingCode(Severity.WARNING, Check.SENSES),
         "3B212": FindingCode(Severity.WARNING, Check.BLOCKS),
+        "3B213": FindingCode(Severity.WARNING, Check.PRINTED_ENDS),
+        "3B214": FindingCode(Severity.WARNING, Check.SENSES),
+        "3B215": FindingCode(Severity.WARNING, Check.SENSES),
+        "3B216": FindingCode(Severity.ERROR, Check.CORNERS),
+        "3B217": FindingCode(Severity.ERROR, Check.PRINTED_ENDS),
         "3B301": FindingCode(Severity.ERROR, Check.CONTOURS),
         "3B302": FindingCode(Severity.WARNING, Check.CONTOURS),
         "3B303": FindingCode(Severity.ERROR, Check.STEPS),
@@ -89,6 +98,12 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B309": FindingCode(Severity.ERROR, Check.ORDER),
         "3B310": FindingCode(Severity.WARNING, Check.CONTOURS),
         "3B311": FindingCode(Severity.NOTE, Check.CONTOURS),
+        "3B312": FindingCode(Severity.WARNING, Check.PASSES),
+        "3B313": FindingCode(Severity.WARNING, Check.PASSES),
+        "3B314": FindingCode(Severity.ERROR, Check.PASSES),
+        "3B315": FindingCode(Severity.WARNING, Check.PASSES),
+        "3B316": FindingCode(Severity.WARNING, Check.PASSES),
+        "3B320": FindingCode(Severity.WARNING, Check.ORDER),
         "3B401": FindingCode(Severity.ERROR, Check.TRAVEL),
         "3B402": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B403": FindingCode(Severity.ERROR, check=None, placed=True),
@@ -96,11 +111,13 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B405": FindingCode(Severity.WARNING, check=None, placed=True),
         "3B406": FindingCode(Severity.WARNING, check=None, placed=True),
         "3B407": FindingCode(Severity.WARNING, check=None),
+        "3B408": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B490": FindingCode(Severity.ERROR, check=None),
         "3B501": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B502": FindingCode(Severity.WARNING, check=None, placed=True),
         "3B503": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B504": FindingCode(Severity.ERROR, check=None),
+        "3B505": FindingCode(Severity.ERROR, check=None),
         "3B601": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B602": FindingCode(Severity.ERROR, check=None),
         "3B603": FindingCode(Severity.NOTE, check=None, placed=True),

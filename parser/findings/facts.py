@@ -32,15 +32,24 @@ class TooLarge(Fact):
 
 
 @dataclass(frozen=True, slots=True)
+class WithoutOffset(Fact):
+    """The program's controller adds an offset, and the path is without it."""
+
+
+@dataclass(frozen=True, slots=True)
 class NoEnd(Fact):
     """The program ends without an end code."""
 
 
 @dataclass(frozen=True, slots=True)
 class WrongLabel(Fact):
-    """A block on an axis bears the label of the quadrant beside it; `ruled` is what the trade writes, ``L2``."""
+    """A block on an axis bears the label of the quadrant beside it; `ruled` is what the trade writes, ``L2``.
+
+    `others` are the other labels of which it may be a slip as well, such as ``SR3`` of ``NR3``.
+    """
 
     ruled: str
+    others: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,8 @@ from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import runs
 from parser.shape.edges import edges_of
 from parser.shape.loops import find_loops
-from parser.shape.open_edges import LEAST_ASIDE_UM, MOST_ASIDE_UM, Section, open_sections, sections_of_tours
-from parser.shape.returns import loops_in_order
+from parser.shape.open_edges import LEAST_ASIDE_UM, MOST_ASIDE_UM, Section, is_slot, open_sections, sections_of_tours
+from parser.shape.several_loops import several_loops
 from parser.shape.turns import Turns, find_turns
 from parser.toolpath import Toolpath
 
@@ -37,12 +37,15 @@ class Cuts(NamedTuple):
 
 def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
     """Stretches of the contours; `contour` (n,) is each row's, −1 on jumps."""
-    loops = _loops(toolpath, contour)
+    first, last, is_sure = several_loops(toolpath, contour)
+    closed = np.ones(len(first), dtype=np.bool_)
+    loops = Cuts(first, last, contour[first], closed, ~closed)
     edge = edges_of(toolpath, loops.stretches)
-    trimmed = loops.contour[np.bincount(edge, minlength=len(edge))[edge] > 1]
+    is_trimmed = np.bincount(edge, minlength=len(edge))[edge] > 1
     sections = _open(toolpath, contour, loops, edge)
     opened = np.array(sorted(sections), dtype=np.int64)
-    kept = loops.take(np.isin(loops.contour, trimmed) & ~np.isin(loops.contour, opened))
+    together = np.isin(loops.contour, loops.contour[is_trimmed]) & ~np.isin(loops.contour, opened)
+    kept = loops.take(together & (is_sure | is_trimmed))
     others = np.setdiff1d(np.arange(contour.max(initial=-1) + 1), np.concatenate([opened, kept.contour]))
     found = _joined(kept, _of_sections(sections), *_cut_once(toolpath, contour, others))
     return found.take(np.argsort(found.first))
@@ -52,22 +55,6 @@ def _joined(*parts: Cuts) -> Cuts:
     first, last, contour = (np.concatenate([part[k] for part in parts]) for k in range(3))
     closed, tab = (np.concatenate([part[k] for part in parts]).astype(np.bool_) for k in (3, 4))
     return Cuts(first, last, contour, closed, tab)
-
-
-def _loops(toolpath: Toolpath, contour: Ints) -> Cuts:
-    """Loops of contours that close several, one behind the other; a way out and back by two blocks is none."""
-    first, last = loops_in_order(toolpath, contour)
-    row = np.maximum(last - 1, first)
-    arcs = toolpath.is_arc[row] & toolpath.is_arc[last]
-    lines = ~toolpath.is_arc[row] & ~toolpath.is_arc[last]
-    back = np.sign(toolpath.sweep_rad[row]) * np.sign(toolpath.sweep_rad[last]) < 0.0
-    center = np.hypot(*(toolpath.center_um[row] - toolpath.center_um[last]).T)
-    out_and_back = (row < last) & (first == row) & (lines | (arcs & back & (center <= CLOSED_WITHIN_UM)))
-    first, last = first[~out_and_back], last[~out_and_back]
-    of = contour[first]
-    several = np.bincount(of, minlength=1)[of] > 1
-    first, last, of = first[several], last[several], of[several]
-    return Cuts(first, last, of, np.ones(len(first), dtype=np.bool_), np.zeros(len(first), dtype=np.bool_))
 
 
 def _open(toolpath: Toolpath, contour: Ints, loops: Cuts, edge: Ints) -> dict[int, list[Section]]:
@@ -80,12 +67,18 @@ def _open(toolpath: Toolpath, contour: Ints, loops: Cuts, edge: Ints) -> dict[in
         if np.hypot(*(toolpath.start_um[one[0]] - toolpath.start_um[other[0]])) <= CLOSED_WITHIN_UM:
             found[at] = sections_of_tours(toolpath, bounds[at], one, other)
     turned = {at: of for at, of in _turned(contour, find_turns(toolpath, contour)).items() if at not in again}
-    loop = find_loops(toolpath, contour, np.array(sorted(turned), dtype=np.int64))
+    for at, of in turned.items():
+        found[at] = open_sections(toolpath, bounds[at], of)
+    return _without_slots(toolpath, contour, {at: sections for at, sections in found.items() if sections})
+
+
+def _without_slots(toolpath: Toolpath, contour: Ints, found: dict[int, list[Section]]) -> dict[int, list[Section]]:
+    """The sections by contour, without those that are only the two sides of a slot."""
+    loop = find_loops(toolpath, contour, np.array(sorted(found), dtype=np.int64))
     ends = zip(loop.first.tolist(), loop.last.tolist(), strict=True)
     loop_of = dict(zip(loop.contour.tolist(), ends, strict=True))
-    for at, of in turned.items():
-        found[at] = open_sections(toolpath, bounds[at], of, loop_of.get(at))
-    return {at: sections for at, sections in found.items() if sections}
+    begin = runs(toolpath)[:, 0].tolist()
+    return {at: several for at, several in found.items() if not is_slot(several, begin[at], loop_of.get(at))}
 
 
 def _trimmed(loops: Cuts, edge: Ints) -> dict[int, list[tuple[int, int]]]:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.distance import distance_to_curves
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
@@ -50,8 +50,11 @@ class _Part(NamedTuple):
     of: Ints
 
 
-def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints) -> Loops:
-    """Loops of the contours `wanted` (k,), numbers that occur in `contour_of_row` (n,), in order."""
+def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints, within_um: float = CLOSED_WITHIN_UM) -> Loops:
+    """Loops of the contours `wanted` (k,), numbers that occur in `contour_of_row` (n,), in order.
+
+    A path comes back where it passes a place within `within_um` of its start.
+    """
     row = np.flatnonzero(np.isin(contour_of_row, wanted))
     contour, begin, of, number = np.unique(
         contour_of_row[row], return_index=True, return_inverse=True, return_counts=True
@@ -60,7 +63,9 @@ def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints) -> Loops:
     first, last = begin.copy(), np.full(len(contour), len(toolpath), dtype=np.int64)
     for skipped in range(_LEAD_IN_BLOCKS + 1):
         met = np.where(
-            skipped < number, _first_met(toolpath, part, np.minimum(begin + skipped, len(toolpath) - 1)), len(toolpath)
+            skipped < number,
+            _first_met(toolpath, part, np.minimum(begin + skipped, len(toolpath) - 1), within_um),
+            len(toolpath),
         )
         earlier = met < last
         first[earlier], last[earlier] = begin[earlier] + skipped, met[earlier]
@@ -69,15 +74,15 @@ def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints) -> Loops:
     return Loops(contour, first, last, part_sides(toolpath, begin, first, last))
 
 
-def _first_met(toolpath: Toolpath, part: _Part, first: Ints) -> Ints:
+def _first_met(toolpath: Toolpath, part: _Part, first: Ints, within_um: float) -> Ints:
     """Rows (k,) that are the first to pass the start of the rows `first` (k,) again; n where none does."""
     place = toolpath.start_um[first][part.of]
     off, _ = distance_to_curves(toolpath, part.row, place[:, 0], place[:, 1])
     run = np.cumsum(toolpath.length_um) - toolpath.length_um
     since = run[part.row] - run[first][part.of]
     # Short first blocks are still near the place they leave; a circle comes back by itself.
-    met = (off <= CLOSED_WITHIN_UM) & (part.row > first[part.of]) & (since > 2.0 * CLOSED_WITHIN_UM)
-    met |= (part.row == first[part.of]) & is_circle(toolpath)[part.row]
+    met = (off <= within_um) & (part.row > first[part.of]) & (since > 2.0 * within_um)
+    met |= (part.row == first[part.of]) & is_circle(toolpath.picked(first))[part.of]
     at = np.flatnonzero(met)
     which, once = np.unique(part.of[at], return_index=True)
     result = np.full(len(first), len(toolpath), dtype=np.int64)
@@ -85,10 +90,10 @@ def _first_met(toolpath: Toolpath, part: _Part, first: Ints) -> Ints:
     return result
 
 
-def is_circle(toolpath: Toolpath) -> NDArray[np.bool_]:
+def is_circle(curves: Curves) -> NDArray[np.bool_]:
     """(n,) True on arcs of a full turn or more, and on those that J leaves a few µm short of it."""
-    chord = np.hypot(*(toolpath.end_um - toolpath.start_um).T)
-    turn = np.abs(toolpath.sweep_rad)
+    chord = np.hypot(*(curves.end_um - curves.start_um).T)
+    turn = np.abs(curves.sweep_rad)
     circle: NDArray[np.bool_] = (turn >= 2.0 * np.pi) | ((turn > np.pi) & (chord <= CLOSED_WITHIN_UM))
     return circle
 

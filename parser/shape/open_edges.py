@@ -35,19 +35,10 @@ class Section(NamedTuple):
     is_tab: bool
 
 
-def open_sections(
-    toolpath: Toolpath, bounds: tuple[int, int], turns: Turns, loop: tuple[int, int] | None
-) -> list[Section]:
+def open_sections(toolpath: Toolpath, bounds: tuple[int, int], turns: Turns) -> list[Section]:
     """Passes over the open edge of a contour; none where it has none.
 
-    Parameters
-    ----------
-    bounds
-        First row of the contour, and the one past its last.
-    turns
-        Those of the contour.
-    loop
-        First and last row of the loop that the contour closes, if it does.
+    `bounds` are the first row of the contour and the one past its last, `turns` those of the contour.
     """
     aside = np.abs(turns.aside_um)
     trims = np.flatnonzero((aside >= LEAST_ASIDE_UM) & (aside <= MOST_ASIDE_UM))
@@ -61,16 +52,19 @@ def open_sections(
         there, back = np.arange(leave[at], arrive[at]), np.arange(leave[at + 1], arrive[at + 1])
         edge = _common(toolpath, there, back)
         if len(edge):
-            sections = _sections(toolpath, low, past, edge)
-            return [] if loop and _is_slot(sections, low, loop) else sections
+            return _sections(toolpath, low, past, edge)
     return []
 
 
-def _is_slot(sections: list[Section], low: int, loop: tuple[int, int]) -> bool:
-    """Whether the sections are sides of a slot, without a tab, in the loop that a contour from the row `low` closes."""
+def is_slot(sections: list[Section], begin: int, loop: tuple[int, int] | None) -> bool:
+    """Whether the sections are only the sides of a slot: those of a figure without a tab.
+
+    The contour begins with the row `begin`; `loop` are the first and the last row of the loop that it closes, if any.
+    """
+    if loop is None or any(section.is_tab for section in sections):
+        return False
     within = loop[0] <= sections[0].first and sections[-1].last <= loop[1]
-    is_figure = loop[0] > low or sections[0].first == low  # else it goes from the hole back to it
-    return within and is_figure and not any(section.is_tab for section in sections)
+    return within and (loop[0] > begin or sections[0].first == begin)  # else the way from the hole back to it
 
 
 def sections_of_tours(toolpath: Toolpath, bounds: tuple[int, int], one: Ints, other: Ints) -> list[Section]:

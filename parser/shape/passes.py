@@ -4,6 +4,7 @@ A contour may be cut at once, or roughed and then trimmed: in runs of their own,
 without leaving it, with a tab left to the last. A contour that is cut once is one pass.
 """
 
+from bisect import bisect_left
 from typing import NamedTuple
 
 import numpy as np
@@ -37,6 +38,9 @@ class Pass(NamedTuple):
     shift_um
         How far its path lies from that of the last pass over this edge, positive on the side of the waste; 0 of the
         last. A pass over the tab is held against the last one over the tab.
+    part_side
+        +1 with the part on the left of the path, −1 on the right, 0 unknown for want of a lead-in. The lead-in to the
+        first pass comes from the waste.
     """
 
     edge: int
@@ -47,6 +51,7 @@ class Pass(NamedTuple):
     is_closed: bool
     is_tab: bool
     shift_um: float
+    part_side: int
 
 
 class Passes(NamedTuple):
@@ -63,6 +68,11 @@ class Passes(NamedTuple):
     passes: tuple[Pass, ...]
     of_row: Ints
 
+    def around(self, row: int) -> tuple[Pass, Pass] | None:
+        """The last pass that begins before a row and the first that does not; None where one is missing."""
+        later = bisect_left(self.passes, row, key=lambda one: one.first)
+        return (self.passes[later - 1], self.passes[later]) if 0 < later < len(self.passes) else None
+
 
 def find_passes(toolpath: Toolpath) -> Passes:
     """Passes of a toolpath, in the order they are cut."""
@@ -72,15 +82,9 @@ def find_passes(toolpath: Toolpath) -> Passes:
     passes, of_row = [], np.full(len(toolpath), -1, dtype=np.int64)
     of_edge: dict[int, int] = {}
     counted: dict[int, int] = {}
-    columns = (
-        edge,
-        cuts.first,
-        cuts.last,
-        sense < 0,
-        cuts.is_closed,
-        cuts.is_tab,
-        _shifts(toolpath, cuts, edge, sense),
-    )
+    part_side = _part_sides(toolpath, cuts, edge) * sense
+    shift_um = _shifts(toolpath, cuts, edge, part_side)
+    columns = (edge, cuts.first, cuts.last, sense < 0, cuts.is_closed, cuts.is_tab, shift_um, part_side)
     for number, (of, low, high, *rest) in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
         at = of_edge.setdefault(of, len(of_edge))
         counted[at] = counted.get(at, 0) + 1
@@ -115,7 +119,15 @@ def _senses(toolpath: Toolpath, cuts: Cuts, edge: Ints) -> Ints:
     return sense
 
 
-def _shifts(toolpath: Toolpath, cuts: Cuts, edge: Ints, sense: Ints) -> Floats:
+def _part_sides(toolpath: Toolpath, cuts: Cuts, edge: Ints) -> Ints:
+    """Side (k,) of the first cut over the same edge that the part lies on; 0 where that is all of its contour."""
+    first, of = np.unique(edge, return_inverse=True)
+    begin = runs(toolpath)[cuts.contour[first], 0]
+    side = part_sides(toolpath, begin, cuts.first[first], cuts.last[first])
+    return side[of.reshape(-1)]
+
+
+def _shifts(toolpath: Toolpath, cuts: Cuts, edge: Ints, part_side: Ints) -> Floats:
     """How far (k,) µm each cut lies from the last one over its edge, or over its tab, on the side of the waste."""
     number = np.arange(len(edge))
     last, first = np.zeros(2 * len(edge), dtype=np.int64), np.zeros(2 * len(edge), dtype=np.int64)
@@ -125,9 +137,7 @@ def _shifts(toolpath: Toolpath, cuts: Cuts, edge: Ints, sense: Ints) -> Floats:
     other = np.flatnonzero(number != last)
     aside = np.zeros(len(edge))
     aside[other] = run_beside(toolpath, cuts.stretches, other, last[other]).aside_um
-    of, begin = cuts.contour[edge[other]], runs(toolpath)[:, 0]
-    part = part_sides(toolpath, begin[of], cuts.first[edge[other]], cuts.last[edge[other]]) * sense[last[other]]
     # Without a lead-in the waste lies where the first one is cut.
-    waste = np.where(part != 0, -part, np.sign(aside[first[other]]))
-    aside[other] *= waste
+    waste = np.where(part_side != 0, -part_side, 0.0)[last[other]]
+    aside[other] *= np.where(waste != 0.0, waste, np.sign(aside[first[other]]))
     return aside

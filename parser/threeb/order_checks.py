@@ -1,15 +1,17 @@
 """Findings about what stands between the blocks: marks, labels, dialects."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
 from parser.dialect.at_block import at_block
 from parser.dialect.reader import Marks
-from parser.findings.facts import NoEnd
+from parser.findings.facts import NoEnd, WithoutOffset
 from parser.findings.findings import Finding
 from parser.shape.closing import ends_closed
-from parser.threeb.figures import placed_marks
+from parser.shape.passes import Passes, find_passes
+from parser.threeb.figures import is_open_way, placed_marks
 from parser.threeb.grammar import FOREIGN_ENDS, LIKE_A_BLOCK
 from parser.threeb.reader import Mark, Records
 from parser.toolpath import Toolpath
@@ -26,6 +28,7 @@ def order_findings(records: Records, toolpath: Toolpath, marks: Marks) -> list[F
         *_dialect(records),
         *_idle_pauses(records, toolpath),
         *_unpaused_nodes(records, toolpath),
+        *_long_ways(records, toolpath),
     ]
 
 
@@ -88,7 +91,8 @@ def _dialect(records: Records) -> Iterator[Finding]:
     n = int(four.sum())
     if not n:
         return
-    yield records.lines.finding("3B110", _span(records, int(np.argmax(four))), blocks=n)
+    found = records.lines.finding("3B110", _span(records, int(np.argmax(four))), blocks=n, path="path-without-offset")
+    yield found.with_fact(WithoutOffset())
     if n < len(four):
         rarer = four if 2 * n <= len(four) else ~four
         row = int(np.argmax(rarer))
@@ -96,8 +100,12 @@ def _dialect(records: Records) -> Iterator[Finding]:
 
 
 def _idle_pauses(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
-    """Pauses behind a pause with nothing between, and pauses after a closed figure that goes on without a jump."""
+    """Pauses behind a pause with nothing between, and pauses after a closed figure that goes on without a jump.
+
+    A closed figure may go on with a trim of its edge. One that is cut once more as it was has lost a jump.
+    """
     placed, jump = placed_marks(records.marks), toolpath.is_jump
+    idle: list[tuple[Mark, int]] = []
     begin = 0  # first row of the figure being cut
     for before, (row, mark) in zip([None, *placed], placed, strict=False):
         if mark.kind != "pause":
@@ -105,8 +113,20 @@ def _idle_pauses(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
         repeated = before is not None and before[0] == row and before[1].kind == "pause"
         cuts_on = 0 < row < len(toolpath) and not jump[row - 1] and not jump[row]
         if repeated or (cuts_on and ends_closed(toolpath, begin, row)):
-            yield records.lines.finding("3B308", mark.span)
+            idle.append((mark, -1 if repeated else row))
         begin = row
+    passes = find_passes(toolpath) if any(row >= 0 for _, row in idle) else None
+    for mark, row in idle:
+        if passes is None or not _before_trim(passes, row):
+            yield records.lines.finding("3B308", mark.span)
+
+
+def _before_trim(passes: Passes, row: int) -> bool:
+    """Whether a pause before a row stands between two passes over one edge that is trimmed."""
+    around = passes.around(row)
+    if around is None or around[0].edge != around[1].edge:
+        return False
+    return any(one.edge == around[0].edge and abs(one.shift_um) > _SAME_PLACE_UM for one in passes.passes)
 
 
 def _unpaused_nodes(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
@@ -117,3 +137,14 @@ def _unpaused_nodes(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
             paused = row
         elif 0 < row != paused and not jump[row - 1] and toolpath.length_um[row] > _SAME_PLACE_UM:
             yield records.lines.finding("3B309", mark.span, row + 1, length=float(toolpath.length_um[row]))
+
+
+def _long_ways(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
+    """Lines between two pauses that are cut and close no figure: they may be the way to the next one."""
+    pauses = [row for row, mark in placed_marks(records.marks) if mark.kind == "pause"]
+    jump = toolpath.is_jump
+    for at, until in pairwise(pauses):
+        is_way = until - at > 1 and jump[at] and not (jump[at + 1 : until] | toolpath.is_arc[at + 1 : until]).any()
+        if is_way and until < len(toolpath) and is_open_way(toolpath, at, until):
+            length = float(toolpath.length_um[at + 1 : until].sum())
+            yield at_block(toolpath, records.lines, "3B320", at + 1, lines=until - at - 1, last=until, length=length)

@@ -8,6 +8,7 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
+from parser.shape.passes import Passes
 from parser.shape.returns import loops_in_order
 from parser.toolpath import Toolpath
 
@@ -15,10 +16,10 @@ _APART_UM = 1000.0
 """Passes of one cut lie within the kerf of each other; figures this far apart are two."""
 
 
-def uncut_jump_findings(program: Program, contour: Ints) -> list[Finding]:
+def uncut_jump_findings(program: Program, contour: Ints, passes: Passes) -> list[Finding]:
     """Finding 3B310 at the first line cut on the way from a closed figure to the next one.
 
-    `contour` (n,) is each row's contour, −1 where it has none.
+    `contour` (n,) is each row's contour, −1 where it has none. By its hole the wire goes to the next pass over an edge.
     """
     toolpath = program.toolpath
     first, last = loops_in_order(toolpath, contour)
@@ -26,6 +27,9 @@ def uncut_jump_findings(program: Program, contour: Ints) -> list[Finding]:
     for here, there in zip(range(len(first) - 1), range(1, len(first)), strict=True):
         begin, arrival = int(last[here]) + 1, int(first[there])
         if contour[begin - 1] != contour[arrival] or arrival <= begin or toolpath.is_arc[begin:arrival].any():
+            continue
+        around = passes.around(begin)
+        if around and around[0].edge == around[1].edge:
             continue
         if _distance(toolpath, arrival, np.arange(first[here], begin)) > _APART_UM:
             way = float(toolpath.length_um[begin:arrival].sum())

@@ -63,11 +63,11 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
         raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
     try:
         program = read_program(scenario.program)
+        if scenario.offset is not None:
+            program = offsetting(program, scenario.offset).program
     except ProgramError as error:
         raise refused(scenario, error) from None
     offset_um, source = _offset(offset, program, scenario)
-    if scenario.offset is not None:
-        program = offsetting(program, scenario.offset).program
     shown = read_drawing(drawing.file, layer=drawing.layer, gap_um=drawing.gap_um)
     asked = Asked(drawing.tolerance_um, drawing.fit, drawing.sharp_corners)
     done = compare_program(program.toolpath, offset_um, shown, asked)

@@ -25,7 +25,7 @@ class Overrides(NamedTuple):
     gap: float | None
     wire_lag: float | None
     interpolator: str | None
-    offset: float | None
+    offset: tuple[float, ...] | None
     side: str | None
     kerf: bool
     drawing: Path | None
@@ -73,19 +73,26 @@ def _wire(wire: "Wire", options: Overrides) -> "Wire":
 
 
 def _offset(offset: "Offset | None", options: Overrides) -> "Offset | None":
-    """The offset with the options in place of its own values. SettingsError where only half of one is known."""
-    from sim.setup.part import OFFSET_MM, SIDES, Offset
+    """The offset with the options in place of its own values. SettingsError where only half of one is known.
+
+    Lengths take the place of all passes: each makes one in the program's direction, at the machine's feed.
+    """
+    from sim.setup.part import OFFSET_MM, PASSES, SIDES, Offset, OffsetPass
 
     if options.offset is None and options.side is None:
         return offset
-    by_um = options.offset if options.offset is not None else offset and offset.by_um
+    passes = offset and offset.passes
+    if options.offset is not None:
+        number(len(options.offset), PASSES, "--offset: the number of passes")
+        passes = tuple(OffsetPass(by_um) for by_um in options.offset)
+        for one in passes:
+            number(mm(one.by_um), OFFSET_MM, "--offset in mm")
     side = SIDES[options.side] if options.side is not None else offset and offset.side
     if side is None:
         raise SettingsError("--offset needs --side left or --side right: where the wire runs along the contour")
-    if by_um is None:
+    if passes is None:
         raise SettingsError("--side needs --offset, such as --offset 0.1mm")
-    number(mm(by_um), OFFSET_MM, "--offset in mm")
-    return Offset(by_um, side)
+    return Offset(passes, side)
 
 
 class OfDrawing(NamedTuple):

@@ -52,6 +52,7 @@ def run(
     drycut run scenarios/keyhole --thickness 60mm
     drycut run part.3b --interpolator card --card-log part.log
     drycut run contour.3b --offset 0.1mm --side right
+    drycut run contour.3b --offset 0.18mm,0.12mm,0.1mm --side right
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.program import read_program

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from parser.findings.catalogue import LANGUAGES, Language
-from parser.findings.errors import ProgramError
+from parser.findings.errors import ProgramError, SettingsError
 from parser.text.encoding import printable
 from parser.text.excerpt import place, with_caret
 
@@ -32,6 +32,23 @@ class Length(click.ParamType):  # type: ignore[type-arg]  # generic in newer cli
         return value if isinstance(value, float) else parse_length(value)
 
 
+class Lengths(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """Lengths with their units, with commas between them, in µm."""
+
+    name = "length,…"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
+        """The lengths in µm. SettingsError for what is none, and where one is missing beside a comma."""
+        from sim.units import parse_length
+
+        if isinstance(value, tuple):
+            return value
+        lengths = value.split(",")
+        if len(lengths) > 1 and not all(one.strip() for one in lengths):
+            raise SettingsError(f"{value!r} lacks a length beside a comma; write them such as 0.18mm,0.12mm,0.1mm")
+        return tuple(parse_length(one) for one in lengths)
+
+
 def chosen(asked: str | None) -> Language:
     """The language asked for; else Chinese where the locale is, else English (POSIX: LC_ALL, LC_MESSAGES, LANG)."""
     if asked in LANGUAGES:
@@ -51,11 +68,16 @@ _OPTIONS = (
         type=click.Choice(["point-by-point", "card"]),
         help="How the path becomes steps: as 3B controllers do, or by a motion card at equal times.",
     ),
-    click.option("--offset", type=Length(), help="Offset that the controller is to add, such as 0.1mm; with --side."),
+    click.option(
+        "--offset",
+        type=Lengths(),
+        help="Offset that the controller is to add, such as 0.1mm, or one for each pass: 0.18mm,0.12mm,0.1mm; "
+        "with --side.",
+    ),
     click.option(
         "--side",
         type=click.Choice(["left", "right"]),
-        help="Side of the contour on which the wire runs, along the cutting direction.",
+        help="Side of the contour on which the wire runs, along the cutting direction of the first pass.",
     ),
     click.option("--kerf", is_flag=True, help="Work out the kerf, the pieces that it leaves, and their sizes."),
     click.option(

@@ -1,1 +1,1 @@
-"""How far off wire and edge are, from path and drawing; what crosses the border: `Deviations` and `Comparison`."""
+"""How far off wire and edge are; what crosses the border: `Deviations`, `Comparison` and `PassFigures`."""

@@ -4,6 +4,7 @@ A servo that trips ends the run, though its card goes on: the course ends there.
 """
 
 import math
+from collections import Counter
 from dataclasses import dataclass
 from itertools import chain
 from typing import Generic, NamedTuple, TypeVar
@@ -12,8 +13,10 @@ import numpy as np
 
 from controller.stepping.pulses import Pulses
 from parser.findings.findings import Finding
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Floats, Ints
+from parser.shape.passes import Pass
 from parser.toolpath import Stop
+from sim.check.offset import InPass
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.measure.deviation.across import Across, across
 from sim.run.dryrun import DryRun
@@ -45,6 +48,13 @@ class Happening(NamedTuple, Generic[What_co]):
     what: What_co
 
 
+class PassOf(NamedTuple):
+    """A pass, and how many there are over its edge."""
+
+    one: Pass
+    among: int
+
+
 class Moment(NamedTuple):
     """A moment of a run.
 
@@ -54,6 +64,8 @@ class Moment(NamedTuple):
         Its time.
     row, cuts
         Row that runs, and whether it cuts: else the wire jumps.
+    running
+        Pass that runs; None on leads and jumps, and where every edge is cut once.
     wire_um, commanded_um
         (2,) float64, where the wire is, and where the steps have asked the table to be.
     feed_um_s
@@ -65,6 +77,7 @@ class Moment(NamedTuple):
     t_s: float
     row: int
     cuts: bool
+    running: PassOf | None
     wire_um: Floats
     commanded_um: Floats
     feed_um_s: float
@@ -85,6 +98,8 @@ class Course:
         Where the wire lies across the ideal path at each sample of the trace.
     border_s
         (n + 1,) float64, planned times at which the blocks begin, and the end of the last one.
+    passes
+        All passes in the order they are cut; none where every edge is cut once.
     findings, stops, pieces, losses
         All of each kind, those too that were to come when the run ended, in the order in which the run tells them.
     happenings
@@ -97,6 +112,7 @@ class Course:
     duration_s: float
     across: Across
     border_s: Floats
+    passes: tuple[PassOf, ...]
     findings: tuple[Happening[Finding], ...]
     stops: tuple[Happening[Stop], ...]
     pieces: tuple[Happening[Piece], ...]
@@ -116,6 +132,7 @@ class Course:
             t_s=t_s,
             row=row,
             cuts=not self.run.toolpath.is_jump[row],
+            running=self.pass_of(row),
             wire_um=wire,
             commanded_um=self.commanded_um(self.steps_by(t_s)),
             feed_um_s=float(self.run.plan.at(t_s).speed_um_s),
@@ -125,6 +142,19 @@ class Course:
     def row_at(self, t_s: float) -> int:
         """Row that runs at a time."""
         return max(int(np.searchsorted(self.border_s[:-1], t_s, side="right")) - 1, 0)
+
+    def pass_of(self, row: int) -> PassOf | None:
+        """Pass that a row belongs to; None for one of a lead or a jump, and where every edge is cut once."""
+        at = int(self.run.passes.of_row[row])
+        return self.passes[at] if self.passes and at >= 0 else None
+
+    def numbers_at(self, t_s: Floats) -> Ints:
+        """Number of the pass that runs at times (m,): 1 on leads and jumps too, and where every edge is cut once."""
+        if not self.passes:
+            return np.ones(len(t_s), dtype=np.int64)
+        numbers = np.array([*(one.number for one, _ in self.passes), 1])  # the last for rows of no pass, −1
+        row = np.maximum(np.searchsorted(self.border_s[:-1], t_s, side="right") - 1, 0)
+        return np.asarray(numbers[self.run.passes.of_row[row]])
 
     def steps_by(self, t_s: float) -> int:
         """How many steps are done by a time."""
@@ -160,6 +190,7 @@ def course_of(recording: Recording) -> Course:
         duration_s=duration_s,
         across=across(run.toolpath, trace, trace.wire_um, run.plan.at(trace.t_s).along_um),
         border_s=run.border_s,
+        passes=passes_of(run),
         findings=findings,
         stops=stops,
         pieces=pieces,
@@ -168,13 +199,32 @@ def course_of(recording: Recording) -> Course:
     )
 
 
+def passes_of(run: DryRun) -> tuple[PassOf, ...]:
+    """Passes of a run in the order they are cut; none where every edge is cut once."""
+    if not run.has_trims:
+        return ()
+    among = Counter(one.edge for one in run.passes.passes)
+    return tuple(PassOf(one, among[one.edge]) for one in run.passes.passes)
+
+
 def findings_of(run: DryRun) -> tuple[Happening[Finding], ...]:
     """Findings of a run, with their own time where they know it, else with that at which their block begins."""
     blocks, rows = np.unique(run.toolpath.source.block, return_index=True)
     first_row = dict(zip(blocks.tolist(), rows.tolist(), strict=True))
     begins_s = [*run.border_s.tolist()[:-1], math.nan]
     placed = [(finding, first_row.get(finding.block, -1)) for finding in run.findings]
+    placed = [(finding, _row_in_pass(run, finding, row)) for finding, row in placed]
     return tuple(Happening(float(one.values.get("t_s", begins_s[row])), row, one) for one, row in placed)
+
+
+def _row_in_pass(run: DryRun, finding: Finding, row: int) -> int:
+    """The first row of a finding's block in the pass that it is about, if it is about one; else the row given."""
+    if run.offset is None or not isinstance(finding.fact, InPass):
+        return row
+    rows = np.flatnonzero(
+        (run.toolpath.source.block == finding.block) & (run.offset.pass_of_row == finding.fact.number)
+    )
+    return int(rows[0]) if len(rows) else row
 
 
 def stops_of(run: DryRun) -> tuple[Happening[Stop], ...]:

@@ -6,6 +6,7 @@ from typing import Final, NamedTuple, Protocol
 import numpy as np
 
 from controller.card.log.writer import CardLog
+from controller.motion.limits import Feeds
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
 from parser.drawing.model import Drawing
@@ -14,9 +15,10 @@ from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Floats, total_before
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
+from parser.shape.passes import Passes, find_passes
 from parser.toolpath import Toolpath
 from sim.check.result import CheckState, Coverage
-from sim.cut.obstacles.findings import obstacle_findings
+from sim.cut.obstacles.findings import missed_work_findings, obstacle_findings
 from sim.cut.pieces.findings import piece_findings, region_finding
 from sim.cut.regions import RegionError
 from sim.cut.remains import Remains, remains_of
@@ -25,13 +27,14 @@ from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
 from sim.measure.deviation.measured import Deviations, Meters
 from sim.measure.deviation.meters import BlockSteps
+from sim.measure.passes.figures import PassFigures, figures_of_passes, wire_taken
 from sim.run.offsetting import Offsetting
 from sim.run.prepare import prepare
 from sim.setup.expectations import Missed
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
-from sim.table.motion import Motion, Progress, motion_of, silent, simulate
+from sim.table.motion import Progress, motion_of, silent, simulate
 from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
@@ -61,6 +64,8 @@ class DryRun:
         What was run: the toolpath of the program is the one that ran.
     offset
         What the controller's compensation made of the program; None where it ran as written.
+    feeds
+        How fast each block was to be run.
     stepped, plan, trace
         What the controller made of it, and table and wire.
     losses, peaks
@@ -71,6 +76,8 @@ class DryRun:
         Of steps, table and wire.
     contours
         Contours with their closures.
+    passes, pass_figures
+        Which blocks make each pass over an edge, and what it came to, one behind the other.
     block_time_s
         (n,) float64, planned time in each block.
     remains
@@ -88,6 +95,7 @@ class DryRun:
     program: Program
     scenario: Scenario
     offset: Offsetting | None
+    feeds: Feeds
     stepped: BlockSteps
     plan: Plan
     trace: Trace
@@ -96,6 +104,8 @@ class DryRun:
     history: History
     deviations: Deviations
     contours: tuple[Contour, ...]
+    passes: Passes
+    pass_figures: tuple[PassFigures, ...]
     block_time_s: Floats
     remains: Remains | None
     comparison: Comparison | None
@@ -107,6 +117,11 @@ class DryRun:
     def border_s(self) -> Floats:
         """(n + 1,) float64, planned times at which the blocks begin, and the end of the last one."""
         return total_before(self.block_time_s)
+
+    @property
+    def has_trims(self) -> bool:
+        """Whether any edge is cut in more than one pass; those who show a run speak of passes only then."""
+        return any(one.number > 1 for one in self.passes.passes)
 
     @property
     def tripped(self) -> Loss | None:
@@ -149,7 +164,7 @@ def dry_run(
     drawing = _drawing(scenario.drawing)
     ready = prepare(program, scenario)
     program, toolpath = ready.program, ready.program.toolpath
-    motion = _motion(toolpath, scenario)
+    motion = motion_of(toolpath, ready.feeds, scenario.machine, scenario.start_um, scenario.trace_spacing_um)
     meters = Meters(motion, ready.steps)
     sinks = [meters.take]
     if sink is not None:
@@ -165,14 +180,18 @@ def dry_run(
     stepped = meters.tally.result()
     contours = find_contours(toolpath, stepped.corner_um)
     met = obstacle_findings(program, trace, contours, scenario)
+    missed = missed_work_findings(program, trace, scenario)
     lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     plan = motion.drive.plan
     cut = _cut(trace, moved.losses)
+    passes, block_time_s = find_passes(toolpath), _block_times(plan, ready.steps.along_um)
+    way = wire_taken(toolpath, plan, cut)
     left = _left(program, cut, contours, scenario, drawing)
     return DryRun(
         program=program,
         scenario=scenario,
         offset=ready.offset,
+        feeds=ready.feeds,
         stepped=stepped,
         plan=plan,
         trace=trace,
@@ -181,10 +200,12 @@ def dry_run(
         history=moved.history,
         deviations=meters.deviations(cut),
         contours=contours,
-        block_time_s=_block_times(plan, ready.steps.along_um),
+        passes=passes,
+        pass_figures=figures_of_passes(toolpath, passes, block_time_s, way, scenario.wire.reach_um),
+        block_time_s=block_time_s,
         remains=left.remains,
         comparison=left.comparison,
-        findings=tuple(sorted([*ready.findings, *met, *lost, *left.findings], key=file_order)),
+        findings=tuple(sorted([*ready.findings, *met, *missed, *lost, *left.findings], key=file_order)),
         coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
 
@@ -237,9 +258,3 @@ def _block_times(plan: Plan, before_um: Floats) -> Floats:
     reached = plan.time_at(before_um)
     reached[-1] = plan.duration_s
     return np.diff(reached)
-
-
-def _motion(toolpath: Toolpath, scenario: Scenario) -> Motion:
-    machine = scenario.machine
-    feeds = machine.feeds(scenario.thickness_mm)
-    return motion_of(toolpath, feeds, machine, scenario.start_um, scenario.trace_spacing_um)

@@ -1,16 +1,21 @@
 """Before anything moves: a program checked, and the offset added where the controller is to add one."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+import numpy as np
+
+from controller.motion.limits import Feeds
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
-from parser.findings.facts import TooLarge, telling
+from parser.findings.facts import TooLarge, WithoutOffset, telling
 from parser.findings.findings import Finding
 from parser.program import Program
+from parser.shape.passes import find_passes
 from sim.check.engine import Demands, run_checks, too_many_steps
+from sim.check.passes import asked_pass_findings
 from sim.check.result import CheckState, Coverage
 from sim.check.travel import travel_findings
 from sim.run.offsetting import Offsetting, offsetting
@@ -29,6 +34,8 @@ class Prepared(NamedTuple):
         Of that toolpath, point by point.
     offset
         What the offset made of the program; None where it runs as written.
+    feeds
+        How fast each block is to be run.
     findings, coverage
         Of the program as it was read, and of its offset; and how far their checks came.
     """
@@ -36,6 +43,7 @@ class Prepared(NamedTuple):
     program: Program
     steps: Steps
     offset: Offsetting | None
+    feeds: Feeds
     findings: tuple[Finding, ...]
     coverage: Coverage
 
@@ -50,8 +58,9 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     checked = run_checks(program, _demands(scenario))
     if checked.steps is None:
         raise _refusal(program, checked.findings)
+    feeds = scenario.machine.feeds(scenario.thickness_mm)
     if scenario.offset is None:
-        return Prepared(program, checked.steps, None, checked.findings, checked.coverage)
+        return Prepared(program, checked.steps, None, feeds, checked.findings, checked.coverage)
     offset = offsetting(program, scenario.offset)
     steps = interpolate(offset.program.toolpath)
     beyond = too_many_steps(offset.program, steps)
@@ -59,14 +68,36 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
         raise _refusal(program, beyond)
     travel = travel_findings(offset.program, steps, scenario.machine.table, scenario.start_um)
     coverage = _looked_at(checked.coverage, (Check.CORNERS, Check.TRAVEL))
-    return Prepared(offset.program, steps, offset, (*checked.findings, *offset.findings, *travel), coverage)
+    by_pass = np.array([scenario.pass_feed_um_s(one) for one in scenario.offset.passes])
+    feeds = feeds._replace(cut_um_s=by_pass[offset.pass_of_row])
+    findings = (*_under_offset(checked.findings), *offset.findings, *_between_passes(offset, scenario), *travel)
+    return Prepared(offset.program, steps, offset, feeds, findings, coverage)
 
 
 def _demands(scenario: Scenario) -> Demands:
     """What the program is held against; with an offset, corners and travel are those of the offset path."""
     if scenario.offset is not None:
-        return Demands(may_stay_open=scenario.may_stay_open)
+        return Demands(may_stay_open=scenario.may_stay_open, added_um=scenario.offset.by_um)
     return Demands(scenario.machine.table, scenario.start_um, scenario.wire.reach_um, scenario.may_stay_open)
+
+
+def _under_offset(findings: Sequence[Finding]) -> Iterator[Finding]:
+    """The findings, where one says that the path is without the controller's offset mended to say that it has it."""
+    for found in findings:
+        if isinstance(found.fact, WithoutOffset):
+            yield found._replace(values={**found.values, "path": "path-with-offset"})
+        else:
+            yield found
+
+
+def _between_passes(offset: Offsetting, scenario: Scenario) -> list[Finding]:
+    """Findings on how the passes that were asked for follow each other.
+
+    Passes of the program's own, and figures that it leaves open, are told of the program as it was read.
+    """
+    if scenario.offset is None or len(scenario.offset.passes) == 1:
+        return []
+    return asked_pass_findings(offset.program, find_passes(offset.program.toolpath), scenario.wire.reach_um)
 
 
 def _looked_at(coverage: Coverage, names: Sequence[Check]) -> Coverage:

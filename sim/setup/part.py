@@ -1,6 +1,8 @@
-"""What is asked of the part: an offset that the controller is to add, its kerf, and a drawing to hold it against."""
+"""What is asked of the part: an offset that the controller is to add, and a drawing to hold the cut against."""
 
+import operator
 from collections.abc import Mapping
+from itertools import accumulate
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_args
 
@@ -9,10 +11,13 @@ from parser.drawing.model import DEFAULT_GAP_UM
 from parser.findings.errors import SettingsError
 from parser.text.encoding import printable
 from sim.setup.toml.keys import Key, Section
-from sim.setup.toml.kinds import MM_AS_UM, FileName, Number, OneOf, Text, Truth
-from sim.setup.toml.reader import Bound, text
+from sim.setup.toml.kinds import MM_AS_UM, MM_MIN_AS_UM_S, FileName, Number, OneOf, Text, Truth
+from sim.setup.toml.reader import AREA_RATE_MM2_MIN, Bound, number, tables, text
 
 OFFSET_MM = Bound(0.0001, 10.0)
+PASSES = Bound(1, 20)
+"""Of one contour; a precise part takes up to eight (assumed)."""
+FEED_MM_MIN = Bound(0.001, 1e4)
 TOLERANCE_UM = Bound(0.001, 1e6)
 GAP_UM = Bound(0.001, 1e4)
 DENSITY_G_CM3 = Bound(0.01, 30.0)
@@ -27,19 +32,64 @@ DEFAULT_DENSITY_G_CM3 = 7.85
 """Steel: C45 and Cr12 lie within 0.1 of it (any table of materials)."""
 
 
-class Offset(NamedTuple):
-    """Offset that the controller adds to a program on the drawing's contour, as for 4B (docs/3b.md §6).
+Direction = Literal["same", "back"]
+
+
+class OffsetPass(NamedTuple):
+    """One pass over each contour.
 
     Attributes
     ----------
     by_um
         Distance of the wire's centre from the contour, µm.
-    side
-        Side of the contour, along the cutting direction.
+    direction
+        Whether it runs as the pass before it does, or back; the first one runs as the program does.
+    feed_um_s, area_rate_mm2_min
+        Its feed, or its area rate, which makes a feed in the thickness of the work; the area rate of the machine where
+        neither is given.
     """
 
     by_um: float
+    direction: Direction = "same"
+    feed_um_s: float | None = None
+    area_rate_mm2_min: float | None = None
+
+
+class Offset(NamedTuple):
+    """Offset that the controller adds to a program on the drawing's contour, as for 4B (docs/3b.md §6).
+
+    Attributes
+    ----------
+    passes
+        The passes over each contour, one or more, in order.
+    side
+        Side of the contour in the first pass, along its cutting direction. A pass that runs back keeps to the same side
+        of the material.
+    """
+
+    passes: tuple[OffsetPass, ...]
     side: Side
+
+    @property
+    def by_um(self) -> float:
+        """Least distance from the contour: of the pass that makes the edge."""
+        return min(one.by_um for one in self.passes)
+
+    @property
+    def nearest(self) -> int:
+        """The first pass at the least distance, from 0."""
+        return [one.by_um for one in self.passes].index(self.by_um)
+
+    @property
+    def back(self) -> tuple[bool, ...]:
+        """Whether each pass runs against the program."""
+        turns = [one.direction == "back" for one in self.passes]
+        return tuple(accumulate(turns, operator.ne))
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it is one pass at the feed of the machine."""
+        return self.passes == (OffsetPass(self.by_um),)
 
 
 class DrawingTarget(NamedTuple):
@@ -88,10 +138,25 @@ class _SideWord(OneOf):
         return next(name for name, side in SIDES.items() if side is value)
 
 
+_BY_MM = Number(OFFSET_MM, "mm", MM_AS_UM)
 OFFSET = Section(
     "offset",
-    (Key("by_mm", Number(OFFSET_MM, "mm", MM_AS_UM), "by_um"), Key("side", _SideWord(tuple(SIDES)))),
+    (
+        Key("by_mm", _BY_MM, "by_um", default=None, get=lambda offset: offset.by_um if offset.is_plain else None),
+        Key("side", _SideWord(tuple(SIDES))),
+    ),
     fills="offset",
+)
+PASS = Section(
+    "pass",
+    (
+        Key("by_mm", _BY_MM, "by_um"),
+        Key("direction", OneOf(("same", "back")), default="same"),
+        Key("feed_mm_min", Number(FEED_MM_MIN, "mm/min", MM_MIN_AS_UM_S), "feed_um_s", default=None),
+        Key("area_rate_mm2_min", Number(AREA_RATE_MM2_MIN, "mm²/min"), default=None),
+    ),
+    fills="pass_tables",
+    form="list",
 )
 DRAWING = Section(
     "drawing",
@@ -108,8 +173,34 @@ DRAWING = Section(
 
 
 def read_offset(scenario: Mapping[str, Any], where: str) -> Offset | None:
-    """Offset of ``[offset]``, None where it is left out. SettingsError names file and key."""
-    return Offset(**OFFSET.read_in(scenario, where)) if "offset" in scenario else None
+    """Offset of ``[offset]``, in one pass or in those of ``[[pass]]``; None where it is left out.
+
+    SettingsError names file and key.
+    """
+    passes = tables(scenario, "pass", where)
+    if "offset" not in scenario:
+        if "pass" in scenario:
+            raise SettingsError(f'{where}: [[pass]] needs [offset] with side = "left" or side = "right"')
+        return None
+    value = OFFSET.read_in(scenario, where)
+    by_um, side = value["by_um"], value["side"]
+    if "pass" not in scenario:
+        if by_um is None:
+            raise SettingsError(f"{where}: [offset]: by_mm is missing; or give it in a [[pass]] for each pass")
+        return Offset((OffsetPass(by_um),), side)
+    if by_um is not None:
+        raise SettingsError(f"{where}: [offset]: by_mm is left out where there are [[pass]], which have their own")
+    number(len(passes), PASSES, f"{where}: the number of [[pass]]")
+    return Offset(tuple(_pass(table, at, f"{where}: [[pass]] {at}") for at, table in enumerate(passes, start=1)), side)
+
+
+def _pass(table: Mapping[str, Any], at: int, where: str) -> OffsetPass:
+    one = OffsetPass(**PASS.read(table, where))
+    if at == 1 and one.direction == "back":
+        raise SettingsError(f"{where}: direction is that of the program in the first pass; a later one may run back")
+    if one.feed_um_s is not None and one.area_rate_mm2_min is not None:
+        raise SettingsError(f"{where}: feed_mm_min and area_rate_mm2_min are two ways to say one thing; give one")
+    return one
 
 
 def read_drawing_target(scenario: Mapping[str, Any], where: str, folder: Path) -> DrawingTarget | None:

@@ -19,8 +19,10 @@ from sim.setup.part import (
     DENSITY_G_CM3,
     DRAWING,
     OFFSET,
+    PASS,
     DrawingTarget,
     Offset,
+    OffsetPass,
     read_drawing_target,
     read_offset,
 )
@@ -107,6 +109,17 @@ class Scenario:
         return self.wire.lag_um(self.thickness_mm)
 
     @property
+    def pass_tables(self) -> tuple[OffsetPass, ...]:
+        """Passes that its file tells one by one: none where ``[offset]`` says all of it."""
+        return () if self.offset is None or self.offset.is_plain else self.offset.passes
+
+    def pass_feed_um_s(self, one: OffsetPass) -> float:
+        """Feed of a pass as the controller runs it, µm/s."""
+        if one.feed_um_s is not None:
+            return self.machine.held_um_s(one.feed_um_s)
+        return self.machine.cut_um_s(self.thickness_mm, one.area_rate_mm2_min or self.machine.area_rate_mm2_min)
+
+    @property
     def start_um(self) -> tuple[float, float]:
         """Place of the program's start on the table, µm."""
         travel = self.machine.table.travel_x_mm / 2.0, self.machine.table.travel_y_mm / 2.0
@@ -142,7 +155,7 @@ WORK = Section(
         Key("outline_mm", OutlineMm(), "work_um", default=None),
     ),
 )
-SECTIONS = (TOP, WIRE, WORK, OFFSET, DRAWING, CLAMPS, QUIZ, EXPECT)
+SECTIONS = (TOP, WIRE, WORK, OFFSET, PASS, DRAWING, CLAMPS, QUIZ, EXPECT)
 """Sections of a scenario file."""
 
 

@@ -16,6 +16,7 @@ from paths import Pen, flipped
 from sound_shapes import SHAPES, Shape
 
 from controller.offset.compensate import compensate
+from controller.offset.passes import PassedPath, in_passes
 from controller.offset.path import Made, OffsetPath, offset_toolpath
 from controller.offset.sections import OffsetSection, Side
 from controller.stepping.words import interpolate
@@ -52,6 +53,10 @@ def polyline(places: Floats | list[tuple[float, float]]) -> Curves:
     places = np.array(places, dtype=float)
     n = len(places) - 1
     return curves_between(places[:-1], places[1:], np.full((n, 2), np.nan), np.zeros(n))
+
+
+def once(toolpath: Toolpath) -> PassedPath:
+    return in_passes(toolpath, [], [False])
 
 
 def whole(curves: Curves, closed: bool = True) -> list[OffsetSection]:
@@ -537,7 +542,7 @@ def test_steps_end_where_the_path_does() -> None:
         shape, offset, side = random_shape(seed)
         toolpath = drawn(shape, (shape.start[0] - 3000.0, shape.start[1] + 100.0))
         path = compensate(toolpath, [OffsetSection(1, len(toolpath) - 1, True)], min(offset, 200.0), side)
-        stepped = offset_toolpath(toolpath, path)
+        stepped = offset_toolpath(once(toolpath), path)
         off = stepped_ends(stepped)
         off_lines += off[~stepped.is_arc].tolist()
         off_arcs += off[stepped.is_arc].tolist()
@@ -560,7 +565,7 @@ def along(n: int, radius: tuple[float, float], seed: int) -> Toolpath:
 
 def test_steps_do_not_stray_over_ten_thousand_arcs() -> None:
     toolpath = along(10_000, (300.0, 20_000.0), 1)
-    stepped = offset_toolpath(toolpath, compensate(toolpath, whole(toolpath, closed=False), 100.0, Side.LEFT))
+    stepped = offset_toolpath(once(toolpath), compensate(toolpath, whole(toolpath, closed=False), 100.0, Side.LEFT))
     off = stepped_ends(stepped)
     assert off.max() < 3.0
     assert off[-1000:].mean() == pytest.approx(off[:1000].mean(), abs=0.1)
@@ -568,7 +573,7 @@ def test_steps_do_not_stray_over_ten_thousand_arcs() -> None:
 
 def test_every_step_is_near_its_block() -> None:
     toolpath = along(300, (300.0, 20_000.0), 2)
-    stepped = offset_toolpath(toolpath, compensate(toolpath, whole(toolpath, closed=False), 100.0, Side.RIGHT))
+    stepped = offset_toolpath(once(toolpath), compensate(toolpath, whole(toolpath, closed=False), 100.0, Side.RIGHT))
     for chunk in interpolate(stepped).chunks():
         x, y = chunk.x_um + stepped.start_um[0, 0], chunk.y_um + stepped.start_um[0, 1]
         off, _ = distance_to_curves(stepped, chunk.row.astype(np.int64), x, y)
@@ -581,7 +586,7 @@ def test_rows_bear_the_source_of_their_blocks() -> None:
     stops = (Stop("pause", 5, 1), Stop("pause", 6, 1), Stop("end", 7, 1))
     toolpath = replace(toolpath, stops=stops, printed_end_um=toolpath.end_um.copy())
     path = compensate(toolpath, [OffsetSection(1, 3, True)], 100.0, Side.LEFT)
-    made = offset_toolpath(toolpath, path)
+    made = offset_toolpath(once(toolpath), path)
     assert made.source.block.tolist() == [1, 2, 2, 3, 3, 4, 4, 5, 6, 7]
     assert [stop.after for stop in made.stops] == [8, 9, 10]
     assert made.kind[-2] == CurveKind.JUMP

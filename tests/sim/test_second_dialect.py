@@ -28,7 +28,7 @@ from sim.check.settings import CheckSettings, settings_near
 from sim.cli.run_into import FILES
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.report import build_report
-from sim.setup.part import Offset
+from sim.setup.part import Offset, OffsetPass
 from sim.setup.quiz import Question
 from sim.show.pictures.gallery import PICTURES
 from sim.table.motion import silent
@@ -187,7 +187,9 @@ def test_steps_end_every_block_as_near_as_words_of_a_cam_would() -> None:
 def test_the_controller_adds_an_offset() -> None:
     f = 100.0
     led = "go 1 0\n" + "\n".join(["go 4 0", "arc 4 4 4 2 left", "go 0 4", "arc 0 0 0 2 left", "go 1 0", "end"])
-    run = dry_run(parse_program(led), plain_scenario(offset=Offset(f, Side.RIGHT), may_stay_open=True), silent)
+    run = dry_run(
+        parse_program(led), plain_scenario(offset=Offset((OffsetPass(f),), Side.RIGHT), may_stay_open=True), silent
+    )
     assert run.offset is not None
     arcs = run.toolpath.is_arc & (run.toolpath.radius_um > 1000.0)
     assert run.toolpath.radius_um[arcs].tolist() == pytest.approx([2000.0 + f] * int(arcs.sum()))

@@ -31,7 +31,7 @@ def run_text(text: str, **changes: object) -> DryRun:
 def lawful(run: DryRun) -> DryRun:
     """The run, whose plan keeps its limits in the least time."""
     machine = run.scenario.machine
-    limits = row_limits(run.toolpath, machine.feeds(run.scenario.thickness_mm), machine.controller.limits)
+    limits = row_limits(run.toolpath, run.feeds, machine.controller.limits)
     assert_plan_is_lawful(run.plan, limits, jerk_um_s3=machine.controller.limits.jerk_um_s3)
     return run
 

@@ -3,19 +3,22 @@
 import numpy as np
 
 from parser.geometry.curves import Ints
-from parser.shape.loops import find_loops
+from parser.shape.passes import Passes
 from parser.toolpath import Toolpath
 
-_ROUNDING_UM = 5.0  # a small arc in whole µm, begun where the last block ended, is some µm off its radius
+ROUNDING_UM = 5.0
+"""A small arc in whole µm, begun where the last block ended, is some µm off its radius."""
 
 
-def tight_corners(toolpath: Toolpath, contour_of_row: Ints, offset_um: float, is_drawing: bool) -> Ints:
+def tight_corners(toolpath: Toolpath, contour_of_row: Ints, passes: Passes, offset_um: float, is_drawing: bool) -> Ints:
     """Rows (k,) of arcs too small for the offset.
 
     Parameters
     ----------
     contour_of_row
         (n,) contour number of each row, −1 on jumps; see `parser.shape.contours`.
+    passes
+        Those of the toolpath.
     offset_um
         Of the wire's centre from the part: wire radius and spark gap.
     is_drawing
@@ -28,18 +31,13 @@ def tight_corners(toolpath: Toolpath, contour_of_row: Ints, offset_um: float, is
     inner corner, its centre on the scrap's side, has to be R ≥ f. Without a lead-in the sides are not known, and a
     small arc may be either.
     """
-    small = toolpath.is_arc & (contour_of_row >= 0) & (np.nan_to_num(toolpath.radius_um) < offset_um - _ROUNDING_UM)
+    small = toolpath.is_arc & (contour_of_row >= 0) & (np.nan_to_num(toolpath.radius_um) < offset_um - ROUNDING_UM)
     row = np.flatnonzero(small)
     if not len(row):
         return row
-    contour = contour_of_row[row]
-    loops = find_loops(toolpath, contour_of_row, np.unique(contour))
-    # Where a contour has no loop, the search gives a neighbour of it, or the one past the last.
-    at = np.searchsorted(loops.contour, contour)
-    found = np.append(loops.contour, -1)[at] == contour
-    side = np.where(found, np.append(loops.part_side, 0)[at], 0)
-    in_loop = (row >= np.append(loops.first, 0)[at]) & (row <= np.append(loops.last, 0)[at])
+    of = passes.of_row[row]
+    side = np.append([one.part_side for one in passes.passes], 0)[of]  # on leads, −1, the last one: unknown
     center_side = np.sign(toolpath.sweep_rad[row])
     wrong_side = -side if is_drawing else side
-    tight: Ints = row[in_loop & (side != 0) & (center_side == wrong_side)]
+    tight: Ints = row[(side != 0) & (center_side == wrong_side)]
     return tight

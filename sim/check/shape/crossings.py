@@ -1,20 +1,22 @@
 """Where a contour crosses itself: places where two of its blocks run through each other.
 
 Only a clear crossing counts. Sound programs touch, overlap and retrace their own path all the time (lead-out along the
-lead-in, overcut, second pass), each time off by a rounding of 1 µm or two: none of these is a crossing.
+lead-in, overcut), each time off by a rounding of 1 µm or two: none of these is a crossing. Where an edge is cut by
+several passes, leads and steps to one of them run through the others: nor are these, so near their ends. There passes
+may run through each other as well: that one comes nearer to the part than the last is told by itself (3B314).
 """
 
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from parser.geometry.boxes import turn_rad
 from parser.geometry.broad_phase_pairs import near_pairs
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.directions import headings_at
 from parser.geometry.meets import Meets, by_xy, curves_meet
-from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.beside import BESIDE_UM
+from parser.shape.passes import Passes
 from parser.toolpath import Point, Toolpath
 
 CLEAR_UM = 5.0
@@ -22,8 +24,6 @@ CLEAR_UM = 5.0
 their lens."""
 
 _CORNER_LOOP_UM = 5000.0
-_KERF_UM = 200.0
-"""Passes of one cut lie this near each other: the lead-out of the last one may run through those before it."""
 _LEAST_SINE = 0.05
 MOST_PAIRS = 4_000_000
 
@@ -57,20 +57,24 @@ class Crossings(NamedTuple):
     is_complete: bool
 
 
-def find_crossings(toolpath: Toolpath, contour_of_row: Ints, most_pairs: int = MOST_PAIRS) -> tuple[Crossings, ...]:
+def find_crossings(
+    toolpath: Toolpath, contour_of_row: Ints, passes: Passes, most_pairs: int = MOST_PAIRS
+) -> tuple[Crossings, ...]:
     """Contours that cross themselves, and those too dense to be looked at to the end, in the order they are cut.
 
     Parameters
     ----------
     contour_of_row
         (n,) contour number of each row, −1 on jumps; see `parser.shape.contours`.
+    passes
+        Those of the toolpath.
     most_pairs
         How many pairs of pieces of blocks are compared at most.
     """
     pairs = near_pairs(toolpath, contour_of_row, 2.0 * CLEAR_UM, most_pairs)
     if not len(pairs.early) and not len(pairs.incomplete):
         return ()
-    meets = _proper(toolpath, curves_meet(toolpath, pairs.early, pairs.late, CLEAR_UM), contour_of_row)
+    meets = _proper(toolpath, curves_meet(toolpath, pairs.early, pairs.late, CLEAR_UM), contour_of_row, passes)
     contour = contour_of_row[meets.late]
     numbers, first, count = np.unique(contour, return_index=True, return_counts=True)
     found = dict(zip(numbers.tolist(), zip(first.tolist(), count.tolist(), strict=True), strict=True))
@@ -91,7 +95,7 @@ def _crossing(meets: Meets, at: int) -> Crossing:
     return Crossing(int(meets.late[at]), int(meets.early[at]), Point(x, y))
 
 
-def _proper(toolpath: Toolpath, meets: Meets, contour_of_row: Ints) -> Meets:
+def _proper(toolpath: Toolpath, meets: Meets, contour_of_row: Ints, passes: Passes) -> Meets:
     """Those of the places that are crossings, in the order the wire meets them."""
     on_late, kept = np.empty(0), np.arange(len(meets.late))
     for row in (meets.early, meets.late):
@@ -99,41 +103,45 @@ def _proper(toolpath: Toolpath, meets: Meets, contour_of_row: Ints) -> Meets:
         clear = np.minimum(before, after) > CLEAR_UM
         on_late, kept = before[clear], kept[clear]
     meets = meets.take(kept)
-    sine, clearance, begun = _clearance(toolpath, meets)
+    sine, sides = _sides(toolpath, meets)
     corner_loop = _is_corner_loop(toolpath, meets)
-    lead_out = _back_to_hole(toolpath, contour_of_row)[meets.late] & (begun <= _KERF_UM)
-    crossing = np.flatnonzero((sine > _LEAST_SINE) & (clearance > CLEAR_UM) & ~corner_loop & ~lead_out)
+    clearance = np.minimum(*sides)
+    at_pass = _between_passes(contour_of_row, passes, meets, sides)
+    crossing = np.flatnonzero((sine > _LEAST_SINE) & (clearance > CLEAR_UM) & ~corner_loop & ~at_pass)
     return meets.take(crossing[np.lexsort((on_late[crossing], meets.late[crossing]))])
 
 
-def _is_corner_loop(toolpath: Toolpath, meets: Meets) -> NDArray[np.bool_]:
+def _is_corner_loop(toolpath: Toolpath, meets: Meets) -> Bools:
     """Where a CAM overshoots a sharp corner and comes back by a loop of one block, short beside the corner's sides."""
     length = toolpath.length_um
     loop, sides = length[meets.late - 1], np.minimum(length[meets.early], length[meets.late])
-    is_loop: NDArray[np.bool_] = (meets.late - meets.early == 2) & (loop <= np.minimum(_CORNER_LOOP_UM, sides / 2.0))
+    is_loop: Bools = (meets.late - meets.early == 2) & (loop <= np.minimum(_CORNER_LOOP_UM, sides / 2.0))
     return is_loop
 
 
-def _back_to_hole(toolpath: Toolpath, contour_of_row: Ints) -> NDArray[np.bool_]:
-    """(n,) True on the last rows of contours that end where they began."""
-    last = np.flatnonzero(np.append(contour_of_row[1:] != contour_of_row[:-1], True))
-    first = np.concatenate([[0], last[:-1] + 1])
-    gap = toolpath.end_um[last] - toolpath.start_um[first]
-    back = np.zeros(len(toolpath), dtype=np.bool_)
-    back[last] = np.hypot(gap[:, 0], gap[:, 1]) <= CLOSED_WITHIN_UM
-    return back
+def _between_passes(contour_of_row: Ints, passes: Passes, meets: Meets, sides: tuple[Floats, Floats]) -> Bools:
+    """Where a lead or a step ends at another pass over the edge than the one it runs through, or two such passes meet.
 
-
-def _clearance(toolpath: Toolpath, meets: Meets) -> tuple[Floats, Floats, Floats]:
-    """How blocks meet, (k,) each.
-
-    The sine of their angle; how far µm the nearest of their ends lies off the other block's direction; and how far the
-    start of the later block does.
+    `sides` are how far µm the nearer end of the earlier and of the later block lies off the other one.
     """
+    trimmed = {one.edge for one in passes.passes if one.number > 1}
+    edge = np.array([one.edge if one.edge in trimmed else -1 for one in passes.passes] + [-1])[passes.of_row]
+    side = np.array([one.part_side for one in passes.passes] + [0])[passes.of_row]
+    is_lead = (passes.of_row < 0) & np.isin(contour_of_row, contour_of_row[edge >= 0])
+    early, late = is_lead[meets.early], is_lead[meets.late]
+    near_early, near_late = sides[0] <= BESIDE_UM, sides[1] <= BESIDE_UM
+    of_edge = (edge[meets.early] == edge[meets.late]) & (edge[meets.late] >= 0) & (side[meets.late] != 0)
+    two = of_edge & (passes.of_row[meets.early] != passes.of_row[meets.late])
+    between: Bools = (early & late) | (early & near_early) | (late & near_late) | (two & (near_early | near_late))
+    return between
+
+
+def _sides(toolpath: Toolpath, meets: Meets) -> tuple[Floats, tuple[Floats, Floats]]:
+    """How blocks meet, (k,) each: the sine of their angle; how far µm the nearer end of each lies off the other one."""
     a, b = (headings_at(toolpath, row, meets.place_um) for row in (meets.early, meets.late))
     sine = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-    along = [_along(toolpath, row, meets.place_um) for row in (meets.early, meets.late)]
-    return sine, np.minimum.reduce([side for pair in along for side in pair]) * sine, along[1][0] * sine
+    early, late = (np.minimum(*_along(toolpath, row, meets.place_um)) * sine for row in (meets.early, meets.late))
+    return sine, (early, late)
 
 
 def _along(toolpath: Toolpath, row: Ints, place_um: Floats) -> tuple[Floats, Floats]:

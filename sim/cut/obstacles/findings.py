@@ -1,4 +1,4 @@
-"""Findings of things in the way: clamps that the wire or its arm touches, and cuts that leave the workpiece."""
+"""Findings of things in the way: clamps that the wire or its arm touches, cuts that leave the workpiece or miss it."""
 
 from collections.abc import Iterator, Sequence
 
@@ -32,6 +32,18 @@ def obstacle_findings(program: Program, trace: Trace, contours: Sequence[Contour
     wire = way_of(trace.wire_um, trace.row)
     cut = wire.kept(~program.toolpath.is_jump[trace.row[wire.ends[:, 1]]])
     return [*_touched(program, trace, cut, scenario), *_left(program, trace, cut, contours, scenario)]
+
+
+def missed_work_findings(program: Program, trace: Trace, scenario: Scenario) -> list[Finding]:
+    """Finding 3B408, an error, of a run whose kerf nowhere comes to the work."""
+    if scenario.work_um is None:
+        return []
+    wire = way_of(trace.wire_um, trace.row)
+    cut = wire.kept(~program.toolpath.is_jump[trace.row[wire.ends[:, 1]]])
+    if not len(cut.ends) or any(touches(cut, grown(scenario.work_um, scenario.wire.reach_um))):
+        return []
+    begin = Touch(int(cut.ends[0, 0]) + 1, 0.0)
+    return [at_block(program.toolpath, program.lines, "3B408", _row(trace, begin), **_where(trace, cut, begin))]
 
 
 def _touched(program: Program, trace: Trace, cut: Way, scenario: Scenario) -> Iterator[Finding]:

@@ -75,7 +75,8 @@ def _within(question: FreeQuestion, before: Region, swept: Swept, offset_um: flo
             kerf = union(before, level[stretch])
             if question.free(kerf) is None:
                 before, stretch = kerf, stretch + 1
-    way, piece = swept.way, whole.piece_um
+    way = swept.way
+    piece = question.free(union(before, swept.levels[0][stretch])) or whole.piece_um
     middle = middles(way, swept.first)[stretch : stretch + 1]
     first, past = np.append(swept.first, len(way.row))[stretch : stretch + 2].tolist()
     low, high = first - 1, past - 1

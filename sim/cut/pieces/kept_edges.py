@@ -1,16 +1,18 @@
-"""The edges that are kept, at stations along the blocks: where the edge of a block's kerf lies on a shape that is kept.
+"""The edges that are kept, at stations along the blocks: where a block's wire made the outline of a shape that is kept.
 
 They come from the region that the wire left. A pass whose edge another pass cut away has none there, and what stays of
-it beside a tab has one.
+it beside a tab has one. Of several on the same way it is the last.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 import shapely
 
 from parser.geometry.curves import Bools, Floats, Ints
-from sim.cut.kerf.edges import Edges
+from sim.cut.kerf.makers import rows_that_made
+from sim.cut.kerf.region import Kerf
 from sim.cut.pieces.kept_shapes import KeptShape
 from sim.cut.regions import Region
 
@@ -44,11 +46,19 @@ class KeptEdges(NamedTuple):
 
     def picked(self, which: Bools | Ints | slice) -> "KeptEdges":
         """Some of them."""
-        return KeptEdges(*(column[which] for column in self))
+        return KeptEdges(
+            station=self.station[which],
+            row=self.row[which],
+            side=self.side[which],
+            shape=self.shape[which],
+            cut_um=self.cut_um[which],
+            nominal_um=self.nominal_um[which],
+        )
 
 
-def kept_edges(edges: Edges, offset_um: float, shapes: tuple[KeptShape, ...], nominal: list[Region]) -> KeptEdges:
+def kept_edges(kerf: Kerf, shapes: tuple[KeptShape, ...], nominal: Sequence[Region]) -> KeptEdges:
     """Edges that are kept, and would be if the wire were on the ideal path, which leaves the `nominal` parts."""
+    edges, offset_um = kerf.edges, kerf.offset_um
     inner = np.flatnonzero(edges.inner & ~np.isnan(edges.left_um))
     station, side = np.tile(inner, 2), np.repeat(np.array([1, -1]), len(inner))
     out = side[:, None] * edges.left[station]
@@ -56,6 +66,8 @@ def kept_edges(edges: Edges, offset_um: float, shapes: tuple[KeptShape, ...], no
     cut, ideal = edges.place_um[station] + reach[:, None] * out, edges.place_um[station] + offset_um * out
     shape = _lying_on([one.outline_um.exterior for one in shapes], cut)
     kept = KeptEdges(station, edges.row[station], side, shape, cut, ideal).picked(shape != _NONE)
+    made = rows_that_made((one.way for one in kerf.swept), kept.cut_um, offset_um)
+    kept = kept.picked(made == kept.row)
     kept = kept.picked(_lying_on(shapely.get_rings(nominal).tolist(), kept.nominal_um) != _NONE)
     return kept.picked(np.lexsort((kept.station, -kept.side, kept.row)))
 

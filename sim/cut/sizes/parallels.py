@@ -58,9 +58,10 @@ def kept_lines(curves: Curves, edges: Edges, kept: KeptEdges) -> KeptLines:
     begin, end = _reaching(curves, edges, row, kept.station[first], kept.station[past - 1])
     start = curves.start_um[row] + np.where(side > 0, begin, end)[:, None] * ahead
     places = np.stack([first, past], axis=1)
-    found = KeptLines(row, kept.shape[first], places, start, side[:, None] * ahead, end - begin)
-    longest = np.sort(np.argsort(-found.length_um, kind="stable")[:_MOST_LINES])
-    return KeptLines(*(column[longest] for column in found))
+    length, way = end - begin, side[:, None] * ahead
+    longest = np.sort(np.argsort(-length, kind="stable")[:_MOST_LINES])
+    columns = row[longest], kept.shape[first][longest], places[longest]
+    return KeptLines(*columns, start[longest], way[longest], length[longest])
 
 
 def _reaching(curves: Curves, edges: Edges, row: Ints, first: Ints, last: Ints) -> tuple[Floats, Floats]:

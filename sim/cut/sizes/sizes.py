@@ -72,7 +72,7 @@ def sizes_of(toolpath: Toolpath, kerf: Kerf, pieces: Pieces, work_um: Outline | 
     """Sizes of parts and openings; what the ideal path would not leave has no nominal size and is left out."""
     shapes = kept_shapes(pieces)
     parts = parted(stock_of(kerf, work_um), nominal_region(toolpath, ~toolpath.is_jump, kerf.offset_um))
-    kept = kept_edges(kerf.edges, kerf.offset_um, shapes, parts)
+    kept = kept_edges(kerf, shapes, parts)
     return Sizes(
         tuple(_boxes(shapes, parts)),
         tuple(_radii(toolpath, kerf, kept)),

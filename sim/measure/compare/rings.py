@@ -11,8 +11,7 @@ from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.geometry.feet import feet
 from parser.shape.closing import CLOSED_WITHIN_UM
-from parser.shape.contours import contour_rows, runs
-from parser.shape.loops import part_sides
+from parser.shape.contours import contour_rows
 from parser.shape.passes import Pass, Passes, find_passes
 from parser.toolpath import Toolpath
 
@@ -91,7 +90,7 @@ def rings_of(toolpath: Toolpath) -> Rings:
             continue
         made, rests = zip(*(_path(toolpath, one) for one in passes), strict=True)
         contours = contour[[one.first for one in passes]]
-        rings.append(PathEdge(made, _way_round(passes, made), _part_side(toolpath, passes), np.unique(contours)))
+        rings.append(PathEdge(made, _way_round(passes, made), _part_side(passes), np.unique(contours)))
         leads += rests
         within += [np.full(len(rest.block), of) for rest, of in zip(rests, contours.tolist(), strict=True)]
     led = np.concatenate([ring.contours for ring in rings]) if rings else np.empty(0, dtype=np.int64)
@@ -126,14 +125,10 @@ def _path(toolpath: Toolpath, one: Pass) -> tuple[PathPass, PathPass]:
     return ring, PathPass(rest, block[len(row) - len(rest) :], sense)
 
 
-def _part_side(toolpath: Toolpath, passes: Sequence[Pass]) -> int:
-    """Side of the part along the first pass over an edge, by the lead-in before the first pass that has one."""
-    first, last = (np.array([getattr(one, end) for one in passes if not one.is_tab]) for end in ("first", "last"))
-    sense = np.array([-1 if one.is_back else 1 for one in passes if not one.is_tab])
-    begin = runs(toolpath)[contour_rows(toolpath)[first], 0]
-    sides = part_sides(toolpath, begin, first, last) * sense
-    told = sides[sides != 0]
-    return int(told[0]) if len(told) else 0
+def _part_side(passes: Sequence[Pass]) -> int:
+    """Side of the part along the first pass over an edge, told by the first pass that has one."""
+    told = (-one.part_side if one.is_back else one.part_side for one in passes)
+    return next((side for side in told if side), 0)
 
 
 def _way_round(passes: Sequence[Pass], made: Sequence[PathPass]) -> PathPass:

@@ -15,6 +15,7 @@ from sim.run.dryrun import DryRun, verdict
 from sim.run.report.blocks import block_entries
 from sim.run.report.drawing import comparison_document
 from sim.run.report.figures import deviation_entries, limit_entry, loss_entry, offset_entry
+from sim.run.report.passes import pass_entries
 from sim.run.report.remains import remains_entry
 from sim.run.report.rounded import column, rounded
 
@@ -52,6 +53,7 @@ def build_report(run: DryRun) -> dict[str, Any]:
         },
         "time_s": {"total": rounded(run.plan.duration_s), "by_block": column(run.block_time_s)},
         "contours": [_contour(contour, run.block_time_s) for contour in run.contours],
+        "passes": pass_entries(run),
         "interpolator": _interpolator(run),
         "deviation": deviation_entries(run.deviations),
         "limits": [limit_entry(peak) for peak in run.peaks],

@@ -72,20 +72,32 @@ def offset_entry(run: DryRun) -> dict[str, Any] | None:
     asked, made = run.scenario.offset, run.offset
     if asked is None or made is None:
         return None
-    of_row = run.program.toolpath.source.block
+    of_row, of_drawn = run.toolpath.source.block, made.passed.drawn.source.block
     return {
         "by_um": rounded(asked.by_um),
         "side": asked.side.name.lower(),
+        "passes": [
+            {
+                "by_um": rounded(one.by_um),
+                "direction": "back" if is_back else "forward",
+                "feed_um_s": rounded(run.scenario.pass_feed_um_s(one)),
+            }
+            for one, is_back in zip(asked.passes, asked.back, strict=True)
+        ],
         "blocks": _blocks(made, of_row),
         "vanished": [
-            {"source_block": row + 1, "left_um": rounded(left_um)}
+            {
+                "source_block": int(of_drawn[made.passed.row[row]]),
+                "pass": int(made.passed.number[row]) + 1,
+                "left_um": rounded(left_um),
+            }
             for row, left_um in zip(made.path.vanished.tolist(), made.left_um.tolist(), strict=True)
         ],
         "gouges": [
             {
                 "block": gouge.path_row + 1,
                 "source_block": int(of_row[gouge.path_row]),
-                "into_source_block": gouge.row + 1,
+                "into_source_block": int(of_drawn[made.passed.row[gouge.row]]),
                 "where_um": [rounded(gouge.place_um.x), rounded(gouge.place_um.y)],
                 "depth_um": rounded(gouge.depth_um),
             }
@@ -102,6 +114,7 @@ def _blocks(made: Offsetting, of_row: Ints) -> list[dict[str, Any]]:
         {
             "block": list(range(1, len(curves) + 1)),
             "source_block": of_row.tolist(),
+            "pass": [number + 1 or None for number in made.pass_of_row.tolist()],
             "kind": [CurveKind(kind).name.lower() for kind in curves.kind.tolist()],
             "made": [Made(how).name.lower().replace("_", "-") for how in made.path.made.tolist()],
             "start_um": points(curves.start_um),

@@ -74,6 +74,7 @@ def _piece(piece: Piece, play: Play) -> dict[str, Any]:
             "last_mm_block": bridge.last_mm_block,
             "last_mm_t_s": rounded(bridge.last_mm_t_s),
         },
+        "held_after_block": piece.held_after_block,
         "cut_after_um": rounded(piece.cut_after_um),
         "early": piece.early,
         "play": _play(play),

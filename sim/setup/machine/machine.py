@@ -13,10 +13,10 @@ from sim.setup.machine.table_model import MOTOR, TABLE, TableModel, read_table
 from sim.setup.obstacles import ARM, Outline
 from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import Number, Text
-from sim.setup.toml.reader import Bound, load_toml
+from sim.setup.toml.reader import AREA_RATE_MM2_MIN, load_toml
 
 TOP = Section("machine", (Key("name", Text()),), form="top")
-CUTTING = Section("cutting", (Key("area_rate_mm2_min", Number(Bound(0.1, 1e4), "mm²/min")),))
+CUTTING = Section("cutting", (Key("area_rate_mm2_min", Number(AREA_RATE_MM2_MIN, "mm²/min")),))
 SECTIONS = (TOP, TABLE, MOTOR, CONTROLLER, CUTTING, ARM)
 """Sections of a machine file."""
 
@@ -35,12 +35,19 @@ class Machine(NamedTuple):
         return self._replace(controller=self.controller._replace(interpolation=interpolation))
 
     def feeds(self, thickness_mm: float) -> Feeds:
-        """Feeds in a work of this thickness: area rate over thickness, no faster than one step a tick of the limit."""
-        by_area = from_mm(self.area_rate_mm2_min / thickness_mm / 60.0)
+        """Feeds in a work of this thickness, of cuts at the machine's own area rate."""
         return Feeds(
-            cut_um_s=min(by_area, self.controller.cut_step_limit_hz),
+            cut_um_s=self.cut_um_s(thickness_mm, self.area_rate_mm2_min),
             jump_um_s=from_mm(self.controller.jump_feed_mm_s),
         )
+
+    def cut_um_s(self, thickness_mm: float, area_rate_mm2_min: float) -> float:
+        """Feed of a cut at an area rate: that over the thickness, no faster than the controller steps."""
+        return self.held_um_s(from_mm(area_rate_mm2_min / thickness_mm / 60.0))
+
+    def held_um_s(self, feed_um_s: float) -> float:
+        """A feed of cuts as the controller runs it: no faster than one step of 1 µm a tick of its limit."""
+        return min(feed_um_s, self.controller.cut_step_limit_hz)
 
 
 def load_machine(name: str, beside: Path | None = None) -> Machine:

@@ -30,6 +30,7 @@ def in_mm(length_um: float) -> float:
 
 AS_IS = Scale(float, lambda value: value)
 MM_AS_UM = Scale(from_mm, in_mm)
+MM_MIN_AS_UM_S = Scale(lambda mm_min: from_mm(mm_min) / 60.0, lambda um_s: round(mm(um_s) * 60.0, DIGITS))
 MS_AS_S = Scale(lambda ms: ms / 1e3, lambda s: round(s * 1e3, DIGITS))
 US_AS_S = Scale(lambda us: us / 1e6, lambda s: round(s * 1e6, DIGITS))
 DEGREES_AS_RAD = Scale(math.radians, lambda rad: round(math.degrees(rad), DIGITS))

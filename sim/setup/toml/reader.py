@@ -16,6 +16,7 @@ class Bound(NamedTuple):
 
 
 PLACE_MM = Bound(-1e5, 1e5)
+AREA_RATE_MM2_MIN = Bound(0.1, 1e4)
 
 
 def load_toml(path: Path) -> dict[str, Any]:

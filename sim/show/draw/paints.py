@@ -25,6 +25,10 @@ class Paint(StrEnum):
     CLAMP = "clamp"
     CLAMP_EDGE = "clamp-edge"
     KERF = "kerf"
+    TRIM_1 = "trim-1"
+    TRIM_2 = "trim-2"
+    TRIM_3 = "trim-3"
+    TRIM_4 = "trim-4"
     TRAVEL = "travel"
     PART = "part"
     PART_EDGE = "part-edge"
@@ -69,6 +73,10 @@ LIGHT: Final[Theme] = {
     Paint.CLAMP: (226, 226, 226),
     Paint.CLAMP_EDGE: (130, 130, 130),
     Paint.KERF: (118, 194, 238),
+    Paint.TRIM_1: (246, 190, 96),
+    Paint.TRIM_2: (142, 214, 142),
+    Paint.TRIM_3: (224, 160, 214),
+    Paint.TRIM_4: (236, 226, 110),
     Paint.TRAVEL: (130, 60, 0),
     Paint.PART: (205, 235, 222),
     Paint.PART_EDGE: (0, 138, 101),
@@ -110,6 +118,10 @@ DARK: Final[Theme] = {
     Paint.CLAMP: (58, 60, 64),
     Paint.CLAMP_EDGE: (150, 152, 158),
     Paint.KERF: (32, 112, 160),
+    Paint.TRIM_1: (154, 88, 16),
+    Paint.TRIM_2: (34, 116, 58),
+    Paint.TRIM_3: (136, 62, 124),
+    Paint.TRIM_4: (116, 108, 24),
     Paint.TRAVEL: (226, 170, 110),
     Paint.PART: (28, 66, 54),
     Paint.PART_EDGE: (70, 200, 160),

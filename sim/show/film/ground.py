@@ -59,9 +59,9 @@ def draw_ground(canvas: Canvas, page: Page, scenario: Scenario, pieces: Iterable
     draw_axes(canvas, page)
 
 
-def draw_behind(canvas: Canvas, page: Page) -> None:
-    """Draw the plot as if all of it were kerf."""
-    canvas.box(page.inside, Paint.KERF, Paint.KERF, 0.0)
+def draw_behind(canvas: Canvas, page: Page, paint: Paint) -> None:
+    """Draw the plot as if all of it were kerf of one tone."""
+    canvas.box(page.inside, paint, paint, 0.0)
     if page.view.px_per_um >= TRACE_FROM:  # at smaller scales the grid looks like cracks in the kerf
         draw_axes(canvas, page)
 

@@ -7,8 +7,9 @@ import numpy as np
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box
-from sim.show.draw.legend import Entry, LegendSizes, draw_legend, in_columns, middle, stroke
+from sim.show.draw.legend import Entry, LegendSizes, across, draw_legend, in_columns, middle, stroke
 from sim.show.draw.paints import Paint
+from sim.show.draw.tones import TONES
 from sim.show.film.marks import draw_commanded, draw_wire
 from sim.show.words import Words
 
@@ -23,15 +24,35 @@ def draw_film_legend(canvas: Canvas, box: Box, unit: float, entries: list[Entry]
         draw_legend(canvas, legend, box.left, top)
 
 
-def film_entries(say: Words, *, wider: bool, pieces: bool) -> list[Entry]:
-    """What a frame shows: the kerf, `wider` than it is where it would not show, and maybe `pieces` that come free."""
+def film_entries(say: Words, passes: int, *, wider: bool, pieces: bool) -> list[Entry]:
+    """What a frame shows: the kerf, `wider` than it is where it would not show, and maybe `pieces` that come free.
+
+    `passes` is how many there are over one edge at most.
+    """
     return [
         Entry(_wire, say("film.wire")),
         Entry(_commanded, say("film.commanded")),
-        Entry(stroke(Paint.KERF, 2.0 * style.KERF_WIDTH_MIN), say("film.kerf_wider" if wider else "film.kerf")),
+        _kerf(say, passes, wider=wider),
         Entry(stroke(Paint.GREY, style.IDEAL_WIDTH), say("film.ideal")),
         *([Entry(_piece, say("film.free_piece"))] if pieces else []),
     ]
+
+
+def _kerf(say: Words, passes: int, *, wider: bool) -> Entry:
+    """The kerf, one stroke a tone; the tones of passes are explained by their order."""
+    width = 2.0 * style.KERF_WIDTH_MIN
+    if passes == 1:
+        return Entry(stroke(Paint.KERF, width), say("film.kerf_wider" if wider else "film.kerf"))
+    text = say("film.kerf_passes_wider" if wider else "film.kerf_passes", last=passes)
+
+    def draw(canvas: Canvas, box: Box, unit: float) -> None:
+        paints = TONES[:passes]
+        own = (box.right - box.left) / len(paints)
+        for at, paint in enumerate(paints):
+            part = box._replace(left=box.left + at * own, right=box.left + (at + 1) * own)
+            canvas.polyline(across(part), paint, width * unit)
+
+    return Entry(draw, text)
 
 
 def _wire(canvas: Canvas, box: Box, unit: float) -> None:

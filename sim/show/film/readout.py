@@ -10,6 +10,7 @@ from sim.run.course import Course, Event, Moment
 from sim.show.draw.paints import Paint
 from sim.show.film.strip import paint_of
 from sim.show.words import Words
+from sim.show.words.phrases import counted_pass
 
 _TOLD_S = 2.5
 """So long something that happened stays written, in seconds of the film."""
@@ -32,6 +33,7 @@ def read_out(course: Course, moment: Moment, speed: float, say: Words) -> list[L
     return [
         Line("", say("film.block", number=f"{moment.row + 1:,}", count=f"{len(toolpath):,}")),
         Line("", toolpath.source.text[first:past], Paint.GREY),
+        *_running(course, moment, say),
         Line("X", x),
         Line("Y", y),
         Line(say("film.feed"), feed if moment.cuts else f"{say('film.jump')} {feed}"),
@@ -41,6 +43,15 @@ def read_out(course: Course, moment: Moment, speed: float, say: Words) -> list[L
         Line(say("film.speed"), f"× {_speed(speed)}"),
         told(course, moment.t_s, speed, say),
     ]
+
+
+def _running(course: Course, moment: Moment, say: Words) -> list[Line]:
+    """The pass that runs; no line where every edge is cut once."""
+    if not course.passes:
+        return []
+    running = moment.running
+    name = "–" if running is None else getattr(counted_pass(*running), say.language)
+    return [Line(say("film.pass"), name)]
 
 
 def told(course: Course, t_s: float, speed: float, say: Words) -> Line:

@@ -1,17 +1,20 @@
-"""The plot of a run in one view, at any moment."""
+"""The plot of a run in one view, at any moment: the kerf in the tone of the pass that went over it last."""
 
 from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 
+from parser.geometry.curves import Ints
 from sim.run.course import Course, Moment
 from sim.show.draw import style
 from sim.show.draw.layout import Page, View
-from sim.show.draw.paints import Theme
+from sim.show.draw.paints import Paint, Theme
+from sim.show.draw.tones import TONES, tone_number
 from sim.show.film.cut_map import FULL, CutMap, Levels, Span, discs_of
 from sim.show.film.ground import Fate, PieceDrawn, draw_behind, draw_ground, draw_path
 from sim.show.film.layout import AXIS, Layout
+from sim.show.film.pass_map import PassMap
 from sim.show.film.plate import Pixels, Plate
 
 FALL_S: Final = 0.7
@@ -47,15 +50,13 @@ class Scene:
         self._course, self._theme = course, theme
         scenario = course.run.scenario
         self._radius = max(scenario.wire.kerf_um * view.px_per_um, style.KERF_WIDTH_MIN * unit) / 2.0
-        self._map = CutMap(
-            discs_of(course.trace, course.run.toolpath.is_jump, view, layout.plot, self._radius), layout.plot
-        )
+        discs = discs_of(course.trace, course.run.toolpath.is_jump, view, layout.plot, self._radius)
+        self._map = CutMap(discs, layout.plot)
+        tones = np.minimum(course.numbers_at(discs.t_s), len(TONES))
+        self._passes = PassMap(discs, tones, layout.plot)
         left, top, right, bottom = (round(side) for side in layout.plot)
         self._plot = (slice(top, bottom), slice(left, right))
-        behind = Plate(self._page.width_px, self._page.height_px, theme)
-        draw_behind(behind, self._page)
-        draw_path(behind, self._page, course)
-        self._behind = behind.pixels()[self._plot]
+        self._behind = np.stack([self._all_cut(paint) for paint in TONES[: int(tones.max(initial=1))]])
         self._pieces: Sequence[PieceDrawn] | None = None
         self._before = self._image = np.empty((0, 0, 3), dtype=np.uint8)
         self._front, self._tip = 0, NOTHING
@@ -74,12 +75,21 @@ class Scene:
             self._begin(pieces)
         front = self._map.front(moment.t_s)
         for span in (self._map.changed(self._front, front), self._tip):
-            self._mix(span, self._map.levels(front, span))
+            self._mix(span, self._map.levels(front, span), self._passes.tones(front, span))
         self._front, self._tip = front, NOTHING
         if moment.cuts and self._radius <= TIP_MOST_PX:
             self._tip, levels = self._map.tip(self.view.to_px(moment.wire_um))
-            self._mix(self._tip, np.maximum(self._map.levels(front, self._tip), levels))
+            number = moment.running.one.number if moment.running else 1
+            tones = np.where(levels > 0, tone_number(number), self._passes.tones(front, self._tip))
+            self._mix(self._tip, np.maximum(self._map.levels(front, self._tip), levels), tones)
         return self._image
+
+    def _all_cut(self, paint: Paint) -> Pixels:
+        """The plot as if all of it were kerf of one tone, with the path."""
+        canvas = Plate(self._page.width_px, self._page.height_px, self._theme)
+        draw_behind(canvas, self._page, paint)
+        draw_path(canvas, self._page, self._course)
+        return canvas.pixels()[self._plot]
 
     def _begin(self, pieces: Sequence[PieceDrawn]) -> None:
         """Begin anew with a plot that is not cut."""
@@ -90,14 +100,15 @@ class Scene:
         self._image = self._before.copy()
         self._front, self._tip = 0, NOTHING
 
-    def _mix(self, span: Span, levels: Levels) -> None:
-        """Show a span as far as it is cut."""
+    def _mix(self, span: Span, levels: Levels, tones: Ints) -> None:
+        """Show a span as far as it is cut, in the tones (h, w) of its pixels."""
         plot = span.of
         shown, before = self._image[self._plot][plot], self._before[self._plot][plot]
         shown[...] = before
         cut = levels > 0
         share = levels[cut].astype(np.uint16)[:, None]
-        shown[cut] = (before[cut] * (FULL - share) + self._behind[plot][cut] * share) // FULL
+        behind = self._behind[(slice(None), *plot)][tones[cut] - 1, *np.nonzero(cut)]
+        shown[cut] = (before[cut] * (FULL - share) + behind * share) // FULL
 
 
 def fate(freed_s: float, t_s: float, speed: float) -> Fate:

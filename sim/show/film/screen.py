@@ -84,7 +84,9 @@ class Screen:
             box = layout.panel._replace(top=self._panel.foot)
             kerf_px = self._course.run.scenario.wire.kerf_um * self.whole.px_per_um
             wider = kerf_px < style.KERF_WIDTH_MIN * unit
-            draw_film_legend(canvas, box, unit, film_entries(self._say, wider=wider, pieces=bool(self._course.pieces)))
+            passes = max((among for _, among in self._course.passes), default=1)
+            entries = film_entries(self._say, passes, wider=wider, pieces=bool(self._course.pieces))
+            draw_film_legend(canvas, box, unit, entries)
         return canvas.pixels()
 
     def _strip(self, *, done: bool) -> Pixels:

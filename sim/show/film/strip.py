@@ -14,12 +14,15 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import Paint
+from sim.show.draw.tones import paint_of_pass
 from sim.show.pictures.cut.flags import SEVERITY_PAINTS
 
 BAR: Final = (30.0, 48.0)
 """Top and foot of the bar, from the strip's top on."""
 MARK: Final = 8.0
 BORDERS_APART: Final = 4.0
+COMING: Final = 6.0
+"""Height of the tones of passes that are still to come."""
 
 
 def bar_of(strip: Box, unit: float) -> Box:
@@ -31,6 +34,7 @@ def draw_strip(canvas: Canvas, course: Course, strip: Box, unit: float, *, done:
     """Draw the strip as it is where the run is `done`, or where it is still to come."""
     bar = bar_of(strip, unit)
     canvas.box(bar, Paint.KERF if done else Paint.GRID, Paint.FRAME, style.GRID_WIDTH * unit)
+    _draw_passes(canvas, course, bar if done else bar._replace(top=bar.bottom - COMING * unit))
     for x in _borders_px(course, bar, BORDERS_APART * unit).tolist():
         canvas.polyline(np.array([[x, bar.top], [x, bar.bottom]]), Paint.FRAME, style.GRID_WIDTH * unit)
     for happening in reversed(course.happenings):
@@ -61,6 +65,15 @@ def _borders_px(course: Course, bar: Box, apart: float) -> Floats:
     x = bar.left + begins_s[begins_s <= course.duration_s] / max(course.duration_s, 1e-12) * (bar.right - bar.left)
     kept = np.diff(np.floor((x - bar.left) / apart), prepend=0.0) > 0
     return np.asarray(x[kept], dtype=np.float64)
+
+
+def _draw_passes(canvas: Canvas, course: Course, band: Box) -> None:
+    """Draw the passes in their tones, where any edge is cut more than once."""
+    for one, _ in course.passes:
+        begin, end = (x_px(float(course.border_s[row]), course, band) for row in (one.first, one.last + 1))
+        if begin < band.right:
+            paint = paint_of_pass(one.number)
+            canvas.box(band._replace(left=begin, right=min(end, band.right)), paint, paint, 0.0)
 
 
 def _draw_mark(canvas: Canvas, event: Event, x: float, bar: Box, unit: float) -> None:

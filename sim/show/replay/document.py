@@ -6,12 +6,13 @@ from typing import Any
 from parser import __version__
 from parser.program import Program
 from parser.text.encoding import printable
-from sim.run.course import course_of
+from sim.run.course import course_of, passes_of
 from sim.run.dryrun import verdict
 from sim.run.recording import Recording
+from sim.show.draw.tones import tones_of
 from sim.show.html.environment import rendered
 from sim.show.replay.block_columns import block_columns, plan_columns
-from sim.show.replay.happenings import contour_entries, finding_entry, loss_entry, stop_entry
+from sim.show.replay.happenings import contour_entries, finding_entry, loss_entry, pass_entries, stop_entry
 from sim.show.replay.questions import question_entries
 from sim.show.replay.scene import piece_entry, scene
 from sim.show.replay.tape import tape
@@ -24,7 +25,8 @@ _ASSETS = Path(__file__).with_name("assets")
 
 def replay_page(recording: Recording) -> str:
     """HTML of ``replay.html`` for a recorded run."""
-    return rendered(_ASSETS, "replay.html.j2", document=replay_document(recording))
+    tones = tones_of(one for one, _ in passes_of(recording.run))
+    return rendered(_ASSETS, "replay.html.j2", document=replay_document(recording), tones=tones)
 
 
 def replay_document(recording: Recording) -> dict[str, Any]:
@@ -46,6 +48,7 @@ def replay_document(recording: Recording) -> dict[str, Any]:
         "plan": plan_columns(run.plan),
         "stops": [stop_entry(one.what) for one in course.stops],
         "contours": contour_entries(run.contours),
+        "passes": pass_entries(course.passes),
         "findings": [finding_entry(one) for one in course.findings],
         "losses": [loss_entry(one.what) for one in course.losses],
         "tripped": None if run.tripped is None else loss_entry(run.tripped),

@@ -1,4 +1,4 @@
-"""What a replay's document says of what happens in a run: stops, findings, contours and losses."""
+"""What a replay's document says of what happens in a run: stops, findings, contours, passes and losses."""
 
 import math
 from collections.abc import Iterable
@@ -9,8 +9,10 @@ from parser.findings.findings import Finding
 from parser.shape.contours import Contour
 from parser.toolpath import Stop
 from parser.units import from_mm
-from sim.run.course import Happening
+from sim.run.course import Happening, PassOf
 from sim.run.report.rounded import rounded
+from sim.show.draw.tones import paint_of_pass
+from sim.show.words.phrases import named_pass
 from sim.table.record.losses import Loss
 
 
@@ -48,6 +50,20 @@ def contour_entries(contours: Iterable[Contour]) -> list[dict[str, Any]]:
             "closure_stepped_um": rounded(contour.closure_stepped_um),
         }
         for contour in contours
+    ]
+
+
+def pass_entries(passes: Iterable[PassOf]) -> list[dict[str, Any]]:
+    """Passes by the rows of their first and last blocks, with the paint of their tone, and their names."""
+    return [
+        {
+            "first_row": one.first,
+            "last_row": one.last,
+            "number": one.number,
+            "paint": str(paint_of_pass(one.number)),
+            "name": named_pass(one, among)._asdict(),
+        }
+        for one, among in passes
     ]
 
 

@@ -28,11 +28,18 @@ def piece_table(entries: list[dict[str, Any]]) -> ReportTable:
             Column(said("report.mass"), column_of(entries, "mass_g"), unit="g", digits=3),
             counted("freed-block", column_of(entries, "freed.block")),
             timed("freed-after", column_of(entries, "freed.t_s")),
+            counted("held-after", column_of(entries, "held_after_block")),
             micrometres("cut-after", column_of(entries, "cut_after_um")),
+            micrometres("can-shift", [_farthest(entry["play"]["shifts"]) for entry in entries], digits=0),
             yes_or_no("early", column_of(entries, "early")),
-            yes_or_no("pinches", column_of(entries, "play.pinch.pinches")),
         ),
     )
+
+
+def _farthest(shifts: list[dict[str, Any]]) -> float | None:
+    """How far a piece shifts in the direction in which it can shift farthest; None where nothing is in the way."""
+    ways = [shift["by_um"] for shift in shifts]
+    return None if None in ways else max(ways)
 
 
 def size_tables(sizes: Mapping[str, list[dict[str, Any]]]) -> list[ReportTable]:

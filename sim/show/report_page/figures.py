@@ -155,7 +155,8 @@ def _drawing(report: Mapping[str, Any]) -> Iterator[Figure]:
 def _offset(report: Mapping[str, Any]) -> Iterator[Figure]:
     if report["offset"] is not None:
         side = said(f"report.side-{report['offset']['side']}")
-        yield _figure("offset-added", report, "offset.by_um", 3, 1000.0)._replace(unit="mm", beside=side)
+        by = ", ".join(f"{mm(one['by_um']):.3f}" for one in report["offset"]["passes"])
+        yield _figure("offset-added", report, "offset.by_um")._replace(shown=same(by), unit="mm", beside=side)
 
 
 def _mm(length_um: float) -> str:

@@ -24,6 +24,7 @@ from sim.show.report_page.results import (
     deviation_table,
     limit_table,
     loss_table,
+    pass_table,
 )
 from sim.show.report_page.settings import setting_groups
 from sim.show.report_page.tables import Column, ReportTable, yes_or_no
@@ -67,6 +68,7 @@ def _tables(run: DryRun, report: Mapping[str, Any]) -> list[ReportTable]:
     remains, drawing = report["remains"], report["drawing"]
     return [
         contour_table(run, report),
+        *([pass_table(report)] if run.has_trims else []),
         deviation_table(report),
         cause_table(report),
         limit_table(report),

@@ -82,6 +82,35 @@ def contour_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     )
 
 
+def pass_table(report: Mapping[str, Any]) -> ReportTable:
+    """Passes over each edge, as ``passes[]`` of the report has them."""
+    entries = report["passes"]
+    return ReportTable(
+        "passes",
+        (
+            counted("contour", column_of(entries, "contour")),
+            counted("pass-number", column_of(entries, "number")),
+            worded("pass-kind", [_pass_kind(entry) for entry in entries]),
+            worded("pass-way", column_of(entries, "direction")),
+            counted("first-block", column_of(entries, "blocks.0")),
+            counted("last-block", column_of(entries, "blocks.1")),
+            micrometres("pass-offset", column_of(entries, "offset_um"), digits=1),
+            millimetres("length", column_of(entries, "length_um")),
+            timed("seconds", column_of(entries, "time_s")),
+            micrometres("stock-least", column_of(entries, "stock_um.least"), digits=1),
+            micrometres("stock-most", column_of(entries, "stock_um.most"), digits=1),
+            micrometres("stock-mean", column_of(entries, "stock_um.mean"), digits=1),
+            micrometres("wire-off", column_of(entries, "deviation.max_um")),
+        ),
+    )
+
+
+def _pass_kind(entry: Mapping[str, Any]) -> str:
+    if entry["cuts_tab"]:
+        return "tab"
+    return "trim" if entry["number"] > 1 else "rough"
+
+
 def _state(contour: Contour) -> str:
     if not contour.encloses:
         return "parting"

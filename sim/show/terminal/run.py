@@ -1,6 +1,7 @@
 """The summary table of a run on the terminal."""
 
 import math
+from collections import Counter
 from pathlib import Path
 
 from rich.console import Console
@@ -9,17 +10,19 @@ from rich.table import Table
 from rich.text import Text
 
 from controller.offset.path import Made
-from parser.findings.catalogue import texts
 from parser.findings.findings import Finding
 from parser.findings.remarks import remark_text
+from parser.shape.passes import Pass
 from parser.text.encoding import printable
 from parser.text.excerpt import place, with_caret
 from parser.units import mm
 from sim.cut.pieces.pieces import Piece
 from sim.measure.deviation.deviation import Where
+from sim.measure.passes.figures import PassFigures
 from sim.run.dryrun import DryRun, verdict
 from sim.setup.key_words import value_word
 from sim.show.terminal.colours import COLOURS
+from sim.show.terminal.finding import hint, message
 from sim.table.record.peaks import Peak
 from sim.units import clock, three_figures
 
@@ -35,6 +38,7 @@ _MOST_FINDINGS = 20
 _MOST_CLOSURES = 4
 _MOST_LIMITS = 3
 _MOST_PIECES = 4
+_MOST_PASSES = 8
 _LEAST_UM = 0.005  # shown as 0.00
 Row = tuple[str, str]
 
@@ -61,6 +65,9 @@ def _print_findings(console: Console, run: DryRun, output: Path | None) -> None:
             width = finding.span[1] - finding.span[0]
             excerpt = with_caret(run.program.excerpt(finding.line), finding.column, width)
             console.print(Text(excerpt, style="dim"))
+        told = hint(finding, "en")
+        if told:
+            console.print(Text(f"    = {printable(told)}"))
     if len(run.findings) > _MOST_FINDINGS:
         there = "in report.json" if output else "in the report; -o DIR or --json shows them"
         console.print(f"… and {len(run.findings) - _MOST_FINDINGS} findings more, {there}")
@@ -68,10 +75,9 @@ def _print_findings(console: Console, run: DryRun, output: Path | None) -> None:
 
 def _line(name: str, finding: Finding) -> Text:
     at = place(name, finding.line, finding.column)
-    block = f" block {finding.block}:" if finding.block else ""
     text = Text(f"{at}: ")
     text.append(f"{finding.severity}[{finding.code}]", style=COLOURS[finding.severity])
-    return text.append(f":{block} {texts(finding).message}")
+    return text.append(f": {message(finding, 'en')}")
 
 
 def summary_rows(run: DryRun) -> list[Row]:
@@ -91,6 +97,7 @@ def summary_rows(run: DryRun) -> list[Row]:
         ("steps", f"{len(run.stepped):,} of 1 µm, {value_word(scenario.machine.controller.interpolation).en}"),
         ("estimated cutting time", f"{clock(run.plan.duration_s)} in {scenario.thickness_mm:g} mm"),
         *_times(run),
+        *_passes(run),
         *_closures(run),
         *_stopped(run),
         *_offset(run),
@@ -107,6 +114,30 @@ def _times(run: DryRun) -> list[Row]:
         return []
     times = [(c, float(run.block_time_s[c.first - 1 : c.last].sum())) for c in run.contours]
     return [(f"  blocks {c.first}–{c.last}", clock(time_s)) for c, time_s in times]
+
+
+def _passes(run: DryRun) -> list[Row]:
+    """What each pass comes to, where any contour has more than one."""
+    if not run.has_trims:
+        return []
+    among = Counter(figures.of.edge for figures in run.pass_figures)
+    named = [_pass_name(figures.of, among) for figures in run.pass_figures]
+    told = [_pass(figures, run.scenario.wire.reach_um) for figures in run.pass_figures]
+    rows = list(zip(named, told, strict=True))
+    more = [("", f"and {len(rows) - _MOST_PASSES} passes more")] if len(rows) > _MOST_PASSES else []
+    return [*rows[:_MOST_PASSES], *more]
+
+
+def _pass_name(one: Pass, among: Counter[int]) -> str:
+    contour = f"contour {one.edge + 1}, " if len(among) > 1 else ""
+    return f"{contour}pass {one.number} of {among[one.edge]}"
+
+
+def _pass(figures: PassFigures, reach_um: float) -> str:
+    one, stock = figures.of, figures.stock
+    way = ("tab, " if one.is_tab else "") + ("back" if one.is_back else "forward")
+    taken = "not cut" if stock is None else f"takes {stock.mean_um:,.0f} µm"
+    return f"{way}, offset {reach_um + one.shift_um:,.0f} µm, {taken}, {clock(figures.time_s)}"
 
 
 def _closures(run: DryRun) -> list[Row]:
@@ -144,7 +175,12 @@ def _offset(run: DryRun) -> list[Row]:
     bridges = int((made.path.made == Made.BRIDGE).sum())
     parts = [(bridges, "bridge", "added"), (len(made.path.vanished), "block", "left out")]
     told = [f"{number} {name}{'s' * (number > 1)} {what}" for number, name, what in parts if number]
-    return [("offset", ", ".join([f"{mm(asked.by_um):g} mm to the {asked.side.name.lower()}", *told]))]
+    by = ", ".join(f"{mm(one.by_um):g}" for one in asked.passes)
+    rows = [("offset", ", ".join([f"{by} mm to the {asked.side.name.lower()}", *told]))]
+    feeds = [run.scenario.pass_feed_um_s(one) for one in asked.passes]
+    if len(set(feeds)) == 1:
+        return rows
+    return [*rows, ("  feed", f"{', '.join(three_figures(mm(feed) * 60.0) for feed in feeds)} mm/min")]
 
 
 def _pieces(run: DryRun) -> list[Row]:
@@ -162,7 +198,12 @@ def _pieces(run: DryRun) -> list[Row]:
 def _piece(piece: Piece) -> str:
     freed = piece.freed
     mass = f"{piece.mass_g:,.1f} g" if piece.mass_g >= 1.0 else f"{piece.mass_g * 1e3:,.0f} mg"
-    return f"{piece.kind} of {piece.area_mm2:,.2f} mm², {mass}, free in block {freed.block:,} after {clock(freed.t_s)}"
+    told = f"{piece.kind} of {piece.area_mm2:,.2f} mm², {mass}, free in block {freed.block:,} after {clock(freed.t_s)}"
+    if piece.early:
+        return f"{told}, {mm(piece.cut_after_um):,.3f} mm of it still to be cut"
+    if piece.held_after_block is not None:
+        return f"{told}, can be clamped at the D behind block {piece.held_after_block:,}"
+    return told
 
 
 def _drawing(run: DryRun) -> list[Row]:

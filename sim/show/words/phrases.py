@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 
 from parser.findings.catalogue import LANGUAGES, Said, term
+from parser.shape.passes import Pass
 from sim.show.words.words import said
 from sim.units import clock
 
@@ -36,3 +37,15 @@ def lasting(seconds: float) -> Said:
     for unit, key in _UNITS_OF_TIME.items():
         chinese = chinese.replace(unit, said(key).zh)
     return Said(english, chinese)
+
+
+def counted_pass(one: Pass, among: int) -> Said:
+    """Which pass among so many over its edge, and which way it runs beside the first, such as ``2 of 3, back``."""
+    way = said("phrases.back" if one.is_back else "phrases.forward")
+    key = "phrases.counted-tab" if one.is_tab else "phrases.counted-pass"
+    return said(key, number=one.number, among=among, way=way)
+
+
+def named_pass(one: Pass, among: int) -> Said:
+    """The same as a name of its own, such as ``pass 2 of 3, back``."""
+    return said("phrases.pass", counted=counted_pass(one, among))

@@ -9,6 +9,7 @@ from paths import Pen
 
 from parser.shape.contours import contour_rows
 from parser.shape.loops import find_loops
+from parser.shape.passes import find_passes
 from sim.check.shape.corners import tight_corners
 
 OFFSET = 100.0
@@ -28,7 +29,7 @@ def notched(start: tuple[float, float] | None, radius: float, inward: bool, turn
 
 def tight(pen: Pen, is_drawing: bool = False) -> list[int]:
     path = pen.path()
-    return tight_corners(path, contour_rows(path), OFFSET, is_drawing).tolist()
+    return tight_corners(path, contour_rows(path), find_passes(path), OFFSET, is_drawing).tolist()
 
 
 @pytest.mark.parametrize("turn", [1, -1])

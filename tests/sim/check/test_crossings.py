@@ -10,12 +10,13 @@ from hypothesis import strategies as st
 from paths import Pen
 
 from parser.shape.contours import contour_rows
+from parser.shape.passes import find_passes
 from sim.check.shape.crossings import find_crossings
 
 
 def crossings(pen: Pen) -> list[tuple[int, int]]:
     path = pen.path()
-    return [(found.contour, found.crossings) for found in find_crossings(path, contour_rows(path))]
+    return [(found.contour, found.crossings) for found in find_crossings(path, contour_rows(path), find_passes(path))]
 
 
 def polyline(points: list[tuple[float, float]]) -> Pen:
@@ -129,7 +130,7 @@ def test_two_circles(between: float, number: int) -> None:
 
 def test_the_first_crossing_is_the_one_the_wire_meets_first() -> None:
     path = polyline([(0, 0), (1000, 0), (1000, 500), (300, 500), (300, -500), (700, -500), (700, 400)]).path()
-    (found,) = find_crossings(path, contour_rows(path))
+    (found,) = find_crossings(path, contour_rows(path), find_passes(path))
     assert (found.crossings, found.first, found.is_complete) == (2, (3, 0, (300.0, 0.0)), True)
 
 
@@ -158,7 +159,7 @@ def test_contours_do_not_cross_each_other() -> None:
 
 def test_a_limit_on_the_pairs_is_said() -> None:
     path = polyline([(1000.0 * math.cos(3 * i), 1000.0 * math.sin(3 * i)) for i in range(60)]).path()
-    (found,) = find_crossings(path, contour_rows(path), most_pairs=10)
+    (found,) = find_crossings(path, contour_rows(path), find_passes(path), most_pairs=10)
     assert not found.is_complete
 
 

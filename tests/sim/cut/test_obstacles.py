@@ -10,13 +10,14 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from runs import plain_scenario
 
+from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.geometry.curves import CurveKind, Floats
 from parser.program import Program, parse_program
 from parser.shape.contours import find_contours
 from parser.toolpath import Point
 from sim.cut.obstacles.bodies import grown, swept, triangles
-from sim.cut.obstacles.findings import obstacle_findings
+from sim.cut.obstacles.findings import missed_work_findings, obstacle_findings
 from sim.cut.obstacles.touches import Touch, touches, way_of
 from sim.setup.machine.machine import load_machine
 from sim.setup.obstacles import Clamp, Outline, read_outline
@@ -300,6 +301,29 @@ def test_each_contour_tells_where_it_leaves() -> None:
     text = f"{SQUARE_OUT.removesuffix(' DD')} D B0B1000B1000GYL2 D {SQUARE_OUT}"
     lefts = found(text, work=PLATE)
     assert [(f.code, f.block) for f in lefts] == [("3B405", 1), ("3B405", 6)]
+
+
+def missed(text: str, work: Outline) -> list[Finding]:
+    program = parse_program(text)
+    return missed_work_findings(program, traced(program), plain_scenario(work_um=work))
+
+
+def test_a_program_cut_wholly_outside_of_the_work_misses_it() -> None:
+    (finding,) = missed("B0B2000B2000GYL2" + SQUARE_OUT, box(-1000, 20_000, 9000, 30_000))
+    assert (finding.code, finding.block, finding.severity) == ("3B408", 1, Severity.ERROR)
+    assert place_um(finding) == pytest.approx((0, 0), abs=EXACT_UM)
+    assert finding.values["t_s"] == 0.0
+
+
+@pytest.mark.parametrize("text", [SQUARE_OUT, "D B0B20000B20000GYL4 D " + SQUARE_OUT])
+def test_a_program_of_which_one_cut_meets_the_work_does_not_miss_it(text: str) -> None:
+    assert missed(text, box(11_000, -90_000, 19_000, 90_000)) == []
+
+
+@pytest.mark.parametrize(("low", "codes"), [(5099.0, []), (5101.0, ["3B408"])])
+def test_a_program_whose_kerf_just_reaches_the_work_does_not_miss_it(low: float, codes: list[str]) -> None:
+    text = "B5000B0B5000GXL1 B0B5000B5000GYL2 B5000B0B5000GXL3 B0B5000B5000GYL4 DD"
+    assert [f.code for f in missed(text, box(low, -1000, 9000, 9000))] == codes
 
 
 def test_leaving_on_an_arc_is_to_a_micron() -> None:

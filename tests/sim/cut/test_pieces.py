@@ -146,6 +146,15 @@ def test_the_moment_is_before_what_is_cut_into_a_piece_later():
     assert first.early
 
 
+@pytest.mark.parametrize("more", [150.3, 151.0, 151.7, 160.0])
+def test_the_piece_is_that_of_the_moment_also_at_the_end_of_a_stretch(more):
+    # The kerf is worked out in stretches of 190 µm; 950 µm down the last side one of them ends.
+    pen = square(Pen(-500, 0).to(0, 0), 1000 + more).to(30, 30)
+    pieces = pieces_along(square(pen, 940 + more).path()).freed
+    part = max(pieces, key=lambda piece: piece.area_mm2)
+    assert part.cut_after_um == pytest.approx(4 * (940 + more), rel=0.1)
+
+
 def test_a_hole_cut_first_is_a_slug_of_its_own_and_a_hole_in_the_part():
     pen = Pen(1000, 1000).to(1400, 1000).arc(1000, 1000, 2 * math.pi).to(1000, 1000).jump(-1000, 0).to(0, 0)
     pieces = pieces_along(square(pen, 2000).path())

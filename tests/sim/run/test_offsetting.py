@@ -11,14 +11,14 @@ from places import ROOT, SCENARIOS
 from runs import codes, run_folder, run_text
 
 from controller.offset.path import Made
-from controller.offset.sections import OffsetSection, Side, sections_of
+from controller.offset.sections import OffsetSection, Side, rounds_of
 from parser.program import parse_program
 from parser.toolpath import Toolpath
 from sim.run.offsetting import offsetting
 from sim.run.report import build_report
-from sim.setup.part import Offset
+from sim.setup.part import Offset, OffsetPass
 
-LEFT, RIGHT = Offset(100.0, Side.LEFT), Offset(100.0, Side.RIGHT)
+LEFT, RIGHT = Offset((OffsetPass(100.0),), Side.LEFT), Offset((OffsetPass(100.0),), Side.RIGHT)
 SCHEMA = json.loads((ROOT / "docs" / "report.schema.json").read_text("utf-8"))
 LED_SQUARE = """B0B2000B2000GYL2
 B2000B0B2000GXL1 B0B4000B4000GYL2 B4000B0B4000GXL3 B0B4000B4000GYL4 B2000B0B2000GXL1
@@ -44,11 +44,21 @@ def square(pen: Pen) -> Pen:
             square(square(Pen().to(0, 2000)).to(0, 0).jump(9000, 0).to(9000, 2000)).to(9000, 0).path(),
             [OffsetSection(1, 5, closed=True), OffsetSection(9, 13, closed=True)],
         ),
+        # A second way through the start hole is a lead, though no jump parts it from the first.
+        (
+            square(square(Pen().to(0, 2000)).to(0, 0).to(0, 2000)).to(0, 0).path(),
+            [OffsetSection(1, 5, closed=True), OffsetSection(8, 12, closed=True)],
+        ),
+        (
+            square(square(Pen().to(0, 2000)).to(700, 2000).to(0, 0).to(0, -1000)).to(0, 0).path(),
+            [OffsetSection(1, 6, closed=False), OffsetSection(9, 13, closed=True)],
+        ),
+        (square(Pen().to(0, 2000)).to(0, 0).to(0, -700).path(), [OffsetSection(1, 5, closed=True)]),
     ],
-    ids=["led", "bare", "led by two", "circle", "overcut", "parting cut", "two"],
+    ids=["led", "bare", "led by two", "circle", "overcut", "parting cut", "two", "twice", "two from one hole", "on"],
 )
 def test_the_loop_is_offset_and_its_leads_are_not(path: Toolpath, expected: list[OffsetSection]) -> None:
-    assert list(sections_of(path)) == expected
+    assert [one.section for one in rounds_of(path)] == expected
 
 
 def test_a_square_grows_on_its_outer_side_and_shrinks_on_its_inner_one() -> None:
@@ -149,15 +159,18 @@ def test_a_short_block_in_an_inside_corner_has_no_place() -> None:
 @pytest.mark.parametrize(
     ("text", "offset"),
     [
-        ("B53B534B534GYL3 B263B305B588GXSR1 B309B705B705GYL1 B53B534B534GYL1 DD", Offset(79.4, Side.LEFT)),
+        (
+            "B53B534B534GYL3 B263B305B588GXSR1 B309B705B705GYL1 B53B534B534GYL1 DD",
+            Offset((OffsetPass(79.4),), Side.LEFT),
+        ),
         (
             "B578B252B578GXL3 B24B90B186GXSR4 B448B120B448GXL1 B179B48B681GXSR2 B447B121B447GXL3 B578B252B578GXL1 DD",
-            Offset(81.5, Side.RIGHT),
+            Offset((OffsetPass(81.5),), Side.RIGHT),
         ),
-        ("B219B565B565GYL3 B219B565B2424GXSR3 B219B565B565GYL1 DD", Offset(300.0, Side.RIGHT)),
+        ("B219B565B565GYL3 B219B565B2424GXSR3 B219B565B565GYL1 DD", Offset((OffsetPass(300.0),), Side.RIGHT)),
         (
             "B774B235B774GXL1 B989B245B989GXNR3 B0B1019B2038GXNR4 B0B1019B1264GYNR2 B774B235B774GXL3 DD",
-            Offset(151.0, Side.RIGHT),
+            Offset((OffsetPass(151.0),), Side.RIGHT),
         ),
     ],
     ids=["past its corner", "beside its corner", "a circle of more than one turn", "a circle of three arcs"],
@@ -192,6 +205,6 @@ def test_contours_side_by_side_are_held_each_against_its_own_path() -> None:
 def test_a_lead_in_that_ends_where_it_begins_but_for_rounding_has_no_length() -> None:
     """A circle of R 1 mm whose lead-in is 2 mm long, offset by 2 mm to where the wire is threaded."""
     text = "B0B2000B2000GYL2 B0B1000B4000GXNR4 B0B2000B2000GYL4 DD"
-    run = run_text(text, offset=Offset(2000.0, Side.RIGHT))
+    run = run_text(text, offset=Offset((OffsetPass(2000.0),), Side.RIGHT))
     assert run.toolpath.length_um.min() == 0.0
     assert run.stepped.corner_um[-1].tolist() == [0, 0]

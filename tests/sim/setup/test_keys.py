@@ -150,6 +150,7 @@ def test_words_of_a_key_are_there_in_both_languages(section: Section, key: Key) 
 
 UNITS = {
     "mm2_min": "mm²/min",
+    "mm_min": "mm/min",
     "n_s_mm": "N s/mm",
     "g_cm3": "g/cm³",
     "mm_s3": "mm/s³",

@@ -24,7 +24,7 @@ from parser.program import parse_program, read_program
 from sim.measure.deviation.meters import BlockSteps
 from sim.setup import quiz
 from sim.setup.machine.machine import load_machine
-from sim.setup.part import Offset
+from sim.setup.part import Offset, OffsetPass
 from sim.setup.quiz import About, Question, WrittenQuestion, read_quiz, refuse_unanswerable
 from sim.setup.scenario import load_scenario
 from sim.show.replay.answers import written_out
@@ -279,7 +279,7 @@ def test_a_card_is_not_asked_for_its_next_step() -> None:
 def test_blocks_that_an_offset_takes_away_are_not_asked_about() -> None:
     text = "B0B500B500GYL2 B500B0B500GXL1 B50B0B50GXNR3 B0B500B500GYL2 B1000B0B1000GXL3 B0B1050B1050GYL4 DD"
     everything = [Question(block, "end", "f") for block in range(1, 7)]
-    offset = Offset(100.0, Side.LEFT)
+    offset = Offset((OffsetPass(100.0),), Side.LEFT)
     entries = asked(text, everything, offset=offset)
     run = recording_of(text, offset=offset).run
     ran = set(run.toolpath.source.block.tolist())

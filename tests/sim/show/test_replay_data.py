@@ -536,9 +536,9 @@ def test_the_page_names_every_key_of_the_document() -> None:
 def test_an_offset_path_is_replayed_with_the_blocks_it_comes_from() -> None:
     text = "B0B2000B2000GYL2 B2000B0B2000GXL1 B0B2000B2000GYL4 B2000B0B2000GXL3 DD"
     from controller.offset.sections import Side
-    from sim.setup.part import Offset
+    from sim.setup.part import Offset, OffsetPass
 
-    recording = recording_of(text, offset=Offset(100.0, Side.LEFT))
+    recording = recording_of(text, offset=Offset((OffsetPass(100.0),), Side.LEFT))
     document = replay_document(recording)
     blocks = document["blocks"]
     assert len(blocks["kind"]) == len(recording.run.toolpath) > 4

@@ -21,7 +21,7 @@ from parser.program import load_program, read_program
 from sim.run.report import build_report, report_text
 from sim.setup.expectations import EXPECT, read_expectation
 from sim.setup.machine.machine import machine_sections
-from sim.setup.part import SIDES, Offset
+from sim.setup.part import SIDES, Offset, OffsetPass
 from sim.setup.quiz import QUIZ
 from sim.setup.scenario import MACHINE_FILE, Scenario, load_scenario, scenario_sections
 from sim.setup.toml.writer import toml_text, toml_value
@@ -201,7 +201,7 @@ def test_expectations_are_shown_with_those_that_are_missed() -> None:
 
 def test_the_page_of_an_offset_names_findings_by_their_blocks_of_the_program() -> None:
     page = made("B500B0B500GXL2\n" + "B0B900B900GYL2\nB900B0B900GXL1\nB0B900B900GYL4\nB900B0B900GXL3\nDD\n",
-                offset=Offset(100.0, SIDES["left"]), may_stay_open=True)  # fmt: skip
+                offset=Offset((OffsetPass(100.0),), SIDES["left"]), may_stay_open=True)  # fmt: skip
     sources = page.run.toolpath.source.block.tolist()
     assert len(sources) > 5, "the controller adds blocks"
     labelled = [source for source, codes in zip(sources, page.column("blocks", "findings"), strict=True) if codes]
@@ -282,8 +282,14 @@ thickness_mm = 33.3
 density_g_cm3 = 8.93
 outline_mm = [[-1.1, -1.3], [1.7, -1.3], [0.1, 2.9]]
 [offset]
-by_mm = 0.117
 side = "right"
+[[pass]]
+by_mm = 0.161
+feed_mm_min = 3.1
+[[pass]]
+by_mm = 0.117
+direction = "back"
+area_rate_mm2_min = 61.7
 [drawing]
 file = "part.dxf"
 layer = "<i>"

@@ -69,10 +69,11 @@ def places_um(toolpath: Toolpath, findings: Sequence[Finding], off_um: float) ->
     On a block it is the middle; where the path starts or ends within `off_um` of that, another place on the block.
     """
     block = np.array([finding.block for finding in findings], dtype=np.int64)
-    first, past = (np.searchsorted(toolpath.source.block, number) for number in (block, block + 1))
+    order = np.argsort(toolpath.source.block, kind="stable")  # passes that run back have the blocks in falling order
+    first, past = (np.searchsorted(toolpath.source.block[order], number) for number in (block, block + 1))
     known = np.flatnonzero((block > 0) & (first < past))
     place = np.full((len(findings), 2), np.nan)
-    place[known] = _on_blocks(toolpath, ((first + past - 1) // 2)[known], off_um)
+    place[known] = _on_blocks(toolpath, order[((first + past - 1) // 2)[known]], off_um)
     for at, finding in enumerate(findings):
         if finding.place_mm is not None:
             place[at] = from_mm(np.array(finding.place_mm))

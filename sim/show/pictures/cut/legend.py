@@ -24,6 +24,7 @@ from sim.show.draw.legend import (
     stroke,
 )
 from sim.show.draw.paints import Paint
+from sim.show.draw.tones import paint_of_pass, tones_of
 from sim.show.pictures.cut.flags import counted, draw_flag
 from sim.show.pictures.cut.marks import draw_end, draw_pause, draw_start, pauses
 from sim.show.pictures.cut.numbers import draw_number, number_size
@@ -58,7 +59,8 @@ def entries(cut: Cut, page: Page, say: Words, seen: Seen, numbers: str) -> list[
     bar = bar_um * page.view.px_per_um / (style.SAMPLE * page.unit)
     kinds = {piece.kind for piece in cut.pieces.freed} if cut.pieces else set()
     found = (
-        (True, Entry(_kerf(seen.kerf_px), say("cut.kerf_wider", kerf=kerf) if wider else kerf)),
+        (True, Entry(_kerf(seen.kerf_px, Paint.KERF), say("cut.kerf_wider", kerf=kerf) if wider else kerf)),
+        *((True, entry) for entry in _pass_entries(cut, say, seen.kerf_px)),
         (
             True,
             Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say("cut.offset_path" if cut.contour else "cut.programmed")),
@@ -118,10 +120,22 @@ def draw_legends(canvas: Canvas, page: Page, plain: list[Entry], findings: list[
         top += legend.height
 
 
-def _kerf(kerf_px: float) -> DrawSample:
+def _pass_entries(cut: Cut, say: Words, kerf_px: float) -> list[Entry]:
+    """Tones of passes with the offsets of those that have them, where any edge is cut more than once."""
+    passes = () if cut.passes is None else cut.passes.passes
+    entries = []
+    for tone in tones_of(passes):
+        offsets = [mm(cut.kerf_um / 2 + one.shift_um) for one in passes if paint_of_pass(one.number) is tone.paint]
+        by = dict.fromkeys(f"{offset:.3f}" for offset in (min(offsets), max(offsets)))
+        text = say("cut.pass", name=tone.name, by="–".join(by))
+        entries.append(Entry(_kerf(kerf_px, tone.paint), text))
+    return entries
+
+
+def _kerf(kerf_px: float, paint: Paint) -> DrawSample:
     def draw(canvas: Canvas, box: Box, unit: float) -> None:
         width = min(kerf_px, 0.6 * style.LEGEND_ROW * unit)
-        canvas.polyline(across(box) + np.array([[width / 2, 0.0], [-width / 2, 0.0]]), Paint.KERF, width)
+        canvas.polyline(across(box) + np.array([[width / 2, 0.0], [-width / 2, 0.0]]), paint, width)
 
     return draw
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints
 from parser.toolpath import Toolpath
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
@@ -12,24 +12,30 @@ from sim.show.draw.flatten import bounds_um, cut_runs, flatten
 from sim.show.draw.layout import View
 from sim.show.draw.paints import Paint
 from sim.show.draw.simplify import CHORD_PX, simplify
+from sim.show.draw.tones import TONES, paint_of_pass, tone_number
 from sim.show.pictures.cut.subject import Cut
+
+_LEAD = len(TONES) + 1
+
+
+class Band(NamedTuple):
+    """A stretch (k, 2) px that the kerf lies around, and the paint of the kerf there."""
+
+    way: Floats
+    paint: Paint
 
 
 class Lines(NamedTuple):
     """Lines on the page, px: stretches (k, 2) and jumps, each (2, 2).
 
-    Without a trace `actual` is empty and the kerf follows the path.
+    Without a trace `actual` is empty and the kerf follows the path. Of its bands the later lie on top.
     """
 
     ideal: list[Floats]
     actual: list[Floats]
     contour: list[Floats]
     jumps: list[Floats]
-
-    @property
-    def kerf(self) -> list[Floats]:
-        """What the kerf lies around."""
-        return self.actual or self.ideal
+    kerf: list[Band]
 
 
 def path_bounds_um(cut: Cut) -> Floats:
@@ -52,27 +58,53 @@ def lines_of(cut: Cut, view: View) -> Lines:
     """The lines of a cut in a view."""
     toolpath, trace = cut.toolpath, cut.trace
     jumps = np.stack([toolpath.start_um, toolpath.end_um], axis=1)[toolpath.is_jump]
+    ideal = _path_px(toolpath, view)
     return Lines(
-        ideal=_path_px(toolpath, view),
-        actual=[] if trace is None else _runs_px(trace.wire_um, trace.row, toolpath, view),
+        ideal=ideal,
+        actual=[] if trace is None else _runs_px(trace.wire_um, trace.row, toolpath.is_jump, view),
         contour=[] if cut.contour is None else _path_px(cut.contour, view),
         jumps=list(view.to_px(jumps)),
+        kerf=_bands(cut, view),
     )
 
 
+def _bands(cut: Cut, view: View) -> list[Band]:
+    """The kerf in the tones of the passes that took it off: leads below, and each pass over those that came later."""
+    toolpath = cut.toolpath
+    if cut.trace is None:
+        points, row = flatten(toolpath, CHORD_PX / view.px_per_um)
+    else:
+        points, row = cut.trace.wire_um, cut.trace.row
+    tone = _tones(cut)
+    return [
+        Band(run, Paint.KERF if number == _LEAD else paint_of_pass(number))
+        for number in sorted(set(tone.tolist()) - {0}, reverse=True)
+        for run in _runs_px(points, row, tone != number, view)
+    ]
+
+
+def _tones(cut: Cut) -> Ints:
+    """Number of the pass whose tone each row (n,) has; 0 for jumps."""
+    numbers = np.ones(len(cut.toolpath), dtype=np.int64)
+    if cut.passes is not None:
+        own = np.array([*(tone_number(one.number) for one in cut.passes.passes), _LEAD])
+        numbers = own[cut.passes.of_row]  # the last for the rows of no pass, −1
+    return np.where(cut.toolpath.is_jump, 0, numbers)
+
+
 def _path_px(toolpath: Toolpath, view: View) -> list[Floats]:
-    return _runs_px(*flatten(toolpath, CHORD_PX / view.px_per_um), toolpath, view)
+    return _runs_px(*flatten(toolpath, CHORD_PX / view.px_per_um), toolpath.is_jump, view)
 
 
-def _runs_px(points_um: Floats, row: Ints, toolpath: Toolpath, view: View) -> list[Floats]:
-    runs = cut_runs(points_um, row, toolpath.is_jump)
-    return [simplify(view.to_px(run), CHORD_PX) for run in runs]
+def _runs_px(points_um: Floats, row: Ints, left_out: Bools, view: View) -> list[Floats]:
+    return [simplify(view.to_px(run), CHORD_PX) for run in cut_runs(points_um, row, left_out)]
 
 
 def draw_lines(canvas: Canvas, unit: float, lines: Lines, kerf_px: float) -> None:
     """Draw all lines, the kerf `kerf_px` wide below them."""
+    for band in lines.kerf:
+        canvas.polyline(band.way, band.paint, kerf_px)
     strokes = (
-        (lines.kerf, Paint.KERF, kerf_px),
         (lines.contour, Paint.CONTOUR, style.CONTOUR_WIDTH * unit),
         (lines.actual, Paint.ACTUAL, style.ACTUAL_WIDTH * unit),
         (lines.ideal, Paint.IDEAL, style.IDEAL_WIDTH * unit),

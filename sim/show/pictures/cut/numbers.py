@@ -35,7 +35,7 @@ class Numbers(NamedTuple):
 def draw_numbers(board: Board, toolpath: Toolpath, kerf_px: float) -> Numbers:
     """Draw block numbers beside a kerf of a drawn width; they are those of the program."""
     canvas, page = board.canvas, board.page
-    stride = number_stride(int(toolpath.source.block[-1]))
+    stride = number_stride(int(toolpath.source.block.max()))
     row = _rows(toolpath, stride)
     texts = [str(number) for number in toolpath.source.block[row].tolist()]
     sizes = np.array([number_size(canvas, text, page.unit) for text in texts]).reshape(-1, 2)

@@ -7,6 +7,7 @@ import numpy as np
 
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
+from parser.shape.passes import Passes
 from parser.toolpath import Toolpath
 from parser.units import from_mm, mm
 from sim.cut.pieces.pieces import Pieces
@@ -38,6 +39,8 @@ class Cut(NamedTuple):
         Lines at the top; the middle of a line that is too long is left out.
     trace
         The way the wire took; where None the kerf lies around the path.
+    passes
+        Which blocks make each pass over an edge; None where every edge is cut once.
     contour
         What the program draws where a controller adds the offset; None where it runs as written.
     bodies
@@ -55,6 +58,7 @@ class Cut(NamedTuple):
     title: str
     note: str = ""
     trace: Trace | None = None
+    passes: Passes | None = None
     contour: Toolpath | None = None
     bodies: Bodies = NOTHING
     pieces: Pieces | None = None
@@ -81,7 +85,8 @@ def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words) -> Cut:
         title=scenario.title,
         note=_note(run, say),
         trace=run.cut,
-        contour=None if run.offset is None else run.offset.drawn,
+        passes=run.passes if run.has_trims else None,
+        contour=None if run.offset is None else run.offset.passed.drawn,
         bodies=Bodies(scenario.work_um, [clamp.outline_um for clamp in scenario.clamps]),
         pieces=pieces,
         sizes=None if run.remains is None else run.remains.sizes,
@@ -108,5 +113,6 @@ def _note(run: DryRun, say: Words) -> str:
         clock(run.ran_s),
     ]
     if offset is not None:
-        parts.append(say(f"cut.offset_{offset.side.name.lower()}", by=f"{mm(offset.by_um):g}"))
+        by = ", ".join(f"{mm(one.by_um):g}" for one in offset.passes)
+        parts.append(say(f"cut.offset_{offset.side.name.lower()}", by=by))
     return " · ".join(parts)

@@ -1,4 +1,4 @@
-"""Events on the time axis: borders of blocks with their numbers, pauses, and what the drives lost."""
+"""Events on the time axis: borders of blocks with their numbers, passes, pauses, and what the drives lost."""
 
 from collections.abc import Mapping
 from typing import Final, NamedTuple
@@ -6,18 +6,22 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.findings.facts import telling
-from sim.run.course import stops_of
+from sim.run.course import passes_of, stops_of
 from sim.run.dryrun import DryRun
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import Chart
 from sim.show.draw.labels import MOST_NUMBERS, number_stride
+from sim.show.draw.layout import Box
 from sim.show.draw.paints import Paint
+from sim.show.draw.tones import paint_of_pass
 from sim.table.findings import Lost
 from sim.table.record.losses import LossKind
 
 ROW: Final = 30.0
 """Height of a row of numbers or signs."""
+BAND: Final = 26.0
+"""Height of the tones of passes, in a row."""
 TICK: Final = 9.0
 LINE_WIDTH: Final = 1.5
 _NAMES: Final[Mapping[LossKind, str]] = {"lost-steps": "motion.lost", "trip": "motion.trip"}
@@ -68,6 +72,24 @@ def draw_blocks(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> Non
     middle = (borders[best] + borders[best + 1]) / 2.0
     labels = [_Label(x, f"{row + 1}", Paint.GREY) for x, row in zip(middle.tolist(), best.tolist(), strict=True)]
     _draw_labels(canvas, chart, labels, top - (TICK + 0.5 * ROW) * unit)
+
+
+def draw_passes(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> None:
+    """Draw the passes in their tones above the numbers of blocks, each with its own number where that has room."""
+    foot, size = chart.frame.top - (TICK + ROW) * chart.unit, style.NUMBER * chart.unit
+    borders = chart.x_px(run.border_s / unit_s)
+    for one, _ in passes_of(run):
+        left, right = borders[[one.first, one.last + 1]].tolist()
+        draw_pass(canvas, Box(left, foot - BAND * chart.unit, right, foot), one.number, size)
+
+
+def draw_pass(canvas: Canvas, box: Box, number: int, size: float) -> None:
+    """Draw a pass as a box in its tone, with its number where that has room."""
+    paint, text = paint_of_pass(number), str(number)
+    canvas.box(box, paint, paint, 0.0)
+    if canvas.text_width(text, size) < box.right - box.left:
+        middle = ((box.left + box.right) / 2.0, (box.top + box.bottom) / 2.0)
+        canvas.text(middle, text, size, Paint.INK, align=0.5)
 
 
 def draw_marks(canvas: Canvas, charts: list[Chart], marks: list[TimeMark], unit_s: float, y: float) -> None:

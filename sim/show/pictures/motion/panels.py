@@ -22,6 +22,7 @@ ROOM: Final = 0.08
 """Share of its range that a panel leaves free at either side."""
 REACH: Final = 0.3
 """Share of the range by which a panel grows to show a level."""
+_MOST_FEEDS = 3
 
 
 class Level(NamedTuple):
@@ -105,11 +106,14 @@ def _pool(envelope: Envelope, first: Ints, width_s: Floats) -> Envelope:
 
 
 def feed_levels(run: DryRun) -> list[Level]:
-    """Feeds of cuts and jumps, mm/s, as far as there are any."""
-    feeds = run.scenario.machine.feeds(run.scenario.thickness_mm)
+    """Feeds of cuts and of jumps, mm/s, as far as there are any; of many passes the lowest and the highest."""
     jumps = run.toolpath.is_jump
-    shown = (("motion.cut_feed", feeds.cut_um_s, not jumps.all()), ("motion.jump_feed", feeds.jump_um_s, jumps.any()))
-    return [Level(key, mm(feed), "", Paint.GREY) for key, feed, there in shown if there]
+    cut = np.unique(np.broadcast_to(run.feeds.cut_um_s, len(jumps))[~jumps])
+    if len(cut) > _MOST_FEEDS:
+        cut = cut[[0, -1]]
+    jump = [run.feeds.jump_um_s] if jumps.any() else []
+    shown = [("motion.cut_feed", cut.tolist()), ("motion.jump_feed", jump)]
+    return [Level(key, mm(feed), "", Paint.GREY) for key, feeds in shown for feed in feeds]
 
 
 def limit_levels(run: DryRun, quantity: Quantity, key: str, scale: float = 1.0) -> list[Level]:

@@ -10,13 +10,12 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import AxisRange, Chart, draw_chart, draw_level
 from sim.show.draw.furniture import draw_header
-from sim.show.draw.labels import number_stride
 from sim.show.draw.layout import Box
 from sim.show.draw.legend import draw_legend
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.motion.curves import draw_envelope
-from sim.show.pictures.motion.events import ROW, TICK, draw_blocks, draw_marks, marks_of
+from sim.show.pictures.motion.events import ROW, TICK, draw_blocks, draw_marks, draw_passes, marks_of
 from sim.show.pictures.motion.legend import legend_of
 from sim.show.pictures.motion.panels import Level, Panel, panels_of
 from sim.show.words import Words
@@ -65,13 +64,14 @@ def draw_motion(sheet: Sheet[AnyCanvas], run: DryRun) -> AnyCanvas:
     """Draw velocity, acceleration, following error and force of both axes over the time of a run."""
     unit, say = sheet.unit, sheet.say
     marks = marks_of(run)
-    legend = legend_of(marks, number_stride(len(run.toolpath)), say, sheet.width_px, unit)
-    layout = _layout(sheet, bool(marks), legend.foot)
+    legend = legend_of(run, marks, say, sheet.width_px, unit)
+    layout = _layout(sheet, run.has_trims + bool(marks), legend.foot)
     canvas = sheet.page(layout.height)
     draw_header(canvas, unit, run.scenario.title, _note(run, say))
     time = _time_of(run)
     charts = _draw_panels(canvas, layout, run, time, sheet)
     draw_blocks(canvas, charts[0], run, time.unit_s)
+    draw_passes(canvas, charts[0], run, time.unit_s)
     draw_marks(canvas, charts, marks, time.unit_s, layout.signs)
     frame, size = charts[-1].frame, style.TICK * unit
     canvas.text((frame.right, frame.bottom + 2.1 * size), say(time.name), size, Paint.GREY, align=1.0)
@@ -79,16 +79,17 @@ def draw_motion(sheet: Sheet[AnyCanvas], run: DryRun) -> AnyCanvas:
     return canvas
 
 
-def _layout(sheet: Sheet[AnyCanvas], marks: bool, legend_px: float) -> _Layout:
+def _layout(sheet: Sheet[AnyCanvas], rows: int, legend_px: float) -> _Layout:
+    """Lay out a page with so many rows above the one with the numbers of blocks, the signs in the uppermost."""
     unit = sheet.unit
-    above = (TICK + ROW + ROW * marks) * unit
+    above = (TICK + ROW + ROW * rows) * unit
     height, name = max(HEIGHT * sheet.width_px, LEAST_HEIGHT * unit), NAME_ROW * unit
     first = style.HEAD * unit + name + above
     tops = [first, *(first + number * (height + name) for number in range(1, 4))]
     frames = [Box(style.LEFT * unit, top, sheet.width_px - style.EDGE * unit, top + height) for top in tops]
     names = [top - 0.5 * name - above * (top == first) for top in tops]
     legend = frames[-1].bottom + TIME_ROWS * unit
-    return _Layout(frames, names, first - (TICK + 1.5 * ROW) * unit, legend, round(legend + legend_px))
+    return _Layout(frames, names, first - (TICK + (0.5 + rows) * ROW) * unit, legend, round(legend + legend_px))
 
 
 def _time_of(run: DryRun) -> _Time:

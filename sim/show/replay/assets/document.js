@@ -27,6 +27,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {Plan} plan
  * @property {Stop[]} stops
  * @property {Contour[]} contours
+ * @property {Pass[]} passes none where every edge is cut once
  * @property {Finding[]} findings
  * @property {Loss[]} losses
  * @property {Loss | null} tripped
@@ -102,6 +103,18 @@ import { element } from "../../html/assets/elements.js";
  * @property {number} closure_exact_um
  * @property {number} closure_stepped_um
  */
+
+/**
+ * A pass over an edge: its rows without leads, and the name of its colour in the style sheet.
+ * @typedef {object} Pass
+ * @property {number} first_row
+ * @property {number} last_row
+ * @property {number} number
+ * @property {PassPaint} paint
+ * @property {Said} name
+ */
+
+/** @typedef {"kerf" | "trim-1" | "trim-2" | "trim-3" | "trim-4"} PassPaint */
 
 /**
  * @typedef {object} Finding

@@ -1,10 +1,11 @@
-// The kerf: a band as wide as wire and spark gaps, wherever the wire really was while it cut.
+// The kerf: a band as wide as wire and spark gaps, wherever the wire really was while it cut. Each pass over an edge
+// draws it anew in its own colour, so that the band shows how far the running pass is.
 import { detailOf } from "./detail.js";
 import { newLayer } from "./layer.js";
 
 /**
  * @import { Samples } from "./decode.js"
- * @import { Place } from "./document.js"
+ * @import { PassPaint, Place } from "./document.js"
  * @import { Colours } from "./palette.js"
  * @import { Pen } from "./pen.js"
  * @import { View } from "./view.js"
@@ -12,26 +13,28 @@ import { newLayer } from "./layer.js";
 
 const LEAST_WIDTH = 4; // px: thinner, it would hide under the ideal path
 
+/** @typedef {PassPaint | null} Cut The colour in which the wire cut on its way to a sample; null where it did not. */
+
 /**
- * Marks the samples where cutting begins or ends.
- * @param {Uint8Array} isCut
+ * Marks the samples where cutting begins or ends, or goes on in another colour.
+ * @param {Cut[]} cuts
  */
-function borders(isCut) {
-  const marks = new Uint8Array(isCut.length);
-  for (let at = 0; at + 1 < isCut.length; at++) marks[at] = isCut[at] !== isCut[at + 1] ? 1 : 0;
+function borders(cuts) {
+  const marks = new Uint8Array(cuts.length);
+  for (let at = 0; at + 1 < cuts.length; at++) marks[at] = cuts[at] !== cuts[at + 1] ? 1 : 0;
   return marks;
 }
 
 /**
- * Kerf of a replay; `isCut` tells of each sample whether the wire cut on its way there.
+ * Kerf of a replay; `cuts` has one entry a sample.
  * @param {Samples} samples
- * @param {Uint8Array} isCut
+ * @param {Cut[]} cuts
  * @param {number} widthUm
  * @param {Colours} colours
  */
-export function kerfOf(samples, isCut, widthUm, colours) {
+export function kerfOf(samples, cuts, widthUm, colours) {
   const { wireX, wireY } = samples;
-  const line = detailOf(wireX, wireY, borders(isCut));
+  const line = detailOf(wireX, wireY, borders(cuts));
   const layer = newLayer();
   let drawn = 0; // samples on the layer
 
@@ -39,9 +42,10 @@ export function kerfOf(samples, isCut, widthUm, colours) {
    * Set a pen to draw the band.
    * @param {Pen} pen
    * @param {number} scale
+   * @param {PassPaint} paint
    */
-  function dip(pen, scale) {
-    pen.strokeStyle = colours().kerf;
+  function dip(pen, scale, paint) {
+    pen.strokeStyle = colours()[paint];
     pen.lineWidth = Math.max(LEAST_WIDTH, widthUm * scale);
     pen.lineCap = "round";
     pen.lineJoin = "round";
@@ -54,14 +58,26 @@ export function kerfOf(samples, isCut, widthUm, colours) {
    */
   function draw(first, last) {
     const { pen, view } = layer;
-    dip(pen, view.scale);
+    /** @type {Cut} */
+    let paint = "kerf";
+    dip(pen, view.scale, paint);
     pen.beginPath();
     line.visit(view.scale, first, last, view.bounds(pen.lineWidth), (points, at, past) => {
-      pen.moveTo(view.toX(wireX[points[at]]), view.toY(wireY[points[at]]));
+      let before = points[at];
+      pen.moveTo(view.toX(wireX[before]), view.toY(wireY[before]));
       for (let next = at + 1; next < past; next++) {
         const index = points[next];
-        if (isCut[index]) pen.lineTo(view.toX(wireX[index]), view.toY(wireY[index]));
+        const cut = cuts[index];
+        if (cut && cut !== paint) {
+          pen.stroke();
+          paint = cut;
+          dip(pen, view.scale, paint);
+          pen.beginPath();
+          pen.moveTo(view.toX(wireX[before]), view.toY(wireY[before]));
+        }
+        if (cut) pen.lineTo(view.toX(wireX[index]), view.toY(wireY[index]));
         else pen.moveTo(view.toX(wireX[index]), view.toY(wireY[index]));
+        before = index;
       }
     });
     pen.stroke();
@@ -93,8 +109,9 @@ export function kerfOf(samples, isCut, widthUm, colours) {
     draw(pen, view, ratio, last, wire) {
       bring(view, ratio, last);
       layer.copyTo(pen, view);
-      if (last + 1 >= isCut.length || !isCut[last + 1]) return;
-      dip(pen, view.scale);
+      const cut = cuts[last + 1];
+      if (!cut) return;
+      dip(pen, view.scale, cut);
       pen.beginPath();
       pen.moveTo(view.toX(wireX[last]), view.toY(wireY[last]));
       pen.lineTo(view.toX(wire[0]), view.toY(wire[1]));

@@ -6,6 +6,7 @@ import { findingsIn } from "./findings.js";
 import { wireKeys } from "./keys.js";
 import { modelOf } from "./model.js";
 import { pageStateOf } from "./page_state.js";
+import { passOfRows } from "./passes.js";
 import { playerOf } from "./player.js";
 import { wirePointer } from "./pointer.js";
 import { programIn } from "./program.js";
@@ -26,15 +27,17 @@ import * as words from "./words.js";
 const found = (id) => element(`#${id}`, HTMLElement);
 
 /**
- * Say the block while the replay stands, for those who cannot see it.
+ * Say the block and its pass while the replay stands, for those who cannot see them.
  * @param {HTMLElement} box
  * @param {ReplayDocument} doc
  */
 function announcer(box, doc) {
+  const passes = passOfRows(doc);
   let said = "";
   return (/** @type {PlayerState} */ state) => {
     if (state.playing) return;
-    const text = words.block(doc.blocks, state.block);
+    const pass = passes[state.block];
+    const text = words.block(doc.blocks, state.block) + (pass ? ` · ${language.pick(pass.name)}` : "");
     if (text !== said) box.textContent = text;
     said = text;
   };

@@ -2,7 +2,8 @@
 
 const NAMES = /** @type {const} */ ([
   "page", "ink", "muted", "line", "raised", "accent", "control-line", "good", "table", "gone", "kerf", "ideal", "jump",
-  "start", "end", "work", "work-edge", "clamp", "clamp-edge", "slug", "wire", "steps",
+  "start", "end", "work", "work-edge", "clamp", "clamp-edge", "slug", "wire", "steps", "trim-1", "trim-2", "trim-3",
+  "trim-4",
 ]);
 
 /** @typedef {Record<typeof NAMES[number], string>} Shades */

@@ -1,7 +1,8 @@
-// The program's text with the running block marked: only the lines that show are in the page.
-import { elements, make } from "../../html/assets/elements.js";
+// The program's text with the running block marked, and a head over each pass: only what shows is in the page.
+import { both, elements, make } from "../../html/assets/elements.js";
+import { countUpTo } from "./numbers.js";
 
-/** @import { Blocks, ReplayDocument } from "./document.js" */
+/** @import { Blocks, Pass, ReplayDocument } from "./document.js" */
 
 /**
  * @typedef {object} Listeners
@@ -29,6 +30,26 @@ function rowsByLine(blocks) {
 }
 
 /**
+ * Passes that have a head over their first lines: none where two of them share a line, as passes do that the controller
+ * makes of one contour.
+ * @param {ReplayDocument} doc
+ */
+function headedPasses({ blocks: { line }, passes }) {
+  const areApart = passes.every((pass, at) => !at || line[pass.first_row] > line[passes[at - 1].last_row]);
+  return areApart ? passes : [];
+}
+
+/**
+ * The head of a pass, which stands over its first line.
+ * @param {Pass} pass
+ */
+function headOf({ name, paint }) {
+  const made = make("span", { className: "pass-head" }, ...both(name));
+  made.style.setProperty("--tone", `var(--${paint})`);
+  return made;
+}
+
+/**
  * List of the program in `box`; the listeners hear of rows of blocks.
  * @param {HTMLElement} box
  * @param {ReplayDocument} doc
@@ -37,14 +58,36 @@ function rowsByLine(blocks) {
 export function programIn(box, doc, { onPick, onHover }) {
   const { blocks, program: { lines } } = doc;
   const rows = rowsByLine(blocks);
+  const headed = headedPasses(doc);
+  const underHeads = headed.map((pass) => blocks.line[pass.first_row]);
   const inner = make("div", { className: "lines" });
   /** @type {Map<number, HTMLElement>} */
   const shown = new Map(); // line number to its element
   let running = 0;
   let scrolledAt = -Infinity;
   let isOwnScroll = false;
-  inner.style.height = `${lines.length * ROW}px`;
+  inner.style.height = `${(lines.length + headed.length) * ROW}px`;
   box.append(inner);
+
+  /**
+   * How far down a line stands, px.
+   * @param {number} line
+   */
+  const topOf = (line) => (line - 1 + countUpTo(underHeads, line)) * ROW;
+
+  /**
+   * The last line that stands no farther down, or 0.
+   * @param {number} top
+   */
+  function lineAt(top) {
+    let [low, high] = [0, lines.length];
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (topOf(middle) <= top) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
 
   /**
    * Texts of a line: blocks, and what stands between them.
@@ -91,11 +134,13 @@ export function programIn(box, doc, { onPick, onHover }) {
    */
   function build(line) {
     const number = make("span", { className: "number" }, String(line));
-    const made = make("div", { className: "line", id: `line-${line}` }, number, ...pieces(line));
+    const over = headed.slice(countUpTo(underHeads, line - 1), countUpTo(underHeads, line));
+    const heads = over.map(headOf);
+    const made = make("div", { className: "line", id: `line-${line}` }, ...heads, number, ...pieces(line));
     made.setAttribute("role", "option");
     made.setAttribute("aria-setsize", String(lines.length));
     made.setAttribute("aria-posinset", String(line));
-    made.style.transform = `translateY(${(line - 1) * ROW}px)`;
+    made.style.transform = `translateY(${topOf(line)}px)`;
     const [first] = rows.get(line) ?? [];
     if (first !== undefined) made.dataset.row = String(first);
     inner.append(made);
@@ -105,8 +150,8 @@ export function programIn(box, doc, { onPick, onHover }) {
 
   /** Have the lines in the page that show, and no others. */
   function show() {
-    const first = Math.max(1, Math.floor(box.scrollTop / ROW) + 1 - SPARE);
-    const last = Math.min(lines.length, Math.ceil((box.scrollTop + box.clientHeight) / ROW) + SPARE);
+    const first = Math.max(1, lineAt(box.scrollTop) - SPARE);
+    const last = Math.min(lines.length, lineAt(box.scrollTop + box.clientHeight) + SPARE);
     for (const [line, made] of shown) {
       if (line >= first && line <= last) continue;
       made.remove();
@@ -118,7 +163,7 @@ export function programIn(box, doc, { onPick, onHover }) {
   /** Scroll so that the running line is well within the list. */
   function follow() {
     if (performance.now() - scrolledAt < LEFT_ALONE_MS) return;
-    const top = (blocks.line[running] - 1) * ROW;
+    const top = topOf(blocks.line[running]);
     if (top >= box.scrollTop + ROW && top <= box.scrollTop + box.clientHeight - 2 * ROW) return;
     isOwnScroll = true;
     box.scrollTop = top - box.clientHeight / 2;

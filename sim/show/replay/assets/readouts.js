@@ -1,6 +1,7 @@
 // The read-outs beside the table; a text is set only where it has changed.
 import { elements } from "../../html/assets/elements.js";
-import { say } from "../../html/assets/language.js";
+import { pick, say } from "../../html/assets/language.js";
+import { passOfRows } from "./passes.js";
 import { clock, mm, number, way, weighed } from "./words.js";
 
 /**
@@ -39,6 +40,7 @@ function formula(made) {
  */
 export function readoutsIn(page, doc, model) {
   const rows = doc.blocks.kind.length;
+  const passes = passOfRows(doc);
   const isCard = doc.interpolator === "card";
   const fields = new Map(elements("[data-out]", page).map((field) => [field.dataset.out, field]));
 
@@ -50,6 +52,16 @@ export function readoutsIn(page, doc, model) {
   function write(name, text) {
     const field = fields.get(name);
     if (field && field.textContent !== text) field.textContent = text;
+  }
+
+  /**
+   * Name the pass that a block belongs to, beside its colour.
+   * @param {number} row
+   */
+  function writePass(row) {
+    const pass = passes[row];
+    write("pass", pass ? pick(pass.name) : "–");
+    fields.get("pass")?.style.setProperty("--tone", pass ? `var(--${pass.paint})` : "transparent");
   }
 
   return {
@@ -69,6 +81,7 @@ export function readoutsIn(page, doc, model) {
       write("remaining", clock(moment.remaining_s));
       write("deviation", number(moment.deviation.um, 2));
       write("f", next ? `${weighed(next.f)} → ${way(next)}` : "–");
+      writePass(moment.block);
       write("formula", next ? formula(next) : isCard ? say("no_f") : "");
     },
   };

@@ -4,6 +4,7 @@ import { kerfOf } from "./kerf.js";
 import { microOf } from "./micro.js";
 import { countUpTo } from "./numbers.js";
 import { coloursOf } from "./palette.js";
+import { passOfRows } from "./passes.js";
 import { pathOf } from "./path.js";
 import { penOf } from "./pen.js";
 import { drawScaleBar } from "./scale_bar.js";
@@ -15,6 +16,7 @@ import { deviationPlate, drawWire } from "./wire.js";
  * @import { Replay } from "./decode.js"
  * @import { Place } from "./document.js"
  * @import { Room } from "./free_room.js"
+ * @import { Cut } from "./kerf.js"
  * @import { Model } from "./model.js"
  * @import { Moment } from "./player.js"
  * @import { Box } from "./view.js"
@@ -25,18 +27,18 @@ import { deviationPlate, drawWire } from "./wire.js";
 const STEPS_SCALE = 48; // px per µm when looking at single steps
 
 /**
- * Whether the wire cut on its way to each sample, and not in a jump.
+ * The colour in which the wire cut on its way to each sample, that of its pass; null in a jump.
  * @param {Replay} replay
+ * @returns {Cut[]}
  */
 function cutSamples({ doc, samples }) {
   const { border_s: border, kind } = doc.blocks;
-  const isCut = new Uint8Array(samples.t.length);
+  const passes = passOfRows(doc);
   let row = 0;
-  for (let at = 0; at < isCut.length; at++) {
-    while (row + 1 < kind.length && samples.t[at] > border[row + 1]) row++;
-    isCut[at] = kind[row] === "jump" ? 0 : 1;
-  }
-  return isCut;
+  return Array.from(samples.t, (t) => {
+    while (row + 1 < kind.length && t > border[row + 1]) row++;
+    return kind[row] === "jump" ? null : (passes[row]?.paint ?? "kerf");
+  });
 }
 
 /**

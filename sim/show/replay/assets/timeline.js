@@ -1,5 +1,6 @@
-// The scrub bar: blocks, pauses, jumps, questions and findings along the time of the run, and the loop.
+// The scrub bar: blocks and passes, pauses, jumps, questions and findings along the time of the run, and the loop.
 import { make } from "../../html/assets/elements.js";
+import { pick } from "../../html/assets/language.js";
 import { isTimed } from "./document.js";
 import { penOf } from "./pen.js";
 import * as words from "./words.js";
@@ -17,6 +18,7 @@ const APART = 20; // px between two buttons of findings
 const EDGE = 9; // px from the ends of the bar, half a button
 const ROOMY = 14; // px: blocks narrower than that have no room for a number
 const DENSE = 4; // px: blocks narrower than that are not told apart
+const BAND = 18; // px at the foot of the bar: the passes
 const WEIGHT = { error: 3, warning: 2, note: 1 };
 
 /**
@@ -107,6 +109,25 @@ export function timelineIn({ bar, marks, cursor, findings: lane }, doc, player, 
   }
 
   /**
+   * Passes over edges as bands at the foot of the bar, with as much of their names as they have room for.
+   * @param {number} top
+   * @param {number} height
+   */
+  function drawPasses(top, height) {
+    const shades = colours();
+    pen.font = "12px system-ui, sans-serif";
+    pen.textAlign = "center";
+    for (const { first_row: first, last_row: last, number, paint, name } of doc.passes) {
+      const [left, right] = [toX(border[first]), toX(border[last + 1])];
+      pen.fillStyle = shades[paint];
+      pen.fillRect(left, top, Math.max(1, right - left), height);
+      const text = [pick(name), String(number)].find((one) => pen.measureText(one).width + 8 < right - left);
+      pen.fillStyle = shades.ink;
+      if (text) pen.fillText(text, (left + right) / 2, top + height / 2 + 4);
+    }
+  }
+
+  /**
    * Upright marks: pauses, and a question as a small square.
    * @param {number} height
    */
@@ -148,8 +169,10 @@ export function timelineIn({ bar, marks, cursor, findings: lane }, doc, player, 
     marks.width = Math.round(width * ratio);
     marks.height = Math.round(height * ratio);
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    drawBlocks(height);
-    drawNumbers(height);
+    const band = doc.passes.length ? BAND : 0;
+    drawBlocks(height - band);
+    drawNumbers(height - band);
+    drawPasses(height - band, band);
     drawStops(height);
     drawLoop(height);
   }

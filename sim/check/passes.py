@@ -1,0 +1,130 @@
+"""Findings about passes over one edge: their offsets, what they leave, and the tab that nothing cuts.
+
+All is measured from path to path. Which of them is the right one the program does not tell; that a later pass comes
+nearer to the part, and that none comes nearer than the last, it does.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from parser.dialect.at_block import at_block
+from parser.findings.findings import Finding
+from parser.geometry.curves import Ints
+from parser.geometry.directions import directions
+from parser.geometry.distance import distance_to_curves
+from parser.program import Program
+from parser.shape.beside import BESIDE_UM
+from parser.shape.passes import Pass, Passes
+from parser.shape.row_shifts import row_shifts_um
+from parser.toolpath import Toolpath
+from sim.setup.wire import DEFAULT_WIRE
+
+_SAME_UM = 10.0  # passes at one offset may lie so far apart: ends in whole µm drift along many small arcs
+_DEEPER_UM = 20.0  # of single blocks, of which each has a drift of its own
+_OTHER_SIDE = 1.8  # offsets that a pass lies aside of another one: no trim takes nearly all of a kerf
+_TURNED_RAD = np.radians(300.0)
+"""A figure that is left open turns nearly all round; a path that is open by its nature turns back at most."""
+_WIDEST_TAB = 0.25  # of the length of a pass
+_MIDDLE, _STEP_UM = 0.25, 100.0  # a tab comes so near the middle between its ends; leads leave from the ends
+
+
+def pass_findings(
+    program: Program, contour: Ints, passes: Passes, offset_um: float | None, *, may_stay_open: bool
+) -> list[Finding]:
+    """Findings 3B312 to 3B316 of the edges that are cut by several passes.
+
+    `contour` (n,) is each row's, −1 where it is not judged; `offset_um` is the distance of the wire's centre from the
+    edge. Where no wire is known it is None, and no band between two passes is told (3B313).
+    """
+    judged = [several for several in _by_edge(passes) if contour[several[0].first] >= 0]
+    found: list[Finding] = []
+    for several in judged:
+        main, tab = ([one for one in several if one.is_tab == is_tab] for is_tab in (False, True))
+        found += [*_offsets(program, main, offset_um), *_offsets(program, tab, offset_um)]
+        if not tab and not may_stay_open:
+            found += _uncut_tab(program, main)
+    return [*found, *(_deeper(program, passes, judged) if judged else ())]
+
+
+def asked_pass_findings(program: Program, passes: Passes, offset_um: float) -> list[Finding]:
+    """Findings 3B312 and 3B313 of passes by a controller that added the offsets of a scenario.
+
+    It keeps to one side of the material, which no direction can have wrong (3B316).
+    """
+    several = _by_edge(Passes(tuple(one._replace(part_side=0) for one in passes.passes), passes.of_row))
+    return [found for of in several for found in _offsets(program, of, offset_um)]
+
+
+def _by_edge(passes: Passes) -> list[list[Pass]]:
+    """Passes over each edge that is cut by several."""
+    of_edge: dict[int, list[Pass]] = {}
+    for one in passes.passes:
+        of_edge.setdefault(one.edge, []).append(one)
+    return [several for several in of_edge.values() if len(several) > 1]
+
+
+def _offsets(program: Program, passes: list[Pass], offset_um: float | None) -> Iterator[Finding]:
+    """Passes over one edge that lie farther from the part than an earlier one, or so much nearer that it is wrong."""
+    nearest = passes[:1]
+    for one in passes[1:]:
+        other, values = nearest[0], {"number": one.number, "other": nearest[0].number}
+        by = other.shift_um - one.shift_um
+        turned = one.is_back != other.is_back and one.part_side != 0
+        if by < -_SAME_UM:
+            yield at_block(program.toolpath, program.lines, "3B312", one.first, by=-by, **values)
+        elif turned and by > _OTHER_SIDE * (DEFAULT_WIRE.reach_um if offset_um is None else offset_um):
+            yield at_block(program.toolpath, program.lines, "3B316", one.first, by=by, **values)
+        elif offset_um is not None and by > 2.0 * offset_um + _SAME_UM:
+            left, kerf = by - 2.0 * offset_um, 2.0 * offset_um
+            yield at_block(program.toolpath, program.lines, "3B313", one.first, by=by, left=left, kerf=kerf, **values)
+            nearest = [one]
+        elif by > 0.0:
+            nearest = [one]
+
+
+def _deeper(program: Program, passes: Passes, judged: list[list[Pass]]) -> Iterator[Finding]:
+    """Of each earlier pass the block that comes nearer to the part than the last one, where that is not all of it."""
+    shift_um = row_shifts_um(program.toolpath, passes)
+    for one in (one for several in judged for one in several):
+        of_pass = shift_um[one.first : one.last + 1]
+        if one.shift_um < -_SAME_UM or np.isnan(of_pass).all():
+            continue
+        row = one.first + int(np.nanargmin(of_pass))
+        if shift_um[row] < -_DEEPER_UM:
+            by = float(-shift_um[row])
+            yield at_block(program.toolpath, program.lines, "3B314", row, number=one.number, by=by)
+
+
+def _uncut_tab(program: Program, main: list[Pass]) -> Iterator[Finding]:
+    """A tab that passes over all the rest of a figure leave, and that no later block cuts."""
+    toolpath, one = program.toolpath, main[-1]
+    start, end = toolpath.start_um[one.first], toolpath.end_um[one.last]
+    gap = float(np.hypot(*(end - start)))
+    length = float(toolpath.length_um[one.first : one.last + 1].sum())
+    if any(each.is_closed for each in main) or gap > _WIDEST_TAB * length:
+        return
+    if abs(_turned_rad(toolpath, one)) < _TURNED_RAD or _is_cut(program.toolpath, one):
+        return
+    yield at_block(toolpath, program.lines, "3B315", one.last, first=main[0].first + 1, last=one.last + 1, gap=gap)
+
+
+def _turned_rad(toolpath: Toolpath, one: Pass) -> float:
+    """Angle that the heading turns along a pass, positive counter-clockwise."""
+    ways = directions(toolpath)
+    before, after = ways.arriving[one.first : one.last], ways.leaving[one.first + 1 : one.last + 1]
+    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    return float(toolpath.sweep_rad[one.first : one.last + 1].sum() + np.arctan2(cross, (before * after).sum(1)).sum())
+
+
+def _is_cut(toolpath: Toolpath, one: Pass) -> bool:
+    """Whether a block behind the last pass may cut the tab: it comes by its middle, or another contour comes near."""
+    start, end = toolpath.start_um[one.first], toolpath.end_um[one.last]
+    x, y = (0.5 * (start + end)).tolist()
+    gap = float(np.hypot(*(end - start)))
+    later = np.arange(one.last + 1, len(toolpath))
+    later = later[~toolpath.is_jump[later]]
+    off, _ = distance_to_curves(toolpath, later, np.full(len(later), x), np.full(len(later), y))
+    own = np.append(toolpath.is_jump[one.last :], True)
+    same = later < one.last + int(np.argmax(own))
+    return bool((off <= np.where(same, _MIDDLE * gap + _STEP_UM, 0.5 * gap + BESIDE_UM)).any())
