@@ -120,6 +120,9 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B505": FindingCode(Severity.ERROR, check=None),
         "3B601": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B602": FindingCode(Severity.ERROR, check=None),
+        "3B603": FindingCode(Severity.NOTE, check=None, placed=True),
+        "3B604": FindingCode(Severity.ERROR, check=None),
+        "3B605": FindingCode(Severity.ERROR, check=None),
     }
 )
 """All codes, in their order."""

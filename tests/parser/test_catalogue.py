@@ -83,6 +83,9 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B505": {"first": 1, "last": 7, "before": 1, "number": 2, "gap": 1414.2},
     "3B601": {"what": "edge-off", "off": 7.0, "tolerance": 5.0, "x_mm": 12.5, "y_mm": 0.0, "entity": "ARC 2F"},
     "3B602": {"what": "wrong-side"},
+    "3B603": {"number": 4, "depth": 41.4, "reach": 100.0, "angle_deg": 90.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B604": {"what": "contour-offset-missing", "first": 7, "last": 9, "inside_mm": 0.1},
+    "3B605": {"first": 7, "last": 9, "shift_x_mm": 0.05, "shift_y_mm": 0.0, "tolerance": 5.0},
 }
 
 
