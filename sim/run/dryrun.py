@@ -1,7 +1,8 @@
 """The dry run: one program through controller, card and table, and what came of it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -9,7 +10,6 @@ from controller.card.log.writer import CardLog
 from controller.motion.limits import Feeds
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
-from parser.drawing.model import Drawing
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Floats
@@ -17,32 +17,26 @@ from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.shape.passes import Passes, find_passes
 from parser.toolpath import Toolpath
-from sim.check.result import CheckState, Coverage
+from sim.check.result import Coverage
 from sim.cut.obstacles.findings import missed_work_findings, obstacle_findings
-from sim.cut.pieces.findings import piece_findings, region_finding
-from sim.cut.regions import RegionError
-from sim.cut.remains import Remains, remains_of
+from sim.cut.remains import Remains
 from sim.cut.wire_lag import bowed
-from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
 from sim.measure.deviation.measured import Deviations, Meters
 from sim.measure.deviation.meters import BlockSteps
 from sim.measure.passes.figures import PassFigures, figures_of_passes, wire_taken
-from sim.run.ending import Ending, travel_end, trip_of
+from sim.run.ending import Ending, motion_to_end, trip_of
+from sim.run.left import drawing_of, left_of
 from sim.run.offsetting import Offsetting
-from sim.run.prepare import Prepared, prepare
+from sim.run.prepare import prepare
 from sim.setup.expectations import Missed
-from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
-from sim.table.motion import Motion, Progress, motion_of, silent, simulate
+from sim.table.motion import Motion, Progress, silent, simulate
 from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
 from sim.table.trace import Trace
-
-REMAINS: Final = "check-remains"
-"""Name of the check of what a cut leaves, which only a run makes."""
 
 
 class PulseSink(Protocol):
@@ -176,34 +170,29 @@ def dry_run(
     Raises ProgramError where the program asks for more than any table can do, and DrawingError where the scenario's
     drawing cannot be read.
     """
-    drawing = _drawing(scenario.drawing)
+    drawing = drawing_of(scenario.drawing)
     ready = prepare(program, scenario)
     program, toolpath = ready.program, ready.program.toolpath
-    motion, ended = _motion(ready, scenario)
+    motion, ended = motion_to_end(ready, scenario)
     meters = Meters(motion, ready.steps)
-    sinks = [meters.take]
-    if sink is not None:
-        sink.open(motion.drive.origin_um)
-        sinks.append(sink.take)
-
-    def take(pulses: Pulses) -> None:
-        for taker in sinks:
-            taker(pulses)
-
-    moved = simulate(motion, take, progress, log)
+    moved = simulate(motion, _handed_to(meters, sink, motion), progress, log)
     trace = bowed(moved.trace, toolpath, scenario.wire_lag_um)
     stepped = meters.tally.result()
     contours = find_contours(toolpath, stepped.corner_um)
-    met = obstacle_findings(program, trace, contours, scenario)
-    missed = missed_work_findings(program, trace, scenario)
-    lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     plan = motion.drive.plan
     ended = trip_of(moved.losses) or ended
     cut = _cut(trace, ended)
     passes, border_s = find_passes(toolpath), _borders(plan, ready.steps.along_um)
     block_time_s = _times_within(border_s, ended.t_s if ended else plan.duration_s)
     way = wire_taken(toolpath, plan, cut)
-    left = _left(program, cut, contours, scenario, drawing)
+    left = left_of(program, cut, contours, scenario, drawing)
+    found = [
+        *ready.findings,
+        *obstacle_findings(program, trace, contours, scenario),
+        *missed_work_findings(program, trace, scenario),
+        *loss_findings(program, moved.losses, scenario.machine.table.motor),
+        *left.findings,
+    ]
     return DryRun(
         program=program,
         scenario=scenario,
@@ -223,46 +212,22 @@ def dry_run(
         border_s=border_s,
         remains=left.remains,
         comparison=left.comparison,
-        findings=tuple(sorted([*ready.findings, *met, *missed, *lost, *left.findings], key=file_order)),
+        findings=tuple(sorted(found, key=file_order)),
         coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
 
 
-def _drawing(target: DrawingTarget | None) -> Drawing | None:
-    if target is None:
-        return None
-    from parser.drawing.read import read_drawing  # noqa: PLC0415 - most runs have no drawing, and ezdxf loads for 0.3 s
+def _handed_to(meters: Meters, sink: PulseSink | None, motion: Motion) -> Callable[[Pulses], None]:
+    """Hands pulses to the meters, and to the sink where there is one."""
+    if sink is None:
+        return meters.take
+    sink.open(motion.drive.origin_um)
 
-    return read_drawing(target.file, layer=target.layer, gap_um=target.gap_um)
+    def take(pulses: Pulses) -> None:
+        meters.take(pulses)
+        sink.take(pulses)
 
-
-class _Left(NamedTuple):
-    """What the cut leaves, beside the drawing, with findings; and how far the check of it came."""
-
-    remains: Remains | None
-    comparison: Comparison | None
-    findings: list[Finding]
-    state: CheckState
-
-
-def _left(
-    program: Program, cut: Trace, contours: tuple[Contour, ...], scenario: Scenario, drawing: Drawing | None
-) -> _Left:
-    """What the cut leaves, as far as the scenario asks for it."""
-    target = scenario.drawing
-    if not scenario.kerf and target is None:
-        return _Left(None, None, [], CheckState(REMAINS, "not asked", "reason-no-kerf"))
-    try:
-        remains = remains_of(program, cut, contours, scenario)
-    except RegionError as error:
-        return _Left(
-            None, None, [region_finding(program, error)], CheckState(REMAINS, "incomplete", "reason-no-region")
-        )
-    found = piece_findings(program, remains.pieces)
-    if target is None or drawing is None:
-        return _Left(remains, None, found, CheckState(REMAINS))
-    comparison = compare_cut(program, remains, drawing, target)
-    return _Left(remains, comparison, [*found, *drawing_findings(program, comparison)], CheckState(REMAINS))
+    return take
 
 
 def _cut(trace: Trace, ended: Ending | None) -> Trace:
@@ -280,13 +245,3 @@ def _borders(plan: Plan, before_um: Floats) -> Floats:
 def _times_within(border_s: Floats, until_s: float) -> Floats:
     """Time (n,) s of each block up to a time."""
     return np.diff(np.minimum(border_s, until_s))
-
-
-def _motion(ready: Prepared, scenario: Scenario) -> tuple[Motion, Ending | None]:
-    """The motion of a program, and where it ends early because the path leaves the travel."""
-    toolpath, machine, start_um = ready.program.toolpath, scenario.machine, scenario.start_um
-    motion = motion_of(toolpath, ready.feeds, machine, start_um, scenario.trace_spacing_um)
-    if scenario.past_stop:
-        return motion, None
-    ended = travel_end(toolpath, ready.steps, motion.drive.plan, machine.table, start_um)
-    return (motion.until(ended.t_s), ended) if ended else (motion, None)

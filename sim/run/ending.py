@@ -10,8 +10,10 @@ from controller.stepping.steps import CHUNK_STEPS, Steps
 from parser.toolpath import Axis, Toolpath
 from parser.units import from_mm
 from sim.check.travel import ROUNDING_UM, beyond_um
+from sim.run.prepare import Prepared
 from sim.setup.machine.table_model import TableModel
-from sim.table.motion import origin_um
+from sim.setup.scenario import Scenario
+from sim.table.motion import Motion, motion_of, origin_um
 from sim.table.record.losses import Loss
 
 Cause = Literal["trip", "travel"]
@@ -51,7 +53,17 @@ def trip_of(losses: Iterable[Loss]) -> Ending | None:
     return trip and Ending("trip", trip.axis, trip.row, trip.t_s, trip.x_um, trip.y_um)
 
 
-def travel_end(
+def motion_to_end(ready: Prepared, scenario: Scenario) -> tuple[Motion, Ending | None]:
+    """The motion of a program, and where it ends early because the path leaves the travel."""
+    toolpath, machine, start_um = ready.program.toolpath, scenario.machine, scenario.start_um
+    motion = motion_of(toolpath, ready.feeds, machine, start_um, scenario.trace_spacing_um)
+    if scenario.past_stop:
+        return motion, None
+    ended = _travel_end(toolpath, ready.steps, motion.drive.plan, machine.table, start_um)
+    return (motion.until(ended.t_s), ended) if ended else (motion, None)
+
+
+def _travel_end(
     toolpath: Toolpath, steps: Steps, plan: Plan, table: TableModel, start_um: tuple[float, float]
 ) -> Ending | None:
     """The last step before the one that first leaves the travel, from a start on the table; None where all fit."""
