@@ -1,1 +1,1 @@
-"""What a path is made of: runs, contours and loops, of any toolpath; what crosses the border is a `Contour`."""
+"""What a path is made of: runs, contours, loops and passes, of any toolpath; its border: `Contour` and `Passes`."""

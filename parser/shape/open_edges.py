@@ -131,7 +131,7 @@ def _between_ends(toolpath: Toolpath, low: int, past: int, edge: Ints) -> list[t
         length = toolpath.length_um[low + leave : low + arrive]
         share = float(length[beside[leave:arrive]].sum() / max(float(length.sum()), 1.0))
         is_beside = share >= _LEAST_SHARE
-        if is_beside or (here != there and not _by_hole(corner, leave, arrive)):
+        if (is_beside or here != there) and not _by_hole(corner, leave, arrive):
             found.append((Section(low + leave, low + arrive - 1, False), is_beside))
     return found
 
