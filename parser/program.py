@@ -31,6 +31,8 @@ class Program:
         The whole text, and the places in it.
     reading, header, toolpath, findings, mender
         What its reader made of it; see `parser.dialect.reader.ReadText`.
+    marks
+        Further marks that it was read with.
     """
 
     name: str
@@ -42,6 +44,7 @@ class Program:
     toolpath: Toolpath
     findings: tuple[Finding, ...]
     mender: Mender | None
+    marks: Marks = STANDARD_MARKS
 
     def excerpt(self, line: int) -> str:
         """Text of a line, from 1, as written, without its end."""
@@ -73,7 +76,7 @@ def load_program(data: bytes, name: str, marks: Marks = STANDARD_MARKS) -> Progr
 def parse_program(text: str, name: str = "program", encoding: str = "utf-8", marks: Marks = STANDARD_MARKS) -> Program:
     """Program of a text. Raises ProgramError (3B100) where it holds no block."""
     reader = next((reader for reader in READERS if reader.recognises(text)), READERS[0])
-    return Program(name, encoding, text, **reader.read(text, marks)._asdict())
+    return Program(name, encoding, text, **reader.read(text, marks)._asdict(), marks=marks)
 
 
 def suffixes() -> tuple[str, ...]:

@@ -45,13 +45,19 @@ class Mender(Protocol):
         """The likeliest blocks that keep the contour from `first_row` up to but without `past_row` open, best first."""
 
     def printed_mends(self, toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
-        """The likeliest mends with which a row ends where it is printed to end, at most one a field."""
+        """The likeliest mends with which a row ends where it is printed to end, best first."""
 
     def is_misprint(self, toolpath: Toolpath, row: int) -> bool | None:
         """Whether the end printed beside a row is wrong and not its block; None where nothing tells."""
 
     def ends_as_printed(self, toolpath: Toolpath, row: int) -> bool:
         """Whether a row ends where it is printed to end; False where nothing is printed beside it."""
+
+    def turned(self, toolpath: Toolpath, row: int) -> Mend:
+        """The mend with which the arc in a row starts where it does and runs the other way round."""
+
+    def label_slips(self, toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
+        """Other labels than the ruled one, in which the label of a row may have one wrong sign, that obey the rule."""
 
     def counted_on(self, axis: Axis) -> Mend:
         """The mend with which a block counts on an axis."""

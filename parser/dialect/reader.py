@@ -80,6 +80,8 @@ class Reading(NamedTuple):
         Whether the path is known to be the drawing's contour, which the controller offsets.
     not_asked
         Checks for which this text gives no cause, each with the term of the catalogue that says why.
+    offset_span
+        Where the header gives an offset; None where it gives none.
     """
 
     dialect: str
@@ -88,6 +90,7 @@ class Reading(NamedTuple):
     spelling: Spelling
     is_drawing: bool
     not_asked: Mapping[Check, str]
+    offset_span: Span | None = None
 
 
 class ReadText(NamedTuple):

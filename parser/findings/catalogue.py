@@ -4,7 +4,7 @@ Terms, remarks and what joins texts stand there too, each kind in a file.
 """
 
 import string
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -15,6 +15,9 @@ from parser.units import UM_PER_MM, mm
 
 Language = Literal["en", "zh"]
 LANGUAGES: tuple[Language, ...] = ("en", "zh")
+
+TO = "‥"
+"""Between the ends of a range among the values of a finding."""
 
 _PAGES = Path(__file__).with_name("pages")
 
@@ -107,26 +110,38 @@ def instant(t_s: float) -> str:
 
 
 class _Filler(string.Formatter):
-    """Fills templates; beside Python's own formats it knows ``um``, ``mm``, ``instant``, ``term``, ``aside``, ``pass``.
+    """Fills templates; besides Python's own formats it knows ``um``, ``mm``, ``instant``, ``term`` and those of texts.
 
-    ``aside`` is a text in parentheses, and nothing where there is none; ``pass`` the number of a pass, nothing for 0.
+    ``aside`` is a text in parentheses, ``or`` another choice, both nothing where there is none; ``pass`` the number of
+    a pass, nothing for 0. ``span`` is a range, two ends with `TO` between of which one may be missing, or a value that
+    is none.
     """
 
     def __init__(self, language: Language) -> None:
         self._language = language
 
     def format_field(self, value: Any, format_spec: str) -> str:
-        if format_spec == "um":
-            return length(float(value))
-        if format_spec == "mm":
-            return f"{round(mm(float(value)), 3) + 0.0:.3f}"
-        if format_spec == "instant":
-            return instant(float(value))
-        if format_spec == "term":
-            return term(str(value), self._language)
-        if format_spec in ("aside", "pass"):
-            return str(_read("joints")[self._language][format_spec].format(value)) if value else ""
-        return str(super().format_field(value, format_spec))
+        own: dict[str, Callable[[Any], str]] = {
+            "um": lambda um: length(float(um)),
+            "mm": lambda um: f"{round(mm(float(um)), 3) + 0.0:.3f}",
+            "instant": lambda t_s: instant(float(t_s)),
+            "term": lambda key: term(str(key), self._language),
+            "span": lambda ends: self._span(str(ends)),
+            "aside": lambda text: self._joined("aside", text) if text else "",
+            "or": lambda text: self._joined("or", text) if text else "",
+            "pass": lambda number: self._joined("pass", str(number)) if number else "",
+        }
+        return own[format_spec](value) if format_spec in own else str(super().format_field(value, format_spec))
+
+    def _joined(self, name: str, *texts: str) -> str:
+        return str(_read("joints")[self._language][name].format(*texts))
+
+    def _span(self, value: str) -> str:
+        low, dots, high = value.partition(TO)
+        if not dots:
+            return value
+        name = "from-to" if low and high else "at-least" if low else "at-most"
+        return self._joined(name, *filter(None, (low, high)))
 
 
 def _file(code: str) -> dict[str, Any]:

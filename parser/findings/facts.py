@@ -43,9 +43,13 @@ class NoEnd(Fact):
 
 @dataclass(frozen=True, slots=True)
 class WrongLabel(Fact):
-    """A block on an axis bears the label of the quadrant beside it; `ruled` is what the trade writes, ``L2``."""
+    """A block on an axis bears the label of the quadrant beside it; `ruled` is what the trade writes, ``L2``.
+
+    `others` are the other labels of which it may be a slip as well, such as ``SR3`` of ``NR3``.
+    """
 
     ruled: str
+    others: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """Findings: what is wrong with a program, as data with a stable code; `parser.findings.catalogue` has their texts."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -68,6 +68,17 @@ class Finding(NamedTuple):
     def with_fact(self, fact: Fact) -> "Finding":
         """The finding with a fact for later checks and mends."""
         return self._replace(fact=fact)
+
+
+def edited(text: str, edits: Iterable[Edit]) -> str:
+    """Text with edits made; of two that touch the same characters the first counts."""
+    parts, at = [], 0
+    for edit in sorted(set(edits)):
+        if edit.first < at:
+            continue
+        parts += [text[at : edit.first], edit.text]
+        at = edit.past
+    return "".join([*parts, text[at:]])
 
 
 def file_order(finding: Finding) -> tuple[int, int, int, str]:

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.along import headings_along, places_at
-from parser.geometry.broad_phase_places import near_places
-from parser.geometry.curves import Floats, Ints, total_before
+from parser.geometry.broad_phase_places import Near, near_places
+from parser.geometry.curves import Curves, Floats, Ints, total_before
 from parser.geometry.directions import headings_at
 from parser.geometry.feet import feet
 from parser.toolpath import Toolpath
@@ -16,7 +16,8 @@ BESIDE_UM = 400.0
 (docs/3b.md §5)."""
 _SAME_WAY = 0.9  # cosine of the angle between two ways that run beside each other
 _UNLIKE_UM, _UNLIKE_SHARE = 10.0, 0.3  # a trim takes about as much all along
-_SAMPLES = 32  # of a stretch, at equal lengths
+_FEW_PAIRS = 10_000
+_SAMPLES = 16  # of a stretch, at equal lengths
 
 
 class Stretches(NamedTuple):
@@ -90,7 +91,7 @@ def sampled(toolpath: Toolpath, stretches: Stretches, samples: int = _SAMPLES) -
 def neighbours(toolpath: Toolpath, rows: Ints, place_um: Floats, way: Floats) -> Neighbours:
     """Those of the `rows` (r,) that run beside places (m, 2) µm on the path, passed in the directions (m, 2)."""
     curves = toolpath.picked(rows)
-    near = near_places(curves, place_um, BESIDE_UM)
+    near = _near(curves, place_um)
     foot = feet(curves, near.row, place_um[near.other]).place_um
     heading = headings_at(curves, near.row, foot)
     out, along = foot - place_um[near.other], way[near.other]
@@ -101,6 +102,14 @@ def neighbours(toolpath: Toolpath, rows: Ints, place_um: Floats, way: Floats) ->
     beside = (np.abs(cosine) >= _SAME_WAY) & (np.abs(aside) <= BESIDE_UM) & (np.abs(ahead) <= 0.5 * np.abs(aside) + 5.0)
     which = np.flatnonzero(beside)
     return Neighbours(near.other[which], rows[near.row[which]], aside[which], np.sign(cosine[which]).astype(np.int64))
+
+
+def _near(curves: Curves, place_um: Floats) -> Near:
+    """Pairs of places and rows that may run beside each other; of few all, which is faster than to look."""
+    if len(curves) * len(place_um) > _FEW_PAIRS:
+        return near_places(curves, place_um, BESIDE_UM)
+    row = np.flatnonzero(curves.length_um > 0.0)
+    return Near(np.repeat(np.arange(len(place_um)), len(row)), np.tile(row, len(place_um)))
 
 
 def run_beside(toolpath: Toolpath, stretches: Stretches, one: Ints, other: Ints) -> Beside:

@@ -12,22 +12,36 @@ from parser.shape.edges import edges_of
 from parser.shape.loops import find_loops
 from parser.shape.open_edges import LEAST_ASIDE_UM, MOST_ASIDE_UM, Section, is_slot, open_sections, sections_of_tours
 from parser.shape.several_loops import several_loops
+from parser.shape.tabs import cut_elsewhere
 from parser.shape.turns import Turns, find_turns
 from parser.toolpath import Toolpath
 
 
 class Cuts(NamedTuple):
-    """Stretches (k,) in the order they are cut: rows, both included, contours, what closes, what is cut over a tab."""
+    """Stretches (k,) in the order they are cut.
+
+    Attributes
+    ----------
+    first, last, contour
+        (k,) rows, both included, and contours.
+    is_closed, is_tab
+        (k,) whether they close, and whether they cut a tab.
+    edge_row
+        (k,) first row of the first stretch that is known to be over the same edge, or to have left the tab.
+    """
 
     first: Ints
     last: Ints
     contour: Ints
     is_closed: Bools
     is_tab: Bools
+    edge_row: Ints
 
     def take(self, at: Ints | Bools) -> "Cuts":
         """Those at the indices `at`."""
-        return Cuts(self.first[at], self.last[at], self.contour[at], self.is_closed[at], self.is_tab[at])
+        return Cuts(
+            self.first[at], self.last[at], self.contour[at], self.is_closed[at], self.is_tab[at], self.edge_row[at]
+        )
 
     @property
     def stretches(self) -> Stretches:
@@ -39,22 +53,26 @@ def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
     """Stretches of the contours; `contour` (n,) is each row's, −1 on jumps."""
     first, last, is_sure = several_loops(toolpath, contour)
     closed = np.ones(len(first), dtype=np.bool_)
-    loops = Cuts(first, last, contour[first], closed, ~closed)
-    edge = edges_of(toolpath, loops.stretches)
+    edge = edges_of(toolpath, Stretches(first, last))
+    loops = Cuts(first, last, contour[first], closed, ~closed, first[edge])
     is_trimmed = np.bincount(edge, minlength=len(edge))[edge] > 1
     sections = _open(toolpath, contour, loops, edge)
     opened = np.array(sorted(sections), dtype=np.int64)
     together = np.isin(loops.contour, loops.contour[is_trimmed]) & ~np.isin(loops.contour, opened)
     kept = loops.take(together & (is_sure | is_trimmed))
     others = np.setdiff1d(np.arange(contour.max(initial=-1) + 1), np.concatenate([opened, kept.contour]))
-    found = _joined(kept, _of_sections(sections), *_cut_once(toolpath, contour, others))
+    elsewhere = cut_elsewhere(toolpath, contour, sections, others)
+    others = np.setdiff1d(others, np.array(sorted(elsewhere), dtype=np.int64))
+    rows = [(one, at, several[0].first) for at, several in sections.items() for one in several]
+    rows += [(one, at, sections[of][0].first) for at, (of, several) in elsewhere.items() for one in several]
+    found = _joined(kept, _of_sections(rows), *_cut_once(toolpath, contour, others))
     return found.take(np.argsort(found.first))
 
 
 def _joined(*parts: Cuts) -> Cuts:
-    first, last, contour = (np.concatenate([part[k] for part in parts]) for k in range(3))
-    closed, tab = (np.concatenate([part[k] for part in parts]).astype(np.bool_) for k in (3, 4))
-    return Cuts(first, last, contour, closed, tab)
+    first, last, contour, edge_row = (np.concatenate([part[k] for part in parts]) for k in (0, 1, 2, 5))
+    closed, tab = (np.concatenate([getattr(part, name) for part in parts]) for name in ("is_closed", "is_tab"))
+    return Cuts(first, last, contour, closed, tab, edge_row)
 
 
 def _open(toolpath: Toolpath, contour: Ints, loops: Cuts, edge: Ints) -> dict[int, list[Section]]:
@@ -105,10 +123,11 @@ def _turned(contour: Ints, turns: Turns) -> dict[int, Turns]:
     }
 
 
-def _of_sections(sections: dict[int, list[Section]]) -> Cuts:
-    rows = [(one.first, one.last, at, one.is_tab) for at, several in sections.items() for one in several]
-    first, last, contour, tab = np.array(rows, dtype=np.int64).reshape(-1, 4).T
-    return Cuts(first, last, contour, np.zeros(len(first), dtype=np.bool_), tab.astype(np.bool_))
+def _of_sections(sections: list[tuple[Section, int, int]]) -> Cuts:
+    """Sections with their contours, and with the first row of their edge."""
+    rows = [(one.first, one.last, at, of, one.is_tab) for one, at, of in sections]
+    first, last, contour, edge_row, tab = np.array(rows, dtype=np.int64).reshape(-1, 5).T
+    return Cuts(first, last, contour, np.zeros(len(first), dtype=np.bool_), tab.astype(np.bool_), edge_row)
 
 
 def _cut_once(toolpath: Toolpath, contour: Ints, wanted: Ints) -> tuple[Cuts, Cuts]:
@@ -117,4 +136,5 @@ def _cut_once(toolpath: Toolpath, contour: Ints, wanted: Ints) -> tuple[Cuts, Cu
     rest = np.setdiff1d(wanted, loops.contour)
     first, past = runs(toolpath)[rest].T
     closed, plain = np.ones(len(loops.first), dtype=np.bool_), np.zeros(len(rest), dtype=np.bool_)
-    return Cuts(loops.first, loops.last, loops.contour, closed, ~closed), Cuts(first, past - 1, rest, plain, plain)
+    looped = Cuts(loops.first, loops.last, loops.contour, closed, ~closed, loops.first)
+    return looped, Cuts(first, past - 1, rest, plain, plain, first)

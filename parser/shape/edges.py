@@ -12,7 +12,8 @@ _BOX_UM = 2.0 * BESIDE_UM
 _BOX_SHARE = 0.4  # of the box: no pass takes more of a small one
 _LEAST_SHARE = 0.6  # of a pass that runs beside another one; corners are rounded in one and not in the other
 _LEAST_SENSE = 0.8  # all of a pass runs one way
-_MOST_LIKE = 8  # stretches in like boxes that one is held against: the latest before it
+_MOST_LIKE = 8  # stretches whose boxes one is held against: the latest before it that begin near
+_MOST_HELD = 2  # of these, stretches that one is held against itself
 _CELLS = 1 << 31  # more cells than any path has across
 
 
@@ -54,7 +55,12 @@ def _alike(toolpath: Toolpath, stretches: Stretches) -> tuple[Ints, Ints]:
             alike = (key[one] == key[other]) & (off <= np.maximum(most_off[one], most_off[other]))
             found.append(one[alike] * k + other[alike])
     pairs, _ = np.unique(np.concatenate(found), return_index=True)
-    return pairs // k, pairs % k
+    one, other = pairs // k, pairs % k
+    # The latest before each are enough: passes follow each other.
+    order = np.lexsort((-one, other))
+    first = np.searchsorted(other[order], other[order])
+    kept = order[np.arange(len(order)) - first < _MOST_HELD]
+    return one[kept], other[kept]
 
 
 def _boxes(toolpath: Toolpath, stretches: Stretches) -> tuple[Floats, Floats]:

@@ -149,8 +149,10 @@ def _turn(toolpath: Toolpath, row: Ints, end: Floats) -> Floats:
     radial = end - toolpath.center_um[row]
     angle = np.arctan2(radial[:, 1], radial[:, 0]) - toolpath.start_angle_rad[row]
     reached = np.minimum(np.mod(angle * np.sign(sweep), 2.0 * np.pi), np.abs(sweep)) * np.sign(sweep)
-    whole = is_circle(toolpath)[row] | (np.hypot(*(end - toolpath.end_um[row]).T) <= CLOSED_WITHIN_UM)
-    return np.where(toolpath.is_arc[row] & ~whole, reached, sweep)
+    whole = np.hypot(*(end - toolpath.end_um[row]).T) <= CLOSED_WITHIN_UM
+    turn = np.where(toolpath.is_arc[row] & ~whole, reached, sweep)
+    # J may leave a full circle a little short.
+    return np.where(is_circle(toolpath)[row], np.copysign(2.0 * np.pi, sweep), turn)
 
 
 def _areas(start: Floats, end: Floats, turn: Floats, radius: Floats) -> Floats:

@@ -23,7 +23,8 @@ MOST_ASIDE_UM = 150.0
 LEAST_ASIDE_UM = 3.0  # nearer, it is a slit that is left on the line it was cut on
 _LEAST_LENGTH_UM = 1000.0
 _LEAST_SHARE = 0.6
-_AT_END_UM = 450.0  # passes over one edge end this near each other
+AT_END_UM = 450.0
+"""Passes over one edge end this near each other."""
 _MOST_TURNS = 8  # of a contour at which two passes are looked for
 
 
@@ -107,23 +108,32 @@ def _row_by_row(toolpath: Toolpath, early: Ints, late: Ints) -> tuple[Ints, Floa
     return late[beside.at[once]], beside.aside_um[once], beside.sense[once]
 
 
+def sections_elsewhere(toolpath: Toolpath, bounds: tuple[int, int], edge: Ints) -> list[Section]:
+    """Passes over an open edge of the rows `edge`, and over its tab, in another contour; `bounds` are of that one."""
+    return [section._replace(is_tab=not is_beside) for section, is_beside in _between_ends(toolpath, *bounds, edge)]
+
+
 def _sections(toolpath: Toolpath, low: int, past: int, edge: Ints) -> list[Section]:
-    """What runs between the ends of the open edge of the rows `edge`."""
+    """Passes over the open edge of the rows `edge`, several of them, and over its tab."""
+    found = _between_ends(toolpath, low, past, edge)
+    # What is cut first is the edge, the other one its tab.
+    sections = [section._replace(is_tab=is_beside != found[0][1]) for section, is_beside in found]
+    return sections if sum(not section.is_tab for section in sections) > 1 else []
+
+
+def _between_ends(toolpath: Toolpath, low: int, past: int, edge: Ints) -> list[tuple[Section, bool]]:
+    """What runs between the ends of the open edge of the rows `edge`, and whether it runs beside it."""
     corner = np.concatenate([toolpath.start_um[low:past], toolpath.end_um[past - 1 : past]])
-    rows = np.arange(low, past)
     beside = np.zeros(past - low, dtype=np.bool_)
-    beside[_row_by_row(toolpath, edge, rows)[0] - low] = True
+    beside[_row_by_row(toolpath, edge, np.arange(low, past))[0] - low] = True
     found: list[tuple[Section, bool]] = []
-    at = _visits(toolpath, corner, edge)
-    for (here, _, leave), (there, arrive, _) in pairwise(at):
+    for (here, _, leave), (there, arrive, _) in pairwise(_visits(toolpath, corner, edge)):
         length = toolpath.length_um[low + leave : low + arrive]
         share = float(length[beside[leave:arrive]].sum() / max(float(length.sum()), 1.0))
         is_beside = share >= _LEAST_SHARE
         if is_beside or (here != there and not _by_hole(corner, leave, arrive)):
             found.append((Section(low + leave, low + arrive - 1, False), is_beside))
-    # What is cut first is the edge, the other one its tab.
-    sections = [section._replace(is_tab=is_beside != found[0][1]) for section, is_beside in found]
-    return sections if sum(not section.is_tab for section in sections) > 1 else []
+    return found
 
 
 def _visits(toolpath: Toolpath, corner: Floats, edge: Ints) -> list[tuple[int, int, int]]:
@@ -133,7 +143,7 @@ def _visits(toolpath: Toolpath, corner: Floats, edge: Ints) -> list[tuple[int, i
     off = corner[:, None, :] - ends
     away = np.hypot(off[:, :, 0], off[:, :, 1])
     apart = float(np.hypot(*(ends[1] - ends[0])))
-    end = np.where(away.min(axis=1) <= min(_AT_END_UM, 0.5 * apart), away.argmin(axis=1), -1)
+    end = np.where(away.min(axis=1) <= min(AT_END_UM, 0.5 * apart), away.argmin(axis=1), -1)
     along = np.abs((off * ways).sum(axis=2))
     first = np.flatnonzero(np.diff(end, prepend=-1) != 0)
     found = []

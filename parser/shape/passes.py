@@ -94,12 +94,23 @@ def find_passes(toolpath: Toolpath) -> Passes:
 
 
 def _edges(toolpath: Toolpath, cuts: Cuts) -> Ints:
-    """Which edge each cut (k,) is over: the number of the first one over it. A tab is of the edge before it."""
+    """Which edge each cut (k,) is over: the number of the first one over it.
+
+    The last cut over each edge that is known by now is held against others: trims may follow behind a jump.
+    """
+    number = np.arange(len(cuts.first))
+    known = np.minimum(np.searchsorted(cuts.first, cuts.edge_row), len(number) - 1)
+    known = np.where(cuts.first[known] == cuts.edge_row, known, number)  # that one may be no cut after all
+    last = np.full(len(known), -1, dtype=np.int64)
     main = np.flatnonzero(~cuts.is_tab)
-    edge = np.arange(len(cuts.first))
-    edge[main] = main[edges_of(toolpath, cuts.take(main).stretches)]
-    before = np.maximum.accumulate(np.where(cuts.is_tab, -1, np.arange(len(edge))))
-    return edge[before]
+    last[known[main]] = main
+    group = np.flatnonzero(last >= 0)
+    group = group[np.argsort(last[group])]
+    together = edges_of(toolpath, cuts.take(last[group]).stretches)
+    edge, first = number, np.full(len(group), len(known), dtype=np.int64)
+    np.minimum.at(first, together, group)
+    edge[group] = first[together]
+    return edge[known]
 
 
 def _senses(toolpath: Toolpath, cuts: Cuts, edge: Ints) -> Ints:
@@ -140,4 +151,4 @@ def _shifts(toolpath: Toolpath, cuts: Cuts, edge: Ints, part_side: Ints) -> Floa
     # Without a lead-in the waste lies where the first one is cut.
     waste = np.where(part_side != 0, -part_side, 0.0)[last[other]]
     aside[other] *= np.where(waste != 0.0, waste, np.sign(aside[first[other]]))
-    return aside
+    return aside + 0.0  # no −0

@@ -46,7 +46,10 @@ def _at_hole(toolpath: Toolpath, contour: Ints) -> Bools:
 
 
 def _by_corners(toolpath: Toolpath, contour: Ints, at_hole: Bools) -> tuple[Ints, Ints]:
-    """First and last rows (k,) of loops that end at a corner where they began; a way out and back by two is none."""
+    """First and last rows (k,) of loops that end at a corner where they began.
+
+    A way out and back by two blocks is none, nor is one by the start hole.
+    """
     first, last = loops_in_order(toolpath, contour)
     row = np.maximum(last - 1, first)
     arcs = toolpath.is_arc[row] & toolpath.is_arc[last]
@@ -54,7 +57,8 @@ def _by_corners(toolpath: Toolpath, contour: Ints, at_hole: Bools) -> tuple[Ints
     back = np.sign(toolpath.sweep_rad[row]) * np.sign(toolpath.sweep_rad[last]) < 0.0
     center = np.hypot(*(toolpath.center_um[row] - toolpath.center_um[last]).T)
     out_and_back = (row < last) & (first == row) & (lines | (arcs & back & (center <= CLOSED_WITHIN_UM)))
-    kept = ~out_and_back & ~at_hole[first]
+    before = np.append(0, np.cumsum(at_hole))
+    kept = ~out_and_back & (before[first] == before[last + 1])
     return first[kept], last[kept]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parser.dialect.at_block import at_block
-from parser.findings.facts import CountedElsewhere, WrongLabel
+from parser.findings.facts import CountedElsewhere, DoubtfulEnd, WrongLabel
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
 from parser.text.lines import LineIndex
@@ -86,6 +86,7 @@ def _neighbour_labels(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]
         turn, quadrant = int(words.turn[row]), int(ruled[row])
         way = (quadrant - 1 + (turn < 0)) % 4
         values = {"written": label(turn, int(words.quadrant[row])), "ruled": label(turn, quadrant), "way": _WAYS[way]}
+        values["others"] = ""
         found = at_block(toolpath, lines, "3B203", row, Field.SENSE, **values)
         yield found.with_fact(WrongLabel(values["ruled"]))
 
@@ -115,10 +116,8 @@ def _turns(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:
     full, counts = 4.0 * toolpath.radius_um, decoded_words(toolpath).count_um
     for row in np.flatnonzero(counts > full + FULL_TURN_UM).tolist():
         count = int(counts[row])
-        turns = round(count / float(full[row]), 1)
-        yield at_block(
-            toolpath, lines, "3B210", row, Field.COUNT, count=count, full=round(float(full[row])), turns=turns
-        )
+        values = {"count": count, "full": round(float(full[row])), "turns": round(count / float(full[row]), 1)}
+        yield at_block(toolpath, lines, "3B210", row, Field.COUNT, **values).with_fact(DoubtfulEnd())
 
 
 def _radii(toolpath: Toolpath, lines: LineIndex) -> Iterator[Finding]:

@@ -73,8 +73,9 @@ def _in_gap(text: str, first: int, past: int) -> Iterator[Unread]:
             if not _BLOCK_WORD.search(piece[0]):
                 continue
             yield from _other_text(text, at, piece.start())
-            yield _damaged_block(piece.start(), piece[0])
-            at = piece.end()
+            whole = _OF_AXIS_AND_SENSE.search(piece[0])
+            at = piece.start() + whole.end() if whole else piece.end()
+            yield _damaged_block(piece.start(), text[piece.start() : at])
         yield from _other_text(text, at, line.end())
 
 

@@ -63,7 +63,7 @@ def _reading(records: Records, toolpath: Toolpath, counts: BlockCounts) -> Readi
     not_asked = {}
     if np.isnan(toolpath.printed_end_um).all():
         not_asked[Check.PRINTED_ENDS] = "reason-no-prints"
-    if not records.header.lengths:
+    if not records.header.lengths and records.header.offset_um is None:
         not_asked[Check.HEADER] = "reason-no-header"
     return Reading(
         dialect=name,
@@ -73,6 +73,7 @@ def _reading(records: Records, toolpath: Toolpath, counts: BlockCounts) -> Readi
         # 4B, and a CAXA program with an offset of 0, run on the drawing's contour; the controller offsets it.
         is_drawing=name == "4B" or records.header.offset_um == 0.0,
         not_asked=not_asked,
+        offset_span=records.header.offset_span,
     )
 
 

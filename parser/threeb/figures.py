@@ -4,7 +4,6 @@
 """
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -65,17 +64,22 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
     close. But if they close it, they are its last cut, behind a pause in which the slug is clamped. More blocks after a
     pause are a figure with the jump to it: their first line is the jump if the figure before is closed, and if their
     own figure does not need that line to close. No wire is threaded within the kerf of what the figure before cut: a
-    line that ends there goes to another pass over its edge, or cuts the tab that held the slug.
+    line that ends there goes to another pass over its edge, or cuts the tab that held the slug. More lines than three
+    are the way to a figure that closes where they end.
     """
     rows: list[int] = []
     begin = 0  # first row of the figure being cut
     stops = [*pauses, len(toolpath)]
-    for at, until in pairwise(stops):
+    for at, until, after in zip(stops, stops[1:], [*stops[2:], len(toolpath)], strict=False):
         if at >= until or at <= begin or toolpath.kind[at] == CurveKind.ARC:
             continue
         is_closed = ends_closed(toolpath, begin, at)
-        few_lines = until - at <= _MOST_JUMPS and not (toolpath.kind[at:until] == CurveKind.ARC).any()
-        if few_lines and until < len(toolpath) and (is_closed or not _close(toolpath, begin, at, until)):
+        lines = until < len(toolpath) and not (toolpath.kind[at:until] == CurveKind.ARC).any()
+        if until - at <= _MOST_JUMPS:
+            is_way = is_closed or not _close(toolpath, begin, at, until)
+        else:
+            is_way = is_closed and ends_closed(toolpath, until, after) and is_open_way(toolpath, at, until, after)
+        if lines and is_way:
             past = until
         elif is_closed and not (ends_closed(toolpath, at, until) and not ends_closed(toolpath, at + 1, until)):
             past = at + 1
@@ -85,6 +89,15 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
             rows.extend(range(at, past))
             begin = past
     return np.array(rows, dtype=np.int64)
+
+
+def is_open_way(toolpath: Toolpath, at: int, until: int, after: int) -> bool:
+    """Whether the rows from `at` up to but without `until` close no figure, neither with the first nor without it.
+
+    Nor may the rows from there up to but without `after` close it, behind a pause in which the slug is clamped.
+    """
+    closed = ends_closed(toolpath, at, until) or ends_closed(toolpath, at + 1, until)
+    return not closed and not _close(toolpath, at + 1, until, after)
 
 
 def _close(toolpath: Toolpath, begin: int, at: int, until: int) -> bool:

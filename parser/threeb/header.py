@@ -29,13 +29,17 @@ class HeaderLength(NamedTuple):
 
 
 class Header(NamedTuple):
-    """What the header lines say; lengths µm, None or empty where they do not say it."""
+    """What the header lines say; lengths µm, None or empty where they do not say it.
+
+    `offset_span` are the characters of the offset.
+    """
 
     version: str = ""
     name: str = ""
     corner_radius_um: float | None = None
     offset_um: float | None = None
     lengths: tuple[HeaderLength, ...] = ()
+    offset_span: tuple[int, int] | None = None
 
     @property
     def values(self) -> Mapping[str, HeaderValue]:
@@ -59,6 +63,7 @@ def read_header(text: str, spans: Sequence[tuple[int, int]], more_lengths: Seque
         corner_radius_um=_first_um(_CORNER, rows),
         offset_um=_first_um(_OFFSET, rows),
         lengths=tuple(sorted([*lengths, *more_lengths], key=lambda length: length.span)),
+        offset_span=next((match.span() for span in spans if (match := _OFFSET.search(text, *span))), None),
     )
 
 

@@ -10,7 +10,7 @@ from parser.findings.facts import NoEnd, WithoutOffset
 from parser.findings.findings import Finding
 from parser.shape.closing import ends_closed
 from parser.shape.passes import Passes, find_passes
-from parser.threeb.figures import placed_marks
+from parser.threeb.figures import is_open_way, placed_marks
 from parser.threeb.grammar import FOREIGN_ENDS, LIKE_A_BLOCK
 from parser.threeb.reader import Mark, Records
 from parser.toolpath import Toolpath
@@ -27,6 +27,7 @@ def order_findings(records: Records, toolpath: Toolpath, marks: Marks) -> list[F
         *_dialect(records),
         *_idle_pauses(records, toolpath),
         *_unpaused_nodes(records, toolpath),
+        *_long_ways(records, toolpath),
     ]
 
 
@@ -135,3 +136,16 @@ def _unpaused_nodes(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
             paused = row
         elif 0 < row != paused and not jump[row - 1] and toolpath.length_um[row] > _SAME_PLACE_UM:
             yield records.lines.finding("3B309", mark.span, row + 1, length=float(toolpath.length_um[row]))
+
+
+def _long_ways(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
+    """Lines between two pauses that are cut and close no figure: they may be the way to the next one."""
+    placed = placed_marks(records.marks)
+    pauses = [row for row, mark in placed if mark.kind == "pause"]
+    nodes = {row for row, mark in placed if mark.kind == "node"}
+    jump = toolpath.is_jump
+    for at, until, after in zip(pauses, pauses[1:], [*pauses[2:], len(toolpath)], strict=False):
+        is_way = until - at > 1 and jump[at] and not (jump[at + 1 : until] | toolpath.is_arc[at + 1 : until]).any()
+        if is_way and at not in nodes and until < len(toolpath) and is_open_way(toolpath, at, until, after):
+            length = float(toolpath.length_um[at + 1 : until].sum())
+            yield at_block(toolpath, records.lines, "3B320", at + 1, lines=until - at - 1, last=until, length=length)

@@ -4,13 +4,15 @@ import math
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from parser.findings.facts import PrintedElsewhere
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Floats, Ints, total_before
+from parser.shape.closing import corners_at
 from parser.text.encoding import narrow
 from parser.text.lines import LineIndex
 from parser.threeb.header import Header
@@ -22,14 +24,18 @@ _HALF_DIGITS = 3.0
 
 Sound ends, rounded to half a digit on both axes, lie within 2·sqrt(2) halves of one another."""
 _FINEST_HALF_DIGIT_UM = 0.5  # blocks are whole µm
+_ERROR_UM = 5.0
+"""From here on the block is damaged. Ends that a CAM prints as drawn, not as its whole µm decode, lie some µm off."""
 _ROUNDING_UM = 1e-6
+_ADVICE = {True: "correct-print", False: "restore-block", None: "compare-print"}
+"""Terms of what to do, by whether the printed end is wrong alone."""
 _LONGEST_PRINT = 120
 _PRINT = re.compile(r"[ \t]*;[ \t]*([-+]?\d*(?:\.(\d*))?[ \t]*,[ \t]*[-+]?\d*(?:\.(\d*))?)")
 _LENGTH_UM_PER_BLOCK = 1.0  # words are rounded to 1 µm
 
 
 def print_findings(toolpath: Toolpath, header: Header, lines: LineIndex, damaged: Ints) -> list[Finding]:
-    """Printed ends that differ from the decoded ends (3B207), and header lengths from the decoded length (3B108).
+    """Printed ends that differ from the decoded ends (3B207, 3B213), header lengths from the decoded length (3B108).
 
     `damaged` are the characters (m,) at which blocks are missing: neither is judged by what these would have done.
     """
@@ -38,7 +44,19 @@ def print_findings(toolpath: Toolpath, header: Header, lines: LineIndex, damaged
     return found if len(damaged) else [*found, *_wrong_lengths(toolpath, header, lines)]
 
 
-def _misprinted_rows(toolpath: Toolpath, missing: Ints) -> list[int]:
+class _Misprint(NamedTuple):
+    """A row whose printed end lies off the decoded end.
+
+    `is_far` tells whether it lies `_ERROR_UM` or more farther off than after the last that did. `is_alone` tells
+    whether the printed ends behind it agree with those before it; None where there are none behind it.
+    """
+
+    row: int
+    is_far: bool
+    is_alone: bool | None
+
+
+def _misprints(toolpath: Toolpath, missing: Ints) -> list[_Misprint]:
     """Rows at which the printed end begins to lie off the decoded end, or to lie off it by another way than before.
 
     Before the rows `missing` blocks are missing: the first printed end behind such a gap is not judged, and the next
@@ -49,26 +67,35 @@ def _misprinted_rows(toolpath: Toolpath, missing: Ints) -> list[int]:
         return []
     gaps = np.searchsorted(missing, rows, side="right").tolist()
     shifts: list[list[float]] = off[1:].tolist()
-    found: list[int] = []
-    kept, gap = [0.0, 0.0], 0
+    found: list[_Misprint] = []
+    kept, base, gap = [0.0, 0.0], [0.0, 0.0], 0
     for at, row in enumerate(rows.tolist()):
         if gaps[at] != gap:
-            kept, gap = shifts[at], gaps[at]
+            kept = base = shifts[at]
+            gap = gaps[at]
         elif _apart(toolpath, row, shifts[at], kept):
-            found.append(row)
-            is_alone = at + 1 < len(rows) and not _apart(toolpath, row, shifts[at + 1], kept)
-            kept = kept if is_alone else shifts[at]
+            is_far = math.dist(shifts[at], base) >= _ERROR_UM - _ROUNDING_UM
+            is_alone = not _apart(toolpath, row, shifts[at + 1], kept) if at + 1 < len(rows) else None
+            found.append(_Misprint(row, is_far, is_alone))
+            if not is_alone:
+                kept = shifts[at]
+                base = kept if is_far else base
     return found
 
 
 def is_misprint(toolpath: Toolpath, row: int) -> bool | None:
     """Whether the end printed beside a row is wrong, and not its block: then those before and after it agree.
 
-    None where no printed end follows that could tell.
+    Of the last printed end a corner of its contour tells: where it lies on one, it is right. None where nothing tells.
     """
     rows, off = _shifts(toolpath)
     at = int(np.searchsorted(rows, row)) + 1
-    return not _apart(toolpath, row, off[at + 1].tolist(), off[at - 1].tolist()) if at + 1 < len(off) else None
+    if at + 1 < len(off):
+        return not _apart(toolpath, row, off[at + 1].tolist(), off[at - 1].tolist())
+    jumps = np.flatnonzero(toolpath.is_jump[:row])
+    begin = int(jumps[-1]) + 1 if len(jumps) else 0
+    closes = corners_at(toolpath, begin, row, toolpath.end_um[row] + off[at] - off[at - 1]).size > 0
+    return False if closes else None
 
 
 def _shifts(toolpath: Toolpath) -> tuple[Ints, Floats]:
@@ -128,11 +155,16 @@ def ends_as_printed(toolpath: Toolpath, row: int) -> bool:
 
 
 def _misprinted(toolpath: Toolpath, lines: LineIndex, missing: Ints) -> Iterator[Finding]:
-    for row in _misprinted_rows(toolpath, missing):
+    for row, is_far, is_alone in _misprints(toolpath, missing):
         (px, py), (x, y) = toolpath.printed_end_um[row].tolist(), toolpath.end_um[row].tolist()
         off = float(np.hypot(px - x, py - y))
-        found = lines.finding("3B207", _print_span(toolpath, row), row + 1, px=px, py=py, x=x, y=y, off=off)
-        yield found.with_fact(PrintedElsewhere())
+        values: dict[str, Value] = {"px": px, "py": py, "x": x, "y": y, "off": off}
+        span = _print_span(toolpath, row)
+        if is_far:
+            values["advice"] = _ADVICE[is_alone]
+            yield lines.finding("3B207", span, row + 1, **values).with_fact(PrintedElsewhere())
+        else:
+            yield lines.finding("3B213", span, row + 1, **values)
 
 
 def _wrong_lengths(toolpath: Toolpath, header: Header, lines: LineIndex) -> Iterator[Finding]:

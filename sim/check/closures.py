@@ -33,10 +33,14 @@ class OpenContour(Fact):
 
 @dataclass(frozen=True, slots=True)
 class Suspected(Fact):
-    """The contour whose first block is `first` would close with a field of this block written otherwise."""
+    """The contour whose first block is `first` would close with a field of this block written otherwise.
+
+    Each of the `suspects` alone is enough. `is_proved` tells that there is but one, and that it explains more.
+    """
 
     first: int
-    suspect: Suspect
+    suspects: tuple[Suspect, ...]
+    is_proved: bool = False
 
 
 def contour_findings(
@@ -46,9 +50,9 @@ def contour_findings(
 
     `rows` (n,) is each row's contour. A contour with a closed loop may lead out elsewhere than it led in (3B311). A
     block that is `known` to be wrong explains its contour: then no other block is suspected, and the stepped closure is
-    not named. Of the contours that neither close nor are explained, the first `MOST_SUSPECTED` get suspects. Among them
-    are contours that only run forward: a triangle with a wrong quadrant does so too, and a parting cut hardly ever has
-    a block that would close it.
+    not named. Of the contours that do not close, the first `MOST_SUSPECTED` get suspects. Among them are contours that
+    only run forward: a triangle with a wrong quadrant does so too, and a parting cut hardly ever has a block that would
+    close it.
     """
     guilty = np.sort(np.array([finding.block for finding, _ in telling(known, WrongBlock)], dtype=np.int64))
     found: list[Finding] = []
@@ -56,11 +60,11 @@ def contour_findings(
     unclosed = [contour for contour in contours if contour.is_open and not may_stay_open]
     left = _left_elsewhere(program, rows, unclosed)
     for contour in contours:
+        low, high = np.searchsorted(guilty, [contour.first, contour.last + 1])
+        explained = bool(low < high)
         if contour.first in left:
             found += [_lead_out(program, contour, block) for block in (contour.first, contour.last)]
             continue
-        low, high = np.searchsorted(guilty, [contour.first, contour.last + 1])
-        explained = bool(low < high)
         gap, limit = contour.closure_stepped_um, stepped_limit_um(contour)
         if contour.is_open and not may_stay_open:
             found.append(_open(program, contour))
@@ -72,9 +76,9 @@ def contour_findings(
             values = _ends_of(contour) | {"gap": gap, "limit": limit}
             found.append(at_block(program.toolpath, program.lines, "3B302", contour.last - 1, **values))
         may_close = contour.is_open or contour.last - contour.first > 1  # one line or two are no figure
-        if may_close and not (contour.returns or explained or may_stay_open) and suspected < MOST_SUSPECTED:
+        if may_close and not (contour.returns or may_stay_open) and suspected < MOST_SUSPECTED:
             suspected += 1
-            found += _suspects(program, contour)
+            found += _suspects(program, contour, guilty[low:high])
     return found
 
 
@@ -111,24 +115,33 @@ def _ends_of(contour: Contour) -> dict[str, Value]:
     return {"first": contour.first, "last": contour.last}
 
 
-def _suspects(program: Program, contour: Contour) -> list[Finding]:
-    """Notes at blocks that would close the contour if one of their fields were written otherwise."""
+def _suspects(program: Program, contour: Contour, guilty: Ints) -> list[Finding]:
+    """Notes at blocks that would close the contour if one of their fields were written otherwise.
+
+    Where some of its blocks are known to be `guilty`, of these alone.
+    """
     if program.mender is None:
         return []
-    found = program.mender.suspects(program.toolpath, contour.first - 1, contour.last)
-    return [_suspect(program, contour, one) for one in found]
+    found: dict[int, list[Suspect]] = {}
+    for one in program.mender.suspects(program.toolpath, contour.first - 1, contour.last):
+        if not len(guilty) or one.row + 1 in guilty:
+            found.setdefault(one.row, []).append(one)
+    return [suspect_finding(program, contour.first, contour.last, tuple(of)) for of in found.values()]
 
 
-def _suspect(program: Program, contour: Contour, one: Suspect) -> Finding:
+def suspect_finding(program: Program, first: int, last: int, suspects: tuple[Suspect, ...]) -> Finding:
+    """Finding 3B304 at a block with which the contour of the blocks from `first` to `last` closes in these ways."""
+    one, others = suspects[0], [] if program.mender is None else [program.mender.told((s.mend,)) for s in suspects[1:]]
     return at_block(
         program.toolpath,
         program.lines,
         "3B304",
         one.row,
         one.field,
-        first=contour.first,
-        last=contour.last,
+        first=first,
+        last=last,
         field=one.field.term,
         written=one.written,
         other=one.other,
-    ).with_fact(Suspected(contour.first, one))
+        others=" / ".join(others),
+    ).with_fact(Suspected(first, suspects))

@@ -7,9 +7,9 @@ import numpy as np
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate, words_of
 from parser.dialect.at_block import at_block
-from parser.findings.facts import WrongBlock
+from parser.findings.facts import DoubtfulEnd, PrintedElsewhere, WrongBlock, telling
 from parser.findings.findings import Finding
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints
 from parser.program import Program
 from parser.text.source import Field
 from parser.toolpath import Axis, StepWords, Toolpath
@@ -32,14 +32,20 @@ class WrongAxis(WrongBlock):
 
 
 def stepped_end_findings(program: Program, steps: Steps) -> list[Finding]:
-    """Wrong count axes with their cost (3B204), and other blocks that miss their exact end (3B303)."""
+    """Wrong count axes with their cost (3B204), and other blocks that miss their exact end (3B303).
+
+    Where J itself is in doubt, no axis is named, unless J is the length of the line on the ruled one.
+    """
     toolpath, words = program.toolpath, words_of(program.toolpath)
     off = stepped_miss(toolpath, steps)
     turns = np.maximum(np.abs(toolpath.sweep_rad) / (2.0 * np.pi), 1.0)
     ruled = ruled_count_axis(toolpath)
-    wrong = np.flatnonzero((words.count_axis != ruled) & (off > COST_UM) & ~_near_either(toolpath))
+    doubtful = _doubtful_counts(program)
+    swapped = ~toolpath.is_arc & (words.count_um == np.where(ruled == Axis.X, words.x_um, words.y_um))
+    is_wrong = (words.count_axis != ruled) & (off > COST_UM) & ~_near_either(toolpath)
+    wrong = np.flatnonzero(is_wrong & (~doubtful | swapped))
     right = _miss_on(toolpath, wrong, ruled[wrong])
-    counts = count_on(toolpath, wrong, ruled[wrong])
+    counts = np.where(swapped[wrong], words.count_um[wrong], count_on(toolpath, wrong, ruled[wrong]))
     costly = right < off[wrong] - 1.0
     found = [
         at_block(
@@ -59,12 +65,21 @@ def stepped_end_findings(program: Program, steps: Steps) -> list[Finding]:
     limits = STEPPED_END_UM * turns
     missed = off > limits
     missed[wrong[costly]] = False
+    missed[doubtful] = False
     return found + [
         at_block(toolpath, program.lines, "3B303", row, miss=float(off[row]), limit=float(limits[row])).with_fact(
             WrongBlock()
         )
         for row in np.flatnonzero(missed).tolist()
     ]
+
+
+def _doubtful_counts(program: Program) -> Bools:
+    """(n,) True on blocks of which the words do not fit each other; a printed end is looked at by itself."""
+    doubtful = np.zeros(len(program.toolpath), dtype=np.bool_)
+    facts = telling(program.findings, DoubtfulEnd)
+    doubtful[[found.block - 1 for found, fact in facts if not isinstance(fact, PrintedElsewhere)]] = True
+    return doubtful
 
 
 def stepped_miss(toolpath: Toolpath, steps: Steps) -> Floats:

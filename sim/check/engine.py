@@ -12,14 +12,16 @@ from parser.findings.codes import Check
 from parser.findings.facts import DoubtfulEnd, TooLarge, telling
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
-from parser.program import Program
+from parser.program import Program, parse_program
 from parser.shape.contours import Contour, contour_rows, find_contours
 from parser.shape.passes import find_passes
 from parser.text.source import Field
 from sim.check.closures import OpenContour, contour_findings
 from sim.check.count_axes import stepped_end_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
+from sim.check.header_offset import header_offset_findings
 from sim.check.passes import pass_findings
+from sim.check.radius_rule import radius_rule_findings, vanishing_findings
 from sim.check.result import CheckState, Coverage, State
 from sim.check.travel import travel_findings
 from sim.check.uncut_jumps import uncut_jump_findings
@@ -45,12 +47,15 @@ class Demands(NamedTuple):
         Distance of the cut edge from the wire's centre; None where no wire is known.
     may_stay_open
         Whether contours may end away from their own path.
+    added_um
+        Offset that the controller adds; None where nobody asked for one.
     """
 
     table: "TableModel | None" = None
     start_um: tuple[float, float] | None = None
     offset_um: float | None = None
     may_stay_open: bool = False
+    added_um: float | None = None
 
 
 class Checked(NamedTuple):
@@ -76,7 +81,19 @@ class Checked(NamedTuple):
 
 
 def run_checks(program: Program, demands: Demands) -> Checked:
-    """Run every check on a program."""
+    """Run every check on a program, and blame the word that explains what they find."""
+    checked = _every_check(program, demands)
+    if checked.steps is None or not checked.findings:
+        return checked
+    from sim.check.blame.settle import settled  # noqa: PLC0415 - a sound program has nobody to blame, and starts sooner
+
+    def again(text: str) -> tuple[Finding, ...]:
+        return _every_check(parse_program(text, program.name, program.encoding, program.marks), demands).findings
+
+    return checked._replace(findings=settled(program, checked.findings, checked.judged, again))
+
+
+def _every_check(program: Program, demands: Demands) -> Checked:
     if any(telling(program.findings, TooLarge)):
         return _without_path(program, "reason-too-large")
     steps = interpolate(program.toolpath)
@@ -129,6 +146,7 @@ class _PathChecks:
         rows = _closed(self._rows, closures)  # an open contour may not run where it was meant to
         open_ones = "" if rows is self._rows else "reason-open"
         yield from _undoubted(sense_findings(program, rows), known)
+        yield from radius_rule_findings(program, rows, self._offset_um)
         self._done(Check.SENSES, self._left_out or open_ones)
         crossings, all_pairs = crossing_findings(program, rows, self._passes)
         yield from crossings
@@ -138,6 +156,8 @@ class _PathChecks:
         )
         self._done(Check.PASSES, self._left_out)
         yield from self._asked_for()
+        reach_um = demands.offset_um if demands.table is not None else None
+        yield from header_offset_findings(program, self._passes, reach_um, demands.added_um)
 
     def _stepped(self) -> list[Finding]:
         """Findings about the words that steps are counted by, where the program has such."""
@@ -154,6 +174,12 @@ class _PathChecks:
             return ""
         return "reason-damaged" if self._program.reading.damages else "reason-endless"
 
+    @property
+    def _offset_um(self) -> float | None:
+        """What the controller adds: as asked for, as the header says, or as the wire needs it."""
+        told = self._program.header.get("offset_um")
+        return self._demands.added_um or (told if isinstance(told, float) and told > 0.0 else self._demands.offset_um)
+
     def _asked_for(self) -> Iterator[Finding]:
         """Checks that need to know the wire or the machine."""
         program, demands = self._program, self._demands
@@ -161,6 +187,7 @@ class _PathChecks:
             self.states.append(CheckState(Check.CORNERS, "not asked", "reason-no-wire"))
         else:
             yield from corner_findings(program, self._rows, self._passes, demands.offset_um)
+            yield from vanishing_findings(program, self._rows, self._passes, self._offset_um or demands.offset_um)
             self._done(Check.CORNERS, self._left_out)
         if demands.table is None or demands.start_um is None:
             self.states.append(CheckState(Check.TRAVEL, "not asked", "reason-no-machine"))

@@ -15,13 +15,11 @@ from parser.shape.loops import is_circle
 from parser.text.lines import LINE_END
 from parser.text.source import Field
 from parser.toolpath import Axis
+from sim.check.blame.cases import MOST_PRINTED
+from sim.check.blame.settle import WrongWord
 from sim.check.closures import OpenContour, Suspected
 from sim.check.count_axes import WrongAxis
 from sim.check.engine import Checked
-
-_MOST_PRINTED = 50  # printed ends that are mended; where more are wrong, it is not by slips in single blocks
-_SETTLED = (Field.COUNT, Field.AXIS)
-"""Fields that a printed end settles. The others also change the path on the way to that end."""
 
 
 class Choice(NamedTuple):
@@ -55,20 +53,22 @@ def _possible(
     block = finding.block
     match finding.fact:
         case PrintedElsewhere():
-            if next(islice(telling(findings, PrintedElsewhere), _MOST_PRINTED, None), None):
+            if next(islice(telling(findings, PrintedElsewhere), MOST_PRINTED, None), None):
                 return []
             return [(block, (mend,)) for mend in mender.printed_mends(program.toolpath, block - 1)]
-        case WrongLabel(ruled) if not finding.edits:
-            here = [one.suspect for other, one in telling(findings, Suspected) if other.block == block]
+        case WrongLabel(ruled, slips) if not finding.edits:
+            here = [one for at, fact in telling(findings, Suspected) if at.block == block for one in fact.suspects]
             others = [suspect.mend for suspect in here if suspect.field is Field.SENSE]
-            return [(block, (mend,)) for mend in (Mend(Field.SENSE, ruled), *others)]
+            others += [Mend(Field.SENSE, other) for other in slips]
+            return [(block, (mend,)) for mend in dict.fromkeys((Mend(Field.SENSE, ruled), *others))]
         case WrongAxis(ruled, count_um) if not finding.edits:
             axis, count = mender.counted_on(ruled), mender.counting(count_um)
             is_other = count_um != words_of(program.toolpath).count_um[block - 1]
             return [(block, (axis,)), *([(block, (axis, count))] if is_other else [])]
         case OpenContour(first):
             suspected = telling(findings, Suspected)
-            return [(other.block, (one.suspect.mend,)) for other, one in suspected if one.first == first]
+            of = [(at.block, fact.suspects) for at, fact in suspected if fact.first == first]
+            return [(at, (one.mend,)) for at, suspects in of for one in suspects]
     return []
 
 
@@ -87,11 +87,13 @@ class _Mends:
         self._firsts = [contour.first for contour in checked.judged]
         found = checked.findings
         self._doubtful = {finding.block for finding, _ in telling(found, DoubtfulEnd)}
-        self._misprinted = sum(1 for _ in telling(found, PrintedElsewhere))
         self._open = {contour.first for _, contour in telling(found, OpenContour)}
-        suspected = [(finding.block, fact) for finding, fact in telling(found, Suspected)]
-        self._suspects = Counter(fact.first for _, fact in suspected)
-        self._other_sense = {block for block, fact in suspected if fact.suspect.field is Field.SENSE}
+        suspected = [
+            (finding.block, fact.first, one) for finding, fact in telling(found, Suspected) for one in fact.suspects
+        ]
+        self._suspects = Counter(first for _, first, _ in suspected)
+        self._other_sense = {block for block, _, one in suspected if one.field is Field.SENSE}
+        self._other_word = {block for block, _, one in suspected if one.field is not Field.AXIS}
 
     def of(self, finding: Finding) -> tuple[Edit, ...]:
         """The edits that certainly mend a finding, all together."""
@@ -99,12 +101,12 @@ class _Mends:
         match finding.fact:
             case NoEnd():
                 edits = self._end_code()
-            case WrongLabel(ruled):
+            case WrongLabel(ruled, ()):
                 edits = self._label(finding.block, ruled)
             case WrongAxis() as wrong:
                 edits = self._count_axis(finding.block, wrong)
-            case PrintedElsewhere():
-                edits = self._printed_end(finding.block)
+            case WrongWord(mend):
+                edits = (self._edit(finding.block, mend),)
             case CountedElsewhere():
                 edits = self._swapped_axis(finding.block)
             case Suspected() as suspected:
@@ -137,38 +139,20 @@ class _Mends:
             mends.append(self._mender.counting(wrong.count_um))
         return tuple(self._edit(block, mend) for mend in mends)
 
-    def _printed_end(self, block: int) -> tuple[Edit, ...]:
-        """The one count length or count axis with which the block ends where it is printed to end.
-
-        Nothing where the printed end itself may be wrong: the next printed end tells, or else a closed contour.
-        """
-        if self._misprinted > _MOST_PRINTED:
-            return ()
-        misprint = self._mender.is_misprint(self._toolpath, block - 1)
-        if misprint is None:
-            contour = self._contour(block)
-            misprint = contour is None or contour.first not in self._open
-        if misprint:
-            return ()
-        possible = self._mender.printed_mends(self._toolpath, block - 1)
-        if len(possible) != 1 or possible[0].field not in _SETTLED:
-            return ()
-        return (self._edit(block, possible[0]),)
-
     def _swapped_axis(self, block: int) -> tuple[Edit, ...]:
         """The other axis, where the count is the line's length on that one to the micrometre."""
         row, words = block - 1, self._words
         x, y, count = int(words.x_um[row]), int(words.y_um[row]), int(words.count_um[row])
         other = Axis.Y if words.count_axis[row] == Axis.X else Axis.X
-        swapped = count == max(x, y) == (x if other == Axis.X else y)
+        swapped = count == max(x, y) == (x if other == Axis.X else y) and block not in self._other_word
         return (self._edit(block, self._mender.counted_on(other)),) if swapped else ()
 
     def _suspect(self, block: int, suspected: Suspected) -> tuple[Edit, ...]:
-        """The count axis of the only suspect of an open contour."""
+        """The count axis of the only suspect of an open contour, or its label, which then also keeps the rule."""
         alone = self._suspects[suspected.first] == 1 and suspected.first in self._open
-        if not alone or suspected.suspect.field is not Field.AXIS:
+        if not alone or not (suspected.is_proved or suspected.suspects[0].field is Field.AXIS):
             return ()
-        return (self._edit(block, suspected.suspect.mend),)
+        return (self._edit(block, suspected.suspects[0].mend),)
 
     def _edit(self, block: int, mend: Mend) -> Edit:
         return self._mender.edit(self._toolpath, block - 1, mend)

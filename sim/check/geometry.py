@@ -1,9 +1,10 @@
 """Findings about the shape of contours: crossings, senses of arcs, corners tighter than the wire."""
 
 import math
+from dataclasses import dataclass
 
 from parser.dialect.at_block import at_block
-from parser.findings.findings import Finding, Value
+from parser.findings.findings import Fact, Finding, Value
 from parser.geometry.curves import Ints
 from parser.program import Program
 from parser.shape.passes import Passes
@@ -11,6 +12,13 @@ from parser.text.source import Field
 from sim.check.shape.corners import tight_corners
 from sim.check.shape.crossings import find_crossings
 from sim.check.shape.senses import retraced_arcs, reversed_arcs
+
+
+@dataclass(frozen=True, slots=True)
+class ReversedArc(Fact):
+    """The arc would fit its neighbours if it ran the other way round; `word` is what its sense would say, ``SR3``."""
+
+    word: str
 
 
 def sense_findings(program: Program, contour: Ints) -> list[Finding]:
@@ -31,7 +39,9 @@ def sense_findings(program: Program, contour: Ints) -> list[Finding]:
 
 def _reversed(program: Program, row: int) -> Finding:
     written, other = _senses(program, row)
-    return at_block(program.toolpath, program.lines, "3B306", row, Field.SENSE, written=written, other=other)
+    word = other if program.mender is None else program.mender.turned(program.toolpath, row).text
+    values = {"written": written, "other": other, "word": word}
+    return at_block(program.toolpath, program.lines, "3B306", row, Field.SENSE, **values).with_fact(ReversedArc(word))
 
 
 def _senses(program: Program, row: int) -> tuple[str, str]:
@@ -63,6 +73,8 @@ def corner_findings(program: Program, contour: Ints, passes: Passes, offset_um: 
     """Arcs that a wire of this offset cannot cut as drawn (3B305)."""
     toolpath = program.toolpath
     rows = tight_corners(toolpath, contour, passes, offset_um, program.reading.is_drawing)
+    if toolpath.words is not None:
+        rows = rows[toolpath.words.radius_um[rows] < 0]  # those of 4B are 3B216
     return [
         at_block(toolpath, program.lines, "3B305", row, radius=float(toolpath.radius_um[row]), offset=offset_um)
         for row in rows.tolist()

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.scenario_options import Length
+from sim.cli.scenario_options import SHARP_CORNERS, Length
 
 if TYPE_CHECKING:
     from parser.program import Program
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 @click.option("--layer", metavar="NAME", help="The drawing's layer to compare with; all of them where left out.")
 @click.option("--gap", type=Length(), help="Gap between curves that is bridged; 10um where left out.")
 @click.option("--no-fit", is_flag=True, help="Compare in place, without a fit of position and turn.")
+@click.option("--sharp-corners", type=click.Choice(["tell", "fail"]), help=SHARP_CORNERS)
 @click.option("--json", "as_json", is_flag=True, help="Print the comparison as JSON instead of the summary.")
 def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> None:
     """Compare the edge that a program cuts with a drawing (DXF).
@@ -47,6 +48,7 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     from sim.cli.overrides import OfDrawing, drawing_target
     from sim.cli.scenario_options import refused
     from sim.measure.compare.compared_program import compare_program
+    from sim.measure.compare.result import Asked
     from sim.run.offsetting import offsetting
     from sim.run.report.drawing import document_text
     from sim.setup.part import OFFSET_MM
@@ -67,7 +69,8 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
         raise refused(scenario, error) from None
     offset_um, source = _offset(offset, program, scenario)
     shown = read_drawing(drawing.file, layer=drawing.layer, gap_um=drawing.gap_um)
-    done = compare_program(program.toolpath, offset_um, shown, drawing.tolerance_um, fitted=drawing.fit)
+    asked = Asked(drawing.tolerance_um, drawing.fit, drawing.sharp_corners)
+    done = compare_program(program.toolpath, offset_um, shown, asked)
     if as_json:
         click.echo(document_text(done), nl=False)
     else:

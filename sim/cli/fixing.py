@@ -2,14 +2,13 @@
 
 import difflib
 from collections import Counter
-from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from parser.findings.catalogue import Language
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
-from parser.findings.findings import Edit, Finding
+from parser.findings.findings import Finding, edited
 from parser.program import Program, load_program
 from parser.text.encoding import encode_text, printable
 from parser.text.excerpt import place
@@ -48,7 +47,7 @@ def fix_file(path: Path, name: str, settings: CheckSettings) -> Fixing:
     findings = with_edits(program, run_checks(program, settings.demands))
     shown = tuple(finding for finding in findings if settings.shows(finding.code))
     left = tuple(Unmended(f, possible) for f in shown if len(possible := choices(program, f, findings)) > 1)
-    text = apply(program.text, [edit for finding in shown for edit in finding.edits])
+    text = edited(program.text, [edit for finding in shown for edit in finding.edits])
     mended = encode_text(text, program.encoding)
     if text == program.text or _errors(load_program(mended, name, settings.marks), settings) - _errors(
         program, settings
@@ -74,17 +73,6 @@ def told(fixing: Fixing, name: str, language: Language) -> str:
         for unmended in fixing.unmended
     )
     return fixing.diff + left
-
-
-def apply(text: str, edits: Sequence[Edit]) -> str:
-    """Text with edits made; of two that touch the same characters the first counts."""
-    parts, at = [], 0
-    for edit in sorted(set(edits)):
-        if edit.first < at:
-            continue
-        parts += [text[at : edit.first], edit.text]
-        at = edit.past
-    return "".join([*parts, text[at:]])
 
 
 def _errors(program: Program, settings: CheckSettings) -> Counter[tuple[str, int]]:

@@ -11,7 +11,7 @@ from parser.units import mm
 from sim.setup.toml.reader import number
 
 if TYPE_CHECKING:
-    from sim.setup.part import DrawingTarget, Offset
+    from sim.setup.part import DrawingTarget, Offset, SharpCorners
     from sim.setup.scenario import Scenario
     from sim.setup.wire import Wire
 
@@ -33,6 +33,7 @@ class Overrides(NamedTuple):
     layer: str | None
     tolerance: float | None
     no_fit: bool
+    sharp_corners: "SharpCorners | None"
 
 
 def overridden(path: Path, options: Overrides) -> "Scenario":
@@ -103,6 +104,7 @@ class OfDrawing(NamedTuple):
     layer: str | None
     tolerance: float | None
     no_fit: bool
+    sharp_corners: "SharpCorners | None"
     gap: float | None = None
 
 
@@ -123,14 +125,17 @@ def drawing_target(own: "DrawingTarget | None", options: OfDrawing) -> "DrawingT
         own = own._replace(tolerance_um=number(options.tolerance, TOLERANCE_UM, "--tolerance in µm"))
     if options.gap is not None:
         own = own._replace(gap_um=number(options.gap, GAP_UM, "--gap in µm"))
+    if options.sharp_corners is not None:
+        own = own._replace(sharp_corners=options.sharp_corners)
     return own._replace(fit=own.fit and not options.no_fit)
 
 
 def _drawing(own: "DrawingTarget | None", options: Overrides) -> "DrawingTarget | None":
     """The drawing of a run. SettingsError where the options say how to hold it but not which."""
-    of = OfDrawing(options.drawing, options.layer, options.tolerance, options.no_fit)
+    of = OfDrawing(options.drawing, options.layer, options.tolerance, options.no_fit, options.sharp_corners)
     drawing = drawing_target(own, of)
-    for name, given in (("layer", of.layer), ("tolerance", of.tolerance), ("no-fit", of.no_fit)):
+    asked = {"layer": of.layer, "tolerance": of.tolerance, "no-fit": of.no_fit, "sharp-corners": of.sharp_corners}
+    for name, given in asked.items():
         if drawing is None and given not in (None, False):
             raise SettingsError(f"--{name} needs --drawing, such as --drawing part.dxf")
     return drawing

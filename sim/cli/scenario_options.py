@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from sim.setup.scenario import Scenario
 
 
+SHARP_CORNERS = "What the wire must leave in sharp inside corners: told apart, or held against the drawing too."
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
@@ -89,6 +90,7 @@ _OPTIONS = (
     click.option("--layer", metavar="NAME", help="Layer of the contour in the drawing."),
     click.option("--tolerance", type=Length(), help="How far edge and drawing may be apart, such as 5um."),
     click.option("--no-fit", is_flag=True, help="Take the drawing as it lies, without fitting place and turn."),
+    click.option("--sharp-corners", type=click.Choice(["tell", "fail"]), help=SHARP_CORNERS),
 )
 
 

@@ -261,7 +261,7 @@ def _left(
     found = piece_findings(program, remains.pieces)
     if target is None or drawing is None:
         return _Left(remains, None, found, CheckState(REMAINS))
-    comparison = compare_cut(program, remains.pieces, scenario.wire.reach_um, drawing, target)
+    comparison = compare_cut(program, remains, drawing, target)
     return _Left(remains, comparison, [*found, *drawing_findings(program, comparison)], CheckState(REMAINS))
 
 

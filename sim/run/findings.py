@@ -1,29 +1,37 @@
 """Findings on a run as a whole: what its scenario expects of the report, and the report does not say."""
 
+import json
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
+from parser.findings.catalogue import TO
 from parser.findings.findings import Finding
 from sim.setup.expectations import Expectation, Missed
+
+_LONGEST_SHOWN = 80
 
 
 def expectation_findings(missed: Iterable[Missed]) -> list[Finding]:
     """Finding 3B490 for each expectation that is not met."""
     return [
-        Finding("3B490", {"path": one.expected.path, "found": _show(one.found), "wanted": _wanted(one.expected)})
+        Finding("3B490", {"path": one.expected.path, "found": _shown(one.found), "wanted": _wanted(one.expected)})
         for one in missed
     ]
 
 
 def _wanted(expectation: Expectation) -> str:
+    """A value as the report has it; a range as its ends, one of them left out where it is open."""
     if not expectation.is_range:
-        return _show(expectation.value)
-    low, high = expectation.value
-    if low == -math.inf:
-        return f"at most {high:g}"
-    return f"at least {low:g}" if high == math.inf else f"{low:g} to {high:g}"
+        return _shown(expectation.value)
+    return TO.join(f"{end:g}" if math.isfinite(end) else "" for end in expectation.value)
 
 
-def _show(value: Any) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)
+def _shown(value: Any) -> str:
+    """A value as ``[expect]`` would have it; of tables in a list, the codes or the first values; a term for nothing."""
+    if value is None:
+        return "nothing"
+    if isinstance(value, list):
+        value = [next(iter(one.values()), None) if isinstance(one, Mapping) else one for one in value]
+    text = f"{value:g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
+    return text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}…"

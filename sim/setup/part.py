@@ -4,7 +4,7 @@ import operator
 from collections.abc import Mapping
 from itertools import accumulate
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 
 from controller.offset.sections import Side
 from parser.drawing.model import DEFAULT_GAP_UM
@@ -23,6 +23,9 @@ GAP_UM = Bound(0.001, 1e4)
 DENSITY_G_CM3 = Bound(0.01, 30.0)
 
 SIDES: Mapping[str, Side] = {side.name.lower(): side for side in Side}
+SharpCorners = Literal["tell", "fail"]
+"""What a sharp inside corner of the drawing does, which no wire can cut: it is told apart, or it fails as drawn."""
+SHARP_CORNERS: tuple[str, ...] = get_args(SharpCorners)
 DEFAULT_TOLERANCE_UM = 5.0
 """What a first cut is usually held to (assumed)."""
 DEFAULT_DENSITY_G_CM3 = 7.85
@@ -104,6 +107,8 @@ class DrawingTarget(NamedTuple):
         Gap that joins ends of the drawing.
     fit
         Whether position and turn are fitted; else the drawing is taken as it lies.
+    sharp_corners
+        Whether what the wire must leave in sharp inside corners is told apart, or fails.
     """
 
     file: Path
@@ -111,6 +116,7 @@ class DrawingTarget(NamedTuple):
     tolerance_um: float = DEFAULT_TOLERANCE_UM
     gap_um: float = DEFAULT_GAP_UM
     fit: bool = True
+    sharp_corners: SharpCorners = "tell"
 
 
 class _SideWord(OneOf):
@@ -160,6 +166,7 @@ DRAWING = Section(
         Key("tolerance_um", Number(TOLERANCE_UM, "µm"), default=DEFAULT_TOLERANCE_UM),
         Key("gap_um", Number(GAP_UM, "µm"), default=DEFAULT_GAP_UM),
         Key("fit", Truth(), default=True),
+        Key("sharp_corners", OneOf(SHARP_CORNERS), default="tell"),
     ),
     fills="drawing",
 )

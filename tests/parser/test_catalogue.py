@@ -30,24 +30,32 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B108": {"header": 65437.0, "decoded": 82003.53},
     "3B109": {"three": 3, "four": 1},
     "3B110": {"blocks": 3, "path": "path-without-offset"},
+    "3B111": {"header": 0.0, "reach": 100.0},
+    "3B112": {"header": 70.0, "reach": 100.0},
+    "3B113": {"header": 100.0, "added": 100.0},
     "3B201": {"x": 0, "y": 0},
     "3B202": {"axis": "Y", "other": "X"},
-    "3B203": {"written": "L1", "ruled": "L2", "way": "+Y"},
+    "3B203": {"written": "L1", "ruled": "L2", "way": "+Y", "others": ""},
     "3B204": {"axis": "X", "ruled": "Y", "cost": 140.0, "right": 0.0, "count": 39600},
     "3B205": {},
     "3B206": {"what": "number-too-large", "limit": 999_999_999},
-    "3B207": {"px": 9900.0, "py": -0.0, "x": 9800.0, "y": 0.0, "off": 100.0},
+    "3B207": {"px": 9900.0, "py": -0.0, "x": 9800.0, "y": 0.0, "off": 100.0, "advice": "restore-block"},
     "3B208": {"count": 9990, "extent": 9900, "axis": "X", "off": 90.0, "goes": "too-far", "by": 90.0},
     "3B209": {"count": 19800, "extent": 9900, "axis": "X", "times": 2},
     "3B210": {"count": 79200, "full": 39600, "turns": 2.0},
     "3B211": {"written": "SR", "other": "NR", "sweep": 270, "minor": 90},
     "3B212": {"radius": 9990, "decoded": 9900.0},
+    "3B213": {"px": 9900.0, "py": 0.0, "x": 9897.0, "y": 0.0, "off": 3.0},
+    "3B214": {"other": 2, "angle": 90.0, "offset": 100.0, "shift": 141.42, "more": 3},
+    "3B215": {"written": "DD", "ruled": "D", "more": 0},
+    "3B216": {"radius": 80.0, "offset": 100.0},
+    "3B217": {"field": "field-sense", "written": "L3", "other": "L1", "px": 9900.0, "py": 0.0, "off": 19800.0},
     "3B301": {"first": 1, "last": 4, "gap": 6929.65},
     "3B302": {"first": 1, "last": 12, "gap": 35.2, "limit": 26.7},
     "3B303": {"miss": 12.5, "limit": 12.0},
-    "3B304": {"first": 1, "last": 6, "field": "field-sense", "written": "L4", "other": "L2"},
+    "3B304": {"first": 1, "last": 6, "field": "field-sense", "written": "L4", "other": "L2", "others": ""},
     "3B305": {"radius": 50.0, "offset": 100.0},
-    "3B306": {"written": "SR", "other": "NR"},
+    "3B306": {"written": "SR", "other": "NR", "word": "NR2"},
     "3B307": {"crossing": 7, "other": 4, "x": -2000.0, "y": 2000.0, "more": 0},
     "3B308": {},
     "3B309": {"length": 30000.0},
@@ -58,6 +66,7 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B314": {"number": 1, "by": 30.0},
     "3B315": {"first": 2, "last": 12, "gap": 600.0},
     "3B316": {"number": 2, "other": 1, "by": 190.0},
+    "3B320": {"lines": 4, "last": 9, "length": 40000.0},
     "3B401": {"x_mm": 400.0, "y_mm": 500.0, "axis": "X", "by": 10000.0},
     "3B402": {"axis": "X", "lost": 18.0, "last": 12, "t_s": 11524.25, "x_mm": 12.5, "y_mm": -0.0001},
     "3B403": {"axis": "Y", "lag": 100.2, "limit": 100.0, "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
@@ -66,7 +75,7 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B406": {"kind": "slug", "area_mm2": 12.5, "cut_after": 5000.0, "t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B407": {"first": 3, "last": 17},
     "3B408": {"t_s": 3.0, "x_mm": 12.5, "y_mm": 0.0},
-    "3B490": {"path": "summary.steps", "found": "99000", "wanted": "at most 5"},
+    "3B490": {"path": "summary.steps", "found": "99000", "wanted": "‥5"},
     "3B501": {"radius": 50.0, "offset": 100.0, "left": 20.7, "x_mm": 12.5, "y_mm": 0.0},
     "3B502": {"offset": 100.0, "left": 3.2, "x_mm": 12.5, "y_mm": 0.0},
     "3B503": {"other": 9, "pass": 2, "depth": 110.0, "offset": 100.0, "x_mm": 12.5, "y_mm": 0.0},
@@ -74,6 +83,9 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B505": {"first": 1, "last": 7, "before": 1, "number": 2, "gap": 1414.2},
     "3B601": {"what": "edge-off", "off": 7.0, "tolerance": 5.0, "x_mm": 12.5, "y_mm": 0.0, "entity": "ARC 2F"},
     "3B602": {"what": "wrong-side"},
+    "3B603": {"number": 4, "depth": 41.4, "reach": 100.0, "angle_deg": 90.0, "x_mm": 12.5, "y_mm": 0.0},
+    "3B604": {"what": "contour-offset-missing", "first": 7, "last": 9, "inside_mm": 0.1},
+    "3B605": {"first": 7, "last": 9, "shift_x_mm": 0.05, "shift_y_mm": 0.0, "tolerance": 5.0},
 }
 
 
@@ -168,6 +180,9 @@ def test_lengths_terms_and_asides() -> None:
     )
     values = VALUES["3B207"] | {"px": -0.2}
     assert texts(Finding("3B207", values)).found.startswith("the printed end is 0.000, 0.000 mm, 100.00 µm")
+    labels = VALUES["3B203"] | {"others": "SR3 / NR2"}
+    assert texts(Finding("3B203", labels)).hint.endswith(" or SR3 / NR2")
+    assert texts(Finding("3B203", labels), "zh").hint.endswith("或 SR3 / NR2")
     unknown = VALUES["3B106"] | {"field": "field-y", "found": "O"}
     assert texts(Finding("3B106", unknown)).found == "Y after the second B: `O`"
     assert texts(Finding("3B106", VALUES["3B106"]), "zh").found == "计数方向 G：空缺"

@@ -134,7 +134,8 @@ def test_long_words_lose_nothing_to_rounding() -> None:
         ("B0B5B5GXL2", "3B202"),
         ("BBB5GYL1", "3B202"),
         ("B5B5B0GXL1", "3B205"),
-        ("B5B0B5GXL1;0.005,0.003", "3B207"),
+        ("B5B0B5GXL1;0.005,0.003", "3B213"),
+        ("B5B0B5GXL1;0.005,0.005", "3B207"),
         ("B5B0B5GXL1 DD B5B0B5GXL1", "3B103"),
     ],
 )

@@ -15,6 +15,21 @@ def test_lines_between_two_pauses_are_jumps() -> None:
     assert jumps(f"{CIRCLE} D B100B0B100GXL1 B0B50B50GYL2 D {SQUARE} DD") == [4, 5]
 
 
+WAY = "B100B0B100GXL1 B0B50B50GYL2 B100B0B100GXL1 B0B50B50GYL2 B70B0B70GXL1"
+
+
+def test_a_way_of_many_lines_is_a_jump_where_a_closed_figure_begins_at_its_end() -> None:
+    assert jumps(f"{CIRCLE} D {WAY} D {CIRCLE} DD") == [4, 5, 6, 7, 8]
+    assert jumps(f"{CIRCLE} D {WAY} D {SQUARE} D {WAY} D {CIRCLE} DD") == [4, 5, 6, 7, 8, 13, 14, 15, 16, 17]
+    # A jump with a figure of lines behind it, which may be paused at its end.
+    assert jumps(f"{CIRCLE} D B100B0B100GXL1 {SQUARE} D B100B0B100GXL1 D {CIRCLE} DD") == [4, 9]
+
+
+def test_lines_that_may_be_a_way_or_a_cut_are_told() -> None:
+    found = parse_program(f"{CIRCLE} D {WAY} D B0B50B50GYL2 B100B0B100GXL1 DD").findings
+    assert [(f.code, f.block, f.values["length"]) for f in found] == [("3B320", 5, 270.0)]
+
+
 def test_after_one_pause_the_first_line_is_the_jump() -> None:
     assert jumps(f"{SQUARE} D B100B0B100GXL1 {SQUARE} DD") == [5]
     assert jumps(f"{SQUARE} D B100B0B100GXL1 {SQUARE} D B100B0B100GXL1 {SQUARE} DD") == [5, 10]

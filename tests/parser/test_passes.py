@@ -2,12 +2,16 @@
 
 import random
 
+import numpy as np
 import pytest
+from pass_styles import STYLES, Style, written
+from paths import Pen
 from rough_and_trim import RoughAndTrim, rough_and_trim
 from sound import sound_program
 
 from parser.program import load_program
 from parser.shape.passes import Pass, find_passes
+from parser.shape.row_shifts import row_shifts_um
 
 ROUNDED_UM = 4.0  # places in whole µm, radii that follow them
 WAVE_UM = 10.0  # of many small arcs in a row, whose ends drift
@@ -22,7 +26,7 @@ def true_shifts(program: RoughAndTrim) -> list[float]:
     return [one.offset_um - last[one.edge, one.is_tab] for one in program.passes]
 
 
-@pytest.mark.parametrize("part", range(4))
+@pytest.mark.parametrize("part", range(3))
 def test_passes_of_random_programs_are_those_that_were_written(part: int) -> None:
     rng = random.Random(f"passes {part}")
     for _ in range(15):
@@ -50,3 +54,66 @@ def test_contours_that_are_cut_once_are_one_pass_each() -> None:
         program = sound_program(rng)
         if "trimmed" not in program.name:
             assert {one.number for one in passes_of(program.data.decode())} == {1}, program.name
+
+
+@pytest.mark.parametrize("style", STYLES, ids=lambda style: style.__name__)
+def test_passes_are_found_whatever_lies_between_them(style: Style) -> None:
+    rng = random.Random(style.__name__)
+    for _ in range(6):
+        program = written(rng, style)
+        found = passes_of(program.text)
+        assert [(one.edge, one.first, one.last, one.is_back, one.is_tab) for one in found] == program.passes, (
+            program.text
+        )
+
+
+def slot(wide_um: float) -> Pen:
+    """A slot cut from its hole, all round."""
+    pen = Pen(0, wide_um / 2).to(0, 0).to(9000, 0).to(9000, wide_um).to(-500, wide_um).to(-500, 0)
+    return pen.to(0, 0).to(0, wide_um / 2)
+
+
+def hole(pen: Pen, x: float, radius: float) -> Pen:
+    return pen.to(x + radius, 0).arc(x, 0, 2 * np.pi).to(x, 0)
+
+
+@pytest.mark.parametrize(
+    ("pen", "number"),
+    [
+        (slot(60.0), 1),  # its sides are no passes there and back
+        (slot(140.0), 1),
+        (slot(200.0), 1),
+        (Pen().to(9000, 0).to(0, 0), 1),  # a slit, in and out on one line
+        (Pen().to(9000, 0).to(9000, 300).to(0, 300), 1),  # in and out on two
+        (hole(hole(Pen(), 0, 300).jump(700, 0), 700, 300), 2),  # equal holes side by side
+        (hole(hole(Pen(), 0, 3000).jump(3200, 0), 0, 3500), 2),  # a thin ring, wider than two passes are apart
+    ],
+)
+def test_what_is_cut_once_has_one_pass_however_near_it_lies_to_itself(pen: Pen, number: int) -> None:
+    assert [one.number for one in find_passes(pen.path()).passes] == [1] * number
+
+
+def test_a_small_pin_with_long_leads_is_trimmed_by_its_circle_alone() -> None:
+    pen = Pen(4000, 0)
+    for radius in (220.0, 170.0, 170.0):
+        pen.to(radius, 0).arc(0, 0, 2 * np.pi).to(4000, 0)
+    found = find_passes(pen.path()).passes
+    assert [(one.edge, one.number, one.first, one.last) for one in found] == [(0, 1, 1, 1), (0, 2, 4, 4), (0, 3, 7, 7)]
+    assert [one.shift_um for one in found] == pytest.approx([50.0, 0.0, 0.0])
+
+
+@pytest.mark.parametrize("short_um", [0.0, 0.2])
+def test_the_part_lies_outside_a_circle_cut_from_within_though_it_stops_short(short_um: float) -> None:
+    pen = Pen(-500, 0).to(3000, 0).arc(0, 0, 2 * np.pi - short_um / 3000).to(3040, 0).arc(0, 0, -2 * np.pi)
+    rough, trim = find_passes(pen.path()).passes
+    assert (rough.part_side, trim.part_side, trim.is_back) == (-1, 1, True)
+    assert (rough.shift_um, trim.shift_um) == (pytest.approx(40.0), 0.0)
+
+
+def test_each_block_of_a_rough_cut_is_held_against_the_last_pass() -> None:
+    pen = Pen().to(4860, 0).to(4860, 4860).to(-4930, 4860).to(-4930, -4860).to(4860, -4860).to(4860, 0)
+    pen.to(4900, 0).to(4900, 4900).to(-4900, 4900).to(-4900, -4900).to(4900, -4900).to(4900, 0).to(0, 0)
+    path = pen.path()
+    shift = row_shifts_um(path, find_passes(path))
+    assert shift[1:6] == pytest.approx([40.0, 40.0, -30.0, 40.0, 40.0])
+    assert np.isnan(shift[[0, *range(6, 13)]]).all()

@@ -18,7 +18,7 @@ def test_sound_prints_are_silent() -> None:
 
 
 def test_a_print_that_is_wrong_alone_is_named_once() -> None:
-    assert places(SQUARE.format(ENDS[0], ";10.000,10.003", *ENDS[2:])) == [("3B207", 2, 20, 2)]
+    assert places(SQUARE.format(ENDS[0], ";10.000,10.030", *ENDS[2:])) == [("3B207", 2, 20, 2)]
 
 
 def test_a_wrong_block_is_named_once_though_all_later_prints_are_off() -> None:
@@ -26,14 +26,36 @@ def test_a_wrong_block_is_named_once_though_all_later_prints_are_off() -> None:
     assert places(wrong) == [("3B207", 2, 20, 2)]
 
 
-@pytest.mark.parametrize(("print_mm", "is_named"), [("10.001", False), ("10.002", True), ("9.998", True)])
-def test_two_micrometres_are_a_finding(print_mm: str, is_named: bool) -> None:
-    assert bool(places(SQUARE.format(f";0.000,{print_mm}", "", "", ""))) == is_named
+@pytest.mark.parametrize(
+    ("print_mm", "codes"),
+    [("10.001", []), ("10.002", ["3B213"]), ("9.998", ["3B213"]), ("10.004", ["3B213"]), ("10.005", ["3B207"])],
+)
+def test_two_micrometres_are_a_warning_and_five_an_error(print_mm: str, codes: list[str]) -> None:
+    assert [place[0] for place in places(SQUARE.format(f";0.000,{print_mm}", "", "", ""))] == codes
+
+
+def test_an_end_printed_some_micrometres_off_does_not_hide_an_error_behind_it() -> None:
+    ends = (";0.000,10.003", ";10.400,10.003", ";10.400,0.003", ";0.400,0.003")
+    assert [place[:2] for place in places(SQUARE.format(*ends))] == [("3B213", 1), ("3B207", 2)]
+
+
+@pytest.mark.parametrize(
+    ("ends", "advice"),
+    [
+        ((ENDS[0], ";10.000,10.030", *ENDS[2:]), "correct-print"),
+        ((ENDS[0], ";10.030,10.000", ";10.030,0.000", ENDS[3]), "restore-block"),
+        ((*ENDS[:3], ";0.030,0.000"), "compare-print"),
+    ],
+)
+def test_a_printed_end_is_told_from_a_block_by_the_ends_behind_it(ends: tuple[str, ...], advice: str) -> None:
+    assert parse_program(SQUARE.format(*ends)).findings[0].values["advice"] == advice
 
 
 def test_a_drift_is_named_where_it_comes_to_two_micrometres() -> None:
     lines = [f"B0B10000B10000GYL2;0.000,{10 * n + 0.001 * n:.3f}" for n in range(1, 11)]
-    assert [place[1] for place in places("\n".join([*lines, "DD"]))] == [2, 4, 6, 8, 10]
+    found = places("\n".join([*lines, "DD"]))
+    assert [place[1] for place in found] == [2, 4, 6, 8, 10]
+    assert [place[0] for place in found if place[1] <= 6] == ["3B213", "3B213", "3B207"]
 
 
 def test_prints_of_two_decimals_may_lie_half_a_digit_off() -> None:

@@ -8,6 +8,7 @@ from broken import built, decoded
 from drawings import Line, contour
 from plain import PlainBlock
 
+from parser.shape.passes import find_passes
 from parser.threeb.decode import decode
 from parser.threeb.reader import read_records
 from parser.toolpath import Toolpath
@@ -56,7 +57,8 @@ def _figure(rng: random.Random) -> list[PlainBlock]:
     """A closed figure; drawings of which a lead-in crosses the contour are made anew."""
     while True:
         blocks = built(contour(rng)[1])
-        if not find_crossings(decoded(blocks), np.zeros(len(blocks), dtype=np.int64)):
+        path = decoded(blocks)
+        if not find_crossings(path, np.zeros(len(blocks), dtype=np.int64), find_passes(path)):
             return blocks
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 from drawings import Arc, Line, Place
-from sound_cam import Move, Post, drawn_sweep
+from sound_cam import Move, Post, Row, drawn_sweep
 from sound_offset import offset
 from sound_shapes import Shape, heading, unit
 
@@ -147,3 +147,17 @@ def _draw(space: object, at: Place, move: Move, unit_um: float, attribs: dict[st
 def spun(places: Floats, turn: float) -> Floats:
     c, s = math.cos(turn), math.sin(turn)
     return places @ np.array([[c, s], [-s, c]])
+
+
+def together(*contours: tuple[Shape, Place]) -> str:
+    """A program of several paths, each led in from its place and out to it again; jumps with D between them."""
+    post = Post(contours[0][1])
+    for number, (path, hole) in enumerate(contours):
+        if number:
+            post.pause()
+            post.move(Line(hole), is_jump=True)
+            post.pause()
+        for move in (Line(path.start), *path.moves, Line(hole)):
+            post.move(move)
+    lines = [row.block.text() if isinstance(row, Row) else "D" for row in post.rows]
+    return "\n".join([*lines, "DD", ""])

@@ -17,13 +17,12 @@ from hostile import HOSTILE
 
 from parser.findings.catalogue import LANGUAGES, texts
 from parser.findings.codes import CODES, Severity
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, edited
 from parser.text.encoding import decode_text, encode_text
 from parser.text.lines import LineIndex
 from sim.check.batch import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
-from sim.cli.fixing import apply
 from sim.show.findings import FORMATS, render
 from sim.show.findings.options import Options
 
@@ -154,7 +153,7 @@ def _of_edits(result: CheckResult, data: bytes, settings: CheckSettings) -> Iter
     if any(not 0 <= edit.first <= edit.past <= len(text) for edit in edits):
         yield "an edit lies beyond the text"
         return
-    again = check_file(Job("fuzz.3b", encode_text(apply(text, edits), encoding), settings))
+    again = check_file(Job("fuzz.3b", encode_text(edited(text, edits), encoding), settings))
     if again.unreadable:
         yield "does not load after its edits"
     if again.count(Severity.ERROR) > result.count(Severity.ERROR):

@@ -29,6 +29,12 @@ class _Mender:
     def ends_as_printed(self, toolpath: Toolpath, row: int) -> bool:
         return print_checks.ends_as_printed(toolpath, row)
 
+    def turned(self, toolpath: Toolpath, row: int) -> Mend:
+        return edits.turned(toolpath, row)
+
+    def label_slips(self, toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
+        return edits.label_slips(toolpath, row)
+
     def counted_on(self, axis: Axis) -> Mend:
         return edits.counted_on(axis)
 

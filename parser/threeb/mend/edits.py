@@ -1,15 +1,51 @@
 """Mends of single fields as 3B writes them: what a field says, what changes in the text, what people are told."""
 
+from dataclasses import replace
+
+import numpy as np
+
 from parser.dialect.mender import Mend
 from parser.findings.findings import Edit
 from parser.text.encoding import narrow
 from parser.text.source import Field
-from parser.toolpath import Axis, Toolpath
+from parser.threeb.block_checks import ruled_label
+from parser.threeb.decode import decoded_words
+from parser.toolpath import Axis, StepWords, Toolpath
+from parser.words.labels import label
 
 _LETTERS = {Field.X: "X ", Field.Y: "Y ", Field.COUNT: "J "}
 """What people call the numbers, which say nothing of their field themselves."""
 _LETTERED = (Field.AXIS, Field.SENSE)
 """Fields of letters and one sign behind them, the axis or the quadrant."""
+
+
+def turned(toolpath: Toolpath, row: int) -> Mend:
+    """The other sense, with the label that the trade writes for the same start (docs/3b.md §1)."""
+    word = _word(toolpath, row)
+    return Mend(Field.SENSE, _ruled(replace(word, turn=-word.turn)))
+
+
+def label_slips(toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
+    """Labels of another way, with one letter or the digit other than written, that the trade writes for that way."""
+    word = _word(toolpath, row)
+    turned = [replace(word, turn=-word.turn)] if word.turn[0] else []
+    others = [*turned, *(replace(word, quadrant=np.array([digit])) for digit in (1, 2, 3, 4))]
+    ruled = [_ruled(other) for other in others if _written(other) == _ruled(other)]
+    return tuple(Mend(Field.SENSE, text) for text in ruled if text != _ruled(word))
+
+
+def _word(toolpath: Toolpath, row: int) -> StepWords:
+    words = decoded_words(toolpath)
+    return StepWords(**{name: getattr(words, name)[[row]] for name in StepWords.__slots__})
+
+
+def _written(word: StepWords) -> str:
+    return label(int(word.turn[0]), int(word.quadrant[0]))
+
+
+def _ruled(word: StepWords) -> str:
+    """The label that the trade writes for one block that goes so."""
+    return label(int(word.turn[0]), int(ruled_label(word)[0]))
 
 
 def counted_on(axis: Axis) -> Mend:

@@ -91,7 +91,13 @@ def sizes(made: Moves) -> Floats:
     return np.where(np.isnan(made.radius_um), -made.length_um, made.radius_um)
 
 
-def familiar(size_um: Floats, all_um: Floats, least: int) -> Ints:
+def alike(one_um: Floats, other_um: Floats) -> Flags:
+    """(n,) whether sizes are the same but for rounding."""
+    same: Flags = np.abs(one_um - other_um) <= _SAME_SIZE_UM
+    return same
+
+
+def familiar(size_um: Floats, all_um: Floats, least: Ints | int) -> Ints:
     """(n,) points of sizes that at least so many of the sorted `all_um` share: parts are full of equal sides, radii."""
     first = np.searchsorted(all_um, size_um - _SAME_SIZE_UM)
     past = np.searchsorted(all_um, size_um + _SAME_SIZE_UM, side="right")

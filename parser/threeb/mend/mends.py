@@ -26,7 +26,8 @@ FIELDS = (Field.X, Field.Y, Field.COUNT, Field.AXIS, Field.SENSE)
 """Fields that may be written otherwise, by their numbers, X to SENSE."""
 
 _COLUMNS = ("x_um", "y_um", "count_um", "count_axis", "quadrant", "turn")
-_OTHER_FIELD = 7  # points of a changed letter or label, like one changed digit
+_OTHER_FIELD = 7  # points of a changed axis, and of a changed quadrant or sense, like one changed digit
+_TWO_CHANGED = 2  # points of a changed quadrant and sense, like two changed digits
 _SENSES = tuple(product((0, 1, -1), (1, 2, 3, 4)))  # (turn, quadrant): what Z can say
 _PLACES = 10 ** np.arange(9)  # places of the digits of a word of up to nine
 
@@ -179,6 +180,8 @@ def words_of(word: Ints) -> StepWords:
 def ease(written: Ints, made: Mends) -> Ints:
     """(k,) points of how little mends change blocks (k, 6) as written."""
     points = np.full(len(made.row), _OTHER_FIELD)
+    both = (made.field == SENSE) & (written[:, [QUADRANT, TURN]] != made.word[:, [QUADRANT, TURN]]).all(axis=1)
+    points[both] = _TWO_CHANGED
     for field in (X, Y, COUNT):
         of = made.field == field
         points[of] = slip(written[of, field], made.word[of, field])

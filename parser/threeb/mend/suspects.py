@@ -11,8 +11,21 @@ import numpy as np
 from parser.dialect.mender import Suspect
 from parser.geometry.curves import Floats, Ints
 from parser.shape.closing import closure_tolerance_um
-from parser.threeb.mend.likelihood import familiar, joint, obedience, sizes
-from parser.threeb.mend.mends import FIELDS, Mends, ease, field_text, mends, moves_of, word_table, words_of
+from parser.threeb.mend.joints import Ring, joint_points
+from parser.threeb.mend.likelihood import alike, familiar, obedience, sizes
+from parser.threeb.mend.mends import (
+    FIELDS,
+    QUADRANT,
+    SENSE,
+    TURN,
+    Mends,
+    ease,
+    field_text,
+    mends,
+    moves_of,
+    word_table,
+    words_of,
+)
 from parser.toolpath import Toolpath
 from parser.words.moves import Moves
 
@@ -24,20 +37,6 @@ _MOST_OFF_UM = 100.0  # however many arcs: errors of a CAM do not add up (docs/3
 _OWN_START = 2  # points for ending at the first start, not at the end of a lead-in
 _CLOSED_LOOP = 6  # points if a loop closes between lead-in and lead-out: then one of these two is at fault
 _LEAST = 7  # points of a mend worth naming: one slip that makes the contour no less likely
-
-
-class _Ring(NamedTuple):
-    """A contour as it should close: from `end` back to the start of `begin`; `rows` (n,) may be at fault.
-
-    `is_led` tells that it closes where a lead-out ends on a lead-in, which is no joint.
-    """
-
-    rows: Ints
-    begin: int
-    end: int
-    gap_um: Floats
-    points: int = 0
-    is_led: bool = False
 
 
 class _Ranked(NamedTuple):
@@ -67,7 +66,7 @@ def suspects(toolpath: Toolpath, first_row: int, past_row: int) -> tuple[Suspect
     return _named(toolpath, _leading(best))
 
 
-def _rings(toolpath: Toolpath, first: int, past: int, tolerance_um: float) -> list[_Ring]:
+def _rings(toolpath: Toolpath, first: int, past: int, tolerance_um: float) -> list[Ring]:
     """Where the contour may close, and which rows may be at fault then.
 
     If the lead-out goes back along the lead-in, these two are cleared. If the loop between them closes, one of these
@@ -76,20 +75,20 @@ def _rings(toolpath: Toolpath, first: int, past: int, tolerance_um: float) -> li
     last = past - 1
     start, end = toolpath.start_um, toolpath.end_um
     gap = start[first] - end[last]
-    own = _Ring(np.arange(first, past), first, last, gap, _OWN_START)
+    own = Ring(np.arange(first, past), first, last, gap, _OWN_START)
     if past - first < 3:
         return [own]
-    after_lead = _Ring(np.arange(first + 1, past), first + 1, last, start[first + 1] - end[last])
+    after_lead = Ring(np.arange(first + 1, past), first + 1, last, start[first + 1] - end[last])
     there_and_back = end[first] - start[first] + end[last] - start[last]
     loop = start[first + 1] - end[last - 1]
     if np.hypot(*loop) <= tolerance_um:
-        return [_Ring(np.array([first, last]), first, last, gap, _CLOSED_LOOP, is_led=True), own, after_lead]
+        return [Ring(np.array([first, last]), first, last, gap, _CLOSED_LOOP, is_led=True), own, after_lead]
     if np.hypot(*there_and_back) <= tolerance_um:
-        return [_Ring(np.arange(first + 1, last), first + 1, last - 1, loop)]
+        return [Ring(np.arange(first + 1, last), first + 1, last - 1, loop)]
     return [own, after_lead]
 
 
-def _ranked(toolpath: Toolpath, ring: _Ring, rows: Ints, all_um: Floats, tolerance_um: float) -> _Ranked:
+def _ranked(toolpath: Toolpath, ring: Ring, rows: Ints, all_um: Floats, tolerance_um: float) -> _Ranked:
     """Mends of some rows of a ring, with their points: those of the block mended less those of the block written."""
     word = word_table(toolpath, rows)
     was = moves_of(word)
@@ -100,9 +99,9 @@ def _ranked(toolpath: Toolpath, ring: _Ring, rows: Ints, all_um: Floats, toleran
     points = (
         obedience(words_of(after), now)
         - obedience(words_of(before), old)
-        + _joints(toolpath, ring, row, now)
-        - _joints(toolpath, ring, row, old)
-        + familiar(sizes(now), all_um, 1)
+        + joint_points(toolpath, ring, row, now)
+        - joint_points(toolpath, ring, row, old)
+        + familiar(sizes(now), all_um, 1 + alike(sizes(now), sizes(old)))
         - familiar(sizes(old), all_um, 2)
         + ease(before, made)
         + ring.points
@@ -111,42 +110,19 @@ def _ranked(toolpath: Toolpath, ring: _Ring, rows: Ints, all_um: Floats, toleran
     return _Ranked(row, made.field, made.word, points, np.hypot(off[:, 0], off[:, 1]))
 
 
-def _joints(toolpath: Toolpath, ring: _Ring, row: Ints, made: Moves) -> Ints:
-    """(k,) points of the joints of a ring that the rows touch, if they moved so, and of the one that closes it."""
-    before = np.where(row == ring.begin, ring.end, row - 1)
-    after = np.where(row == ring.end, ring.begin, row + 1)
-    was = moves_of(word_table(toolpath, np.concatenate([before, after, [ring.end, ring.begin]])))
-    arriving, leaving = _directions(was, 1.0), _directions(was, 0.0)
-    own_leaving, own_arriving = _directions(made, 0.0), _directions(made, 1.0)
-    k = len(row)
-    slack = 1.0 / np.maximum(was.length_um, 1.0)
-    own = 1.0 / np.maximum(made.length_um, 1.0)
-    entering = joint(arriving[:k], own_leaving, slack[:k] + own)
-    exiting = joint(own_arriving, leaving[k:-2], slack[k:-2] + own)
-    at_begin, at_end = row == ring.begin, row == ring.end
-    if ring.is_led:
-        return np.where(at_begin, 0, entering) + np.where(at_end, 0, exiting)
-    closing = joint(arriving[-2:-1], leaving[-1:], slack[-2:-1] + slack[-1:])
-    return entering + exiting + np.where(at_begin | at_end, 0, closing)
-
-
-def _directions(made: Moves, fraction: float) -> Floats:
-    """(n, 2) directions at a fraction of each block's length; (0, 0) where it has none."""
-    angle = made.start_angle_rad + fraction * made.sweep_rad
-    tangent = np.stack([-np.sin(angle), np.cos(angle)], axis=1) * np.sign(made.sweep_rad)[:, None]
-    chord = made.by_um / np.where(made.length_um > 0.0, made.length_um, 1.0)[:, None]
-    return np.where(np.isnan(made.radius_um)[:, None], chord, tangent)
-
-
 def _leading(found: list[_Ranked]) -> Mends:
-    """The mends with the most points of all, the best closing one of each row and field. Rows are the toolpath's."""
+    """The mends with the most points of all. Rows are the toolpath's.
+
+    Of the values that a number may have, and of the quadrants of a line, the one that closes best stands for them.
+    """
     best = max([_LEAST, *(int(ranked.points.max()) for ranked in found if len(ranked.points))])
     row, field, word, off = (
         np.concatenate([ranked[column][ranked.points >= best] for ranked in found]) for column in (0, 1, 2, 4)
     )
-    order = np.lexsort([off, field, row])
-    row, field, word = row[order], field[order], word[order]
-    new = (np.diff(row, prepend=-1) != 0) | (np.diff(field, prepend=-1) != 0)
+    said = np.where((field == SENSE) & (word[:, TURN] != 0), word[:, TURN] * 8 + word[:, QUADRANT], 0)
+    order = np.lexsort([off, said, field, row])
+    row, field, word, said = row[order], field[order], word[order], said[order]
+    new = (np.diff(row, prepend=-1) != 0) | (np.diff(field, prepend=-1) != 0) | (np.diff(said, prepend=-99) != 0)
     return Mends(row[new], field[new], word[new])
 
 

@@ -6,7 +6,8 @@ from parser.geometry.curves import Ints
 from parser.shape.passes import Passes
 from parser.toolpath import Toolpath
 
-_ROUNDING_UM = 5.0  # a small arc in whole µm, begun where the last block ended, is some µm off its radius
+ROUNDING_UM = 5.0
+"""A small arc in whole µm, begun where the last block ended, is some µm off its radius."""
 
 
 def tight_corners(toolpath: Toolpath, contour_of_row: Ints, passes: Passes, offset_um: float, is_drawing: bool) -> Ints:
@@ -30,12 +31,12 @@ def tight_corners(toolpath: Toolpath, contour_of_row: Ints, passes: Passes, offs
     inner corner, its centre on the scrap's side, has to be R ≥ f. Without a lead-in the sides are not known, and a
     small arc may be either.
     """
-    small = toolpath.is_arc & (contour_of_row >= 0) & (np.nan_to_num(toolpath.radius_um) < offset_um - _ROUNDING_UM)
+    small = toolpath.is_arc & (contour_of_row >= 0) & (np.nan_to_num(toolpath.radius_um) < offset_um - ROUNDING_UM)
     row = np.flatnonzero(small)
     if not len(row):
         return row
     of = passes.of_row[row]
-    side = np.append([one.part_side for one in passes.passes], 0)[of]  # on leads, −1, the last one: unknown
+    side = np.array([one.part_side if one.number == 1 else 0 for one in passes.passes] + [0])[of]  # on leads the last
     center_side = np.sign(toolpath.sweep_rad[row])
     wrong_side = -side if is_drawing else side
     tight: Ints = row[(side != 0) & (center_side == wrong_side)]

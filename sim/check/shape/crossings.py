@@ -2,8 +2,7 @@
 
 Only a clear crossing counts. Sound programs touch, overlap and retrace their own path all the time (lead-out along the
 lead-in, overcut), each time off by a rounding of 1 µm or two: none of these is a crossing. Where an edge is cut by
-several passes, leads and steps to one of them run through the others: nor are these, so near their ends. There passes
-may run through each other as well: that one comes nearer to the part than the last is told by itself (3B314).
+several passes, leads and steps to one of them run through the others: nor are these, so near their ends.
 """
 
 from typing import NamedTuple
@@ -106,7 +105,7 @@ def _proper(toolpath: Toolpath, meets: Meets, contour_of_row: Ints, passes: Pass
     sine, sides = _sides(toolpath, meets)
     corner_loop = _is_corner_loop(toolpath, meets)
     clearance = np.minimum(*sides)
-    at_pass = _between_passes(contour_of_row, passes, meets, sides)
+    at_pass = _to_passes(contour_of_row, passes, meets, sides)
     crossing = np.flatnonzero((sine > _LEAST_SINE) & (clearance > CLEAR_UM) & ~corner_loop & ~at_pass)
     return meets.take(crossing[np.lexsort((on_late[crossing], meets.late[crossing]))])
 
@@ -119,21 +118,17 @@ def _is_corner_loop(toolpath: Toolpath, meets: Meets) -> Bools:
     return is_loop
 
 
-def _between_passes(contour_of_row: Ints, passes: Passes, meets: Meets, sides: tuple[Floats, Floats]) -> Bools:
-    """Where a lead or a step ends at another pass over the edge than the one it runs through, or two such passes meet.
+def _to_passes(contour_of_row: Ints, passes: Passes, meets: Meets, sides: tuple[Floats, Floats]) -> Bools:
+    """Where a lead or a step ends at another pass over the edge than the one that it runs through.
 
     `sides` are how far µm the nearer end of the earlier and of the later block lies off the other one.
     """
     trimmed = {one.edge for one in passes.passes if one.number > 1}
-    edge = np.array([one.edge if one.edge in trimmed else -1 for one in passes.passes] + [-1])[passes.of_row]
-    side = np.array([one.part_side for one in passes.passes] + [0])[passes.of_row]
-    is_lead = (passes.of_row < 0) & np.isin(contour_of_row, contour_of_row[edge >= 0])
+    first = [one.first for one in passes.passes if one.edge in trimmed]
+    is_lead = (passes.of_row < 0) & np.isin(contour_of_row, contour_of_row[first])
     early, late = is_lead[meets.early], is_lead[meets.late]
-    near_early, near_late = sides[0] <= BESIDE_UM, sides[1] <= BESIDE_UM
-    of_edge = (edge[meets.early] == edge[meets.late]) & (edge[meets.late] >= 0) & (side[meets.late] != 0)
-    two = of_edge & (passes.of_row[meets.early] != passes.of_row[meets.late])
-    between: Bools = (early & late) | (early & near_early) | (late & near_late) | (two & (near_early | near_late))
-    return between
+    ends: Bools = (early & late) | (early & (sides[0] <= BESIDE_UM)) | (late & (sides[1] <= BESIDE_UM))
+    return ends
 
 
 def _sides(toolpath: Toolpath, meets: Meets) -> tuple[Floats, tuple[Floats, Floats]]:

@@ -1,15 +1,21 @@
-"""The last uncut bridge of a piece: where the wire closes on to an older kerf, and how long the piece still held."""
+"""The last uncut bridge of a piece: where the wire closes on to an older kerf, how long the piece still held by it.
+
+Where the program pauses in front of it, the operator can clamp the piece before the bridge is cut.
+"""
 
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+import shapely
 
 from parser.geometry.curves import Floats
 from parser.toolpath import Point
+from sim.cut.kerf.makers import share_made
 from sim.cut.kerf.ways import WireWay
 
 _FRESH = 3.0  # offsets: so far back along its way the wire is in the kerf it is cutting, and closes on to nothing
+_BRIDGE = 0.5  # of the outer edge of a piece, at most
 _LAST_UM = 1000.0  # of way before a piece comes free: here it is still held well
 
 
@@ -72,6 +78,21 @@ def bridge_of(ways: Sequence[WireWay], contour: int, at: int, older: Older | Non
         last_mm_block=int(way.row[last]) + 1,
         last_mm_t_s=float(way.t_s[last]),
     )
+
+
+def held_after(
+    edge_um: shapely.LinearRing, ways: Sequence[WireWay], freeing: int, pauses: Sequence[int], offset_um: float
+) -> int | None:
+    """How many blocks run before the pause at which a piece hangs on its last bridge; None where there is none.
+
+    It is the last pause before the row `freeing`, if the wire has cut half of the piece's outer edge or more by then.
+    `ways` are those that cut beside it, and `pauses` tell how many blocks run before each pause, in order.
+    """
+    at = int(np.searchsorted(pauses, freeing, side="right")) - 1
+    if at < 0:
+        return None
+    before = [way.place_um[way.row < pauses[at]] for way in ways]
+    return int(pauses[at]) if share_made(edge_um, before, offset_um) >= 1.0 - _BRIDGE else None
 
 
 def _nearest(place: Floats, wire: Floats, contour: int) -> Older:

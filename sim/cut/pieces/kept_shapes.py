@@ -34,11 +34,17 @@ def _parts(pieces: Pieces) -> Iterator[KeptShape]:
 
 
 def _openings(pieces: Pieces) -> Iterator[KeptShape]:
-    """Openings of the frame that slugs fell out of, and no part: round a part it is the frame that is waste."""
+    """Openings of the frame that slugs fell out of; round a part the frame is waste, and so is a scrap beside it."""
     openings, freed = pieces.frame.openings_um, pieces.freed
-    inside = [piece.outline_um.representative_point() for piece in freed]
+    slugs = [index for index, piece in enumerate(freed) if piece.kind == "slug" and not piece.is_scrap]
+    inside = np.array([freed[index].outline_um.representative_point() for index in slugs], dtype=np.object_)
+    parts = [shapely.Polygon(piece.outline_um.exterior) for piece in freed if piece.kind == "part"]
+    _, in_part = shapely.STRtree(inside).query(np.array(parts, dtype=np.object_), predicate="contains")
     at, found = shapely.STRtree(inside).query(np.array(openings, dtype=np.object_), predicate="contains")
-    for index, opening in enumerate(openings):
-        within = found[at == index].tolist()
-        if within and all(freed[piece].kind == "slug" for piece in within):
-            yield KeptShape("opening", max(within, key=lambda piece: freed[piece].area_mm2), opening)
+    within = ~np.isin(found, in_part)
+    largest: dict[int, int] = {}
+    for index, slug in sorted(zip(at[within].tolist(), found[within].tolist(), strict=True)):
+        piece, other = slugs[slug], largest.get(index)
+        if other is None or freed[piece].area_mm2 > freed[other].area_mm2:
+            largest[index] = piece
+    yield from (KeptShape("opening", piece, openings[index]) for index, piece in largest.items())

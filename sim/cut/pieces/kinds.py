@@ -5,7 +5,7 @@ it. Besides, two kinds of waste fall beside a larger piece that the same contour
 wider than the kerf anywhere, and a scrap between a lead-in and a lead-out that part from it.
 """
 
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 import shapely
@@ -20,6 +20,10 @@ _ON_IT = 0.1  # offsets: a start this near to the loop lies on it, and is no lea
 _NOTCH = 1.5  # offsets that an outline grows and shrinks by, which closes notches two offsets wide
 _COARSE_UM = 1.0
 _LED = 2.0  # offsets of edge that the lead-in made: more than where a lead-in meets its loop
+
+
+Kind = Literal["part", "slug", "scrap"]
+"""A part; a slug that the wire came from inside of; waste besides."""
 
 
 class Loose(NamedTuple):
@@ -46,20 +50,22 @@ class Loose(NamedTuple):
     older: Older | None
 
 
-def are_slugs(found: list[Loose], swept: tuple[Swept, ...], offset_um: float) -> list[bool]:
-    """Whether each of the pieces is waste."""
+def kinds_of(found: list[Loose], swept: tuple[Swept, ...], offset_um: float) -> list[Kind]:
+    """What each of the pieces is."""
     largest: dict[int, float] = {}
     for piece in found:
         for contour in piece.contours:
             largest[contour] = max(largest.get(contour, 0.0), piece.outline_um.area)
-    return [
-        _held_the_start(piece, swept, offset_um)
-        or (
-            any(largest[contour] > piece.outline_um.area for contour in piece.contours)
-            and (_is_sliver(piece.outline_um, offset_um) or _was_led_by(piece, swept, offset_um))
-        )
-        for piece in found
-    ]
+    kinds: list[Kind] = []
+    for piece in found:
+        beside_larger = any(largest[contour] > piece.outline_um.area for contour in piece.contours)
+        if _held_the_start(piece, swept, offset_um):
+            kinds.append("slug")
+        elif beside_larger and (_is_sliver(piece.outline_um, offset_um) or _was_led_by(piece, swept, offset_um)):
+            kinds.append("scrap")
+        else:
+            kinds.append("part")
+    return kinds
 
 
 def _held_the_start(piece: Loose, swept: tuple[Swept, ...], offset_um: float) -> bool:

@@ -9,10 +9,9 @@ import shapely
 from parser.toolpath import Point
 from sim.cut.kerf.region import Kerf
 from sim.cut.kerf.ways import WireWay, behind
-from sim.cut.pieces.bridges import Bridge, bridge_of, older_place
+from sim.cut.pieces.bridges import Bridge, bridge_of, held_after, older_place
 from sim.cut.pieces.frees import FreeMoment, FreeQuestion, cut_on_um, moment_of, parted
-from sim.cut.pieces.holds import held_after
-from sim.cut.pieces.kinds import Loose, are_slugs
+from sim.cut.pieces.kinds import Kind, Loose, kinds_of
 from sim.setup.obstacles import Outline
 
 _CRUMB_MM2 = 0.001  # some 30 µm square, or cusps where the wire leaves its kerf: nothing that anyone picks up
@@ -46,7 +45,9 @@ class Piece(NamedTuple):
     Attributes
     ----------
     kind
-        ``slug`` where the wire came from inside of it, a die's waste, else ``part``.
+        ``slug`` where the wire came from inside of it, a die's waste, and where it is scrap; else ``part``.
+    is_scrap
+        Whether it is waste that falls off beside a larger piece: it leaves no opening that is kept.
     outline_um
         Shapely polygon, with holes.
     area_mm2, mass_g, center_um
@@ -67,6 +68,7 @@ class Piece(NamedTuple):
     """
 
     kind: Literal["part", "slug"]
+    is_scrap: bool
     outline_um: shapely.Polygon
     area_mm2: float
     mass_g: float
@@ -110,9 +112,9 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material, pauses: S
     questions = [FreeQuestion(stock, part.representative_point(), held) for part in whole]
     told = [_loose(kerf, kerfs, part, question) for part, question in zip(whole, questions, strict=True)]
     loose = [piece for piece in told if piece is not None]
-    slugs = are_slugs(loose, kerf.swept, kerf.offset_um)
+    kinds = kinds_of(loose, kerf.swept, kerf.offset_um)
     cuts = _Cuts(kerf, kerfs, pauses, material)
-    found = [_piece(cuts, piece, is_slug=is_slug) for piece, is_slug in zip(loose, slugs, strict=True)]
+    found = [_piece(cuts, piece, kind) for piece, kind in zip(loose, kinds, strict=True)]
     pieces = sorted(found, key=lambda piece: piece.freed.t_s)
     return Pieces(_as_frame(frame, work_um, material), tuple(pieces), len(others) - len(whole))
 
@@ -163,21 +165,25 @@ def _loose(kerf: Kerf, kerfs: shapely.STRtree, part: shapely.Polygon, question: 
     return Loose(part, question, contours, moment, older)
 
 
-def _piece(cuts: _Cuts, loose: Loose, *, is_slug: bool) -> Piece:
+def _piece(cuts: _Cuts, loose: Loose, kind: Kind) -> Piece:
+    is_slug = kind != "part"
     kerf, part, older = cuts.kerf, loose.outline_um, loose.older
     contour, at = loose.moment.contour, loose.moment.at
     ways = [one.way for one in kerf.swept]
     lead_um = float(ways[contour].along_um[older.at]) if is_slug and older and older.contour == contour else 0.0
     area = part.area * 1e-6
     after = cut_on_um(loose.moment.piece_um, _ways_after(cuts, loose, is_slug=is_slug), kerf.offset_um)
-    held = held_after(loose, kerf.swept, cuts.pauses, kerf.offset_um)
+    freed = _freed(ways[contour], loose.moment)
+    beside = [ways[index] for index in loose.contours if index <= contour]
+    held = held_after(loose.moment.piece_um.exterior, beside, freed.block - 1, cuts.pauses, kerf.offset_um)
     return Piece(
         kind="slug" if is_slug else "part",
+        is_scrap=kind == "scrap",
         outline_um=part,
         area_mm2=area,
         mass_g=cuts.material.mass_g(area),
         center_um=Point(part.centroid.x, part.centroid.y),
-        freed=_freed(ways[contour], loose.moment),
+        freed=freed,
         bridge=bridge_of(ways, contour, at, older),
         held_after_block=held,
         cut_after_um=after,

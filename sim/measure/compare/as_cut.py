@@ -9,6 +9,9 @@ from shapely.geometry.polygon import orient
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Ints, curves_between, joined
 from parser.toolpath import Toolpath
+from sim.cut.kerf.makers import NOBODY, rows_that_made
+from sim.cut.kerf.region import Kerf
+from sim.cut.pieces.kept_shapes import kept_shapes
 from sim.cut.pieces.pieces import Pieces
 from sim.measure.compare.edge import Edge
 from sim.measure.compare.nearest import indexed, nearest
@@ -19,10 +22,10 @@ _SIMPLER_UM = 0.05
 _LONGEST_UM = 100.0  # of a side: two blocks may make one straight edge
 
 
-def edge_as_cut(toolpath: Toolpath, pieces: Pieces) -> Edge | None:
-    """Outlines of all parts, and of the openings that slugs leave in the frame; None where nothing came free.
+def edge_as_cut(toolpath: Toolpath, kerf: Kerf, pieces: Pieces) -> Edge | None:
+    """Outlines of all parts with their holes, and of the openings that slugs leave in the frame; None without any.
 
-    Each side belongs to the block that ran nearest to its middle.
+    Each side belongs to the block whose wire made it.
     """
     rings = list(_rings(pieces))
     if not rings:
@@ -32,22 +35,18 @@ def edge_as_cut(toolpath: Toolpath, pieces: Pieces) -> Edge | None:
     edge = joined(curves)
     return Edge(
         curves=edge,
-        block=_blocks(toolpath, edge),
+        block=_blocks(toolpath, edge, kerf),
         loop=np.repeat(np.arange(len(rings)), number),
         part_side=np.repeat([side for _, side in rings], number),
+        reach_um=kerf.offset_um,
     )
 
 
 def _rings(pieces: Pieces) -> Iterator[tuple[shapely.LinearRing, int]]:
-    """Closed edges, counter-clockwise round material, and the side that the part lies on."""
-    for piece in pieces.freed:
-        if piece.kind == "part":
-            polygon = orient(_simpler(piece.outline_um))
-            yield from ((ring, _PART_LEFT) for ring in (polygon.exterior, *polygon.interiors))
-    for opening in pieces.frame.openings_um:
-        within = [piece.kind for piece in pieces.freed if opening.contains(piece.outline_um)]
-        if within and "part" not in within:
-            yield orient(_simpler(opening)).exterior, _PART_RIGHT
+    """Outlines, counter-clockwise, and the side that the part lies on."""
+    for shape in kept_shapes(pieces):
+        outline = orient(_simpler(shapely.Polygon(shape.outline_um.exterior))).exterior
+        yield outline, _PART_LEFT if shape.what == "part" else _PART_RIGHT
 
 
 def _simpler(polygon: shapely.Polygon) -> shapely.Polygon:
@@ -61,9 +60,14 @@ def _sides(ring: shapely.LinearRing) -> Curves:
     return curves_between(corner[:-1], corner[1:], none, np.zeros(len(corner) - 1))
 
 
-def _blocks(toolpath: Toolpath, edge: Curves) -> Ints:
-    """Block (n,) of the program that ran nearest to the middle of each side; jumps cut nothing."""
-    cut = np.flatnonzero(~toolpath.is_jump)
+def _blocks(toolpath: Toolpath, edge: Curves, kerf: Kerf) -> Ints:
+    """Block (n,) of the program whose wire made the middle of each side.
+
+    Of what no wire made, as the edge of the work, it is the one that ran nearest; jumps cut nothing.
+    """
     middle = places(edge, np.arange(len(edge)), np.full(len(edge), 0.5))
-    row: Ints = cut[nearest(indexed(toolpath.picked(cut)), middle).row]
+    row = rows_that_made([one.way for one in kerf.swept], middle, kerf.offset_um)
+    nobody = np.flatnonzero(row == NOBODY)
+    cut = np.flatnonzero(~toolpath.is_jump)
+    row[nobody] = cut[nearest(indexed(toolpath.picked(cut)), middle[nobody]).row]
     return toolpath.source.block[row]

@@ -6,55 +6,68 @@ import numpy as np
 
 from parser.drawing.model import Drawing
 from parser.findings.remarks import Remark
-from parser.geometry.curves import Curves, Floats, Ints
-from parser.geometry.directions import headings, headings_at
-from parser.geometry.feet import feet
-from sim.measure.compare.directed import Directed, directed
+from parser.geometry.curves import Curves
+from parser.toolpath import Point
+from sim.measure.compare.consensus import settled
+from sim.measure.compare.directed import directed
 from sim.measure.compare.edge import Edge
 from sim.measure.compare.fit import fit
 from sim.measure.compare.nearest import indexed
-from sim.measure.compare.placement import IN_PLACE, Placement, placed
-from sim.measure.compare.result import Comparison
+from sim.measure.compare.placement import IN_PLACE, Placement, placed, turning
+from sim.measure.compare.result import Asked, Comparison
+from sim.measure.compare.sides import drawing_sides, edge_sides, part_sides
 from sim.measure.compare.slips import unit_slip
+from sim.measure.compare.unreachable import Reachable, Unreachable, as_drawn, reachable
 
 _MOST_LAYERS = 8  # named one by one
 
 
-def compare(edge: Edge, drawing: Drawing, tolerance_um: float, *, fitted: bool = True) -> Comparison:
-    """The edge against the drawing, one curve or more each; the drawing is turned and shifted on to it if `fitted`."""
-    index, loop = indexed(drawing.curves), _loop_of_row(drawing)
-    as_it_is = fit(edge.curves, edge.loop, index, loop) if fitted else None
+def compare(edge: Edge, drawing: Drawing, asked: Asked) -> Comparison:
+    """The edge against the drawing, one curve or more each.
+
+    The wire leaves fillets in sharp inside corners. Where these are told apart, the edge is held against the drawing
+    with the fillets; where they fail, against the drawing as it is.
+    """
+    whole = as_drawn(drawing)
+    index = indexed(whole.curves)
+    as_it_is = fit(edge.curves, edge.loop, index, whole.loop) if asked.fitted else None
     placement = as_it_is.placement if as_it_is else IN_PLACE
-    laid = placed(drawing.curves, placement)
+    rolled = reachable(drawing, part_sides(edge, drawing, placement), edge.reach_um)
+    target = rolled if asked.sharp_corners == "tell" else whole
+    if as_it_is:
+        placement = settled(edge, target, placement, asked.tolerance_um)
+    laid = placed(target.curves, placement)
     there, back = directed(edge.curves, indexed(laid)), directed(laid, indexed(edge.curves))
-    slip = unit_slip(edge.curves, edge.loop, index, loop, as_it_is)
-    gouges = tuple(gouge for gouge in edge.gouges if gouge.depth_um > tolerance_um)
-    names = [slip.remark] if slip else _posed(placement, edge.curves, tolerance_um)
+    slip = unit_slip(edge.curves, edge.loop, index, whole.loop, as_it_is)
+    gouges = tuple(gouge for gouge in edge.gouges if gouge.depth_um > asked.tolerance_um)
+    names = [slip.remark] if slip else _posed(placement, edge.curves, asked.tolerance_um)
     names += [Remark("lead-in-part", {"block": gouge.block, "depth": gouge.depth_um}) for gouge in gouges]
     return Comparison(
         edge=edge,
         drawing=drawing,
+        target=target,
         laid=laid,
+        asked=asked,
         placement=placement,
-        fitted=fitted,
         scale=slip.scale if slip else 1.0,
         edge_to_drawing=there,
         drawing_to_edge=back,
-        edge_side=_edge_sides(edge, laid, there),
-        drawing_side=_drawing_sides(edge, back),
+        edge_side=edge_sides(edge, laid, there),
+        drawing_side=drawing_sides(edge, back),
         gouges=gouges,
-        tolerance_um=tolerance_um,
+        unreachable=_where_laid(rolled, placement),
         names=tuple(names),
-        notes=(*edge.notes, *_of_drawing(drawing)),
+        notes=(*edge.notes, *_of_drawing(drawing), *_of_corners(target)),
     )
 
 
-def _loop_of_row(drawing: Drawing) -> Ints:
-    """Which closed loop each curve of the drawing belongs to, from 0; −1 for none."""
-    loop = np.full(len(drawing.curves), -1, dtype=np.int64)
-    for number, closed in enumerate(each for each in drawing.loops if each.closed):
-        loop[closed.row] = number
-    return loop
+def _where_laid(rolled: Reachable, placement: Placement) -> tuple[Unreachable, ...]:
+    """The places that the wire cannot reach, in the program's coordinates."""
+    matrix, shift = turning(placement.turn_rad, mirror=placement.mirror), np.array(placement.shift_um)
+    return tuple(
+        place._replace(where_um=Point(*(matrix @ np.array(place.where_um) + shift).tolist()))
+        for place in rolled.unreachable
+    )
 
 
 def _of_drawing(drawing: Drawing) -> Iterator[Remark]:
@@ -69,6 +82,13 @@ def _of_drawing(drawing: Drawing) -> Iterator[Remark]:
         yield Remark("all-layers", {"layers": ", ".join([*layers[:_MOST_LAYERS], *more])})
 
 
+def _of_corners(target: Reachable) -> Iterator[Remark]:
+    """That some of the drawing is not held against the edge."""
+    if target.unreachable:
+        deepest = max(corner.depth_um for corner in target.unreachable)
+        yield Remark("sharp-corners", {"number": len(target.unreachable), "depth": deepest})
+
+
 def _posed(placement: Placement, edge: Curves, tolerance_um: float) -> list[Remark]:
     """What is to be said of how the drawing had to be laid; a turn that moves no place past the tolerance is none."""
     names = []
@@ -78,23 +98,3 @@ def _posed(placement: Placement, edge: Curves, tolerance_um: float) -> list[Rema
     if abs(placement.turn_rad) * size > tolerance_um:
         names.append(Remark("turned", {"turn_deg": float(np.degrees(placement.turn_rad))}))
     return names
-
-
-def _edge_sides(edge: Edge, laid: Curves, there: Directed) -> Floats:
-    """Sides (n,) of the largest distance of each curve of the edge."""
-    row = np.arange(len(edge.curves))
-    foot = feet(laid, there.other, there.where_um).place_um
-    return _sides(headings(edge.curves, row, there.fraction), edge.part_side, there.where_um - foot)
-
-
-def _drawing_sides(edge: Edge, back: Directed) -> Floats:
-    """Sides (n,) of the largest distance of each curve of the drawing."""
-    foot = feet(edge.curves, back.other, back.where_um).place_um
-    heading = headings_at(edge.curves, back.other, foot)
-    return _sides(heading, edge.part_side[back.other], foot - back.where_um)
-
-
-def _sides(heading: Floats, part_side: Ints, from_drawing: Floats) -> Floats:
-    """+1 where the edge lies outside of the drawing's part, −1 inside: moved on to the side where the part lies."""
-    to_left = heading[:, 0] * from_drawing[:, 1] - heading[:, 1] * from_drawing[:, 0]
-    return -np.sign(to_left) * part_side

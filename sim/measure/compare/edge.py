@@ -1,7 +1,9 @@
 """The cut edge: where the part ends once the program is cut, curve by curve with the blocks that make it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
+
+import numpy as np
 
 from parser.findings.remarks import Remark
 from parser.geometry.curves import Curves, Ints
@@ -32,6 +34,8 @@ class Edge:
         (n,) +1 with the part on the left of the curve, −1 on its right, 0 where that is not known.
     offset_um
         How far the wire cuts past its path, where the edge is made of that; None of an edge as cut.
+    reach_um
+        How far the wire cuts past its centre: what no inside corner can be sharper than; 0 where any can.
     gouges
         Where lead-ins and lead-outs cut into the part beside it.
     notes
@@ -43,5 +47,15 @@ class Edge:
     loop: Ints
     part_side: Ints
     offset_um: float | None = None
+    reach_um: float = 0.0
     gouges: tuple[LeadGouge, ...] = ()
     notes: tuple[Remark, ...] = ()
+
+    def on(self, loops: Ints) -> "Edge":
+        """Some of its loops, whose curves stand together, numbered anew."""
+        first, past = (np.searchsorted(self.loop, loops, side=side) for side in ("left", "right"))
+        loop = np.repeat(np.arange(len(loops)), past - first)
+        rows = np.arange(len(loop)) + (first - np.cumsum(past - first) + past - first)[loop]
+        return replace(
+            self, curves=self.curves.picked(rows), block=self.block[rows], loop=loop, part_side=self.part_side[rows]
+        )

@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 from parser.geometry.along import places
-from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.toolpath import Point
 from sim.measure.compare.edge import Edge, LeadGouge
 from sim.measure.compare.nearest import Index, indexed, nearest
@@ -43,12 +43,33 @@ def gouges(edge: Edge, leads: Curves, block: Ints, offset_um: float) -> tuple[Le
     return tuple(sorted(found))
 
 
-def _part(edge: Edge) -> _Part:
-    loops = [edge.curves.picked(edge.loop == of) for of in range(int(edge.loop.max()) + 1)]
+def of_parts(edge: Edge) -> Bools:
+    """(k,) whether each loop of an edge is round a part, or round an opening of one; else it is one of the frame."""
+    loops = _loops(edge)
+    within = _within(edge, loops)
+    shapes = shapely.STRtree([polygon(loops[at]) for at in np.flatnonzero(within).tolist()])
+    begins = shapely.points([loop.start_um[0] for loop in loops])
+    found = within.copy()
+    found[shapes.query(begins, predicate="within")[0]] = True
+    return found
+
+
+def _within(edge: Edge, loops: list[Curves]) -> Bools:
+    """(k,) whether the part lies within each loop."""
     sides = edge.part_side[np.searchsorted(edge.loop, np.arange(len(loops)))]
-    inside = sides == np.array([orientation(loop) for loop in loops])
+    within: Bools = sides == np.array([orientation(loop) for loop in loops])
+    return within
+
+
+def _loops(edge: Edge) -> list[Curves]:
+    return [edge.curves.picked(edge.loop == of) for of in range(int(edge.loop.max()) + 1)]
+
+
+def _part(edge: Edge) -> _Part:
+    loops = _loops(edge)
     shapes = shapely.STRtree([polygon(loop) for loop in loops])
-    return _Part(indexed(edge.curves), edge.loop, shapes, inside.astype(np.int64), (sides != 0).astype(np.int64))
+    known = edge.part_side[np.searchsorted(edge.loop, np.arange(len(loops)))] != 0
+    return _Part(indexed(edge.curves), edge.loop, shapes, _within(edge, loops).astype(np.int64), known.astype(np.int64))
 
 
 def _depth(part: _Part, place_um: Floats, offset_um: float) -> Floats:

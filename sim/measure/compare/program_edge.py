@@ -1,4 +1,4 @@
-"""The cut edge of a program: every loop of its path, moved by the offset to the side of the part."""
+"""The cut edge of a program: the innermost edge that its passes leave beside each loop, on the side of the part."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -13,8 +13,9 @@ from parser.findings.remarks import Remark
 from parser.geometry.curves import Ints, joined
 from parser.toolpath import Toolpath
 from sim.measure.compare.edge import Edge
-from sim.measure.compare.leads import gouges
-from sim.measure.compare.rings import PathLoop, Rings, orientation, polygon, rings_of
+from sim.measure.compare.leads import gouges, of_parts
+from sim.measure.compare.rings import PathEdge, PathLoop, Rings, orientation, polygon, rings_of
+from sim.measure.compare.several_passes import left_by_passes
 
 
 class ProgramEdges(NamedTuple):
@@ -27,6 +28,11 @@ class ProgramEdges(NamedTuple):
     sides: tuple[Ints, ...]
     offset_um: float
 
+    def alone(self, at: int) -> "ProgramEdges":
+        """One of the rings by itself."""
+        rings = self.rings._replace(rings=self.rings.rings[at : at + 1], open_blocks=())
+        return self._replace(rings=rings, sides=tuple(sides[[at]] for sides in self.sides))
+
 
 def program_edges(toolpath: Toolpath, offset_um: float) -> ProgramEdges:
     """Loops and sides of a program whose wire cuts `offset_um` past its path; no loop where no contour closes."""
@@ -38,24 +44,29 @@ def program_edges(toolpath: Toolpath, offset_um: float) -> ProgramEdges:
     return ProgramEdges(rings, tuple(np.where(told == 0, guess, told) for guess in (nested, -nested)), offset_um)
 
 
-def _nested_sides(rings: Sequence[PathLoop]) -> Ints:
+def _nested_sides(rings: Sequence[PathEdge]) -> Ints:
     """Side (k,) of each ring's part, +1 left, −1 right, if outermost rings are parts and those in them holes."""
-    shapes = [polygon(ring.curves) for ring in rings]
-    begins = shapely.points([ring.curves.start_um[0] for ring in rings])
+    shapes = [polygon(ring.loop.curves) for ring in rings]
+    begins = shapely.points([ring.loop.curves.start_um[0] for ring in rings])
     inner, _ = shapely.STRtree(shapes).query(begins, predicate="within")
     depth = np.bincount(inner, minlength=len(rings))
-    turns = np.array([orientation(ring.curves) for ring in rings], dtype=np.int64)
+    turns = np.array([orientation(ring.loop.curves) for ring in rings], dtype=np.int64)
     return turns * np.where(depth % 2 == 0, 1, -1)
 
 
 def edge_at(of: ProgramEdges, sides: Ints, offset_um: float) -> Edge:
-    """The edge `offset_um` to the side of the part, negative to the other side, 0 for the path itself."""
+    """The edge `offset_um` to the side of the part, negative to the other side, 0 for the path itself.
+
+    A wire cuts it where the offset is above 0; the others tell only where an edge would lie.
+    """
     loops, notes = [], []
     for ring, side in zip(of.rings.rings, sides.tolist(), strict=True):
         made = _moved(ring, side, offset_um)
         if not made:
-            first, last = int(ring.block[0]), int(ring.block[-1])
-            notes.append(Remark("no-edge-beside", {"first": first, "last": last, "offset": offset_um}))
+            span = dict(zip(("first", "last"), ring.last_blocks, strict=True))
+            beside = Remark("no-edge-beside", {**span, "offset": offset_um})
+            # Several passes leave none where they leave a gap, such as a tab that is never cut.
+            notes.append(Remark("no-loop", span) if len(ring.passes) > 1 else beside)
         loops += made
     notes += [Remark("no-loop", {"first": first, "last": last}) for first, last in of.rings.open_blocks]
     if not loops:
@@ -68,20 +79,51 @@ def edge_at(of: ProgramEdges, sides: Ints, offset_um: float) -> Edge:
         loop=np.repeat(np.arange(len(loops)), number),
         part_side=np.repeat(np.array([loop.part_side for loop in loops], dtype=np.int64), number),
         offset_um=offset_um,
+        reach_um=max(offset_um, 0.0),
         notes=tuple(notes),
     )
 
 
 def with_gouges(of: ProgramEdges, edge: Edge) -> Edge:
-    """The edge with what the program's leads cut into the part beside it."""
-    found = gouges(edge, of.rings.leads, of.rings.lead_block, of.offset_um)
-    return replace(edge, gouges=found)
+    """The edge with what the program's leads cut into parts.
+
+    A lead is held against every part that is cut out, and against the frame round the openings of its own contour: what
+    it cuts of the frame beside the openings of others, as on its way to a punch, is no gouge.
+    """
+    rings, reach_um = of.rings, of.offset_um
+    cut_out, ring_of_loop = of_parts(edge), _ring_of_loop(of, edge)
+    found = [gouges(edge.on(np.flatnonzero(cut_out)), rings.leads, rings.lead_block, reach_um)]
+    in_contour: dict[int, list[int]] = {}
+    for at, ring in enumerate(rings.rings):
+        for contour in ring.contours.tolist():
+            in_contour.setdefault(contour, []).append(at)
+    for contour in np.unique(rings.lead_contour).tolist():
+        own = np.flatnonzero(np.isin(ring_of_loop, in_contour[contour]) & ~cut_out)
+        leads = np.flatnonzero(rings.lead_contour == contour)
+        found.append(gouges(edge.on(own), rings.leads.picked(leads), rings.lead_block[leads], reach_um))
+    return replace(edge, gouges=tuple(sorted(gouge for each in found for gouge in each)))
 
 
-def _moved(ring: PathLoop, side: int, offset_um: float) -> list[PathLoop]:
-    """The ring moved to a side, in as many pieces as that makes."""
+def _ring_of_loop(of: ProgramEdges, edge: Edge) -> Ints:
+    """Which ring each loop (k,) of the edge is of: that whose passes its blocks are in."""
+    ring_of_block = np.zeros(max(int(ring.block.max()) for ring in of.rings.rings) + 1, dtype=np.int64)
+    for at, ring in enumerate(of.rings.rings):
+        ring_of_block[ring.block] = at
+    first_row = np.flatnonzero(np.diff(edge.loop, prepend=-1))
+    of_loop: Ints = ring_of_block[edge.block[first_row]]
+    return of_loop
+
+
+def _moved(ring: PathEdge, side: int, offset_um: float) -> list[PathLoop]:
+    """The edge of a ring, in as many pieces as that makes: of one pass, or of several what all of them leave.
+
+    On the other side, and on the path itself, it is that of the last pass.
+    """
+    if offset_um > 0.0 and len(ring.passes) > 1:
+        return left_by_passes(ring.passes, side, offset_um)
+    curves, block, _ = ring.loop
     if offset_um == 0.0:
-        return [ring._replace(part_side=side)]
+        return [PathLoop(curves, block, side)]
     toward = Side(side if offset_um > 0.0 else -side)
-    reached = reach(ring.curves, abs(offset_um), toward)
-    return [PathLoop(loop.curves, ring.block[loop.source_row], side) for loop in reached.loops]
+    reached = reach(curves, abs(offset_um), toward)
+    return [PathLoop(loop.curves, block[loop.source_row], side) for loop in reached.loops]

@@ -10,6 +10,26 @@ from parser.toolpath import Point
 from sim.measure.compare.directed import Directed
 from sim.measure.compare.edge import Edge, LeadGouge
 from sim.measure.compare.placement import Placement
+from sim.measure.compare.unreachable import Reachable, Unreachable
+from sim.setup.part import SharpCorners
+
+
+class Asked(NamedTuple):
+    """How an edge is to be held against a drawing.
+
+    Attributes
+    ----------
+    tolerance_um
+        Largest deviation that passes.
+    fitted
+        Whether the drawing is turned and shifted on to the edge; else it is taken as it lies.
+    sharp_corners
+        Whether what the wire must leave in sharp inside corners is told apart, or fails.
+    """
+
+    tolerance_um: float
+    fitted: bool = True
+    sharp_corners: SharpCorners = "tell"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -20,10 +40,13 @@ class Comparison:
     ----------
     edge, drawing
         What was compared.
-    laid
-        The drawing's curves in the program's coordinates.
-    placement, fitted
-        Where the drawing lies in the program's coordinates, and whether it was fitted there.
+    target, laid
+        What the edge is held against: the drawing's curves, with a fillet in each inside corner that the wire cannot
+        reach where these do not fail; and they in the program's coordinates.
+    asked
+        How they were held against each other.
+    placement
+        Where the drawing lies in the program's coordinates.
     scale
         How many times as large as the drawing the program is, by a slip of units; 1 without. Nothing is scaled.
     edge_to_drawing, drawing_to_edge
@@ -33,8 +56,8 @@ class Comparison:
         that is not known.
     gouges
         Leads that cut into the part by more than the tolerance.
-    tolerance_um
-        Largest deviation that passes.
+    unreachable
+        The sharp inside corners that the wire cannot reach, in the program's coordinates.
     names
         What is wrong as a whole, such as a slip of units.
     notes
@@ -43,16 +66,17 @@ class Comparison:
 
     edge: Edge
     drawing: Drawing
+    target: Reachable
     laid: Curves
+    asked: Asked
     placement: Placement
-    fitted: bool
     scale: float
     edge_to_drawing: Directed
     drawing_to_edge: Directed
     edge_side: Floats
     drawing_side: Floats
     gouges: tuple[LeadGouge, ...]
-    tolerance_um: float
+    unreachable: tuple[Unreachable, ...]
     names: tuple[Remark, ...]
     notes: tuple[Remark, ...]
 
@@ -76,7 +100,29 @@ class Comparison:
     @property
     def passes(self) -> bool:
         """Whether nothing deviates by more than the tolerance, and units agree."""
-        return self.max_um <= self.tolerance_um and self.scale == 1.0
+        return self.max_um <= self.asked.tolerance_um and self.scale == 1.0
+
+
+class CornerPlace(NamedTuple):
+    """A sharp inside corner that the wire cannot reach, in the program's coordinates.
+
+    Attributes
+    ----------
+    where_um
+        The deepest place of it, on the drawing.
+    depth_um
+        How far that lies from what the wire can leave.
+    angle_rad
+        Between its two sides.
+    block, entity
+        The block that cuts nearest to it, and the number of the drawing's entity there, from 0.
+    """
+
+    where_um: Point
+    depth_um: float
+    angle_rad: float
+    block: int
+    entity: int
 
 
 class WorstPlace(NamedTuple):

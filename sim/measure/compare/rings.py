@@ -1,62 +1,153 @@
-"""The closed loops of a program's contours, each cut to one turn, and what is cut before and behind them."""
+"""What the wire's path cuts along each edge: its passes, each closed one cut to one turn, and the leads beside them."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
+from parser.drawing.model import running
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.geometry.feet import feet
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import contour_rows
-from parser.shape.loops import find_loops
+from parser.shape.passes import Pass, Passes, find_passes
 from parser.toolpath import Toolpath
 
 _SAGITTA_UM = 0.05  # of the chords of an outline
 
 
 class PathLoop(NamedTuple):
-    """One closed loop of the wire's path: its curves, end to start, and the block of each.
-
-    `part_side` is +1 with the part on the left, −1 on the right, 0 where no lead-in tells.
-    """
+    """One closed loop: its curves, end to start, and the block of each; `part_side` +1 with the part on the left."""
 
     curves: Curves
     block: Ints
     part_side: int
 
 
+class PathPass(NamedTuple):
+    """One pass over an edge: its curves and the block of each; `sense` is −1 where it runs against the first one."""
+
+    curves: Curves
+    block: Ints
+    sense: int
+
+
+class PathEdge(NamedTuple):
+    """What the wire cuts along one edge.
+
+    Attributes
+    ----------
+    passes
+        In the order they are cut.
+    loop
+        The way round of the last of them, of the last one over the tab too, run as the first pass; gaps are bridged.
+    part_side
+        +1 with the part on the left of the loop, −1 on the right, 0 where no lead-in tells.
+    contours
+        Numbers of the contours that they are cut in.
+    """
+
+    passes: tuple[PathPass, ...]
+    loop: PathPass
+    part_side: int
+    contours: Ints
+
+    @property
+    def block(self) -> Ints:
+        """Blocks of all passes."""
+        return np.concatenate([one.block for one in self.passes])
+
+    @property
+    def last_blocks(self) -> tuple[int, int]:
+        """The first and the last block of the last way round."""
+        return int(self.loop.block.min()), int(self.loop.block.max())
+
+
 class Rings(NamedTuple):
-    """Loops of a program; `leads` is cut outside of any of them, `lead_block` (m,) tells by which blocks.
+    """Edges of a program; `leads` is cut beside any pass over them, by which blocks and in which contours (m,).
 
     `open_blocks` are the first and last blocks of contours that close no loop.
     """
 
-    rings: tuple[PathLoop, ...]
+    rings: tuple[PathEdge, ...]
     leads: Curves
     lead_block: Ints
+    lead_contour: Ints
     open_blocks: tuple[tuple[int, int], ...]
 
 
 def rings_of(toolpath: Toolpath) -> Rings:
-    """Loops of all contours, the leads beside them, and the contours without one."""
-    contour = contour_rows(toolpath)
-    loops = find_loops(toolpath, contour, np.arange(contour.max(initial=-1) + 1))
-    block = toolpath.source.block
-    rings, leads, on_leads = [], [], []
-    for first, last, side in zip(loops.first.tolist(), loops.last.tolist(), loops.part_side.tolist(), strict=True):
-        row = np.arange(first, last + 1)
-        to_start, beyond = _parted(toolpath.picked(row[-1:]), toolpath.start_um[first], alone=first == last)
-        rings.append(PathLoop(joined([toolpath.picked(row[:-1]), to_start]), block[row], side))
-        leads.append(beyond)
-        on_leads.append(block[row[len(row) - len(beyond) :]])
-    is_lead = np.isin(contour, loops.contour)
-    is_lead &= ~_within(len(toolpath), loops.first, loops.last)
-    leads.append(toolpath.picked(is_lead))
-    on_leads.append(block[is_lead])
-    return Rings(tuple(rings), joined(leads), np.concatenate(on_leads), _open(contour, loops.contour, block))
+    """Edges of all contours, the leads beside them, and the contours without one."""
+    found = find_passes(toolpath)
+    block, contour = toolpath.source.block, contour_rows(toolpath)
+    rings, open_blocks, within = [], [], []
+    leads: list[PathPass] = []
+    for passes in _by_edge(found):
+        if len(passes) == 1 and not passes[0].is_closed:
+            open_blocks.append((int(block[passes[0].first]), int(block[passes[0].last])))
+            continue
+        made, rests = zip(*(_path(toolpath, one) for one in passes), strict=True)
+        contours = contour[[one.first for one in passes]]
+        rings.append(PathEdge(made, _way_round(passes, made), _part_side(passes), np.unique(contours)))
+        leads += rests
+        within += [np.full(len(rest.block), of) for rest, of in zip(rests, contours.tolist(), strict=True)]
+    led = np.concatenate([ring.contours for ring in rings]) if rings else np.empty(0, dtype=np.int64)
+    is_lead = (found.of_row < 0) & (contour >= 0) & np.isin(contour, led)
+    leads.append(PathPass(toolpath.picked(is_lead), block[is_lead], 1))
+    return Rings(
+        rings=tuple(rings),
+        leads=joined([lead.curves for lead in leads]),
+        lead_block=np.concatenate([lead.block for lead in leads]),
+        lead_contour=np.concatenate([*within, contour[is_lead]]),
+        open_blocks=tuple(open_blocks),
+    )
+
+
+def _by_edge(found: Passes) -> list[list[Pass]]:
+    """The passes over each edge."""
+    edges: dict[int, list[Pass]] = {}
+    for one in found.passes:
+        edges.setdefault(one.edge, []).append(one)
+    return list(edges.values())
+
+
+def _path(toolpath: Toolpath, one: Pass) -> tuple[PathPass, PathPass]:
+    """The path of a pass, one turn of it where it closes, and what is cut behind that turn."""
+    row = np.arange(one.first, one.last + 1)
+    block, sense = toolpath.source.block[row], -1 if one.is_back else 1
+    if not one.is_closed:
+        return PathPass(toolpath.picked(row), block, sense), PathPass(toolpath.picked(row[:0]), block[:0], sense)
+    alone = one.first == one.last
+    to_start, rest = _parted(toolpath.picked(row[-1:]), toolpath.start_um[one.first], alone=alone)
+    ring = PathPass(joined([toolpath.picked(row[:-1]), to_start]), block, sense)
+    return ring, PathPass(rest, block[len(row) - len(rest) :], sense)
+
+
+def _part_side(passes: Sequence[Pass]) -> int:
+    """Side of the part along the first pass over an edge, told by the first pass that has one."""
+    told = (-one.part_side if one.is_back else one.part_side for one in passes)
+    return next((side for side in told if side), 0)
+
+
+def _way_round(passes: Sequence[Pass], made: Sequence[PathPass]) -> PathPass:
+    """The last pass all along the edge, and the last one over the tab behind it, run as the first pass."""
+    last = [
+        max((at for at, one in enumerate(passes) if one.is_tab == is_tab), default=None) for is_tab in (False, True)
+    ]
+    ahead = [_ahead(made[at]) for at in last if at is not None]
+    if len(ahead) == 1:
+        return ahead[0]
+    return PathPass(joined([one.curves for one in ahead]), np.concatenate([one.block for one in ahead]), 1)
+
+
+def _ahead(one: PathPass) -> PathPass:
+    """A pass, turned round where it runs against the first one."""
+    if one.sense > 0:
+        return one
+    back = np.arange(len(one.curves))[::-1]
+    return PathPass(running(one.curves, back, np.ones(len(back), dtype=np.bool_)), one.block[::-1], 1)
 
 
 def outline(curves: Curves) -> Floats:
@@ -82,15 +173,6 @@ def orientation(curves: Curves) -> int:
     return 1 if float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) >= 0.0 else -1
 
 
-def _within(n: int, first: Ints, last: Ints) -> NDArray[np.bool_]:
-    """(n,) True on rows from `first` to `last` of any loop."""
-    edges = np.zeros(n + 1, dtype=np.int64)
-    np.add.at(edges, first, 1)
-    np.add.at(edges, last + 1, -1)
-    within: NDArray[np.bool_] = np.cumsum(edges[:-1]) > 0
-    return within
-
-
 def _parted(curves: Curves, place_um: Floats, *, alone: bool) -> tuple[Curves, Curves]:
     """One curve up to its foot of a place, and the rest of it; `alone` it is a loop by itself, of a whole turn."""
     if not alone and np.hypot(*(curves.end_um[0] - place_um)) <= CLOSED_WITHIN_UM:
@@ -105,9 +187,3 @@ def _parted(curves: Curves, place_um: Floats, *, alone: bool) -> tuple[Curves, C
     both = curves_between(starts, ends, curves.center_um[[0, 0]], np.array([turned, sweep - turned]))
     rest = both.length_um[1] > CLOSED_WITHIN_UM
     return both.picked(slice(0, 1)), both.picked(slice(1, 2) if rest else slice(0, 0))
-
-
-def _open(contour: Ints, closed: Ints, block: Ints) -> tuple[tuple[int, int], ...]:
-    """First and last blocks of the contours that are not among the closed ones."""
-    numbers = np.setdiff1d(contour[contour >= 0], closed).tolist()
-    return tuple((int(block[contour == of][0]), int(block[contour == of][-1])) for of in numbers)

@@ -30,6 +30,17 @@ class RigidMotion(NamedTuple):
     matrix: Floats
     shift_um: Floats
 
+    @property
+    def mirror(self) -> bool:
+        """Whether it mirrors."""
+        return bool(np.linalg.det(self.matrix) < 0.0)
+
+    @property
+    def turn_rad(self) -> float:
+        """How far it turns, behind the mirror."""
+        side = -1.0 if self.mirror else 1.0
+        return float(np.arctan2(side * self.matrix[1, 0], side * self.matrix[0, 0]))
+
     def of(self, place_um: Floats) -> Floats:
         """Places (m, 2) moved."""
         return place_um @ self.matrix.T + self.shift_um

@@ -6,7 +6,8 @@ import numpy as np
 
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Point
-from sim.measure.compare.result import Comparison, WorstPlace
+from sim.measure.compare.nearest import indexed, nearest
+from sim.measure.compare.result import Comparison, CornerPlace, WorstPlace
 
 _MOST_PLACES = 10
 _APART = 0.02  # of the edge's extent: worst places lie no nearer to each other
@@ -59,6 +60,17 @@ def worst_places(of: Comparison) -> tuple[WorstPlace, ...]:
     return tuple(places)
 
 
+def corner_places(of: Comparison) -> tuple[CornerPlace, ...]:
+    """The sharp inside corners that the wire cannot reach, in the order of the drawing's curves."""
+    if not of.unreachable:
+        return ()
+    near = nearest(indexed(of.edge.curves), np.array([corner.where_um for corner in of.unreachable]))
+    return tuple(
+        CornerPlace(corner.where_um, corner.depth_um, corner.angle_rad, block, corner.entity)
+        for corner, block in zip(of.unreachable, of.edge.block[near.row].tolist(), strict=True)
+    )
+
+
 def by_block(of: Comparison) -> tuple[WorstPlace, ...]:
     """The largest deviation of the edge of each block that has one, in the order of the blocks."""
     rows = _from_edge(of)
@@ -84,7 +96,7 @@ def _from_edge(of: Comparison) -> _Rows:
         np.append(of.edge_side, np.full(len(gouges), -1.0)),
         np.concatenate([there.where_um, np.array([gouge.where_um for gouge in gouges]).reshape(-1, 2)]),
         np.append(of.edge.block, np.array([gouge.block for gouge in gouges], dtype=np.int64)),
-        np.append(of.drawing.entity[there.other], np.full(len(gouges), -1)),
+        np.append(of.target.entity[there.other], np.full(len(gouges), -1)),
         ("edge",) * len(there.max_um) + ("lead",) * len(gouges),
     )
 
@@ -93,4 +105,4 @@ def _from_drawing(of: Comparison) -> _Rows:
     back = of.drawing_to_edge
     block = of.edge.block[back.other]
     names = ("drawing",) * len(back.max_um)
-    return _Rows(back.max_um, of.drawing_side, back.where_um, block, of.drawing.entity, names)
+    return _Rows(back.max_um, of.drawing_side, back.where_um, block, of.target.entity, names)

@@ -11,7 +11,7 @@ from sim.check.result import CheckResult, CheckState, Coverage
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import joined, spot, tidy
 from sim.show.findings.totals import BLOCKS, Totals
-from sim.show.findings.wording import message
+from sim.show.terminal.finding import message
 
 SCHEMA = "drycut.check/1"
 

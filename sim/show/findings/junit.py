@@ -18,7 +18,8 @@ from parser.text.excerpt import place
 from sim.check.result import CheckResult, CheckState
 from sim.show.findings.options import Options
 from sim.show.findings.totals import BLOCKS
-from sim.show.findings.wording import message, reason, with_hint
+from sim.show.findings.wording import reason, with_hint
+from sim.show.terminal.finding import message
 from sim.show.words import Words
 
 # What XML 1.0 can hold, section 2.2; a line of text needs no other controls.

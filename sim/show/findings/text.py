@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import click
 
-from parser.findings.catalogue import Language, length, page, texts
+from parser.findings.catalogue import Language, length, page
 from parser.findings.codes import CODES
 from parser.findings.findings import Finding
 from parser.text.encoding import printable
@@ -16,8 +16,9 @@ from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import spot
 from sim.show.findings.totals import Totals
-from sim.show.findings.wording import coverage, message, summary, verdicts
+from sim.show.findings.wording import coverage, summary, verdicts
 from sim.show.terminal.colours import COLOURS
+from sim.show.terminal.finding import hint, message
 from sim.show.words import Words
 
 _GAP = "  "  # between the columns of the table
@@ -64,9 +65,9 @@ def _source(result: CheckResult, finding: Finding, gutter: str, options: Options
 
 
 def _hint(finding: Finding, gutter: str, language: Language) -> Iterator[str]:
-    hint, say = texts(finding, language).hint, Words(language)
-    if hint:
-        yield f"  {gutter} = {say('findings.hint')}{say('findings.colon')}{printable(hint)}"
+    told = hint(finding, language)
+    if told:
+        yield f"  {gutter} = {printable(told)}"
 
 
 def _styled(text: str, options: Options, fg: str | None = None, bold: bool | None = None) -> str:

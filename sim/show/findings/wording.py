@@ -2,27 +2,20 @@
 
 from collections.abc import Iterable, Mapping
 
-from parser.findings.catalogue import Language, term, texts
+from parser.findings.catalogue import Language, term
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from sim.check.result import CheckResult, CheckState, State
 from sim.show.findings.totals import Totals
+from sim.show.terminal.finding import hint, message
 from sim.show.words import Words
 
 _STATES: tuple[State, ...] = ("complete", "incomplete", "not asked")
 
 
-def message(finding: Finding, language: Language) -> str:
-    """What a finding says, with its block before it."""
-    text = texts(finding, language).message
-    return Words(language)("findings.block", block=finding.block, message=text) if finding.block else text
-
-
 def with_hint(finding: Finding, language: Language) -> str:
     """What a finding says, and in a second line how to mend it."""
-    hint, say = texts(finding, language).hint, Words(language)
-    text = message(finding, language)
-    return f"{text}\n{say('findings.hint')}{say('findings.colon')}{hint}" if hint else text
+    return "\n".join(line for line in (message(finding, language), hint(finding, language)) if line)
 
 
 def reason(check: CheckState, language: Language) -> str:

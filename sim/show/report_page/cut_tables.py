@@ -87,6 +87,21 @@ def worst_table(entries: list[dict[str, Any]]) -> ReportTable:
     )
 
 
+def corner_table(entries: list[dict[str, Any]]) -> ReportTable:
+    """Sharp inside corners of the drawing that the wire cannot reach, and what it must leave in them."""
+    return ReportTable(
+        "corners",
+        (
+            micrometres("left-at-least", column_of(entries, "depth_um"), digits=3),
+            Column(said("report.angle"), column_of(entries, "angle_deg"), unit="°", digits=1),
+            millimetres("at-x", column_of(entries, "where_um.0")),
+            millimetres("at-y", column_of(entries, "where_um.1")),
+            counted("block", column_of(entries, "block")),
+            counted("entity", column_of(entries, "entity")),
+        ),
+    )
+
+
 def _of_what(entries: list[dict[str, Any]]) -> tuple[Column, ...]:
     return (worded("what", column_of(entries, "what")),)
 

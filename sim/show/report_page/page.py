@@ -13,7 +13,7 @@ from sim.show.assumptions import taken_for_granted
 from sim.show.draw.paints import DARK, Theme, hexadecimal
 from sim.show.html.environment import rendered
 from sim.show.pictures.inline import Inline
-from sim.show.report_page.cut_tables import piece_table, size_tables, worst_table
+from sim.show.report_page.cut_tables import corner_table, piece_table, size_tables, worst_table
 from sim.show.report_page.figures import key_figures, time_figures, why
 from sim.show.report_page.findings import explained, inline, shown_findings
 from sim.show.report_page.reproduce import reproduction
@@ -76,7 +76,7 @@ def _tables(run: DryRun, report: Mapping[str, Any]) -> list[ReportTable]:
         limit_table(report),
         loss_table(report),
         *([piece_table(remains["pieces"]), *size_tables(remains["sizes"])] if remains else []),
-        *([worst_table(drawing["worst"])] if drawing else []),
+        *([worst_table(drawing["worst"]), corner_table(drawing["unreachable"])] if drawing else []),
         block_table(run, report),
         check_table(run),
         _expectation_table(run),

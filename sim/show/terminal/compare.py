@@ -10,9 +10,10 @@ from parser.findings.remarks import remark_text
 from parser.text.encoding import printable
 from parser.units import mm
 from sim.measure.compare.result import Comparison, WorstPlace
-from sim.measure.compare.tables import by_block, by_entity, worst_places
+from sim.measure.compare.tables import by_block, by_entity, corner_places, worst_places
 
 _MEASURED_FROM = {"edge": "cut edge", "drawing": "drawing", "lead": "lead"}
+_MOST_CORNERS = 10
 _SHOWN_UM = 5e-4  # what is not printed as 0.000
 _SIDES = {1: "left", -1: "gouged", 0: ""}
 
@@ -29,13 +30,15 @@ def print_comparison(of: Comparison, program: str, offset: str) -> None:
         table.add_row(name, escape(value))
     console.print(table)
     console.print(_worst(of))
+    if of.unreachable:
+        console.print(_corners(of))
     for note in of.notes:
         console.print(Text(f"note: {printable(remark_text(note))}", style="cyan"))
     for named in of.names:
         console.print(
             Text(f"{'warning' if of.passes else 'error'}: {remark_text(named)}", style="yellow" if of.passes else "red")
         )
-    verdict = f"verdict: {'pass' if of.passes else 'fail'}, {_um(of.max_um)} of {_um(of.tolerance_um)} allowed"
+    verdict = f"verdict: {'pass' if of.passes else 'fail'}, {_um(of.max_um)} of {_um(of.asked.tolerance_um)} allowed"
     console.print(Text(verdict, style="bold green" if of.passes else "bold red"))
 
 
@@ -62,7 +65,7 @@ def _where(place: WorstPlace) -> str:
 
 def _laid(of: Comparison) -> str:
     """How the drawing lies in the program's coordinates."""
-    if not of.fitted:
+    if not of.asked.fitted:
         return "as it is, not fitted"
     turn, (x, y), mirror = of.placement
     turned = f"turned {round(float(np.degrees(turn)), 4) + 0.0:.4f}°, shifted {_xy(x, y)} mm"
@@ -83,6 +86,27 @@ def _worst(of: Comparison) -> Table:
             f"{place.block:,}",
             escape(_entity(of, place.entity)),
             _MEASURED_FROM[place.measured_from],
+        )
+    return table
+
+
+def _corners(of: Comparison) -> Table:
+    """Where the wire must leave something, the deepest first."""
+    corners = sorted(corner_places(of), key=lambda corner: -corner.depth_um)
+    counted = "counted" if of.asked.sharp_corners == "fail" else "not counted"
+    shown = f", the {_MOST_CORNERS} deepest" if len(corners) > _MOST_CORNERS else ""
+    title = f"Sharp inside corners out of the wire's reach: {len(corners):,}, {counted}{shown}"
+    table = Table(title=title, title_justify="left", title_style="bold")
+    for name, justify in (("left at least", "right"), ("angle", "right"), ("at, mm", "left"), ("block", "right")):
+        table.add_column(name, justify=justify)  # type: ignore[arg-type]
+    table.add_column("entity")
+    for corner in corners[:_MOST_CORNERS]:
+        table.add_row(
+            _um(corner.depth_um),
+            f"{np.degrees(corner.angle_rad):.1f}°",
+            _xy(*corner.where_um),
+            f"{corner.block:,}",
+            escape(_entity(of, corner.entity)),
         )
     return table
 

@@ -10,7 +10,6 @@ from rich.table import Table
 from rich.text import Text
 
 from controller.offset.path import Made
-from parser.findings.catalogue import texts
 from parser.findings.findings import Finding
 from parser.findings.remarks import remark_text
 from parser.shape.passes import Pass
@@ -24,6 +23,7 @@ from sim.run.dryrun import DryRun, verdict
 from sim.setup.key_words import value_word
 from sim.show.assumptions import taken_for_granted
 from sim.show.terminal.colours import COLOURS
+from sim.show.terminal.finding import hint, message
 from sim.table.record.peaks import Peak
 from sim.units import clock, in_figures
 
@@ -67,6 +67,9 @@ def _print_findings(console: Console, run: DryRun, output: Path | None) -> None:
             width = finding.span[1] - finding.span[0]
             excerpt = with_caret(run.program.excerpt(finding.line), finding.column, width)
             console.print(Text(excerpt, style="dim"))
+        told = hint(finding, "en")
+        if told:
+            console.print(Text(f"    = {printable(told)}"))
     if len(run.findings) > _MOST_FINDINGS:
         there = "in report.json" if output else "in the report; -o DIR or --json shows them"
         console.print(f"… and {len(run.findings) - _MOST_FINDINGS} findings more, {there}")
@@ -74,10 +77,9 @@ def _print_findings(console: Console, run: DryRun, output: Path | None) -> None:
 
 def _line(name: str, finding: Finding) -> Text:
     at = place(name, finding.line, finding.column)
-    block = f" block {finding.block}:" if finding.block else ""
     text = Text(f"{at}: ")
     text.append(f"{finding.severity}[{finding.code}]", style=COLOURS[finding.severity])
-    return text.append(f":{block} {texts(finding).message}")
+    return text.append(f": {message(finding, 'en')}")
 
 
 def summary_rows(run: DryRun) -> list[Row]:

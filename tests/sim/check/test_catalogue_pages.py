@@ -17,8 +17,9 @@ WITHOUT_EXAMPLE = {"3B100", "3B303"} | OF_A_RUN
 EXAMPLES = {code: shown for code in sorted(CODES) if (shown := example(code))}
 ALSO = {
     "3B304": {"3B301"},  # the contour that it is a suspect of
+    "3B314": {"3B307"},  # the rough cut runs through the trim that it comes past
     "3B109": {"3B110"},  # a 4B block is in both
-    "3B212": {"3B110"},
+    **{code: {"3B110"} for code in ("3B212", "3B214", "3B215", "3B216")},
 }
 
 

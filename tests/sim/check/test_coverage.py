@@ -30,4 +30,4 @@ def test_senses_and_crossings_leave_open_contours_out() -> None:
 
 def test_no_arc_is_accused_beside_a_wrong_block() -> None:
     text = (SCENARIOS / "keyhole" / "program.3b").read_text("utf-8").replace("GX L1", "GX L3")
-    assert [finding.code for finding in checked(text).findings] == ["3B207", "3B301"]
+    assert [finding.code for finding in checked(text).findings] == ["3B217", "3B301"]

@@ -84,12 +84,22 @@ def test_a_full_circle_on_the_wrong_axis_proves_itself(tmp_path: Path) -> None:
     assert fixed(tmp_path / "part.3b", text.format("X").encode())[0] == text.format("Y").encode()
 
 
-def test_a_label_is_left_where_its_block_may_be_why_the_contour_is_open(tmp_path: Path) -> None:
-    # L3 mistyped as L4 decodes as L1.
+def test_a_label_is_mended_to_the_one_that_also_closes_the_contour(tmp_path: Path) -> None:
+    # L3 mistyped as L4 decodes as L1, and the rule alone would have it L1.
     text = "B0B10000B10000GYL2\nB10000B0B10000GXL1\nB0B10000B10000GYL4\nB10000B0B10000GXL4\nDD"
+    data, _ = fixed(tmp_path / "part.3b", text.encode())
+    assert data == text.replace("GXL4", "GXL3").encode()
+
+
+def test_a_label_is_left_where_it_may_be_a_slip_of_either_sense(tmp_path: Path) -> None:
+    # A half circle between corners: NR3 from −Y is a slip of NR4, or of SR3.
+    text = (
+        "B0B12000B12000GYL4\nB10000B0B10000GXL1\nB0B4000B4000GYL2\n"
+        "B0B2000B4000GXNR3\nB0B4000B4000GYL2\nB10000B0B10000GXL3\nDD\n"
+    )
     data, told = fixed(tmp_path / "part.3b", text.encode())
     assert data == text.encode()
-    assert "3B203 is left as it is; more than one mend is possible: block 4 with L1 or block 4 with L3" in told
+    assert "3B203 is left as it is; more than one mend is possible: block 4 with NR4 or block 4 with SR3" in told
 
 
 @pytest.mark.parametrize(

@@ -240,6 +240,13 @@ def test_version_imports_nothing_heavy() -> None:
     assert done.stdout.splitlines()[1:] == [""]
 
 
+def test_run_prints_the_hints_that_check_prints(short: Path) -> None:
+    short.write_text(short.read_text("utf-8").replace("GYL4", "GYL3"), "utf-8")
+    told = [drycut(command, short).stdout.splitlines() for command in ("run", "check")]
+    hints = [{line.strip() for line in lines if " = hint: " in line} for lines in told]
+    assert hints[0] == hints[1] == {"= hint: write L4"}
+
+
 def test_run_without_output_needs_no_pictures(part: Path) -> None:
     code = (
         f"import sys; from sim.cli import cli; cli.main(['run', {str(part)!r}], standalone_mode=False);"

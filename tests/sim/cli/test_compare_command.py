@@ -21,9 +21,10 @@ from parser.drawing.read import read_drawing
 from parser.findings.remarks import remark_text
 from sim.cli.compare import compare as command
 from sim.measure.compare.compared_program import compare_program
-from sim.measure.compare.result import Comparison
+from sim.measure.compare.result import Asked, Comparison
 from sim.measure.compare.tables import by_entity
 from sim.run.report.drawing import comparison_document
+from sim.setup.part import SharpCorners
 
 PAGE_FILE = ROOT / "docs" / "compare.md"
 SCHEMA_FILE = ROOT / "docs" / "compare.schema.json"
@@ -35,9 +36,16 @@ CAM_UM = 1.5
 """A CAM rounds ends to whole µm, and arcs through them by as much again."""
 
 
-def compared(tmp_path: Path, text: str, *shapes: Shape, offset: float = 100.0, tolerance: float = 5.0) -> Comparison:
+def compared(
+    tmp_path: Path,
+    text: str,
+    *shapes: Shape,
+    offset: float = 100.0,
+    tolerance: float = 5.0,
+    sharp: SharpCorners = "tell",
+) -> Comparison:
     drawing = read_drawing(write_dxf(tmp_path / "part.dxf", shapes))
-    return compare_program(toolpath(text), offset, drawing, tolerance)
+    return compare_program(toolpath(text), offset, drawing, Asked(tolerance, sharp_corners=sharp))
 
 
 def names(found: Comparison) -> list[str]:
@@ -62,7 +70,7 @@ def test_punch_and_die_of_one_contour_are_its_drawing(tmp_path: Path, make: obje
 @pytest.mark.parametrize(("make", "at"), [(punch, (12_000.0, 8000.0)), (die, (0.0, 0.0))])
 def test_a_sharp_inner_corner_is_rounded_by_the_wire(tmp_path: Path, make: object, at: tuple[float, float]) -> None:
     """(√2 − 1) f is left in it: one corner of the punch, and in a die those that are outer ones of the punch."""
-    found = compared(tmp_path, make(SHARP), SHARP)
+    found = compared(tmp_path, make(SHARP), SHARP, sharp="fail")
     assert found.max_um == pytest.approx((math.sqrt(2.0) - 1.0) * 100.0, abs=CAM_UM)
     worst = by_entity(found)
     shift = np.array(found.placement.shift_um)

@@ -14,6 +14,7 @@ from parser.program import parse_program
 from parser.toolpath import Point
 from sim.measure.compare.as_cut import edge_as_cut
 from sim.measure.compare.compared_program import compare_program
+from sim.measure.compare.result import Asked
 from sim.run.dryrun import DryRun, dry_run
 from sim.setup.part import DrawingTarget
 from sim.table.motion import silent
@@ -54,7 +55,7 @@ def test_the_edge_as_cut_agrees_with_the_exact_one(tmp_path: Path) -> None:
     """Table and steps of the shipped machine are off by at most the deviation of the run, at a corner on both sides."""
     target = DrawingTarget(square(tmp_path / "part.dxf"), fit=False)
     run = run_held(LED_SQUARE, target, machine=machine())
-    exact = compare_program(run.toolpath, 100.0, run.comparison.drawing, 5.0, fitted=False)
+    exact = compare_program(run.toolpath, 100.0, run.comparison.drawing, Asked(5.0, fitted=False))
     assert exact.max_um < 1e-6
     assert 0.5 < run.comparison.max_um <= math.sqrt(2.0) * run.deviations.wire.max_um + 0.1
 
@@ -91,8 +92,8 @@ def test_a_lead_in_into_the_part_counts_and_one_in_the_waste_does_not(tmp_path: 
         "B0B2000B2000GYL4 DD", "B0B2000B2000GYL2 DD"
     )
     moved = drawn(tmp_path / "moved.dxf", (-2.1, -2.1), (2.1, -2.1), (2.1, 2.1), (-2.1, 2.1))
-    run = run_held(from_inside, DrawingTarget(moved, tolerance_um=45.0))  # corners keep 41.4 µm
-    assert codes(run) == []
+    run = run_held(from_inside, DrawingTarget(moved))
+    assert codes(run) == ["3B603"]  # corners keep 41.4 µm
     assert [piece.kind for piece in run.remains.pieces.freed] == ["slug"]
     into_part = run_held(LED_SQUARE, DrawingTarget(opening, tolerance_um=45.0))
     assert "3B601" in codes(into_part)
@@ -106,7 +107,7 @@ def test_without_a_piece_there_is_no_edge(tmp_path: Path) -> None:
 
 def test_outlines_become_edges_with_their_blocks_and_the_side_of_the_part(tmp_path: Path) -> None:
     run = run_held(LED_SQUARE, DrawingTarget(square(tmp_path / "part.dxf")))
-    edge = edge_as_cut(run.toolpath, run.remains.pieces)
+    edge = edge_as_cut(run.toolpath, run.remains.kerf, run.remains.pieces)
     assert set(edge.part_side.tolist()) == {1}
     assert set(edge.block.tolist()) == {2, 3, 4, 5, 6}
     length = edge.curves.length_um
@@ -146,8 +147,8 @@ def test_a_mirrored_part_passes_within_the_tolerance_and_is_named_past_it(tmp_pa
         B2500B0B2500GXL3 B0B4000B4000GYL4 B2000B0B2000GXL1 B0B2000B2000GYL4 DD"""
     corners = [(-1.9, 2.1), (1.9, 2.1), (1.9, 3.9), (0.4, 3.9), (0.4, 5.9), (-1.9, 5.9)]
     seen_from_behind = drawn(tmp_path / "part.dxf", *((-x, y) for x, y in corners))
-    passed = run_held(angle, DrawingTarget(seen_from_behind, tolerance_um=45.0))
-    assert codes(passed) == []
+    passed = run_held(angle, DrawingTarget(seen_from_behind))
+    assert codes(passed) == ["3B603"]
     assert [named.name for named in passed.comparison.names] == ["mirrored"]
     failed = run_held(angle, DrawingTarget(seen_from_behind, tolerance_um=0.1))
     assert [f.values["what"] for f in failed.findings if f.code == "3B602"] == ["mirrored"]

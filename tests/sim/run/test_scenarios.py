@@ -1,5 +1,6 @@
 """Every scenario of the project runs and is as it expects."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -99,12 +100,16 @@ def test_expectations_can_be_met_and_missed(expect: dict, met: bool) -> None:
 @pytest.mark.parametrize(
     ("expect", "found", "wanted"),
     [
-        ({"a.b": {"max": 2}}, "2.5", "at most 2"),
-        ({"a.b": {"min": 3}}, "2.5", "at least 3"),
-        ({"a.b": {"min": 3, "max": 4.5}}, "2.5", "3 to 4.5"),
-        ({"a.nowhere": "x"}, "None", "x"),
+        ({"a.b": {"max": 2}}, "`2.5`", "at most 2"),
+        ({"a.b": {"min": 3}}, "`2.5`", "at least 3"),
+        ({"a.b": {"min": 3, "max": 4.5}}, "`2.5`", "3 to 4.5"),
+        ({"a.nowhere": "x"}, "nothing", '"x"'),
+        ({"findings": []}, '`["3B204", "3B301"]`', "[]"),
     ],
 )
 def test_a_missed_expectation_says_what_was_found_and_wanted(expect: dict, found: str, wanted: str) -> None:
-    (finding,) = expectation_findings(missed(REPORT, read_expectation(expect, "test")))
-    assert finding.values == {"path": next(iter(expect)), "found": found, "wanted": wanted}
+    tables = [{"code": "3B204", "block": 2, "message": "…"}, {"code": "3B301", "block": 3, "message": "…"}]
+    (finding,) = expectation_findings(missed(REPORT | {"findings": tables}, read_expectation(expect, "test")))
+    told = texts(finding)
+    assert (told.found, told.expected) == (f"`{next(iter(expect))}` is {found}", wanted)
+    assert not re.search("[A-Za-z]{2}", texts(finding, "zh").expected.replace('"x"', ""))

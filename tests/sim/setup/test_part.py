@@ -29,6 +29,7 @@ NONE = Overrides(
     tolerance=None,
     no_fit=False,
     past_stop=False,
+    sharp_corners=None,
 )
 
 

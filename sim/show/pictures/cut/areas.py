@@ -8,6 +8,7 @@ import shapely
 
 from parser.geometry.curves import Floats
 from parser.toolpath import Toolpath
+from sim.cut.pieces.kept_shapes import kept_shapes
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
@@ -32,18 +33,9 @@ def draw_pieces(canvas: Canvas, page: Page, pieces: Pieces) -> None:
             canvas.region(rings, _FILLS[piece.kind])
         for ring in rings:
             canvas.polyline(ring, _EDGES[piece.kind], width)
-    for opening in _kept_openings(pieces):
+    for opening in (shape.outline_um for shape in kept_shapes(pieces) if shape.what == "opening"):
         for ring in _rings_px(opening, page.view):
             canvas.polyline(ring, Paint.PART_EDGE, width)
-
-
-def _kept_openings(pieces: Pieces) -> Iterator[shapely.Polygon]:
-    """Openings in the frame where slugs were: their edges are what was wanted."""
-    openings = np.array(pieces.frame.openings_um, dtype=object)
-    tree = shapely.STRtree(openings)
-    slugs = [piece.outline_um.representative_point() for piece in pieces.freed if piece.kind == "slug"]
-    met = tree.query(slugs, predicate="within")[1] if slugs else []
-    return iter(openings[np.unique(met)].tolist() if len(met) else [])
 
 
 def _rings_px(polygon: shapely.Polygon, view: View) -> list[Floats]:

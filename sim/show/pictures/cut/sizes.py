@@ -94,8 +94,9 @@ def _of_path(toolpath: Toolpath, offset_um: float, pieces: Pieces | None) -> Cut
 
 
 def _sides(toolpath: Toolpath, loops: Loops, pieces: Pieces | None) -> Ints:
-    """Side (k,) that the part lies on: the lead-in tells; without one, the kind of the piece that the loop frees."""
-    side, kinds = loops.part_side.copy(), {one.freed.contour - 1: one.kind for one in pieces.freed} if pieces else {}
+    """Side (k,) that the part lies on: the lead-in tells; without one, the kind of the largest piece it frees."""
+    freed = sorted(pieces.freed, key=lambda piece: piece.area_mm2) if pieces else []
+    side, kinds = loops.part_side.copy(), {piece.freed.contour - 1: piece.kind for piece in freed}
     for at in np.flatnonzero(side == 0).tolist():
         kind = kinds.get(int(loops.contour[at]))
         if kind is not None:

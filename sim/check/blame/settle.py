@@ -1,0 +1,141 @@
+"""What the findings say when the words that explain them are known."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from parser.dialect.at_block import at_block
+from parser.dialect.mender import Mend
+from parser.findings.facts import DoubtfulEnd, PrintedElsewhere, WrongLabel, telling
+from parser.findings.findings import Finding, file_order
+from parser.program import Program
+from parser.shape.contours import Contour
+from parser.text.source import Field
+from sim.check.blame.cases import Proof, Word, cases_of, words_of
+from sim.check.blame.trial import Again, Verdict, told_of, tried
+from sim.check.closures import OpenContour, Suspected, suspect_finding
+from sim.check.count_axes import WrongAxis
+from sim.check.geometry import ReversedArc
+
+MOST_BLOCKS = 20_000
+"""Blocks of a program that is checked again with other words; a longer one keeps all that its checks suspect."""
+
+_ADVICE = (WrongLabel, WrongAxis, ReversedArc, Suspected)
+"""Facts of findings that name a word to write."""
+
+
+@dataclass(frozen=True, slots=True)
+class WrongWord(DoubtfulEnd):
+    """The printed end proves that one field of the block is written wrong; `mend` is what it would say."""
+
+    mend: Mend
+
+
+def settled(
+    program: Program, findings: tuple[Finding, ...], judged: tuple[Contour, ...], again: Again
+) -> tuple[Finding, ...]:
+    """The findings, with the one word that explains each case where there is one, and without hints against it.
+
+    A block whose printed end proves one word wrong gets finding 3B217 in place of its others. Of the suspects of a
+    contour those stay with which least is left to find. A label that may be a slip of another one says so.
+    """
+    if program.mender is None or len(program.toolpath) > MOST_BLOCKS:
+        return findings
+    cases = cases_of(program, program.mender, findings, judged)
+    if not cases:
+        return findings
+    found = list(findings)
+    for verdict in tried(program, program.mender, findings, cases, again):
+        match verdict.case.proof:
+            case Proof.PRINT:
+                found = list(_by_print(program, found, verdict))
+            case Proof.CLOSURE:
+                found = list(_by_closure(program, found, verdict))
+            case Proof.LABEL:
+                found = list(_by_label(found, verdict))
+    return tuple(sorted(found, key=file_order))
+
+
+def _by_print(program: Program, findings: list[Finding], verdict: Verdict) -> Iterator[Finding]:
+    """A wrong word in place of all that it explains; the open contour stays, which is what comes of it."""
+    block = verdict.case.at
+    suspected = [word for finding, fact in telling(findings, Suspected) for word in words_of(finding.block, fact)]
+    word = _one(verdict.words, suspected)
+    for finding in findings:
+        is_explained = told_of(finding) in verdict.explains
+        if word is None:
+            is_named = finding.block == block and isinstance(finding.fact, _ADVICE)
+            if not (is_named and is_explained):
+                yield finding
+        elif isinstance(finding.fact, PrintedElsewhere) and finding.block == block:
+            yield _wrong_word(program, word, finding)
+        elif not (is_explained and _is_side(finding, block)):
+            yield finding
+
+
+def _is_side(finding: Finding, block: int) -> bool:
+    """Whether a finding is about the block alone, or about how an arc beside it meets it."""
+    if finding.block == block:
+        return not isinstance(finding.fact, OpenContour)
+    return abs(finding.block - block) == 1 and isinstance(finding.fact, ReversedArc)
+
+
+def _one(words: tuple[Word, ...], suspected: Iterable[Word]) -> Word | None:
+    """The only word, or the only one with which the contour closes as well as the printed end asks for."""
+    if len(words) > 1:
+        words = tuple(word for word in suspected if word in words)
+    return words[0] if len(words) == 1 else None
+
+
+def _wrong_word(program: Program, word: Word, printed: Finding) -> Finding:
+    row, field = word.block - 1, word.mend.field
+    span = program.toolpath.source.field(row, field)
+    values = {
+        "field": field.term,
+        "written": "".join(program.text[slice(*span)].split()) if span else "",
+        "other": word.mend.text,
+        **{name: printed.values[name] for name in ("px", "py", "off")},
+    }
+    return at_block(program.toolpath, program.lines, "3B217", row, field, **values).with_fact(WrongWord(word.mend))
+
+
+def _by_closure(program: Program, findings: list[Finding], verdict: Verdict) -> Iterator[Finding]:
+    """The suspects with which least is left; what they explain at their blocks is not told to be mended otherwise."""
+    blocks = {word.block for word in verdict.words}
+    labels = {word.block: word.mend.text for word in verdict.words if word.mend.field is Field.SENSE}
+    mislabelled = {told_of(finding) for finding, _ in telling(findings, WrongLabel) if finding.block in labels}
+    is_proved = len(verdict.words) == 1 and bool(mislabelled & verdict.explains)
+    for finding in findings:
+        fact = finding.fact
+        if isinstance(fact, Suspected) and fact.first == verdict.case.at:
+            kept = tuple(suspect for suspect in fact.suspects if Word(finding.block, suspect.mend) in verdict.words)
+            if kept:
+                told = suspect_finding(program, verdict.case.first, verdict.case.last, kept)
+                yield told.with_fact(Suspected(fact.first, kept, is_proved))
+        elif finding.block in blocks and isinstance(fact, _ADVICE) and told_of(finding) in verdict.explains:
+            continue
+        elif isinstance(fact, WrongLabel) and finding.block in labels:
+            yield _or(finding, fact, labels[finding.block])
+        else:
+            yield finding
+
+
+def _by_label(findings: list[Finding], verdict: Verdict) -> Iterator[Finding]:
+    """The ruled label alone, or the sense alone; where others will do as well, the label with all of them."""
+    block, kept = verdict.case.at, [word.mend.text for word in verdict.words]
+    for finding in findings:
+        fact = finding.fact
+        if finding.block == block and isinstance(fact, WrongLabel):
+            if fact.ruled in kept:
+                yield _or(finding, fact, *kept)
+        elif finding.block == block and isinstance(fact, ReversedArc) and told_of(finding) in verdict.explains:
+            if fact.word in kept:
+                yield finding
+        else:
+            yield finding
+
+
+def _or(finding: Finding, fact: WrongLabel, *labels: str) -> Finding:
+    """A wrong label that may be a slip of other ones than the rule names."""
+    others = tuple(label for label in labels if label != fact.ruled)
+    told = finding._replace(values={**finding.values, "others": " / ".join(others)})
+    return told.with_fact(WrongLabel(fact.ruled, others))

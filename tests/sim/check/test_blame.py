@@ -1,0 +1,88 @@
+"""One wrong word is named, by all that speaks for it, and nothing is told against it."""
+
+import random
+
+import pytest
+from cam_programs import sound_program
+from slips import contradiction, measured
+
+from parser.findings.findings import edited
+from sim.check.batch import Job, check_file
+from sim.check.result import CheckResult
+from sim.check.settings import CheckSettings
+
+KEYHOLE = (
+    "N1: B0 B24900 B24900 GYL2;0.000,24.900\n"
+    "N2: B0 B24900 B49800 GXNR2;0.000,-24.900\n"
+    "N3: B56757 B0 B56757 GXL1;56.757,-24.900\n"
+    "N4: B43243 B24900 B149800 GYNR3;56.756,24.898\n"
+    "N5: B56756 B2 B56756 GXL2;0.000,24.900\n"
+    "N6: B0 B24900 B24900 GYL4;0.000,0.000\n"
+    "DD\n"
+)
+HALF = "B0B2900B2900GYL4\nB5000B0B5000GXL1\nB0B2900B5800GXNR4\nB10000B0B10000GXL3\n{}\nB5000B0B5000GXL1\nDD\n"
+
+
+def checked(text: str) -> CheckResult:
+    return check_file(Job("part.3b", text.encode(), CheckSettings()))
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "field"),
+    [
+        ("GXL1", "GXL3", "field-sense"),
+        ("GYL4", "GYL2", "field-sense"),  # in the last block: its end is a corner of the contour
+        ("GYNR3", "GYSR3", "field-sense"),
+        ("GYNR3", "GYNR2", "field-sense"),
+        ("GYNR3", "GXNR3", "field-axis"),
+        ("B149800", "B14980", "field-count"),
+        ("B43243", "B43343", "field-x"),
+    ],
+)
+def test_a_word_that_printed_ends_prove_wrong_is_named_and_mended(right: str, wrong: str, field: str) -> None:
+    result = checked(KEYHOLE.replace(right, wrong))
+    named = [finding for finding in result.findings if finding.code == "3B217"]
+    assert [(one.values["field"], one.values["other"]) for one in named] == [
+        (field, right.removeprefix("B") if right.startswith("B") else right[2:] if field == "field-sense" else "GY")
+    ]
+    assert {finding.code for finding in result.findings} <= {"3B217", "3B301", "3B311"}
+    assert edited(KEYHOLE.replace(right, wrong), named[0].edits) == KEYHOLE
+
+
+def test_a_printed_end_that_is_wrong_alone_accuses_no_block() -> None:
+    result = checked(KEYHOLE.replace("56.757,-24.900", "56.757,-24.090"))
+    assert [(f.code, f.values["advice"], f.edits) for f in result.findings] == [("3B207", "correct-print", ())]
+
+
+def test_an_end_that_no_one_slip_explains_names_no_word() -> None:
+    text = "B9900B0B9900GXL1;9.900,0.000\nB9900B0B39600GYNR1;9.900,0.005\nB9900B0B9900GXL3;0.000,0.005\nDD\n"
+    assert [finding.code for finding in checked(text).findings] == ["3B207"]
+
+
+@pytest.mark.parametrize(("written", "word"), [("B0B2900B5800GXSR1", "NR2"), ("B0B2900B5800GXSR2", "NR2")])
+def test_a_sense_that_the_joints_prove_wrong_is_named_with_its_quadrant(written: str, word: str) -> None:
+    findings = checked(HALF.format(written)).findings
+    assert [(finding.code, finding.values["word"]) for finding in findings] == [("3B306", word)]
+
+
+def test_an_arc_label_that_may_be_a_slip_of_either_sense_names_both() -> None:
+    text = (
+        "B0B12000B12000GYL4\nB10000B0B10000GXL1\nB0B4000B4000GYL2\n"
+        "B0B2000B4000GXNR3\nB0B4000B4000GYL2\nB10000B0B10000GXL3\nDD\n"
+    )
+    (found,) = checked(text).findings
+    assert (found.code, found.values["ruled"], found.edits) == ("3B203", "NR4", ())
+    assert "SR3" in found.values["others"].split(" / ")
+
+
+def test_slips_in_printed_programs_are_named_right_and_never_told_two_ways() -> None:
+    done = list(measured(random.Random(20261122), 3, printed=True))
+    assert [contradiction(one.result) for one in done if one.contradicts] == []
+    assert not [one.slip for one in done if one.mended is False]
+    assert sum(one.verdict == "right" for one in done) >= 0.95 * len(done)
+    assert sum(one.verdict == "wrong" for one in done) <= 0.01 * len(done)
+
+
+def test_a_sound_printed_program_is_silent() -> None:
+    rng = random.Random(5)
+    assert all(checked(sound_program(rng, printed=True).text).findings == () for _ in range(20))

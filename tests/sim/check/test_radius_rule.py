@@ -1,0 +1,78 @@
+"""What the rule of 4B tears: sharp joints, marks against the turn, radii that vanish; tangent outlines are silent."""
+
+import math
+import random
+
+import pytest
+from sound_4b import outline_4b
+
+from sim.check.batch import Job, check_file
+from sim.check.result import CheckResult
+from sim.check.settings import CheckSettings
+
+PUNCH = (  # docs/3b.md §6: rounded corners, and a half-round notch with fillets in the upper edge
+    "B0B5000B5000B0GYL2 B30000B0B30000B0GXL1 B0B5000B5000B5000GYDNR4 B0B10000B10000B0GYL2 B5000B0B5000B5000GXDNR1 "
+    "B9000B0B9000B0GXL3 B0B2000B2000B2000GYDNR2 B4000B0B8000B4000GYDDSR4 B2000B0B2000B2000GXDNR1 "
+    "B9000B0B9000B0GXL3 B0B5000B5000B5000GYDNR2 B0B10000B10000B0GYL4 B5000B0B5000B5000GXDNR3 B0B5000B5000B0GYL4 DD"
+)
+SQUARE = (
+    "B0B5000B5000B0GYL2 B10000B0B10000B0GXL1 B0B20000B20000B0GYL2 B20000B0B20000B0GXL3 B0B20000B20000B0GYL4 "
+    "B10000B0B10000B0GXL1 B0B5000B5000B0GYL4 DD"
+)
+
+
+def checked(text: str, **settings: float) -> CheckResult:
+    return check_file(Job("part.4b", text.encode(), CheckSettings(**settings)))
+
+
+def told(text: str, **settings: float) -> list[tuple[str, int]]:
+    return [(f.code, f.block) for f in checked(text, **settings).findings if f.code != "3B110"]
+
+
+def test_tangent_outlines_are_silent() -> None:
+    rng = random.Random(4)
+    assert told(PUNCH, wire_diameter_um=180.0) == []
+    assert all(told(outline_4b(rng).text, wire_diameter_um=180.0) == [] for _ in range(40))
+
+
+def test_a_square_without_corner_arcs_is_named_with_what_its_sides_miss_each_other_by() -> None:
+    (found,) = (f for f in checked(SQUARE, wire_diameter_um=180.0).findings if f.code != "3B110")
+    assert (found.code, found.block, found.values["more"]) == ("3B214", 3, 3)
+    assert found.values["shift"] == pytest.approx(100.0 * math.sqrt(2.0), abs=1e-6)
+    assert told(SQUARE.replace("B0G", "G")) == []  # the same in 3B
+
+
+@pytest.mark.parametrize(("header", "offset_um"), [("", 100.0), ("Conner R= 0.0 , Offset F= 0.12 , Name\n", 120.0)])
+def test_the_shift_is_told_for_the_offset_that_is_known(header: str, offset_um: float) -> None:
+    (found,) = (f for f in checked(header + SQUARE).findings if f.code == "3B214")
+    assert found.values["offset"] == pytest.approx(offset_um)
+    assert found.values["shift"] == pytest.approx(offset_um * math.sqrt(2.0))
+
+
+def test_a_mark_on_the_wrong_arc_is_named() -> None:
+    assert told(PUNCH.replace("GYDDSR4", "GYDSR4")) == [("3B215", 8)]
+    rng = random.Random(8)
+    for _ in range(30):
+        outline = outline_4b(rng)
+        lines = outline.text.splitlines()
+        at = rng.choice([at for at, line in enumerate(lines) if "R" in line])
+        bare = lines[at].replace("DD", "D")
+        lines[at] = bare.replace("D", "DD") if outline.corners[at // 2 - 1].is_convex else bare
+        (found,) = (f for f in checked("\n".join(lines)).findings if f.code != "3B110")
+        assert (found.code, found.block) == ("3B215", at + 1)
+        assert found.values["ruled"] == ("D" if outline.corners[at // 2 - 1].is_convex else "DD")
+
+
+def test_a_radius_that_the_offset_uses_up_is_an_error_on_the_side_of_the_waste_alone() -> None:
+    rng = random.Random(16)
+    for _ in range(30):
+        outline = outline_4b(rng, (40.0, 160.0))
+        # The concave arcs of a punch and the convex ones of a die have their centres in the waste.
+        gone = [
+            ("3B216", 3 + 2 * at)
+            for at, corner in enumerate(outline.corners)
+            if corner.is_convex == outline.is_die and corner.radius < 98.0
+        ]
+        doubtful = [3 + 2 * at for at, corner in enumerate(outline.corners) if abs(corner.radius - 100.0) <= 2.0]
+        found = [one for one in told(outline.text, wire_diameter_um=180.0) if one[1] not in doubtful]
+        assert found == gone, outline.text
