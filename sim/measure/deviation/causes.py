@@ -76,8 +76,11 @@ def added(trace: Trace, stage: Stage, before: Stage) -> Part:
 
 
 def _largest(trace: Trace, place_um: Floats, away_um: Floats) -> Part:
-    at = int(np.argmax(away_um))
-    return Part(float(away_um[at]), where(trace, place_um, at)) if away_um[at] > 0.0 else NOTHING
+    most = float(away_um.max())
+    if most == 0.0:
+        return NOTHING
+    first = int(np.argmax(away_um >= most - _ROUNDING_UM))
+    return Part(most, where(trace, place_um, first))
 
 
 def cut_off(toolpath: Toolpath, trace: Trace, plan: Plan, period_s: float) -> Part:
