@@ -186,13 +186,8 @@ def dry_run(
     block_time_s = _times_within(border_s, ended.t_s if ended else plan.duration_s)
     way = wire_taken(toolpath, plan, cut)
     left = left_of(program, cut, contours, scenario, drawing)
-    found = [
-        *ready.findings,
-        *obstacle_findings(program, trace, contours, scenario),
-        *missed_work_findings(program, trace, scenario),
-        *loss_findings(program, moved.losses, scenario.machine.table.motor),
-        *left.findings,
-    ]
+    lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
+    met = [*obstacle_findings(program, trace, contours, scenario), *missed_work_findings(program, trace, scenario)]
     return DryRun(
         program=program,
         scenario=scenario,
@@ -212,7 +207,7 @@ def dry_run(
         border_s=border_s,
         remains=left.remains,
         comparison=left.comparison,
-        findings=tuple(sorted(found, key=file_order)),
+        findings=tuple(sorted([*ready.findings, *met, *lost, *left.findings], key=file_order)),
         coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
 
