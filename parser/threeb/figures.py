@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import CurveKind, Floats, Ints
-from parser.geometry.distance import distance_to_curves
 from parser.shape.beside import BESIDE_UM
 from parser.shape.closing import corners_at, ends_closed
 from parser.threeb.columns import RawBlocks
@@ -63,9 +62,9 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
     Up to three lines alone between two pauses (wire out, wire in) are jumps, even if the figure before them did not
     close. But if they close it, they are its last cut, behind a pause in which the slug is clamped. More blocks after a
     pause are a figure with the jump to it: their first line is the jump if the figure before is closed, and if their
-    own figure does not need that line to close. No wire is threaded within the kerf of what the figure before cut: a
-    line that ends there goes to another pass over its edge, or cuts the tab that held the slug. More lines than three
-    are the way to a figure that closes where they end.
+    own figure does not need that line to close. No wire is threaded where the figure before has a corner: a line that
+    ends within a kerf of one goes to another pass over its edge, or cuts the tab that held the slug. More lines than
+    three are the way to a figure that closes where they end.
     """
     rows: list[int] = []
     begin = 0  # first row of the figure being cut
@@ -85,7 +84,7 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
             past = at + 1
         else:
             continue
-        if not _in_kerf(toolpath, begin, at, past - 1):
+        if not _at_cut_corner(toolpath, begin, at, past - 1):
             rows.extend(range(at, past))
             begin = past
     return np.array(rows, dtype=np.int64)
@@ -105,12 +104,11 @@ def _close(toolpath: Toolpath, begin: int, at: int, until: int) -> bool:
     return any(corners_at(toolpath, begin, at, end).size for end in toolpath.end_um[at:until])
 
 
-def _in_kerf(toolpath: Toolpath, begin: int, at: int, row: int) -> bool:
-    """Whether a row ends within the kerf of what the rows from `begin` up to but without `at` cut."""
-    cut = np.arange(begin, at)
-    x, y = toolpath.end_um[row]
-    off, _ = distance_to_curves(toolpath, cut, np.full(len(cut), x), np.full(len(cut), y))
-    return bool((off <= min(BESIDE_UM, _KERF_SHARE * float(toolpath.length_um[cut].sum()))).any())
+def _at_cut_corner(toolpath: Toolpath, begin: int, at: int, row: int) -> bool:
+    """Whether a row ends within a kerf of a corner that the rows from `begin` up to but without `at` have."""
+    corner = np.concatenate([toolpath.start_um[begin:at], toolpath.end_um[at - 1 : at]])
+    off = np.hypot(*(corner - toolpath.end_um[row]).T)
+    return bool((off <= min(BESIDE_UM, _KERF_SHARE * float(toolpath.length_um[begin:at].sum()))).any())
 
 
 def _insert(blocks: RawBlocks, nodes: Sequence[Mark]) -> RawBlocks:

@@ -28,7 +28,7 @@ class RegionError(ArithmeticError):
     """A region that GEOS could not work out, on any grid, and the first and last block that it was cut by."""
 
     def __init__(self, first: int, last: int) -> None:
-        super().__init__(f"no region could be worked out at blocks {first} to {last}")
+        super().__init__(first, last)
         self.first, self.last = first, last
 
 

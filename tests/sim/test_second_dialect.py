@@ -116,7 +116,7 @@ def test_what_is_wrong_is_found_at_its_place(text: str, found: list[tuple[str, i
 
 def test_findings_speak_the_words_of_the_dialect() -> None:
     result = check_file(Job("part.tiny", SLOT.replace("4 2 left", "4 2 right").encode(), CheckSettings()))
-    assert result.findings[0].values == {"written": "right", "other": "left"}
+    assert result.findings[0].values == {"written": "right", "other": "left", "word": "left"}
 
 
 @pytest.mark.parametrize(
@@ -264,6 +264,7 @@ _WORDS = r"J|GX|GY|NR\d?|SR\d?|DD|L[1-4]|[34]B|\w*\.[34]b"
 _TOKEN = re.compile(rf"(?<![A-Za-z0-9_/])(?:{_WORDS}|\AG\Z|G(?=\$\{{))(?![A-Za-z0-9.])")
 """Tokens of 3B; G where an axis is put behind it, not that of the circular test."""
 _SPEAK_3B = {
+    "sim/check/radius_rule.py": "the marks of 4B, where a program has them",
     "sim/cli/scenario_options.py": "the help names the controllers of 3B, which step point by point",
     "sim/run/ballbar/circle.py": "writes the circle of the test as a 3B program",
     "sim/show/replay/assets/decisions.js": "what a counting controller does in each quadrant, where there are words",

@@ -79,14 +79,15 @@ def _read(path: Path) -> Machine:
     content, where = load_toml(path), str(path)
     arm = ARM.read_in(content, where) if ARM.name in content else {}
     top = TOP.read(content, where, beside=(section.name for section in SECTIONS[1:]))
-    known = {key.name for section in SECTIONS[1:] for key in section.keys}
-    for name in top["assumed"]:
-        if name not in known:
-            raise SettingsError(f"{where}: assumed names {name!r}, which is no key of a machine file")
-    return Machine(
+    machine = Machine(
         **top,
         table=read_table(content, where),
         controller=read_controller(content, where),
         **CUTTING.read_in(content, where),
         **arm,
     )
+    known = {key.name for section in SECTIONS[1:] for key in section.keys}
+    for name in machine.assumed:
+        if name not in known:
+            raise SettingsError(f"{where}: assumed names {name!r}, which is no key of a machine file")
+    return machine
