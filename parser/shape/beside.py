@@ -1,5 +1,6 @@
 """Which stretches of a path run beside one another, and how far aside: passes over one edge do."""
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -8,6 +9,7 @@ from parser.geometry.along import headings_along, places_at
 from parser.geometry.broad_phase_places import Near, near_places
 from parser.geometry.curves import Curves, Floats, Ints, total_before
 from parser.geometry.directions import headings_at
+from parser.geometry.extents import extents
 from parser.geometry.feet import feet
 from parser.toolpath import Toolpath
 
@@ -18,6 +20,7 @@ _SAME_WAY = 0.9  # cosine of the angle between two ways that run beside each oth
 _UNLIKE_UM, _UNLIKE_SHARE = 10.0, 0.3  # a trim takes about as much all along
 _FEW_PAIRS = 10_000
 _SAMPLES = 16  # of a stretch, at equal lengths
+_MOST_LOOKED_AT = 1 << 20  # places beside rows, in one go
 
 
 class Stretches(NamedTuple):
@@ -90,18 +93,22 @@ def sampled(toolpath: Toolpath, stretches: Stretches, samples: int = _SAMPLES) -
 
 def neighbours(toolpath: Toolpath, rows: Ints, place_um: Floats, way: Floats) -> Neighbours:
     """Those of the `rows` (r,) that run beside places (m, 2) µm on the path, passed in the directions (m, 2)."""
-    curves = toolpath.picked(rows)
-    near = _near(curves, place_um)
-    foot = feet(curves, near.row, place_um[near.other]).place_um
-    heading = headings_at(curves, near.row, foot)
-    out, along = foot - place_um[near.other], way[near.other]
+    near = _near(toolpath.picked(rows), place_um)
+    return _beside(toolpath, rows[near.row], near.other, place_um, way)
+
+
+def _beside(toolpath: Toolpath, row: Ints, at: Ints, place_um: Floats, way: Floats) -> Neighbours:
+    """Those of the pairs (p,) of a row and a place, by its number, that run beside each other."""
+    foot = feet(toolpath, row, place_um[at]).place_um
+    heading = headings_at(toolpath, row, foot)
+    out, along = foot - place_um[at], way[at]
     aside = along[:, 0] * out[:, 1] - along[:, 1] * out[:, 0]
     ahead = (along * out).sum(axis=1)
     cosine = (along * heading).sum(axis=1)
     # A foot at the end of a row lies aside, not ahead, where the row runs beside the place.
     beside = (np.abs(cosine) >= _SAME_WAY) & (np.abs(aside) <= BESIDE_UM) & (np.abs(ahead) <= 0.5 * np.abs(aside) + 5.0)
     which = np.flatnonzero(beside)
-    return Neighbours(near.other[which], rows[near.row[which]], aside[which], np.sign(cosine[which]).astype(np.int64))
+    return Neighbours(at[which], row[which], aside[which], np.sign(cosine[which]).astype(np.int64))
 
 
 def _near(curves: Curves, place_um: Floats) -> Near:
@@ -113,38 +120,53 @@ def _near(curves: Curves, place_um: Floats) -> Near:
 
 
 def run_beside(toolpath: Toolpath, stretches: Stretches, one: Ints, other: Ints) -> Beside:
-    """How the stretches `one` (k,) run beside the stretches `other` (k,), by their numbers; no stretches overlap."""
+    """How the stretches `one` (k,) run beside the stretches `other` (k,), by their numbers.
+
+    Each pair is looked at by itself: where a thousand passes lie on one another, all rows lie near all places.
+    """
     nothing = np.zeros(len(one))
     if not len(one):
         return Beside(nothing, nothing, nothing)
-    looked_at, of = np.unique(other, return_inverse=True)
-    places = sampled(toolpath, stretches.take(looked_at))
-    stretch_of_row = np.full(len(toolpath), -1, dtype=np.int64)
-    needed, _ = np.unique(one, return_index=True)
-    for number in needed.tolist():
-        stretch_of_row[stretches.first[number] : stretches.last[number] + 1] = number
-    beside = neighbours(toolpath, np.flatnonzero(stretch_of_row >= 0), places.place_um, places.way)
-    base = len(stretches.first)
-    has = places.of[beside.at] * base + stretch_of_row[beside.row]
-    return _by_pair(beside, has, of.reshape(-1) * base + one)
+    boxes = extents(toolpath)
+    rows = stretches.last[one] - stretches.first[one] + 1
+    part = np.cumsum(rows) // (_MOST_LOOKED_AT // _SAMPLES)
+    bounds = np.append(np.flatnonzero(np.diff(part, prepend=-1)), len(one))
+    parts = [
+        _some_beside(toolpath, boxes, stretches, one[low:past], other[low:past])
+        for low, past in pairwise(bounds.tolist())
+    ]
+    share, sense, aside = (np.concatenate(column) for column in zip(*parts, strict=True))
+    return Beside(share, sense, aside)
 
 
-def _by_pair(beside: Neighbours, has: Ints, wanted: Ints) -> Beside:
-    """The neighbours of places summed up by the pairs `wanted` (k,); `has` is the pair that each neighbour makes."""
-    order = np.argsort(wanted, kind="stable")
-    at = np.minimum(np.searchsorted(wanted[order], has), len(wanted) - 1)
-    hit = np.flatnonzero(wanted[order][at] == has)
-    pair, place, aside = order[at[hit]], beside.at[hit], beside.aside_um[hit]
+def _some_beside(
+    toolpath: Toolpath, boxes: tuple[Floats, Floats], stretches: Stretches, one: Ints, other: Ints
+) -> Beside:
+    """How some stretches run beside others, `boxes` being the lowest and highest places (n, 2) of the rows."""
+    places = sampled(toolpath, stretches.take(other))
+    number = stretches.last[one] - stretches.first[one] + 1
+    pair = np.repeat(np.arange(len(one)), number)
+    row = np.arange(len(pair)) + (stretches.first[one] - np.cumsum(number) + number)[pair]
+    at = pair[:, None] * _SAMPLES + np.arange(_SAMPLES)
+    near = np.ones(at.shape, dtype=np.bool_)
+    for axis, (low, high) in enumerate(zip(boxes[0].T, boxes[1].T, strict=True)):
+        place = places.place_um[:, axis][at]
+        near &= (place >= (low[row] - BESIDE_UM)[:, None]) & (place <= (high[row] + BESIDE_UM)[:, None])
+    of, sample = np.nonzero(near & (toolpath.length_um[row] > 0.0)[:, None])
+    return _by_pair(_beside(toolpath, row[of], at[of, sample], places.place_um, places.way), len(one))
+
+
+def _by_pair(beside: Neighbours, pairs: int) -> Beside:
+    """Rows beside places summed up by pairs of stretches, each with so many places one after the other."""
     # Of the rows of one stretch the nearest one counts at a place.
-    nearest = np.lexsort((np.abs(aside), place, pair))
-    pair, place, aside, sense = pair[nearest], place[nearest], aside[nearest], beside.sense[hit][nearest]
-    once = np.flatnonzero((np.diff(pair, prepend=-1) != 0) | (np.diff(place, prepend=-1) != 0))
-    pair, aside, sense = pair[once], aside[once], sense[once]
-    count = np.bincount(pair, minlength=len(wanted))
+    nearest = np.lexsort((np.abs(beside.aside_um), beside.at))
+    once = nearest[np.diff(beside.at[nearest], prepend=-1) != 0]
+    pair, aside, sense = beside.at[once] // _SAMPLES, beside.aside_um[once], beside.sense[once]
+    count = np.bincount(pair, minlength=pairs)
     usual = _medians(pair, aside, count)
     like = np.abs(aside - usual[pair]) <= _UNLIKE_UM + _UNLIKE_SHARE * np.abs(usual[pair])
-    share = np.bincount(pair, like, len(wanted)) / _SAMPLES
-    return Beside(share, np.bincount(pair, sense, len(wanted)) / np.maximum(count, 1), usual)
+    share = np.bincount(pair, like, pairs) / _SAMPLES
+    return Beside(share, np.bincount(pair, sense, pairs) / np.maximum(count, 1), usual)
 
 
 def _medians(group: Ints, value: Floats, count: Ints) -> Floats:
