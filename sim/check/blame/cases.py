@@ -18,6 +18,9 @@ from sim.check.geometry import ReversedArc
 MOST_PRINTED = 50
 """Printed ends that are looked at one by one; where more are wrong, it is not by slips in single blocks."""
 
+MOST_LABELS = 100
+"""Labels that are looked at; where more break the rule, the program was written by another one."""
+
 
 class Proof(Enum):
     """What a case rests on: the printed end of a block, a contour's closure, or the label and joints of a block."""
@@ -68,7 +71,8 @@ def cases_of(
     closures = [case for case in _closures(findings, judged) if case.at not in proved]
     doubted = {case.at for case in closures}
     taken = {case.at for case in printed} | {block for block, contour in spans.items() if contour.first in doubted}
-    return (*printed, *closures, *_labels(program, mender, findings, taken, spans))
+    labels = list(islice(_labels(program, mender, findings, taken, spans), MOST_LABELS + 1))
+    return (*printed, *closures, *(labels if len(labels) <= MOST_LABELS else ()))
 
 
 def _contours_of(findings: tuple[Finding, ...], judged: tuple[Contour, ...]) -> Iterator[tuple[int, Contour]]:
