@@ -113,8 +113,8 @@ class _Filler(string.Formatter):
     """Fills templates; besides Python's own formats it knows ``um``, ``mm``, ``instant``, ``term`` and those of texts.
 
     ``aside`` is a text in parentheses, ``or`` another choice, both nothing where there is none; ``pass`` the number of
-    a pass, nothing for 0. ``span`` is a range, two ends with `TO` between of which one may be missing, or a value that
-    is none.
+    a pass, nothing for 0. ``known`` is a value, or the word for none; ``span`` is a range, two ends with `TO` between
+    of which one may be missing, or a value that is no range.
     """
 
     def __init__(self, language: Language) -> None:
@@ -126,6 +126,7 @@ class _Filler(string.Formatter):
             "mm": lambda um: f"{round(mm(float(um)), 3) + 0.0:.3f}",
             "instant": lambda t_s: instant(float(t_s)),
             "term": lambda key: term(str(key), self._language),
+            "known": self._known,
             "span": lambda ends: self._span(str(ends)),
             "aside": lambda text: self._joined("aside", text) if text else "",
             "or": lambda text: self._joined("or", text) if text else "",
@@ -136,10 +137,13 @@ class _Filler(string.Formatter):
     def _joined(self, name: str, *texts: str) -> str:
         return str(_read("joints")[self._language][name].format(*texts))
 
+    def _known(self, value: str) -> str:
+        return value or term("nothing", self._language)
+
     def _span(self, value: str) -> str:
         low, dots, high = value.partition(TO)
         if not dots:
-            return value
+            return self._known(value)
         name = "from-to" if low and high else "at-least" if low else "at-most"
         return self._joined(name, *filter(None, (low, high)))
 

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.geometry.boxes import distinct
 from parser.geometry.curves import Bools, Ints
 from parser.shape.beside import Stretches
 from parser.shape.closing import CLOSED_WITHIN_UM
@@ -60,13 +61,17 @@ def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
     opened = np.array(sorted(sections), dtype=np.int64)
     together = np.isin(loops.contour, loops.contour[is_trimmed]) & ~np.isin(loops.contour, opened)
     kept = loops.take(together & (is_sure | is_trimmed))
-    others = np.setdiff1d(np.arange(contour.max(initial=-1) + 1), np.concatenate([opened, kept.contour]))
+    others = _without(np.arange(contour.max(initial=-1) + 1), np.concatenate([opened, kept.contour]))
     elsewhere = cut_elsewhere(toolpath, contour, sections, others)
-    others = np.setdiff1d(others, np.array(sorted(elsewhere), dtype=np.int64))
+    others = _without(others, np.array(sorted(elsewhere), dtype=np.int64))
     rows = [(one, at, several[0].first) for at, several in sections.items() for one in several]
     rows += [(one, at, sections[of][0].first) for at, (of, several) in elsewhere.items() for one in several]
     found = _joined(kept, _of_sections(rows), *_cut_once(toolpath, contour, others))
     return found.take(np.argsort(found.first))
+
+
+def _without(numbers: Ints, gone: Ints) -> Ints:
+    return numbers[~np.isin(numbers, gone)]
 
 
 def _joined(*parts: Cuts) -> Cuts:
@@ -115,7 +120,7 @@ def _turned(contour: Ints, turns: Turns) -> dict[int, Turns]:
     """Turns of the contours that step aside at one of them as from one pass to the next one, by contour."""
     aside = np.abs(turns.aside_um)
     of = contour[turns.leave]
-    wanted = np.unique(of[(aside >= LEAST_ASIDE_UM) & (aside <= MOST_ASIDE_UM)])
+    wanted = distinct(of[(aside >= LEAST_ASIDE_UM) & (aside <= MOST_ASIDE_UM)])
     first, past = np.searchsorted(of, wanted), np.searchsorted(of, wanted, side="right")
     return {
         at: turns.take(slice(low, high))
@@ -133,7 +138,7 @@ def _of_sections(sections: list[tuple[Section, int, int]]) -> Cuts:
 def _cut_once(toolpath: Toolpath, contour: Ints, wanted: Ints) -> tuple[Cuts, Cuts]:
     """Contours that are cut once: their loops, and all of those that close none."""
     loops = find_loops(toolpath, contour, wanted)
-    rest = np.setdiff1d(wanted, loops.contour)
+    rest = _without(wanted, loops.contour)
     first, past = runs(toolpath)[rest].T
     closed, plain = np.ones(len(loops.first), dtype=np.bool_), np.zeros(len(rest), dtype=np.bool_)
     looped = Cuts(loops.first, loops.last, loops.contour, closed, ~closed, loops.first)

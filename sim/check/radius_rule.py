@@ -9,6 +9,7 @@ import numpy as np
 
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
+from parser.geometry.boxes import distinct
 from parser.geometry.curves import Floats, Ints
 from parser.geometry.directions import directions, headings_at
 from parser.program import Program
@@ -37,7 +38,7 @@ def radius_rule_findings(program: Program, contour: Ints, offset_um: float | Non
     if words is None:
         return
     shift_um = USUAL_OFFSET_UM if offset_um is None else offset_um
-    numbers = np.unique(contour[(contour >= 0) & (words.radius_um >= 0)])
+    numbers = distinct(contour[(contour >= 0) & (words.radius_um >= 0)])
     if not len(numbers):
         return
     loops = find_loops(program.toolpath, contour, numbers)

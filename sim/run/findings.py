@@ -28,9 +28,9 @@ def _wanted(expectation: Expectation) -> str:
 
 
 def _shown(value: Any) -> str:
-    """A value as ``[expect]`` would have it; of tables in a list, the codes or the first values; a term for nothing."""
+    """A value as ``[expect]`` would have it; of tables in a list, the codes or the first values; empty for nothing."""
     if value is None:
-        return "nothing"
+        return ""
     if isinstance(value, list):
         value = [next(iter(one.values()), None) if isinstance(one, Mapping) else one for one in value]
     text = f"{value:g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False)

@@ -196,7 +196,8 @@ def test_carets_stand_below_what_they_mean(open_page: OpenPage, bad: Made) -> No
                 return range.getBoundingClientRect().left;
             }
         };
-        const source = [...document.querySelectorAll('.findings li')].find(li => li.innerText.includes('3B208'));
+        const all = [...document.querySelectorAll('.findings li')];
+        const source = all.find(li => li.querySelector('.head a').innerText === '3B217');
         const [line, carets] = source.querySelectorAll('.row');
         return left(line, '490 GYL4') - left(carets, '^');
     }""")

@@ -16,7 +16,7 @@ from parser.findings.remarks import Remark, remark_text
 PAGES = resources.files("parser.findings") / "pages"
 TEMPLATES = ("found", "expected", "machine", "hint")
 LINE = 110
-NO_EXAMPLE = {"3B100", "3B303"} | {code for code, of in CODES.items() if of.check is None}
+NO_EXAMPLE = {"3B100", "3B113", "3B303"} | {code for code, of in CODES.items() if of.check is None}
 
 VALUES: dict[str, dict[str, Value]] = {
     "3B100": {"what": "unreadable-file", "detail": "Permission denied"},

@@ -47,7 +47,8 @@ def print_summary(run: DryRun, output: Path | None) -> None:
         table.add_row(name, escape(value))
     console.print(table)
     _print_findings(console, run, output)
-    console.print(Text(" ".join(sentence.en for sentence in taken_for_granted(run)), style="dim"))
+    granted = Text(" ".join(sentence.en for sentence in taken_for_granted(run)), style="dim")
+    console.print(granted, soft_wrap=False)
     reached = verdict(run.findings)
     console.print(Text(f"verdict: {reached}", style=f"bold {COLOURS[reached]}"))
 

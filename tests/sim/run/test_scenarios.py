@@ -100,11 +100,11 @@ def test_expectations_can_be_met_and_missed(expect: dict, met: bool) -> None:
 @pytest.mark.parametrize(
     ("expect", "found", "wanted"),
     [
-        ({"a.b": {"max": 2}}, "`2.5`", "at most 2"),
-        ({"a.b": {"min": 3}}, "`2.5`", "at least 3"),
-        ({"a.b": {"min": 3, "max": 4.5}}, "`2.5`", "3 to 4.5"),
+        ({"a.b": {"max": 2}}, "2.5", "at most 2"),
+        ({"a.b": {"min": 3}}, "2.5", "at least 3"),
+        ({"a.b": {"min": 3, "max": 4.5}}, "2.5", "3 to 4.5"),
         ({"a.nowhere": "x"}, "nothing", '"x"'),
-        ({"findings": []}, '`["3B204", "3B301"]`', "[]"),
+        ({"findings": []}, '["3B204", "3B301"]', "[]"),
     ],
 )
 def test_a_missed_expectation_says_what_was_found_and_wanted(expect: dict, found: str, wanted: str) -> None:
