@@ -14,7 +14,7 @@ TOLERANCE_UM = 5.0
 def header_offset_findings(
     program: Program, passes: Passes, reach_um: float | None, added_um: float | None
 ) -> list[Finding]:
-    """No offset in the path at all (3B111), another than the wire needs (3B112), one that is added twice (3B113).
+    """No offset in the path at all (3B111), another than the wire needs (3B112), one that is added twice (3B506).
 
     `reach_um` is how far from the wire's centre it cuts, `added_um` what the controller adds; None where that is not
     known. Programs of several passes have one offset in
@@ -26,7 +26,7 @@ def header_offset_findings(
     values: dict[str, Value] = {"header": abs(told)}
     if added_um is not None:
         values["added"] = added_um
-        return [program.lines.finding("3B113", span, 0, **values)] if told != 0.0 else []
+        return [program.lines.finding("3B506", span, 0, **values)] if told != 0.0 else []
     if reach_um is None or not _one_pass(passes):
         return []
     values["reach"] = reach_um

@@ -16,7 +16,7 @@ from parser.findings.remarks import Remark, remark_text
 PAGES = resources.files("parser.findings") / "pages"
 TEMPLATES = ("found", "expected", "machine", "hint")
 LINE = 110
-NO_EXAMPLE = {"3B100", "3B113", "3B303"} | {code for code, of in CODES.items() if of.check is None}
+NO_EXAMPLE = {"3B100", "3B303"} | {code for code, of in CODES.items() if of.check is None}
 
 VALUES: dict[str, dict[str, Value]] = {
     "3B100": {"what": "unreadable-file", "detail": "Permission denied"},
@@ -32,7 +32,6 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B110": {"blocks": 3, "path": "path-without-offset"},
     "3B111": {"header": 0.0, "reach": 100.0},
     "3B112": {"header": 70.0, "reach": 100.0},
-    "3B113": {"header": 100.0, "added": 100.0},
     "3B201": {"x": 0, "y": 0},
     "3B202": {"axis": "Y", "other": "X"},
     "3B203": {"written": "L1", "ruled": "L2", "way": "+Y", "others": ""},
@@ -81,6 +80,7 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B503": {"other": 9, "pass": 2, "depth": 110.0, "offset": 100.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B504": {"loops": 2, "offset": 100.0},
     "3B505": {"first": 1, "last": 7, "before": 1, "number": 2, "gap": 1414.2},
+    "3B506": {"header": 100.0, "added": 100.0},
     "3B601": {"what": "edge-off", "off": 7.0, "tolerance": 5.0, "x_mm": 12.5, "y_mm": 0.0, "entity": "ARC 2F"},
     "3B602": {"what": "wrong-side"},
     "3B603": {"number": 4, "depth": 41.4, "reach": 100.0, "angle_deg": 90.0, "x_mm": 12.5, "y_mm": 0.0},

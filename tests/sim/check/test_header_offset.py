@@ -41,11 +41,11 @@ def test_without_wire_and_machine_an_offset_is_not_judged(demands: Demands) -> N
     assert codes(hole(9900), "0.0", demands) == codes(hole(9900), "0.3", demands) == []
 
 
-@pytest.mark.parametrize(("offset_mm", "found"), [("0.0", []), ("0.1", [("3B113", 17)])])
+@pytest.mark.parametrize(("offset_mm", "found"), [("0.0", []), ("0.1", [("3B506", 17)])])
 def test_an_offset_that_the_controller_adds_besides_is_told(offset_mm: str, found: list[tuple[str, int]]) -> None:
     assert codes(hole(9900), offset_mm, Demands(added_um=100.0)) == found
     four = "B9900B0B9900B0GXL1\nB9900B0B39600B9900GYDNR1\nB9900B0B9900B0GXL3\n"
-    assert ("3B113", 17) not in codes(four, offset_mm, Demands(added_um=100.0))
+    assert ("3B506", 17) not in codes(four, offset_mm, Demands(added_um=100.0))
 
 
 @pytest.mark.parametrize(

@@ -39,6 +39,7 @@ def short(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.alone  # progress is told after a second
 def test_a_sound_program_passes_and_prints_its_figures(part: Path) -> None:
     done = drycut("run", part)
     assert (done.returncode, done.stderr) == (0, "")
