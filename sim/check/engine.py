@@ -22,7 +22,7 @@ from sim.check.geometry import corner_findings, crossing_findings, sense_finding
 from sim.check.header_offset import header_offset_findings
 from sim.check.passes import pass_findings
 from sim.check.radius_rule import radius_rule_findings, vanishing_findings
-from sim.check.result import CheckState, Coverage, State
+from sim.check.result import CheckState, Coverage
 from sim.check.travel import travel_findings
 from sim.check.uncut_jumps import uncut_jump_findings
 
@@ -236,11 +236,9 @@ def _parser_states(program: Program) -> tuple[CheckState, ...]:
 def _state_of(program: Program, name: Check, reason: str) -> CheckState:
     """State of a check: not asked where the text gives no cause for it, else incomplete if there is a reason."""
     causeless = program.reading.not_asked.get(name)
-    return CheckState(name, "not asked", causeless) if causeless else CheckState(name, *_state(reason))
-
-
-def _state(reason: str) -> tuple[State, str]:
-    return ("incomplete", reason) if reason else ("complete", "")
+    if causeless:
+        return CheckState(name, "not asked", causeless)
+    return CheckState(name, "incomplete", reason) if reason else CheckState(name, "complete")
 
 
 def _without_path(program: Program, reason: str, more: list[Finding] | None = None) -> Checked:

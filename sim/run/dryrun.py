@@ -170,21 +170,19 @@ def dry_run(
     Raises ProgramError where the program asks for more than any table can do, and DrawingError where the scenario's
     drawing cannot be read.
     """
-    drawing = drawing_of(scenario.drawing)
-    ready = prepare(program, scenario)
+    drawing, ready = drawing_of(scenario.drawing), prepare(program, scenario)
     program, toolpath = ready.program, ready.program.toolpath
     motion, ended = motion_to_end(ready, scenario)
     meters = Meters(motion, ready.steps)
     moved = simulate(motion, _handed_to(meters, sink, motion), progress, log)
     trace = bowed(moved.trace, toolpath, scenario.wire_lag_um)
-    stepped = meters.tally.result()
+    stepped, plan = meters.tally.result(), motion.drive.plan
     contours = find_contours(toolpath, stepped.corner_um)
-    plan = motion.drive.plan
     ended = trip_of(moved.losses) or ended
     cut = _cut(trace, ended)
     passes, border_s = find_passes(toolpath), _borders(plan, ready.steps.along_um)
-    block_time_s = _times_within(border_s, ended.t_s if ended else plan.duration_s)
-    way = wire_taken(toolpath, plan, cut)
+    time_s = _times_within(border_s, ended.t_s if ended else plan.duration_s)
+    way, reach_um = wire_taken(toolpath, plan, cut), scenario.wire.reach_um
     left = left_of(program, cut, contours, scenario, drawing)
     lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     met = [*obstacle_findings(program, trace, contours, scenario), *missed_work_findings(program, trace, scenario)]
@@ -203,7 +201,7 @@ def dry_run(
         deviations=meters.deviations(cut),
         contours=contours,
         passes=passes,
-        pass_figures=figures_of_passes(toolpath, passes, block_time_s, way, scenario.wire.reach_um),
+        pass_figures=figures_of_passes(toolpath, passes, time_s, way, reach_um),
         border_s=border_s,
         remains=left.remains,
         comparison=left.comparison,
