@@ -53,6 +53,25 @@ class Coverage(NamedTuple):
         return all(check.state != "incomplete" for check in self.checks)
 
 
+class Silenced(NamedTuple):
+    """How many findings of a file are not shown, by what silences them.
+
+    Attributes
+    ----------
+    options, settings
+        Those that options of the command line, or keys of the settings file, do not select or ignore.
+    remarks
+        Those that a remark in the program silences.
+    baseline
+        Those that the baseline has.
+    """
+
+    options: int = 0
+    settings: int = 0
+    remarks: int = 0
+    baseline: int = 0
+
+
 @dataclass(frozen=True, slots=True)
 class CheckResult:
     """What was found in one file.
@@ -75,6 +94,10 @@ class CheckResult:
         Mildest severity that fails the file.
     unreadable
         Whether there was no program to check.
+    settings_file
+        Settings file that counts for it, as it is named to people; empty where there is none.
+    silenced
+        Findings that are not shown.
     """
 
     name: str
@@ -87,6 +110,8 @@ class CheckResult:
     steps: int
     fail_on: Severity = Severity.ERROR
     unreadable: bool = False
+    settings_file: str = ""
+    silenced: Silenced = Silenced()  # noqa: RUF009 - frozen
 
     def count(self, severity: Severity) -> int:
         """How many findings are of a severity."""

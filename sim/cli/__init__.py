@@ -14,7 +14,7 @@ from sim.cli.streams import prepare_streams
 _COMMANDS = {
     "ballbar": "sim.cli.ballbar",
     "card": "sim.cli.card",
-    "check": "sim.cli.check",
+    "check": "sim.cli.check.command",
     "compare": "sim.cli.compare",
     "draw": "sim.cli.draw",
     "explain": "sim.cli.explain",

@@ -25,7 +25,7 @@ from parser.program import read_program
 from parser.text.encoding import encode_text
 from sim.check import settings as check_settings
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS
-from sim.cli.check import check
+from sim.cli.check.command import check
 from sim.cli.run_into import trace_arrays
 from sim.cut.kerf.swept import rays as kerf_rays
 from sim.run.dryrun import DryRun, dry_run

@@ -9,7 +9,7 @@ from checking import SOUND, drycut
 from click.testing import CliRunner
 
 from parser.findings.errors import FileUnreadableError
-from sim.cli.check import check
+from sim.cli.check.command import check
 from sim.files import replace_file
 
 PRINTED = (
@@ -175,7 +175,7 @@ def test_files_behind_one_that_cannot_be_written_are_mended(tmp_path: Path, monk
             raise FileUnreadableError(f"{path}: cannot be written")
         replace_file(path, data)
 
-    monkeypatch.setattr("sim.cli.fixing.replace_file", refused)
+    monkeypatch.setattr("sim.cli.check.fixing.replace_file", refused)
     done = CliRunner().invoke(check, [str(tmp_path), "--fix"])
     assert done.exit_code == 2
     assert "a.3b: cannot be written" in done.output
