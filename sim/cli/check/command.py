@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from parser.findings.catalogue import Language
     from sim.check.batch import Job
     from sim.check.result import CheckResult
+    from sim.cli.check.baselines import Ledger
+    from sim.cli.check.jobs import Asked
 
 
 @click.command()
@@ -27,12 +29,13 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     stats: bool,
     quiet: bool,
     fix: bool,
+    exit_zero: bool,
     **asked: Any,
 ) -> None:
     """Find all that is wrong with 3B programs, before a wire is threaded.
 
     Reads files, all .3b and .4b files of folders, globs, and - for the standard input. Settings stand in drycut.toml,
-    or in [tool.drycut] of pyproject.toml, in the folder of the file or above it; options come first.
+    or in [tool.drycut] of pyproject.toml, in the folder of the file or above it in its project; options come first.
 
     Exit code: 0 nothing as severe as --fail-on, 1 a finding that is, or a check that could not look at everything,
     2 bad use or unreadable input.
@@ -45,7 +48,8 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     language = chosen(lang)
     from sim.cli.check.jobs import Asked, jobs_of
 
-    jobs = jobs_of(files, Asked(**asked))
+    options = Asked(**asked)
+    jobs = jobs_of(files, options)
     outcome = _Outcome()
     if fix and not _fix(jobs, language):
         outcome.code = 2
@@ -54,9 +58,17 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
 
     colour = form == "text" and sys.stdout.isatty() and "NO_COLOR" not in os.environ
     style = Options(language, colour, quiet, stats)
-    for text in render(form, outcome.watched(_results(jobs)), style):
+    ledger = _ledger(options)
+    for text in render(form, outcome.watched(ledger.watched(jobs, _results(jobs))), style):
         click.echo(text, nl=False)
-    raise click.exceptions.Exit(outcome.code)
+    click.echo(ledger.closed(language), err=True, nl=False)
+    raise click.exceptions.Exit(0 if exit_zero and outcome.code == 1 else outcome.code)
+
+
+def _ledger(options: "Asked") -> "Ledger":
+    from sim.cli.check.baselines import Held, Written
+
+    return Written(options.write_baseline) if options.write_baseline else Held()
 
 
 def _fix(jobs: Sequence["Job"], language: "Language") -> bool:
@@ -71,7 +83,8 @@ def _fix(jobs: Sequence["Job"], language: "Language") -> bool:
         if not job.source.is_file():
             continue
         try:
-            click.echo(told(fix_file(job.source, job.name, job.settings), job.name, language), err=True, nl=False)
+            fixing = fix_file(job.source, job.name, job.settings, job.known)
+            click.echo(told(fixing, job.name, language), err=True, nl=False)
         except FileUnreadableError as error:
             click.echo(f"Error: {error}", err=True)
             all_written = False

@@ -13,9 +13,11 @@ from parser.program import Program, load_program
 from parser.text.encoding import encode_text, printable
 from parser.text.excerpt import place
 from parser.text.lines import LINE_END
+from sim.check.batch import result_of
 from sim.check.engine import run_checks
 from sim.check.fixes import Choice, choices, with_edits
 from sim.check.settings import CheckSettings
+from sim.check.silence.sift import without_known
 from sim.files import replace_file
 from sim.show.words import Words
 
@@ -34,9 +36,10 @@ class Fixing(NamedTuple):
     unmended: tuple[Unmended, ...]
 
 
-def fix_file(path: Path, name: str, settings: CheckSettings) -> Fixing:
-    """Mend in the file what is certain, keeping encoding, line ends and all else.
+def fix_file(path: Path, name: str, settings: CheckSettings, known: frozenset[str] = frozenset()) -> Fixing:
+    """Mend in the file what is certain and shown, keeping encoding, line ends and all else.
 
+    What settings, remarks or the baseline, of which the fingerprints are `known`, silence is not mended.
     A file that cannot be read stays as it is, and so does one in which a mend would bring a new error. Raises
     FileUnreadableError where the file cannot be written; then it is as it was.
     """
@@ -44,8 +47,9 @@ def fix_file(path: Path, name: str, settings: CheckSettings) -> Fixing:
         program = load_program(path.read_bytes(), name, settings.marks)
     except (ProgramError, OSError):
         return Fixing("", ())
-    findings = with_edits(program, run_checks(program, settings.demands))
-    shown = tuple(finding for finding in findings if settings.shows(finding.code))
+    checked = run_checks(program, settings.demands)
+    findings = with_edits(program, checked)
+    shown = without_known(result_of(program, checked._replace(findings=findings), settings), known).findings
     left = tuple(Unmended(f, possible) for f in shown if len(possible := choices(program, f, findings)) > 1)
     text = edited(program.text, [edit for finding in shown for edit in finding.edits])
     mended = encode_text(text, program.encoding)
