@@ -13,7 +13,7 @@ _OUTPUT = (
     click.option(
         "--format",
         "form",
-        type=click.Choice(["text", "json", "sarif", "junit", "github"]),
+        type=click.Choice(["text", "concise", "json", "sarif", "junit", "github", "gitlab"]),
         default="text",
         show_default=True,
         help="How to print the findings.",

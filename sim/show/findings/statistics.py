@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from parser.findings.catalogue import Language, length, page, term
 from parser.findings.codes import CODES
+from parser.text.encoding import printable
 from parser.text.excerpt import cells
 from sim.show.findings.totals import BLOCKS, Totals
 from sim.show.findings.wording import silencers, verdicts
@@ -62,7 +63,7 @@ def _columns(rows: Sequence[tuple[str, ...]], width: int, right: tuple[int, ...]
     lines = []
     for *leading, last in rows:
         padded = [_padded(text, widths[at], at in right) + _GAP for at, text in enumerate(leading)]
-        lines += wrapped(last, width, "".join(padded))
+        lines += wrapped(printable(last), width, "".join(padded))
     return lines
 
 

@@ -12,10 +12,11 @@ from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.statistics import table
 from sim.show.findings.totals import Totals
-from sim.show.findings.wording import outcome, reasons, silenced, summary
+from sim.show.findings.wording import reach, reasons, silenced, summary, verdict
 from sim.show.terminal.colours import COLOURS
 from sim.show.terminal.finding import Line, finding_lines
 from sim.show.terminal.wrap import wrapped
+from sim.show.words import Words
 
 _INDENT = "    "
 
@@ -43,9 +44,12 @@ def _file(result: CheckResult, options: Options) -> Iterator[str]:
 
 
 def _outcome(result: CheckResult, options: Options) -> Iterator[str]:
-    """How far the check of a file came, then why some checks did not end and what silences findings."""
-    head = f"{printable(result.name)}: "
-    for line in wrapped(outcome(result, options.language), options.width, head, _INDENT):
+    """Verdict and how far the check of a file came; then why some checks did not end, and what silences findings.
+
+    Name and verdict are never parted, however long the name is.
+    """
+    head = f"{printable(result.name)}: {verdict(result, options.language)}{Words(options.language)('findings.stop')}"
+    for line in wrapped(printable(reach(result, options.language)), options.width, head, _INDENT):
         yield _styled(line, options, fg=COLOURS[result.verdict])
     told = reasons(result.coverage.checks, options.language)
     hidden = silenced(result.silenced, (result.settings_file,), options.language)

@@ -24,13 +24,17 @@ def reason(check: CheckState, language: Language) -> str:
     return _because(term(check.name, language), check.reason, language)
 
 
-def outcome(result: CheckResult, language: Language) -> str:
-    """``fail: 2 errors, 1 not shown; 3 blocks; checks: 9 complete, 3 not asked; settings: drycut.toml``."""
+def verdict(result: CheckResult, language: Language) -> str:
+    """``fail: 2 errors, 1 not shown``."""
     say = Words(language)
-    verdict, read = say(f"findings.{result.verdict}"), result.coverage
     found = _findings({severity: result.count(severity) for severity in Severity}, result.silenced, language)
+    return say("findings.colon").join(filter(None, (say(f"findings.{result.verdict}"), found)))
+
+
+def reach(result: CheckResult, language: Language) -> str:
+    """How far the check of a file came: ``3 blocks; checks: 9 complete, 3 not asked; settings: drycut.toml``."""
+    say, read = Words(language), result.coverage
     parts = (
-        f"{verdict}{say('findings.colon')}{found}" if found else verdict,
         _blocks(read, language),
         say("findings.checks", states=_states(read.checks, language)),
         settings(result.silenced, (result.settings_file,), language),
@@ -47,6 +51,12 @@ def summary(totals: Totals, language: Language) -> str:
         verdicts=verdicts(totals, language),
         findings=_findings(totals.by_severity(), totals.silenced, language) or say("findings.no-findings"),
     )
+
+
+def counted(totals: Totals, language: Language) -> list[str]:
+    """The settings files that counted, and what is not shown, each a line; none where there is nothing to say."""
+    hidden, files = totals.silenced, totals.settings_files
+    return [line for line in (settings(hidden, files, language), silenced(hidden, files, language)) if line]
 
 
 def silenced(counts: Silenced, settings_files: Sequence[str], language: Language) -> str:
@@ -104,11 +114,13 @@ def verdicts(totals: Totals, language: Language) -> str:
 
 def _states(checks: tuple[CheckState, ...], language: Language) -> str:
     counts = {state: sum(check.state == state for check in checks) for state in _STATES}
-    say = Words(language)
-    parts = (
-        say(f"findings.{state.replace(' ', '-')}-checks", n=n) for state, n in counts.items() if n or state == "complete"
-    )
-    return say("findings.comma").join(parts)
+    parts = (_state(state, n, language) for state, n in counts.items() if n or state == "complete")
+    return Words(language)("findings.comma").join(parts)
+
+
+def _state(state: State, n: int, language: Language) -> str:
+    key = state.replace(" ", "-")
+    return Words(language)(f"findings.{key}-checks", n=n)
 
 
 def reasons(checks: Iterable[CheckState], language: Language) -> list[str]:

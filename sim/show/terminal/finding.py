@@ -47,7 +47,7 @@ def hint(finding: Finding, language: Language) -> str:
 def finding_lines(
     name: str, finding: Finding, excerpt: str | None, language: Language, width: int = WIDTH
 ) -> Iterator[Line]:
-    """The lines of a finding in a file of this name, in `width` cells; `excerpt` is its source line, if there is one."""
+    """The lines of a finding in a file of this name, in `width` cells; `excerpt` is its source line or None."""
     of = texts(finding, language)
     severity = Words(language)(f"findings.{finding.severity}")
     where = place(printable(name), finding.line, finding.column)

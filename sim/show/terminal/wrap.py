@@ -4,6 +4,7 @@
 the beginning of a line, as Chinese typesetting asks for (W3C, Requirements for Chinese Text Layout, 3.1.6).
 """
 
+import re
 import shutil
 import unicodedata
 from collections.abc import Iterator
@@ -20,6 +21,7 @@ _LEAST_ROOM = 20  # beside a long head
 # Unicode's general categories: opening brackets and quotes; what closes them, and all other punctuation.
 _NEVER_LAST = {"Ps", "Pi"}
 _NEVER_FIRST = {"Pe", "Pf", "Po"}
+_NUMBER = re.compile(r"[\d.,]+")
 
 
 def width_of(stream: TextIO) -> int:
@@ -61,12 +63,18 @@ def _pieces(text: str, room: int) -> Iterator[_Piece]:
     whole: list[_Piece] = []
     for piece in _units(text):
         last = whole[-1] if whole else None
-        if last and (_category(last.text[-1]) in _NEVER_LAST or _category(piece.text[0]) in _NEVER_FIRST):
+        if last and _stay_together(last.text, piece.text):
             whole[-1] = _Piece(last.text + " " * piece.blanks + piece.text, last.blanks)
         else:
             whole.append(piece)
     for piece in whole:
         yield from _cut(piece, room)
+
+
+def _stay_together(text: str, following: str) -> bool:
+    """Whether no line ends between two texts: punctuation keeps its side, and a number what it counts."""
+    opens, closes = _category(text[-1]) in _NEVER_LAST, _category(following[0]) in _NEVER_FIRST
+    return opens or closes or bool(_NUMBER.fullmatch(text))
 
 
 def _units(text: str) -> Iterator[_Piece]:
