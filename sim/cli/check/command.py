@@ -1,8 +1,7 @@
 """``drycut check``."""
 
-import os
-import sys
 from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -14,6 +13,7 @@ if TYPE_CHECKING:
     from parser.findings.catalogue import Language
     from sim.check.batch import Job
     from sim.check.result import CheckResult
+    from sim.cli.check.outputs import Output
 
 
 @click.command()
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 def check(  # noqa: PLR0913 - click hands over each option by its name
     *,
     files: tuple[str, ...],
-    form: str,
+    formats: tuple["Output", ...],
+    output_file: Path | None,
     lang: str | None,
     stats: bool,
     quiet: bool,
@@ -39,23 +40,22 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
 
     \b
     drycut check part.3b
-    drycut check programs/ --format sarif > drycut.sarif
+    drycut check programs/ --format text --format sarif=drycut.sarif
     drycut check part.3b --fix
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     language = chosen(lang)
     from sim.cli.check.jobs import Asked, jobs_of
+    from sim.cli.check.outputs import outputs_of, refuse_programs, write
 
+    outputs = outputs_of(formats, output_file)
     jobs = jobs_of(files, Asked(**asked))
+    refuse_programs((output.file for output in outputs if output.file), jobs)
     outcome = _Outcome()
     if fix and not _fix(jobs, language):
         outcome.code = 2
-    from sim.show.findings import render
     from sim.show.findings.options import Options
 
-    colour = form == "text" and sys.stdout.isatty() and "NO_COLOR" not in os.environ
-    style = Options(language, colour, quiet, stats)
-    for text in render(form, outcome.watched(_results(jobs)), style):
-        click.echo(text, nl=False)
+    write(outcome.watched(_results(jobs)), outputs, Options(language, quiet=quiet, stats=stats))
     raise click.exceptions.Exit(outcome.code)
 
 

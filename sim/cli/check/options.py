@@ -1,22 +1,46 @@
 """Options of ``drycut check``, in the groups in which its help lists them."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
+from sim.cli.check.outputs import Output
 from sim.cli.scenario_options import Length
+from sim.show.findings import FORMATS
 
 Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+class OutputType(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """``sarif`` or ``sarif=check.sarif``: an `Output`."""
+
+    name = "output"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Output:
+        """The output; a format that there is not, or no name of a file behind ``=``, is bad use."""
+        if isinstance(value, Output):
+            return value
+        form, into, file = value.partition("=")
+        if form not in FORMATS:
+            self.fail(f"{form!r} is not one of {', '.join(FORMATS)}", param, ctx)
+        if into and not file:
+            self.fail(f"{value!r} lacks the name of a file", param, ctx)
+        return Output(form, Path(file) if file else None)
+
 
 _OUTPUT = (
     click.option(
         "--format",
-        "form",
-        type=click.Choice(["text", "json", "sarif", "junit", "github"]),
-        default="text",
-        show_default=True,
-        help="How to print the findings.",
+        "formats",
+        type=OutputType(),
+        multiple=True,
+        metavar="FORMAT[=FILE]",
+        help=f"How to print the findings: {', '.join(FORMATS)} [text]; with =FILE into a file; several times.",
+    ),
+    click.option(
+        "--output-file", "-o", type=click.Path(path_type=Path), metavar="FILE", help="Print them into a file instead."
     ),
     click.option("--lang", type=click.Choice(["en", "zh"]), help="Language; that of the locale where left out."),
     click.option("--stats", is_flag=True, help="Count the findings by code."),
