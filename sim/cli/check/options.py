@@ -51,7 +51,10 @@ _SELECTION = (
     click.option("--ignore", metavar="CODES", help="Do not show these codes."),
     click.option("--fail-on", type=click.Choice(["warning", "error"]), help="Least severity for exit code 1 [error]."),
 )
-_MENDS = (click.option("--fix", is_flag=True, help="Mend in the files what is certain, and show what was changed."),)
+_MENDS = (
+    click.option("--fix", is_flag=True, help="Mend in the files what is certain, and show what was changed."),
+    click.option("--diff", is_flag=True, help="Show what --fix would change, for patch -p0, and change nothing."),
+)
 _DEMANDS = (
     click.option(
         "--machine", metavar="NAME|FILE", help="Check the travel of this machine, such as dk7740, or a .toml."
