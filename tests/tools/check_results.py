@@ -3,6 +3,7 @@
 import xml.etree.ElementTree as ET
 
 from parser.findings.findings import Edit, Finding
+from parser.text.encoding import no_program
 from sim.check.result import CheckResult, CheckState, Coverage
 
 COUNTED = "B0B9900B39600GXNR4"
@@ -61,7 +62,7 @@ def kind() -> list[CheckResult]:
 
 def hostile() -> list[CheckResult]:
     nothing = Coverage(0, 0, 0, 0, (CheckState("check-grammar", "incomplete", "reason-unreadable"),))
-    no_file = Finding("3B100", {"what": "unreadable-file", "detail": HOSTILE})
+    no_file = no_program("unreadable-file", HOSTILE)
     return [
         result(HOSTILE.replace("\0", ""), unknown(HOSTILE), unknown(HOSTILE), excerpts={3: "  " + HOSTILE}),
         result("<stdin>", unknown("x", line=9), unknown("", line=3)),

@@ -5,6 +5,7 @@ from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
+from parser.files.reading import read_bytes
 from parser.findings.catalogue import Language
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
@@ -41,7 +42,7 @@ def fix_file(path: Path, name: str, settings: CheckSettings) -> Fixing:
     FileUnreadableError where the file cannot be written; then it is as it was.
     """
     try:
-        program = load_program(path.read_bytes(), name, settings.marks)
+        program = load_program(read_bytes(path), name, settings.marks)
     except (ProgramError, OSError):
         return Fixing("", ())
     findings = with_edits(program, run_checks(program, settings.demands))
