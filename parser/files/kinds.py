@@ -28,6 +28,7 @@ HINTS: Mapping[str, str] = MappingProxyType(
 
 _LOOKED_AT = 1 << 16  # bytes: whatever a file is, it says so by then
 _HEAD = 1024
+_LEAST_LETTERS = 8  # of a text in UTF-16: fewer bytes may be anything
 
 _MAGIC: tuple[tuple[str, bytes], ...] = (
     ("kind-pdf", rb"\s*+%PDF-\d"),
@@ -66,9 +67,10 @@ def kind_of(data: bytes) -> str:
 
 
 def _is_utf16(head: bytes) -> bool:
-    """Whether every other byte is 0, as in text of ASCII characters, and none between."""
-    halves = sorted((head[start:_HEAD:2].count(0) for start in (0, 1)), reverse=True)
-    return halves[1] == 0 and 4 * halves[0] > len(head[:_HEAD])
+    """Whether every other byte is 0, as in a text of ASCII characters, and no other byte is a control character."""
+    halves = sorted((head[start:_HEAD:2] for start in (0, 1)), key=lambda half: half.count(0))
+    letters, zeros = halves
+    return len(letters) >= _LEAST_LETTERS and min(letters) >= 0x09 and 2 * zeros.count(0) > len(zeros)
 
 
 def _is_program(head: bytes) -> bool:

@@ -126,7 +126,8 @@ def test_every_command_refuses_what_is_no_file(tmp_path: Path) -> None:
 def test_the_standard_input_ends_at_the_limit() -> None:
     done = run_command("check", "-", stdin=SQUARE * 10_000, **{LIMIT_NAME: "0.1"})
     assert (done.returncode, done.stdout) == (2, b"")
-    assert b"<stdin>: cannot be read: this is larger than the largest file that is read (DRYCUT_MAX_FILE_MB=0.1)" in done.stderr
+    assert b"<stdin>: cannot be read: this is larger than the largest file" in done.stderr
+    assert b"(DRYCUT_MAX_FILE_MB=0.1)" in done.stderr
 
 
 def test_nothing_else_reads_files() -> None:
