@@ -6,7 +6,6 @@ stands there may be anybody's.
 """
 
 import os
-import stat
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -110,7 +109,7 @@ class SettingsSearch:
 
     def _look_in(self, folder: Path) -> _Found | None:
         for file in (folder / name for name in NAMES):
-            if _is_plain_file(file):
+            if _stands(file):
                 content = content_of(file)
                 if content is not None:
                     return _Found(file, content)
@@ -138,19 +137,15 @@ class SettingsSearch:
             )
 
 
-def _is_plain_file(file: Path) -> bool:
-    """Whether there is a file of that name. FileUnreadableError where something else has it, or nobody can tell."""
+def _stands(file: Path) -> bool:
+    """Whether anything has that name. FileUnreadableError where nobody can tell."""
     try:
         file.lstat()
-        if stat.S_ISREG(file.stat().st_mode):
-            return True
-    except (FileNotFoundError, NotADirectoryError) as error:
-        if not file.is_symlink():
-            return False
-        raise FileUnreadableError(f"{file}: is a link that leads nowhere") from error
+    except (FileNotFoundError, NotADirectoryError):
+        return False
     except OSError as error:
         raise FileUnreadableError(f"{file}: cannot be read: {error.strerror or error}") from None
-    raise FileUnreadableError(f"{file}: is no plain file; settings were expected there")
+    return True
 
 
 def _working_folder() -> Path:

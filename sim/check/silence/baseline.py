@@ -6,8 +6,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from parser.files.reading import read_text
 from parser.findings.codes import CODES
-from parser.findings.errors import FileUnreadableError, SettingsError
+from parser.findings.errors import SettingsError
 from sim.check.fingerprint import fingerprints
 from sim.check.result import CheckResult
 
@@ -63,9 +64,7 @@ def read_baseline(path: Path) -> Baseline:
     Raises FileUnreadableError where it cannot be read, SettingsError where it is no baseline.
     """
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
+        content = json.loads(read_text(path))
     except (ValueError, RecursionError) as error:  # no JSON, no UTF-8, or nested without end
         raise SettingsError(f"{path}: is no baseline: {error}") from None
     if not isinstance(content, dict) or not isinstance(content.get("files"), dict):

@@ -1,12 +1,12 @@
 """The jobs of a check: its files, each with the settings that count for it."""
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
+from parser.files.reading import read_stdin
 from parser.units import mm
 from sim.check.batch import Job
 from sim.check.files import find_files
@@ -81,7 +81,7 @@ class _Making:
         of_file = baseline.of(placed) if baseline else {}
         known = frozenset(mark for mark, code in of_file.items() if settings.shows(code))
         if name == STDIN:
-            return Job("<stdin>", sys.stdin.buffer.read(), settings, known)
+            return Job("<stdin>", read_stdin(), settings, known)
         return Job(name, Path(name), settings, known)
 
     def _near(self, placed: Path) -> SettingsFile:
