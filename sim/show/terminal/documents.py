@@ -11,6 +11,7 @@ DOCUMENTS: Final = (
     "check",
     "compare",
     "drawing",
+    "limits",
     "pictures",
     "python",
     "replay",
