@@ -13,10 +13,12 @@ if TYPE_CHECKING:
     from sim.check.batch import Job
     from sim.check.result import CheckResult
     from sim.cli.check.outputs import Output
+    from sim.show.findings.options import Options
 
 _OF_FILES = {
     "--fix": "mends files; it cannot mend the standard input",
     "--diff": "shows mends of files; the standard input has none",
+    "--watch": "looks at files; the standard input does not change",
 }
 
 
@@ -33,6 +35,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     quiet: bool,
     fix: bool,
     diff: bool,
+    watch: bool,
     **asked: Any,
 ) -> None:
     """Find all that is wrong with 3B programs, before a wire is threaded.
@@ -50,25 +53,33 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     language = chosen(lang)
     from sim.cli.check.jobs import Asked, jobs_of
-    from sim.cli.check.outputs import outputs_of, refuse_programs, write
+    from sim.cli.check.outputs import outputs_of, refuse_programs
+    from sim.show.findings.options import Options
 
-    _refuse_contradictions(files, formats, {"--fix": fix, "--diff": diff})
+    _refuse_contradictions(files, formats, {"--fix": fix, "--diff": diff, "--watch": watch})
     outputs = outputs_of(formats, output_file)
-    jobs = jobs_of(files, Asked(**asked))
-    refuse_programs((output.file for output in outputs if output.file), jobs)
+    style = Options(language, quiet=quiet, stats=stats)
+
+    def found() -> list["Job"]:
+        jobs = jobs_of(files, Asked(**asked))
+        refuse_programs((output.file for output in outputs if output.file), jobs)
+        return jobs
+
+    if watch:
+        from sim.cli.check import watching
+
+        watching.watch(files, lambda: _check(found(), outputs, style), language)
+    jobs = found()
+    code = 0
     if diff:
         from sim.cli.check.mends import show_diffs
 
         raise click.exceptions.Exit(show_diffs(jobs, output_file, language))
-    outcome = _Outcome()
     if fix:
         from sim.cli.check.mends import fix_files
 
-        outcome.code = 0 if fix_files(jobs, language) else 2
-    from sim.show.findings.options import Options
-
-    write(outcome.watched(_results(jobs)), outputs, Options(language, quiet=quiet, stats=stats))
-    raise click.exceptions.Exit(outcome.code)
+        code = 0 if fix_files(jobs, language) else 2
+    raise click.exceptions.Exit(max(code, _check(jobs, outputs, style)))
 
 
 def _refuse_contradictions(files: Sequence[str], formats: Sequence["Output"], given: Mapping[str, bool]) -> None:
@@ -82,6 +93,15 @@ def _refuse_contradictions(files: Sequence[str], formats: Sequence["Output"], gi
         raise click.UsageError(f"{asked[0]} {_OF_FILES[asked[0]]}")
     if formats and asked == ["--diff"]:
         raise click.UsageError("--diff shows mends and no findings; --format has no place beside it")
+
+
+def _check(jobs: Sequence["Job"], outputs: Sequence["Output"], style: "Options") -> int:
+    """Check the files of the jobs and write what was found; the exit code."""
+    from sim.cli.check.outputs import write
+
+    outcome = _Outcome()
+    write(outcome.watched(_results(jobs)), outputs, style)
+    return outcome.code
 
 
 def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:
