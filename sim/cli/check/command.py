@@ -31,7 +31,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     formats: tuple["Output", ...],
     output_file: Path | None,
     lang: str | None,
-    stats: bool,
+    statistics: bool,
     quiet: bool,
     fix: bool,
     diff: bool,
@@ -58,7 +58,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
 
     _refuse_contradictions(files, formats, {"--fix": fix, "--diff": diff, "--watch": watch})
     outputs = outputs_of(formats, output_file)
-    style = Options(language, quiet=quiet, stats=stats)
+    style = Options(language, quiet=quiet, statistics=statistics)
 
     def found() -> list["Job"]:
         jobs = jobs_of(files, Asked(**asked))

@@ -4,6 +4,7 @@ from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
+from parser.files.reading import read_bytes
 from parser.findings.catalogue import Language
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
@@ -56,7 +57,7 @@ def mended(path: Path, name: str, settings: CheckSettings) -> Mended:
 
     Raises ProgramError or OSError for a file that cannot be read.
     """
-    before = path.read_bytes()
+    before = read_bytes(path)
     program = load_program(before, name, settings.marks)
     findings = with_edits(program, run_checks(program, settings.demands))
     shown = tuple(finding for finding in findings if settings.shows(finding.code))

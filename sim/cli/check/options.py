@@ -43,7 +43,7 @@ _OUTPUT = (
         "--output-file", "-o", type=click.Path(path_type=Path), metavar="FILE", help="Print them into a file instead."
     ),
     click.option("--lang", type=click.Choice(["en", "zh"]), help="Language; that of the locale where left out."),
-    click.option("--stats", is_flag=True, help="Count the findings by code."),
+    click.option("--statistics", is_flag=True, help="Count findings by code, and what was looked at."),
     click.option("--quiet", is_flag=True, help="No line for files without findings."),
 )
 _SELECTION = (

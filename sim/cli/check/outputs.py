@@ -16,6 +16,7 @@ from typing import IO, TYPE_CHECKING, NamedTuple
 import click
 
 from sim.show.findings import render
+from sim.show.terminal.wrap import width_of
 
 if TYPE_CHECKING:
     from sim.check.batch import Job
@@ -97,7 +98,8 @@ def _write_one(output: Output, results: Iterable["CheckResult"], files: Files, o
         files[output.file].writelines(render(output.form, results, options))
         return
     colour = output.form == "text" and sys.stdout.isatty() and "NO_COLOR" not in os.environ
-    for text in render(output.form, results, options._replace(colour=colour)):
+    width = width_of(sys.stdout)
+    for text in render(output.form, results, options._replace(colour=colour, width=width)):
         click.echo(text, nl=False)
 
 
