@@ -15,10 +15,12 @@ if TYPE_CHECKING:
     from sim.cli.check.baselines import Ledger
     from sim.cli.check.jobs import Asked
     from sim.cli.check.outputs import Output
+    from sim.show.findings.options import Options
 
 _OF_FILES = {
     "--fix": "mends files; it cannot mend the standard input",
     "--diff": "shows mends of files; the standard input has none",
+    "--watch": "looks at files; the standard input does not change",
 }
 
 
@@ -36,6 +38,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     fix: bool,
     exit_zero: bool,
     diff: bool,
+    watch: bool,
     **asked: Any,
 ) -> None:
     """Find all that is wrong with 3B programs, before a wire is threaded.
@@ -53,28 +56,34 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     language = chosen(lang)
     from sim.cli.check.jobs import Asked, jobs_of
-    from sim.cli.check.outputs import outputs_of, refuse_programs, write
+    from sim.cli.check.outputs import outputs_of, refuse_programs
     from sim.show.findings.options import Options
 
-    _refuse_contradictions(files, formats, asked, {"--fix": fix, "--diff": diff})
-    outputs = outputs_of(formats, output_file)
-    options = Asked(**asked)
-    jobs = jobs_of(files, options)
-    refuse_programs(filter(None, (*(output.file for output in outputs), options.write_baseline)), jobs)
+    given = {"--fix": fix, "--diff": diff, "--watch": watch}
+    _refuse_contradictions(files, formats, asked, given)
+    outputs, options = outputs_of(formats, output_file), Asked(**asked)
+    style = Options(language, quiet=quiet, statistics=statistics)
+
+    def found() -> list["Job"]:
+        jobs = jobs_of(files, options)
+        refuse_programs(filter(None, (*(output.file for output in outputs), options.write_baseline)), jobs)
+        return jobs
+
+    if watch:
+        from sim.cli.check import watching
+
+        watching.watch(files, lambda: _check(found(), outputs, style, options), language)
+    jobs = found()
+    code = 0
     if diff:
         from sim.cli.check.mends import show_diffs
 
         raise _exit(show_diffs(jobs, output_file, language), is_zero=exit_zero)
-    outcome = _Outcome()
     if fix:
         from sim.cli.check.mends import fix_files
 
-        outcome.code = 0 if fix_files(jobs, language) else 2
-    ledger = _ledger(options)
-    results = outcome.watched(ledger.watched(jobs, _results(jobs)))
-    write(results, outputs, Options(language, quiet=quiet, statistics=statistics))
-    click.echo(ledger.closed(language), err=True, nl=False)
-    raise _exit(outcome.code, is_zero=exit_zero)
+        code = 0 if fix_files(jobs, language) else 2
+    raise _exit(max(code, _check(jobs, outputs, style, options)), is_zero=exit_zero)
 
 
 def _exit(code: int, *, is_zero: bool) -> click.exceptions.Exit:
@@ -103,6 +112,18 @@ def _refuse_contradictions(
     beside = [option for option, is_given in needs.items() if is_given]
     if beside and asked == ["--diff"]:
         raise click.UsageError(f"--diff shows mends and no findings; {beside[0]} has no place beside it")
+    if settings["write_baseline"] and asked == ["--watch"]:
+        raise click.UsageError("--watch checks again and again; --write-baseline has no place beside it")
+
+
+def _check(jobs: Sequence["Job"], outputs: Sequence["Output"], style: "Options", options: "Asked") -> int:
+    """Check the files of the jobs and write what was found; the exit code."""
+    from sim.cli.check.outputs import write
+
+    outcome, ledger = _Outcome(), _ledger(options)
+    write(outcome.watched(ledger.watched(jobs, _results(jobs))), outputs, style)
+    click.echo(ledger.closed(style.language), err=True, nl=False)
+    return outcome.code
 
 
 def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:
