@@ -4,8 +4,10 @@ import json
 import os
 import shutil
 import signal
+import stat
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,7 +18,7 @@ from places import ROOT
 from swaps import NAMES, NEW, OLD, found, left, write
 
 from parser.findings.errors import FileUnreadableError
-from sim.files import locks, replace_file, staged
+from sim.files import locks, replace_file, scratch, staged
 
 TOOLS = ROOT / "tests" / "tools"
 PART = "B500B0B500GXL1\nB500B0B2000GYNR1\nB500B0B500GXL3\nDD\n"
@@ -114,6 +116,18 @@ def test_what_a_killed_mend_left_is_cleared_by_the_next(tmp_path: Path) -> None:
     (tmp_path / "part.3b").write_text("old")
     replace_file(tmp_path / "part.3b", b"new")
     assert [path.name for path in tmp_path.iterdir()] == ["part.3b"]
+
+
+def test_what_a_killed_run_left_among_temporary_files_is_cleared_by_the_next(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    (tmp_path / ".drycut-0123456789abcdef").mkdir()
+    (tmp_path / ".drycut-0123456789abcdef" / "step_t_s.npy").write_text("of a killed run")
+    with scratch() as folder:
+        assert list(tmp_path.iterdir()) == [folder]
+        assert os.name == "nt" or stat.S_IMODE(folder.stat().st_mode) == 0o700
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
