@@ -18,12 +18,13 @@ def explain(code: str | None, lang: str | None) -> None:
     drycut explain 3B204
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from sim.show.findings.pages import page_text, titles_text
+    from sim.show.terminal.printer import write
 
     language = chosen(lang)
     if code is None:
-        click.echo(titles_text(language), nl=False)
+        write(titles_text(language))
         return
     known = code.strip().upper()
     if known not in CODES:
         raise click.UsageError(f"no finding has the code {code!r}; drycut explain lists them all")
-    click.echo(page_text(known, language), nl=False)
+    write(page_text(known, language))
