@@ -99,6 +99,5 @@ def _complain(message: str) -> int:
 def _tell_fault(told: str) -> int:
     from sim.cli.faults import tell_faults
     from sim.cli.scenario_options import chosen
-    from sim.show.words import Words
 
-    return tell_faults({"": told}, Words(chosen(None)))
+    return tell_faults({"": told}, chosen(None))

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from typing import Final
 
 from parser import __version__
+from parser.findings.catalogue import Language
 from parser.text.harmless import harmless
 from sim.show.terminal.printer import say
 from sim.show.terminal.wrap import wrapped
@@ -18,11 +19,12 @@ _MOST_FILES = 10
 _INDENT = "    "
 
 
-def tell_faults(tracebacks: Mapping[str, str], words: Words) -> int:
+def tell_faults(tracebacks: Mapping[str, str], language: Language) -> int:
     """Tell of faults on stderr, each by the file at which it happened, and keep their tracebacks; the exit code.
 
     The name is empty where a fault belongs to no one file. Of more than ten the others are in the file that is kept.
     """
+    words = Words(language)
     named = list(tracebacks.items())
     for name, traceback in named[:_MOST_FILES]:
         _tell(words("fault.head", at=f"{name}: " if name else "", error=_last_line(traceback)))

@@ -4,7 +4,6 @@
 their data, in escapes of their own. Our own colours go to terminals. What libraries print passes `Cleaned`.
 """
 
-import json
 import os
 import re
 from collections.abc import Callable, Mapping
@@ -19,23 +18,38 @@ from sim.show.terminal.streams import outlet
 Form = Literal["text", "json", "xml", "github"]
 """What is printed: lines for people, JSON, XML, or workflow commands of GitHub Actions, one a line."""
 
+_QUIET: Final = str.maketrans({"\t": " ", "\0": None, "\x1a": None, "\ufeff": None})  # NUL, end of a DOS file, BOM
 # Such a command up to its message; it has no colon but in its ends (sim.show.findings.github).
 _OWN_COMMAND: Final = re.compile(r"(::(?:error|warning|notice) [^:]*::)(.*)")
 
 
 def say(line: str, *, err: bool = False) -> None:
     """Print one line for people; a line feed in it is a character like others that are no text."""
-    _print(_shown(line, outlet(err=err)), err=err)
+    _print(_shown(line, colour=coloured(outlet(err=err))), err=err)
 
 
 def write(text: str, form: Form = "text", *, err: bool = False) -> None:
-    """Print lines, each with its line feed; of a part of a line no more is known than it says."""
+    """Print whole lines."""
+    _print(made(text, form, colour=coloured(outlet(err=err))), err=err, ends=False)
+
+
+def write_exactly(data: bytes) -> bool:
+    """Print lines byte for byte to stdout, if there is nothing harmful in them; whether there was not."""
+    text = data.decode("utf-8", "replace").translate(_QUIET)  # of UTF-16 the ASCII is left
+    if any(harmless(line) != line for line in re.split("[\r\n]", text)):
+        return False
+    stream = outlet()
+    stream.flush()
+    stream.buffer.write(data)
+    stream.flush()
+    return True
+
+
+def made(text: str, form: Form, *, colour: bool = False) -> str:
+    """Lines as they are printed, for a file that may be shown or logged later; with our own colours where asked for."""
     if form == "text":
-        stream = outlet(err=err)
-        made = "\n".join(_shown(line, stream) for line in text.split("\n"))
-    else:
-        made = _FORMS[form](text)
-    _print(made, err=err, ends=False)
+        return "\n".join(_shown(line, colour=colour) for line in text.split("\n"))
+    return _FORMS[form](text)
 
 
 def coloured(stream: TextIO) -> bool:
@@ -50,18 +64,18 @@ def moves_cursor(stream: TextIO) -> bool:
     return stream.isatty() and os.environ.get("TERM", "") not in {"dumb", "unknown"}
 
 
-def _shown(line: str, stream: TextIO) -> str:
-    """A line for people with our own colours, where the stream gets any."""
+def _shown(line: str, *, colour: bool) -> str:
+    """A line for people, with our own colours or without."""
     parts = spans(line)
     text = harmless("".join(part.text for part in parts))
-    if not coloured(stream):
+    if not colour:
         return text
-    made, at = [], 0
+    coded, at = [], 0
     for part in parts:
         past = at + len(part.text)
-        made.append(f"\x1b[{part.codes}m{text[at:past]}\x1b[0m" if part.codes else text[at:past])
+        coded.append(f"\x1b[{part.codes}m{text[at:past]}\x1b[0m" if part.codes else text[at:past])
         at = past
-    return "".join(made)
+    return "".join(coded)
 
 
 def _json(text: str) -> str:
@@ -69,7 +83,8 @@ def _json(text: str) -> str:
 
 
 def _in_json(char: str) -> str:
-    return f"\\u{ord(char):04x}" if ord(char) < 0x10000 else json.dumps(char)[1:-1]
+    units = char.encode("utf-16-be", "surrogatepass")
+    return "".join(f"\\u{units[at : at + 2].hex()}" for at in range(0, len(units), 2))
 
 
 def _xml(text: str) -> str:

@@ -12,7 +12,7 @@ import errno
 import io
 import os
 import sys
-from typing import Final, TextIO, cast
+from typing import Final, Self, TextIO, cast
 
 from parser.findings.errors import DrycutError
 from parser.text.harmless import harmless
@@ -56,14 +56,19 @@ class Outlet(io.TextIOBase):
         """Number of the system's file. OSError where it has none."""
         return self._stream.fileno()
 
-    def write(self, text: str) -> int:
-        """Write a text, unless nobody listens."""
+    def write(self, text: str | bytes) -> int:
+        """Write a text, or bytes, unless nobody listens."""
         if not self._lost:
             try:
-                self._stream.write(text)
+                _ = self._stream.write(text) if isinstance(text, str) else self._stream.buffer.write(text)
             except OSError as error:
                 self._lose(error)
         return len(text)
+
+    @property
+    def buffer(self) -> Self:
+        """Where bytes go: it takes them too, behind a `flush`."""
+        return self
 
     def flush(self) -> None:
         """Hand over to the system what was written."""
