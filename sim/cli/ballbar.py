@@ -55,9 +55,8 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     Moves the table round a circle in both directions and tells how round it went: circularity, the steps and spikes at
     the reversals of the axes, and what else the deviation consists of.
 
-    \b
-    Exit code: 0 good; 1 steps were lost, a drive tripped or --tolerance is
-    exceeded; 2 bad use.
+    Exit code: 0 good, 1 steps were lost, a drive tripped or --tolerance is exceeded, 2 bad use or unreadable input,
+    3 a fault of drycut itself.
 
     \b
     drycut ballbar --radius 50mm --feed 500mm/min -o ballbar.png

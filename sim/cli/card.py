@@ -29,7 +29,8 @@ def replay(log: Path, as_json: bool) -> None:
     Makes the same calls at the same simulated times, and compares time, answer and status of each, and the end.
 
     \b
-    Exit code: 0 all is equal, 1 something differs, 2 bad use or unreadable input.
+    Exit code: 0 all is equal, 1 something differs, 2 bad use or unreadable input,
+    3 a fault of drycut itself.
 
     \b
     drycut card replay part.log

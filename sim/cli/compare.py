@@ -34,7 +34,8 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     a drawing of its own, with layer, tolerance and gap.
 
     \b
-    Exit code: 0 within the tolerance, 1 outside, 2 bad use or unreadable input.
+    Exit code: 0 within the tolerance, 1 outside, 2 bad use or unreadable input,
+    3 a fault of drycut itself.
 
     \b
     drycut compare part.3b part.dxf --offset 0.1mm --tolerance 5um

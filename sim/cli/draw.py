@@ -76,7 +76,8 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     acceleration, following error and force of each axis over time.
 
     \b
-    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input.
+    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input,
+    3 a fault of drycut itself.
 
     \b
     drycut draw part.3b -o part.png

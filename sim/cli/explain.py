@@ -15,6 +15,9 @@ def explain(code: str | None, lang: str | None) -> None:
     Without a code, list all codes with their titles.
 
     \b
+    Exit code: 0 good, 2 bad use, 3 a fault of drycut itself.
+
+    \b
     drycut explain 3B204
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from sim.show.findings.pages import page_text, titles_text

@@ -91,7 +91,8 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     shows the end. An .mp4 needs an encoder: pip install 'drycut[film]'.
 
     \b
-    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input.
+    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input,
+    3 a fault of drycut itself.
 
     \b
     drycut replay part.3b

@@ -45,7 +45,8 @@ def run(
     geometry.
 
     \b
-    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input.
+    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input,
+    3 a fault of drycut itself.
 
     \b
     drycut run part.3b -o out/

@@ -74,6 +74,6 @@ def _taking(file: Path | None, language: Language) -> Iterator[_Put]:
 
 def _print_patch(mend: Mended, language: Language) -> None:
     """Print a patch byte for byte, unless that is what a log must not hold: what reads stdout may be a log."""
-    if not write_exactly(mend.patch):
+    if not write_exactly(mend.patch, f"{mend.program.name}\n{mend.program.text}\n{mend.text}"):
         write(mend.diff)
         say(Words(language)("findings.not-exact", name=mend.program.name), err=True)

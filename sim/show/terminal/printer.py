@@ -18,7 +18,7 @@ from sim.show.terminal.streams import outlet
 Form = Literal["text", "json", "xml", "github"]
 """What is printed: lines for people, JSON, XML, or workflow commands of GitHub Actions, one a line."""
 
-_QUIET: Final = str.maketrans({"\t": " ", "\0": None, "\x1a": None, "\ufeff": None})  # NUL, end of a DOS file, BOM
+_QUIET: Final = str.maketrans({"\t": " ", "\0": None, "\x1a": None, "\ufeff": None})  # those of DOS and of UTF-8 at the ends of files
 # Such a command up to its message; it has no colon but in its ends (sim.show.findings.github).
 _OWN_COMMAND: Final = re.compile(r"(::(?:error|warning|notice) [^:]*::)(.*)")
 
@@ -33,10 +33,9 @@ def write(text: str, form: Form = "text", *, err: bool = False) -> None:
     _print(made(text, form, colour=coloured(outlet(err=err))), err=err, ends=False)
 
 
-def write_exactly(data: bytes) -> bool:
-    """Print lines byte for byte to stdout, if there is nothing harmful in them; whether there was not."""
-    text = data.decode("utf-8", "replace").translate(_QUIET)  # of UTF-16 the ASCII is left
-    if any(harmless(line) != line for line in re.split("[\r\n]", text)):
+def write_exactly(data: bytes, text: str) -> bool:
+    """Print bytes to stdout, if there is nothing harmful in the text of which they are made; whether there was not."""
+    if any(harmless(line) != line for line in re.split("[\r\n]", text.translate(_QUIET))):
         return False
     stream = outlet()
     stream.flush()
