@@ -38,7 +38,7 @@ def wrapped(text: str, width: int = WIDTH, head: str = "", indent: str | None = 
     than a line, such as a path, is broken anywhere; blanks are lost only where a line ends.
     """
     indent = " " * cells(head) if indent is None else indent
-    room = max(width - cells(indent), _LEAST_ROOM)
+    room = max(width - cells(indent), min(width, _LEAST_ROOM))
     lines, left = [""], width - cells(head)
     for piece in _pieces(text, room):
         blanks = piece.blanks if lines[-1] else 0

@@ -82,7 +82,13 @@ def test_bad_use_is_one_clear_line_and_exit_2(tmp_path: Path, arguments: list[st
 
 @pytest.mark.parametrize(
     ("content", "words"),
-    [(b"", "empty"), (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "no text"), (b"hello", "no block"), (None, "cannot be read")],
+    [
+        (b"", "empty"),
+        (b"\0\1\2", "no text"),
+        (b"\x89PNG\r\n\x1a\n", "a picture"),
+        (b"hello", "no block"),
+        (None, "cannot be read"),
+    ],
 )
 def test_what_is_no_program_is_a_finding_and_exit_2(tmp_path: Path, content: bytes | None, words: str) -> None:
     path = tmp_path / "x.3b"
@@ -131,16 +137,16 @@ def test_settings_stand_above_the_file_and_options_come_first(tmp_path: Path) ->
     path = tmp_path / "deep" / "part.3b"
     path.parent.mkdir()
     path.write_text(SOUND.replace("GXL1", "GXL4").replace("DD", "E"), "ascii")
-    code, out, _ = drycut("check", path)
+    code, out, _ = drycut("check", path, cwd=tmp_path)
     assert code == 1
     assert out.count("[3B") == 1
     assert "3B203" in out
-    assert drycut("check", path, "--fail-on", "error")[0] == 0
+    assert drycut("check", path, "--fail-on", "error", cwd=tmp_path)[0] == 0
     (tmp_path / "drycut.toml").unlink()
     (tmp_path / "pyproject.toml").write_text('[tool.drycut]\nignore = ["3B2"]\n', "utf-8")
-    assert "3B105" in drycut("check", path)[1]
+    assert "3B105" in drycut("check", path, cwd=tmp_path)[1]
     (tmp_path / "pyproject.toml").write_text("[tool.drycut]\nignor = []\n", "utf-8")
-    code, _, err = drycut("check", path)
+    code, _, err = drycut("check", path, cwd=tmp_path)
     assert code == 2
     assert "unknown key 'ignor'; did you mean ignore?" in err
 

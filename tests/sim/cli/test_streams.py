@@ -85,5 +85,3 @@ def test_a_closed_stdin_that_is_to_be_checked_is_told(drycut: Forked) -> None:
     assert (done.code, done.out, len(done.err.splitlines())) == (2, "", 1)
     assert "stdin" in done.err
     assert os.devnull not in done.err
-
-
