@@ -128,14 +128,13 @@ def _unreadable(job: Job, data: bytes, why: Finding, others: tuple[Finding, ...]
         excerpts = _excerpts(LineIndex(text), text, findings)
     damaged = len(list(telling(others, DamagedBlock)))
     shown, silenced = chosen(others, job.settings)
-    coverage = Coverage(damaged, 0, 0, 0, _none_made("reason-unreadable"))
     return CheckResult(
         name=job.name,
         encoding="",
         dialect="",
         findings=(why, *shown),
         excerpts=excerpts,
-        coverage=coverage,
+        coverage=Coverage(damaged, 0, 0, 0, _none_made("reason-unreadable")),
         length_um=0.0,
         steps=0,
         unreadable=True,
@@ -146,8 +145,18 @@ def _unreadable(job: Job, data: bytes, why: Finding, others: tuple[Finding, ...]
 
 def not_checked(job: Job, fault: str) -> CheckResult:
     """Result of a file at which drycut itself failed: nothing is said of it."""
-    coverage = Coverage(0, 0, 0, 0, _none_made("reason-fault"))
-    return CheckResult(job.name, "", "", (), {}, coverage, 0.0, 0, fault=fault)
+    return CheckResult(
+        name=job.name,
+        encoding="",
+        dialect="",
+        findings=(),
+        excerpts={},
+        coverage=Coverage(0, 0, 0, 0, _none_made("reason-fault")),
+        length_um=0.0,
+        steps=0,
+        settings_file=job.settings.file,
+        fault=fault,
+    )
 
 
 def _none_made(reason: str) -> tuple[CheckState, ...]:

@@ -33,7 +33,7 @@ def explain(name: str | None, sections: tuple[str, ...], lang: str | None) -> No
     from sim.show.terminal.wrap import width_of
 
     for text, is_heading in shown(_markdown(name, sections, chosen(lang)), width_of(outlet())):
-        say(styled(text, "bold") if is_heading else text)
+        say(styled(text, "bold" if is_heading else ""))
 
 
 def _markdown(name: str | None, sections: tuple[str, ...], language: Language) -> str:

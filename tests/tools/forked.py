@@ -12,8 +12,8 @@ from typing import IO, NamedTuple
 from places import ROOT
 
 # What a process finds as it starts: its three files as asked for, and Python's streams on them, or None for a closed
-# one. As every process of Python it flushes its streams at its end, and what fails then is told and changes its exit
-# code to 120 (Py_FinalizeEx); the rest of that end, which takes longer than the commands, is left out.
+# one. As every process of Python it flushes its streams at its end, and what fails then is told and makes its exit code
+# 120 (Py_FinalizeEx); the rest of that end, which takes longer than the commands, is left out.
 _SERVER = """
 import gc, importlib, json, os, sys
 sys.path.insert(0, sys.argv[1])

@@ -18,9 +18,8 @@ from sim.show.terminal.streams import outlet
 Form = Literal["text", "json", "xml", "github"]
 """What is printed: lines for people, JSON, XML, or workflow commands of GitHub Actions, one a line."""
 
-_QUIET: Final = str.maketrans(
-    {"\t": " ", "\0": None, "\x1a": None, "\ufeff": None}
-)  # those of DOS and of UTF-8 at the ends of files
+# Tabs, what fills the last sector of a file of DOS and ends it, and the BOM.
+_QUIET: Final = str.maketrans({"\t": " ", "\0": None, "\x1a": None, "\ufeff": None})
 # Such a command up to its message; it has no colon but in its ends (sim.show.findings.github).
 _OWN_COMMAND: Final = re.compile(r"(::(?:error|warning|notice) [^:]*::)(.*)")
 
