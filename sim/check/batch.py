@@ -18,6 +18,7 @@ from parser.text.source import Source
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS, Checked, run_checks
 from sim.check.result import CheckResult, CheckState, Coverage
 from sim.check.settings import CheckSettings
+from sim.check.silence.sift import chosen, sifted, without_known
 
 PARALLEL_FROM = 200
 """Files from which on they are checked in parallel; below, starting processes takes longer than checking."""
@@ -26,11 +27,24 @@ _DEFAULTS = CheckSettings()
 
 
 class Job(NamedTuple):
-    """One file to check: its name as shown, its path or its content, and the settings."""
+    """One file to check.
+
+    Attributes
+    ----------
+    name
+        As shown.
+    source
+        Its path, or its content.
+    settings
+        What it is checked with.
+    known
+        Fingerprints of the findings that its baseline has: they are not shown.
+    """
 
     name: str
     source: Path | bytes
     settings: CheckSettings
+    known: frozenset[str] = frozenset()
 
 
 def check_file(job: Job) -> CheckResult:
@@ -43,13 +57,18 @@ def check_file(job: Job) -> CheckResult:
         program = load_program(data, job.name, job.settings.marks)
     except ProgramError as error:
         return _unreadable(job, data, error.finding, error.others)
-    return check_program(program, job.settings)
+    return without_known(check_program(program, job.settings), job.known)
 
 
 def check_program(program: Program, settings: CheckSettings = _DEFAULTS) -> CheckResult:
     """Check a program that was read. SettingsError where wire and gap of the settings leave no kerf."""
     checked = run_checks(program, settings.demands)
-    shown = tuple(finding for finding in _mendable(program, checked) if settings.shows(finding.code))
+    return result_of(program, checked._replace(findings=_mendable(program, checked)), settings)
+
+
+def result_of(program: Program, checked: Checked, settings: CheckSettings) -> CheckResult:
+    """Result of a program of which the checks are done: what settings and its remarks silence is left out."""
+    shown, silenced = sifted(program, checked.findings, checked.coverage.checks, settings)
     return CheckResult(
         name=program.name,
         encoding=program.encoding,
@@ -60,6 +79,8 @@ def check_program(program: Program, settings: CheckSettings = _DEFAULTS) -> Chec
         length_um=float(program.toolpath.length_um.sum()),
         steps=len(checked.steps) if checked.steps is not None else 0,
         fail_on=settings.fail_on,
+        settings_file=settings.file,
+        silenced=silenced,
         blocks=_blocks(program.toolpath.source, shown),
     )
 
@@ -105,6 +126,18 @@ def _unreadable(job: Job, data: bytes, why: Finding, others: tuple[Finding, ...]
         excerpts = _excerpts(LineIndex(text), text, findings)
     states = tuple(CheckState(name, "incomplete", "reason-unreadable") for name in (*PARSER_CHECKS, *PATH_CHECKS))
     damaged = len(list(telling(others, DamagedBlock)))
-    shown = (why, *(other for other in others if job.settings.shows(other.code)))
+    shown, silenced = chosen(others, job.settings)
     coverage = Coverage(damaged, 0, 0, 0, states)
-    return CheckResult(job.name, "", "", shown, excerpts, coverage, 0.0, 0, unreadable=True)
+    return CheckResult(
+        name=job.name,
+        encoding="",
+        dialect="",
+        findings=(why, *shown),
+        excerpts=excerpts,
+        coverage=coverage,
+        length_um=0.0,
+        steps=0,
+        unreadable=True,
+        settings_file=job.settings.file,
+        silenced=silenced,
+    )

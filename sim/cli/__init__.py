@@ -4,6 +4,7 @@ import importlib
 import os
 import signal
 import sys
+from types import FrameType
 
 import click
 
@@ -54,8 +55,7 @@ def cli(ctx: click.Context) -> None:
 def main() -> None:
     """Run the command line; exit 0 for good, 1 for a failed verdict, 2 for bad use or unreadable input."""
     prepare_streams()
-    # A run that is told to end takes its unfinished files with it.
-    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
+    _end_on_signals()
     try:
         code = cli.main(prog_name="drycut", standalone_mode=False)
         sys.stdout.flush()
@@ -71,6 +71,27 @@ def main() -> None:
         _drop_stdout()
         code = _complain(f"drycut: error: {error.filename or 'output'}: {error.strerror or error}")
     sys.exit(code)
+
+
+def _end_on_signals() -> None:
+    """Let a run that is told to end, or whose terminal is closed, take its unfinished files with it.
+
+    Ctrl-C does so by itself. What was ignored stays so, as under nohup.
+    """
+    for number in _ends():
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, _end)
+
+
+def _end(number: int, frame: FrameType | None) -> None:
+    for other in _ends():  # a second one would cut the clearing up short
+        signal.signal(other, signal.SIG_IGN)
+    sys.exit(128 + number)
+
+
+def _ends() -> list[signal.Signals]:
+    """Signals that end a run; Windows has SIGBREAK in place of SIGHUP."""
+    return [number for number in signal.Signals if number.name in {"SIGTERM", "SIGHUP", "SIGBREAK"}]
 
 
 def _complain(message: str) -> int:

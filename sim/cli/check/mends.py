@@ -25,7 +25,7 @@ def fix_files(jobs: Sequence[Job], language: Language) -> bool:
         if not (isinstance(job.source, Path) and job.source.is_file()):
             continue
         try:
-            mend = fix_file(job.source, job.name, job.settings)
+            mend = fix_file(job.source, job.name, job.settings, job.known)
         except FileUnreadableError as error:
             click.echo(f"Error: {error}", err=True)
             all_written = False
@@ -47,7 +47,7 @@ def show_diffs(jobs: Sequence[Job], file: Path | None, language: Language) -> in
 def _show(job: Job, put: _Put, language: Language) -> int:
     assert isinstance(job.source, Path)  # noqa: S101 - the command refuses the standard input
     try:
-        mend = mended(job.source, job.name, job.settings)
+        mend = mended(job.source, job.name, job.settings, job.known)
     except ProgramError as error:
         click.echo(describe(printable(job.name), error), err=True)
         return 2
