@@ -5,12 +5,15 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from parser.findings.errors import ProgramError
 from parser.findings.facts import DamagedBlock, telling
 from parser.findings.findings import Finding
 from parser.program import Program, load_program
 from parser.text.encoding import decode_text, no_program
 from parser.text.lines import LineIndex
+from parser.text.source import Source
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS, Checked, run_checks
 from sim.check.result import CheckResult, CheckState, Coverage
 from sim.check.settings import CheckSettings
@@ -56,6 +59,7 @@ def check_program(program: Program, settings: CheckSettings = _DEFAULTS) -> Chec
         length_um=float(program.toolpath.length_um.sum()),
         steps=len(checked.steps) if checked.steps is not None else 0,
         fail_on=settings.fail_on,
+        blocks=_blocks(program.toolpath.source, shown),
     )
 
 
@@ -82,6 +86,13 @@ def _excerpts(lines: LineIndex, text: str, findings: Iterable[Finding]) -> dict[
     """Source lines, as written, that findings point at."""
     numbers = sorted({finding.line for finding in findings if finding.line})
     return {line: text[slice(*lines.bounds(line))] for line in numbers}
+
+
+def _blocks(source: Source, findings: Iterable[Finding]) -> dict[int, str]:
+    """Texts of the blocks, as written, that findings are in."""
+    numbers = sorted({finding.block for finding in findings if finding.block})
+    rows = np.searchsorted(source.block, numbers).tolist()
+    return {number: source.block_text(row) for number, row in zip(numbers, rows, strict=True)}
 
 
 def _unreadable(job: Job, data: bytes, why: Finding, others: tuple[Finding, ...]) -> CheckResult:

@@ -1,7 +1,7 @@
 """What a check of one program says: its findings, and how far the check came."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 from parser.findings.codes import Severity
@@ -98,6 +98,8 @@ class CheckResult:
         Settings file that counts for it, as it is named to people; empty where there is none.
     silenced
         Findings that are not shown.
+    blocks
+        Texts of the blocks that findings are in, as written and without labels, by their number from 1.
     """
 
     name: str
@@ -112,6 +114,7 @@ class CheckResult:
     unreadable: bool = False
     settings_file: str = ""
     silenced: Silenced = Silenced()  # noqa: RUF009 - frozen
+    blocks: Mapping[int, str] = field(default_factory=dict)
 
     def count(self, severity: Severity) -> int:
         """How many findings are of a severity."""

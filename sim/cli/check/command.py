@@ -24,7 +24,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     files: tuple[str, ...],
     form: str,
     lang: str | None,
-    stats: bool,
+    statistics: bool,
     quiet: bool,
     fix: bool,
     **asked: Any,
@@ -51,9 +51,10 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
         outcome.code = 2
     from sim.show.findings import render
     from sim.show.findings.options import Options
+    from sim.show.terminal.wrap import width_of
 
     colour = form == "text" and sys.stdout.isatty() and "NO_COLOR" not in os.environ
-    style = Options(language, colour, quiet, stats)
+    style = Options(language, colour, quiet, statistics, width_of(sys.stdout))
     for text in render(form, outcome.watched(_results(jobs)), style):
         click.echo(text, nl=False)
     raise click.exceptions.Exit(outcome.code)

@@ -13,13 +13,13 @@ _OUTPUT = (
     click.option(
         "--format",
         "form",
-        type=click.Choice(["text", "json", "sarif", "junit", "github"]),
+        type=click.Choice(["text", "concise", "json", "sarif", "junit", "github", "gitlab"]),
         default="text",
         show_default=True,
         help="How to print the findings.",
     ),
     click.option("--lang", type=click.Choice(["en", "zh"]), help="Language; that of the locale where left out."),
-    click.option("--stats", is_flag=True, help="Count the findings by code."),
+    click.option("--statistics", is_flag=True, help="Count findings by code, and what was looked at."),
     click.option("--quiet", is_flag=True, help="No line for files without findings."),
 )
 _SELECTION = (

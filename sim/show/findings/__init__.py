@@ -14,10 +14,12 @@ from sim.show.findings.options import Options
 FORMATS: Mapping[str, str] = MappingProxyType(
     {
         "text": "sim.show.findings.text",
+        "concise": "sim.show.findings.concise",
         "json": "sim.show.findings.json",
         "sarif": "sim.show.findings.sarif",
         "junit": "sim.show.findings.junit",
         "github": "sim.show.findings.github",
+        "gitlab": "sim.show.findings.gitlab",
     }
 )
 """Format -> module; only the one asked for is imported, which keeps the command quick to start."""
