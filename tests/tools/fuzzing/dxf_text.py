@@ -103,7 +103,7 @@ def _insert(rng: random.Random, blocks: int) -> list[Pair]:
     for code, share in ((41, 0.3), (42, 0.3), (43, 0.1), (50, 0.3)):
         tags += _pairs((code, _number(rng))) if rng.random() < share else []
     if rng.random() < 0.2:
-        counts = rng.choice(((2, 3), (100, 100), (32767, 32767), (0, 0), (-1, 5)))
+        counts = rng.choice(((2, 3), (100, 100), (-32767, 2), (0, 0), (-1, 5)))
         tags += _pairs((70, counts[0]), (71, counts[1]), (44, _number(rng)), (45, _number(rng)))
     return tags
 

@@ -114,12 +114,12 @@ def fuzzed_program(rng: random.Random) -> bytes:
     if kind < 0.7:
         return damaged(rng, data, programs())
     try:
-        return _encoded(rng, _changed(rng, data.decode()))
+        return _encoded(rng, changed(rng, data.decode()))
     except UnicodeDecodeError:
         return damaged(rng, data, programs())
 
 
-def _changed(rng: random.Random, text: str) -> str:
+def changed(rng: random.Random, text: str) -> str:
     """Lines or tokens changed, moved, doubled or left out."""
     for _ in range(rng.choice((1, 1, 2, 4))):
         pattern = "(?<=\n)" if rng.random() < 0.3 else ""
