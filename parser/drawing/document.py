@@ -12,11 +12,13 @@ from ezdxf.filemanagement import dxf_stream_info
 from ezdxf.lldxf.encoding import decode_dxf_unicode
 from ezdxf.lldxf.tagger import binary_tags_loader
 
-from parser.findings.errors import DrawingError, FileUnreadableError
+from parser.files.kinds import kind_of
+from parser.files.reading import read_bytes
+from parser.findings.catalogue import term
+from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark
 from parser.text.encoding import printable
 
-_DWG = re.compile(rb"AC1\.|AC10\d\d|MC0\.0|AC2\.10")  # first bytes of a DWG file name its release
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _SECTION = re.compile(rb"(?:^|[\r\n])[ \t]*0[ \t]*[\r\n]+[ \t]*SECTION")
 _END = re.compile(rb"(?:^|[\r\n])[ \t]*0[ \t]*[\r\n]+[ \t]*EOF[\s\0\x1a]*$")
@@ -32,7 +34,7 @@ def read_document(path: Path) -> tuple[Document, list[Remark]]:
 
     Raises FileUnreadableError where there is no readable file, DrawingError where it is no DXF or beyond mending.
     """
-    data = _bytes(path)
+    data = read_bytes(path)
     document, notes = _loaded(path, data)
     if _UNITS.encode() not in data:
         document.header[_UNITS] = 0  # ezdxf takes a file that names no unit for one in metres
@@ -42,12 +44,12 @@ def read_document(path: Path) -> tuple[Document, list[Remark]]:
 def _loaded(path: Path, data: bytes) -> tuple[Document, list[Remark]]:
     if not data.strip():
         raise DrawingError(f"{path}: is empty; expected a DXF drawing")
-    if _DWG.match(data):
-        raise DrawingError(f"{path}: is a DWG file; expected DXF: save the drawing as DXF")
     if data.startswith(_BINARY):
         return _binary(path, data), []
     if not _SECTION.search(data):
-        raise DrawingError(f"{path}: is no DXF file; expected a drawing saved as DXF")
+        kind = kind_of(data)
+        found = f" ({term(kind)})" if kind else ""
+        raise DrawingError(f"{path}: is no DXF file{found}; expected a drawing saved as DXF")
     if _END.search(data[-4096:]):
         early = []
     else:
@@ -64,15 +66,6 @@ def _ended(data: bytes) -> bytes:
     lines = data.split(b"\n")
     last = max((at for at in range(0, len(lines), 2) if lines[at].strip() == b"0"), default=0)
     return b"\n".join([*lines[:last], b"0", b"ENDSEC", b"0", b"EOF", b""])
-
-
-def _bytes(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except IsADirectoryError:
-        raise FileUnreadableError(f"{path}: is a folder; a DXF drawing was expected") from None
-    except (OSError, ValueError) as error:
-        raise FileUnreadableError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
 
 
 def _binary(path: Path, data: bytes) -> Document:

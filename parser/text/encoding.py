@@ -3,6 +3,7 @@
 import codecs
 import re
 
+from parser.files.kinds import HINTS
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
 
@@ -42,8 +43,8 @@ def encode_text(text: str, encoding: str) -> bytes:
 
 
 def no_program(what: str, detail: str = "") -> Finding:
-    """Finding 3B100; `what` is a term of the catalogue."""
-    return Finding("3B100", {"what": what, "detail": detail})
+    """Finding 3B100; `what` is a term of the catalogue, `detail` says more in any language."""
+    return Finding("3B100", {"what": what, "detail": detail, "hint": HINTS.get(what, "hint-program")})
 
 
 def narrow(text: str) -> str:

@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.findings.errors import ProgramError
+from parser.files.reading import read_bytes
+from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.findings.facts import DamagedBlock, telling
 from parser.findings.findings import Finding
 from parser.program import Program, load_program
@@ -35,9 +36,9 @@ class Job(NamedTuple):
 def check_file(job: Job) -> CheckResult:
     """Check one file; whatever it holds, the answer is a result."""
     try:
-        data = job.source if isinstance(job.source, bytes) else job.source.read_bytes()
-    except OSError as error:
-        return _unreadable(job, b"", no_program("unreadable-file", error.strerror or str(error)), ())
+        data = job.source if isinstance(job.source, bytes) else read_bytes(job.source)
+    except FileUnreadableError as error:
+        return _unreadable(job, b"", no_program(error.what, error.detail), ())
     try:
         program = load_program(data, job.name, job.settings.marks)
     except ProgramError as error:

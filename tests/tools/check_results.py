@@ -3,6 +3,7 @@
 import xml.etree.ElementTree as ET
 
 from parser.findings.findings import Edit, Finding
+from parser.text.encoding import no_program
 from sim.check.result import CheckResult, CheckState, Coverage, Silenced
 
 SILENCED = Silenced(options=1, settings=2, remarks=3, baseline=4)
@@ -71,7 +72,7 @@ def quieted() -> list[CheckResult]:
 
 def hostile() -> list[CheckResult]:
     nothing = Coverage(0, 0, 0, 0, (CheckState("check-grammar", "incomplete", "reason-unreadable"),))
-    no_file = Finding("3B100", {"what": "unreadable-file", "detail": HOSTILE})
+    no_file = no_program("unreadable-file", HOSTILE)
     return [
         result(HOSTILE.replace("\0", ""), unknown(HOSTILE), unknown(HOSTILE), excerpts={3: "  " + HOSTILE}),
         result("<stdin>", unknown("x", line=9), unknown("", line=3)),

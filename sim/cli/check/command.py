@@ -1,8 +1,7 @@
 """``drycut check``."""
 
-import os
-import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -11,9 +10,14 @@ from sim.cli.check.options import check_options
 from sim.cli.scenario_options import chosen
 
 if TYPE_CHECKING:
-    from parser.findings.catalogue import Language
     from sim.check.batch import Job
     from sim.check.result import CheckResult
+    from sim.cli.check.outputs import Output
+
+_OF_FILES = {
+    "--fix": "mends files; it cannot mend the standard input",
+    "--diff": "shows mends of files; the standard input has none",
+}
 
 
 @click.command()
@@ -22,11 +26,13 @@ if TYPE_CHECKING:
 def check(  # noqa: PLR0913 - click hands over each option by its name
     *,
     files: tuple[str, ...],
-    form: str,
+    formats: tuple["Output", ...],
+    output_file: Path | None,
     lang: str | None,
     statistics: bool,
     quiet: bool,
     fix: bool,
+    diff: bool,
     **asked: Any,
 ) -> None:
     """Find all that is wrong with 3B programs, before a wire is threaded.
@@ -39,44 +45,43 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
 
     \b
     drycut check part.3b
-    drycut check programs/ --format sarif > drycut.sarif
+    drycut check programs/ --format text --format sarif=drycut.sarif
     drycut check part.3b --fix
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     language = chosen(lang)
     from sim.cli.check.jobs import Asked, jobs_of
+    from sim.cli.check.outputs import outputs_of, refuse_programs, write
 
+    _refuse_contradictions(files, formats, {"--fix": fix, "--diff": diff})
+    outputs = outputs_of(formats, output_file)
     jobs = jobs_of(files, Asked(**asked))
-    outcome = _Outcome()
-    if fix and not _fix(jobs, language):
-        outcome.code = 2
-    from sim.show.findings import render
-    from sim.show.findings.options import Options
-    from sim.show.terminal.wrap import width_of
+    refuse_programs((output.file for output in outputs if output.file), jobs)
+    if diff:
+        from sim.cli.check.mends import show_diffs
 
-    colour = form == "text" and sys.stdout.isatty() and "NO_COLOR" not in os.environ
-    style = Options(language, colour, quiet, statistics, width_of(sys.stdout))
-    for text in render(form, outcome.watched(_results(jobs)), style):
-        click.echo(text, nl=False)
+        raise click.exceptions.Exit(show_diffs(jobs, output_file, language))
+    outcome = _Outcome()
+    if fix:
+        from sim.cli.check.mends import fix_files
+
+        outcome.code = 0 if fix_files(jobs, language) else 2
+    from sim.show.findings.options import Options
+
+    write(outcome.watched(_results(jobs)), outputs, Options(language, quiet=quiet, statistics=statistics))
     raise click.exceptions.Exit(outcome.code)
 
 
-def _fix(jobs: Sequence["Job"], language: "Language") -> bool:
-    """Mend the files of the jobs; what was changed, and what was not, goes to stderr. Whether all could be written."""
-    from parser.findings.errors import FileUnreadableError
-    from sim.cli.check.fixing import fix_file, told
+def _refuse_contradictions(files: Sequence[str], formats: Sequence["Output"], given: Mapping[str, bool]) -> None:
+    """UsageError for options of which one leaves no room for the other; `given` are those that mend or watch."""
+    from sim.cli.check.jobs import STDIN
 
-    all_written = True
-    for job in jobs:
-        if isinstance(job.source, bytes):
-            raise click.UsageError("--fix mends files; it cannot mend the standard input")
-        if not job.source.is_file():
-            continue
-        try:
-            click.echo(told(fix_file(job.source, job.name, job.settings), job.name, language), err=True, nl=False)
-        except FileUnreadableError as error:
-            click.echo(f"Error: {error}", err=True)
-            all_written = False
-    return all_written
+    asked = [option for option, is_given in given.items() if is_given]
+    if len(asked) > 1:
+        raise click.UsageError(f"{' and '.join(asked)} cannot be done in one run")
+    if asked and STDIN in files:
+        raise click.UsageError(f"{asked[0]} {_OF_FILES[asked[0]]}")
+    if formats and asked == ["--diff"]:
+        raise click.UsageError("--diff shows mends and no findings; --format has no place beside it")
 
 
 def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:

@@ -1,11 +1,11 @@
 """The jobs of a check: its files, each with the settings that count for it."""
 
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from parser.files.reading import read_stdin
 from parser.units import mm
 from sim.check.batch import Job
 from sim.check.files import find_files
@@ -63,5 +63,5 @@ def _job(name: str, options: dict[str, Any]) -> Job:
     settings: CheckSettings = replace(settings_near(path), **options)
     _ = settings.demands  # settings that contradict each other are told before the first file
     if name == STDIN:
-        return Job("<stdin>", sys.stdin.buffer.read(), settings)
+        return Job("<stdin>", read_stdin(), settings)
     return Job(name, Path(name), settings)

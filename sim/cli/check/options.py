@@ -1,22 +1,46 @@
 """Options of ``drycut check``, in the groups in which its help lists them."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
+from sim.cli.check.outputs import Output
 from sim.cli.scenario_options import Length
+from sim.show.findings import FORMATS
 
 Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+class OutputType(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """``sarif`` or ``sarif=check.sarif``: an `Output`."""
+
+    name = "output"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Output:
+        """The output; a format that there is not, or no name of a file behind ``=``, is bad use."""
+        if isinstance(value, Output):
+            return value
+        form, into, file = value.partition("=")
+        if form not in FORMATS:
+            self.fail(f"{form!r} is not one of {', '.join(FORMATS)}", param, ctx)
+        if into and not file:
+            self.fail(f"{value!r} lacks the name of a file", param, ctx)
+        return Output(form, Path(file) if file else None)
+
 
 _OUTPUT = (
     click.option(
         "--format",
-        "form",
-        type=click.Choice(["text", "concise", "json", "sarif", "junit", "github", "gitlab"]),
-        default="text",
-        show_default=True,
-        help="How to print the findings.",
+        "formats",
+        type=OutputType(),
+        multiple=True,
+        metavar="FORMAT[=FILE]",
+        help=f"How to print the findings: {', '.join(FORMATS)} [text]; with =FILE into a file; several times.",
+    ),
+    click.option(
+        "--output-file", "-o", type=click.Path(path_type=Path), metavar="FILE", help="Print them into a file instead."
     ),
     click.option("--lang", type=click.Choice(["en", "zh"]), help="Language; that of the locale where left out."),
     click.option("--statistics", is_flag=True, help="Count findings by code, and what was looked at."),
@@ -27,7 +51,10 @@ _SELECTION = (
     click.option("--ignore", metavar="CODES", help="Do not show these codes."),
     click.option("--fail-on", type=click.Choice(["warning", "error"]), help="Least severity for exit code 1 [error]."),
 )
-_MENDS = (click.option("--fix", is_flag=True, help="Mend in the files what is certain, and show what was changed."),)
+_MENDS = (
+    click.option("--fix", is_flag=True, help="Mend in the files what is certain, and show what was changed."),
+    click.option("--diff", is_flag=True, help="Show what --fix would change, for patch -p0, and change nothing."),
+)
 _DEMANDS = (
     click.option(
         "--machine", metavar="NAME|FILE", help="Check the travel of this machine, such as dk7740, or a .toml."

@@ -5,7 +5,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from parser.findings.errors import FileUnreadableError, SettingsError
+from parser.files.reading import read_text
+from parser.findings.errors import SettingsError
 from sim.units import in_digits
 
 
@@ -25,9 +26,9 @@ def load_toml(path: Path) -> dict[str, Any]:
     try:
         import tomllib  # noqa: PLC0415 - most checks have no settings file
 
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
+        return tomllib.loads(read_text(path))
+    except RecursionError:
+        raise SettingsError(f"{path}: is nested too deep") from None
     except ValueError as error:  # TOMLDecodeError, UnicodeDecodeError, and integers of thousands of digits
         raise SettingsError(f"{path}: is no TOML: {error}") from None
 

@@ -82,7 +82,13 @@ def test_bad_use_is_one_clear_line_and_exit_2(tmp_path: Path, arguments: list[st
 
 @pytest.mark.parametrize(
     ("content", "words"),
-    [(b"", "empty"), (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "no text"), (b"hello", "no block"), (None, "cannot be read")],
+    [
+        (b"", "empty"),
+        (b"\0\1\2", "no text"),
+        (b"\x89PNG\r\n\x1a\n", "a picture"),
+        (b"hello", "no block"),
+        (None, "cannot be read"),
+    ],
 )
 def test_what_is_no_program_is_a_finding_and_exit_2(tmp_path: Path, content: bytes | None, words: str) -> None:
     path = tmp_path / "x.3b"

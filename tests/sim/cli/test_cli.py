@@ -115,7 +115,7 @@ def _huge(path: Path) -> None:
         (lambda path: path.write_bytes(b""), "part.3b: error[3B100]: the file is empty"),
         (
             lambda path: path.write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0"),
-            "part.3b: error[3B100]: the file is no text",
+            "part.3b: error[3B100]: this is a picture",
         ),
         (lambda path: path.write_text("hello", "utf-8"), "part.3b: error[3B100]: no block"),
         (lambda path: path.mkdir(), "is a folder without scenario.toml"),

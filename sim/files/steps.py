@@ -1,11 +1,9 @@
-"""Output files of a run: made aside and moved into their folder whole, or not at all."""
+"""Arrays of all steps of a run: streamed to ``.npy`` files as the steps come, then joined to one ``.npz``."""
 
 import os
 import shutil
-import tempfile
 import zipfile
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
@@ -14,64 +12,6 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from controller.stepping.pulses import Pulses
-from parser.findings.errors import FileUnreadableError
-
-
-@contextmanager
-def staged(target: Path, names: Sequence[str]) -> Iterator[Path]:
-    """Empty folder whose files `names` move into `target` at the end of a block that raised nothing.
-
-    What the block did not make is not there afterwards either: no file of an earlier run stands beside those of this.
-    The folder lies inside the target, so that the moves stay on one file system; folders made for it go again where the
-    block raises. FileUnreadableError where the target is no folder or cannot be written.
-    """
-    try:
-        made = _make_folders(target)
-        with _removed_on_error(made), tempfile.TemporaryDirectory(prefix=".drycut-", dir=target) as folder:
-            for name in names:
-                _refuse_other_than_file(target / name)
-            yield Path(folder)
-            for name in names:
-                _move(Path(folder) / name, target / name)
-    except FileUnreadableError:
-        raise
-    except OSError as error:
-        raise FileUnreadableError(f"{target}: cannot be written: {error.strerror or error}") from None
-
-
-def _move(made: Path, target: Path) -> None:
-    if made.exists():
-        made.replace(target)
-    else:
-        target.unlink(missing_ok=True)
-
-
-def _refuse_other_than_file(path: Path) -> None:
-    """FileUnreadableError where a folder, a device or a pipe has the name of a file that is to be written."""
-    if path.exists() and not path.is_file():
-        kind = "a folder" if path.is_dir() else "no plain file"
-        raise FileUnreadableError(f"{path}: is {kind}; a file of this name is to be written")
-
-
-def _make_folders(target: Path) -> list[Path]:
-    """Make a folder with its parents; those that were missing, innermost first."""
-    if target.exists() and not target.is_dir():
-        raise FileUnreadableError(f"{target}: is a file; a folder of this name is to be written into")
-    missing = [folder for folder in (target, *target.parents) if not folder.exists()]
-    with _removed_on_error(missing):
-        target.mkdir(parents=True, exist_ok=True)
-    return missing
-
-
-@contextmanager
-def _removed_on_error(folders: list[Path]) -> Iterator[None]:
-    try:
-        yield
-    except BaseException:
-        for folder in folders:
-            with suppress(OSError):
-                folder.rmdir()
-        raise
 
 
 class StepFiles:
@@ -150,23 +90,3 @@ def write_npz(path: Path, files: Mapping[str, Path], arrays: Mapping[str, NDArra
 
 def _member(name: str) -> zipfile.ZipInfo:
     return zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
-
-
-def replace_file(path: Path, data: bytes) -> None:
-    """Put `data` in place of a file's content, whole or not at all; its permissions stay, a link is followed.
-
-    Raises FileUnreadableError where it cannot be written.
-    """
-    target = path.resolve()
-    try:
-        with tempfile.NamedTemporaryFile(prefix=".drycut-", dir=target.parent, delete=False) as file:
-            try:
-                file.write(data)
-                file.close()
-                shutil.copymode(target, file.name)
-                Path(file.name).replace(target)
-            except BaseException:
-                Path(file.name).unlink(missing_ok=True)
-                raise
-    except OSError as error:
-        raise FileUnreadableError(f"{path}: cannot be written: {error.strerror or error}") from None
