@@ -22,10 +22,23 @@ from places import SCENARIOS
 
 from sim.cli import cli
 
+_ARGUMENTS = {
+    "card": ("part.log", "fuzz.log"),
+    "explain": ("3B204", "3b301", "3B100", "3B999"),
+    "compare": ("scenario", "part.3b", "drawing.dxf", "fuzz.dxf", "fuzz.3b"),
+    "ballbar": ("part.3b",),
+}
 _WEIGHTS = {"check": 50, "card": 12, "explain": 10, "compare": 3, "run": 6, "draw": 3, "replay": 4, "ballbar": 2}
 _NEVER = {"--watch"}
 """Options that never come to an end."""
 _SLOW = {"--size": ("thumbnail", "320x240", "64"), "--radius": ("0.1mm", "-1mm", "0mm")}
+_USUAL = {
+    "--machine": ("machine.toml", "dk7740", "fuzz.toml", "absent.toml"),
+    **dict.fromkeys(("--select", "--ignore"), ("3B2", "3B204,3B3", "3b1", "", "9")),
+    **dict.fromkeys(("--format", "--output-format"), ("text", "json", "sarif", "junit", "github", "gitlab", "concise")),
+    "--drawing": ("drawing.dxf", "fuzz.dxf"),
+    "--side": ("left", "right"),
+}
 _HOSTILE_NAMES = (
     "\x1b[31m.3b",
     "::error::x.3b",
@@ -100,13 +113,13 @@ _LOCALES = ("C.UTF-8", "zh_CN.UTF-8", "C", "x" * 100)
 def make(rng: random.Random) -> Input:
     """A command line, without the name of the program."""
     name = rng.choices(list(_WEIGHTS), list(_WEIGHTS.values()))[0]
-    words = [name, *(("replay",) if name == "card" else ())]
-    command = _command(tuple(words))
+    words = [name, *(("replay",) if name == "card" else ("--radius", "0.1mm") if name == "ballbar" else ())]
+    command = _command(tuple(words[:2]) if name == "card" else (name,))
     options = [param for param in command.params if isinstance(param, click.Option) and not _NEVER & set(param.opts)]
-    for option in rng.sample(options, min(len(options), rng.choice((0, 1, 1, 2, 3, 6)))):
+    for option in rng.sample(options, min(len(options), rng.choice((0, 0, 1, 1, 2, 4)))):
         words += _given(rng, option)
-    words += [_file(rng) for _ in range(rng.choice((0, 1, 1, 1, 2)))]
-    if rng.random() < 0.1:
+    words += [_of_command(rng, name) for _ in range(rng.choice((0, 1, 1, 1, 1, 1, 2)))]
+    if rng.random() < 0.05:
         words = edited(rng, words, lambda _: rng.choice(TEXTS))
     return tuple(_safe(word) for word in _bounded(words))
 
@@ -166,15 +179,24 @@ def _given(rng: random.Random, option: click.Option) -> list[str]:
 def _value(rng: random.Random, option: click.Option) -> str:
     if slow := next((values for name, values in _SLOW.items() if name in option.opts), None):
         return rng.choice(slow)
-    if rng.random() < 0.2:
+    if rng.random() < 0.1:
         return rng.choice(TEXTS)
     if isinstance(option.type, click.Choice) and rng.random() < 0.9:
         return str(rng.choice(option.type.choices))
+    if usual := next((values for name, values in _USUAL.items() if name in option.opts), None):
+        return rng.choice(usual)
     if isinstance(option.type, click.Path):
-        return _file(rng) if rng.random() < 0.5 else rng.choice(("out", "out.png", "out.svg", "a/b/c", "part.3b/x"))
+        return _file(rng) if rng.random() < 0.3 else rng.choice(("out", "out.png", "out.svg", "a/b/c", "part.3b/x"))
     if option.type.name.startswith("length"):
-        return rng.choice(_LENGTHS)
+        return rng.choice(_LENGTHS[:4] if rng.random() < 0.7 else _LENGTHS)
     return rng.choice((*_WORDS, *_LENGTHS, number_text(rng), _file(rng)))
+
+
+def _of_command(rng: random.Random, name: str) -> str:
+    """What a command is usually given."""
+    if rng.random() < 0.3:
+        return _file(rng)
+    return rng.choice(_ARGUMENTS.get(name, ("part.3b", "bad.3b", "fuzz.3b", "part.4b", "scenario", "fuzzed", ".")))
 
 
 def _file(rng: random.Random) -> str:
@@ -201,7 +223,10 @@ def _bytes(made: Input) -> bytes:
 
 def _form(words: Sequence[str]) -> str:
     """The format of what a command prints."""
-    if {"--help", "-h"} & set(words) or "--output-file" in words or "-" in words:
+    names = {word.partition("=")[0] for word in words}
+    if {"-o", "--output-file"} & names:
+        return "file"
+    if {"--help", "-h", "-"} & names:
         return "text"
     if words[:1] != ("check",):
         return "json" if "--json" in words else "text"

@@ -4,9 +4,11 @@ import random
 from collections.abc import Iterator
 from itertools import chain
 from pathlib import Path
+from subprocess import CompletedProcess
 
 from fuzzing.program_text import fuzzed_program
 from fuzzing.promises import of_document, unclean
+from fuzzing.ran import answer_of, broken_by, ran
 from fuzzing.target import Input, Judged
 
 from parser.findings.catalogue import LANGUAGES, texts
@@ -18,11 +20,11 @@ from parser.text.lines import LineIndex
 from sim.check.batch import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
-from sim.cli.check.fixing import fix_file, told
 from sim.show.findings import FORMATS, render
 from sim.show.findings.options import Options
 
 _SETTINGS = (CheckSettings(), CheckSettings(wire_diameter_um=180.0), CheckSettings(may_stay_open=True))
+_FILE = "fuzz.3b"
 _RENDERED = 20  # one in so many inputs is written in all formats
 
 
@@ -44,29 +46,29 @@ def judge(data: Input, number: int, _: Path) -> Judged:
 
 
 def judge_fix(data: Input, number: int, folder: Path) -> Judged:
-    """The promises of `--fix`: no new errors, nothing left to do the second time, nothing else changed."""
+    """The promises of `--fix`: no new errors, nothing left to do the second time, and a diff of what was changed."""
     assert isinstance(data, bytes)
-    settings, path = _SETTINGS[number % len(_SETTINGS)], folder / "fuzz.3b"
-    path.write_bytes(data)
-    before = check_file(Job("fuzz.3b", data, settings))
-    once = fix_file(path, "fuzz.3b", settings)
-    mended = path.read_bytes()
-    twice = fix_file(path, "fuzz.3b", settings)
-    after = check_file(Job("fuzz.3b", mended, settings))
-    broken = [*_of_diff(mended != data, once.diff)]
-    if path.read_bytes() != mended:
+    (folder / _FILE).write_bytes(data)
+    before = check_file(Job(_FILE, data, CheckSettings()))
+    once, mended = _fixed(folder)
+    twice, again = _fixed(folder)
+    after = check_file(Job(_FILE, mended, CheckSettings()))
+    broken = [*broken_by(once), *broken_by(twice)]
+    if again != mended:
         broken.append("changes more the second time")
     if after.count(Severity.ERROR) > before.count(Severity.ERROR) or after.unreadable > before.unreadable:
         broken.append(f"brings errors: {_codes(before)} became {_codes(after)}")
-    if [file.name for file in folder.iterdir()] != ["fuzz.3b"]:
+    if [file.name for file in folder.iterdir()] != [_FILE]:
         broken.append("leaves files behind")
-    broken += [f"diff: {what}" for language in LANGUAGES for what in unclean(told(once, "fuzz.3b", language))]
-    return Judged(repr((mended, once, twice)), broken, "mended" if once.diff else "left")
+    if (mended != data) != (b"+++ " in once.stderr):
+        broken.append("changes without a diff, or shows one without a change")
+    return Judged(repr((mended, answer_of(once, folder))), broken, "left" if mended == data else "mended")
 
 
-def _of_diff(changed: bool, diff: str) -> Iterator[str]:
-    if changed != bool(diff):
-        yield "a change without a diff" if changed else "a diff without a change"
+def _fixed(folder: Path) -> tuple["CompletedProcess[bytes]", bytes]:
+    """What the command says, and what it makes of the file."""
+    done = ran(("check", "--fix", "--quiet", _FILE), folder)
+    return done, (folder / _FILE).read_bytes()
 
 
 def _codes(result: CheckResult) -> str:

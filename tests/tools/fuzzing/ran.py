@@ -19,17 +19,17 @@ def ran(arguments: Sequence[str], folder: Path, **environment: str) -> "Complete
 
 
 def broken_by(done: "CompletedProcess[bytes]", form: str = "text") -> Iterator[str]:
-    """Promises that a command broke; `form` is the format that its output has where it came to its end."""
+    """Promises that a command broke; `form` is the format that its output has, or "file" where it goes there."""
     out, err = (stream.decode("utf-8", "surrogateescape") for stream in (done.stdout, done.stderr))
     if done.returncode not in _CODES:
         yield f"exit code {done.returncode}: {err[-400:]!r}"
     if "Traceback (most recent call last)" in err + out:
         yield f"a traceback: {err[-400:]!r}"
-    if done.returncode == 2 and not err and not out:
+    if done.returncode == 2 and not err and not out and form != "file":
         yield "a refusal without a word"
     for name, text in (("stdout", out), ("stderr", err)):
         yield from (f"{name} {what}" for what in unclean(text))
-    if done.returncode in (None, 0, 1):
+    if done.returncode in (None, 0, 1) and form != "file":
         yield from (f"{form} {what}" for what in of_document(form, out) if form != "text" or out)
 
 

@@ -1,5 +1,6 @@
 """TOML files changed as trees of keys and values, and written again: wrong kinds, extreme values, unknown keys."""
 
+import copy
 import datetime
 import json
 import math
@@ -93,7 +94,7 @@ def _other(rng: random.Random, value: Any) -> Any:
     """A value in place of another: near it, of its kind, or of none that fits."""
     what = rng.random()
     if what < 0.25:
-        return rng.choice(_STRANGE)
+        return copy.deepcopy(rng.choice(_STRANGE))
     if what < 0.3:
         return _nested(rng, value)
     if isinstance(value, bool):
@@ -112,7 +113,7 @@ def _other(rng: random.Random, value: Any) -> Any:
         at = rng.randrange(len(changed))
         changed[at] = _other(rng, changed[at])
         return rng.choice((changed, changed[:at], changed * rng.choice((2, 50)), changed[::-1]))
-    return rng.choice(_STRANGE)
+    return copy.deepcopy(rng.choice(_STRANGE))
 
 
 def _small(value: float) -> bool:
