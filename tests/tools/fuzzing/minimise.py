@@ -35,13 +35,13 @@ def minimised(failure: Failure) -> Input:
             return any(kind_of(told.promise) == kind_of(failure.promise) for told in found)
 
         if isinstance(data, tuple):
-            return tuple(_ddmin(data, lambda words: breaks(tuple(words))))
-        lines = _ddmin(data.splitlines(keepends=True), lambda units: breaks(b"".join(units)))
+            return tuple(shortest(data, lambda words: breaks(tuple(words))))
+        lines = shortest(data.splitlines(keepends=True), lambda units: breaks(b"".join(units)))
         single = [bytes([byte]) for byte in b"".join(lines)]
-        return b"".join(_ddmin(single, lambda units: breaks(b"".join(units))))
+        return b"".join(shortest(single, lambda units: breaks(b"".join(units))))
 
 
-def _ddmin(units: Sequence[_Unit], breaks: Callable[[Sequence[_Unit]], bool]) -> Sequence[_Unit]:
+def shortest(units: Sequence[_Unit], breaks: Callable[[Sequence[_Unit]], bool]) -> Sequence[_Unit]:
     """A part of the units that still breaks, of which no single one can be left out; or what the tries led to."""
     parts, tries = 2, iter(range(MOST_TRIES))
     while len(units) > 1:

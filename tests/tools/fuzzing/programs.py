@@ -148,5 +148,5 @@ def _of_formats(result: CheckResult) -> Iterator[str]:
     """Every format is well-formed, in every language."""
     for name in FORMATS:
         for language in LANGUAGES:
-            text = "".join(render(name, [result], Options(language=language, stats=True)))
+            text = "".join(render(name, [result], Options(language=language, statistics=True)))
             yield from (f"format {name}: {what}" for what in (*of_document(name, text), *unclean(text)))

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from fuzzing.target import Input, Judged, Target
+from places import ROOT
 
 if sys.platform != "win32":
     import resource
@@ -74,7 +75,7 @@ def work(connection: Connection, position: "c_int64", folder: Path) -> None:
                 position.value = number
                 faulthandler.dump_traceback_later(task.most_wall_s, exit=True, file=stack)
                 begin = time.process_time()
-                broken, ending = _tried(task, number, folder / "input")
+                broken, ending = tried(task, number, folder / "input")
                 used = time.process_time() - begin
                 faulthandler.cancel_dump_traceback_later()
                 for promise in broken:
@@ -84,7 +85,7 @@ def work(connection: Connection, position: "c_int64", folder: Path) -> None:
             connection.send(Done(task, task.past - task.low, took, slowest, reached))
 
 
-def _tried(task: Task, number: int, folder: Path) -> tuple[list[str], str]:
+def tried(task: Task, number: int, folder: Path) -> tuple[list[str], str]:
     """Promises that an input breaks, and how it ended."""
     target = task.target
     before_mb, begin = _peak_mb(), time.process_time()
@@ -114,13 +115,15 @@ def _judged(task: Task, number: int, folder: Path) -> Judged:
 def raised(error: BaseException) -> str:
     """An exception on one line, with the place that raised it and the last place of drycut on the way there."""
     frames = traceback.extract_tb(error.__traceback__)
-    own = [frame for frame in frames if any(f"/{room}/" in frame.filename for room in ("parser", "controller", "sim"))]
-    places = dict.fromkeys(_place(frame) for frame in (*own[-1:], *frames[-1:]))
+    places = [_place(frame) for frame in frames]
+    own = [place for place in places if place.startswith(("parser/", "controller/", "sim/"))]
+    places = list(dict.fromkeys((*own[-1:], *places[-1:])))
     return f"{type(error).__name__}: {str(error)[:200]!r} at {', '.join(places)}"
 
 
 def _place(frame: traceback.FrameSummary) -> str:
-    return f"{'/'.join(Path(frame.filename).parts[-3:])}:{frame.lineno}"
+    path = Path(frame.filename)
+    return f"{path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else path.name}:{frame.lineno}"
 
 
 def _peak_mb() -> float:
