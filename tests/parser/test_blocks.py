@@ -33,7 +33,7 @@ def codes(*blocks: PlainBlock | str) -> list[str]:
 
 @pytest.mark.parametrize(("sense", "written"), list(itertools.product(LABEL_OF_WAY, SIGNS)))
 def test_each_way_along_an_axis_has_one_label(sense: str, written: int) -> None:
-    for x, y in ((900, 0), (0, 900)):
+    for x, y in ((900, 0), (0, 900), (2, 0), (0, 2)):
         way = (SIGNS[written][0], 0) if x else (0, SIGNS[written][1])
         counts_x = bool(x) == (sense == "L")
         block = PlainBlock(x, y, 900, "X" if counts_x else "Y", sense, written)
