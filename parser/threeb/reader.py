@@ -13,6 +13,7 @@ import numpy as np
 from parser.dialect.reader import STANDARD_MARKS, Marks
 from parser.findings.facts import TooLarge
 from parser.findings.findings import Finding, file_order
+from parser.geometry.curves import Ints
 from parser.text.encoding import narrow
 from parser.text.lines import LineIndex
 from parser.threeb.columns import MAX_WORD_UM, RawBlocks, columns_of, read_mm
@@ -23,6 +24,7 @@ from parser.threeb.grammar import (
     HIDDEN_BLOCK,
     LIKE_A_BLOCK,
     OWN_MARKS,
+    REMARK_SIGNS,
     token_pattern,
 )
 from parser.threeb.header import Header, HeaderLength, read_header, read_length
@@ -58,6 +60,7 @@ class Records(NamedTuple):
     header: Header
     damages: tuple[Unread, ...]
     findings: tuple[Finding, ...]
+    remarks: Ints
 
 
 def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
@@ -72,6 +75,7 @@ def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
     spans: list[int] = []
     found: list[Mark] = []
     passed: list[tuple[int, int]] = []
+    remarks: list[int] = []
     lengths: list[HeaderLength] = []
     covered = [0]
     block = GROUP_AT["block"] + 1
@@ -84,6 +88,8 @@ def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
         elif groups[_PASSED]:
             if folded[span[0]] not in "/(":
                 passed.append(span)
+            if groups[_PASSED][0] in REMARK_SIGNS:
+                remarks += match.span(_PASSED + 1)
         else:
             found.append(_mark(groups, span, len(spans) // 2, lines.line(span[0]), marks))
             lengths += read_length(folded, span)
@@ -104,7 +110,9 @@ def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
         *(damage.finding(lines) for damage in damaged),
     ]
     header = read_header(folded, [span for span in passed if folded[span[0]] != ";"], lengths)
-    return Records(text, lines, raw, tuple(found), header, damaged, tuple(sorted(findings, key=file_order)))
+    ordered = tuple(sorted(findings, key=file_order))
+    of_remarks = np.array(remarks, dtype=np.int64).reshape(-1, 2)
+    return Records(text, lines, raw, tuple(found), header, damaged, ordered, of_remarks)
 
 
 def _mark(groups: tuple[str | None, ...], span: tuple[int, int], after: int, line: int, marks: Marks) -> Mark:

@@ -1,6 +1,5 @@
 """Fingerprints: by what a finding is known again when its program was changed elsewhere."""
 
-import hashlib
 from collections import Counter
 
 from parser.findings.findings import Finding
@@ -23,6 +22,8 @@ def fingerprints(result: CheckResult) -> tuple[str, ...]:
 
 
 def _fingerprint(finding: Finding, meant: str, seen: Counter[str]) -> str:
+    import hashlib  # noqa: PLC0415 - a sound program needs none, and starts sooner
+
     key = f"{finding.code}\n{meant}"
     seen[key] += 1
     return hashlib.sha256(f"{key}\n{seen[key]}".encode(errors="replace")).hexdigest()[:32]

@@ -9,8 +9,8 @@ import click
 
 from parser.findings.catalogue import LANGUAGES, Language
 from parser.findings.errors import ProgramError, SettingsError
-from parser.text.encoding import printable
 from parser.text.excerpt import place, with_caret
+from sim.show.terminal.printer import say
 
 if TYPE_CHECKING:
     from sim.setup.scenario import Scenario
@@ -103,12 +103,15 @@ def scenario_options(command: Command) -> Command:
 
 def refused(scenario: "Scenario", error: ProgramError) -> click.exceptions.Exit:
     """Tell what is wrong with a program that cannot be read or run; the end of the command, to be raised."""
-    click.echo(describe(printable(str(scenario.program)), error), err=True)
+    for line in describe(str(scenario.program), error):
+        say(line, err=True)
     return click.exceptions.Exit(2)
 
 
-def describe(name: str, error: ProgramError) -> str:
+def describe(name: str, error: ProgramError) -> list[str]:
     """``part.3b:7:12: error[3B206]: …`` with the line and a caret where the place is known."""
     finding = error.finding
     text = f"{place(name, finding.line, finding.column)}: error[{finding.code}]: {error}"
-    return f"{text}\n{with_caret(error.excerpt, finding.column)}" if error.excerpt and finding.column else text
+    if not error.excerpt or not finding.column:
+        return [text]
+    return [text, *with_caret(error.excerpt, finding.column).split("\n")]

@@ -12,9 +12,11 @@ from parser.findings.findings import Finding, edited
 from parser.program import Program, load_program
 from parser.text.encoding import encode_text, printable
 from parser.text.excerpt import place
+from sim.check.batch import result_of
 from sim.check.engine import run_checks
 from sim.check.fixes import Choice, choices, with_edits
 from sim.check.settings import CheckSettings
+from sim.check.silence.sift import without_known
 from sim.cli.check.patches import for_people, for_tools
 from sim.files import replace_file
 from sim.show.words import Words
@@ -52,15 +54,17 @@ class Mended(NamedTuple):
         return for_tools(self.program.name, self.before, self.after)
 
 
-def mended(path: Path, name: str, settings: CheckSettings) -> Mended:
+def mended(path: Path, name: str, settings: CheckSettings, known: frozenset[str] = frozenset()) -> Mended:
     """Mend what is certain, keeping encoding, line ends and all else; nothing where a mend would bring a new error.
 
-    Raises ProgramError or OSError for a file that cannot be read.
+    What settings, remarks or the baseline, of which the fingerprints are `known`, silence is not mended. Raises
+    ProgramError or OSError for a file that cannot be read.
     """
     before = read_bytes(path)
     program = load_program(before, name, settings.marks)
-    findings = with_edits(program, run_checks(program, settings.demands))
-    shown = tuple(finding for finding in findings if settings.shows(finding.code))
+    checked = run_checks(program, settings.demands)
+    findings = with_edits(program, checked)
+    shown = without_known(result_of(program, checked._replace(findings=findings), settings), known).findings
     unmended = tuple(Unmended(f, possible) for f in shown if len(possible := choices(program, f, findings)) > 1)
     text = edited(program.text, [edit for finding in shown for edit in finding.edits])
     after = encode_text(text, program.encoding)
@@ -71,17 +75,17 @@ def mended(path: Path, name: str, settings: CheckSettings) -> Mended:
     return Mended(program, before, text, after, unmended)
 
 
-def fix_file(path: Path, name: str, settings: CheckSettings) -> Mended | None:
+def fix_file(path: Path, name: str, settings: CheckSettings, known: frozenset[str] = frozenset()) -> Mended | None:
     """Write into the file what `mended` makes of it. None for a file that cannot be read, which stays as it is.
 
     Raises FileUnreadableError where the file cannot be written; then it is as it was.
     """
     try:
-        mend = mended(path, name, settings)
+        mend = mended(path, name, settings, known)
     except (ProgramError, OSError):
         return None
     if mend.changed:
-        replace_file(path, mend.after)
+        replace_file(path, mend.before, mend.after)
     return mend
 
 

@@ -30,6 +30,7 @@ class OutputType(click.ParamType):  # type: ignore[type-arg]  # generic in newer
         return Output(form, Path(file) if file else None)
 
 
+_FILE = click.Path(path_type=Path, dir_okay=False)
 _OUTPUT = (
     click.option(
         "--format",
@@ -50,11 +51,23 @@ _SELECTION = (
     click.option("--select", metavar="CODES", help="Show these codes alone: 3B2,3B301 is all 3B2xx and 3B301."),
     click.option("--ignore", metavar="CODES", help="Do not show these codes."),
     click.option("--fail-on", type=click.Choice(["warning", "error"]), help="Least severity for exit code 1 [error]."),
+    click.option("--exit-zero", is_flag=True, help="Exit code 0 where findings fail; 2 and 3 stay."),
+    click.option(
+        "--exclude",
+        multiple=True,
+        metavar="PATTERN",
+        help="Leave out files and folders of folders, such as old or 'jigs/*'; may be given again.",
+    ),
+    click.option("--config", type=_FILE, metavar="FILE", help="Settings file, in place of those near the programs."),
+    click.option("--no-config", is_flag=True, help="Take no settings file."),
+    click.option("--baseline", type=_FILE, metavar="FILE", help="Show and fail only what is not in this baseline."),
+    click.option("--write-baseline", type=_FILE, metavar="FILE", help="Write all findings as known ones."),
 )
 _MENDS = (
     click.option("--fix", is_flag=True, help="Mend in the files what is certain, and show what was changed."),
     click.option("--diff", is_flag=True, help="Show what --fix would change, for patch -p0, and change nothing."),
 )
+_WATCH = (click.option("--watch", is_flag=True, help="Check again whenever a file changes, until Ctrl-C."),)
 _DEMANDS = (
     click.option(
         "--machine", metavar="NAME|FILE", help="Check the travel of this machine, such as dk7740, or a .toml."
@@ -66,6 +79,6 @@ _DEMANDS = (
 
 def check_options(command: Command) -> Command:
     """Give a command the options of ``drycut check``."""
-    for option in reversed((*_OUTPUT, *_SELECTION, *_MENDS, *_DEMANDS)):
+    for option in reversed((*_OUTPUT, *_SELECTION, *_MENDS, *_WATCH, *_DEMANDS)):
         command = option(command)
     return command

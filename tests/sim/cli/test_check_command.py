@@ -137,16 +137,16 @@ def test_settings_stand_above_the_file_and_options_come_first(tmp_path: Path) ->
     path = tmp_path / "deep" / "part.3b"
     path.parent.mkdir()
     path.write_text(SOUND.replace("GXL1", "GXL4").replace("DD", "E"), "ascii")
-    code, out, _ = drycut("check", path)
+    code, out, _ = drycut("check", path, cwd=tmp_path)
     assert code == 1
     assert out.count("[3B") == 1
     assert "3B203" in out
-    assert drycut("check", path, "--fail-on", "error")[0] == 0
+    assert drycut("check", path, "--fail-on", "error", cwd=tmp_path)[0] == 0
     (tmp_path / "drycut.toml").unlink()
     (tmp_path / "pyproject.toml").write_text('[tool.drycut]\nignore = ["3B2"]\n', "utf-8")
-    assert "3B105" in drycut("check", path)[1]
+    assert "3B105" in drycut("check", path, cwd=tmp_path)[1]
     (tmp_path / "pyproject.toml").write_text("[tool.drycut]\nignor = []\n", "utf-8")
-    code, _, err = drycut("check", path)
+    code, _, err = drycut("check", path, cwd=tmp_path)
     assert code == 2
     assert "unknown key 'ignor'; did you mean ignore?" in err
 
@@ -190,7 +190,7 @@ def test_an_incomplete_check_is_never_clean(part: Path) -> None:
     part.write_text(SOUND.replace("B9900B0B9900GXL3", "B9900B0B99O0GXL3"), "ascii")
     code, out, _ = drycut("check", part, "--ignore", "3B106")
     assert code == 1
-    assert "part.3b: incomplete; 2 of 3 blocks read" in " ".join(out.split())
+    assert "part.3b: incomplete: 1 not shown; 2 of 3 blocks read" in " ".join(out.split())
     assert "closure of contours" in out.partition("4 not asked\n")[2]
 
 

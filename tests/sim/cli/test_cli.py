@@ -101,7 +101,7 @@ def test_a_failed_verdict_exits_1_and_names_line_and_code(tmp_path: Path) -> Non
     done = drycut("run", path)
     assert done.returncode == 1
     assert "part.3b:2:16: error[3B106]: " in done.stdout
-    assert "\n    B9900B0B39600GYNR5\n                   ^^^\n" in done.stdout
+    assert "\n  2 | B9900B0B39600GYNR5\n    |                ^^^\n" in done.stdout
     assert "verdict: fail" in done.stdout
 
 
@@ -245,7 +245,7 @@ def test_run_prints_the_hints_that_check_prints(short: Path) -> None:
     short.write_text(short.read_text("utf-8").replace("GYL4", "GYL3"), "utf-8")
     told = [drycut(command, short).stdout.splitlines() for command in ("run", "check")]
     hints = [{line.strip() for line in lines if " = hint: " in line} for lines in told]
-    assert hints[0] == hints[1] == {"= hint: write L4"}
+    assert hints[0] == hints[1] == {"= hint:     write L4"}
 
 
 def test_run_without_output_needs_no_pictures(part: Path) -> None:
