@@ -10,6 +10,7 @@ from sim.cli.check.options import check_options
 from sim.cli.scenario_options import chosen
 
 if TYPE_CHECKING:
+    from parser.findings.catalogue import Language
     from sim.check.batch import Job
     from sim.check.result import CheckResult
     from sim.cli.check.baselines import Ledger
@@ -47,7 +48,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     or in [tool.drycut] of pyproject.toml, in the folder of the file or above it in its project; options come first.
 
     Exit code: 0 nothing as severe as --fail-on, 1 a finding that is, or a check that could not look at everything,
-    2 bad use or unreadable input.
+    2 bad use or unreadable input, 3 a fault of drycut itself.
 
     \b
     drycut check part.3b
@@ -119,19 +120,22 @@ def _refuse_contradictions(
 def _check(jobs: Sequence["Job"], outputs: Sequence["Output"], style: "Options", options: "Asked") -> int:
     """Check the files of the jobs and write what was found; the exit code."""
     from sim.cli.check.outputs import write
+    from sim.show.terminal import printer
 
     outcome, ledger = _Outcome(), _ledger(options)
     write(outcome.watched(ledger.watched(jobs, _results(jobs))), outputs, style)
-    click.echo(ledger.closed(style.language), err=True, nl=False)
+    printer.write(ledger.closed(style.language), err=True)
+    outcome.tell_faults(style.language)
     return outcome.code
 
 
 def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:
-    from sim.check.batch import PARALLEL_FROM, check_file, check_files
+    from sim.check.batch import PARALLEL_FROM, check_any
 
     if len(jobs) < PARALLEL_FROM:
-        yield from map(check_file, jobs)
+        yield from map(check_any, jobs)
         return
+    from sim.check.parallel import check_files
     from sim.cli.progress import StageProgress
 
     with StageProgress() as progress:
@@ -143,11 +147,21 @@ class _Outcome:
 
     def __init__(self) -> None:
         self.code = 0
+        self._faults: dict[str, str] = {}
+
+    def tell_faults(self, language: "Language") -> None:
+        """Tell at which files drycut itself failed, if at any."""
+        if self._faults:
+            from sim.cli.faults import tell_faults
+
+            self.code = tell_faults(self._faults, language)
 
     def watched(self, results: Iterable["CheckResult"]) -> Iterator["CheckResult"]:
         """The results; `code` grows with them."""
         for result in results:
-            if result.unreadable:
+            if result.fault:
+                self._faults[result.name] = result.fault
+            elif result.unreadable:
                 self.code = 2
             elif result.failed:
                 self.code = max(self.code, 1)

@@ -12,6 +12,7 @@ import click
 from parser.findings.catalogue import Language
 from parser.findings.errors import DrycutError
 from parser.program import suffixes
+from sim.show.terminal.printer import say
 from sim.show.words import Words
 
 _LEAST_REST_S = 0.3
@@ -37,13 +38,13 @@ def watch(names: Sequence[str], check: Callable[[], object], language: Language)
     click.clear()
     check()
     while True:
-        click.echo(Words(language)("findings.watching"), err=True)
+        say(Words(language)("findings.watching"), err=True)
         seen = _settled_change(names, seen)
         click.clear()
         try:
             check()
         except (DrycutError, click.ClickException) as error:
-            click.echo(f"drycut: error: {error}", err=True)
+            say(f"drycut: error: {error}", err=True)
 
 
 def rest_s(look_s: float) -> float:
