@@ -1,6 +1,7 @@
 """Places in a program for people: ``part.3b:7:12``, and a source line with a caret under what is meant."""
 
 import unicodedata
+from functools import lru_cache
 from itertools import accumulate
 
 from parser.text.encoding import printable
@@ -13,12 +14,6 @@ def place(name: str, line: int | None, column: int | None) -> str:
     """``name:line:column`` with only the parts that are known (0 and None are unknown)."""
     parts = [name, *(str(n) for n in (line, column) if n)]
     return ":".join(parts)
-
-
-def with_caret(excerpt: str, column: int, width: int = 1) -> str:
-    """A source line and a line of carets below it, both set in by four blanks."""
-    shown, carets = caret_lines(excerpt, column, width)
-    return f"    {shown}\n    {carets}"
 
 
 def caret_lines(excerpt: str, column: int, width: int = 1, room: int = _ROOM) -> tuple[str, str]:
@@ -49,6 +44,7 @@ def first_cells(text: str, room: int) -> str:
     return text
 
 
+@lru_cache(4096)
 def _cells(char: str) -> int:
     if unicodedata.combining(char):
         return 0

@@ -1,14 +1,14 @@
-"""Checks of many files: each on its own, over all cores where there are many."""
+"""The check of a file, whatever it holds."""
 
-import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+import traceback
+from collections.abc import Iterable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from parser.files.reading import read_bytes
-from parser.findings.errors import FileUnreadableError, ProgramError
+from parser.findings.errors import DrycutError, FileUnreadableError, ProgramError
 from parser.findings.facts import DamagedBlock, telling
 from parser.findings.findings import Finding
 from parser.program import Program, load_program
@@ -20,9 +20,8 @@ from sim.check.result import CheckResult, CheckState, Coverage
 from sim.check.settings import CheckSettings
 from sim.check.silence.sift import chosen, sifted, without_known
 
-PARALLEL_FROM = 200
+PARALLEL_FROM: Final = 200
 """Files from which on they are checked in parallel; below, starting processes takes longer than checking."""
-_FILES_A_TASK = 32
 _DEFAULTS = CheckSettings()
 
 
@@ -45,6 +44,19 @@ class Job(NamedTuple):
     source: Path | bytes
     settings: CheckSettings
     known: frozenset[str] = frozenset()
+
+
+def check_any(job: Job) -> CheckResult:
+    """Check one file; where drycut itself fails, the result has the traceback as its `fault`.
+
+    Raises DrycutError for settings that cannot be.
+    """
+    try:
+        return check_file(job)
+    except DrycutError:
+        raise
+    except Exception:
+        return not_checked(job, traceback.format_exc())
 
 
 def check_file(job: Job) -> CheckResult:
@@ -94,16 +106,6 @@ def _mendable(program: Program, checked: Checked) -> tuple[Finding, ...]:
     return with_edits(program, checked)
 
 
-def check_files(jobs: Sequence[Job], progress: Callable[[int, int], None]) -> Iterator[CheckResult]:
-    """Results in the order of the jobs, over all cores; `progress` is told how many of how many are done."""
-    from concurrent.futures import ProcessPoolExecutor  # noqa: PLC0415 - a few files need no processes
-
-    with ProcessPoolExecutor(os.cpu_count()) as pool:
-        for done, result in enumerate(pool.map(check_file, jobs, chunksize=_FILES_A_TASK), start=1):
-            progress(done, len(jobs))
-            yield result
-
-
 def _excerpts(lines: LineIndex, text: str, findings: Iterable[Finding]) -> dict[int, str]:
     """Source lines, as written, that findings point at."""
     numbers = sorted({finding.line for finding in findings if finding.line})
@@ -124,20 +126,38 @@ def _unreadable(job: Job, data: bytes, why: Finding, others: tuple[Finding, ...]
     if any(finding.line for finding in findings):
         text, _ = decode_text(data)
         excerpts = _excerpts(LineIndex(text), text, findings)
-    states = tuple(CheckState(name, "incomplete", "reason-unreadable") for name in (*PARSER_CHECKS, *PATH_CHECKS))
     damaged = len(list(telling(others, DamagedBlock)))
     shown, silenced = chosen(others, job.settings)
-    coverage = Coverage(damaged, 0, 0, 0, states)
     return CheckResult(
         name=job.name,
         encoding="",
         dialect="",
         findings=(why, *shown),
         excerpts=excerpts,
-        coverage=coverage,
+        coverage=Coverage(damaged, 0, 0, 0, _none_made("reason-unreadable")),
         length_um=0.0,
         steps=0,
         unreadable=True,
         settings_file=job.settings.file,
         silenced=silenced,
     )
+
+
+def not_checked(job: Job, fault: str) -> CheckResult:
+    """Result of a file at which drycut itself failed: nothing is said of it."""
+    return CheckResult(
+        name=job.name,
+        encoding="",
+        dialect="",
+        findings=(),
+        excerpts={},
+        coverage=Coverage(0, 0, 0, 0, _none_made("reason-fault")),
+        length_um=0.0,
+        steps=0,
+        settings_file=job.settings.file,
+        fault=fault,
+    )
+
+
+def _none_made(reason: str) -> tuple[CheckState, ...]:
+    return tuple(CheckState(name, "incomplete", reason) for name in (*PARSER_CHECKS, *PATH_CHECKS))

@@ -98,6 +98,8 @@ class CheckResult:
         Settings file that counts for it, as it is named to people; empty where there is none.
     silenced
         Findings that are not shown.
+    fault
+        Traceback of a fault of drycut itself, because of which nothing is said of the file; empty where there was none.
     blocks
         Texts of the blocks that findings are in, as written and without labels, by their number from 1.
     """
@@ -114,6 +116,7 @@ class CheckResult:
     unreadable: bool = False
     settings_file: str = ""
     silenced: Silenced = Silenced()  # noqa: RUF009 - frozen
+    fault: str = ""
     blocks: Mapping[int, str] = field(default_factory=dict)
 
     def count(self, severity: Severity) -> int:

@@ -1,8 +1,6 @@
 """``drycut explain``."""
 
-import os
 import re
-import sys
 
 import click
 
@@ -22,24 +20,29 @@ def explain(name: str | None, sections: tuple[str, ...], lang: str | None) -> No
     Without a code, list all codes with their titles, and all documents.
 
     \b
+    Exit code: 0 good, 2 bad use, 3 a fault of drycut itself.
+
+    \b
     drycut explain 3B204
     drycut explain 3b 2
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from sim.show.terminal.colours import styled
     from sim.show.terminal.markdown import shown
+    from sim.show.terminal.printer import say
+    from sim.show.terminal.streams import outlet
     from sim.show.terminal.wrap import width_of
 
-    bold = sys.stdout.isatty() and "NO_COLOR" not in os.environ
-    for text, is_heading in shown(_markdown(name, sections, chosen(lang)), width_of(sys.stdout)):
-        click.echo(click.style(text, bold=True) if bold and is_heading else text)
+    for text, is_heading in shown(_markdown(name, sections, chosen(lang)), width_of(outlet())):
+        say(styled(text, "bold" if is_heading else ""))
 
 
 def _markdown(name: str | None, sections: tuple[str, ...], language: Language) -> str:
     from sim.show.findings.pages import list_text, page_text
-    from sim.show.terminal.documents import DOCUMENTS, cited, document, section
+    from sim.show.terminal.documents import cited, document, documents, section
 
     if name is None:
         return list_text(language)
-    code, of_documents = name.strip().upper(), {known.upper(): known for known in DOCUMENTS}
+    code, of_documents = name.strip().upper(), {known.upper(): known for known in documents()}
     if code in CODES and not sections:
         return cited(page_text(code, language))
     if code not in of_documents:

@@ -10,15 +10,18 @@ from sim.cli.check.options import check_options
 from sim.cli.scenario_options import chosen
 
 if TYPE_CHECKING:
+    from parser.findings.catalogue import Language
     from sim.check.batch import Job
     from sim.check.result import CheckResult
     from sim.cli.check.baselines import Ledger
     from sim.cli.check.jobs import Asked
     from sim.cli.check.outputs import Output
+    from sim.show.findings.options import Options
 
 _OF_FILES = {
     "--fix": "mends files; it cannot mend the standard input",
     "--diff": "shows mends of files; the standard input has none",
+    "--watch": "looks at files; the standard input does not change",
 }
 
 
@@ -36,6 +39,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     fix: bool,
     exit_zero: bool,
     diff: bool,
+    watch: bool,
     **asked: Any,
 ) -> None:
     """Find all that is wrong with 3B programs, before a wire is threaded.
@@ -44,7 +48,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     or in [tool.drycut] of pyproject.toml, in the folder of the file or above it in its project; options come first.
 
     Exit code: 0 nothing as severe as --fail-on, 1 a finding that is, or a check that could not look at everything,
-    2 bad use or unreadable input.
+    2 bad use or unreadable input, 3 a fault of drycut itself.
 
     \b
     drycut check part.3b
@@ -53,28 +57,34 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     language = chosen(lang)
     from sim.cli.check.jobs import Asked, jobs_of
-    from sim.cli.check.outputs import outputs_of, refuse_programs, write
+    from sim.cli.check.outputs import outputs_of, refuse_programs
     from sim.show.findings.options import Options
 
-    _refuse_contradictions(files, formats, asked, {"--fix": fix, "--diff": diff})
-    outputs = outputs_of(formats, output_file)
-    options = Asked(**asked)
-    jobs = jobs_of(files, options)
-    refuse_programs(filter(None, (*(output.file for output in outputs), options.write_baseline)), jobs)
+    given = {"--fix": fix, "--diff": diff, "--watch": watch}
+    _refuse_contradictions(files, formats, asked, given)
+    outputs, options = outputs_of(formats, output_file), Asked(**asked)
+    style = Options(language, quiet=quiet, statistics=statistics)
+
+    def found() -> list["Job"]:
+        jobs = jobs_of(files, options)
+        refuse_programs(filter(None, (*(output.file for output in outputs), options.write_baseline)), jobs)
+        return jobs
+
+    if watch:
+        from sim.cli.check import watching
+
+        watching.watch(files, lambda: _check(found(), outputs, style, options), language)
+    jobs = found()
+    code = 0
     if diff:
         from sim.cli.check.mends import show_diffs
 
         raise _exit(show_diffs(jobs, output_file, language), is_zero=exit_zero)
-    outcome = _Outcome()
     if fix:
         from sim.cli.check.mends import fix_files
 
-        outcome.code = 0 if fix_files(jobs, language) else 2
-    ledger = _ledger(options)
-    results = outcome.watched(ledger.watched(jobs, _results(jobs)))
-    write(results, outputs, Options(language, quiet=quiet, statistics=statistics))
-    click.echo(ledger.closed(language), err=True, nl=False)
-    raise _exit(outcome.code, is_zero=exit_zero)
+        code = 0 if fix_files(jobs, language) else 2
+    raise _exit(max(code, _check(jobs, outputs, style, options)), is_zero=exit_zero)
 
 
 def _exit(code: int, *, is_zero: bool) -> click.exceptions.Exit:
@@ -103,14 +113,29 @@ def _refuse_contradictions(
     beside = [option for option, is_given in needs.items() if is_given]
     if beside and asked == ["--diff"]:
         raise click.UsageError(f"--diff shows mends and no findings; {beside[0]} has no place beside it")
+    if settings["write_baseline"] and asked == ["--watch"]:
+        raise click.UsageError("--watch checks again and again; --write-baseline has no place beside it")
+
+
+def _check(jobs: Sequence["Job"], outputs: Sequence["Output"], style: "Options", options: "Asked") -> int:
+    """Check the files of the jobs and write what was found; the exit code."""
+    from sim.cli.check.outputs import write
+    from sim.show.terminal import printer
+
+    outcome, ledger = _Outcome(), _ledger(options)
+    write(outcome.watched(ledger.watched(jobs, _results(jobs))), outputs, style)
+    printer.write(ledger.closed(style.language), err=True)
+    outcome.tell_faults(style.language)
+    return outcome.code
 
 
 def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:
-    from sim.check.batch import PARALLEL_FROM, check_file, check_files
+    from sim.check.batch import PARALLEL_FROM, check_any
 
     if len(jobs) < PARALLEL_FROM:
-        yield from map(check_file, jobs)
+        yield from map(check_any, jobs)
         return
+    from sim.check.parallel import check_files
     from sim.cli.progress import StageProgress
 
     with StageProgress() as progress:
@@ -122,11 +147,21 @@ class _Outcome:
 
     def __init__(self) -> None:
         self.code = 0
+        self._faults: dict[str, str] = {}
+
+    def tell_faults(self, language: "Language") -> None:
+        """Tell at which files drycut itself failed, if at any."""
+        if self._faults:
+            from sim.cli.faults import tell_faults
+
+            self.code = tell_faults(self._faults, language)
 
     def watched(self, results: Iterable["CheckResult"]) -> Iterator["CheckResult"]:
         """The results; `code` grows with them."""
         for result in results:
-            if result.unreadable:
+            if result.fault:
+                self._faults[result.name] = result.fault
+            elif result.unreadable:
                 self.code = 2
             elif result.failed:
                 self.code = max(self.code, 1)

@@ -1,19 +1,18 @@
 """``--fix`` and ``--diff``: what is certain, mended in all files of a run, or shown."""
 
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-import click
-
 from parser.findings.catalogue import Language
 from parser.findings.errors import FileUnreadableError, ProgramError
-from parser.text.encoding import printable
 from sim.check.batch import Job
 from sim.cli.check.fixing import Mended, fix_file, left, mended
 from sim.cli.scenario_options import describe
 from sim.files import staged
+from sim.show.terminal.printer import say, write, write_exactly
+from sim.show.terminal.streams import outlet
+from sim.show.words import Words
 
 _Put = Callable[[Mended], object]
 
@@ -27,11 +26,11 @@ def fix_files(jobs: Sequence[Job], language: Language) -> bool:
         try:
             mend = fix_file(job.source, job.name, job.settings, job.known)
         except FileUnreadableError as error:
-            click.echo(f"Error: {error}", err=True)
+            say(f"drycut: error: {error}", err=True)
             all_written = False
         else:
             if mend:
-                click.echo(mend.diff + left(mend, language), err=True, nl=False)
+                write(mend.diff + left(mend, language), err=True)
     return all_written
 
 
@@ -40,7 +39,7 @@ def show_diffs(jobs: Sequence[Job], file: Path | None, language: Language) -> in
 
     The exit code: 2 where a file cannot be read, else 1 where one would be changed.
     """
-    with _taking(file) as put:
+    with _taking(file, language) as put:
         return max((_show(job, put, language) for job in jobs), default=0)
 
 
@@ -49,24 +48,32 @@ def _show(job: Job, put: _Put, language: Language) -> int:
     try:
         mend = mended(job.source, job.name, job.settings, job.known)
     except ProgramError as error:
-        click.echo(describe(printable(job.name), error), err=True)
+        for line in describe(job.name, error):
+            say(line, err=True)
         return 2
     except OSError as error:
-        click.echo(f"{printable(job.name)}: cannot be read: {error.strerror or error}", err=True)
+        say(f"{job.name}: cannot be read: {error.strerror or error}", err=True)
         return 2
     if mend.changed:
         put(mend)
-    click.echo(left(mend, language), err=True, nl=False)
+    write(left(mend, language), err=True)
     return int(mend.changed)
 
 
 @contextmanager
-def _taking(file: Path | None) -> Iterator[_Put]:
+def _taking(file: Path | None, language: Language) -> Iterator[_Put]:
     """Where the diffs go: into the file or into what reads stdout byte for byte, onto a terminal for people."""
     if file:
         with staged(file.parent, [file.name]) as folder, (folder / file.name).open("wb") as made:
             yield lambda mend: made.write(mend.patch)
-    elif sys.stdout.isatty():
-        yield lambda mend: click.echo(mend.diff, nl=False)
+    elif outlet().isatty():
+        yield lambda mend: write(mend.diff)
     else:
-        yield lambda mend: click.echo(mend.patch, nl=False)
+        yield lambda mend: _print_patch(mend, language)
+
+
+def _print_patch(mend: Mended, language: Language) -> None:
+    """Print a patch byte for byte, unless that is what a log must not hold: what reads stdout may be a log."""
+    if not write_exactly(mend.patch, f"{mend.program.name}\n{mend.program.text}\n{mend.text}"):
+        write(mend.diff)
+        say(Words(language)("findings.not-exact", name=mend.program.name), err=True)

@@ -5,9 +5,7 @@ Each file is whole or not there. In one folder all take their places together, o
 
 import os
 import pickle
-import sys
 import tempfile
-from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -15,7 +13,10 @@ from typing import IO, TYPE_CHECKING, NamedTuple
 
 import click
 
-from sim.show.findings import render
+from sim.show.findings import FORMATS, render
+from sim.show.terminal import printer
+from sim.show.terminal.printer import coloured, made
+from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of
 
 if TYPE_CHECKING:
@@ -71,36 +72,29 @@ def write(results: Iterable["CheckResult"], outputs: Sequence[Output], options: 
 
     The first output takes the results as the checks give them. Where there are others, each result is laid aside in a
     file without a name, from which they read one after the other: no more than one result is held at a time. Where the
-    reader of stdout goes away, the files are finished still, then BrokenPipeError is raised. FileUnreadableError where
-    a file cannot be written.
+    reader of stdout goes away, the files are finished still. FileUnreadableError where a file cannot be written.
     """
     first, *others = outputs
     with _opened([output.file for output in outputs if output.file]) as files:
         if not others:
             _write_one(first, results, files, options)
             return
-        gone = None
         with tempfile.TemporaryFile(prefix="drycut-") as kept:
             coming = _keeping(results, kept)
-            try:
-                _write_one(first, coming, files, options)
-            except BrokenPipeError as error:
-                gone = error
-            deque(coming, maxlen=0)  # what a reader that went away left
+            _write_one(first, coming, files, options)
             for output in others:
                 _write_one(output, _kept(kept), files, options)
-    if gone:
-        raise gone
 
 
 def _write_one(output: Output, results: Iterable["CheckResult"], files: Files, options: "Options") -> None:
+    form = FORMATS[output.form].form
     if output.file:
-        files[output.file].writelines(render(output.form, results, options))
+        files[output.file].writelines(made(text, form) for text in render(output.form, results, options))
         return
-    colour = output.form == "text" and sys.stdout.isatty() and "NO_COLOR" not in os.environ
-    width = width_of(sys.stdout)
-    for text in render(output.form, results, options._replace(colour=colour, width=width)):
-        click.echo(text, nl=False)
+    stream = outlet()
+    style = options._replace(colour=coloured(stream), width=width_of(stream))
+    for text in render(output.form, results, style):
+        printer.write(text, form)
 
 
 @contextmanager

@@ -5,16 +5,14 @@ What is not shown is said: findings that something silences, checks that did not
 
 from collections.abc import Iterable, Iterator
 
-import click
-
 from parser.text.encoding import printable
 from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.statistics import table
 from sim.show.findings.totals import Totals
 from sim.show.findings.wording import reach, reasons, silenced, summary, verdict
-from sim.show.terminal.colours import COLOURS
-from sim.show.terminal.finding import Line, finding_lines
+from sim.show.terminal.colours import COLOURS, painted, styled
+from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped
 from sim.show.words import Words
 
@@ -27,7 +25,7 @@ def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
     for result in totals.over(results):
         yield _lines(_file(result, options))
     if totals.files.total() > 1 and not options.quiet:
-        yield _lines(_styled(line, options, bold=True) for line in _wrapped(summary(totals, options.language), options))
+        yield _lines(_styled(line, "bold", options) for line in _wrapped(summary(totals, options.language), options))
     if options.quiet:  # the lines of files that pass say nothing of it
         yield _lines(_wrapped(silenced(totals.silenced, totals.settings_files, options.language), options))
     if options.statistics:
@@ -38,7 +36,7 @@ def _file(result: CheckResult, options: Options) -> Iterator[str]:
     for finding in result.findings:
         excerpt = result.excerpts.get(finding.line)
         for line in finding_lines(result.name, finding, excerpt, options.language, options.width):
-            yield _painted(line, COLOURS[finding.severity], options)
+            yield painted(line, finding.severity) if options.colour else "".join(part.text for part in line)
     if result.findings or result.verdict != "pass" or not options.quiet:
         yield from _outcome(result, options)
 
@@ -50,7 +48,7 @@ def _outcome(result: CheckResult, options: Options) -> Iterator[str]:
     """
     head = f"{printable(result.name)}: {verdict(result, options.language)}{Words(options.language)('findings.stop')}"
     for line in wrapped(printable(reach(result, options.language)), options.width, head, _INDENT):
-        yield _styled(line, options, fg=COLOURS[result.verdict])
+        yield _styled(line, COLOURS[result.verdict], options)
     told = reasons(result.coverage.checks, options.language)
     hidden = silenced(result.silenced, (result.settings_file,), options.language)
     for text in filter(None, [*told, hidden]):
@@ -61,15 +59,8 @@ def _wrapped(text: str, options: Options) -> list[str]:
     return wrapped(printable(text), options.width, indent=_INDENT) if text else []
 
 
-def _painted(line: Line, colour: str, options: Options) -> str:
-    return "".join(
-        _styled(text, options, fg=colour if role == "severity" else None, bold=role in {"place", "severity"} or None)
-        for text, role in line
-    )
-
-
-def _styled(text: str, options: Options, fg: str | None = None, bold: bool | None = None) -> str:
-    return click.style(text, fg=fg, bold=bold) if options.colour and (fg or bold) else text
+def _styled(text: str, style: str, options: Options) -> str:
+    return styled(text, style) if options.colour else text
 
 
 def _lines(lines: Iterable[str]) -> str:

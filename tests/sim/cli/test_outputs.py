@@ -41,11 +41,11 @@ def alone(form: str, cwd: Path, *more: object) -> bytes:
 def test_outputs_of_one_run_are_those_of_runs_of_their_own(programs: Path, lang: str) -> None:
     into = {form: f"out/{form}.txt" for form in FORMATS}
     asked = [f"--format={form}={file}" for form, file in into.items()]
-    done = run_inside("check", "programs", *asked, "--format", "text", "--stats", "--lang", lang, cwd=programs)
+    done = run_inside("check", "programs", *asked, "--format", "text", "--statistics", "--lang", lang, cwd=programs)
     assert (done.returncode, done.stderr) == (2, b"")
-    assert done.stdout == alone("text", programs, "--stats", "--lang", lang)
+    assert done.stdout == alone("text", programs, "--statistics", "--lang", lang)
     for form, file in into.items():
-        assert (programs / file).read_bytes() == alone(form, programs, "--stats", "--lang", lang), form
+        assert (programs / file).read_bytes() == alone(form, programs, "--statistics", "--lang", lang), form
     assert len(list((programs / "out").iterdir())) == len(FORMATS)
 
 
@@ -102,8 +102,8 @@ def test_the_exit_code_does_not_depend_on_the_outputs(programs: Path) -> None:
         (["--format=sarif=x", "--format=json=./x"], "x: two outputs cannot go into one file"),
         (["--format=sarif=x", "-o", "programs/../x", "--format=text"], "x: two outputs cannot go into one file"),
         (["--format=sarif=x", "-o", "y"], "--output-file has nothing to hold"),
-        (["--format=xml"], "'xml' is not one of text, json"),
-        (["--format=xml=x"], "'xml' is not one of text, json"),
+        (["--format=xml"], "'xml' is not one of text, concise, json"),
+        (["--format=xml=x"], "'xml' is not one of text, concise, json"),
         (["--format=sarif="], "'sarif=' lacks the name of a file"),
         (["-o", "programs/sound.3b"], "programs/sound.3b: is one of the programs"),
         (["--format=sarif=link"], "link: is one of the programs"),

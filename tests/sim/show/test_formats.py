@@ -23,6 +23,7 @@ from sim.check.result import CheckResult, Coverage
 from sim.show.findings import FORMATS, render
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import spot
+from sim.show.terminal.printer import made
 
 SCHEMAS = {
     "json": ROOT / "docs" / "check.schema.json",
@@ -198,9 +199,9 @@ def test_text_in_chinese() -> None:
 
 def test_colours_come_only_when_asked_for() -> None:
     plain = written("text", kind())
-    coloured = written("text", kind(), colour=True)
+    coloured = made(written("text", kind(), colour=True), "text", colour=True)
     assert "\x1b" not in plain
-    assert "\x1b[31m\x1b[1merror[3B204]\x1b[0m" in coloured
+    assert "\x1b[1;31merror[3B204]\x1b[0m" in coloured
     import click
 
     assert click.unstyle(coloured) == plain
