@@ -4,6 +4,7 @@ import importlib
 import signal
 import sys
 import traceback
+from types import FrameType
 
 import click
 
@@ -59,8 +60,7 @@ def main() -> None:
     written, 3 for a fault of drycut itself, 130 where the user ended it, 128 + n where signal n did.
     """
     prepare_streams()
-    # A run that is told to end takes its unfinished files with it.
-    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
+    _end_on_signals()
     code = _run()
     try:
         sys.stdout.flush()
@@ -89,6 +89,27 @@ def _message(error: click.ClickException | DrycutError | OSError) -> str:
     if isinstance(error, OSError) and error.filename:
         return f"{error.filename}: {error.strerror or error}"
     return str(error)
+
+
+def _end_on_signals() -> None:
+    """Let a run that is told to end, or whose terminal is closed, take its unfinished files with it.
+
+    Ctrl-C does so by itself. What was ignored stays so, as under nohup.
+    """
+    for number in _ends():
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, _end)
+
+
+def _end(number: int, frame: FrameType | None) -> None:
+    for other in _ends():  # a second one would cut the clearing up short
+        signal.signal(other, signal.SIG_IGN)
+    sys.exit(128 + number)
+
+
+def _ends() -> list[signal.Signals]:
+    """Signals that end a run; Windows has SIGBREAK in place of SIGHUP."""
+    return [number for number in signal.Signals if number.name in {"SIGTERM", "SIGHUP", "SIGBREAK"}]
 
 
 def _complain(message: str) -> int:

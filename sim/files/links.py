@@ -1,9 +1,9 @@
 """A set of files swapped in one moment, by links that show the earlier set first and then the new one.
 
-Each name becomes a symbolic link to ``shown/NAME`` in the stage, where ``shown`` is itself a link: to ``kept``, which
-has the earlier files. Nothing changes for who reads the name. Then ``shown`` is made to lead to ``made``: by that one
-rename all names show the new set. At last each file takes the place of its link. So between any two of these steps, and
-after a kill between them, the names show one whole set.
+Each name becomes a symbolic link to ``.shown/NAME`` in the stage, where ``.shown`` is itself a link: to ``.kept``,
+which has the earlier files. Nothing changes for who reads the name. Then ``.shown`` is made to lead to the stage, which
+has the new files: by that one rename all names show them. At last each file takes the place of its link. So between any
+two of these steps, and after a kill between them, the names show one whole set.
 """
 
 import os
@@ -12,15 +12,14 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-MADE = "made"
-_KEPT, _SHOWN, _NEXT = "kept", "shown", "next"
+_KEPT, _SHOWN, _NEXT = ".kept", ".shown", ".next"
 
 
 def swap_by_links(stage: Path, folder: Path, names: Sequence[str]) -> bool:
-    """Let the names in a folder show the files of ``made`` in its stage; `settle` then puts these in their places.
+    """Let the names in a folder show the files of its stage; `settle` then puts these in their places.
 
-    A name that is not in ``made`` is then gone. False where there are no such links to be had, and nothing has changed:
-    on Windows, on file systems without links, and where one of the files is a link or may not be linked. Raises
+    A name that is not in the stage is then gone. False, and nothing has changed, where there are no such links to be
+    had: on Windows, on file systems without links, and where one of the files is a link or may not be linked. Raises
     OSError where a name cannot be replaced; `settle` then puts back what was there.
     """
     if os.name == "nt":  # links need a privilege there, and one to a folder is not replaced by a rename
@@ -32,7 +31,7 @@ def swap_by_links(stage: Path, folder: Path, names: Sequence[str]) -> bool:
         return False
     for name in names:
         _put_link(stage, _link(stage, name), folder / name)
-    _put_link(stage, MADE, stage / _SHOWN)
+    _put_link(stage, ".", stage / _SHOWN)
     return True
 
 
@@ -52,25 +51,21 @@ def _put_link(stage: Path, leads_to: str, path: Path) -> None:
     (stage / _NEXT).replace(path)
 
 
-def settle(stage: Path, folder: Path, names: Sequence[str]) -> None:
+def settle(stage: Path, folder: Path) -> None:
     """Put the set that the names show in place of the links that show it; where there are none, nothing changes.
 
     Raises OSError where one cannot be replaced; the names show that whole set still.
     """
-    for name in names:
-        if _link_at(folder / name) == _link(stage, name):
+    if not (stage / _SHOWN).is_symlink():
+        return
+    with os.scandir(folder) as entries:
+        links = [entry.name for entry in entries if entry.is_symlink()]
+    for name in links:
+        if str((folder / name).readlink()) == _link(stage, name):
             try:
                 (stage / _SHOWN / name).replace(folder / name)
             except FileNotFoundError:  # this set has no such file
                 (folder / name).unlink()
-
-
-def _link_at(path: Path) -> str | None:
-    """Text of a link; None where there is none."""
-    try:
-        return str(path.readlink())
-    except OSError:
-        return None
 
 
 def _link(stage: Path, name: str) -> str:

@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError
-from sim.files.links import MADE
 from sim.files.stages import clear_once, stage_in
 
 
@@ -24,7 +23,7 @@ def replace_file(path: Path, data: bytes) -> None:
         before = target.stat()
         _refuse(path, target, before)
         with stage_in(target.parent) as stage:
-            made = stage / MADE / "mended"
+            made = stage / "mended"
             with os.fdopen(os.open(made, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
                 file.write(data)
                 file.flush()
@@ -47,12 +46,16 @@ def _refuse(path: Path, target: Path, before: os.stat_result) -> None:
             "and the others would keep what it was; give it a copy of its own"
         )
     # Root may write all files; one that nobody may write is still not meant to change.
-    if not before.st_mode & 0o222 or not os.access(target, os.W_OK):
+    if not before.st_mode & 0o222 or not _may(target, os.W_OK):
         raise FileUnreadableError(f"{path}: cannot be written: it is read-only")
-    if not os.access(target.parent, os.W_OK | os.X_OK):
+    if not _may(target.parent, os.W_OK | os.X_OK):
         raise FileUnreadableError(
             f"{path}: cannot be written: a file is replaced as a whole, and nothing may be added to its folder"
         )
+
+
+def _may(path: Path, what: int) -> bool:
+    return os.access(path, what, effective_ids=os.access in os.supports_effective_ids)
 
 
 def _keep_owner(path: Path, made: Path, before: os.stat_result) -> None:

@@ -6,7 +6,6 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError
-from sim.files.links import MADE
 from sim.files.locks import alone_in
 from sim.files.stages import clear, close, stage_in
 from sim.files.swap import swap
@@ -29,7 +28,7 @@ def staged(target: Path, names: Sequence[str]) -> Iterator[Path]:
             with alone_in(target):
                 clear(target)
             _refuse_other_than_files(target, names)
-            yield stage / MADE
+            yield stage
             with alone_in(target):
                 clear(target)
                 _refuse_other_than_files(target, names)

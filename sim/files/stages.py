@@ -4,13 +4,13 @@ import os
 import re
 import secrets
 import shutil
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError
-from sim.files.links import MADE
 from sim.files.locks import alone_in, drop_lock, take_lock
 from sim.files.swap import finish
 
@@ -19,24 +19,43 @@ _NAME = re.compile(r"\.drycut-[0-9a-f]{16}")
 
 @contextmanager
 def stage_in(folder: Path) -> Iterator[Path]:
-    """A new stage in a folder, with an empty folder ``made`` in it; it is locked as long as its run lives.
+    """A new and empty stage in a folder, locked as long as its run lives.
 
     At the end it is closed (`close`). It lies in the folder itself, so that files move within one file system, and may
-    be read by who may read that one: while a swap is under way its files are shown. Raises OSError where it cannot be
-    made.
+    be read by who may read that one: while a swap is under way its files are shown. FileUnreadableError where it cannot
+    be made.
     """
     stage = folder / f".drycut-{secrets.token_hex(8)}"
     lock = None
     try:
         with alone_in(folder):  # else a run that clears up could meet it before it is locked
-            stage.mkdir()
-            (stage / MADE).mkdir()
+            _make(stage)
             with suppress(OSError):  # a file system without locks
                 lock = take_lock(stage)
         yield stage
     finally:
         drop_lock(lock)
         close(stage, folder)
+
+
+def _make(stage: Path) -> None:
+    try:
+        stage.mkdir()
+    except OSError as error:
+        raise FileUnreadableError(f"{stage.parent}: cannot be written: {error.strerror or error}") from None
+
+
+@contextmanager
+def scratch() -> Iterator[Path]:
+    """A folder for files that a run needs itself until it ends, among the temporary ones of the system.
+
+    Other users may not look into it. FileUnreadableError where it cannot be made.
+    """
+    temporary = Path(tempfile.gettempdir())
+    clear_once(temporary)
+    with stage_in(temporary) as stage:
+        stage.chmod(0o700)
+        yield stage
 
 
 def close(stage: Path, folder: Path) -> None:

@@ -3,7 +3,8 @@
 import os
 import shutil
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager, nullcontext, suppress
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from controller.stepping.pulses import Pulses
+from parser.findings.errors import FileUnreadableError
 
 
 class StepFiles:
@@ -30,10 +32,12 @@ class StepFiles:
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         """Close the files; their heads now tell how many entries there are."""
-        for file in self._files.values():
+        with suppress(FileUnreadableError) if error else nullcontext(), self._told(), ExitStack() as closing:
+            for file in self._files.values():
+                closing.callback(file.close)
             if error is None:
-                _finish_head(file)
-            file.close()
+                for file in self._files.values():
+                    _finish_head(file)
 
     @property
     def paths(self) -> dict[str, Path]:
@@ -41,20 +45,33 @@ class StepFiles:
         return {name: self._folder / f"{name}.npy" for name in self._files}
 
     def open(self, origin_um: tuple[int, int]) -> None:
-        """Make the files, and write the start."""
+        """Make the files, and write the start; FileUnreadableError where they cannot be written."""
+        with self._told():
+            self._begin(origin_um)
+
+    def _begin(self, origin_um: tuple[int, int]) -> None:
         for name in ("step_x_um", "step_y_um", "step_block", "step_t_s"):
             self._files[name] = (self._folder / f"{name}.npy").open("w+b")
             _write_head(self._files[name], np.float64 if name == "step_t_s" else np.int32, 0)
         self._append(step_x_um=np.array(origin_um[:1]), step_y_um=np.array(origin_um[1:]))
 
     def take(self, pulses: Pulses) -> None:
-        """Append pulses."""
-        self._append(step_x_um=pulses.x_um, step_y_um=pulses.y_um, step_block=pulses.row + 1)
-        self._files["step_t_s"].write(pulses.t_s.tobytes())
+        """Append pulses; FileUnreadableError where they cannot be written."""
+        with self._told():
+            self._append(step_x_um=pulses.x_um, step_y_um=pulses.y_um, step_block=pulses.row + 1)
+            self._files["step_t_s"].write(pulses.t_s.tobytes())
 
     def _append(self, **columns: NDArray[np.integer]) -> None:
         for name, column in columns.items():
             self._files[name].write(column.astype("<i4").tobytes())
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """Tell people of the folder that they know, in which that of the files is hidden."""
+        try:
+            yield
+        except OSError as error:
+            raise FileUnreadableError(f"{self._folder.parent}: cannot be written: {error.strerror or error}") from None
 
 
 def _write_head(file: IO[bytes], dtype: DTypeLike, length: int) -> None:

@@ -1,26 +1,22 @@
 """New files in place of the earlier ones, all of them or none; and what is left to do where a swap was cut short."""
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from sim.files.links import MADE, settle, swap_by_links
+from sim.files.links import settle, swap_by_links
 from sim.files.moves import swap_by_moves, undo
-
-_NAMES = "names.json"
 
 
 def swap(stage: Path, folder: Path, names: Sequence[str]) -> None:
-    """Put the files of ``made`` in a stage in the places of these names in its folder; `finish` has to follow.
+    """Put the files of a stage in the places of these names in its folder; `finish` has to follow.
 
-    A name that is not in ``made`` is then gone. One file alone is replaced by one rename. Raises OSError where a name
+    A name that is not in the stage is then gone. One file alone is replaced by one rename. Raises OSError where a name
     cannot be replaced; after `finish` the folder is then as it was.
     """
+    stage.stat()  # were it gone, its files would seem not to have been made
     if len(names) == 1:
-        _replace_one(stage / MADE / names[0], folder / names[0])
-        return
-    (stage / _NAMES).write_text(json.dumps(names), encoding="utf-8")
-    if not swap_by_links(stage, folder, names):
+        _replace_one(stage / names[0], folder / names[0])
+    elif not swap_by_links(stage, folder, names):
         swap_by_moves(stage, folder, names)
 
 
@@ -36,9 +32,5 @@ def finish(stage: Path, folder: Path) -> None:
 
     Raises OSError where a file cannot be moved to its place; the stage must then stay.
     """
-    try:
-        names = json.loads((stage / _NAMES).read_text(encoding="utf-8"))
-    except (FileNotFoundError, ValueError):  # no swap was begun, or not even its names were written
-        return
-    settle(stage, folder, names)
-    undo(stage, folder, names)
+    settle(stage, folder)
+    undo(stage, folder)

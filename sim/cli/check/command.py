@@ -16,10 +16,12 @@ if TYPE_CHECKING:
     from sim.cli.check.baselines import Ledger
     from sim.cli.check.jobs import Asked
     from sim.cli.check.outputs import Output
+    from sim.show.findings.options import Options
 
 _OF_FILES = {
     "--fix": "mends files; it cannot mend the standard input",
     "--diff": "shows mends of files; the standard input has none",
+    "--watch": "looks at files; the standard input does not change",
 }
 
 
@@ -37,6 +39,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     fix: bool,
     exit_zero: bool,
     diff: bool,
+    watch: bool,
     **asked: Any,
 ) -> None:
     """Find all that is wrong with 3B programs, before a wire is threaded.
@@ -54,30 +57,34 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     language = chosen(lang)
     from sim.cli.check.jobs import Asked, jobs_of
-    from sim.cli.check.outputs import outputs_of, refuse_programs, write
+    from sim.cli.check.outputs import outputs_of, refuse_programs
     from sim.show.findings.options import Options
-    from sim.show.terminal import printer
 
-    _refuse_contradictions(files, formats, asked, {"--fix": fix, "--diff": diff})
-    outputs = outputs_of(formats, output_file)
-    options = Asked(**asked)
-    jobs = jobs_of(files, options)
-    refuse_programs(filter(None, (*(output.file for output in outputs), options.write_baseline)), jobs)
+    given = {"--fix": fix, "--diff": diff, "--watch": watch}
+    _refuse_contradictions(files, formats, asked, given)
+    outputs, options = outputs_of(formats, output_file), Asked(**asked)
+    style = Options(language, quiet=quiet, statistics=statistics)
+
+    def found() -> list["Job"]:
+        jobs = jobs_of(files, options)
+        refuse_programs(filter(None, (*(output.file for output in outputs), options.write_baseline)), jobs)
+        return jobs
+
+    if watch:
+        from sim.cli.check import watching
+
+        watching.watch(files, lambda: _check(found(), outputs, style, options), language)
+    jobs = found()
+    code = 0
     if diff:
         from sim.cli.check.mends import show_diffs
 
         raise _exit(show_diffs(jobs, output_file, language), is_zero=exit_zero)
-    outcome = _Outcome()
     if fix:
         from sim.cli.check.mends import fix_files
 
-        outcome.code = 0 if fix_files(jobs, language) else 2
-    ledger = _ledger(options)
-    results = outcome.watched(ledger.watched(jobs, _results(jobs)))
-    write(results, outputs, Options(language, quiet=quiet, statistics=statistics))
-    printer.write(ledger.closed(language), err=True)
-    outcome.tell_faults(language)
-    raise _exit(outcome.code, is_zero=exit_zero)
+        code = 0 if fix_files(jobs, language) else 2
+    raise _exit(max(code, _check(jobs, outputs, style, options)), is_zero=exit_zero)
 
 
 def _exit(code: int, *, is_zero: bool) -> click.exceptions.Exit:
@@ -106,6 +113,19 @@ def _refuse_contradictions(
     beside = [option for option, is_given in needs.items() if is_given]
     if beside and asked == ["--diff"]:
         raise click.UsageError(f"--diff shows mends and no findings; {beside[0]} has no place beside it")
+    if settings["write_baseline"] and asked == ["--watch"]:
+        raise click.UsageError("--watch checks again and again; --write-baseline has no place beside it")
+
+
+def _check(jobs: Sequence["Job"], outputs: Sequence["Output"], style: "Options", options: "Asked") -> int:
+    """Check the files of the jobs and write what was found; the exit code."""
+    from sim.cli.check.outputs import write
+    from sim.show.terminal import printer
+
+    outcome, ledger = _Outcome(), _ledger(options)
+    write(outcome.watched(ledger.watched(jobs, _results(jobs))), outputs, style)
+    printer.write(ledger.closed(style.language), err=True)
+    return outcome.told(style.language)
 
 
 def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:
@@ -122,26 +142,27 @@ def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:
 
 
 class _Outcome:
-    """Exit code of the results that pass by."""
+    """What the results that pass by come to."""
 
     def __init__(self) -> None:
-        self.code = 0
+        self._code = 0
         self._faults: dict[str, str] = {}
 
-    def tell_faults(self, language: "Language") -> None:
-        """Tell at which files drycut itself failed, if at any."""
-        if self._faults:
-            from sim.cli.faults import tell_faults
-
-            self.code = tell_faults(self._faults, language)
-
     def watched(self, results: Iterable["CheckResult"]) -> Iterator["CheckResult"]:
-        """The results; `code` grows with them."""
+        """The results, as they are."""
         for result in results:
             if result.fault:
                 self._faults[result.name] = result.fault
             elif result.unreadable:
-                self.code = 2
+                self._code = 2
             elif result.failed:
-                self.code = max(self.code, 1)
+                self._code = max(self._code, 1)
             yield result
+
+    def told(self, language: "Language") -> int:
+        """The exit code; at which files drycut itself failed is told."""
+        if not self._faults:
+            return self._code
+        from sim.cli.faults import tell_faults
+
+        return tell_faults(self._faults, language)

@@ -67,6 +67,7 @@ _MENDS = (
     click.option("--fix", is_flag=True, help="Mend in the files what is certain, and show what was changed."),
     click.option("--diff", is_flag=True, help="Show what --fix would change, for patch -p0, and change nothing."),
 )
+_WATCH = (click.option("--watch", is_flag=True, help="Check again whenever a file changes, until Ctrl-C."),)
 _DEMANDS = (
     click.option(
         "--machine", metavar="NAME|FILE", help="Check the travel of this machine, such as dk7740, or a .toml."
@@ -78,6 +79,6 @@ _DEMANDS = (
 
 def check_options(command: Command) -> Command:
     """Give a command the options of ``drycut check``."""
-    for option in reversed((*_OUTPUT, *_SELECTION, *_MENDS, *_DEMANDS)):
+    for option in reversed((*_OUTPUT, *_SELECTION, *_MENDS, *_WATCH, *_DEMANDS)):
         command = option(command)
     return command

@@ -17,6 +17,7 @@ DOCUMENTS: Final = (
     "replay",
     "report",
     "scenarios",
+    "terminal",
 )
 """Names of the documents that a wheel brings (``pyproject.toml``); ``drycut explain NAME`` shows them."""
 

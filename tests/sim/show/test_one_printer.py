@@ -20,7 +20,7 @@ def ways_out(source: str) -> Iterator[str]:
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name | ast.Attribute):
             name = node.func.id if isinstance(node.func, ast.Name) else node.func.attr
-            if name in WAYS or ast.unparse(node.func) in {"os.write", "os.writev", "traceback.print_exc"}:
+            if name in WAYS or ast.unparse(node.func) in {"os.write", "click.clear", "traceback.print_exc"}:
                 yield ast.unparse(node.func)
         elif isinstance(node, ast.Attribute) and ast.unparse(node) in STREAMS:
             yield ast.unparse(node)
