@@ -15,15 +15,22 @@ STREAMS = {"sys.stdout", "sys.stderr", "sys.__stdout__", "sys.__stderr__", "sys.
 MODULES = {"rich", "rich.console", "rich.live", "rich.progress", "pprint", "curses", "colorama"}
 
 
+def dotted(node: ast.expr) -> str:
+    """``sys.stdout`` of an attribute of a name; else nothing."""
+    return (
+        f"{node.value.id}.{node.attr}" if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) else ""
+    )
+
+
 def ways_out(source: str) -> Iterator[str]:
     """Each place of a module where it could print."""
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name | ast.Attribute):
             name = node.func.id if isinstance(node.func, ast.Name) else node.func.attr
-            if name in WAYS or ast.unparse(node.func) in {"os.write", "click.clear", "traceback.print_exc"}:
-                yield ast.unparse(node.func)
-        elif isinstance(node, ast.Attribute) and ast.unparse(node) in STREAMS:
-            yield ast.unparse(node)
+            if name in WAYS or dotted(node.func) in {"os.write", "click.clear", "traceback.print_exc"}:
+                yield name
+        elif isinstance(node, ast.Attribute) and dotted(node) in STREAMS:
+            yield dotted(node)
         elif isinstance(node, ast.Import | ast.ImportFrom):
             names = [node.module or ""] if isinstance(node, ast.ImportFrom) else [name.name for name in node.names]
             yield from (name for name in names if name in MODULES)
