@@ -4,6 +4,8 @@ import io
 import logging
 import re
 from collections import Counter
+from collections.abc import Iterable
+from itertools import islice
 from pathlib import Path
 
 from ezdxf import recover
@@ -23,6 +25,10 @@ _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _SECTION = re.compile(rb"(?:^|[\r\n])[ \t]*0[ \t]*[\r\n]+[ \t]*SECTION")
 _END = re.compile(rb"(?:^|[\r\n])[ \t]*0[ \t]*[\r\n]+[ \t]*EOF[\s\0\x1a]*$")
 _UNITS = "$INSUNITS"
+# An entity of a text begins with the group code 0, on a line of its own, and its name on the next.
+_ENTITY = re.compile(rb"(?:^|[\r\n])[ \t]*+0[ \t]*+[\r\n]++[ \t]*+[A-Z_]")
+MOST_ENTITIES = 200_000
+"""Entities in a file, and entities that stand in the drawing once its blocks are inserted: no part has more."""
 _MOST_FAULTS = 5  # kinds named one by one
 _LONGEST = 120  # characters of a foreign message
 
@@ -46,6 +52,7 @@ def _loaded(path: Path, data: bytes) -> tuple[Document, list[Remark]]:
         raise DrawingError(f"{path}: is empty; expected a DXF drawing")
     if data.startswith(_BINARY):
         return _binary(path, data), []
+    _refuse_too_many(path, _ENTITY.finditer(data))
     if not _SECTION.search(data):
         kind = kind_of(data)
         found = f" ({term(kind)})" if kind else ""
@@ -68,9 +75,18 @@ def _ended(data: bytes) -> bytes:
     return b"\n".join([*lines[:last], b"0", b"ENDSEC", b"0", b"EOF", b""])
 
 
+def _refuse_too_many(path: Path, entities: Iterable[object]) -> None:
+    """DrawingError for more entities than are read, before the library makes an object of each."""
+    if next(islice(entities, MOST_ENTITIES, None), None) is not None:
+        raise DrawingError(f"{path}: holds more than {MOST_ENTITIES:,} entities; save the contour of the part alone")
+
+
 def _binary(path: Path, data: bytes) -> Document:
     try:
+        _refuse_too_many(path, (tag for tag in binary_tags_loader(data) if tag.code == 0))
         return Document.load(binary_tags_loader(data))
+    except DrawingError:
+        raise
     except Exception as error:
         raise _beyond_mending(path, error) from None
 

@@ -1,6 +1,7 @@
 """Places in a program for people: ``part.3b:7:12``, and a source line with a caret under what is meant."""
 
 import unicodedata
+from functools import lru_cache
 from itertools import accumulate
 
 from parser.text.encoding import printable
@@ -49,6 +50,7 @@ def first_cells(text: str, room: int) -> str:
     return text
 
 
+@lru_cache(4096)
 def _cells(char: str) -> int:
     if unicodedata.combining(char):
         return 0

@@ -70,27 +70,6 @@ def main() -> None:
     sys.exit(code)
 
 
-def _run() -> int:
-    try:
-        return int(cli.main(prog_name="drycut", standalone_mode=False) or 0)
-    except (click.Abort, KeyboardInterrupt):
-        return 130
-    except SystemExit as ended:  # by a signal
-        return int(ended.code or 0)
-    except (click.ClickException, DrycutError, OSError) as error:
-        return _complain(_message(error))
-    except Exception:
-        return _tell_fault(traceback.format_exc())
-
-
-def _message(error: click.ClickException | DrycutError | OSError) -> str:
-    if isinstance(error, click.ClickException):
-        return error.format_message()
-    if isinstance(error, OSError) and error.filename:
-        return f"{error.filename}: {error.strerror or error}"
-    return str(error)
-
-
 def _end_on_signals() -> None:
     """Let a run that is told to end, or whose terminal is closed, take its unfinished files with it.
 
@@ -110,6 +89,27 @@ def _end(number: int, frame: FrameType | None) -> None:
 def _ends() -> list[signal.Signals]:
     """Signals that end a run; Windows has SIGBREAK in place of SIGHUP."""
     return [number for number in signal.Signals if number.name in {"SIGTERM", "SIGHUP", "SIGBREAK"}]
+
+
+def _run() -> int:
+    try:
+        return int(cli.main(prog_name="drycut", standalone_mode=False) or 0)
+    except (click.Abort, KeyboardInterrupt):
+        return 130
+    except SystemExit as ended:  # by a signal
+        return int(ended.code or 0)
+    except (click.ClickException, DrycutError, OSError) as error:
+        return _complain(_message(error))
+    except Exception:
+        return _tell_fault(traceback.format_exc())
+
+
+def _message(error: click.ClickException | DrycutError | OSError) -> str:
+    if isinstance(error, click.ClickException):
+        return error.format_message()
+    if isinstance(error, OSError) and error.filename:
+        return f"{error.filename}: {error.strerror or error}"
+    return str(error)
 
 
 def _complain(message: str) -> int:

@@ -38,11 +38,11 @@ def explain(name: str | None, sections: tuple[str, ...], lang: str | None) -> No
 
 def _markdown(name: str | None, sections: tuple[str, ...], language: Language) -> str:
     from sim.show.findings.pages import list_text, page_text
-    from sim.show.terminal.documents import DOCUMENTS, cited, document, section
+    from sim.show.terminal.documents import cited, document, documents, section
 
     if name is None:
         return list_text(language)
-    code, of_documents = name.strip().upper(), {known.upper(): known for known in DOCUMENTS}
+    code, of_documents = name.strip().upper(), {known.upper(): known for known in documents()}
     if code in CODES and not sections:
         return cited(page_text(code, language))
     if code not in of_documents:

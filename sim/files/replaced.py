@@ -10,27 +10,30 @@ from parser.findings.errors import FileUnreadableError
 from sim.files.stages import clear_once, stage_in
 
 
-def replace_file(path: Path, data: bytes) -> None:
-    """Put `data` in place of a file's content, whole or not at all, a power cut included; a link is followed.
+def replace_file(path: Path, before: bytes, after: bytes) -> None:
+    """Put `after` in place of a file's content, whole or not at all, a power cut included; a link is followed.
 
     Owner, group, mode and, on Linux, extended attributes with access lists stay. Raises FileUnreadableError, and
-    changes nothing, where they cannot, where the file has a second name (a hard link), which would keep the content of
-    before, where it is read-only, and where it or its folder cannot be written.
+    changes nothing, where they cannot, where the file is no longer as it was read (`before`), where it has a second
+    name (a hard link), which would keep that content, where it is read-only, and where it or its folder cannot be
+    written.
     """
     target = path.resolve()
     try:
         clear_once(target.parent)
-        before = target.stat()
-        _refuse(path, target, before)
+        was = target.stat()
+        _refuse(path, target, was)
         with stage_in(target.parent) as stage:
             made = stage / "mended"
             with os.fdopen(os.open(made, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
-                file.write(data)
+                file.write(after)
                 file.flush()
                 os.fsync(file.fileno())  # else a power cut may leave an empty file under the name of a program
-            _keep_owner(path, made, before)
+            _keep_owner(path, made, was)
             _keep_attributes(path, made, target)
-            made.chmod(stat.S_IMODE(before.st_mode))
+            made.chmod(stat.S_IMODE(was.st_mode))
+            if target.read_bytes() != before:
+                raise FileUnreadableError(f"{path}: cannot be written: it has changed since it was read")
             made.replace(target)
     except FileUnreadableError:
         raise
@@ -38,15 +41,15 @@ def replace_file(path: Path, data: bytes) -> None:
         raise FileUnreadableError(f"{path}: cannot be written: {error.strerror or error}") from None
 
 
-def _refuse(path: Path, target: Path, before: os.stat_result) -> None:
+def _refuse(path: Path, target: Path, was: os.stat_result) -> None:
     """FileUnreadableError where a file may not be replaced."""
-    if before.st_nlink > 1:
+    if was.st_nlink > 1:
         raise FileUnreadableError(
-            f"{path}: cannot be written: it has {before.st_nlink} names (hard links), "
+            f"{path}: cannot be written: it has {was.st_nlink} names (hard links), "
             "and the others would keep what it was; give it a copy of its own"
         )
     # Root may write all files; one that nobody may write is still not meant to change.
-    if not before.st_mode & 0o222 or not _may(target, os.W_OK):
+    if not was.st_mode & 0o222 or not _may(target, os.W_OK):
         raise FileUnreadableError(f"{path}: cannot be written: it is read-only")
     if not _may(target.parent, os.W_OK | os.X_OK):
         raise FileUnreadableError(
@@ -58,14 +61,14 @@ def _may(path: Path, what: int) -> bool:
     return os.access(path, what, effective_ids=os.access in os.supports_effective_ids)
 
 
-def _keep_owner(path: Path, made: Path, before: os.stat_result) -> None:
+def _keep_owner(path: Path, made: Path, was: os.stat_result) -> None:
     """Give a file the owner and the group of another; FileUnreadableError where the system forbids it."""
     if sys.platform == "win32":
         return
     own = made.stat()
     try:
-        if (own.st_uid, own.st_gid) != (before.st_uid, before.st_gid):
-            os.chown(made, before.st_uid, before.st_gid)
+        if (own.st_uid, own.st_gid) != (was.st_uid, was.st_gid):
+            os.chown(made, was.st_uid, was.st_gid)
     except OSError:
         raise FileUnreadableError(
             f"{path}: cannot be written: it belongs to another user or group, and would then be yours"

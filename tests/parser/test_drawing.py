@@ -372,7 +372,7 @@ def test_a_block_that_inserts_itself_or_is_missing_ends_in_a_note(tmp_path):
 
 
 def test_blocks_that_multiply_without_end_are_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(blocks, "_MOST", 1000)
+    monkeypatch.setattr(blocks, "MOST_ENTITIES", 1000)
     document = new()
     document.blocks.new("B0").add_line((0, 0), (1, 0))
     for level in range(1, 9):

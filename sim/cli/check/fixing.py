@@ -85,7 +85,7 @@ def fix_file(path: Path, name: str, settings: CheckSettings, known: frozenset[st
     except (ProgramError, OSError):
         return None
     if mend.changed:
-        replace_file(path, mend.after)
+        replace_file(path, mend.before, mend.after)
     return mend
 
 

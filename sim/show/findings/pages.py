@@ -2,7 +2,7 @@
 
 from parser.findings.catalogue import Language, example, page
 from parser.findings.codes import CODES
-from sim.show.terminal.documents import DOCUMENTS, title
+from sim.show.terminal.documents import documents, title
 from sim.show.words import Words
 
 
@@ -29,7 +29,7 @@ def list_text(language: Language) -> str:
     """Every code with its severity and title, by layer, and every document with its title, as Markdown."""
     say = Words(language)
     codes = [f"## {title}\n{_fenced(_title_lines(codes, language))}" for title, codes in layers(language)]
-    rows = "\n".join(f"{name:{max(map(len, DOCUMENTS))}}  {title(name)}" for name in DOCUMENTS)
+    rows = "\n".join(f"{name:{max(map(len, documents()))}}  {title(name)}" for name in documents())
     return "\n\n".join([*codes, f"## {say('findings.documents')}\n{_fenced(rows)}"]) + "\n"
 
 

@@ -1,42 +1,30 @@
 """The documents for users, which pages of findings cite: beside the code in a wheel, in ``docs`` of the repository."""
 
 import re
+from functools import cache
 from pathlib import Path
 from typing import Final
 
-DOCUMENTS: Final = (
-    "3b",
-    "ballbar",
-    "card",
-    "check",
-    "compare",
-    "drawing",
-    "limits",
-    "pictures",
-    "python",
-    "replay",
-    "report",
-    "scenarios",
-    "terminal",
-)
-"""Names of the documents that a wheel brings (``pyproject.toml``); ``drycut explain NAME`` shows them."""
-
 _PACKAGE: Final = Path(__file__).parents[2]
+_NOT_FOR_USERS: Final = {"architecture", "code-flow", "findings", "findings.zh"}
+"""Documents of those who change drycut, and those made of the pages of all codes; a wheel has none of them."""
 _LINK = re.compile(r"\[([^\[\]]+)\]\([^)]+\)")
 _CITED = re.compile(r"\b(?:docs/)?(\w+)(\.zh)?\.md\b")
-_HEADING = re.compile(r"^(#+) ")
+_HEADING = re.compile(r"^#+ ")
 _FENCE = "```"
+
+
+@cache
+def documents() -> tuple[str, ...]:
+    """Names of the documents, in their order; ``drycut explain NAME`` shows them."""
+    return tuple(sorted({path.stem for path in _folder().glob("*.md")} - _NOT_FOR_USERS))
 
 
 def document(name: str) -> str:
     """Markdown of a document. KeyError where there is no such document."""
-    if name not in DOCUMENTS:
+    if name not in documents():
         raise KeyError(name)
-    folders = (_PACKAGE / "docs", _PACKAGE.parent / "docs")
-    path = next((path for folder in folders if (path := folder / f"{name}.md").is_file()), None)
-    if path is None:
-        raise KeyError(name)
-    return path.read_text(encoding="utf-8")
+    return (_folder() / f"{name}.md").read_text(encoding="utf-8")
 
 
 def section(markdown: str, number: str) -> str:
@@ -63,7 +51,12 @@ def title(name: str) -> str:
     return _HEADING.sub("", document(name).split("\n", 1)[0])
 
 
+def _folder() -> Path:
+    shipped = _PACKAGE / "docs"
+    return shipped if shipped.is_dir() else _PACKAGE.parent / "docs"
+
+
 def _command(match: re.Match[str]) -> str:
     if match[1] == "findings":  # made of the pages of all codes, which the command lists
         return "drycut explain --lang zh" if match[2] else "drycut explain"
-    return f"drycut explain {match[1]}" if match[1] in DOCUMENTS else match[0]
+    return f"drycut explain {match[1]}" if match[1] in documents() else match[0]

@@ -4,7 +4,8 @@ The first line has place, severity, code and title, however long the name of the
 in one line. All others fit the width.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from functools import cache
 from typing import Final, Literal, NamedTuple
 
 from parser.findings.catalogue import Language, texts
@@ -72,13 +73,19 @@ def _source(finding: Finding, excerpt: str, gutter: str, width: int) -> Iterator
 
 
 def _labelled(label: str, text: str, gutter: str, language: Language, width: int) -> Iterator[Line]:
-    names = {name: _label(name, language) for name in LABELS}
-    longest = max(map(cells, names.values()))
-    head = f"{gutter} = {names[label]}" + " " * (longest - cells(names[label]))
+    head = f"{gutter} = {_heads(language)[label]}"
     first, *others = wrapped(text, width, head)
     yield Part(head, "label"), Part(first.removeprefix(head))
     for line in others:
         yield (Part(line),)
+
+
+@cache
+def _heads(language: Language) -> Mapping[str, str]:
+    """The labels with their colons, all of the same width."""
+    heads = {name: _label(name, language) for name in LABELS}
+    longest = max(map(cells, heads.values()))
+    return {name: head + " " * (longest - cells(head)) for name, head in heads.items()}
 
 
 def _label(name: str, language: Language) -> str:

@@ -8,6 +8,7 @@ import re
 import shutil
 import unicodedata
 from collections.abc import Iterator
+from functools import lru_cache
 from itertools import groupby
 from typing import Final, NamedTuple, TextIO
 
@@ -38,6 +39,9 @@ def wrapped(text: str, width: int = WIDTH, head: str = "", indent: str | None = 
     than a line, such as a path, is broken anywhere; blanks are lost only where a line ends.
     """
     indent = " " * cells(head) if indent is None else indent
+    text = text.strip(" ")
+    if cells(head) + cells(text) <= width:
+        return [(head + text).rstrip()]
     room = max(width - cells(indent), min(width, _LEAST_ROOM))
     lines, left = [""], width - cells(head)
     for piece in _pieces(text, room):
@@ -74,27 +78,34 @@ def _pieces(text: str, room: int) -> Iterator[_Piece]:
 def _stay_together(text: str, following: str) -> bool:
     """Whether no line ends between two texts: punctuation keeps its side, and a number what it counts."""
     opens, closes = _category(text[-1]) in _NEVER_LAST, _category(following[0]) in _NEVER_FIRST
-    return opens or closes or bool(_NUMBER.fullmatch(text))
+    return opens or closes or (text[0].isdigit() and bool(_NUMBER.fullmatch(text)))
 
 
 def _units(text: str) -> Iterator[_Piece]:
     """Words, and wide characters one by one."""
     blanks = 0
-    for width, run in groupby(text, lambda char: 0 if char == " " else cells(char) or 1):
-        if not width:
-            blanks = len(list(run))
-        elif width == 1:
-            yield _Piece("".join(run), blanks)
+    for word in text.split(" "):
+        for unit in _runs(word):
+            yield _Piece(unit, blanks)
             blanks = 0
-        else:
-            for char in run:
-                yield _Piece(char, blanks)
-                blanks = 0
+        blanks += 1
+
+
+def _runs(word: str) -> Iterator[str]:
+    if word.isascii():
+        yield from filter(None, [word])
+        return
+    for is_wide, chars in groupby(word, lambda char: cells(char) > 1):
+        run = "".join(chars)
+        yield from run if is_wide else [run]
 
 
 def _cut(piece: _Piece, room: int) -> Iterator[_Piece]:
     """A piece in parts that fit; none of them begins with punctuation where that can be."""
     text, blanks = piece
+    if cells(text) <= room:
+        yield piece
+        return
     start = 0
     while start + (fits := len(first_cells(text[start : start + room], room))) < len(text):
         past = start + fits
@@ -106,5 +117,6 @@ def _cut(piece: _Piece, room: int) -> Iterator[_Piece]:
     yield _Piece(text[start:], blanks)
 
 
+@lru_cache(4096)
 def _category(char: str) -> str:
     return unicodedata.category(char)

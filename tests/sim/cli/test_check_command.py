@@ -190,7 +190,7 @@ def test_an_incomplete_check_is_never_clean(part: Path) -> None:
     part.write_text(SOUND.replace("B9900B0B9900GXL3", "B9900B0B99O0GXL3"), "ascii")
     code, out, _ = drycut("check", part, "--ignore", "3B106")
     assert code == 1
-    assert "part.3b: incomplete; 2 of 3 blocks read" in " ".join(out.split())
+    assert "part.3b: incomplete: 1 not shown; 2 of 3 blocks read" in " ".join(out.split())
     assert "closure of contours" in out.partition("4 not asked\n")[2]
 
 

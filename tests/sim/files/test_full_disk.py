@@ -64,5 +64,5 @@ def test_a_full_disk_leaves_a_program_as_it_was(tmp_path: Path) -> None:
     path = tmp_path / "part.3b"
     path.write_text(PART)
     with room_for(20), pytest.raises(FileUnreadableError, match=r"part\.3b: cannot be written: File too large"):
-        replace_file(path, b"B" * 100)
+        replace_file(path, PART.encode(), b"B" * 100)
     assert (path.read_text(), [path.name for path in tmp_path.iterdir()]) == (PART, ["part.3b"])

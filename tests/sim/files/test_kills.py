@@ -114,7 +114,7 @@ def test_what_a_killed_mend_left_is_cleared_by_the_next(tmp_path: Path) -> None:
     (tmp_path / ".drycut-0123456789abcdef").mkdir()
     (tmp_path / ".drycut-0123456789abcdef" / "mended").write_text("half of i")
     (tmp_path / "part.3b").write_text("old")
-    replace_file(tmp_path / "part.3b", b"new")
+    replace_file(tmp_path / "part.3b", b"old", b"new")
     assert [path.name for path in tmp_path.iterdir()] == ["part.3b"]
 
 

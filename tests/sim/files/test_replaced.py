@@ -47,7 +47,7 @@ def refused(path: Path, why: str) -> None:
     """A file that cannot be mended is as it was, alone in its folder, and people are told why."""
     before = path.stat()
     with pytest.raises(FileUnreadableError, match=rf"part\.3b: cannot be written: .*{why}"):
-        replace_file(path, b"new")
+        replace_file(path, b"old", b"new")
     after = path.stat()
     assert path.read_bytes() == b"old"
     assert (after.st_ino, after.st_mode, after.st_uid, after.st_mtime_ns) == (
@@ -63,7 +63,7 @@ def refused(path: Path, why: str) -> None:
 @pytest.mark.parametrize("mode", [0o600, 0o640, 0o644, 0o666, 0o755, 0o2755])
 def test_the_mode_stays(part: Path, mode: int) -> None:
     part.chmod(mode)
-    replace_file(part, b"new")
+    replace_file(part, b"old", b"new")
     assert (part.read_bytes(), stat.S_IMODE(part.stat().st_mode)) == (b"new", mode)
 
 
@@ -71,7 +71,7 @@ def test_the_mode_stays(part: Path, mode: int) -> None:
 def test_the_owner_stays_where_the_system_allows_it(part: Path) -> None:
     os.chown(part, 12345, 23456)
     part.chmod(0o2640)
-    replace_file(part, b"new")
+    replace_file(part, b"old", b"new")
     kept = part.stat()
     assert (kept.st_uid, kept.st_gid, stat.S_IMODE(kept.st_mode), part.read_bytes()) == (12345, 23456, 0o2640, b"new")
 
@@ -116,7 +116,7 @@ def test_a_file_with_a_second_name_is_left(part: Path) -> None:
 def test_a_link_is_followed_and_stays(part: Path) -> None:
     link = part.parent / "link.3b"
     link.symlink_to("part.3b")
-    replace_file(link, b"new")
+    replace_file(link, b"old", b"new")
     assert (link.is_symlink(), part.is_symlink(), part.read_bytes()) == (True, False, b"new")
 
 
@@ -126,7 +126,7 @@ def test_attributes_stay_and_none_come(part: Path) -> None:
         os.setxattr(part, "user.machine", b"dk7740")
     except OSError:
         pytest.skip("this file system has no attributes")
-    replace_file(part, b"new")
+    replace_file(part, b"old", b"new")
     assert {name: os.getxattr(part, name) for name in os.listxattr(part)} == {"user.machine": b"dk7740"}
 
 
@@ -142,7 +142,7 @@ def test_the_access_list_stays(part: Path, of_folder: bool) -> None:
     except OSError:
         pytest.skip("this file system has no access lists")
     before = part.stat().st_mode
-    replace_file(part, b"new")
+    replace_file(part, b"old", b"new")
     kept = {name: os.getxattr(part, name) for name in os.listxattr(part)}
     assert kept == ({} if of_folder else {"system.posix_acl_access": ACL})
     assert part.stat().st_mode == before
@@ -159,6 +159,12 @@ def test_a_file_whose_attributes_cannot_stay_is_left(part: Path, monkeypatch: py
     refused(part, r"its attributes \(security\.own\) cannot be kept: Operation not permitted")
 
 
+def test_a_file_that_was_saved_anew_since_it_was_read_is_left(part: Path) -> None:
+    with pytest.raises(FileUnreadableError, match="it has changed since it was read"):
+        replace_file(part, b"as it was read", b"new")
+    assert [(path.name, path.read_bytes()) for path in part.parent.iterdir()] == [("part.3b", b"old")]
+
+
 def test_whatever_step_fails_the_file_is_whole(part: Path) -> None:
     failed = 0
     for number in range(1, 30):
@@ -170,7 +176,7 @@ def test_whatever_step_fails_the_file_is_whole(part: Path) -> None:
         part.write_bytes(b"old")
         try:
             with before_each_call(told):
-                replace_file(part, b"new")
+                replace_file(part, b"old", b"new")
         except FileUnreadableError:
             failed += 1
             assert [(path.name, path.read_bytes()) for path in part.parent.iterdir()] == [("part.3b", b"old")]

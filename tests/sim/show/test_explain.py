@@ -1,6 +1,7 @@
 """``drycut explain``: pages of codes and documents as a terminal shows them."""
 
 import re
+import tomllib
 
 import pytest
 from command import run_inside
@@ -10,7 +11,7 @@ from parser.findings.catalogue import LANGUAGES, Language, example, page
 from parser.findings.codes import CODES
 from parser.text.excerpt import cells
 from sim.show.findings.pages import page_text
-from sim.show.terminal.documents import DOCUMENTS, cited, document, section
+from sim.show.terminal.documents import cited, document, documents, section
 from sim.show.terminal.markdown import plain, shown
 
 RAW = re.compile(r"`|\*\*\w|\w\*\*|^#|\]\(|\.md\b|<!--|^\|", re.MULTILINE)
@@ -65,14 +66,14 @@ def test_pages_cite_only_what_the_command_shows(language: Language) -> None:
     for code in CODES:
         text = "".join("".join(explained(code, language)).split())
         for name, numbers in re.findall(r"drycutexplain(\w+?)((?:§\d[,、]?)*)(?!\w)", text):
-            assert name in DOCUMENTS, (code, name)
+            assert name in documents(), (code, name)
             for number in re.findall(r"\d+", numbers):
                 assert section(document(name), number)
                 cites += 1
     assert cites > 40
 
 
-@pytest.mark.parametrize("name", DOCUMENTS)
+@pytest.mark.parametrize("name", documents())
 def test_a_document_fits_but_for_what_is_fenced(name: str) -> None:
     out = told(name)
     fenced = {
@@ -85,14 +86,12 @@ def test_a_document_fits_but_for_what_is_fenced(name: str) -> None:
     assert document(name) == (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8")
 
 
-def test_documents_of_users_are_all_there() -> None:
-    ours = {
-        "architecture",
-        "code-flow",
-        "findings",
-        "findings.zh",
-    }  # of those who change drycut, and the pages of codes
-    assert {path.stem for path in (ROOT / "docs").glob("*.md")} == {*DOCUMENTS, *ours}
+def test_a_wheel_brings_the_documents_of_users() -> None:
+    build = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["hatch"]["build"]
+    shipped = build["targets"]["wheel"]["force-include"]
+    assert shipped == {f"docs/{name}.md": f"sim/docs/{name}.md" for name in documents()}
+    assert {"3b", "check", "scenarios"} < set(documents())
+    assert not {"architecture", "code-flow", "findings"} & set(documents())
 
 
 def test_sections_of_a_document_are_shown_by_their_number() -> None:
