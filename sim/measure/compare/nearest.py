@@ -68,12 +68,14 @@ def nearest(index: Index, place_um: Floats) -> Nearest:
 
     Raises DrawingError where that takes more than `MOST_HELD` allows.
     """
+    if not len(place_um):
+        return Nearest(np.empty(0, dtype=np.int64), np.empty(0))
     parts = [_nearest(index, place_um[at : at + _AT_ONCE]) for at in range(0, len(place_um), _AT_ONCE)]
     return Nearest(np.concatenate([part.row for part in parts]), np.concatenate([part.distance_um for part in parts]))
 
 
 def _nearest(index: Index, place_um: Floats) -> Nearest:
-    points = shapely.points(place_um)
+    points = np.asarray(shapely.points(place_um), dtype=np.object_)
     (_, _), to_chord = index.tree.query_nearest(points, return_distance=True, all_matches=False)
     # The nearest curve has a chord no farther off than this; the last bits of the distances are granted.
     within = (to_chord + 2.0 * index.sagitta_um) * (1.0 + 1e-12) + 1e-9

@@ -2,16 +2,24 @@
 
 import difflib
 import random
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from fuzzing.ran import answer_of, broken_by, ran
 from fuzzing.target import Input, Judged
 from fuzzing.toml_trees import fuzzed_toml
 from places import MACHINES, SCENARIOS
 
+from parser.findings.catalogue import texts
 from parser.findings.errors import DrycutError
+from parser.program import parse_program
+from sim.run.dryrun import dry_run
+from sim.run.findings import expectation_findings
+from sim.run.report import build_report
+from sim.setup.expectations import missed
 from sim.setup.machine import machine as machines
 from sim.setup.machine.machine import load_machine, machine_sections
 from sim.setup.scenario import MACHINE_FILE, SECTIONS, Scenario, load_scenario, scenario_sections
@@ -26,6 +34,26 @@ _SETTINGS = (
 _SETTINGS_NAMES = (
     *("machine", "start_mm", "open", "select", "ignore", "fail_on", "end_marks", "pause_marks", "wire", "diameter_mm"),
     *("spark_gap_mm", "tool", "drycut", "root", "per_file_ignores", "exclude", "baseline"),
+)
+_PATHS = (
+    *(
+        "blocks.0.exact.end_um",
+        "blocks.²",
+        "blocks.0.exact.end_um.x",
+        "blocks.kind.x",
+        "summary.steps.0",
+        "findings",
+        "",
+    ),
+    *(
+        "blocks." + "9" * 5000,
+        "blocks.-1.kind",
+        ".",
+        "..",
+        "contours.0.closure_exact_um",
+        "blocks",
+        "scenario.machine.name",
+    ),
 )
 _FILES = "scenario.toml", MACHINE_FILE
 PROGRAM = "B100B0B100GXL1\nB0B100B100GYL2\nB100B0B100GXL3\nB0B100B99GYL4\nDD\n"
@@ -46,7 +74,7 @@ def _names() -> tuple[str, ...]:
 
 def make_scenario(rng: random.Random) -> Input:
     """A scenario file."""
-    return fuzzed_toml(rng, _seeds("*/scenario.toml"), _names())
+    return fuzzed_toml(rng, _seeds("*/scenario.toml"), (*_names(), *_PATHS))
 
 
 def make_machine(rng: random.Random) -> Input:
@@ -70,7 +98,16 @@ def judge_scenario(data: Input, number: int, folder: Path) -> Judged:
         found = load_scenario(folder)
     except DrycutError as error:
         return _refused(error, folder)
-    return Judged(repr(found).replace(str(folder), "HERE"), [*_of_writing(found, folder)], "read")
+    wanted = [texts(finding) for finding in expectation_findings(missed(_report(), found.expect))]
+    return Judged(repr((found, wanted)).replace(str(folder), "HERE"), [*_of_writing(found, folder)], "read")
+
+
+@cache
+def _report() -> Mapping[str, Any]:
+    """A report that expectations are held against."""
+    machine = load_machine(str(SCENARIOS / "out-of-travel" / MACHINE_FILE))
+    scenario = replace(load_scenario(SCENARIOS / "out-of-travel"), machine=machine, expect=())
+    return build_report(dry_run(parse_program(PROGRAM), scenario))
 
 
 def _of_writing(found: Scenario, folder: Path) -> Iterator[str]:

@@ -12,8 +12,31 @@ from typing import Any
 
 from fuzzing.mutate import TEXTS, damaged
 
+_HEX = 16**5000
+"""A whole number of more digits than Python writes in decimal; files may have it in hexadecimal."""
 _NUMBERS: tuple[Any, ...] = (
-    *(0, 1, -1, 2, 7, 400, 10**6, 2**31, -(2**31), 2**63 - 1, 2**63, 10**400, 0.0, -0.0, 1e-300, 5e-324, 0.5, 1.5, 1e5),
+    *(
+        0,
+        1,
+        -1,
+        2,
+        7,
+        400,
+        10**6,
+        2**31,
+        -(2**31),
+        2**63 - 1,
+        2**63,
+        10**400,
+        _HEX,
+        0.0,
+        -0.0,
+        1e-300,
+        5e-324,
+        0.5,
+        1.5,
+        1e5,
+    ),
     *(1e12, 1e300, -1e300, math.inf, -math.inf, math.nan, True, False),
 )
 _STRANGE: tuple[Any, ...] = (
@@ -160,7 +183,7 @@ def _value(value: Any) -> str:
     if isinstance(value, list):
         return "[" + ", ".join(map(_value, value)) + "]"
     if isinstance(value, int):
-        return str(value)
+        return hex(value) if abs(value) > 10**4000 else str(value)
     if isinstance(value, float):
         return repr(value)
     return value.isoformat() if isinstance(value, datetime.date | datetime.time) else _text(str(value))
