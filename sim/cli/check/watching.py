@@ -14,8 +14,7 @@ from parser.findings.catalogue import Language
 from parser.findings.errors import DrycutError
 from parser.program import suffixes
 from sim.check.settings.read import NAMES
-from sim.show.terminal.printer import moves_cursor, say
-from sim.show.terminal.streams import outlet
+from sim.show.terminal.printer import clear, say
 from sim.show.words import Words
 
 _LEAST_REST_S = 0.3
@@ -38,25 +37,18 @@ def watch(names: Sequence[str], check: Callable[[], object], language: Language)
     What keeps the first check from being done is raised; later it is told, as a later change may mend it.
     """
     seen = _look(names)
-    _clear()
+    clear()
     check()
     while True:
         say(Words(language)("findings.watching"), err=True)
         seen = _settled_change(names, seen)
-        _clear()
+        clear()
         try:
             check()
         except DrycutError as error:
             say(f"drycut: error: {error}", err=True)
         except click.ClickException as error:
             say(f"drycut: error: {error.format_message()}", err=True)
-
-
-def _clear() -> None:
-    """Clear the screen and begin at its top, where stdout is one."""
-    stream = outlet()
-    if moves_cursor(stream):
-        click.echo("\x1b[2J\x1b[H", file=stream, nl=False, color=True)
 
 
 def rest_s(look_s: float) -> float:
