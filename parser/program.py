@@ -71,7 +71,7 @@ def load_program(data: bytes, name: str, marks: Marks = STANDARD_MARKS) -> Progr
     try:
         text, encoding = decode_text(data)
         return parse_program(text, name=name, encoding=encoding, marks=marks)
-    except ProgramError:
+    except ProgramError as error:
         kind = kind_of(data) if error.finding.values.get("what") in {"not-text", "no-block"} else ""
         if kind not in {"", A_PROGRAM}:  # blocks that all stand in remarks are a program without blocks
             raise ProgramError(no_program(kind)) from None
