@@ -18,7 +18,7 @@ AWAY = np.array([[0, 1], [-1, 0], [0, -1], [1, 0]], dtype=np.int64)
 
 
 _FLOAT_EXACT = 2**52
-"""Below it a float64 root of a whole number is never rounded onto or past the next whole number."""
+"""Below it a float64 root of a whole number is never rounded onto a whole number."""
 
 
 class ArcWalk(NamedTuple):
@@ -91,8 +91,8 @@ def _until_v(radius_sq: Ints, u0: Ints, v0: Ints, left: Ints) -> Ints:
 def ceil_sqrt(square: Ints) -> Ints:
     """Smallest n ≥ 0 with n² ≥ square, exact for int64 below 2⁶²; 0 for negative ones."""
     square = np.maximum(square, 0)
+    # Never too large: rounding takes no square above n² so far that its root is rounded above n.
     root = np.ceil(np.sqrt(square)).astype(np.int64)
     if square.size and square.max() >= _FLOAT_EXACT:
-        root -= (root > 0) & ((root - 1) ** 2 >= square)
         root += root**2 < square
     return root

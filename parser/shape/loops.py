@@ -117,7 +117,7 @@ def part_sides(toolpath: Toolpath, begin: Ints, first: Ints, last: Ints) -> Ints
     """Side (k,) of the loops from `first` to `last` that the part lies on, the wire coming in from row `begin`."""
     ring = _ring(toolpath, first, last)
     joint = toolpath.start_um[first][ring.of]
-    areas = _areas(ring.start_um - joint, ring.end_um - joint, ring.turn_rad, toolpath.radius_um[ring.row])
+    areas = _doubled_areas(ring.start_um - joint, ring.end_um - joint, ring.turn_rad, toolpath.radius_um[ring.row])
     side = np.sign(np.bincount(ring.of, areas, len(first)))
     side = side * np.where(_is_inside(toolpath, ring, toolpath.start_um[begin]), -1.0, 1.0)
     return np.where(first > begin, side, 0.0).astype(np.int64)
@@ -155,10 +155,10 @@ def _turn(toolpath: Toolpath, row: Ints, end: Floats) -> Floats:
     return np.where(is_circle(toolpath)[row], np.copysign(2.0 * np.pi, sweep), turn)
 
 
-def _areas(start: Floats, end: Floats, turn: Floats, radius: Floats) -> Floats:
-    """Signed areas (m,) µm² between the origin and the blocks."""
+def _doubled_areas(start: Floats, end: Floats, turn: Floats, radius: Floats) -> Floats:
+    """Twice the signed areas (m,) µm² between the origin and the blocks."""
     segment = np.where(turn == 0.0, 0.0, np.nan_to_num(radius) ** 2 * (turn - np.sin(turn)))
-    return 0.5 * (start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0] + segment)
+    return start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0] + segment
 
 
 def _turned_about(start: Floats, end: Floats, turn: Floats, in_disc: NDArray[np.bool_]) -> Floats:

@@ -50,12 +50,11 @@ def counts_fit(words: StepWords) -> NDArray[np.bool_]:
     terms and small against J, a J written by hand need not be a multiple.
     """
     counted = _counted(words)
-    line = (words.turn == 0) & (counted > 0) & (words.count_um > 0)
     near = np.abs(words.count_um - counted) <= _COUNT_TOLERANCE_UM
     longer = np.maximum(words.x_um, words.y_um)
     is_slope = (np.gcd(words.x_um, words.y_um) == 1) & (longer <= _SLOPE_UM)
     is_slope &= _SLOPE_TIMES * longer <= words.count_um
-    fits: NDArray[np.bool_] = ~line | near | is_slope | (words.count_um % np.maximum(counted, 1) == 0)
+    fits: NDArray[np.bool_] = (words.turn != 0) | near | is_slope | (words.count_um % np.maximum(counted, 1) == 0)
     return fits
 
 

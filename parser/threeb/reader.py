@@ -26,6 +26,7 @@ from parser.threeb.grammar import (
     HIDDEN_BLOCK,
     LIKE_A_BLOCK,
     OWN_MARKS,
+    REMARK_SIGNS,
     token_pattern,
 )
 from parser.threeb.header import Header, HeaderLength, read_header, read_length
@@ -64,6 +65,7 @@ class Records(NamedTuple):
     header: Header
     damages: tuple[Unread, ...]
     findings: tuple[Finding, ...]
+    remarks: Ints
 
 
 class _Tokens(NamedTuple):
@@ -77,12 +79,15 @@ class _Tokens(NamedTuple):
         (2m + 2,) int64, ends of the stretches between tokens, one after the other, from 0 to the end of the text.
     marks, passed, lengths
         Marks and start nodes; header lines and remarks behind ``;``; lengths in start nodes.
+    remarks
+        (r, 2) int64, what stands in the remarks: first character of each, and one past the last.
     """
 
     blocks: RawBlocks
     covered: Ints
     marks: list[Mark]
     passed: list[tuple[int, int]]
+    remarks: Ints
     lengths: list[HeaderLength]
 
 
@@ -94,7 +99,7 @@ def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
     """
     folded = narrow(text)
     lines = LineIndex(folded)
-    raw, covered, found, passed, lengths = _tokens(folded, lines, marks)
+    raw, covered, found, passed, remarks, lengths = _tokens(folded, lines, marks)
     raw, covered = without_stolen_numbers(raw, covered, folded)
     damaged_rows = misfits(raw)
     if damaged_rows:
@@ -110,14 +115,15 @@ def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
         *(damage.finding(lines) for damage in damaged),
     ]
     header = read_header(folded, [span for span in passed if folded[span[0]] != ";"], lengths)
-    return Records(text, lines, raw, tuple(found), header, damaged, tuple(sorted(findings, key=file_order)))
+    ordered = tuple(sorted(findings, key=file_order))
+    return Records(text, lines, raw, tuple(found), header, damaged, ordered, remarks)
 
 
 def _tokens(folded: str, lines: LineIndex, marks: Marks) -> _Tokens:
     """The tokens of a text. Words become numbers every so many blocks: as texts they take ten times the room."""
     read: list[RawBlocks] = []
     words: list[str | None] = []  # one flat list: a hundred thousand tuples would keep the garbage collector busy
-    spans, covered = array("q"), array("q", [0])
+    spans, covered, remarks = array("q"), array("q", [0]), array("q")
     found: list[Mark] = []
     passed: list[tuple[int, int]] = []
     lengths: list[HeaderLength] = []
@@ -137,12 +143,14 @@ def _tokens(folded: str, lines: LineIndex, marks: Marks) -> _Tokens:
         elif groups[_PASSED]:
             if folded[span[0]] not in "/(":
                 passed.append(span)
+            if groups[_PASSED][0] in REMARK_SIGNS:
+                remarks.extend(match.span(_PASSED + 1))
         else:
             found.append(_mark(groups, span, number, lines.line(span[0]), marks))
             lengths += read_length(folded, span)
     covered.append(len(folded))
     read.append(columns_of(words, _pairs(spans), lines))
-    return _Tokens(all_rows(read), np.array(covered, dtype=np.int64), found, passed, lengths)
+    return _Tokens(all_rows(read), np.array(covered, dtype=np.int64), found, passed, _pairs(remarks), lengths)
 
 
 def _pairs(ends: "array[int]") -> Ints:

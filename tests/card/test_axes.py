@@ -113,6 +113,15 @@ def test_home_switches_are_a_bit_an_axis_and_idle_1() -> None:
     assert card.GT_GetHomeSwt() == (0, 0x1)
 
 
+def test_a_home_switch_answers_on_both_ends_of_its_place_and_not_a_pulse_beyond() -> None:
+    card = opened(switches=MACHINE)
+    first, last = MACHINE[0].home
+    for place, level in ((first - 1, 0xF), (first, 0xE), (last, 0xE), (last + 1, 0xF)):
+        card.GT_LnXY(place, 0.0)
+        wait_idle(card)
+        assert card.GT_GetHomeSwt() == (0, level), place
+
+
 def test_a_limit_is_flagged_at_once_and_the_axis_brakes_beyond_it() -> None:
     card = opened(switches=MACHINE, call_s=1e-6)
     card.GT_SetSynVel(10.0)

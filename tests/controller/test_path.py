@@ -69,3 +69,10 @@ def test_the_rest_of_a_line_is_a_line() -> None:
     assert rest.start_um.tolist() == [[6.0, 8.0]]
     assert rest.normal.tolist() == [[0.0, 0.0]]
     assert rest.length_um.tolist() == [40.0]
+
+
+def test_the_rest_of_a_path_keeps_the_rows_behind_the_first_as_they_are() -> None:
+    path = path_of(Pen(10.0, 0.0).arc(0.0, 0.0, 2.0).arc(1.0, 1.0, -1.0).to(50.0, 20.0).path())
+    rest = path.rest(7.0)
+    for name in ("start_um", "tangent", "normal", "curvature", "length_um"):
+        assert getattr(rest, name)[1:].tolist() == getattr(path, name)[1:].tolist()

@@ -177,3 +177,13 @@ def test_a_plan_of_s_curves_is_continuous_in_acceleration() -> None:
     plan = plan_of(s_curves(stretches, borders, 1e4), np.zeros(201))
     after = plan.acceleration_um_s2 + plan.jerk_um_s3 * np.diff(plan.time_s)
     assert after[:-1] == pytest.approx(plan.acceleration_um_s2[1:], rel=1e-9, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("a", "rows"), [((100.0, 71.0), 1), ((71.0, 100.0), 1), ((100.0, 69.0), 2), ((69.0, 100.0), 2)]
+)
+def test_accelerations_are_near_by_their_share_of_the_larger(a: tuple[float, float], rows: int) -> None:
+    limits = RowLimits(np.array([5.0, 7.0]), np.full(2, 9.0), np.array(a), np.array([0.0, 9.0, 0.0]), np.zeros(3))
+    joined = merged(limits, 0.3)
+    assert len(joined.length_um) == rows
+    assert joined.acceleration_um_s2.min() == min(a)

@@ -33,6 +33,8 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B110": {"blocks": 3, "path": "path-without-offset"},
     "3B111": {"header": 0.0, "reach": 100.0},
     "3B112": {"header": 70.0, "reach": 100.0},
+    "3B113": {"what": "directive-unknown-code", "text": "3B2O4"},
+    "3B114": {"silenced": "3B204"},
     "3B201": {"x": 0, "y": 0},
     "3B202": {"axis": "Y", "other": "X"},
     "3B203": {"written": "L1", "ruled": "L2", "way": "+Y", "others": ""},

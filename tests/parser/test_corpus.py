@@ -1,7 +1,8 @@
 """Programs on file: the real ones are sound, every spelling is read, every fault is named at its place.
 
 Beside the files stand the expectations, worked out from docs/3b.md: ``spellings/expected.json`` with the words
-``X Y J axis Z`` of each file, ``faults/expected.json`` with the findings ``[code, line, column, block]``.
+``X Y J axis Z`` of each file, ``faults/expected.json`` with the findings ``[code, line, column, block]``,
+``faults/told.json`` with what they say: ``[code, values, edits]``, lengths in µm.
 """
 
 import json
@@ -12,6 +13,7 @@ import pytest
 from places import CORPUS
 
 from parser.findings.codes import CODES
+from parser.findings.findings import Finding
 from parser.program import Program, read_program
 from sim.check.batch import Job, check_file
 from sim.check.settings import CheckSettings
@@ -19,6 +21,7 @@ from sim.setup.machine.machine import load_machine
 
 SPELLINGS: dict[str, dict[str, Any]] = json.loads((CORPUS / "spellings/expected.json").read_text(encoding="utf-8"))
 FAULTS: dict[str, dict[str, Any]] = json.loads((CORPUS / "faults/expected.json").read_text(encoding="utf-8"))
+TOLD: dict[str, list[Any]] = json.loads((CORPUS / "faults/told.json").read_text(encoding="utf-8"))
 _SENSES = {0: "L", 1: "NR", -1: "SR"}
 _OF_A_RUN = {code for code, of in CODES.items() if of.check is None}
 _NEEDS_MORE = {"3B303"} | _OF_A_RUN  # a block that no search has found yet; what a check cannot see
@@ -52,9 +55,20 @@ def facts(program: Program) -> dict[str, Any]:
     }
 
 
-def findings(file: Path, settings: CheckSettings = CheckSettings()) -> list[list[Any]]:  # noqa: B008 - frozen
-    result = check_file(Job(file.name, file, settings))
-    return [[finding.code, finding.line, finding.column, finding.block] for finding in result.findings]
+def findings(file: Path) -> list[list[Any]]:
+    return [placed(finding) for finding in check_file(Job(file.name, file, CheckSettings())).findings]
+
+
+def placed(finding: Finding) -> list[Any]:
+    return [finding.code, finding.line, finding.column, finding.block]
+
+
+def told(finding: Finding) -> list[Any]:
+    values = {
+        name: pytest.approx(value, abs=5e-4) if isinstance(value, float) else value
+        for name, value in finding.values.items()
+    }
+    return [finding.code, values, [list(edit) for edit in finding.edits]]
 
 
 @pytest.mark.parametrize("name", ["keyhole.3b", "round-hole.3b"])
@@ -75,15 +89,16 @@ def test_every_spelling_is_read(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_every_fault_is_named_at_its_place(name: str) -> None:
-    expected = FAULTS[name]
-    known = dict(expected.get("settings", {}))
+def test_every_fault_is_named_at_its_place_with_its_figures(name: str) -> None:
+    known = dict(FAULTS[name].get("settings", {}))
     machine = {"machine": load_machine(known.pop("machine"))} if "machine" in known else {}
-    assert findings(CORPUS / "faults" / name, CheckSettings(**known, **machine)) == expected["findings"]
+    found = check_file(Job(name, CORPUS / "faults" / name, CheckSettings(**known, **machine))).findings
+    assert [placed(finding) for finding in found] == FAULTS[name]["findings"]
+    assert [told(finding) for finding in found] == TOLD[name]
 
 
 def test_every_file_has_its_expectation() -> None:
-    for folder, expected in (("spellings", SPELLINGS), ("faults", FAULTS)):
+    for folder, expected in (("spellings", SPELLINGS), ("faults", FAULTS), ("faults", TOLD)):
         files = {file.name for file in (CORPUS / folder).iterdir() if file.suffix != ".json"}
         assert files == set(expected)
 

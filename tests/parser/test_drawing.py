@@ -409,6 +409,31 @@ def test_layers_that_are_off_or_frozen_are_left_out_and_counted(tmp_path):
     assert "left out, as no curves: 1 TEXT" in notes(drawing)
 
 
+@pytest.mark.parametrize(
+    ("outer", "inner", "line", "shown"),
+    [
+        ("Cut", "Cut", "Cut", 1),
+        ("COLD", "Cut", "Cut", 0),  # what an INSERT on a frozen layer places is frozen, however deep
+        ("Cut", "COLD", "Cut", 0),
+        ("Cut", "Cut", "COLD", 0),
+        ("HIDDEN", "Cut", "Cut", 1),  # a layer that is off hides what is drawn on it alone
+        ("HIDDEN", "Cut", "0", 1),
+        ("Cut", "HIDDEN", "0", 0),
+    ],
+)
+def test_what_is_frozen_stays_so_through_blocks_in_blocks(tmp_path, outer, inner, line, shown):
+    document = new()
+    for name in ("Cut", "HIDDEN", "COLD"):
+        document.layers.add(name)
+    document.layers.get("HIDDEN").off()
+    document.layers.get("COLD").freeze()
+    document.blocks.new("INNER").add_line((0, 0), (5, 0), dxfattribs={"layer": line})
+    document.blocks.new("OUTER").add_blockref("INNER", (1, 1), dxfattribs={"layer": inner})
+    document.modelspace().add_line((0, 9), (9, 9))
+    document.modelspace().add_blockref("OUTER", (2, 2), dxfattribs={"layer": outer})
+    assert len(read_drawing(saved(document, tmp_path)).curves) == 1 + shown
+
+
 def test_one_layer_is_read_whatever_its_case_with_what_blocks_draw_on_it(tmp_path):
     assert [entity.block for entity in read_drawing(_layered(tmp_path), layer="CUT").entities] == ["", "ON0"]
     assert len(read_drawing(_layered(tmp_path), layer="hidden").curves) == 1

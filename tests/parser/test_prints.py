@@ -68,3 +68,46 @@ def test_a_length_belongs_to_the_figure_behind_its_start_point() -> None:
     text = "".join(f"Start Point = {20 * n}.0 , 0.0 ; Length = 41.42\n{hole}" for n in range(4))
     assert places(f"{text}DD") == []
     assert [place[:2] for place in places(f"{text}DD".replace("41.42", "43.42", 1))] == [("3B108", 1)]
+
+
+def leading_to(*ends_um: tuple[int, int]) -> list[str]:
+    """Blocks without marks: lines from the origin to each end after the other, counted on the longer side."""
+    blocks, at = [], (0, 0)
+    for end in ends_um:
+        dx, dy = end[0] - at[0], end[1] - at[1]
+        quadrant = {(True, True): 1, (False, True): 2, (False, False): 3, (True, False): 4}[dx > 0, dy > 0]
+        axis = "X" if abs(dx) > abs(dy) else "Y"
+        blocks.append(f"B{abs(dx)}B{abs(dy)}B{max(abs(dx), abs(dy))}G{axis}L{quadrant}")
+        at = end
+    return blocks
+
+
+@pytest.mark.parametrize(("off_um", "codes"), [(14, []), (15, ["3B207"])])
+def test_an_end_is_wrong_from_three_halves_of_its_last_digit(off_um: int, codes: list[str]) -> None:
+    (block,) = leading_to((0, 10000 + off_um))
+    assert [place[0] for place in places(f"{block};0.00,10.00\nDD")] == codes
+
+
+@pytest.mark.parametrize(("off_um", "codes"), [(5, ["3B207"]), (6, ["3B207", "3B207"])])
+def test_ends_rounded_the_other_way_behind_a_wrong_block_are_sound(off_um: int, codes: list[str]) -> None:
+    # Rounded to 10 µm, ends lie 5 µm off at most on either axis, and 14.1 µm at most from one another.
+    first, second = leading_to((5, 10405), (10000 - off_um, 10400 - off_um))
+    assert [place[0] for place in places(f"{first};0.00,10.00\n{second};10.00,10.00\nDD")] == codes
+
+
+@pytest.mark.parametrize(
+    ("length_mm", "side_um", "codes"),
+    [
+        ("40.0040", 10000, []),  # four blocks
+        ("39.9960", 10000, []),
+        ("40.0041", 10000, ["3B108"]),
+        ("39.9959", 10000, ["3B108"]),
+        ("40.01", 10001, []),  # and 5 µm for half of the last digit
+        ("40.01", 10000, ["3B108"]),
+    ],
+)
+def test_a_printed_length_may_be_off_by_1_um_a_block_and_half_its_last_digit(
+    length_mm: str, side_um: int, codes: list[str]
+) -> None:
+    square = SQUARE.format("", "", "", "").replace("10000", str(side_um))
+    assert [place[0] for place in places(f"Length= {length_mm} mm\n{square}")] == codes

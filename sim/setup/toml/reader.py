@@ -27,6 +27,7 @@ _DOTTED = re.compile(rf"(?<![\w-])(?:{_PART}\.[ \t]*+){{{MOST_PARTS}}}{_PART}", 
 
 PLACE_MM = Bound(-1e5, 1e5)
 AREA_RATE_MM2_MIN = Bound(0.1, 1e4)
+_MOST_BITS = 2048
 
 
 def load_toml(path: Path) -> dict[str, Any]:
@@ -34,13 +35,22 @@ def load_toml(path: Path) -> dict[str, Any]:
     try:
         import tomllib  # noqa: PLC0415 - most checks have no settings file
 
-        return tomllib.loads(_bounded(path, read_text(path)))
+        content = tomllib.loads(_bounded(path, read_text(path)))
+        if _is_endless(content):
+            raise SettingsError(f"{path}: holds a whole number of more than {_MOST_BITS:,} bits; no setting takes one")
     except RecursionError:
         raise SettingsError(f"{path}: is nested too deep") from None
     except SettingsError:
         raise
     except ValueError as error:  # TOMLDecodeError, UnicodeDecodeError, and integers of thousands of digits
         raise SettingsError(f"{path}: is no TOML: {error}") from None
+    return content
+
+
+def _is_endless(value: object) -> bool:
+    """Whether a value holds a whole number of more digits than Python would print; hexadecimal ones can be read."""
+    inside = value.values() if isinstance(value, Mapping) else value if isinstance(value, list) else ()
+    return (isinstance(value, int) and value.bit_length() > _MOST_BITS) or any(map(_is_endless, inside))
 
 
 def _bounded(path: Path, content: str) -> str:

@@ -4,7 +4,10 @@ import pytest
 from line_words import line_words
 from runs import closure_codes, codes, run_text
 
+from parser.findings.findings import Finding
+from sim.check.batch import Job, check_file
 from sim.check.count_axes import ruled_count_axis
+from sim.check.settings import CheckSettings
 
 HOLE = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3"
 SQUARE = "B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B10000GXL3 B0B10000B10000GYL4"
@@ -147,3 +150,51 @@ def test_each_edge_of_the_travel_is_watched(start_mm: tuple[float, float], text:
     # At the stop the motors lose steps.
     assert codes(run_text(f"{header}{text} DD", start_mm=start_mm, past_stop=True)) == ["3B401", "3B402"]
     assert codes(run_text(f"{header}{text.replace('2000', '900')} DD", start_mm=start_mm)) == []
+
+
+def _checked(text: str) -> tuple[Finding, ...]:
+    return check_file(Job("program.3b", text.encode(), CheckSettings())).findings
+
+
+def _codes(text: str) -> list[str]:
+    return [finding.code for finding in _checked(f"{text} DD")]
+
+
+def _leaning(lines: int, circles: int = 0) -> str:
+    """A triangle whose long side is stepped 2 µm short in X by each of its lines, which count on the shorter side.
+
+    Full circles at its start close in steps too.
+    """
+    long_side = " ".join(["B1100B500B500GYL1"] * lines)
+    way = f"B{1100 * lines}B0B{1100 * lines}GXL3 B0B{500 * lines}B{500 * lines}GYL4"
+    return f"{'B0B5000B20000GXNR2 ' * circles}{long_side} {way} DD"
+
+
+@pytest.mark.parametrize(
+    ("lines", "circles", "limit_um"),
+    [(6, 0, None), (7, 0, 12.0), (9, 1, None), (10, 1, 18.0), (12, 4, None), (13, 4, 24.0)],
+)
+def test_stepped_closure_is_12_um_and_6_for_each_root_of_the_arcs(
+    lines: int, circles: int, limit_um: float | None
+) -> None:
+    found = [finding for finding in _checked(_leaning(lines, circles)) if finding.code == "3B302"]
+    expected = [] if limit_um is None else [(2.0 * lines, limit_um)]
+    assert [(finding.values["gap"], finding.values["limit"]) for finding in found] == expected
+
+
+def test_two_lines_that_miss_each_other_are_no_figure_with_a_wrong_word() -> None:
+    assert _codes("B9000B3000B9000GXL1 B9000B3000B9000GXL4") == []
+    assert "3B304" in _codes("B9000B3000B9000GXL1 B9000B3000B9000GXL4 B18000B0B18000GXL1")
+
+
+@pytest.mark.parametrize(("gap", "found"), [(3, "3B301"), (5, "3B301"), (6, "3B311"), (1414, "3B311")])
+def test_a_contour_that_ends_within_5_um_of_its_start_was_to_end_there(gap: int, found: str) -> None:
+    # Behind a closed loop a lead-out may end elsewhere in the waste, but not some µm beside the start.
+    codes = _codes(f"B0B3000B3000GYL2 {SQUARE} B{gap}B3000B3000GYL4")
+    assert {"3B301", "3B311"} & set(codes) == {found}
+
+
+def test_suspects_are_looked_for_in_the_first_fifty_open_contours() -> None:
+    triangle = "B5000B0B5000GXL1 B0B5000B5000GYL2 B5000B5000B5000GYL1 D B0B90000B90000GYL2 D"
+    named = [finding for finding in _checked(f"{' '.join([triangle] * 51)} DD") if finding.code == "3B304"]
+    assert sorted({finding.values["first"] for finding in named}) == [1 + 4 * number for number in range(50)]

@@ -170,10 +170,10 @@ def test_files_behind_one_that_cannot_be_written_are_mended(tmp_path: Path, monk
     for path in (first, second):
         path.write_text(wrong, "ascii")
 
-    def refused(path: Path, data: bytes) -> None:
+    def refused(path: Path, before: bytes, after: bytes) -> None:
         if path == first:
             raise FileUnreadableError(f"{path}: cannot be written")
-        replace_file(path, data)
+        replace_file(path, before, after)
 
     monkeypatch.setattr("sim.cli.check.fixing.replace_file", refused)
     done = CliRunner().invoke(check, [str(tmp_path), "--fix"])

@@ -107,3 +107,84 @@ def test_a_profile_that_is_open_by_its_nature_has_no_tab() -> None:
     rough = [(0.0, 5000.0), (8000.0, 5000.0), (8000.0, 0.0)]
     trim = [(7960.0, 0.0), (7960.0, 4960.0), (0.0, 4960.0)]
     assert "3B315" not in codes(program_of((0.0, 0.0), [*rough, *trim]))
+
+
+@pytest.mark.parametrize(
+    ("passes", "expected"),
+    [
+        ([(100, False), (109, False)], []),
+        ([(100, False), (111, False)], ["3B312"]),  # more than whole µm drift
+        ([(309, False), (100, False)], []),
+        ([(311, False), (100, False)], ["3B313"]),  # a kerf of 200, and what whole µm drift
+        ([(100, False), (-79, True)], []),
+        ([(100, False), (-81, True)], ["3B316"]),  # nearly all of the offset of 100 on the other side
+    ],
+)
+def test_offsets_are_held_against_each_other_to_their_border(
+    passes: list[tuple[float, bool]], expected: list[str]
+) -> None:
+    assert codes(round_hole(*passes)) == expected
+
+
+@pytest.mark.parametrize(("second", "expected"), [(-79, []), (-81, ["3B316"])])
+def test_without_a_wire_the_side_is_judged_by_the_usual_one(second: float, expected: list[str]) -> None:
+    # 0.18 mm and 10 µm on each side: its centre runs 100 µm from the edge.
+    assert codes(round_hole((100, False), (second, True)), CheckSettings()) == expected
+
+
+def test_each_pass_is_held_against_the_nearest_before_it_by_its_number() -> None:
+    found = check_file(
+        Job("p.3b", round_hole((160, False), (100, False), (100, False), (130, False)).encode(), WIRE)
+    ).findings
+    assert [(f.code, f.values["number"], f.values["other"]) for f in found] == [("3B312", 4, 2)]
+    assert found[0].values["by"] == pytest.approx(30.0, abs=1e-6)
+
+
+def test_a_band_is_told_with_what_is_left_of_it_and_the_next_pass_is_held_against_the_nearer_one() -> None:
+    found = check_file(Job("p.3b", round_hole((360, False), (100, False), (115, False)).encode(), WIRE)).findings
+    assert [(f.code, f.values["number"], f.values["other"]) for f in found] == [("3B313", 2, 1), ("3B312", 3, 2)]
+    told = {name: found[0].values[name] for name in ("by", "left", "kerf")}
+    assert told == pytest.approx({"by": 260.0, "left": 60.0, "kerf": 200.0}, abs=1e-6)
+
+
+@pytest.mark.parametrize(("shift", "is_told"), [(-69.0, False), (-71.0, True)])
+def test_a_block_may_come_20_um_nearer_than_the_last_pass(shift: float, is_told: bool) -> None:
+    hole = 8000.0, 0.0
+    found = codes(program_of(hole, [*square(150.0, shift), *square(100.0), hole]))
+    assert ("3B314" in found) == is_told
+
+
+def _tab(length: float, cut: list[Place]) -> list[str]:
+    """A square of 10 mm, roughed and trimmed up to a tab in the middle of its bottom side, and what is cut at last."""
+    hole = 0.0, -8000.0
+    rough, trim = ([(0.0, -a), (a, -a), (a, a), (-a, a), (-a, -a), (-length, -a)] for a in (5140.0, 5100.0))
+    return (
+        codes(program_of(hole, [*rough, *trim[::-1]], cut))
+        if cut
+        else codes(program_of(hole, [*rough, *trim[::-1], hole]))
+    )
+
+
+# The tab lies from x = -600 to 0 at y = -5100; its middle is at x = -300.
+@pytest.mark.parametrize(
+    ("cut", "expected"),
+    [
+        ([(-600.0, -5100.0), (0.0, -5100.0)], []),  # all of it
+        ([(-300.0, -5110.0), (-300.0, -5900.0)], []),  # to its middle
+        ([(8000.0, -8000.0), (9000.0, -8000.0)], ["3B315"]),
+    ],
+)
+def test_a_tab_is_cut_by_what_comes_by_its_middle(cut: list[Place], expected: list[str]) -> None:
+    assert [code for code in _tab(600.0, cut) if code == "3B315"] == expected
+
+
+def test_a_gap_of_more_than_a_quarter_of_the_pass_is_no_tab() -> None:
+    # The trim is some 40 mm long: with a tab of 8 mm 32 mm are left of it, with one of 9.6 mm 30.8 mm.
+    hole = 0.0, -8000.0
+
+    def left(tab: float) -> list[str]:
+        ways = [[(tab / 2, -a), (a, -a), (a, a), (-a, a), (-a, -a), (-tab / 2, -a)] for a in (5140.0, 5100.0)]
+        return [code for code in codes(program_of(hole, [*ways[0], *ways[1][::-1], hole])) if code == "3B315"]
+
+    assert left(8000.0) == ["3B315"]
+    assert left(9000.0) == []

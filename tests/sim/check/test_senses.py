@@ -9,7 +9,7 @@ from paths import Pen
 from runs import codes, run_text
 
 from parser.shape.contours import contour_rows
-from sim.check.shape.senses import ReversedArcs, reversed_arcs
+from sim.check.shape.senses import ReversedArcs, retraced_arcs, reversed_arcs
 
 HALF = math.pi / 2
 
@@ -140,3 +140,65 @@ def test_a_hole_of_which_one_half_is_cut_there_and_back_is_named(arcs: str, bloc
 )
 def test_a_second_pass_back_and_a_slit_are_silent(arcs: str) -> None:
     assert codes(run_text(f"{LEAD} {arcs} {BACK} DD")) == []
+
+
+def arcs_of_a_circle(*sweeps: float, radius: float = 1000.0, off_um: float = 0.0) -> list[int]:
+    """Where arcs about one centre turn back, in a circle that is cut in several."""
+    pen = Pen(radius + 5000.0, 0.0).to(radius, 0.0)
+    for number, sweep in enumerate(sweeps):
+        pen.arc(0.0, off_um * number, sweep)
+    path = pen.path()
+    return retraced_arcs(path, contour_rows(path)).tolist()
+
+
+@pytest.mark.parametrize(
+    ("sweeps", "at"),
+    [
+        ((math.pi, -math.pi), [2]),
+        ((-math.pi, math.pi), [2]),
+        ((HALF, HALF, -HALF, -HALF), [3]),
+        ((2.0, math.pi - 2.0, -math.pi), [3]),
+        ((math.pi, math.pi), []),  # a circle
+        ((HALF, -HALF), []),  # a slit of a quarter, there and back
+        ((2 * math.pi, -2 * math.pi), []),  # two passes, there and back
+        ((HALF, -HALF, HALF, -HALF), []),  # turns back three times
+        ((math.pi, -HALF), []),
+        ((math.pi,), []),
+    ],
+)
+def test_one_turn_there_and_back_is_a_circle_half_of_which_runs_the_wrong_way(
+    sweeps: tuple[float], at: list[int]
+) -> None:
+    assert arcs_of_a_circle(*sweeps) == at
+
+
+@pytest.mark.parametrize(("miss_um", "is_told"), [(19.0, True), (-19.0, True), (21.0, False), (-21.0, False)])
+def test_there_and_back_may_miss_by_20_um(miss_um: float, *, is_told: bool) -> None:
+    radius = 5000.0
+    assert arcs_of_a_circle(math.pi, -math.pi + miss_um / radius, radius=radius) == [2] * is_told
+
+
+@pytest.mark.parametrize(("miss_um", "is_told"), [(9.0, True), (11.0, False)])
+def test_of_a_small_circle_it_may_miss_by_a_tenth_of_the_radius(miss_um: float, *, is_told: bool) -> None:
+    assert arcs_of_a_circle(math.pi, -math.pi + miss_um / 100.0, radius=100.0) == [2] * is_told
+
+
+@pytest.mark.parametrize(("off_um", "is_told"), [(9.0, True), (11.0, False)])
+def test_arcs_are_of_one_circle_where_their_centres_lie_within_10_um(off_um: float, *, is_told: bool) -> None:
+    assert arcs_of_a_circle(math.pi, -math.pi, radius=5000.0, off_um=off_um) == [2] * is_told
+
+
+def test_a_jump_parts_two_circles() -> None:
+    pen = Pen(1000, 0).arc(0, 0, math.pi).jump(-1000, 0).arc(0, 0, -math.pi)
+    path = pen.path()
+    assert retraced_arcs(path, contour_rows(path)).tolist() == []
+    both = (
+        Pen(1000, 0).arc(0, 0, math.pi).arc(0, 0, -math.pi).jump(9000, 0).arc(8000, 0, -math.pi).arc(8000, 0, math.pi)
+    )
+    assert retraced_arcs(both.path(), contour_rows(both.path())).tolist() == [1, 4]
+
+
+def test_an_arc_turns_at_both_its_ends_or_at_none() -> None:
+    # One smooth joint tells that the arc runs as it was meant to.
+    pen = Pen(0, -1000).to(3000, -1000).arc(3000, 0, -math.pi).to(9000, 1000)
+    assert found(pen).row.tolist() == []

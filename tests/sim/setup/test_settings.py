@@ -74,6 +74,9 @@ def folder(tmp_path: Path, text: str) -> Path:
         ("[work]\nthickness = 5", "did you mean thickness_mm"),
         ("[expect]\nverdict = {minimum = 3}", "verdict is a value or"),
         ("[expect]\nx = {min = 3, max = 2}", "x is a value or"),
+        ("[" + "a." * 5000 + "b]", "is nested too deep"),
+        ("title = 0x" + "f" * 5000, "holds a whole number of more than 2,048 bits"),
+        ("[expect]\nx = [[1, 0x" + "f" * 5000 + "]]", "holds a whole number of more than 2,048 bits"),
         ("machine = 'none'", "machine 'none' is not shipped"),
     ],
 )
