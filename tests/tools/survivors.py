@@ -32,7 +32,7 @@ from places import ROOT
 
 
 class Area(NamedTuple):
-    """Folders or files whose code is changed, and those whose tests are to notice it."""
+    """Folders whose code is changed, and folders or files whose tests are to notice it."""
 
     code: tuple[str, ...]
     tests: tuple[str, ...]
