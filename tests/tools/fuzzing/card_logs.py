@@ -90,7 +90,7 @@ def judge(data: Input, number: int, folder: Path) -> Judged:
     (folder / "part.log").write_bytes(data)
     as_json = number % 2 == 0
     done = ran(("card", "replay", "part.log", *(("--json",) if as_json else ())), folder)
-    broken = broken_by(done, "json" if as_json else "text")
+    broken = broken_by(done, folder, "json" if as_json else "text")
     return Judged(answer_of(done, folder), list(broken), f"exit {done.returncode}")
 
 

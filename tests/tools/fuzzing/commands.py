@@ -130,7 +130,7 @@ def judge(data: Input, number: int, folder: Path) -> Judged:
     rng = random.Random(f"files:{SEED}:{number}")
     fill(folder, rng)
     done = ran(data, folder, COLUMNS=rng.choice(_COLUMNS), LC_ALL=rng.choice(_LOCALES))
-    broken = [*broken_by(done, _form(data)), *leftovers(folder)]
+    broken = [*broken_by(done, folder, _form(data)), *leftovers(folder)]
     return Judged(answer_of(done, folder), broken, f"exit {done.returncode or 0}")
 
 

@@ -53,7 +53,7 @@ def judge_fix(data: Input, number: int, folder: Path) -> Judged:
     once, mended = _fixed(folder)
     twice, again = _fixed(folder)
     after = check_file(Job(_FILE, mended, CheckSettings()))
-    broken = [*broken_by(once), *broken_by(twice)]
+    broken = [*broken_by(once, folder), *broken_by(twice, folder)]
     if again != mended:
         broken.append("changes more the second time")
     if after.count(Severity.ERROR) > before.count(Severity.ERROR) or after.unreadable > before.unreadable:

@@ -52,7 +52,7 @@ def judge(data: Input, number: int, folder: Path) -> Judged:
     pages = ("-o", "out") if number % _WITH_PAGES == 1 else ("--json",)
     options = _OPTIONS[number % len(_OPTIONS)]
     done = ran(("run", "part.3b", "--machine", "machine.toml", *options, *pages), folder)
-    broken = [*broken_by(done, "json" if pages == ("--json",) else "text"), *leftovers(folder)]
+    broken = [*broken_by(done, folder, "json" if pages == ("--json",) else "text"), *leftovers(folder)]
     return Judged(answer_of(done, folder), broken, f"exit {done.returncode or 0}")
 
 

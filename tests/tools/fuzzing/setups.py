@@ -160,7 +160,7 @@ def judge_settings(data: Input, number: int, folder: Path) -> Judged:
     (here / "part.3b").write_text(PROGRAM, encoding="utf-8")
     (here / MACHINE_FILE).write_bytes(_seeds("*/machine.toml")[number % 3])
     done = ran(("check", "part.3b"), here)
-    return Judged(answer_of(done, folder), list(broken_by(done)), f"exit {done.returncode}")
+    return Judged(answer_of(done, folder), list(broken_by(done, here)), f"exit {done.returncode}")
 
 
 def _refused(error: DrycutError, folder: Path) -> Judged:
