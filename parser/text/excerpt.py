@@ -16,12 +16,6 @@ def place(name: str, line: int | None, column: int | None) -> str:
     return ":".join(parts)
 
 
-def with_caret(excerpt: str, column: int, width: int = 1) -> str:
-    """A source line and a line of carets below it, both set in by four blanks."""
-    shown, carets = caret_lines(excerpt, column, width)
-    return f"    {shown}\n    {carets}"
-
-
 def caret_lines(excerpt: str, column: int, width: int = 1, room: int = _ROOM) -> tuple[str, str]:
     """A source line and the carets under the `width` characters from `column` (from 1) on, at least one.
 

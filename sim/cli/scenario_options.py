@@ -9,8 +9,11 @@ import click
 
 from parser.findings.catalogue import LANGUAGES, Language
 from parser.findings.errors import ProgramError, SettingsError
-from parser.text.excerpt import place, with_caret
+from sim.show.terminal.colours import painted
+from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.printer import say
+from sim.show.terminal.streams import outlet
+from sim.show.terminal.wrap import width_of
 
 if TYPE_CHECKING:
     from sim.setup.scenario import Scenario
@@ -109,9 +112,8 @@ def refused(scenario: "Scenario", error: ProgramError) -> click.exceptions.Exit:
 
 
 def describe(name: str, error: ProgramError) -> list[str]:
-    """``part.3b:7:12: error[3B206]: …`` with the line and a caret where the place is known."""
+    """The finding that makes a program unreadable, in lines for stderr: its source line where the place is known."""
     finding = error.finding
-    text = f"{place(name, finding.line, finding.column)}: error[{finding.code}]: {error}"
-    if not error.excerpt or not finding.column:
-        return [text]
-    return [text, *with_caret(error.excerpt, finding.column).split("\n")]
+    excerpt = error.excerpt if error.excerpt and finding.column else None
+    lines = finding_lines(name, finding, excerpt, "en", width_of(outlet(err=True)))
+    return [painted(line, finding.severity) for line in lines]

@@ -282,3 +282,16 @@ def test_a_period_longer_than_an_arc_misses_no_more_than_the_arc(sweep: float, e
 def test_lines_have_no_chord_error() -> None:
     path = path_of(Pen().to(1000.0, 300.0).path())
     assert chord_error_um(path, steady(path, 1e4), 1e-3) == 0.0
+
+
+@pytest.mark.parametrize("period_s", [1e-4, 2e-4, 1.0 / 3000.0])
+def test_the_clock_finds_the_period_that_a_search_from_far_below_finds(period_s: float) -> None:
+    for began_s in (0.0, 7 * period_s, 7.25 * period_s, 12345 * period_s):
+        clock = Clock(period_s, began_s)
+        for plan_s in (0.0, period_s, 3 * period_s, 3.5 * period_s, 999 * period_s, 1e-12):
+            far = max(int((began_s + plan_s) / period_s) - 10, 0)
+            ends = range(far, far + 30)
+            assert clock.first_from(plan_s) == next(k for k in ends if k * period_s - began_s >= plan_s)
+            assert clock.first_after(began_s + plan_s) == next(k for k in ends if k * period_s > began_s + plan_s)
+            k = clock.first_from(plan_s)
+            assert clock.plan_time_s(np.array([k]))[0] == k * period_s - began_s

@@ -161,3 +161,33 @@ def test_chunks_out_of_range_are_refused(block: PlainBlock) -> None:
 def test_blocks_that_never_end_make_no_step() -> None:
     program = parse_program("B0B0B10GXNR1 B0B5B5GXL2 B5B0B5GXL1 DD")
     assert interpolate(program.toolpath).count.tolist() == [0, 0, 5]
+
+
+def walked_one_by_one(program: list[PlainBlock]) -> list[tuple[int, int]]:
+    expected, x, y = [], 0, 0
+    for block in program:
+        steps = [(x + dx, y + dy) for dx, dy in plain_steps(block)]
+        expected += steps
+        x, y = steps[-1]
+    return expected
+
+
+@pytest.mark.parametrize("sense", ["L", "NR", "SR"])
+def test_every_small_block_steps_as_the_plain_walk(sense: str) -> None:
+    """All directions, starts and axes up to 5 µm: roots of squares and of numbers beside them are among the radii."""
+    program = [
+        PlainBlock(x, y, count, axis, sense, quadrant)
+        for x in range(6)
+        for y in range(6)
+        for quadrant in (1, 2, 3, 4)
+        for axis in "XY"
+        for count in (1, 17)
+        if (x * x + y * y > 1 if sense != "L" else (x if axis == "X" else y))
+    ]
+    steps = steps_of(*program)
+    assert places(steps) == walked_one_by_one(program)
+    assert len(steps) == len(places(steps, 7))
+    for since, until in ((0, 1), (5, 6), (17, 40), (len(steps) - 1, len(steps)), (9, 9)):
+        assert places(steps)[since:until] == [
+            (int(x), int(y)) for x, y in zip(*steps.chunk(since, until)[:2], strict=True)
+        ]

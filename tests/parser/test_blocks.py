@@ -132,6 +132,7 @@ def test_r_of_4b_is_that_of_x_and_y_to_1_um(radius: int, is_wrong: bool) -> None
     ("block", "expected"),
     [
         ("B0B0B10GXNR1", ["3B201"]),
+        ("B0B0B10GXNR2", ["3B201"]),  # from no axis: there is no label for it
         ("B1B0B10GXNR1", ["3B201"]),
         ("B1B1B1GXNR1", []),  # a radius of 1.4 µm is counted out
         ("B2B0B2GXNR1", []),

@@ -15,8 +15,9 @@ CORNERS = ((0, 0), (10, 0), (10, 10), (0, 10))
 
 
 def dxf(entities: str, blocks: str = "") -> str:
+    head = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n0\nENDSEC\n"
     parts = f"0\nSECTION\n2\nBLOCKS\n{blocks}0\nENDSEC\n" if blocks else ""
-    return f"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n0\nENDSEC\n{parts}0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"
+    return f"{head}{parts}0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"
 
 
 def line(x: float = 0) -> str:

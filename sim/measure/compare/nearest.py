@@ -68,6 +68,8 @@ def nearest(index: Index, place_um: Floats) -> Nearest:
 
     Raises DrawingError where that takes more than `MOST_HELD` allows.
     """
+    if not len(place_um):
+        return Nearest(np.empty(0, dtype=np.int64), np.empty(0))
     parts = [_nearest(index, place_um[at : at + _AT_ONCE]) for at in range(0, len(place_um), _AT_ONCE)]
     return Nearest(np.concatenate([part.row for part in parts]), np.concatenate([part.distance_um for part in parts]))
 

@@ -165,7 +165,8 @@ def test_a_check_names_what_it_was_given_and_what_to_do(tmp_path: Path) -> None:
     done = run_inside("check", tmp_path / "part.3b")
     assert done.returncode == 2
     assert b"this is a DXF drawing" in done.stdout
-    assert b"drycut compare PROGRAM DRAWING.dxf" in done.stdout
+    assert b"drycut compare PROGRAM DRAWING.dxf" in b" ".join(done.stdout.split())
     done = run_inside("run", tmp_path / "part.3b")
     assert done.returncode == 2
-    assert b"error[3B100]: this is a DXF drawing" in done.stderr
+    assert b"error[3B100]: no 3B program\n" in done.stderr
+    assert b" = found:    this is a DXF drawing" in done.stderr

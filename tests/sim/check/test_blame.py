@@ -86,3 +86,36 @@ def test_slips_in_printed_programs_are_named_right_and_never_told_two_ways() -> 
 def test_a_sound_printed_program_is_silent() -> None:
     rng = random.Random(5)
     assert all(checked(sound_program(rng, printed=True).text).findings == () for _ in range(20))
+
+
+SQUARE = "B0B10000B10000GYL2\nB10000B0B10000GXL1\nB0B10000B10000GYL4\n{}\nDD\n"
+
+
+@pytest.mark.parametrize(
+    ("last", "told"),
+    [
+        ("B10000B0B10000GXL3;0.000,0.000", []),
+        ("B10000B0B10000GXL3;0.030,0.000", [("3B207", "compare-print")]),  # the contour closes without it
+        ("B10000B0B10400GXL3;0.000,0.000", [("3B301", 1), ("3B217", "10000")]),
+        ("B10000B0B10000GXL1;0.000,0.000", [("3B301", 1), ("3B217", "L3")]),
+    ],
+)
+@pytest.mark.parametrize("before", ["", SQUARE.format("B10000B0B10000GXL3")[:-3] + "D\nB30000B0B30000GXL1\nD\n"])
+def test_of_the_last_printed_end_its_contour_tells(last: str, told: list[tuple[str, object]], before: str) -> None:
+    text = before + SQUARE.format(last)
+    if before:
+        text = text.replace(";0.0", ";30.0")
+    found = checked(text).findings
+    first = 6 if before else 1
+    keys = {"3B207": "advice", "3B301": "first", "3B217": "other"}
+    assert [(f.code, f.values[keys[f.code]]) for f in found] == [
+        (code, first if code == "3B301" else value) for code, value in told
+    ]
+
+
+@pytest.mark.parametrize(("wrong", "is_looked_for"), [(50, True), (51, False)])
+def test_where_more_than_fifty_ends_are_off_no_word_is_looked_for(wrong: int, *, is_looked_for: bool) -> None:
+    blocks = "".join(f"B0B10000B10400GYL2;0.000,{10 * number}.000\n" for number in range(1, wrong + 1))
+    codes = [finding.code for finding in checked(f"{blocks}B10000B0B10000GXL1\nDD\n").findings]
+    assert codes.count("3B217") == (wrong - 1 if is_looked_for else 0)
+    assert codes.count("3B207") == (1 if is_looked_for else wrong)

@@ -156,6 +156,10 @@ def _checked(text: str) -> tuple[Finding, ...]:
     return check_file(Job("program.3b", text.encode(), CheckSettings())).findings
 
 
+def _codes(text: str) -> list[str]:
+    return [finding.code for finding in _checked(f"{text} DD")]
+
+
 def _leaning(lines: int, circles: int = 0) -> str:
     """A triangle whose long side is stepped 2 µm short in X by each of its lines, which count on the shorter side.
 
@@ -176,3 +180,21 @@ def test_stepped_closure_is_12_um_and_6_for_each_root_of_the_arcs(
     found = [finding for finding in _checked(_leaning(lines, circles)) if finding.code == "3B302"]
     expected = [] if limit_um is None else [(2.0 * lines, limit_um)]
     assert [(finding.values["gap"], finding.values["limit"]) for finding in found] == expected
+
+
+def test_two_lines_that_miss_each_other_are_no_figure_with_a_wrong_word() -> None:
+    assert _codes("B9000B3000B9000GXL1 B9000B3000B9000GXL4") == []
+    assert "3B304" in _codes("B9000B3000B9000GXL1 B9000B3000B9000GXL4 B18000B0B18000GXL1")
+
+
+@pytest.mark.parametrize(("gap", "found"), [(3, "3B301"), (5, "3B301"), (6, "3B311"), (1414, "3B311")])
+def test_a_contour_that_ends_within_5_um_of_its_start_was_to_end_there(gap: int, found: str) -> None:
+    # Behind a closed loop a lead-out may end elsewhere in the waste, but not some µm beside the start.
+    codes = _codes(f"B0B3000B3000GYL2 {SQUARE} B{gap}B3000B3000GYL4")
+    assert {"3B301", "3B311"} & set(codes) == {found}
+
+
+def test_suspects_are_looked_for_in_the_first_fifty_open_contours() -> None:
+    triangle = "B5000B0B5000GXL1 B0B5000B5000GYL2 B5000B5000B5000GYL1 D B0B90000B90000GYL2 D"
+    named = [finding for finding in _checked(f"{' '.join([triangle] * 51)} DD") if finding.code == "3B304"]
+    assert sorted({finding.values["first"] for finding in named}) == [1 + 4 * number for number in range(50)]

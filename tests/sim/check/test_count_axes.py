@@ -94,3 +94,12 @@ def test_a_wrong_axis_is_told_with_the_count_that_ends_the_block_where_it_ends()
 
 def test_beside_a_wrong_count_no_axis_is_named() -> None:
     assert found("B2000B500B700GYL1") == []
+
+
+@pytest.mark.parametrize(("block", "is_named"), [("B6B1B1GYL1", False), ("B7B1B1GYL1", True)])
+def test_where_two_sides_differ_by_5_um_at_most_either_axis_will_do(block: str, *, is_named: bool) -> None:
+    assert [finding.code for finding in found(block)] == ["3B204"] * is_named
+
+
+def test_a_print_beside_a_wrong_axis_does_not_hide_it() -> None:
+    assert [finding.code for finding in found("B2000B500B500GYL1;2.500,0.500\n")] == ["3B204"]

@@ -76,3 +76,30 @@ def test_a_radius_that_the_offset_uses_up_is_an_error_on_the_side_of_the_waste_a
         doubtful = [3 + 2 * at for at, corner in enumerate(outline.corners) if abs(corner.radius - 100.0) <= 2.0]
         found = [one for one in told(outline.text, wire_diameter_um=180.0) if one[1] not in doubtful]
         assert found == gone, outline.text
+
+
+@pytest.mark.parametrize("degrees", [10.0, 30.0, 60.0, 120.0])
+def test_sides_miss_each_other_by_the_chord_of_their_turn(degrees: float) -> None:
+    """A triangle of lines whose first corner turns by an angle: 2 f sin(angle / 2)."""
+    x, y = round(20000 * math.cos(math.radians(degrees))), round(20000 * math.sin(math.radians(degrees)))
+    axis = "X" if x > y else "Y"
+    side = f"B{abs(x)}B{y}B{max(abs(x), y)}G{axis}L{1 if x > 0 else 2}"
+    back_x, back_y = 20000 + x, y
+    back = f"B{back_x}B{back_y}B{max(back_x, back_y)}G{'X' if back_x > back_y else 'Y'}L3"
+    lines = ["B0B5000B5000GYL2", "B20000B0B20000GXL1", side, back, "B0B5000B5000GYL4"]
+    found = checked("\n".join([*(line.replace("G", "B0G") for line in lines), "DD"])).findings
+    (sharp,) = (f for f in found if f.code == "3B214")
+    assert (sharp.block, sharp.values["other"], sharp.values["more"]) == (3, 2, 2)
+    assert sharp.values["angle"] == pytest.approx(degrees, abs=0.01)
+    assert sharp.values["shift"] == pytest.approx(200.0 * math.sin(math.radians(degrees) / 2.0), abs=0.02)
+
+
+@pytest.mark.parametrize(("tilt", "is_sharp"), [(0.4, False), (0.6, True)])
+def test_a_joint_is_a_tangent_to_half_a_degree(tilt: float, *, is_sharp: bool) -> None:
+    # Long sides: whole µm tilt them by next to nothing.
+    rise = round(200000 * math.tan(math.radians(tilt)))
+    lines = ["B0B5000B5000GYL2", f"B200000B{rise}B200000GXL1", "B200000B0B200000GXL1"]
+    lines += ["B0B90000B90000GYL2", "B400000B0B400000GXL3", f"B0B{90000 + rise}B{90000 + rise}GYL4", "B0B5000B5000GYL4"]
+    found = checked("\n".join([*(line.replace("G", "B0G") for line in lines), "DD"])).findings
+    (sharp,) = (f for f in found if f.code == "3B214")
+    assert sharp.values["more"] == 3 + is_sharp
