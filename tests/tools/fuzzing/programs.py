@@ -10,7 +10,6 @@ from fuzzing.program_text import fuzzed_program
 from fuzzing.promises import of_document, unclean
 from fuzzing.ran import answer_of, broken_by, ran
 from fuzzing.target import Input, Judged
-
 from parser.findings.catalogue import LANGUAGES, texts
 from parser.findings.codes import CODES, Severity
 from parser.findings.errors import ProgramError

@@ -10,8 +10,9 @@ from typing import Any
 from unittest import mock
 
 from command import run_inside
-from fuzzing.promises import of_document, unclean
 from places import ROOT
+
+from fuzzing.promises import of_document, unclean
 
 _CODES = (None, 0, 1, 2)
 """Of good ends, findings and refusals; 3 would be a fault of drycut itself."""
@@ -24,7 +25,7 @@ def ran(arguments: Sequence[str], folder: Path, **environment: str) -> "Complete
 
 
 def broken_by(done: "CompletedProcess[bytes]", folder: Path, form: str = "text") -> Iterator[str]:
-    """Promises that a command broke in a folder; `form` is the format that its output has, or "file" where it goes there."""
+    """Promises that a command broke in a folder; `form` is its format, or "file" where it goes there."""
     out, err = (stream.decode("utf-8", "surrogateescape") for stream in (done.stdout, done.stderr))
     if done.returncode not in _CODES:
         yield f"exit code {done.returncode}: {fault(folder) or err[-400:]}"

@@ -3,10 +3,11 @@
 import random
 from pathlib import Path
 
+from places import SCENARIOS
+
 from fuzzing.program_text import changed
 from fuzzing.ran import answer_of, broken_by, leftovers, ran
 from fuzzing.target import Input, Judged
-from places import SCENARIOS
 
 _SIDES = ("L1", "L2", "L3", "L4")
 _OPTIONS = (

@@ -16,8 +16,9 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import NamedTuple
 
-from fuzzing.target import Input, Judged, Target
 from places import ROOT
+
+from fuzzing.target import Input, Judged, Target
 
 if sys.platform != "win32":
     import resource
