@@ -75,7 +75,7 @@ def nearest(index: Index, place_um: Floats) -> Nearest:
 
 
 def _nearest(index: Index, place_um: Floats) -> Nearest:
-    points = shapely.points(place_um)
+    points = np.asarray(shapely.points(place_um), dtype=np.object_)
     (_, _), to_chord = index.tree.query_nearest(points, return_distance=True, all_matches=False)
     # The nearest curve has a chord no farther off than this; the last bits of the distances are granted.
     within = (to_chord + 2.0 * index.sagitta_um) * (1.0 + 1e-12) + 1e-9

@@ -7,7 +7,8 @@ import pytest
 from checking import SOUND, WRONG_AXIS, drycut
 from command import run_inside
 
-from sim.check.batch import check_file, check_files
+from sim.check.batch import check_file
+from sim.check.parallel import check_files
 from sim.check.result import CheckResult, Silenced
 from sim.cli.check.jobs import Asked, jobs_of
 
