@@ -110,9 +110,9 @@ def _opened(paths: Sequence[Path]) -> Iterator[Files]:
         opened: dict[Path, IO[str]] = {}
         for folder in dict.fromkeys(path.parent for path in paths):
             names = [path.name for path in paths if path.parent == folder]
-            made = stack.enter_context(staged(folder, names))
+            stage = stack.enter_context(staged(folder, names))
             for name in names:
-                opened[folder / name] = stack.enter_context((made / name).open("w", encoding="utf-8", newline="\n"))
+                opened[folder / name] = stack.enter_context((stage / name).open("w", encoding="utf-8", newline="\n"))
         yield opened
 
 
