@@ -246,6 +246,29 @@ def test_without_a_unit_mm_is_taken_and_said(tmp_path, code, said):
     assert any(said in note and "taken as mm" in note for note in notes(drawing))
 
 
+def test_a_unit_that_is_a_text_is_told_without_its_control_characters(tmp_path):
+    tags = [
+        "0",
+        "SECTION",
+        "2",
+        "HEADER",
+        "9",
+        "$ACADVER",
+        "1",
+        "AC9999",
+        "9",
+        "$INSUNITS",
+        "8",
+        "\x1b[2J",
+        "0",
+        "ENDSEC",
+    ]
+    tags += ["0", "SECTION", "2", "ENTITIES", "0", "CIRCLE", "8", "0", "10", "0.0", "20", "0.0", "40", "5.0"]
+    path = tmp_path / "part.dxf"
+    path.write_text("\n".join([*tags, "0", "ENDSEC", "0", "EOF", ""]), encoding="utf-8")
+    assert any("$INSUNITS \ufffd[2J" in note for note in notes(read_drawing(path)))
+
+
 def _dense(entity: DXFGraphic) -> list[Vec3]:
     match entity.dxftype():
         case "LINE":

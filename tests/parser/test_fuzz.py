@@ -20,7 +20,16 @@ SLOWEST_S = 10.0
 
 
 INPUTS = {
-    **{"program": 200, "fix": 25, "scenario": 200, "machine": 200, "settings": 60, "card": 200, "dxf": 60},
+    **{
+        "program": 200,
+        "fix": 25,
+        "scenario": 200,
+        "machine": 200,
+        "settings": 60,
+        "baseline": 40,
+        "card": 200,
+        "dxf": 60,
+    },
     **{"compare": 3, "command": 50, "run": 4},
 }
 """How many of each kind are tried; `make fuzz` tries a million."""

@@ -57,17 +57,19 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     language = chosen(lang)
     from sim.cli.check.jobs import Asked, jobs_of
-    from sim.cli.check.outputs import outputs_of, refuse_programs
+    from sim.cli.check.outputs import outputs_of, refuse_inputs
     from sim.show.findings.options import Options
 
     given = {"--fix": fix, "--diff": diff, "--watch": watch}
     _refuse_contradictions(files, formats, asked, given)
-    outputs, options = outputs_of(formats, output_file), Asked(**asked)
+    options = Asked(**asked)
+    outputs = outputs_of(formats, output_file, options.write_baseline)
     style = Options(language, quiet=quiet, statistics=statistics)
 
     def found() -> list["Job"]:
         jobs = jobs_of(files, options)
-        refuse_programs(filter(None, (*(output.file for output in outputs), options.write_baseline)), jobs)
+        written = (*(output.file for output in outputs), options.write_baseline)
+        refuse_inputs(filter(None, written), jobs, filter(None, (options.baseline, options.config)))
         return jobs
 
     if watch:

@@ -8,14 +8,13 @@ from io import StringIO
 from pathlib import Path
 from typing import Any
 
-from fuzzing.mutate import TEXTS, damaged, edited, number_text
-from fuzzing.ran import answer_of, broken_by, ran
-from fuzzing.target import Input, Judged
-
 from controller import GECard
 from controller.card.core.settings import CardSettings, Switches
 from controller.card.log.replay import OWN
 from controller.card.log.writer import CardLog
+from fuzzing.mutate import TEXTS, damaged, edited, number_text
+from fuzzing.ran import answer_of, broken_by, ran
+from fuzzing.target import Input, Judged
 
 _NAMES = (*OWN, *(name for name in dir(GECard) if name.startswith("GT_")))
 _CALL = re.compile(r"(\S+ +)([0-9a-f]+ )(\w+)\((.*)\) = (.*)")
@@ -90,7 +89,7 @@ def judge(data: Input, number: int, folder: Path) -> Judged:
     (folder / "part.log").write_bytes(data)
     as_json = number % 2 == 0
     done = ran(("card", "replay", "part.log", *(("--json",) if as_json else ())), folder)
-    broken = broken_by(done, "json" if as_json else "text")
+    broken = broken_by(done, folder, "json" if as_json else "text")
     return Judged(answer_of(done, folder), list(broken), f"exit {done.returncode}")
 
 

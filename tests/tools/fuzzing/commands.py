@@ -7,9 +7,12 @@ import contextlib
 import random
 from collections.abc import Iterator, Sequence
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 
 import click
+from places import SCENARIOS
+
 from fuzzing.card_logs import make as fuzzed_log
 from fuzzing.card_logs import seeds as logs
 from fuzzing.dxf_text import fuzzed_dxf
@@ -18,8 +21,6 @@ from fuzzing.program_text import fuzzed_program
 from fuzzing.ran import answer_of, broken_by, leftovers, ran
 from fuzzing.setups import PROGRAM, make_machine, make_scenario, make_settings
 from fuzzing.target import SEED, Input, Judged
-from places import SCENARIOS
-
 from sim.cli import cli
 
 _ARGUMENTS = {
@@ -130,7 +131,7 @@ def judge(data: Input, number: int, folder: Path) -> Judged:
     rng = random.Random(f"files:{SEED}:{number}")
     fill(folder, rng)
     done = ran(data, folder, COLUMNS=rng.choice(_COLUMNS), LC_ALL=rng.choice(_LOCALES))
-    broken = [*broken_by(done, _form(data)), *leftovers(folder)]
+    broken = [*broken_by(done, folder, _form(data)), *leftovers(folder)]
     return Judged(answer_of(done, folder), broken, f"exit {done.returncode or 0}")
 
 
@@ -230,6 +231,6 @@ def _form(words: Sequence[str]) -> str:
         return "text"
     if words[:1] != ("check",):
         return "json" if "--json" in words else "text"
-    given = [value for name, value in zip(words, words[1:], strict=False) if name == "--format"]
+    given = [value for name, value in pairwise(words) if name == "--format"]
     given += [word.removeprefix("--format=") for word in words if word.startswith("--format=")]
     return given[0] if len(given) == 1 and "=" not in given[0] else "text"

@@ -6,11 +6,11 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from places import SCENARIOS
+
 from fuzzing.dxf_text import fuzzed_dxf
 from fuzzing.promises import of_document, unclean
 from fuzzing.target import Input, Judged
-from places import SCENARIOS
-
 from parser.drawing.model import Drawing
 from parser.drawing.read import read_drawing
 from parser.findings.catalogue import LANGUAGES

@@ -5,8 +5,9 @@ import struct
 from functools import cache
 from typing import NamedTuple
 
-from fuzzing.mutate import TEXTS, damaged, edited, number_text
 from places import SCENARIOS
+
+from fuzzing.mutate import TEXTS, damaged, edited, number_text
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _KINDS = ("LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "VERTEX", "SEQEND", "ELLIPSE", "SPLINE", "INSERT", "POINT")

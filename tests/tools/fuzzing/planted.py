@@ -10,7 +10,6 @@ from unittest import mock
 
 from fuzzing import programs
 from fuzzing.target import Input, Judged, Target
-
 from parser.text.encoding import decode_text
 
 RAISES, HANGS, HOGS, DIES, SPINS, CHANGES, LAST = 2, 5, 8, 11, 14, 25, 30

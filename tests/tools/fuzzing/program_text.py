@@ -5,8 +5,9 @@ import random
 import re
 from functools import cache
 
-from fuzzing.mutate import damaged, edited
 from places import CORPUS, SCENARIOS
+
+from fuzzing.mutate import damaged, edited
 
 SEEDS = (
     "B10000B0B10000GXL1\nB0B10000B10000GYL2\nB10000B0B10000GXL3\nB0B10000B10000GYL4\nDD\n",
@@ -64,6 +65,7 @@ _WORDS = (
         "Start Point = 1.0 , -2.0",
         "Start Point =",
     ),
+    *("// drycut: ignore 3B204", "; drycut: ignore-file 3B1", "(drycut: ignore)", "//drycut: ignore 3B, x"),
     *("Start Point = 9999999999.0 , 1.0", "Length= 1.0 mm", "Length=" + "9" * 30, "CAXA", "Offset F= 0.0", "****"),
     *(
         ";1.000,2.000",

@@ -10,7 +10,6 @@ from fuzzing.program_text import fuzzed_program
 from fuzzing.promises import of_document, unclean
 from fuzzing.ran import answer_of, broken_by, ran
 from fuzzing.target import Input, Judged
-
 from parser.findings.catalogue import LANGUAGES, texts
 from parser.findings.codes import CODES, Severity
 from parser.findings.errors import ProgramError
@@ -53,7 +52,7 @@ def judge_fix(data: Input, number: int, folder: Path) -> Judged:
     once, mended = _fixed(folder)
     twice, again = _fixed(folder)
     after = check_file(Job(_FILE, mended, CheckSettings()))
-    broken = [*broken_by(once), *broken_by(twice)]
+    broken = [*broken_by(once, folder), *broken_by(twice, folder)]
     if again != mended:
         broken.append("changes more the second time")
     if after.count(Severity.ERROR) > before.count(Severity.ERROR) or after.unreadable > before.unreadable:

@@ -1,12 +1,17 @@
 """A command run inside the process of the fuzzer, and the promises of every command."""
 
 import contextlib
+import re
+import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from subprocess import CompletedProcess
 from typing import Any
+from unittest import mock
 
 from command import run_inside
+from places import ROOT
+
 from fuzzing.promises import of_document, unclean
 
 _CODES = (None, 0, 1, 2)
@@ -15,14 +20,15 @@ _CODES = (None, 0, 1, 2)
 
 def ran(arguments: Sequence[str], folder: Path, **environment: str) -> "CompletedProcess[bytes]":
     """The command with its output, in a folder."""
-    return run_inside(*arguments, cwd=folder, **environment)
+    with mock.patch.object(tempfile, "tempdir", str(folder)):  # where the traceback of a fault goes
+        return run_inside(*arguments, cwd=folder, **environment)
 
 
-def broken_by(done: "CompletedProcess[bytes]", form: str = "text") -> Iterator[str]:
-    """Promises that a command broke; `form` is the format that its output has, or "file" where it goes there."""
+def broken_by(done: "CompletedProcess[bytes]", folder: Path, form: str = "text") -> Iterator[str]:
+    """Promises that a command broke in a folder; `form` is its format, or "file" where it goes there."""
     out, err = (stream.decode("utf-8", "surrogateescape") for stream in (done.stdout, done.stderr))
     if done.returncode not in _CODES:
-        yield f"exit code {done.returncode}: {err[-400:]!r}"
+        yield f"exit code {done.returncode}: {fault(folder) or err[-400:]}"
     if "Traceback (most recent call last)" in err + out:
         yield f"a traceback: {err[-400:]!r}"
     if done.returncode == 2 and not err and not out and form != "file":
@@ -31,6 +37,16 @@ def broken_by(done: "CompletedProcess[bytes]", form: str = "text") -> Iterator[s
         yield from (f"{name} {what}" for what in unclean(text))
     if done.returncode in (None, 0, 1) and form != "file":
         yield from (f"{form} {what}" for what in of_document(form, out) if form != "text" or out)
+
+
+def fault(folder: Path) -> str:
+    """What went wrong inside drycut, as the file of a fault tells it: the error, and the innermost of its places."""
+    for file in folder.glob("drycut-fault-*.txt"):
+        told = file.read_text(encoding="utf-8").splitlines()
+        places = re.findall(r'File "(.*?)", line (\d+)', "\n".join(told))
+        own = [f"{Path(path).relative_to(ROOT)}:{line}" for path, line in places if Path(path).is_relative_to(ROOT)]
+        return f"{told[-1]} at {', '.join(own[-3:])}"
+    return ""
 
 
 def answer_of(done: "CompletedProcess[bytes]", folder: Path) -> str:

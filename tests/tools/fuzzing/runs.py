@@ -3,10 +3,11 @@
 import random
 from pathlib import Path
 
+from places import SCENARIOS
+
 from fuzzing.program_text import changed
 from fuzzing.ran import answer_of, broken_by, leftovers, ran
 from fuzzing.target import Input, Judged
-from places import SCENARIOS
 
 _SIDES = ("L1", "L2", "L3", "L4")
 _OPTIONS = (
@@ -52,7 +53,7 @@ def judge(data: Input, number: int, folder: Path) -> Judged:
     pages = ("-o", "out") if number % _WITH_PAGES == 1 else ("--json",)
     options = _OPTIONS[number % len(_OPTIONS)]
     done = ran(("run", "part.3b", "--machine", "machine.toml", *options, *pages), folder)
-    broken = [*broken_by(done, "json" if pages == ("--json",) else "text"), *leftovers(folder)]
+    broken = [*broken_by(done, folder, "json" if pages == ("--json",) else "text"), *leftovers(folder)]
     return Judged(answer_of(done, folder), broken, f"exit {done.returncode or 0}")
 
 

@@ -1,6 +1,7 @@
-"""Targets `scenario`, `machine` and `settings`: files of TOML, read, written and read again."""
+"""Targets `scenario`, `machine`, `settings` and `baseline`: files of TOML and JSON, read, written and read again."""
 
 import difflib
+import json
 import random
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
@@ -8,11 +9,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from fuzzing.ran import answer_of, broken_by, ran
-from fuzzing.target import Input, Judged
-from fuzzing.toml_trees import fuzzed_toml
 from places import MACHINES, SCENARIOS
 
+from fuzzing.mutate import damaged
+from fuzzing.ran import answer_of, broken_by, ran
+from fuzzing.target import Input, Judged
+from fuzzing.toml_trees import change, fuzzed_toml
 from parser.findings.catalogue import texts
 from parser.findings.errors import DrycutError
 from parser.program import parse_program
@@ -28,12 +30,27 @@ from sim.setup.toml.writer import toml_text
 _SETTINGS = (
     'machine = "dk7740"\nstart_mm = [120.0, 200.0]\nfail_on = "warning"\nignore = ["3B102"]\nend_marks = ["E"]\n'
     "[wire]\ndiameter_mm = 0.18\n",
-    'open = true\nselect = ["3B2", "3B301"]\npause_marks = ["M"]\nend_marks = ["MJ", "FF"]\n[wire]\nspark_gap_mm = 0.02\n',
+    'root = true\nopen = true\nselect = ["3B2", "3B301"]\npause_marks = ["M"]\nend_marks = ["MJ", "FF"]\n'
+    'exclude = ["old", "**/try/*", "[!a]?"]\n[wire]\nspark_gap_mm = 0.02\n[per_file_ignores]\n"p*.3b" = ["3B301"]\n',
+    'baseline = "known.json"\n',
     '[tool.drycut]\nmachine = "machine.toml"\n[tool.other]\nx = 1\n',
 )
 _SETTINGS_NAMES = (
     *("machine", "start_mm", "open", "select", "ignore", "fail_on", "end_marks", "pause_marks", "wire", "diameter_mm"),
-    *("spark_gap_mm", "tool", "drycut", "root", "per_file_ignores", "exclude", "baseline"),
+    *(
+        "*",
+        "[",
+        "**/" * 50,
+        "*a" * 50,
+        "[" * 90,
+        "spark_gap_mm",
+        "tool",
+        "drycut",
+        "root",
+        "per_file_ignores",
+        "exclude",
+        "baseline",
+    ),
 )
 _PATHS = (
     *(
@@ -54,6 +71,9 @@ _PATHS = (
         "blocks",
         "scenario.machine.name",
     ),
+)
+_BASELINE = (
+    b'{"schema": "drycut.baseline/1", "files": {"part.3b": {"0123456789abcdef": "3B204", "f": "3B301"}, "x/y": {}}}'
 )
 _FILES = "scenario.toml", MACHINE_FILE
 PROGRAM = "B100B0B100GXL1\nB0B100B100GYL2\nB100B0B100GXL3\nB0B100B99GYL4\nDD\n"
@@ -85,6 +105,31 @@ def make_machine(rng: random.Random) -> Input:
 def make_settings(rng: random.Random) -> Input:
     """A settings file."""
     return fuzzed_toml(rng, tuple(text.encode() for text in _SETTINGS), _SETTINGS_NAMES)
+
+
+def make_baseline(rng: random.Random) -> Input:
+    """A file of known findings."""
+    if rng.random() < 0.1:
+        return damaged(rng, _BASELINE, (_BASELINE,))
+    tree = json.loads(_BASELINE)
+    for _ in range(rng.choice((1, 1, 2, 4))):
+        change(rng, tree, tuple(text.encode() for text in _SETTINGS), ("files", "schema", "part.3b", "3B204"))
+    if rng.random() < 0.02:
+        tree["files"] = "DEEP"
+    depth = rng.choice((100, 990, 5000, 100_000))
+    try:
+        return json.dumps(tree, default=str).replace('"DEEP"', "[" * depth + "]" * depth).encode()
+    except ValueError:  # of more digits than Python writes
+        return f'{{"files": {"9" * 5000}}}'.encode()
+
+
+def judge_baseline(data: Input, _: int, folder: Path) -> Judged:
+    """A check with known findings is refused in a line, or comes to its end."""
+    assert isinstance(data, bytes)
+    (folder / "known.json").write_bytes(data)
+    (folder / "part.3b").write_text(PROGRAM, encoding="utf-8")
+    done = ran(("check", "part.3b", "--baseline", "known.json", "--no-config"), folder)
+    return Judged(answer_of(done, folder), list(broken_by(done, folder)), f"exit {done.returncode}")
 
 
 def judge_scenario(data: Input, number: int, folder: Path) -> Judged:
@@ -160,7 +205,7 @@ def judge_settings(data: Input, number: int, folder: Path) -> Judged:
     (here / "part.3b").write_text(PROGRAM, encoding="utf-8")
     (here / MACHINE_FILE).write_bytes(_seeds("*/machine.toml")[number % 3])
     done = ran(("check", "part.3b"), here)
-    return Judged(answer_of(done, folder), list(broken_by(done)), f"exit {done.returncode}")
+    return Judged(answer_of(done, folder), list(broken_by(done, here)), f"exit {done.returncode}")
 
 
 def _refused(error: DrycutError, folder: Path) -> Judged:

@@ -11,6 +11,7 @@ TARGETS = {
         Target("scenario", setups.make_scenario, setups.judge_scenario, 20.0),
         Target("machine", setups.make_machine, setups.judge_machine, 20.0),
         Target("settings", setups.make_settings, setups.judge_settings, 5.0),
+        Target("baseline", setups.make_baseline, setups.judge_baseline, 2.0),
         Target("card", card_logs.make, card_logs.judge, 25.0),
         Target("dxf", drawings.make, drawings.judge, 10.0, most_s=15.0),
         Target("compare", drawings.make, drawings.judge_compared, 0.3, most_s=20.0),

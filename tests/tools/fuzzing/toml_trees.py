@@ -41,7 +41,7 @@ _NUMBERS: tuple[Any, ...] = (
 )
 _STRANGE: tuple[Any, ...] = (
     *(*_NUMBERS, [], {}, [[]], [{}], [0, "a"], [1.0, 2.0], [[1.0, 2.0], [3.0]], {"min": 1}, {"min": 2, "max": 1}),
-    *({"a": {"b": {}}}, datetime.datetime(2026, 1, 1), datetime.date(1, 1, 1), datetime.time(23, 59)),  # noqa: DTZ001
+    *({"a": {"b": {}}}, datetime.datetime(2026, 1, 1), datetime.date(1, 1, 1), datetime.time(23, 59)),
 )
 _DEEP = 40
 _DEEPER = (200, 2000, 20_000)
@@ -54,7 +54,7 @@ def fuzzed_toml(rng: random.Random, seeds: Sequence[bytes], names: Sequence[str]
         return damaged(rng, seed, seeds)
     tree = tomllib.loads(seed.decode())
     for _ in range(rng.choice((1, 1, 1, 2, 3, 6))):
-        _change(rng, tree, seeds, names)
+        change(rng, tree, seeds, names)
     written = toml_of(tree, rng)
     if rng.random() < 0.01:
         written += deep(rng)
@@ -62,7 +62,7 @@ def fuzzed_toml(rng: random.Random, seeds: Sequence[bytes], names: Sequence[str]
     return damaged(rng, data, seeds) if rng.random() < 0.05 else data
 
 
-def _change(rng: random.Random, tree: dict[str, Any], seeds: Sequence[bytes], names: Sequence[str]) -> None:
+def change(rng: random.Random, tree: dict[str, Any], seeds: Sequence[bytes], names: Sequence[str]) -> None:
     """One change at a place that is chosen by walking down the tree."""
     at: Any = tree
     while True:
@@ -122,25 +122,24 @@ def _other(rng: random.Random, value: Any) -> Any:
         return _nested(rng, value)
     if isinstance(value, bool):
         return not value
-    if isinstance(value, int | float):
-        near = (
-            (value * 2, value // 3, -value, value + 1, value * rng.choice((1e-6, 0.1, 1.001, 1e3)))
-            if _small(value)
-            else ()
-        )
-        return rng.choice((*near, rng.uniform(-10, 10), *_NUMBERS))
-    if isinstance(value, str):
-        return rng.choice((*TEXTS, value.upper(), value[:-1], value + rng.choice(TEXTS), value * 2))
     if isinstance(value, list) and value:
         changed = list(value)
         at = rng.randrange(len(changed))
         changed[at] = _other(rng, changed[at])
         return rng.choice((changed, changed[:at], changed * rng.choice((2, 50)), changed[::-1]))
-    return copy.deepcopy(rng.choice(_STRANGE))
+    return copy.deepcopy(rng.choice(_alike(rng, value)))
 
 
-def _small(value: float) -> bool:
-    return abs(value) < 1e300
+def _alike(rng: random.Random, value: Any) -> Sequence[Any]:
+    """Values of the same kind as a single one."""
+    if isinstance(value, bool):
+        return (not value,)
+    if isinstance(value, str):
+        return *TEXTS, value.upper(), value[:-1], value + rng.choice(TEXTS), value * 2
+    if not isinstance(value, int | float) or abs(value) > 1e300:
+        return _STRANGE
+    scaled = value * rng.choice((1e-6, 0.1, 1.001, 1e3))
+    return value * 2, value // 3, -value, value + 1, scaled, rng.uniform(-10, 10), *_NUMBERS
 
 
 def _nested(rng: random.Random, value: Any) -> Any:

@@ -16,8 +16,9 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import NamedTuple
 
-from fuzzing.target import Input, Judged, Target
 from places import ROOT
+
+from fuzzing.target import Input, Judged, Target
 
 if sys.platform != "win32":
     import resource
@@ -91,7 +92,7 @@ def tried(task: Task, number: int, folder: Path) -> tuple[list[str], str]:
     before_mb, begin = _peak_mb(), time.process_time()
     judged = _judged(task, number, folder)
     took, more_mb = time.process_time() - begin, _peak_mb() - before_mb
-    broken = list(judged.broken)
+    broken = list(dict.fromkeys(judged.broken))
     if took > target.most_s:
         broken.append(f"took {took:.1f} s of processor time")
     if more_mb > target.most_mb:
