@@ -11,7 +11,7 @@ from parser.drawing.splines import flattened
 from parser.findings.errors import DrawingError
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 
-MOST_CURVES = 1_000_000
+MOST_CURVES = 300_000
 """Lines and arcs that a drawing becomes, those of ellipses and splines among them."""
 FARTHEST_UM = 1e10  # 10 km: no part is drawn there, and floating point still tells 0.001 µm apart
 _LONGEST_STEP_RAD = 0.5 * np.pi  # of an ellipse, however small: its lines still go round its centre

@@ -9,6 +9,7 @@ from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.dialect.at_block import at_block
 from parser.findings.codes import Check
+from parser.findings.errors import ProgramError
 from parser.findings.facts import DoubtfulEnd, TooLarge, telling
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
@@ -118,6 +119,14 @@ def too_many_steps(program: Program, steps: Steps) -> list[Finding]:
     of = program.toolpath, program.lines
     found = at_block(*of, "3B206", row, Field.COUNT, what="too-many-steps", limit=MAX_STEPS)
     return [found.with_fact(TooLarge())]
+
+
+def refuse_too_large(program: Program) -> None:
+    """ProgramError (3B206) for a program with numbers, or more steps, than any table does."""
+    found = [finding for finding, _ in telling(program.findings, TooLarge)]
+    found = found or too_many_steps(program, interpolate(program.toolpath))
+    if found:
+        raise ProgramError(found[0], excerpt=program.excerpt(found[0].line))
 
 
 class _PathChecks:

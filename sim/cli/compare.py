@@ -46,6 +46,7 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     from parser.findings.errors import ProgramError
     from parser.program import read_program
     from parser.units import mm
+    from sim.check.engine import refuse_too_large
     from sim.cli.overrides import OfDrawing, drawing_target
     from sim.cli.scenario_options import refused
     from sim.measure.compare.compared_program import compare_program
@@ -65,6 +66,7 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
         raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
     try:
         program = read_program(scenario.program)
+        refuse_too_large(program)
         if scenario.offset is not None:
             program = offsetting(program, scenario.offset).program
     except ProgramError as error:

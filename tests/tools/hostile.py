@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 SQUARE = "B1000B0B1000GXL1\nB0B1000B1000GYL2\nB1000B0B1000GXL3\nB0B1000B1000GYL4\n"
 CIRCLE = "B100B0B400GYNR1\n"
+_SQUARE_4B = SQUARE.replace("G", "B0G")
 _JUMP = "D\nB300B0B300GXL1\nD\n"
 
 HOSTILE: dict[str, Callable[[int], str]] = {
@@ -57,6 +58,17 @@ HOSTILE: dict[str, Callable[[int], str]] = {
     ),
     "10^5 wrong count axes": lambda n: "B990B0B3960GXNR4\n" * (n // 10) + "DD\n",
     "10^5 blocks that never end": lambda n: "B0B10B10GXL1\n" * n + "DD\n",
+    "full turns beyond any table": lambda n: "B100B0B999999999GYNR1\nDD\n",
+    "20,000 squares of 4B": lambda n: (_SQUARE_4B + "D\nB3000B0B3000B0GXL1\nD\n") * (n // 5) + "DD\n",
+    "16,000 squares with tabs": lambda n: (
+        (SQUARE.replace("B1000B1000GYL4", "B500B500GYL4\nD\nB0B500B500GYL4") + _JUMP) * (n // 6) + "DD\n"
+    ),
+    "10^5 zigzags on one another": lambda n: (
+        "B1000B0B1000GXL1\nB0B10B10GYL2\nB1000B0B1000GXL3\nB0B10B10GYL2\n" * (n // 4) + "DD\n"
+    ),
+    "circles that overlap, each by 1 µm more": lambda n: (
+        "".join(f"B{5000 + at}B0B{4 * (5000 + at)}GYNR1\nD\nB10B0B10GXL1\nD\n" for at in range(n // 10)) + "DD\n"
+    ),
     "10^5 blocks of no length": lambda n: "B0B0B0GXL1\n" * n + "DD\n",
 }
 """Name -> the program, from the number that its name calls 10^5: the tests that run each time take fewer."""

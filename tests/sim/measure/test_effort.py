@@ -42,3 +42,11 @@ def test_the_commands_say_so_and_end_with_2(tmp_path: Path, monkeypatch: pytest.
     done = run_inside("compare", ROOT / "scenarios" / "punch")
     assert (done.returncode, done.stdout) == (2, b"")
     assert b"drycut: error: drawing.dxf: cannot be compared: more than 1,000 pairs" in done.stderr
+
+
+@pytest.mark.parametrize("text", ["B100B0B999999999GYNR1\n", "B100B0B9999999999GYNR1\n"])
+def test_a_program_that_no_table_can_run_is_compared_with_nothing(tmp_path: Path, text: str) -> None:
+    (tmp_path / "part.3b").write_text(text + "DD\n", "ascii")
+    done = run_inside("compare", tmp_path / "part.3b", ROOT / "scenarios" / "punch" / "drawing.dxf")
+    assert (done.returncode, done.stdout) == (2, b"")
+    assert b"error[3B206]" in done.stderr
