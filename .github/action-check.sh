@@ -19,25 +19,28 @@ while IFS= read -r file; do
 done <<< "$INPUT_FILES"
 [ "${#files[@]}" -gt 0 ] || files=(.)
 
-check() { "$DRYCUT" check --format="$1" "${options[@]}" -- "${files[@]}"; }
+outputs=(--format="$INPUT_FORMAT")
+[ -z "$INPUT_SARIF_FILE" ] || outputs+=(--format="sarif=$INPUT_SARIF_FILE")
+
+check() { "$DRYCUT" check "${outputs[@]}" "${options[@]}" -- "${files[@]}"; }
 
 # Nothing in a program or a name can guess this word.
 word="drycut-$(od -An -N16 -tx1 /dev/urandom | tr -d ' \n')"
+started="$(mktemp)"
 
 status=0
 if [ "$INPUT_FORMAT" = github ]; then
-  check github || status=$?
+  check || status=$?
 else
   # The other formats show lines of programs, which must not be commands to the runner.
   echo "::stop-commands::$word"
-  check "$INPUT_FORMAT" || status=$?
+  check || status=$?
   echo "::$word::"
 fi
 
-if [ -n "$INPUT_SARIF_FILE" ]; then
-  again=0
-  check sarif > "$INPUT_SARIF_FILE" || again=$?
-  [ "$again" -eq "$status" ] || exit "$again"
+# Bad use writes no file; one that was there before is not of this run.
+if [ -f "$INPUT_SARIF_FILE" ] && ! [ "$INPUT_SARIF_FILE" -ot "$started" ]; then
   printf 'sarif-file<<%s\n%s\n%s\n' "$word" "$INPUT_SARIF_FILE" "$word" >> "$GITHUB_OUTPUT"
 fi
+rm -f "$started"
 exit "$status"

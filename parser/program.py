@@ -6,9 +6,11 @@ from pathlib import Path
 
 from parser.dialect.mender import Mender
 from parser.dialect.reader import STANDARD_MARKS, HeaderValue, Marks, Reader, Reading
-from parser.findings.errors import FileUnreadableError
+from parser.files.kinds import A_PROGRAM, kind_of
+from parser.files.reading import read_bytes
+from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
-from parser.text.encoding import decode_text, printable
+from parser.text.encoding import decode_text, no_program, printable
 from parser.text.lines import LineIndex
 from parser.threeb.dialect import THREE_B
 from parser.toolpath import Toolpath
@@ -58,19 +60,22 @@ def read_program(path: Path | str) -> Program:
     block.
     """
     path = Path(path)
-    try:
-        data = path.read_bytes()
-    except IsADirectoryError:
-        raise FileUnreadableError(f"{path}: is a folder; a {READERS[0].name} file was expected") from None
-    except OSError as error:
-        raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
-    return load_program(data, name=printable(path.name))
+    return load_program(read_bytes(path), name=printable(path.name))
 
 
 def load_program(data: bytes, name: str, marks: Marks = STANDARD_MARKS) -> Program:
-    """Program of the bytes of a file. Raises ProgramError (3B100) where they are no text or hold no block."""
-    text, encoding = decode_text(data)
-    return parse_program(text, name=name, encoding=encoding, marks=marks)
+    """Program of the bytes of a file.
+
+    Raises ProgramError (3B100) where they are no text or hold no block; it says what they are where that is certain.
+    """
+    try:
+        text, encoding = decode_text(data)
+        return parse_program(text, name=name, encoding=encoding, marks=marks)
+    except ProgramError as error:
+        kind = kind_of(data) if error.finding.values.get("what") in {"not-text", "no-block"} else ""
+        if kind not in {"", A_PROGRAM}:  # blocks that all stand in remarks are a program without blocks
+            raise ProgramError(no_program(kind)) from None
+        raise
 
 
 def parse_program(text: str, name: str = "program", encoding: str = "utf-8", marks: Marks = STANDARD_MARKS) -> Program:

@@ -3,15 +3,21 @@
 from collections.abc import Mapping
 from typing import NamedTuple, Protocol
 
+import numpy as np
+
 from parser.dialect.mender import Mender
 from parser.findings.codes import Check
 from parser.findings.findings import Finding
+from parser.geometry.curves import Ints
 from parser.text.lines import LineIndex
 from parser.text.source import Span
 from parser.toolpath import Toolpath
 
 HeaderValue = str | float | tuple[float, ...] | None
 """What a header says of one thing: a text, a number or some; None or empty where it does not say it."""
+
+
+NO_REMARKS: Ints = np.empty((0, 2), dtype=np.int64)
 
 
 class Marks(NamedTuple):
@@ -82,6 +88,8 @@ class Reading(NamedTuple):
         Checks for which this text gives no cause, each with the term of the catalogue that says why.
     offset_span
         Where the header gives an offset; None where it gives none.
+    remarks
+        (m, 2) int64, first character and one past the last of each remark, in order, with what begins and ends it.
     """
 
     dialect: str
@@ -91,6 +99,7 @@ class Reading(NamedTuple):
     is_drawing: bool
     not_asked: Mapping[Check, str]
     offset_span: Span | None = None
+    remarks: Ints = NO_REMARKS
 
 
 class ReadText(NamedTuple):

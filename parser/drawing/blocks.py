@@ -7,12 +7,13 @@ from ezdxf.document import Drawing as Document
 from ezdxf.entities.dxfentity import DXFEntity
 from ezdxf.entities.insert import Insert
 
+from parser.drawing.document import MOST_ENTITIES
 from parser.drawing.forms import behind, of_insert
 from parser.findings.errors import DrawingError
 from parser.geometry.curves import Floats
 
-_MOST = 200_000
-"""Entities looked at, INSERTs included: blocks in blocks multiply, and no part has more."""
+MOST_NESTED = 50
+"""Blocks within blocks: drawings of parts have a few."""
 
 
 class Placed(NamedTuple):
@@ -58,7 +59,7 @@ def placed_entities(document: Document, place: Floats) -> Iterator[Placed]:
     """Entities of the model space in file order, those of blocks in the place of the INSERT.
 
     An INSERT that cannot be opened, for want of its block or because the block inserts itself, is given as it is.
-    Raises DrawingError, without the name of the file, where blocks multiply beyond all bounds.
+    Raises DrawingError, without the name of the file, where blocks multiply or nest beyond all bounds.
     """
     layers, number = _layers(document), 0
     stack = [_Into(iter(document.modelspace()), place, "0", False, ())]
@@ -69,11 +70,13 @@ def placed_entities(document: Document, place: Floats) -> Iterator[Placed]:
             stack.pop()
             continue
         number += 1
-        if number > _MOST:
-            raise DrawingError(f"holds more than {_MOST:,} entities once its blocks are inserted")
+        if number > MOST_ENTITIES:
+            raise DrawingError(f"holds more than {MOST_ENTITIES:,} entities once its blocks are inserted")
         placed = _placed(entity, inside, layers)
         opened = _opened(entity, placed.layer, inside, layers) if isinstance(entity, Insert) else None
         if opened is not None:
+            if len(opened.blocks) > MOST_NESTED:
+                raise DrawingError(f"has blocks within blocks, more than {MOST_NESTED} deep; explode them")
             stack.append(opened)
         else:
             yield placed

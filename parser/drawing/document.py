@@ -4,6 +4,8 @@ import io
 import logging
 import re
 from collections import Counter
+from collections.abc import Iterable
+from itertools import islice
 from pathlib import Path
 
 from ezdxf import recover
@@ -12,15 +14,21 @@ from ezdxf.filemanagement import dxf_stream_info
 from ezdxf.lldxf.encoding import decode_dxf_unicode
 from ezdxf.lldxf.tagger import binary_tags_loader
 
-from parser.findings.errors import DrawingError, FileUnreadableError
+from parser.files.kinds import kind_of
+from parser.files.reading import read_bytes
+from parser.findings.catalogue import term
+from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark
 from parser.text.encoding import printable
 
-_DWG = re.compile(rb"AC1\.|AC10\d\d|MC0\.0|AC2\.10")  # first bytes of a DWG file name its release
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _SECTION = re.compile(rb"(?:^|[\r\n])[ \t]*0[ \t]*[\r\n]+[ \t]*SECTION")
 _END = re.compile(rb"(?:^|[\r\n])[ \t]*0[ \t]*[\r\n]+[ \t]*EOF[\s\0\x1a]*$")
 _UNITS = "$INSUNITS"
+# An entity of a text begins with the group code 0, on a line of its own, and its name on the next.
+_ENTITY = re.compile(rb"(?:^|[\r\n])[ \t]*+0[ \t]*+[\r\n]++[ \t]*+[A-Z_]")
+MOST_ENTITIES = 200_000
+"""Entities in a file, and entities that stand in the drawing once its blocks are inserted: no part has more."""
 _MOST_FAULTS = 5  # kinds named one by one
 _LONGEST = 120  # characters of a foreign message
 
@@ -32,7 +40,7 @@ def read_document(path: Path) -> tuple[Document, list[Remark]]:
 
     Raises FileUnreadableError where there is no readable file, DrawingError where it is no DXF or beyond mending.
     """
-    data = _bytes(path)
+    data = read_bytes(path)
     document, notes = _loaded(path, data)
     if _UNITS.encode() not in data:
         document.header[_UNITS] = 0  # ezdxf takes a file that names no unit for one in metres
@@ -42,12 +50,13 @@ def read_document(path: Path) -> tuple[Document, list[Remark]]:
 def _loaded(path: Path, data: bytes) -> tuple[Document, list[Remark]]:
     if not data.strip():
         raise DrawingError(f"{path}: is empty; expected a DXF drawing")
-    if _DWG.match(data):
-        raise DrawingError(f"{path}: is a DWG file; expected DXF: save the drawing as DXF")
     if data.startswith(_BINARY):
         return _binary(path, data), []
+    _refuse_too_many(path, _ENTITY.finditer(data))
     if not _SECTION.search(data):
-        raise DrawingError(f"{path}: is no DXF file; expected a drawing saved as DXF")
+        kind = kind_of(data)
+        found = f" ({term(kind)})" if kind else ""
+        raise DrawingError(f"{path}: is no DXF file{found}; expected a drawing saved as DXF")
     if _END.search(data[-4096:]):
         early = []
     else:
@@ -66,18 +75,18 @@ def _ended(data: bytes) -> bytes:
     return b"\n".join([*lines[:last], b"0", b"ENDSEC", b"0", b"EOF", b""])
 
 
-def _bytes(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except IsADirectoryError:
-        raise FileUnreadableError(f"{path}: is a folder; a DXF drawing was expected") from None
-    except (OSError, ValueError) as error:
-        raise FileUnreadableError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+def _refuse_too_many(path: Path, entities: Iterable[object]) -> None:
+    """DrawingError for more entities than are read, before the library makes an object of each."""
+    if next(islice(entities, MOST_ENTITIES, None), None) is not None:
+        raise DrawingError(f"{path}: holds more than {MOST_ENTITIES:,} entities; save the contour of the part alone")
 
 
 def _binary(path: Path, data: bytes) -> Document:
     try:
+        _refuse_too_many(path, (tag for tag in binary_tags_loader(data) if tag.code == 0))
         return Document.load(binary_tags_loader(data))
+    except DrawingError:
+        raise
     except Exception as error:
         raise _beyond_mending(path, error) from None
 

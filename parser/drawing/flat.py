@@ -8,9 +8,12 @@ from numpy.typing import NDArray
 
 from parser.drawing.forms import BEGIN, CENTER, END, MAJOR, MINOR, SAME_WITHIN_UM, START, SWEEP, Spline
 from parser.drawing.splines import flattened
+from parser.findings.errors import DrawingError
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 
-_FARTHEST_UM = 1e10  # 10 km: no part is drawn there, and floating point still tells 0.001 µm apart
+MOST_CURVES = 1_000_000
+"""Lines and arcs that a drawing becomes, those of ellipses and splines among them."""
+FARTHEST_UM = 1e10  # 10 km: no part is drawn there, and floating point still tells 0.001 µm apart
 _LONGEST_STEP_RAD = 0.5 * np.pi  # of an ellipse, however small: its lines still go round its centre
 
 
@@ -38,11 +41,14 @@ class Flat(NamedTuple):
 
 
 def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float) -> Flat:
-    """Forms (k, 17) to curves in µm, by the maps (m, 4, 3), of which `which` (k,) tells each form its own."""
+    """Forms (k, 17) to curves in µm, by the maps (m, 4, 3), of which `which` (k,) tells each form its own.
+
+    Raises DrawingError, without the name of the file, where ellipses become too many lines.
+    """
     forms = _placed(forms, maps[which])
     rho, thin = _axes(forms[:, MAJOR], forms[:, MINOR])
     line = forms[:, SWEEP] == 0.0
-    arc = np.isfinite(forms).all(axis=1) & ((rho <= _FARTHEST_UM) | _is_round(forms))
+    arc = np.isfinite(forms).all(axis=1) & ((rho <= FARTHEST_UM) | (_is_round(forms) & _bends_near(forms, rho)))
     near = _is_near(forms[:, START]) & _is_near(forms[:, END]) & (line | arc)
     upright = near & ~line & (thin <= SAME_WITHIN_UM)
     kept = np.flatnonzero(near & ~upright)
@@ -59,6 +65,12 @@ def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float) ->
         upright=int(upright.sum()),
         beyond=int((~near).sum()),
     )
+
+
+def refuse_many(curves: int) -> None:
+    """DrawingError, without the name of the file, for more curves than are compared."""
+    if curves > MOST_CURVES:
+        raise DrawingError(f"becomes more than {MOST_CURVES:,} lines and arcs; save the contour of the part alone")
 
 
 def flat_spline(spline: Spline, place: Floats, tolerance_um: float) -> Curves:
@@ -106,7 +118,7 @@ def _cross(major: Floats, minor: Floats) -> Floats:
 
 def _is_near(place: Floats) -> NDArray[np.bool_]:
     """Whether places (k, d) are numbers that a table may have."""
-    return np.asarray((np.abs(place) <= _FARTHEST_UM).all(axis=1))
+    return np.asarray((np.abs(place) <= FARTHEST_UM).all(axis=1))
 
 
 def _is_round(forms: Floats) -> NDArray[np.bool_]:
@@ -116,6 +128,11 @@ def _is_round(forms: Floats) -> NDArray[np.bool_]:
     unequal = np.abs(long - np.hypot(minor[:, 0], minor[:, 1]))
     along = np.abs((major[:, :2] * minor[:, :2]).sum(axis=1))
     return np.asarray((unequal <= SAME_WITHIN_UM) & (along <= SAME_WITHIN_UM * long))
+
+
+def _bends_near(forms: Floats, radius: Floats) -> NDArray[np.bool_]:
+    """Whether arcs (k,) of circles bulge no farther from their chord than a table may reach: R (1 − cos(sweep / 2))."""
+    return np.asarray(2.0 * radius * np.sin(0.25 * forms[:, SWEEP]) ** 2 <= FARTHEST_UM)
 
 
 def _is_slanted(forms: Floats) -> NDArray[np.bool_]:
@@ -145,6 +162,7 @@ def _chords(forms: Floats, rho: Floats, tolerance_um: float) -> tuple[Curves, In
     """
     step = np.minimum(np.sqrt(8.0 * tolerance_um / np.maximum(rho, tolerance_um)), _LONGEST_STEP_RAD)
     parts = np.ceil(np.abs(forms[:, SWEEP]) / step).astype(np.int64)
+    refuse_many(int(parts.sum()))
     of = np.repeat(np.arange(len(parts)), parts)
     at = np.arange(len(of)) - (np.cumsum(parts) - parts)[of]
     start, end = (_on_ellipse(forms[of], share / parts[of]) for share in (at, at + 1))

@@ -18,6 +18,7 @@ BEGIN, SWEEP = 15, 16
 COLUMNS = 17
 SAME_WITHIN_UM = 1e-3
 """What files lose by printing decimals: places so near are one, curves so short are none, so flat are straight."""
+_STRAIGHT = 1e-12  # a bulge over 10 km of chord is then 0.005 µm; R = chord / (4 bulge) overflows far below
 _FULL_WITHIN_RAD = 1e-6  # files print angles to six digits and more
 
 
@@ -70,7 +71,7 @@ def polyline_forms(place: Floats, bulge: Floats, closed: bool) -> Floats:
     forms = line_forms(place)
     bulge = bulge[: len(forms)]
     chord = forms[:, END] - forms[:, START]
-    curved = (bulge != 0.0) & chord[:, :2].any(axis=1)
+    curved = ~(np.abs(bulge) <= _STRAIGHT) & chord[:, :2].any(axis=1)
     _bend(forms, chord, bulge, curved)
     return forms
 

@@ -11,7 +11,7 @@ from ezdxf.entities.insert import Insert
 
 from parser.drawing.blocks import Placed
 from parser.drawing.entities import reader_of
-from parser.drawing.flat import Flat, flat_forms, flat_spline, is_slanted
+from parser.drawing.flat import Flat, flat_forms, flat_spline, is_slanted, refuse_many
 from parser.drawing.forms import COLUMNS, SAME_WITHIN_UM, ReadEntity, Spline, behind
 from parser.geometry.curves import Curves, Floats, Ints, joined
 from parser.text.encoding import printable
@@ -50,17 +50,24 @@ class _Forms(NamedTuple):
 
 
 def gather(placed: Sequence[Placed], tolerance_um: float) -> Gathered:
-    """Curves of entities, ellipses and splines made lines within a tolerance."""
+    """Curves of entities, ellipses and splines made lines within a tolerance.
+
+    Raises DrawingError, without the name of the file, where they become too many.
+    """
     counts = EntityCounts()
     read = [_read(one.entity, counts) for one in placed]
     forms = _forms(placed, read)
+    refuse_many(len(forms.forms))
     flat = flat_forms(forms.forms, forms.maps, forms.which, tolerance_um)
     _count(counts, flat)
     parts, entity = [flat.curves], [forms.entity[flat.form]]
+    total = len(flat.curves)
     for number, (one, found) in enumerate(zip(placed, read, strict=True)):
         if found is not None and isinstance(found.forms, Spline):
             curves = _spline(one, found.forms, tolerance_um, counts)
             if curves is not None:
+                total += len(curves)
+                refuse_many(total)
                 parts.append(curves)
                 entity.append(np.full(len(curves), number))
     order = np.argsort(np.concatenate(entity), kind="stable")

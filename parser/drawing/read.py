@@ -137,7 +137,7 @@ def unit_of(code: object) -> tuple[Unit, Remark | None]:
     """The unit that $INSUNITS names, mm where it names none; with a note on what was assumed."""
     if isinstance(code, int) and code in _UNITS:
         return _UNITS[code], None
-    assumed = Remark("no-unit") if code in (None, 0) else Remark("strange-unit", {"code": str(code)})
+    assumed = Remark("no-unit") if code in (None, 0) else Remark("strange-unit", {"code": printable(str(code))})
     return _UNITS[4], assumed
 
 

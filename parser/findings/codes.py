@@ -69,6 +69,8 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B110": FindingCode(Severity.NOTE, Check.ORDER),
         "3B111": FindingCode(Severity.ERROR, Check.HEADER),
         "3B112": FindingCode(Severity.WARNING, Check.HEADER),
+        "3B113": FindingCode(Severity.NOTE, Check.GRAMMAR),
+        "3B114": FindingCode(Severity.NOTE, Check.GRAMMAR),
         "3B201": FindingCode(Severity.ERROR, Check.BLOCKS),
         "3B202": FindingCode(Severity.ERROR, Check.BLOCKS),
         "3B203": FindingCode(Severity.WARNING, Check.BLOCKS),

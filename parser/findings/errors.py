@@ -12,7 +12,20 @@ class DrycutError(Exception):
 
 
 class FileUnreadableError(DrycutError, OSError):
-    """A file that is missing, is a folder, or may not be read."""
+    """A file that is missing, may not be read, is no regular file, or is too large.
+
+    Parameters
+    ----------
+    text
+        The whole message.
+    what, detail
+        Values of finding 3B100: a term of the catalogue that says why, and more to it.
+    """
+
+    def __init__(self, text: str, *, what: str = "unreadable-file", detail: str = "") -> None:
+        super().__init__(text)
+        self.what = what
+        self.detail = detail
 
 
 class ProgramError(DrycutError, ValueError):

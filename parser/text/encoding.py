@@ -2,9 +2,15 @@
 
 import codecs
 import re
+import unicodedata
+from typing import Final
 
+from parser.files.kinds import HINTS
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
+
+REPLACED: Final = "\ufffd"
+"""What stands for a character that is no text for people."""
 
 _BOMS = {"utf-8-sig": codecs.BOM_UTF8, "utf-16-le": codecs.BOM_UTF16_LE, "utf-16-be": codecs.BOM_UTF16_BE}
 
@@ -42,8 +48,8 @@ def encode_text(text: str, encoding: str) -> bytes:
 
 
 def no_program(what: str, detail: str = "") -> Finding:
-    """Finding 3B100; `what` is a term of the catalogue."""
-    return Finding("3B100", {"what": what, "detail": detail})
+    """Finding 3B100; `what` is a term of the catalogue, `detail` says more in any language."""
+    return Finding("3B100", {"what": what, "detail": detail, "hint": HINTS.get(what, "hint-program")})
 
 
 def narrow(text: str) -> str:
@@ -52,10 +58,19 @@ def narrow(text: str) -> str:
 
 
 def printable(text: str) -> str:
-    """Text for people: control characters and bytes that were no text become U+FFFD, tabs a blank."""
+    """Text for people: what is none becomes U+FFFD, character for character, tabs a blank; blanks of any width stay.
+
+    None are controls, line ends, marks that turn the direction of text, and bytes that were no text.
+    """
     if text.isprintable():
         return text
-    return "".join(char if char.isprintable() else " " if char == "\t" else "\ufffd" for char in text)
+    return "".join(_shown(char) for char in text)
+
+
+def _shown(char: str) -> str:
+    if char.isprintable() or unicodedata.category(char) == "Zs":
+        return char
+    return " " if char == "\t" else REPLACED
 
 
 def _decoded(data: bytes) -> tuple[str, str]:

@@ -1,11 +1,13 @@
 """Places in a program for people: ``part.3b:7:12``, and a source line with a caret under what is meant."""
 
 import unicodedata
+from functools import lru_cache
+from itertools import accumulate
 
 from parser.text.encoding import printable
 
-_BEFORE = 60
-_WINDOW = 100
+_ROOM = 100  # cells of a shown line
+_BEFORE = 0.6  # share of them before the first caret, more where the line ends behind it
 
 
 def place(name: str, line: int | None, column: int | None) -> str:
@@ -14,22 +16,17 @@ def place(name: str, line: int | None, column: int | None) -> str:
     return ":".join(parts)
 
 
-def with_caret(excerpt: str, column: int, width: int = 1) -> str:
-    """A source line and a line of carets below it, both set in by four blanks."""
-    shown, carets = caret_lines(excerpt, column, width)
-    return f"    {shown}\n    {carets}"
-
-
-def caret_lines(excerpt: str, column: int, width: int = 1) -> tuple[str, str]:
+def caret_lines(excerpt: str, column: int, width: int = 1, room: int = _ROOM) -> tuple[str, str]:
     """A source line and the carets under the `width` characters from `column` (from 1) on, at least one.
 
-    The line is windowed to 100 characters around the first caret. Wide (CJK) characters take two cells of a terminal,
-    so carets stand under what they mean.
+    The line is windowed to `room` cells of a terminal around the first caret. Wide (CJK) characters take two cells, so
+    carets stand under what they mean.
     """
-    first = max(0, column - 1 - _BEFORE)
-    shown = printable(excerpt[first : first + _WINDOW])
-    at = column - 1 - first
-    return shown, " " * cells(shown[:at]) + "^" * max(1, cells(shown[at : at + width]))
+    behind = first_cells(printable(excerpt[column - 1 : column - 1 + room]), room)
+    most = max(int(room * _BEFORE), room - max(1, cells(behind)))
+    before = first_cells(printable(excerpt[max(0, column - 1 - room) : column - 1])[::-1], most)[::-1]
+    behind = first_cells(behind, room - cells(before))
+    return before + behind, " " * cells(before) + "^" * max(1, cells(behind[:width]))
 
 
 def cells(text: str) -> int:
@@ -37,6 +34,17 @@ def cells(text: str) -> int:
     return len(text) if text.isascii() else sum(map(_cells, text))
 
 
+def first_cells(text: str, room: int) -> str:
+    """As much of the beginning of a text as `room` cells hold."""
+    if text.isascii():
+        return text[:room]
+    for past, taken in enumerate(accumulate(map(_cells, text))):
+        if taken > room:
+            return text[:past]
+    return text
+
+
+@lru_cache(4096)
 def _cells(char: str) -> int:
     if unicodedata.combining(char):
         return 0

@@ -51,7 +51,16 @@ class LineIndex:
         """First character of a line, and one past its last before the line end."""
         first = int(self._starts[line - 1])
         past = int(self._starts[line]) if line < len(self._starts) else len(self.text)
-        return first, first + len(self.text[first:past].rstrip("\r\n"))
+        tail = self.text[max(first, past - 2) : past]
+        return first, past - len(tail) + len(tail.rstrip("\r\n"))
+
+    def inked_lines(self, without: Ints) -> Ints:
+        """Lines, in order, that hold more than blanks and control characters outside of the spans `without` (m, 2)."""
+        covers = np.zeros(len(self.text) + 1, dtype=np.int64)
+        np.add.at(covers, without[:, 0], 1)
+        np.add.at(covers, without[:, 1], -1)
+        bare = np.cumsum(covers[:-1]) == 0
+        return np.unique(self.lines(np.flatnonzero(bare & (np.diff(self._ink) > 0))))
 
     def finding(self, code: str, span: tuple[int, int], block: int = 0, **values: Value) -> Finding:
         """Finding at a span of characters, in a block (from 1; 0 in none)."""

@@ -1,6 +1,6 @@
 """Blocks as columns of raw words: digits and letters to numbers, a whole column at once."""
 
-from itertools import product
+from itertools import chain, product
 from typing import NamedTuple
 
 import numpy as np
@@ -69,6 +69,14 @@ def columns_of(words: list[str | None], span: Ints, lines: LineIndex) -> RawBloc
         label=_labels(column["label"], column["number"], column["bare_number"]),
         printed_um=printed,
     )
+
+
+def all_rows(parts: list[RawBlocks]) -> RawBlocks:
+    """The blocks of one or more parts, one behind the other."""
+    columns = {
+        name: np.concatenate([getattr(part, name) for part in parts]) for name in RawBlocks._fields if name != "label"
+    }
+    return RawBlocks(**columns, label=tuple(chain.from_iterable(part.label for part in parts)))
 
 
 def _labels(*columns: list[str | None]) -> tuple[str, ...]:

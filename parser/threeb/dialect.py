@@ -74,6 +74,7 @@ def _reading(records: Records, toolpath: Toolpath, counts: BlockCounts) -> Readi
         is_drawing=name == "4B" or records.header.offset_um == 0.0,
         not_asked=not_asked,
         offset_span=records.header.offset_span,
+        remarks=records.remarks,
     )
 
 

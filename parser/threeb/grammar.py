@@ -35,6 +35,8 @@ BLOCK_WORDS = ("B", "N", "L", "S", "G", "X", "Y", "GX", "GY", "NR", "SR")
 """Words of letters that stand in blocks and their labels, in parts and whole: as marks they would break blocks up."""
 _START_NODE = rf"Start{WS}Point{WS}[=:]{WS}\(?{_MM},{_MM}[^\r\n]*"
 _HEADER = r"(?:\*{2}|CAXA|Co(?:nn?|rn)er\s?R|Offset|Length)[^\r\n]*"
+REMARK_SIGNS = "/(;"
+"""First characters of remarks."""
 _REMARK = r"//[^\r\n]*|;[^\r\n]*|\([^()\r\n]*\)"
 
 FLAGS = re.IGNORECASE | re.ASCII

@@ -4,6 +4,7 @@ One pass of one pattern over the whole text; what stands between its matches is 
 """
 
 import re
+from array import array
 from bisect import bisect_left
 from operator import itemgetter
 from typing import Literal, NamedTuple
@@ -11,11 +12,13 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from parser.dialect.reader import STANDARD_MARKS, Marks
+from parser.findings.errors import ProgramError
 from parser.findings.facts import TooLarge
 from parser.findings.findings import Finding, file_order
-from parser.text.encoding import narrow
+from parser.geometry.curves import Ints
+from parser.text.encoding import narrow, no_program
 from parser.text.lines import LineIndex
-from parser.threeb.columns import MAX_WORD_UM, RawBlocks, columns_of, read_mm
+from parser.threeb.columns import MAX_WORD_UM, RawBlocks, all_rows, columns_of, read_mm
 from parser.threeb.damage import Unread, unread
 from parser.threeb.grammar import (
     FOREIGN_ENDS,
@@ -23,6 +26,7 @@ from parser.threeb.grammar import (
     HIDDEN_BLOCK,
     LIKE_A_BLOCK,
     OWN_MARKS,
+    REMARK_SIGNS,
     token_pattern,
 )
 from parser.threeb.header import Header, HeaderLength, read_header, read_length
@@ -31,6 +35,9 @@ from parser.threeb.stolen_numbers import left_out, misfits, without_stolen_numbe
 _MARK, _PASSED = GROUP_AT["mark"], GROUP_AT["passed"]
 
 _LINE = re.compile(r"[^\r\n]+")
+_BLOCKS_AT_ONCE = 1 << 16
+MOST_BLOCKS = 2_000_000
+"""Blocks that are read of one program: twenty times as many as the longest programs of lace and gears (assumed)."""
 
 
 class Mark(NamedTuple):
@@ -58,37 +65,41 @@ class Records(NamedTuple):
     header: Header
     damages: tuple[Unread, ...]
     findings: tuple[Finding, ...]
+    remarks: Ints
+
+
+class _Tokens(NamedTuple):
+    """What the pattern found.
+
+    Attributes
+    ----------
+    blocks
+        As written.
+    covered
+        (2m + 2,) int64, ends of the stretches between tokens, one after the other, from 0 to the end of the text.
+    marks, passed, lengths
+        Marks and start nodes; header lines and remarks behind ``;``; lengths in start nodes.
+    remarks
+        (r, 2) int64, what stands in the remarks: first character of each, and one past the last.
+    """
+
+    blocks: RawBlocks
+    covered: Ints
+    marks: list[Mark]
+    passed: list[tuple[int, int]]
+    remarks: Ints
+    lengths: list[HeaderLength]
 
 
 def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
     """Read a whole program text.
 
     Text that is no block, mark, header or remark becomes finding 3B101, a damaged block 3B106, a word over
-    `MAX_WORD_UM` 3B206; nothing is raised.
+    `MAX_WORD_UM` 3B206. Raises ProgramError (3B100) for more than `MOST_BLOCKS`.
     """
     folded = narrow(text)
     lines = LineIndex(folded)
-    words: list[str | None] = []  # one flat list: a hundred thousand tuples would keep the garbage collector busy
-    spans: list[int] = []
-    found: list[Mark] = []
-    passed: list[tuple[int, int]] = []
-    lengths: list[HeaderLength] = []
-    covered = [0]
-    block = GROUP_AT["block"] + 1
-    for match in token_pattern(marks).finditer(folded):
-        span, groups = match.span(), match.groups()
-        covered += span
-        if groups[block - 1]:
-            words += groups
-            spans += match.span(block)
-        elif groups[_PASSED]:
-            if folded[span[0]] not in "/(":
-                passed.append(span)
-        else:
-            found.append(_mark(groups, span, len(spans) // 2, lines.line(span[0]), marks))
-            lengths += read_length(folded, span)
-    covered.append(len(folded))
-    raw = columns_of(words, np.array(spans, dtype=np.int64).reshape(-1, 2), lines)
+    raw, covered, found, passed, remarks, lengths = _tokens(folded, lines, marks)
     raw, covered = without_stolen_numbers(raw, covered, folded)
     damaged_rows = misfits(raw)
     if damaged_rows:
@@ -104,7 +115,47 @@ def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
         *(damage.finding(lines) for damage in damaged),
     ]
     header = read_header(folded, [span for span in passed if folded[span[0]] != ";"], lengths)
-    return Records(text, lines, raw, tuple(found), header, damaged, tuple(sorted(findings, key=file_order)))
+    ordered = tuple(sorted(findings, key=file_order))
+    return Records(text, lines, raw, tuple(found), header, damaged, ordered, remarks)
+
+
+def _tokens(folded: str, lines: LineIndex, marks: Marks) -> _Tokens:
+    """The tokens of a text. Words become numbers every so many blocks: as texts they take ten times the room."""
+    read: list[RawBlocks] = []
+    words: list[str | None] = []  # one flat list: a hundred thousand tuples would keep the garbage collector busy
+    spans, covered, remarks = array("q"), array("q", [0]), array("q")
+    found: list[Mark] = []
+    passed: list[tuple[int, int]] = []
+    lengths: list[HeaderLength] = []
+    block, number = GROUP_AT["block"] + 1, 0
+    for match in token_pattern(marks).finditer(folded):
+        span, groups = match.span(), match.groups()
+        covered.extend(span)
+        if groups[block - 1]:
+            number += 1
+            words += groups
+            spans.extend(match.span(block))
+            if number > MOST_BLOCKS:
+                raise ProgramError(no_program("too-many-blocks", f"{MOST_BLOCKS:,}"))
+            if number % _BLOCKS_AT_ONCE == 0:
+                read.append(columns_of(words, _pairs(spans), lines))
+                words, spans = [], array("q")
+        elif groups[_PASSED]:
+            if folded[span[0]] not in "/(":
+                passed.append(span)
+            if groups[_PASSED][0] in REMARK_SIGNS:
+                remarks.extend(match.span(_PASSED + 1))
+        else:
+            found.append(_mark(groups, span, number, lines.line(span[0]), marks))
+            lengths += read_length(folded, span)
+    covered.append(len(folded))
+    read.append(columns_of(words, _pairs(spans), lines))
+    return _Tokens(all_rows(read), np.array(covered, dtype=np.int64), found, passed, _pairs(remarks), lengths)
+
+
+def _pairs(ends: "array[int]") -> Ints:
+    """Firsts and pasts, one after the other, as (n, 2)."""
+    return np.array(ends, dtype=np.int64).reshape(-1, 2)
 
 
 def _mark(groups: tuple[str | None, ...], span: tuple[int, int], after: int, line: int, marks: Marks) -> Mark:
@@ -133,9 +184,9 @@ def _too_large(raw: RawBlocks, marks: list[Mark], lines: LineIndex) -> list[Find
     ]
 
 
-def _gaps(covered: list[int], lines: LineIndex, first_block: int) -> list[tuple[int, int]]:
+def _gaps(covered: Ints, lines: LineIndex, first_block: int) -> list[tuple[int, int]]:
     """What no token covers and is not blank. Before the first block, lines that do not look like one are header."""
-    edges = np.array(covered, dtype=np.int64).reshape(-1, 2)
+    edges = covered.reshape(-1, 2)
     inked: list[tuple[int, int]] = edges[lines.has_ink(edges[:, 0], edges[:, 1])].tolist()
     behind = bisect_left(inked, first_block, key=itemgetter(0))
     header = (line.span() for gap in inked[:behind] for line in _LINE.finditer(lines.text, *gap))

@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 
+from parser.geometry.curves import Ints
 from parser.threeb.columns import RawBlocks
 
 RADIUS_TOLERANCE_UM = 1.0
@@ -13,7 +14,7 @@ _ENDS_IN_NUMBER = re.compile(r"B\s*\d*\s*$", re.IGNORECASE)
 _B = re.compile("B", re.IGNORECASE)
 
 
-def without_stolen_numbers(raw: RawBlocks, covered: list[int], folded: str) -> tuple[RawBlocks, list[int]]:
+def without_stolen_numbers(raw: RawBlocks, covered: Ints, folded: str) -> tuple[RawBlocks, Ints]:
     """Take from 3B blocks the number that they took from a damaged block before them, as if it were their own first.
 
     ``B1B2B3 B4B5B6GXL1`` holds a block without its end and a whole 3B block, not a 4B block ``B3B4B5B6GXL1``. Four
@@ -30,7 +31,7 @@ def without_stolen_numbers(raw: RawBlocks, covered: list[int], folded: str) -> t
     if not len(four):
         return raw, covered
     columns = {name: column.copy() for name, column in raw._asdict().items() if name not in ("label", "printed_um")}
-    edges = np.array(covered, dtype=np.int64)
+    edges = covered.copy()
     for row in four.tolist():
         first = int(raw.span[row, 0])
         gap = int(np.searchsorted(edges, first, side="right")) - 1  # the token begins at or before its block
@@ -42,7 +43,7 @@ def without_stolen_numbers(raw: RawBlocks, covered: list[int], folded: str) -> t
         edges[gap] = columns["span"][row, 0] = second.start()
         columns["x_um"][row], columns["y_um"][row] = raw.y_um[row], raw.count_um[row]
         columns["count_um"][row], columns["radius_um"][row] = raw.radius_um[row], -1
-    return raw._replace(**columns), edges.tolist()
+    return raw._replace(**columns), edges
 
 
 def misfits(raw: RawBlocks) -> list[int]:
@@ -61,11 +62,11 @@ def misfits(raw: RawBlocks) -> list[int]:
     return rows
 
 
-def left_out(raw: RawBlocks, covered: list[int], rows: list[int]) -> tuple[RawBlocks, list[int]]:
+def left_out(raw: RawBlocks, covered: Ints, rows: list[int]) -> tuple[RawBlocks, Ints]:
     """The blocks without these rows, and what tokens cover without their text; printed ends stay covered."""
-    edges = np.array(covered, dtype=np.int64)
+    edges = covered.copy()
     edges[np.searchsorted(edges[1::2], raw.span[rows, 0], side="right") * 2 - 1] = raw.span[rows, 1]
     columns = {name: np.delete(column, rows, axis=0) for name, column in raw._asdict().items() if name != "label"}
     gone = set(rows)
     labels = tuple(label for row, label in enumerate(raw.label) if row not in gone)
-    return RawBlocks(**columns, label=labels), edges.tolist()
+    return RawBlocks(**columns, label=labels), edges

@@ -11,7 +11,7 @@ from parser.dialect.reader import STANDARD_MARKS, Marks
 from parser.text.encoding import narrow
 from parser.text.lines import LineIndex
 from parser.text.source import Field, Span
-from parser.threeb.grammar import BLOCK_FIELDS, GROUPS, HIDDEN_BLOCK, token_pattern
+from parser.threeb.grammar import BLOCK_FIELDS, GROUPS, HIDDEN_BLOCK, REMARK_SIGNS, token_pattern
 
 
 class TokenKind(StrEnum):
@@ -98,7 +98,7 @@ def _kind(match: re.Match[str], folded: str) -> TokenKind:
         return TokenKind.MARK
     if match[_GROUP["node_x"]]:
         return TokenKind.START_NODE
-    return TokenKind.REMARK if folded[match.start()] in "/(;" else TokenKind.HEADER
+    return TokenKind.REMARK if folded[match.start()] in REMARK_SIGNS else TokenKind.HEADER
 
 
 def _block(folded: str, match: re.Match[str]) -> Iterator[_Piece]:

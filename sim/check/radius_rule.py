@@ -11,7 +11,7 @@ from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
 from parser.geometry.boxes import distinct
 from parser.geometry.curves import Floats, Ints
-from parser.geometry.directions import directions, headings_at
+from parser.geometry.directions import Directions, directions, headings_at
 from parser.program import Program
 from parser.shape.loops import find_loops
 from parser.shape.passes import Passes
@@ -42,11 +42,12 @@ def radius_rule_findings(program: Program, contour: Ints, offset_um: float | Non
     if not len(numbers):
         return
     loops = find_loops(program.toolpath, contour, numbers)
+    ways = directions(program.toolpath)
     for first, last in zip(loops.first.tolist(), loops.last.tolist(), strict=True):
         rows = np.arange(first, last + 1)
         rows = rows[program.toolpath.length_um[rows] > 0.0]
         if (words.radius_um[rows] >= 0).all():
-            turn = _turns(program.toolpath, rows)
+            turn = _turns(program.toolpath, ways, rows)
             yield from _sharp(program, rows, turn, shift_um)
             yield from _mismarked(program, words, rows, turn)
 
@@ -64,9 +65,8 @@ def vanishing_findings(program: Program, contour: Ints, passes: Passes, offset_u
     ]
 
 
-def _turns(toolpath: Toolpath, rows: Ints) -> Floats:
+def _turns(toolpath: Toolpath, ways: Directions, rows: Ints) -> Floats:
     """(m,) signed angle from each of the rows of an outline into the next, the first behind the last."""
-    ways = directions(toolpath)
     arriving, leaving = ways.arriving[rows], np.roll(ways.leaving[rows], -1, axis=0)
     if len(rows) > 1 and toolpath.is_arc[rows[-1]]:  # it may run on past the place where the outline closes
         arriving[-1] = headings_at(toolpath, rows[-1:], toolpath.start_um[rows[:1]])[0]

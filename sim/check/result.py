@@ -1,7 +1,7 @@
 """What a check of one program says: its findings, and how far the check came."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 from parser.findings.codes import Severity
@@ -98,6 +98,10 @@ class CheckResult:
         Settings file that counts for it, as it is named to people; empty where there is none.
     silenced
         Findings that are not shown.
+    fault
+        Traceback of a fault of drycut itself, because of which nothing is said of the file; empty where there was none.
+    blocks
+        Texts of the blocks that findings are in, as written and without labels, by their number from 1.
     """
 
     name: str
@@ -112,6 +116,8 @@ class CheckResult:
     unreadable: bool = False
     settings_file: str = ""
     silenced: Silenced = Silenced()  # noqa: RUF009 - frozen
+    fault: str = ""
+    blocks: Mapping[int, str] = field(default_factory=dict)
 
     def count(self, severity: Severity) -> int:
         """How many findings are of a severity."""

@@ -1,15 +1,17 @@
 """The command line, a command a file; what crosses the border is an exit code. What a command needs is loaded late."""
 
 import importlib
-import os
 import signal
 import sys
+import traceback
+from types import FrameType
 
 import click
 
 from parser import __version__
 from parser.findings.errors import DrycutError
-from sim.cli.streams import prepare_streams
+from sim.show.terminal.printer import say, write
+from sim.show.terminal.streams import OutputError, prepare_streams
 
 _COMMANDS = {
     "ballbar": "sim.cli.ballbar",
@@ -47,38 +49,76 @@ class _LazyGroup(click.Group):
 def cli(ctx: click.Context) -> None:
     """Dry-run wire-cut EDM programs: what the controller and the table will really do, before a wire is threaded."""
     if ctx.invoked_subcommand is None:
-        click.echo(ctx.get_help(), err=True)
+        write(f"{ctx.get_help()}\n", err=True)
         ctx.exit(2)
 
 
 def main() -> None:
-    """Run the command line; exit 0 for good, 1 for a failed verdict, 2 for bad use or unreadable input."""
+    """Run the command line.
+
+    Exit code: 0 for good, 1 for a failed verdict, 2 for bad use, input that cannot be read or output that cannot be
+    written, 3 for a fault of drycut itself, 130 where the user ended it, 128 + n where signal n did.
+    """
     prepare_streams()
-    # A run that is told to end takes its unfinished files with it.
-    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
+    _end_on_signals()
+    code = _run()
     try:
-        code = cli.main(prog_name="drycut", standalone_mode=False)
         sys.stdout.flush()
-    except click.ClickException as error:
-        code = _complain(f"drycut: error: {error.format_message()}")
-    except click.Abort:
-        code = 130
-    except DrycutError as error:
-        code = _complain(f"drycut: error: {error}")
-    except BrokenPipeError:
-        code = _drop_stdout()
-    except OSError as error:
-        _drop_stdout()
-        code = _complain(f"drycut: error: {error.filename or 'output'}: {error.strerror or error}")
+    except OutputError as error:
+        code = max(code, _complain(str(error)))
+    sys.stderr.flush()
     sys.exit(code)
 
 
+def _end_on_signals() -> None:
+    """Let a run that is told to end, or whose terminal is closed, take its unfinished files with it.
+
+    Ctrl-C does so by itself. What was ignored stays so, as under nohup.
+    """
+    for number in _ends():
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, _end)
+
+
+def _end(number: int, frame: FrameType | None) -> None:
+    for other in _ends():  # a second one would cut the clearing up short
+        signal.signal(other, signal.SIG_IGN)
+    sys.exit(128 + number)
+
+
+def _ends() -> list[signal.Signals]:
+    """Signals that end a run; Windows has SIGBREAK in place of SIGHUP."""
+    return [number for number in signal.Signals if number.name in {"SIGTERM", "SIGHUP", "SIGBREAK"}]
+
+
+def _run() -> int:
+    try:
+        return int(cli.main(prog_name="drycut", standalone_mode=False) or 0)
+    except (click.Abort, KeyboardInterrupt):
+        return 130
+    except SystemExit as ended:  # by a signal
+        return int(ended.code or 0)
+    except (click.ClickException, DrycutError, OSError) as error:
+        return _complain(_message(error))
+    except Exception:
+        return _tell_fault(traceback.format_exc())
+
+
+def _message(error: click.ClickException | DrycutError | OSError) -> str:
+    if isinstance(error, click.ClickException):
+        return error.format_message()
+    if isinstance(error, OSError) and error.filename:
+        return f"{error.filename}: {error.strerror or error}"
+    return str(error)
+
+
 def _complain(message: str) -> int:
-    click.echo(message, err=True)
+    say(f"drycut: error: {message}", err=True)
     return 2
 
 
-def _drop_stdout() -> int:
-    """Send what is left of the output nowhere: its reader has gone, or it cannot be written."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return 1
+def _tell_fault(told: str) -> int:
+    from sim.cli.faults import tell_faults
+    from sim.cli.scenario_options import chosen
+
+    return tell_faults({"": told}, chosen(None))

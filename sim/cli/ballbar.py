@@ -55,9 +55,8 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     Moves the table round a circle in both directions and tells how round it went: circularity, the steps and spikes at
     the reversals of the axes, and what else the deviation consists of.
 
-    \b
-    Exit code: 0 good; 1 steps were lost, a drive tripped or --tolerance is
-    exceeded; 2 bad use.
+    Exit code: 0 good, 1 steps were lost, a drive tripped or --tolerance is exceeded, 2 bad use or unreadable input,
+    3 a fault of drycut itself.
 
     \b
     drycut ballbar --radius 50mm --feed 500mm/min -o ballbar.png
@@ -67,6 +66,7 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     from sim.run.ballbar.document import document_text
     from sim.setup.machine.machine import load_machine
     from sim.show.terminal.ballbar import print_ballbar
+    from sim.show.terminal.printer import say, write
 
     if output is not None and output.suffix.lower() not in ("", ".png") and not output.is_dir():
         raise click.BadParameter(f"{output} is neither a folder nor a .png", param_hint="-o")
@@ -80,17 +80,16 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
         done = run_test(test, progress)
     written = _write(done, tolerance, output) if output is not None else []
     if as_json:
-        click.echo(document_text(done, tolerance), nl=False)
+        write(document_text(done, tolerance), "json")
     else:
         print_ballbar(done, tolerance)
         if written:
-            click.echo(f"written: {', '.join(written)}")
+            say(f"written: {', '.join(written)}")
     raise click.exceptions.Exit(0 if done.passes(tolerance) else 1)
 
 
 def _write(done: "Ballbar", tolerance_um: float | None, output: Path) -> list[str]:
     """Files of a test, all of them or none; names of those written. A turn that does not go round has no picture."""
-    from parser.text.encoding import printable
     from sim.files import staged
     from sim.run.ballbar.document import document_text
 
@@ -104,4 +103,4 @@ def _write(done: "Ballbar", tolerance_um: float | None, output: Path) -> list[st
             draw_ballbar(done, done.measured).save(stage / picture, dpi=(200, 200))
         if not alone:
             (stage / "ballbar.json").write_text(document_text(done, tolerance_um), encoding="utf-8")
-    return [printable(str(folder / name)) for name in names]
+    return [str(folder / name) for name in names]

@@ -1,11 +1,12 @@
 """``drycut card``."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from parser.text.encoding import printable
+from sim.show.terminal.printer import say, write
 
 if TYPE_CHECKING:
     from controller.card.log.replay import Difference, Replay
@@ -28,7 +29,8 @@ def replay(log: Path, as_json: bool) -> None:
     Makes the same calls at the same simulated times, and compares time, answer and status of each, and the end.
 
     \b
-    Exit code: 0 all is equal, 1 something differs, 2 bad use or unreadable input.
+    Exit code: 0 all is equal, 1 something differs, 2 bad use or unreadable input,
+    3 a fault of drycut itself.
 
     \b
     drycut card replay part.log
@@ -42,25 +44,27 @@ def replay(log: Path, as_json: bool) -> None:
         count += 1
         if count <= SHOWN:
             shown.append(difference)
-    name = printable(str(log))
-    click.echo(_json(name, done, count, shown) if as_json else _text(name, done, count, shown))
+    if as_json:
+        write(_json(str(log), done, count, shown), "json")
+    else:
+        for line in _text(str(log), done, count, shown):
+            say(line)
     raise click.exceptions.Exit(1 if count else 0)
 
 
-def _text(name: str, done: "Replay", count: int, shown: "list[Difference]") -> str:
-    lines = [
-        f"{name}:{entry.line}: error: the card differs\n  expected: {entry.expected}\n     found: {entry.found}"
-        for entry in shown
-    ]
+def _text(name: str, done: "Replay", count: int, shown: "list[Difference]") -> Iterator[str]:
+    for entry in shown:
+        yield f"{name}:{entry.line}: error: the card differs"
+        yield f"  expected: {entry.expected}"
+        yield f"     found: {entry.found}"
     if count > len(shown):
-        lines.append(f"{name}: and {count - len(shown):,} more")
+        yield f"{name}: and {count - len(shown):,} more"
     verdict = f"{count:,} {'difference' if count == 1 else 'differences'}" if count else "equal"
     places = "; ".join(", ".join(f"{place:,}" for place in axes) for axes in done.card.places)
-    lines.append(
+    yield (
         f"{name}: {verdict}: {done.calls:,} calls, {done.card.time_s:.6g} s, {done.pulses:,} pulses, "
         f"axes at {places}, status {done.card.status:04x}"
     )
-    return "\n".join(lines)
 
 
 def _json(name: str, done: "Replay", count: int, shown: "list[Difference]") -> str:
@@ -77,4 +81,4 @@ def _json(name: str, done: "Replay", count: int, shown: "list[Difference]") -> s
         "differences": count,
         "first": [entry._asdict() for entry in shown],
     }
-    return json.dumps(result, ensure_ascii=False, indent=2)
+    return json.dumps(result, ensure_ascii=False, indent=2) + "\n"

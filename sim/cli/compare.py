@@ -34,7 +34,8 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     a drawing of its own, with layer, tolerance and gap.
 
     \b
-    Exit code: 0 within the tolerance, 1 outside, 2 bad use or unreadable input.
+    Exit code: 0 within the tolerance, 1 outside, 2 bad use or unreadable input,
+    3 a fault of drycut itself.
 
     \b
     drycut compare part.3b part.dxf --offset 0.1mm --tolerance 5um
@@ -55,6 +56,7 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     from sim.setup.scenario import load_scenario
     from sim.setup.toml.reader import number
     from sim.show.terminal.compare import print_comparison
+    from sim.show.terminal.printer import write
 
     number(mm(offset or 0.0), OFFSET_MM._replace(low=0.0), "--offset in mm")
     scenario = load_scenario(path)
@@ -72,7 +74,7 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     asked = Asked(drawing.tolerance_um, drawing.fit, drawing.sharp_corners)
     done = compare_program(program.toolpath, offset_um, shown, asked)
     if as_json:
-        click.echo(document_text(done), nl=False)
+        write(document_text(done), "json")
     else:
         print_comparison(done, program.name, source)
     raise click.exceptions.Exit(0 if done.passes else 1)

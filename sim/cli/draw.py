@@ -76,7 +76,8 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     acceleration, following error and force of each axis over time.
 
     \b
-    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input.
+    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input,
+    3 a fault of drycut itself.
 
     \b
     drycut draw part.3b -o part.png
@@ -85,11 +86,11 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut draw scenarios/keyhole -o worst.png --picture worst
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.program import read_program
-    from parser.text.encoding import printable
     from sim.cli.progress import StageProgress
     from sim.run.dryrun import verdict
     from sim.run.recording import recorded
     from sim.show.pictures.files import write_pictures
+    from sim.show.terminal.printer import say
 
     asked = _asked(output, names, svg)
     scenario = overridden(path, Overrides(**options))
@@ -99,7 +100,7 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
             passed = verdict(recording.run.findings) == "pass"
     except ProgramError as error:
         raise refused(scenario, error) from None
-    click.echo(f"written: {', '.join(printable(str(file)) for file in written)}")
+    say(f"written: {', '.join(map(str, written))}")
     raise click.exceptions.Exit(0 if passed else 1)
 
 

@@ -1,29 +1,55 @@
 """``drycut explain``."""
 
+import re
+
 import click
 
+from parser.findings.catalogue import Language
 from parser.findings.codes import CODES
 from sim.cli.scenario_options import chosen
 
 
 @click.command()
-@click.argument("code", required=False)
+@click.argument("name", metavar="[CODE|DOCUMENT]", required=False)
+@click.argument("sections", metavar="[SECTION]...", nargs=-1)
 @click.option("--lang", type=click.Choice(["en", "zh"]), help="Language; that of the locale where left out.")
-def explain(code: str | None, lang: str | None) -> None:
+def explain(name: str | None, sections: tuple[str, ...], lang: str | None) -> None:
     """Show the page of a finding: what it is, why it matters, an example, how to mend it.
 
-    Without a code, list all codes with their titles.
+    Pages cite documents, which it shows as well, whole or some of their numbered sections; documents are in English.
+    Without a code, list all codes with their titles, and all documents.
+
+    \b
+    Exit code: 0 good, 2 bad use, 3 a fault of drycut itself.
 
     \b
     drycut explain 3B204
+    drycut explain 3b 2
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.show.findings.pages import page_text, titles_text
+    from sim.show.terminal.colours import styled
+    from sim.show.terminal.markdown import shown
+    from sim.show.terminal.printer import say
+    from sim.show.terminal.streams import outlet
+    from sim.show.terminal.wrap import width_of
 
-    language = chosen(lang)
-    if code is None:
-        click.echo(titles_text(language), nl=False)
-        return
-    known = code.strip().upper()
-    if known not in CODES:
-        raise click.UsageError(f"no finding has the code {code!r}; drycut explain lists them all")
-    click.echo(page_text(known, language), nl=False)
+    for text, is_heading in shown(_markdown(name, sections, chosen(lang)), width_of(outlet())):
+        say(styled(text, "bold" if is_heading else ""))
+
+
+def _markdown(name: str | None, sections: tuple[str, ...], language: Language) -> str:
+    from sim.show.findings.pages import list_text, page_text
+    from sim.show.terminal.documents import cited, document, documents, section
+
+    if name is None:
+        return list_text(language)
+    code, of_documents = name.strip().upper(), {known.upper(): known for known in documents()}
+    if code in CODES and not sections:
+        return cited(page_text(code, language))
+    if code not in of_documents:
+        raise click.UsageError(f"no finding has the code {name!r}, and no document the name; drycut explain lists them")
+    text = document(of_documents[code])
+    numbers = re.findall(r"\d+", " ".join(sections))
+    try:
+        return cited("\n\n".join(section(text, number) for number in numbers) if sections else text)
+    except KeyError as error:
+        raise click.UsageError(f"document {name!r} has no section {error.args[0]}") from None

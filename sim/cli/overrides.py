@@ -4,11 +4,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-import click
-
 from parser.findings.errors import SettingsError
 from parser.units import mm
 from sim.setup.toml.reader import number
+from sim.show.terminal.printer import say
 
 if TYPE_CHECKING:
     from sim.setup.part import DrawingTarget, Offset, SharpCorners
@@ -150,5 +149,5 @@ def _stepping_by(scenario: "Scenario", interpolator: str | None) -> "Scenario":
     kept = not_of_steps(scenario.expect)
     left_out = ", ".join(e.path for e in scenario.expect if e not in kept)
     if left_out:
-        click.echo(f"drycut: [expect]: not held, since another interpolator steps: {left_out}", err=True)
+        say(f"drycut: [expect]: not held, since another interpolator steps: {left_out}", err=True)
     return replace(scenario, machine=scenario.machine.stepping_by(interpolator), expect=kept)  # type: ignore[arg-type]

@@ -7,18 +7,21 @@ from typing import Final, Self
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
 
+from sim.show.terminal.printer import coloured, moves_cursor, say
+from sim.show.terminal.streams import outlet
+from sim.show.terminal.wrap import width_of
 from sim.show.words.words import Words
 
 SAY: Final = Words("en")
 _QUIET_S = 1.0
 _BETWEEN_LINES_S = 5.0
+_LINES = 25  # rich asks the environment where one of the two is not told
 
 
 class StageProgress:
     """Progress of stages that ``progress.toml`` names; call it with stage, done and total."""
 
     def __init__(self) -> None:
-        self._console = Console(stderr=True)
         self._next_s = time.monotonic() + _QUIET_S
         self._bar: Progress | None = None
         self._tasks: dict[str, TaskID] = {}
@@ -35,11 +38,11 @@ class StageProgress:
         if self._bar is not None:
             self._show(self._bar, stage, done, total)
         elif time.monotonic() >= self._next_s and done < total:
-            if self._console.is_terminal:
-                self._bar = _bar(self._console)
+            if moves_cursor(outlet(err=True)):
+                self._bar = _bar()
                 self._show(self._bar, stage, done, total)
             else:
-                self._console.print(f"drycut: {SAY(f'progress.{stage}')}, {done / total:.0%}", highlight=False)
+                say(f"drycut: {SAY(f'progress.{stage}')}, {done / total:.0%}", err=True)
                 self._next_s = time.monotonic() + _BETWEEN_LINES_S
 
     def _show(self, bar: Progress, stage: str, done: int, total: int) -> None:
@@ -48,7 +51,10 @@ class StageProgress:
         bar.update(self._tasks[stage], completed=done, total=total)
 
 
-def _bar(console: Console) -> Progress:
+def _bar() -> Progress:
+    # It draws over itself with escape sequences, past the printer, and holds words of ours alone.
+    stream = outlet(err=True)
+    console = Console(file=stream, width=width_of(stream), height=_LINES, no_color=not coloured(stream))
     bar = Progress(
         TextColumn("{task.description}"),
         BarColumn(),

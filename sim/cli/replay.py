@@ -91,7 +91,8 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     shows the end. An .mp4 needs an encoder: pip install 'drycut[film]'.
 
     \b
-    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input.
+    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input,
+    3 a fault of drycut itself.
 
     \b
     drycut replay part.3b
@@ -100,11 +101,11 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut replay part.3b -o cut.webp --thickness 60mm --theme dark --lang zh
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.program import read_program
-    from parser.text.encoding import printable
     from sim.cli.progress import StageProgress
     from sim.run.dryrun import verdict
     from sim.run.recording import recorded
     from sim.show.film.screen import Look
+    from sim.show.terminal.printer import say
 
     look = Look(*size, theme, lang)
     _refuse(output, seconds, fps, look)
@@ -116,7 +117,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     except ProgramError as error:
         raise refused(scenario, error) from None
     if output is not None:
-        click.echo(f"written: {printable(str(output))}")
+        say(f"written: {output}")
     raise click.exceptions.Exit(0 if passed else 1)
 
 

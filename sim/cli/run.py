@@ -45,7 +45,8 @@ def run(
     geometry.
 
     \b
-    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input.
+    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input,
+    3 a fault of drycut itself.
 
     \b
     drycut run part.3b -o out/
@@ -56,9 +57,9 @@ def run(
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.program import read_program
-    from parser.text.encoding import printable
     from sim.run.dryrun import verdict
     from sim.run.report import build_report, report_text
+    from sim.show.terminal.printer import say, write
     from sim.show.terminal.run import print_summary
 
     scenario = overridden(path, Overrides(**options))
@@ -68,13 +69,13 @@ def run(
     except ProgramError as error:
         raise refused(scenario, error) from None
     if as_json:
-        click.echo(report_text(build_report(done)), nl=False)
+        write(report_text(build_report(done)), "json")
     else:
         print_summary(done, output)
         if output is not None:
             from sim.cli.run_into import FILES
 
-            click.echo(f"written: {printable(str(output))}/ {', '.join(FILES)}")
+            say(f"written: {output}/ {', '.join(FILES)}")
     raise click.exceptions.Exit(0 if verdict(done.findings) == "pass" else 1)
 
 

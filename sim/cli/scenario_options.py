@@ -9,8 +9,11 @@ import click
 
 from parser.findings.catalogue import LANGUAGES, Language
 from parser.findings.errors import ProgramError, SettingsError
-from parser.text.encoding import printable
-from parser.text.excerpt import place, with_caret
+from sim.show.terminal.colours import painted
+from sim.show.terminal.finding import finding_lines
+from sim.show.terminal.printer import say
+from sim.show.terminal.streams import outlet
+from sim.show.terminal.wrap import width_of
 
 if TYPE_CHECKING:
     from sim.setup.scenario import Scenario
@@ -103,12 +106,14 @@ def scenario_options(command: Command) -> Command:
 
 def refused(scenario: "Scenario", error: ProgramError) -> click.exceptions.Exit:
     """Tell what is wrong with a program that cannot be read or run; the end of the command, to be raised."""
-    click.echo(describe(printable(str(scenario.program)), error), err=True)
+    for line in describe(str(scenario.program), error):
+        say(line, err=True)
     return click.exceptions.Exit(2)
 
 
-def describe(name: str, error: ProgramError) -> str:
-    """``part.3b:7:12: error[3B206]: …`` with the line and a caret where the place is known."""
+def describe(name: str, error: ProgramError) -> list[str]:
+    """The finding that makes a program unreadable, in lines for stderr: its source line where the place is known."""
     finding = error.finding
-    text = f"{place(name, finding.line, finding.column)}: error[{finding.code}]: {error}"
-    return f"{text}\n{with_caret(error.excerpt, finding.column)}" if error.excerpt and finding.column else text
+    excerpt = error.excerpt if error.excerpt and finding.column else None
+    lines = finding_lines(name, finding, excerpt, "en", width_of(outlet(err=True)))
+    return [painted(line, finding.severity) for line in lines]

@@ -1,13 +1,12 @@
 """Findings on a run as a whole: what its scenario expects of the report, and the report does not say."""
 
 import json
-import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from parser.findings.catalogue import TO
 from parser.findings.findings import Finding
-from sim.setup.expectations import Expectation, Missed
+from sim.setup.expectations import Expectation, Missed, wanted
 
 _LONGEST_SHOWN = 80
 
@@ -24,7 +23,8 @@ def _wanted(expectation: Expectation) -> str:
     """A value as the report has it; a range as its ends, one of them left out where it is open."""
     if not expectation.is_range:
         return _shown(expectation.value)
-    return TO.join(f"{end:g}" if math.isfinite(end) else "" for end in expectation.value)
+    ends = wanted(expectation)
+    return TO.join(f"{ends[key]:g}" if key in ends else "" for key in ("min", "max"))
 
 
 def _shown(value: Any) -> str:
@@ -33,5 +33,5 @@ def _shown(value: Any) -> str:
         return ""
     if isinstance(value, list):
         value = [next(iter(one.values()), None) if isinstance(one, Mapping) else one for one in value]
-    text = f"{value:g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
+    text = f"{value:g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False, default=str)
     return text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}…"

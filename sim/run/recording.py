@@ -1,6 +1,5 @@
 """A recorded run: the run and every step of it, which pictures, report and replay are made of."""
 
-import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
@@ -14,7 +13,7 @@ from parser.program import Program
 from sim.cut.pieces.pieces import Frame, Pieces
 from sim.cut.regions import RegionError
 from sim.cut.remains import pieces_left
-from sim.files import StepFiles
+from sim.files import StepFiles, scratch
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.findings import expectation_findings
 from sim.run.report import build_report
@@ -58,9 +57,12 @@ def recording_of(run: DryRun, files: Mapping[str, Path], progress: Progress) -> 
 
 @contextmanager
 def recorded(program: Program, scenario: Scenario, progress: Progress = silent) -> Iterator[Recording]:
-    """Dry-run a program and keep its steps in files for as long as the context lasts; raises what `dry_run` does."""
-    with tempfile.TemporaryDirectory(prefix="drycut-") as folder:
-        with StepFiles(Path(folder)) as files:
+    """Dry-run a program and keep its steps in files for as long as the context lasts.
+
+    Raises what `dry_run` does, and FileUnreadableError where the steps cannot be written.
+    """
+    with scratch() as folder:
+        with StepFiles(folder) as files:
             run = check_expectations(dry_run(program, scenario, progress, files))
         yield recording_of(run, files.paths, progress)
 

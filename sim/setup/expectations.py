@@ -1,6 +1,7 @@
 """What a scenario expects of its report: paths into ``report.json`` with a value, or a lowest and highest one."""
 
 import math
+import re
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
@@ -10,6 +11,7 @@ from sim.setup.toml.keys import Section, WrittenSection
 EXPECT = Section("expect", ())
 """Its keys are paths into the report."""
 
+_PLACE = re.compile(r"[0-9]{1,9}")  # in a list; Python reads other digits too, and refuses thousands of them
 _OF_STEPS = {"stepped", "closure_stepped_um", "interpolator"}
 
 
@@ -54,7 +56,7 @@ def read_expectation(table: Mapping[str, Any], where: str) -> tuple[Expectation,
                 f"{where}: {path} is a value or {{min = …, max = …}}, and a path with dots stands in quotes, "
                 f'"{path}.…"; found {dict(value)!r}'
             )
-        found.append(Expectation(path, (float(low), float(high)), is_range=True))
+        found.append(Expectation(path, (_end(low), _end(high)), is_range=True))
     return tuple(found)
 
 
@@ -67,7 +69,9 @@ def wanted(expected: Expectation) -> Any:
     """What an expectation asks for, as its file says it."""
     if not expected.is_range:
         return expected.value
-    return {key: end for key, end in zip(("min", "max"), expected.value, strict=True) if math.isfinite(end)}
+    low, high = expected.value
+    least = {} if low == -math.inf else {"min": low}
+    return least if least and high == math.inf else {**least, "max": high}
 
 
 def not_of_steps(expected: tuple[Expectation, ...]) -> tuple[Expectation, ...]:
@@ -84,13 +88,17 @@ def _look_up(report: Any, path: str) -> Any:
     """Entry under a path; None where there is none. A list answers its own keys as a list of theirs."""
     here = report
     for key in path.split("."):
-        if isinstance(here, list) and key.isdigit():
+        if isinstance(here, list) and _PLACE.fullmatch(key):
             here = here[int(key)] if int(key) < len(here) else None
         elif isinstance(here, list):
-            here = [entry.get(key) for entry in here]
+            here = [_entry(one, key) for one in here]
         else:
-            here = here.get(key) if isinstance(here, Mapping) else None
+            here = _entry(here, key)
     return here
+
+
+def _entry(table: Any, key: str) -> Any:
+    return table.get(key) if isinstance(table, Mapping) else None
 
 
 def _meets(found: Any, expectation: Expectation) -> bool:
@@ -98,6 +106,14 @@ def _meets(found: Any, expectation: Expectation) -> bool:
         return isinstance(found, bool) == isinstance(expectation.value, bool) and bool(found == expectation.value)
     low, high = expectation.value
     return _is_number(found) and low <= found <= high
+
+
+def _end(value: float) -> float:
+    """End of a range; whole numbers may be larger than any of a report."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
 
 
 def _is_number(value: Any) -> bool:

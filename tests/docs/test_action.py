@@ -20,6 +20,10 @@ import json, os, sys
 with open(os.environ["CALLS"], "a") as calls:
     calls.write(json.dumps(sys.argv[1:]) + "\\n")
 print("::error::from a program")
+for file in (word.partition("sarif=")[2] for word in sys.argv):
+    if file and os.environ["STATUS"] != "2":
+        with open(file, "w") as sarif:
+            sarif.write("{{}}")
 sys.exit(int(os.environ["STATUS"]))
 """
 NONE = {
@@ -78,19 +82,22 @@ def test_inputs_are_never_code(action: Action) -> None:
     assert not (action.folder / "evil").exists()
 
 
-@pytest.mark.parametrize("status", [0, 1, 2])
-def test_the_step_ends_as_the_check_does(action: Action, status: int) -> None:
+@pytest.mark.parametrize("status", [0, 1])
+def test_the_step_ends_as_the_check_does_and_tells_where_the_sarif_file_is(action: Action, status: int) -> None:
     done = action.run(STATUS=str(status), INPUT_SARIF_FILE="out put.sarif")
-    assert done.returncode == status
-    assert [call[1] for call in action.called()] == ["--format=github", "--format=sarif"]
-    assert (action.folder / "out put.sarif").read_text("utf-8") == "::error::from a program\n"
+    assert (done.returncode, done.stdout) == (status, "::error::from a program\n")
+    assert [call[1:3] for call in action.called()] == [["--format=github", "--format=sarif=out put.sarif"]]
     first, path, last = action.output.read_text("utf-8").splitlines()
     assert path == "out put.sarif"
     assert first == f"sarif-file<<{last}"
 
 
-def test_a_sarif_file_that_cannot_be_written_fails_the_step(action: Action) -> None:
-    assert action.run(INPUT_SARIF_FILE="no folder/out.sarif").returncode != 0
+def test_a_sarif_file_that_the_run_did_not_write_is_not_handed_on(action: Action) -> None:
+    old = action.folder / "old.sarif"
+    old.write_text("{}", "ascii")
+    os.utime(old, (1e9, 1e9))
+    for name in ("old.sarif", "none.sarif"):
+        assert action.run(STATUS="2", INPUT_SARIF_FILE=name).returncode == 2
     assert not action.output.exists()
 
 

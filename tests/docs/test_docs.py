@@ -23,8 +23,9 @@ from parser.findings.catalogue import page as catalogue_page
 from parser.findings.codes import CODES, Check
 from parser.program import read_program
 from parser.text.encoding import encode_text
-from sim.check import settings as check_settings
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS
+from sim.check.settings import read as check_settings
+from sim.check.settings.search import SettingsSearch
 from sim.cli.check.command import check
 from sim.cli.run_into import trace_arrays
 from sim.cut.kerf.swept import rays as kerf_rays
@@ -310,10 +311,10 @@ def test_options_of_the_check_are_documented() -> None:
 
 
 def test_settings_of_the_check_are_documented_with_their_bounds() -> None:
-    page = read(DOCS / "check.md").partition("## Settings\n")[2].partition("## Checks\n")[0]
+    page = read(DOCS / "check.md").partition("## Settings\n")[2].partition("### Patterns\n")[0]
     written = re.findall(r"^\| `([^`]+)` \|", page, flags=re.MULTILINE)
-    plain = [key for key in check_settings._KEYS if key != "wire"]
-    assert written == [*plain, *(f"[wire] {key}" for key in check_settings._WIRE)]
+    *plain, wire, by_file = check_settings._KEYS
+    assert written == [*plain, *(f"[{wire}] {key}" for key in check_settings._WIRE), f"[{by_file}]"]
     for key, bound in check_settings._WIRE.items():
         ((_, _, bounds, *_),) = rows_of(DOCS / "check.md", f"`[wire] {key}`")
         assert tuple(float(text) for text in bounds.replace("−", "-").split(" to ")) == tuple(bound)
@@ -322,7 +323,9 @@ def test_settings_of_the_check_are_documented_with_their_bounds() -> None:
 def test_settings_shown_are_settings(tmp_path: Path) -> None:
     (shown,) = re.findall(r"```toml\n(.*?)```", read(DOCS / "check.md"), flags=re.DOTALL)
     (tmp_path / "drycut.toml").write_text(shown)
-    near = check_settings.settings_near(tmp_path)
+    found = SettingsSearch().near(tmp_path)
+    near = found.settings_of(tmp_path / "jigs" / "a.3b")
+    assert near.ignore_here == ("3B301",)
     assert near.machine is not None
     assert (near.start_mm, near.fail_on, near.ignore, near.marks.end) == ((120.0, 200.0), "warning", ("3B102",), ("E",))
     assert near.wire_diameter_um == 180.0

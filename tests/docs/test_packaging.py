@@ -15,6 +15,7 @@ from places import ROOT
 
 from parser.findings.codes import CODES
 from sim import __version__
+from sim.show.terminal.documents import documents
 
 
 def test_no_other_distribution_owns_our_names() -> None:
@@ -44,6 +45,7 @@ def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
     assert sum(path.startswith("parser/findings/pages/") for path in names) > len(CODES)
     assert any(path.startswith("sim/show/draw/fonts/") and path.endswith(".otf") for path in names)
     assert any(path.endswith("licenses/LICENSE") for path in names)
+    assert {path for path in names if path.startswith("sim/docs/")} == {f"sim/docs/{name}.md" for name in documents()}
 
 
 def test_source_package_holds_what_tests_and_documents_need(tmp_path: Path) -> None:

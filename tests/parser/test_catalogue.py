@@ -12,6 +12,7 @@ from parser.findings.catalogue import LANGUAGES, CataloguePage, Language, Texts,
 from parser.findings.codes import CODES
 from parser.findings.findings import Finding, Value
 from parser.findings.remarks import Remark, remark_text
+from parser.text.encoding import no_program
 
 PAGES = resources.files("parser.findings") / "pages"
 TEMPLATES = ("found", "expected", "machine", "hint")
@@ -19,7 +20,7 @@ LINE = 110
 NO_EXAMPLE = {"3B100", "3B303"} | {code for code, of in CODES.items() if of.check is None}
 
 VALUES: dict[str, dict[str, Value]] = {
-    "3B100": {"what": "unreadable-file", "detail": "Permission denied"},
+    "3B100": {"what": "unreadable-file", "detail": "Permission denied", "hint": "hint-program"},
     "3B101": {"text": "second {cut}"},
     "3B102": {},
     "3B103": {"blocks": 4, "mark": "DD"},
@@ -32,6 +33,8 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B110": {"blocks": 3, "path": "path-without-offset"},
     "3B111": {"header": 0.0, "reach": 100.0},
     "3B112": {"header": 70.0, "reach": 100.0},
+    "3B113": {"what": "directive-unknown-code", "text": "3B2O4"},
+    "3B114": {"silenced": "3B204"},
     "3B201": {"x": 0, "y": 0},
     "3B202": {"axis": "Y", "other": "X"},
     "3B203": {"written": "L1", "ruled": "L2", "way": "+Y", "others": ""},
@@ -186,7 +189,7 @@ def test_lengths_terms_and_asides() -> None:
     unknown = VALUES["3B106"] | {"field": "field-y", "found": "O"}
     assert texts(Finding("3B106", unknown)).found == "Y after the second B: `O`"
     assert texts(Finding("3B106", VALUES["3B106"]), "zh").found == "计数方向 G：空缺"
-    assert texts(Finding("3B100", {"what": "empty", "detail": ""})).found == "the file is empty"
+    assert texts(no_program("empty")).found == "the file is empty"
     assert texts(Finding("3B100", VALUES["3B100"])).found == "the file cannot be read (Permission denied)"
     assert texts(Finding("3B402", VALUES["3B402"])).found == (
         "the X motor slips at 12.500, 0.000 mm, 3:12:04.25 into the run, and loses 18.00 µm up to block 12"

@@ -246,6 +246,29 @@ def test_without_a_unit_mm_is_taken_and_said(tmp_path, code, said):
     assert any(said in note and "taken as mm" in note for note in notes(drawing))
 
 
+def test_a_unit_that_is_a_text_is_told_without_its_control_characters(tmp_path):
+    tags = [
+        "0",
+        "SECTION",
+        "2",
+        "HEADER",
+        "9",
+        "$ACADVER",
+        "1",
+        "AC9999",
+        "9",
+        "$INSUNITS",
+        "8",
+        "\x1b[2J",
+        "0",
+        "ENDSEC",
+    ]
+    tags += ["0", "SECTION", "2", "ENTITIES", "0", "CIRCLE", "8", "0", "10", "0.0", "20", "0.0", "40", "5.0"]
+    path = tmp_path / "part.dxf"
+    path.write_text("\n".join([*tags, "0", "ENDSEC", "0", "EOF", ""]), encoding="utf-8")
+    assert any("$INSUNITS \ufffd[2J" in note for note in notes(read_drawing(path)))
+
+
 def _dense(entity: DXFGraphic) -> list[Vec3]:
     match entity.dxftype():
         case "LINE":
@@ -372,7 +395,7 @@ def test_a_block_that_inserts_itself_or_is_missing_ends_in_a_note(tmp_path):
 
 
 def test_blocks_that_multiply_without_end_are_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(blocks, "_MOST", 1000)
+    monkeypatch.setattr(blocks, "MOST_ENTITIES", 1000)
     document = new()
     document.blocks.new("B0").add_line((0, 0), (1, 0))
     for level in range(1, 9):
@@ -603,9 +626,9 @@ def test_joints_are_those_of_a_plain_search(seed):
     [
         (b"", "is empty; expected a DXF drawing"),
         (b" \n", "is empty; expected a DXF drawing"),
-        (b"AC1032\0\0\0\0\0", "is a DWG file; expected DXF: save the drawing as DXF"),
-        (b"B1 B2 B3 GX L1\nDD\n", "is no DXF file; expected a drawing saved as DXF"),
-        (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "is no DXF file; expected a drawing saved as DXF"),
+        (b"AC1032\0\0\0\0\0", "is no DXF file (this is a DWG drawing); expected a drawing saved as DXF"),
+        (b"B1 B2 B3 GX L1\nDD\n", "is no DXF file (this is a 3B program); expected a drawing saved as DXF"),
+        (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "is no DXF file (this is a picture); expected a drawing saved as DXF"),
         (
             b"0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n",
             "holds no line, arc or curve; expected the contour of a part",

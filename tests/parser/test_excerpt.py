@@ -2,7 +2,7 @@
 
 import pytest
 
-from parser.text.excerpt import caret_lines, cells, place, with_caret
+from parser.text.excerpt import caret_lines, cells, place
 
 
 def test_place_names_what_is_known() -> None:
@@ -13,7 +13,6 @@ def test_place_names_what_is_known() -> None:
 
 def test_carets_stand_under_the_span() -> None:
     assert caret_lines("B1B2B3GXL1", 7, 2) == ("B1B2B3GXL1", "      ^^")
-    assert with_caret("B1B2B3GXL1", 7) == "    B1B2B3GXL1\n          ^"
 
 
 @pytest.mark.parametrize(

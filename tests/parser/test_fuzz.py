@@ -1,10 +1,14 @@
-"""Any input gets an answer: what `tests/tools/fuzz.py` tries on many, on a few; and programs bad on purpose."""
+"""Any input gets an answer: what `make fuzz` tries on many, on a few of each kind; and programs bad on purpose."""
 
 import time
+from pathlib import Path
 
 import pytest
-from fuzz import MOST_S, SEED, broken_promises, fuzz_input
-from fuzz_inputs import SEEDS
+from fuzzing.program_text import SEEDS
+from fuzzing.programs import judge
+from fuzzing.target import SEED
+from fuzzing.targets import TARGETS
+from fuzzing.worker import Task, tried
 from hostile import HOSTILE
 
 from parser.findings.codes import Severity
@@ -15,13 +19,27 @@ SLOWEST_S = 10.0
 """Each takes less than 0.5 s on one core; machines of build servers may be slow and busy."""
 
 
-@pytest.mark.parametrize("part", range(4))
-def test_any_input_gets_an_answer(part: int) -> None:
-    begin = time.perf_counter()
-    for number in range(part, 2000, 4):
-        data = fuzz_input(SEED, number)
-        assert broken_promises(data, number) == [], (number, data)
-    assert time.perf_counter() - begin < 500 * MOST_S
+INPUTS = {
+    **{
+        "program": 200,
+        "fix": 25,
+        "scenario": 200,
+        "machine": 200,
+        "settings": 60,
+        "baseline": 40,
+        "card": 200,
+        "dxf": 60,
+    },
+    **{"compare": 3, "command": 50, "run": 4},
+}
+"""How many of each kind are tried; `make fuzz` tries a million."""
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_any_input_gets_an_answer(name: str, tmp_path: Path) -> None:
+    task = Task(TARGETS[name], SEED, 0, INPUTS[name])
+    broken = {number: tried(task, number, tmp_path / "input")[0] for number in range(task.past)}
+    assert {number: promises for number, promises in broken.items() if promises} == {}
 
 
 @pytest.mark.parametrize("name", HOSTILE)
@@ -50,7 +68,7 @@ def test_a_hidden_finding_still_keeps_a_mend_from_being_certain() -> None:
 
 def test_a_4b_block_behind_a_damaged_block_keeps_its_radius() -> None:
     text = b"B10B0B10GXL1\nB10B0B10GXL3\nB9900B0B395\nB0B5000B10000B5000DGXNR4\nDD\n"
-    assert broken_promises(text) == []
+    assert judge(text, 0, Path()).broken == []
 
 
 @pytest.mark.parametrize(
@@ -68,11 +86,11 @@ def test_a_printed_end_accuses_one_block(bad: str, named: set[str]) -> None:
     findings = check_file(Job("a.3b", text.encode(), CheckSettings())).findings
     assert named <= {finding.code for finding in findings}
     assert {finding.line for finding in findings if finding.code in {"3B207", "3B217"}} == {2}
-    assert broken_promises(text.encode()) == []
+    assert judge(text.encode(), 0, Path()).broken == []
     if named == {"3B207"}:
         assert [finding.edits for finding in findings] == [()]
 
 
 def test_a_length_behind_the_end_code_is_no_fault_of_the_program() -> None:
     text = f"{SEEDS[0]}{SEEDS[0]}Start Point = 0.0 , 0.0 ; Length = 40.0\n{SEEDS[0]}".encode()
-    assert broken_promises(text) == []
+    assert judge(text, 0, Path()).broken == []

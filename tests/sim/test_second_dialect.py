@@ -24,7 +24,8 @@ from parser.program import load_program, parse_program
 from parser.units import mm
 from sim.check.batch import Job, check_file
 from sim.check.files import find_files
-from sim.check.settings import CheckSettings, settings_near
+from sim.check.settings import CheckSettings
+from sim.check.settings.search import SettingsSearch
 from sim.cli.run_into import FILES
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.report import build_report
@@ -70,9 +71,9 @@ def test_the_door_asks_readers_in_turn() -> None:
 def test_files_of_every_reader_are_found(tmp_path: Path) -> None:
     for name in ("a.3b", "b.TINY", "c.txt"):
         (tmp_path / name).touch()
-    assert [Path(file).name for file in find_files([str(tmp_path)])] == ["a.3b", "b.TINY"]
+    assert [Path(file).name for file in find_files([str(tmp_path)], lambda path: False)] == ["a.3b", "b.TINY"]
     with pytest.raises(FileUnreadableError, match=r"end in \.3b or \.4b or \.tiny"):
-        find_files([str(tmp_path / "*.dxf")])
+        find_files([str(tmp_path / "*.dxf")], lambda path: False)
 
 
 def test_a_block_says_where_it_stands() -> None:
@@ -131,7 +132,7 @@ def test_findings_speak_the_words_of_the_dialect() -> None:
 def test_no_word_of_any_reader_can_be_a_mark_that_says_otherwise(tmp_path: Path, line: str, why: str) -> None:
     (tmp_path / "drycut.toml").write_text(line, "utf-8")
     with pytest.raises(SettingsError, match=why):
-        settings_near(tmp_path)
+        SettingsSearch().near(tmp_path)
 
 
 # The run, against closed forms

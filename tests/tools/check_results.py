@@ -3,8 +3,10 @@
 import xml.etree.ElementTree as ET
 
 from parser.findings.findings import Edit, Finding
-from sim.check.result import CheckResult, CheckState, Coverage
+from parser.text.encoding import no_program
+from sim.check.result import CheckResult, CheckState, Coverage, Silenced
 
+SILENCED = Silenced(options=1, settings=2, remarks=3, baseline=4)
 COUNTED = "B0B9900B39600GXNR4"
 AXIS = Finding(
     "3B204",
@@ -59,12 +61,22 @@ def kind() -> list[CheckResult]:
     ]
 
 
+def quieted() -> list[CheckResult]:
+    """Results of which something silenced findings, or of which settings alone counted."""
+    return [
+        result("quiet.3b", settings_file="shop/drycut.toml", silenced=SILENCED),
+        result("told.3b", AXIS, settings_file="shop/drycut.toml"),
+        result("baseline.3b", silenced=Silenced(baseline=1)),
+    ]
+
+
 def hostile() -> list[CheckResult]:
     nothing = Coverage(0, 0, 0, 0, (CheckState("check-grammar", "incomplete", "reason-unreadable"),))
-    no_file = Finding("3B100", {"what": "unreadable-file", "detail": HOSTILE})
+    no_file = no_program("unreadable-file", HOSTILE)
     return [
         result(HOSTILE.replace("\0", ""), unknown(HOSTILE), unknown(HOSTILE), excerpts={3: "  " + HOSTILE}),
         result("<stdin>", unknown("x", line=9), unknown("", line=3)),
         result("::error::a,b:c%.3b", no_file, encoding="", dialect="", coverage=nothing, excerpts={}, unreadable=True),
         result("/srv/零件.3b", unknown("字" * 300), excerpts={3: "  " + "字" * 300}, length_um=float("inf")),
+        result("quiet.3b", settings_file=HOSTILE.replace("\0", ""), silenced=SILENCED),
     ]

@@ -13,6 +13,8 @@ from places import ROOT
 
 from sim.cli import main
 
+HANGUP = getattr(signal, "SIGHUP", signal.SIGTERM)
+"""What a closed terminal sends; Windows has no such signal."""
 _PLAIN = {"PYTHONPATH": str(ROOT), "PYTHONUTF8": "1", "COLUMNS": "100", "LC_ALL": "C.UTF-8", "NO_COLOR": "1"}
 
 
@@ -35,7 +37,7 @@ def run_inside(*arguments: object, cwd: Path | None = None, **environment: str) 
     """What `run_command` gives, a second sooner: no interpreter starts, and nothing is read from stdin."""
     out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8") for _ in range(2))
     command = ["drycut", *map(str, arguments)]
-    handler = signal.getsignal(signal.SIGTERM)
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGTERM, HANGUP)}
     with (
         mock.patch.object(sys, "argv", command),
         mock.patch.dict(os.environ, {**_PLAIN, **environment}),
@@ -44,7 +46,8 @@ def run_inside(*arguments: object, cwd: Path | None = None, **environment: str) 
         contextlib.redirect_stderr(err),
     ):
         code = _exit_code()
-    signal.signal(signal.SIGTERM, handler)
+    for number, handler in handlers.items():
+        signal.signal(number, handler)
     written = []
     for stream in (out, err):
         stream.flush()

@@ -12,7 +12,7 @@ from controller.card.ge import GECard
 from controller.card.log.lines import CardLogError, Damaged, End, call_of, check_format, end_of, settings_of
 from controller.card.log.writer import call_text, end_text
 from controller.stepping.pulses import Pulses
-from parser.findings.errors import FileUnreadableError
+from parser.files.reading import read_text
 
 OWN = ("set_input", "sleep", "step_block")
 """Calls in a log that are no functions of the library."""
@@ -123,9 +123,7 @@ def _fits(name: str, count: int) -> bool:
 def replay_file(path: Path) -> Replay:
     """Replay of a file. FileUnreadableError or CardLogError where it is none."""
     try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
+        text = read_text(path)
     except UnicodeDecodeError:
         raise CardLogError(f"{path}: is no log of a card: no text in UTF-8") from None
     return Replay(str(path), text.splitlines())

@@ -1,10 +1,10 @@
 """Certain mends written into a program file: nothing else in it changes."""
 
-import difflib
 from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
+from parser.files.reading import read_bytes
 from parser.findings.catalogue import Language
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
@@ -12,11 +12,14 @@ from parser.findings.findings import Finding, edited
 from parser.program import Program, load_program
 from parser.text.encoding import encode_text, printable
 from parser.text.excerpt import place
-from parser.text.lines import LINE_END
+from sim.check.batch import result_of
 from sim.check.engine import run_checks
 from sim.check.fixes import Choice, choices, with_edits
 from sim.check.settings import CheckSettings
+from sim.check.silence.sift import without_known
+from sim.cli.check.patches import for_people, for_tools
 from sim.files import replace_file
+from sim.show.terminal.wrap import wrapped
 from sim.show.words import Words
 
 
@@ -27,61 +30,84 @@ class Unmended(NamedTuple):
     choices: tuple[Choice, ...]
 
 
-class Fixing(NamedTuple):
-    """What `fix_file` did: a unified diff, empty where it changed nothing; and what it left for a person to decide."""
+class Mended(NamedTuple):
+    """A program with all that is certain mended, as text and as content; and what is left for a person to decide."""
 
-    diff: str
+    program: Program
+    before: bytes
+    text: str
+    after: bytes
     unmended: tuple[Unmended, ...]
 
+    @property
+    def changed(self) -> bool:
+        """Whether anything was mended."""
+        return self.text != self.program.text
 
-def fix_file(path: Path, name: str, settings: CheckSettings) -> Fixing:
-    """Mend in the file what is certain, keeping encoding, line ends and all else.
+    @property
+    def diff(self) -> str:
+        """What was mended, for people; empty where nothing was."""
+        return for_people(self.program.name, self.program.text, self.text)
 
-    A file that cannot be read stays as it is, and so does one in which a mend would bring a new error. Raises
-    FileUnreadableError where the file cannot be written; then it is as it was.
+    @property
+    def patch(self) -> bytes:
+        """What was mended, for ``patch`` and ``git apply``; empty where nothing was."""
+        return for_tools(self.program.name, self.before, self.after)
+
+
+def mended(path: Path, name: str, settings: CheckSettings, known: frozenset[str] = frozenset()) -> Mended:
+    """Mend what is certain, keeping encoding, line ends and all else; nothing where a mend would bring a new error.
+
+    What settings, remarks or the baseline, of which the fingerprints are `known`, silence is not mended. Raises
+    ProgramError or OSError for a file that cannot be read.
     """
-    try:
-        program = load_program(path.read_bytes(), name, settings.marks)
-    except (ProgramError, OSError):
-        return Fixing("", ())
-    findings = with_edits(program, run_checks(program, settings.demands))
-    shown = tuple(finding for finding in findings if settings.shows(finding.code))
-    left = tuple(Unmended(f, possible) for f in shown if len(possible := choices(program, f, findings)) > 1)
+    before = read_bytes(path)
+    program = load_program(before, name, settings.marks)
+    checked = run_checks(program, settings.demands)
+    findings = with_edits(program, checked)
+    shown = without_known(result_of(program, checked._replace(findings=findings), settings), known).findings
+    unmended = tuple(Unmended(f, possible) for f in shown if len(possible := choices(program, f, findings)) > 1)
     text = edited(program.text, [edit for finding in shown for edit in finding.edits])
-    mended = encode_text(text, program.encoding)
-    if text == program.text or _errors(load_program(mended, name, settings.marks), settings) - _errors(
+    after = encode_text(text, program.encoding)
+    if text == program.text or _errors(load_program(after, name, settings.marks), settings) - _errors(
         program, settings
     ):
-        return Fixing("", left)
-    replace_file(path, mended)
-    return Fixing(_diff(program, text), left)
+        return Mended(program, before, program.text, before, unmended)
+    return Mended(program, before, text, after, unmended)
 
 
-def told(fixing: Fixing, name: str, language: Language) -> str:
-    """What was done, for people."""
-    say = Words(language)
-    left = "".join(
-        say(
-            "findings.left",
-            place=place(printable(name), unmended.finding.line, unmended.finding.column),
-            code=unmended.finding.code,
-            choices=say("findings.or").join(
-                say("findings.choice", block=choice.block, text=choice.text) for choice in unmended.choices
-            ),
-        )
-        + "\n"
-        for unmended in fixing.unmended
+def fix_file(path: Path, name: str, settings: CheckSettings, known: frozenset[str] = frozenset()) -> Mended | None:
+    """Write into the file what `mended` makes of it. None for a file that cannot be read, which stays as it is.
+
+    Raises FileUnreadableError where the file cannot be written; then it is as it was.
+    """
+    try:
+        mend = mended(path, name, settings, known)
+    except (ProgramError, OSError):
+        return None
+    if mend.changed:
+        replace_file(path, mend.before, mend.after)
+    return mend
+
+
+def left(mend: Mended, language: Language, width: int) -> str:
+    """What was not mended, as there is more than one way to do it; for people, the mends in lines of `width` cells."""
+    return "".join(
+        f"{line}\n" for unmended in mend.unmended for line in _left(mend.program.name, unmended, language, width)
     )
-    return fixing.diff + left
+
+
+def _left(name: str, unmended: Unmended, language: Language, width: int) -> list[str]:
+    say, finding = Words(language), unmended.finding
+    where = place(printable(name), finding.line, finding.column)
+    choices = (say("findings.choice", block=choice.block, text=choice.text) for choice in unmended.choices)
+    return [
+        say("findings.left", place=where, code=finding.code),
+        *wrapped(say("findings.or").join(choices), width, head="    "),
+    ]
 
 
 def _errors(program: Program, settings: CheckSettings) -> Counter[tuple[str, int]]:
     """Errors by code and line; mends neither add lines before others nor take any away."""
     findings = run_checks(program, settings.demands).findings
     return Counter((finding.code, finding.line) for finding in findings if finding.severity is Severity.ERROR)
-
-
-def _diff(program: Program, text: str) -> str:
-    """Unified diff for people: line ends of any kind as newlines, other control characters as U+FFFD."""
-    before, after = ([printable(line) + "\n" for line in LINE_END.split(version)] for version in (program.text, text))
-    return "".join(difflib.unified_diff(before, after, f"{program.name}", f"{program.name} (mended)", n=1))

@@ -1,23 +1,33 @@
 """The jobs of a check: its files, each with the settings that count for it."""
 
-import sys
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+import click
+
+from parser.files.reading import read_stdin
 from parser.units import mm
 from sim.check.batch import Job
 from sim.check.files import find_files
-from sim.check.settings import CheckSettings, code_list, settings_near, severity
+from sim.check.settings.patterns import PathPattern, pattern_list
+from sim.check.settings.read import NO_SETTINGS, SettingsFile, code_list, severity
+from sim.check.settings.search import SettingsSearch
 from sim.setup.toml.reader import number
 from sim.setup.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
+
+if TYPE_CHECKING:
+    from sim.check.silence.baseline import Baseline
 
 STDIN = "-"
 
 
 class Asked(NamedTuple):
-    """Options of the command line that take the place of settings; None where one is left out. Lengths in µm."""
+    """Options of the command line that take the place of settings; None where one is left out. Lengths in µm.
+
+    `config` takes the place of the settings files that stand near the programs, and so does `no_config`. Where a
+    baseline is written, none is read.
+    """
 
     select: str | None
     ignore: str | None
@@ -25,6 +35,11 @@ class Asked(NamedTuple):
     machine: str | None
     wire_diameter: float | None
     gap: float | None
+    exclude: tuple[str, ...]
+    config: Path | None
+    no_config: bool
+    baseline: Path | None
+    write_baseline: Path | None
 
 
 def jobs_of(names: Sequence[str], asked: Asked) -> list[Job]:
@@ -32,8 +47,59 @@ def jobs_of(names: Sequence[str], asked: Asked) -> list[Job]:
 
     Raises FileUnreadableError for a name that leads to none, SettingsError for settings that cannot be.
     """
-    options = _settings(asked)
-    return [_job(name, options) for name in find_files(names)]
+    if asked.config and asked.no_config:
+        raise click.UsageError("--config and --no-config say two things; one of them is to go")
+    if asked.baseline and asked.write_baseline:
+        raise click.UsageError("--baseline and --write-baseline say two things; one of them is to go")
+    making = _Making(asked)
+    return [making.job(name) for name in find_files(names, making.is_excluded)]
+
+
+class _Making:
+    """Makes jobs; settings files and baselines are read once."""
+
+    def __init__(self, asked: Asked) -> None:
+        self._asked = asked
+        self._options = _settings(asked)
+        self._search = SettingsSearch()
+        self._only = self._search.named(asked.config) if asked.config else NO_SETTINGS if asked.no_config else None
+        self._exclude = pattern_list(list(asked.exclude), self._search.working, "--exclude") if asked.exclude else None
+        self._baselines: dict[Path, Baseline] = {}
+
+    def is_excluded(self, path: Path) -> bool:
+        """Whether a file or folder is left out where a folder is looked through."""
+        placed = self._search.placed(path)
+        return any(pattern.matches(placed) for pattern in self._patterns(placed))
+
+    def job(self, name: str) -> Job:
+        """The job of one file; ``-`` is the standard input, which counts as a file of the working folder."""
+        placed = self._search.placed(Path(name))
+        near = self._near(placed)
+        settings = near.settings_of(placed).with_options(self._options)
+        _ = settings.demands  # settings that contradict each other are told before the first file
+        baseline = self._baseline(near)
+        of_file = baseline.of(placed) if baseline else {}
+        known = frozenset(mark for mark, code in of_file.items() if settings.shows(code))
+        if name == STDIN:
+            return Job("<stdin>", read_stdin(), settings, known)
+        return Job(name, Path(name), settings, known)
+
+    def _near(self, placed: Path) -> SettingsFile:
+        return self._only or self._search.near(placed.parent)
+
+    def _patterns(self, placed: Path) -> tuple[PathPattern, ...]:
+        return self._near(placed).exclude if self._exclude is None else self._exclude
+
+    def _baseline(self, near: SettingsFile) -> "Baseline | None":
+        path = self._asked.baseline or near.baseline
+        if path is None or self._asked.write_baseline:
+            return None
+        from sim.check.silence.baseline import read_baseline
+
+        path = self._search.placed(path)
+        if path not in self._baselines:
+            self._baselines[path] = read_baseline(path)
+        return self._baselines[path]
 
 
 def _settings(asked: Asked) -> dict[str, Any]:
@@ -56,12 +122,3 @@ def _settings(asked: Asked) -> dict[str, Any]:
         number(mm(asked.gap), SPARK_GAP_MM, "--gap in mm")
         given["spark_gap_um"] = asked.gap
     return given
-
-
-def _job(name: str, options: dict[str, Any]) -> Job:
-    path = Path() if name == STDIN else Path(name).parent
-    settings: CheckSettings = replace(settings_near(path), **options)
-    _ = settings.demands  # settings that contradict each other are told before the first file
-    if name == STDIN:
-        return Job("<stdin>", sys.stdin.buffer.read(), settings)
-    return Job(name, Path(name), settings)

@@ -5,8 +5,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from parser.drawing.model import Drawing
+from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark
 from parser.geometry.curves import Curves
+from parser.text.encoding import printable
 from parser.toolpath import Point
 from sim.measure.compare.consensus import settled
 from sim.measure.compare.directed import directed
@@ -26,8 +28,15 @@ def compare(edge: Edge, drawing: Drawing, asked: Asked) -> Comparison:
     """The edge against the drawing, one curve or more each.
 
     The wire leaves fillets in sharp inside corners. Where these are told apart, the edge is held against the drawing
-    with the fillets; where they fail, against the drawing as it is.
+    with the fillets; where they fail, against the drawing as it is. Raises DrawingError where that is too much work.
     """
+    try:
+        return _compare(edge, drawing, asked)
+    except DrawingError as error:
+        raise DrawingError(f"{printable(drawing.name)}: {error}") from None
+
+
+def _compare(edge: Edge, drawing: Drawing, asked: Asked) -> Comparison:
     whole = as_drawn(drawing)
     index = indexed(whole.curves)
     as_it_is = fit(edge.curves, edge.loop, index, whole.loop) if asked.fitted else None

@@ -4,13 +4,17 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from parser.geometry.along import places
+from parser.geometry.boxes import chunks
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.distance import distance_to_curves
+from sim.measure.compare.effort import Effort
 
 _SAGITTA_UM = 2.0  # of the chords that stand for arcs in the tree: few of them, and few that come into question
 _MOST_CHORDS = 500_000  # beyond, arcs have longer ones
+_AT_ONCE = 256  # places: what these cost at worst goes beyond what may be spent
 
 
 class Index(NamedTuple):
@@ -26,12 +30,15 @@ class Index(NamedTuple):
         (m,) the curve of each chord.
     sagitta_um
         How far a curve lies from its chords at most.
+    effort
+        How much has been asked of them.
     """
 
     curves: Curves
     tree: shapely.STRtree
     row: Ints
     sagitta_um: float
+    effort: Effort
 
 
 class Nearest(NamedTuple):
@@ -53,16 +60,32 @@ def indexed(curves: Curves) -> Index:
     ends = [places(curves, row, (at + past) / chords[row]) for past in (0, 1)]
     chord = np.asarray(shapely.linestrings(np.stack(ends, axis=1)), dtype=np.object_)
     tree = shapely.STRtree(chord)
-    return Index(curves, tree, row, sagitta if bool(curves.is_arc.any()) else 0.0)
+    return Index(curves, tree, row, sagitta if bool(curves.is_arc.any()) else 0.0, Effort(0.5 * (ends[0] + ends[1])))
 
 
 def nearest(index: Index, place_um: Floats) -> Nearest:
-    """The nearest curves to places (m, 2), exactly: of all curves whose chords come near enough."""
-    points = shapely.points(place_um)
+    """The nearest curves to places (m, 2), exactly: of all curves whose chords come near enough.
+
+    Raises DrawingError where that takes more than `MOST_HELD` allows.
+    """
+    if not len(place_um):
+        return Nearest(np.empty(0, dtype=np.int64), np.empty(0))
+    parts = [_nearest(index, place_um[at : at + _AT_ONCE]) for at in range(0, len(place_um), _AT_ONCE)]
+    return Nearest(np.concatenate([part.row for part in parts]), np.concatenate([part.distance_um for part in parts]))
+
+
+def _nearest(index: Index, place_um: Floats) -> Nearest:
+    points = np.asarray(shapely.points(place_um), dtype=np.object_)
     (_, _), to_chord = index.tree.query_nearest(points, return_distance=True, all_matches=False)
     # The nearest curve has a chord no farther off than this; the last bits of the distances are granted.
     within = (to_chord + 2.0 * index.sagitta_um) * (1.0 + 1e-12) + 1e-9
-    place, chord = index.tree.query(points, predicate="dwithin", distance=within)
+    held = np.cumsum(index.effort.spend(place_um, within) + 1)
+    parts = [_nearest_of(index, points[low:past], place_um[low:past], within[low:past]) for low, past in chunks(held)]
+    return Nearest(np.concatenate([part.row for part in parts]), np.concatenate([part.distance_um for part in parts]))
+
+
+def _nearest_of(index: Index, points: NDArray[np.object_], place_um: Floats, within_um: Floats) -> Nearest:
+    place, chord = index.tree.query(points, predicate="dwithin", distance=within_um)
     row = index.row[chord]
     distance, _ = distance_to_curves(index.curves, row, place_um[place, 0], place_um[place, 1])
     order = np.lexsort((row, distance, place))

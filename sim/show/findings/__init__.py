@@ -7,23 +7,35 @@ goes: tens of thousands of files are never held at once. `render` here picks the
 import importlib
 from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
+from typing import NamedTuple
 
 from sim.check.result import CheckResult
 from sim.show.findings.options import Options
+from sim.show.terminal.printer import Form
 
-FORMATS: Mapping[str, str] = MappingProxyType(
+
+class Format(NamedTuple):
+    """Module of a format, which is imported when it is asked for; what the printer takes its text for."""
+
+    module: str
+    form: Form
+
+
+FORMATS: Mapping[str, Format] = MappingProxyType(
     {
-        "text": "sim.show.findings.text",
-        "json": "sim.show.findings.json",
-        "sarif": "sim.show.findings.sarif",
-        "junit": "sim.show.findings.junit",
-        "github": "sim.show.findings.github",
+        "text": Format("sim.show.findings.text", "text"),
+        "concise": Format("sim.show.findings.concise", "text"),
+        "json": Format("sim.show.findings.json", "json"),
+        "sarif": Format("sim.show.findings.sarif", "json"),
+        "junit": Format("sim.show.findings.junit", "xml"),
+        "github": Format("sim.show.findings.github", "github"),
+        "gitlab": Format("sim.show.findings.gitlab", "json"),
     }
 )
-"""Format -> module; only the one asked for is imported, which keeps the command quick to start."""
+"""Only the format asked for is imported, which keeps the command quick to start."""
 
 
 def render(name: str, results: Iterable[CheckResult], options: Options) -> Iterator[str]:
     """Text of the results in a format of `FORMATS`, in pieces."""
-    pieces: Iterator[str] = importlib.import_module(FORMATS[name]).render(results, options)
+    pieces: Iterator[str] = importlib.import_module(FORMATS[name].module).render(results, options)
     return pieces

@@ -10,18 +10,21 @@ from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import posix, spot
 from sim.show.findings.totals import Totals
-from sim.show.findings.wording import reasons, summary, with_hint
+from sim.show.findings.wording import reasons, settings, silenced, summary, with_hint
 from sim.show.words import Words
 
 _LEVELS: Mapping[Severity, str] = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "notice"}
 
 
 def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
-    """A command for each finding and each reason why checks did not come to their end, then a line that sums up."""
+    """A command for each finding and each reason why checks did not come to their end, then what sums up.
+
+    That findings are not shown is a command too, since the page of a commit shows commands alone.
+    """
     totals = Totals()
     for result in totals.over(results):
         yield "".join(f"{line}\n" for line in _file(result, options.language))
-    yield f"{summary(totals, options.language)}\n"
+    yield "".join(f"{line}\n" for line in _sums(totals, options.language))
 
 
 def _file(result: CheckResult, language: Language) -> Iterator[str]:
@@ -30,6 +33,14 @@ def _file(result: CheckResult, language: Language) -> Iterator[str]:
         yield _command(_LEVELS[finding.severity], properties, with_hint(finding, language))
     for reason in reasons(result.coverage.checks, language):
         yield _command("warning", {"file": _name(result), "title": Words(language)("findings.incomplete")}, reason)
+
+
+def _sums(totals: Totals, language: Language) -> Iterator[str]:
+    hidden, files, say = totals.silenced, totals.settings_files, Words(language)
+    if any(hidden):
+        properties = {"title": say("findings.hidden", n=sum(hidden))}
+        yield _command("notice", properties, silenced(hidden, files, language))
+    yield from filter(None, [printable(settings(hidden, files, language)), summary(totals, language)])
 
 
 def _properties(result: CheckResult, finding: Finding, language: Language) -> dict[str, str]:

@@ -18,7 +18,7 @@ from parser.text.excerpt import place
 from sim.check.result import CheckResult, CheckState
 from sim.show.findings.options import Options
 from sim.show.findings.totals import BLOCKS
-from sim.show.findings.wording import reason, with_hint
+from sim.show.findings.wording import reason, silenced, with_hint
 from sim.show.terminal.finding import message
 from sim.show.words import Words
 
@@ -89,6 +89,8 @@ def _add_properties(suite: ET.Element, result: CheckResult) -> None:
         "verdict": result.verdict,
         "encoding": result.encoding,
         "dialect": result.dialect,
+        "settings": result.settings_file,
+        **{f"silenced.{by}": n for by, n in result.silenced._asdict().items()},
         **{f"blocks.{name}": getattr(result.coverage, name) for name in BLOCKS},
         "steps": result.steps,
         "length_um": round(result.length_um, 6),
@@ -120,8 +122,9 @@ def _body(case: _Case, result: CheckResult, language: Language) -> str:
 
 
 def _passed_over(result: CheckResult, language: Language) -> str:
-    mild = (finding for finding in result.findings if not result.fails(finding.severity))
-    return "\n".join(_line(finding, result, language) for finding in mild)
+    mild = [_line(finding, result, language) for finding in result.findings if not result.fails(finding.severity)]
+    hidden = silenced(result.silenced, (result.settings_file,), language)
+    return "\n".join([*mild, *([hidden] if hidden else [])])
 
 
 def _line(finding: Finding, result: CheckResult, language: Language) -> str:

@@ -2,6 +2,7 @@
 
 from parser.findings.catalogue import Language, example, page
 from parser.findings.codes import CODES
+from sim.show.terminal.documents import documents, title
 from sim.show.words import Words
 
 
@@ -24,12 +25,12 @@ def page_title(code: str, language: Language) -> str:
     return Words(language)("findings.page-title", code=code, title=title, severity=severity)
 
 
-def titles_text(language: Language) -> str:
-    """Every code with its severity and title, one a line, by layer."""
-    return "\n".join(
-        "".join([f"{title}\n", *(f"  {_title_line(code, language)}\n" for code in codes)])
-        for title, codes in layers(language)
-    )
+def list_text(language: Language) -> str:
+    """Every code with its severity and title, by layer, and every document with its title, as Markdown."""
+    say = Words(language)
+    codes = [f"## {title}\n{_fenced(_title_lines(codes, language))}" for title, codes in layers(language)]
+    rows = "\n".join(f"{name:{max(map(len, documents()))}}  {title(name)}" for name in documents())
+    return "\n\n".join([*codes, f"## {say('findings.documents')}\n{_fenced(rows)}"]) + "\n"
 
 
 def layers(language: Language) -> tuple[tuple[str, tuple[str, ...]], ...]:
@@ -46,9 +47,9 @@ def severity_word(code: str, language: Language) -> str:
     return Words(language)(f"findings.{CODES[code].severity}")
 
 
-def _title_line(code: str, language: Language) -> str:
+def _title_lines(codes: tuple[str, ...], language: Language) -> str:
     width = max(len(severity_word(code, language)) for code in CODES)
-    return f"{code}  {severity_word(code, language):{width}}  {page(code, language).title}"
+    return "\n".join(f"{code}  {severity_word(code, language):{width}}  {page(code, language).title}" for code in codes)
 
 
 def _fenced(program: str) -> str:

@@ -4,11 +4,9 @@ The log names the tool with a rule for each code, made from its page, and a noti
 results: findings with their places, fingerprints and mends.
 """
 
-import hashlib
 import json
 import os
 import re
-from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import PurePath
 from typing import Any
@@ -18,16 +16,21 @@ from parser import __version__
 from parser.findings.catalogue import Language, page, term
 from parser.findings.codes import CODES, Check
 from parser.findings.findings import Edit, Finding
+from sim.check.fingerprint import fingerprints
 from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import clean, joined, spot, tidy
-from sim.show.findings.wording import reason, with_hint
+from sim.show.findings.wording import reason, silenced, with_hint
+from sim.show.words import Words
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
 _RULES = tuple(sorted(CODES))
 """Codes in the order of the rules: a result names its rule by the index too."""
 _RULE_INDEX = {code: index for index, code in enumerate(_RULES)}
+
+_HIDDEN = "findings-not-shown"
+"""Notification that findings are silenced; the others have the names of the checks."""
 
 # Names of the IANA registry, which §3.24.9 wants.
 _CHARSETS = {"utf-8": "UTF-8", "utf-8-sig": "UTF-8", "utf-16": "UTF-16", "gb18030": "GB18030", "latin-1": "ISO-8859-1"}
@@ -47,10 +50,11 @@ def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
 
 
 class _Run:
-    """What is gathered while the results go by: their files, and the checks that did not come to their end."""
+    """What is gathered while the results go by: their files, and notices of what they leave out."""
 
     def __init__(self, language: Language) -> None:
-        self.artifacts: list[dict[str, Any]] = []
+        self._targets: list[dict[str, Any]] = []
+        self._settings: dict[str, dict[str, Any]] = {}
         self._language = language
         self._notices: list[dict[str, Any]] = []
         self._successful = True
@@ -58,40 +62,57 @@ class _Run:
     def results(self, results: Iterable[CheckResult]) -> Iterator[dict[str, Any]]:
         """The SARIF results of all files."""
         for index, result in enumerate(results):
-            self.artifacts.append(_artifact(result))
-            self._notices += self._incomplete(result, index)
+            self._targets.append(_artifact(result))
+            if result.settings_file:
+                self._settings[result.settings_file] = _settings(result.settings_file)
+            self._notices += _notices(result, index, self._language)
             self._successful &= not result.unreadable
             yield from _results(result, index, self._language)
+
+    @property
+    def artifacts(self) -> list[dict[str, Any]]:
+        """The files, which results know by their index, and behind them the settings files."""
+        return [*self._targets, *self._settings.values()]
 
     def invocation(self) -> dict[str, Any]:
         """The run (§3.20): it succeeded where every file was a program that could be read."""
         return {"executionSuccessful": self._successful, "toolExecutionNotifications": self._notices}
 
-    def _incomplete(self, result: CheckResult, index: int) -> Iterator[dict[str, Any]]:
-        for check in result.coverage.checks:
-            if check.state == "incomplete":
-                yield {
-                    "descriptor": {"id": check.name},
-                    "level": "warning",
-                    "message": {"text": _said(reason(check, self._language))},
-                    "locations": [{"physicalLocation": {"artifactLocation": _location(result.name, index)}}],
-                }
+
+def _notices(result: CheckResult, index: int, language: Language) -> Iterator[dict[str, Any]]:
+    """Notifications (§3.58) of the checks that did not come to their end, and of findings that are not shown."""
+    where = [{"physicalLocation": {"artifactLocation": _location(result.name, index)}}]
+    texts = [
+        (check.name, "warning", reason(check, language))
+        for check in result.coverage.checks
+        if check.state == "incomplete"
+    ]
+    hidden = silenced(result.silenced, (result.settings_file,), language)
+    for name, level, text in [*texts, *([(_HIDDEN, "note", hidden)] if hidden else [])]:
+        yield {"descriptor": {"id": name}, "level": level, "message": {"text": _said(text)}, "locations": where}
 
 
 def _artifact(result: CheckResult) -> dict[str, Any]:
     charset = {"encoding": _CHARSETS[result.encoding]} if result.encoding in _CHARSETS else {}
-    return {"location": _location(result.name), "roles": ["analysisTarget"], **charset}
+    bag = {"settingsFile": result.settings_file, "silenced": result.silenced._asdict()}
+    told = {"properties": bag} if result.settings_file or any(result.silenced) else {}
+    return {"location": _location(result.name), "roles": ["analysisTarget"], **charset, **told}
+
+
+def _settings(name: str) -> dict[str, Any]:
+    return {"location": _location(name), "roles": ["userSpecifiedConfiguration"]}
 
 
 def _driver(language: Language) -> dict[str, Any]:
     """The tool component (§3.19)."""
+    notices = {name: term(name, language) for name in Check} | {_HIDDEN: Words(language)("findings.total-silenced")}
     return {
         "name": "drycut",
         "version": __version__,
         "semanticVersion": __version__,
         "language": language,
         "rules": [_rule(code, language) for code in _RULES],
-        "notifications": [{"id": name, "shortDescription": {"text": _said(term(name, language))}} for name in Check],
+        "notifications": [{"id": id_, "shortDescription": {"text": _said(text)}} for id_, text in notices.items()],
     }
 
 
@@ -125,9 +146,8 @@ def _identifier(title: str) -> str:
 
 def _results(result: CheckResult, index: int, language: Language) -> Iterator[dict[str, Any]]:
     """The results (§3.27) of one file, which is the artifact of this index."""
-    seen: Counter[str] = Counter()
     where = _location(result.name, index)
-    for finding in result.findings:
+    for finding, known in zip(result.findings, fingerprints(result), strict=True):
         message = _said(with_hint(finding, language))
         entry = {
             "ruleId": finding.code,
@@ -135,7 +155,7 @@ def _results(result: CheckResult, index: int, language: Language) -> Iterator[di
             "level": finding.severity.value,
             "message": {"text": message},
             "locations": [{"physicalLocation": {"artifactLocation": where, **_region(result, finding)}}],
-            "partialFingerprints": {"drycutLine/v1": _fingerprint(result, finding, seen)},
+            "partialFingerprints": {"drycutBlock/v1": known},
         }
         if finding.edits:
             entry["fixes"] = [{"artifactChanges": [{"artifactLocation": where, "replacements": _mend(finding)}]}]
@@ -182,14 +202,6 @@ def _mend(finding: Finding) -> list[dict[str, Any]]:
 def _replacement(edit: Edit) -> dict[str, Any]:
     deleted = {"charOffset": edit.first, "charLength": edit.past - edit.first}
     return {"deletedRegion": deleted, "insertedContent": {"text": edit.text}}
-
-
-def _fingerprint(result: CheckResult, finding: Finding, seen: Counter[str]) -> str:
-    """Digest of the code and the line's text, and which of several alike: it stays when lines are put in above."""
-    line = " ".join(result.excerpts.get(finding.line, "").split())
-    key = f"{finding.code}\n{line}"
-    seen[key] += 1
-    return hashlib.sha256(f"{key}\n{seen[key]}".encode(errors="replace")).hexdigest()[:32]
 
 
 def _lines(values: list[dict[str, Any]]) -> str:

@@ -1,22 +1,29 @@
 """Sums over the results that a format writes."""
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from typing import get_args
 
 from parser.findings.codes import CODES, Severity
-from sim.check.result import CheckResult, Verdict
+from sim.check.result import CheckResult, Silenced, Verdict
 
 BLOCKS = ("found", "read", "decoded", "stepped")
 
 
 class Totals:
-    """Sums over results: files by verdict, findings by code, blocks, steps and path."""
+    """Sums over results: files by verdict, findings by code, blocks, steps and path.
+
+    Beside them what is not shown: in how many files a check is in a state (``checks[state][name]``), the findings that
+    were silenced, and the settings files that counted, in their order.
+    """
 
     def __init__(self) -> None:
         self.files: Counter[str] = Counter()
         self.codes: Counter[str] = Counter()
         self.blocks: Counter[str] = Counter()
+        self.checks: defaultdict[str, Counter[str]] = defaultdict(Counter)
+        self.silenced = Silenced()
+        self._settings_files: dict[str, None] = {}
         self.fixable = 0
         self.steps = 0
         self.length_um = 0.0
@@ -39,6 +46,11 @@ class Totals:
         }
 
     @property
+    def settings_files(self) -> tuple[str, ...]:
+        """Settings files that counted for any file, in the order in which they came."""
+        return tuple(self._settings_files)
+
+    @property
     def verdict(self) -> Verdict:
         """``fail`` where any file fails, else ``incomplete`` where any is, else ``pass``."""
         if self.files["fail"]:
@@ -49,6 +61,11 @@ class Totals:
         self.files[result.verdict] += 1
         self.codes.update(finding.code for finding in result.findings)
         self.blocks.update({name: getattr(result.coverage, name) for name in BLOCKS})
+        for check in result.coverage.checks:
+            self.checks[check.state][check.name] += 1
+        self.silenced = Silenced(*map(sum, zip(self.silenced, result.silenced, strict=True)))
+        if result.settings_file:
+            self._settings_files[result.settings_file] = None
         self.fixable += sum(bool(finding.edits) for finding in result.findings)
         self.steps += result.steps
         self.length_um += result.length_um

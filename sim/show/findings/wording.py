@@ -1,16 +1,17 @@
 """Sentences of the formats in English and Chinese; names of checks and reasons are terms of the catalogue."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from parser.findings.catalogue import Language, term
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
-from sim.check.result import CheckResult, CheckState, State
+from sim.check.result import CheckResult, CheckState, Coverage, Silenced, State
 from sim.show.findings.totals import Totals
 from sim.show.terminal.finding import hint, message
 from sim.show.words import Words
 
 _STATES: tuple[State, ...] = ("complete", "incomplete", "not asked")
+_MOST_FILES = 3  # settings files that one line names
 
 
 def with_hint(finding: Finding, language: Language) -> str:
@@ -23,39 +24,85 @@ def reason(check: CheckState, language: Language) -> str:
     return _because(term(check.name, language), check.reason, language)
 
 
-def findings(counts: Mapping[Severity, int], language: Language) -> str:
-    """``2 errors, 1 warning``; empty where there is none."""
+def verdict(result: CheckResult, language: Language) -> str:
+    """``fail: 2 errors, 1 not shown``."""
+    say = Words(language)
+    found = _findings({severity: result.count(severity) for severity in Severity}, result.silenced, language)
+    return say("findings.colon").join(filter(None, (say(f"findings.{result.verdict}"), found)))
+
+
+def reach(result: CheckResult, language: Language) -> str:
+    """How far the check of a file came: ``3 blocks; checks: 9 complete, 3 not asked; settings: drycut.toml``."""
+    say, read = Words(language), result.coverage
+    parts = (
+        _blocks(read, language),
+        say("findings.checks", states=_states(read.checks, language)),
+        settings(result.silenced, (result.settings_file,), language),
+    )
+    return say("findings.stop").join(filter(None, parts))
+
+
+def summary(totals: Totals, language: Language) -> str:
+    """``3 files: 1 pass, 2 fail; 2 errors, 1 not shown``."""
+    say = Words(language)
+    return say(
+        "findings.one-file" if totals.files.total() == 1 else "findings.some-files",
+        n=totals.files.total(),
+        verdicts=verdicts(totals, language),
+        findings=_findings(totals.by_severity(), totals.silenced, language) or say("findings.no-findings"),
+    )
+
+
+def counted(totals: Totals, language: Language) -> list[str]:
+    """The settings files that counted, and what is not shown, each a line; none where there is nothing to say."""
+    hidden, files = totals.silenced, totals.settings_files
+    return [line for line in (settings(hidden, files, language), silenced(hidden, files, language)) if line]
+
+
+def silenced(counts: Silenced, settings_files: Sequence[str], language: Language) -> str:
+    """``not shown: 1 by settings (drycut.toml), 1 by remarks in the program``; empty where nothing is silenced."""
+    parts = silencers(counts, settings_files, language)
+    return Words(language)("findings.silenced", parts=parts) if parts else ""
+
+
+def silencers(counts: Silenced, settings_files: Sequence[str], language: Language) -> str:
+    """What silences how many findings; empty where nothing does."""
+    say = Words(language)
+    names = _listed(settings_files, language)
+    parts = [say(f"findings.by-{by}", n=n, files=names) for by, n in counts._asdict().items() if n]
+    return say("findings.comma").join(parts)
+
+
+def settings(counts: Silenced, settings_files: Sequence[str], language: Language) -> str:
+    """``settings: drycut.toml``; empty where there are none, or `silenced` names them."""
+    names = _listed(settings_files, language)
+    return Words(language)("findings.settings", files=names) if names and not counts.settings else ""
+
+
+def _listed(files: Sequence[str], language: Language) -> str:
+    """Names of settings files, the first of many."""
+    named = [name for name in files if name]
+    more = [Words(language)("findings.more", n=len(named) - _MOST_FILES)] if len(named) > _MOST_FILES else []
+    return Words(language)("findings.comma").join([*named[:_MOST_FILES], *more])
+
+
+def _findings(counts: Mapping[Severity, int], hidden: Silenced, language: Language) -> str:
+    """``2 errors, 1 warning, 1 not shown``; empty where there is none."""
     say = Words(language)
     parts = [
         say(f"findings.{'one' if count == 1 else 'some'}-{severity}", n=count)
         for severity, count in counts.items()
         if count
     ]
-    return say("findings.comma").join(parts)
+    return say("findings.comma").join([*parts, *([say("findings.hidden", n=sum(hidden))] if any(hidden) else [])])
 
 
-def coverage(result: CheckResult, language: Language) -> str:
-    """``fail: 2 errors, 1 warning; 6 of 7 blocks read, …; checks: 9 complete, …``."""
+def _blocks(read: Coverage, language: Language) -> str:
+    """How many blocks there are; and how far each came, where it is not all the way."""
     say = Words(language)
-    found = findings({severity: result.count(severity) for severity in Severity}, language)
-    verdict, read = say(f"findings.{result.verdict}"), result.coverage
-    parts = (
-        f"{verdict}{say('findings.colon')}{found}" if found else verdict,
-        say("findings.blocks", read=read.read, found=read.found, decoded=read.decoded, stepped=read.stepped),
-        say("findings.checks", states=_states(read.checks, language)),
-    )
-    return say("findings.stop").join(parts)
-
-
-def summary(totals: Totals, language: Language) -> str:
-    """``3 files: 1 pass, 2 fail; 2 errors``."""
-    say = Words(language)
-    return say(
-        "findings.files",
-        n=totals.files.total(),
-        verdicts=verdicts(totals, language),
-        findings=findings(totals.by_severity(), language) or say("findings.no-findings"),
-    )
+    if read.found == read.read == read.decoded == read.stepped:
+        return say("findings.one-block" if read.found == 1 else "findings.some-blocks", n=read.found)
+    return say("findings.blocks", read=read.read, found=read.found, decoded=read.decoded, stepped=read.stepped)
 
 
 def verdicts(totals: Totals, language: Language) -> str:
@@ -66,21 +113,14 @@ def verdicts(totals: Totals, language: Language) -> str:
 
 
 def _states(checks: tuple[CheckState, ...], language: Language) -> str:
-    by_state = {state: [check for check in checks if check.state == state] for state in _STATES}
-    parts = (_state(state, of, language) for state, of in by_state.items() if of or state == "complete")
+    counts = {state: sum(check.state == state for check in checks) for state in _STATES}
+    parts = (_state(state, n, language) for state, n in counts.items() if n or state == "complete")
     return Words(language)("findings.comma").join(parts)
 
 
-def _state(state: State, checks: list[CheckState], language: Language) -> str:
-    say, key = Words(language), state.replace(" ", "-")
-    text = say(f"findings.{key}-checks", n=len(checks))
-    if state == "complete":
-        return text
-    if state == "incomplete":
-        why = say("findings.stop").join(reasons(checks, language))
-    else:  # what was not asked for, its name says why
-        why = say("findings.comma").join(term(check.name, language) for check in checks)
-    return text + say("findings.why", reasons=why)
+def _state(state: State, n: int, language: Language) -> str:
+    key = state.replace(" ", "-")
+    return Words(language)(f"findings.{key}-checks", n=n)
 
 
 def reasons(checks: Iterable[CheckState], language: Language) -> list[str]:

@@ -2,14 +2,10 @@
 
 from typing import Final
 
-from rich.console import Console
-from rich.markup import escape
-from rich.table import Table
-from rich.text import Text
-
 from sim.run.ballbar.circle import Ballbar
 from sim.run.ballbar.turn import NAMES
 from sim.show.circular_test import Row, figure_rows, loss_text, part_rows, setup_rows, um
+from sim.show.terminal.layout import paragraph, show, table
 from sim.show.words.words import Words
 
 SAY: Final = Words("en")
@@ -17,22 +13,20 @@ SAY: Final = Words("en")
 
 def print_ballbar(ballbar: Ballbar, tolerance_um: float | None) -> None:
     """Print what was run, its figures and parts, what was lost, and the verdict to stdout."""
-    console = Console(highlight=False)
-    console.soft_wrap = not console.is_terminal
-    table = Table(title=SAY("ballbar.title-table"), title_justify="left", show_header=False, title_style="bold")
-    table.add_column(style="dim")
-    table.add_column()
+    shown = table(SAY("ballbar.title-table"))
     for group in _groups(ballbar):
         for row in group:
-            table.add_row(row.name, escape(row.value))
-        table.add_section()
-    console.print(table)
+            shown.add_row(row.name, row.value)
+        shown.add_section()
+    show(shown)
     for loss in ballbar.losses:
-        console.print(Text(SAY("ballbar.loss", loss=loss_text(*loss, SAY)), style="red"))
-    console.print(_no_turn(ballbar), end="")
+        paragraph(SAY("ballbar.loss", loss=loss_text(*loss, SAY)), "red")
+    no_turn = _no_turn(ballbar)
+    if no_turn:
+        paragraph(no_turn)
     passed = ballbar.passes(tolerance_um)
     verdict = SAY("ballbar.pass" if passed else "ballbar.fail") + _against(ballbar, tolerance_um)
-    console.print(Text(verdict, style="bold green" if passed else "bold red"))
+    paragraph(verdict, "bold green" if passed else "bold red")
 
 
 def _groups(ballbar: Ballbar) -> list[list[Row]]:
@@ -47,7 +41,7 @@ def _groups(ballbar: Ballbar) -> list[list[Row]]:
 def _no_turn(ballbar: Ballbar) -> str:
     """Why there are no figures, where there are none."""
     stopped = [SAY(f"ballbar.{NAMES[turn.sense]}") for turn in ballbar.turns if not turn.goes_round]
-    return SAY("ballbar.no-figures", directions=SAY("ballbar.and").join(stopped)) + "\n" if stopped else ""
+    return SAY("ballbar.no-figures", directions=SAY("ballbar.and").join(stopped)) if stopped else ""
 
 
 def _against(ballbar: Ballbar, tolerance_um: float | None) -> str:

@@ -1,16 +1,13 @@
 """A comparison on the terminal: its figures, the worst places, what is wrong as a whole, the verdict."""
 
 import numpy as np
-from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
-from rich.text import Text
 
 from parser.findings.remarks import remark_text
-from parser.text.encoding import printable
 from parser.units import mm
 from sim.measure.compare.result import Comparison, WorstPlace
 from sim.measure.compare.tables import by_block, by_entity, corner_places, worst_places
+from sim.show.terminal.layout import paragraph, show, table
 
 _MEASURED_FROM = {"edge": "cut edge", "drawing": "drawing", "lead": "lead"}
 _MOST_CORNERS = 10
@@ -20,26 +17,19 @@ _SIDES = {1: "left", -1: "gouged", 0: ""}
 
 def print_comparison(of: Comparison, program: str, offset: str) -> None:
     """Print a comparison to stdout; `offset` says how large it is and where it comes from."""
-    console = Console(highlight=False)
-    console.soft_wrap = not console.is_terminal
-    table = Table(title=escape(f"{program} against {of.drawing.name}"), title_justify="left", show_header=False)
-    table.title_style = "bold"
-    table.add_column(style="dim")
-    table.add_column()
-    for name, value in _rows(of, offset):
-        table.add_row(name, escape(value))
-    console.print(table)
-    console.print(_worst(of))
+    figures = table(f"{program} against {of.drawing.name}")
+    for row in _rows(of, offset):
+        figures.add_row(*row)
+    show(figures)
+    show(_worst(of))
     if of.unreachable:
-        console.print(_corners(of))
+        show(_corners(of))
     for note in of.notes:
-        console.print(Text(f"note: {printable(remark_text(note))}", style="cyan"))
+        paragraph(f"note: {remark_text(note)}", "cyan")
     for named in of.names:
-        console.print(
-            Text(f"{'warning' if of.passes else 'error'}: {remark_text(named)}", style="yellow" if of.passes else "red")
-        )
+        paragraph(f"{'warning' if of.passes else 'error'}: {remark_text(named)}", "yellow" if of.passes else "red")
     verdict = f"verdict: {'pass' if of.passes else 'fail'}, {_um(of.max_um)} of {_um(of.asked.tolerance_um)} allowed"
-    console.print(Text(verdict, style="bold green" if of.passes else "bold red"))
+    paragraph(verdict, "bold green" if of.passes else "bold red")
 
 
 def _um(length_um: float) -> str:
@@ -73,49 +63,43 @@ def _laid(of: Comparison) -> str:
 
 
 def _worst(of: Comparison) -> Table:
-    table = Table(title="Worst places", title_justify="left", title_style="bold")
-    for name, justify in (("deviation", "right"), ("side", "left"), ("at, mm", "left"), ("block", "right")):
-        table.add_column(name, justify=justify)  # type: ignore[arg-type]
-    table.add_column("entity")
-    table.add_column("measured from")
+    heads = ("deviation", "side", "at, mm", "block", "entity", "measured from")
+    shown = table("Worst places", heads, right=(0, 3))
     for place in worst_places(of):
-        table.add_row(
+        shown.add_row(
             _um(place.deviation_um),
             _SIDES[place.side] if place.deviation_um >= _SHOWN_UM else "",
             _xy(*place.where_um),
             f"{place.block:,}",
-            escape(_entity(of, place.entity)),
+            _entity(of, place.entity),
             _MEASURED_FROM[place.measured_from],
         )
-    return table
+    return shown
 
 
 def _corners(of: Comparison) -> Table:
     """Where the wire must leave something, the deepest first."""
     corners = sorted(corner_places(of), key=lambda corner: -corner.depth_um)
     counted = "counted" if of.asked.sharp_corners == "fail" else "not counted"
-    shown = f", the {_MOST_CORNERS} deepest" if len(corners) > _MOST_CORNERS else ""
-    title = f"Sharp inside corners out of the wire's reach: {len(corners):,}, {counted}{shown}"
-    table = Table(title=title, title_justify="left", title_style="bold")
-    for name, justify in (("left at least", "right"), ("angle", "right"), ("at, mm", "left"), ("block", "right")):
-        table.add_column(name, justify=justify)  # type: ignore[arg-type]
-    table.add_column("entity")
+    deepest = f", the {_MOST_CORNERS} deepest" if len(corners) > _MOST_CORNERS else ""
+    title = f"Sharp inside corners out of the wire's reach: {len(corners):,}, {counted}{deepest}"
+    shown = table(title, ("left at least", "angle", "at, mm", "block", "entity"), right=(0, 1, 3))
     for corner in corners[:_MOST_CORNERS]:
-        table.add_row(
+        shown.add_row(
             _um(corner.depth_um),
             f"{np.degrees(corner.angle_rad):.1f}°",
             _xy(*corner.where_um),
             f"{corner.block:,}",
-            escape(_entity(of, corner.entity)),
+            _entity(of, corner.entity),
         )
-    return table
+    return shown
 
 
 def _entity(of: Comparison, number: int) -> str:
     if number < 0:
         return ""
     entity = of.drawing.entities[number]
-    return printable(f"{entity.kind} {entity.handle}")
+    return f"{entity.kind} {entity.handle}"
 
 
 def _xy(x_um: float, y_um: float) -> str:

@@ -3,22 +3,18 @@
 import math
 from pathlib import Path
 
-from rich.console import Console
-from rich.markup import escape
-from rich.table import Table
-from rich.text import Text
-
-from parser.findings.findings import Finding
-from parser.text.encoding import printable
-from parser.text.excerpt import place, with_caret
 from parser.units import mm
 from sim.measure.deviation.deviation import Where
 from sim.run.dryrun import DryRun, verdict
 from sim.setup.key_words import value_word
 from sim.show.assumptions import taken_for_granted
-from sim.show.terminal.colours import COLOURS
+from sim.show.terminal.colours import COLOURS, painted, styled
 from sim.show.terminal.cut_rows import Row, drawing_rows, offset_rows, pass_rows, piece_rows
-from sim.show.terminal.finding import hint, message
+from sim.show.terminal.finding import finding_lines
+from sim.show.terminal.layout import paragraph, show, table
+from sim.show.terminal.printer import say
+from sim.show.terminal.streams import outlet
+from sim.show.terminal.wrap import width_of
 from sim.table.record.peaks import Peak
 from sim.units import clock, in_figures
 
@@ -38,41 +34,25 @@ _LEAST_UM = 0.005  # shown as 0.00
 
 def print_summary(run: DryRun, output: Path | None) -> None:
     """Print the figures of a run, its findings and its verdict to stdout."""
-    console = Console(highlight=False)
-    console.soft_wrap = not console.is_terminal  # a line a finding for those that read lines
-    table = Table(title=escape(run.scenario.title), title_justify="left", show_header=False, title_style="bold")
-    table.add_column(style="dim")
-    table.add_column()
-    for name, value in summary_rows(run):
-        table.add_row(name, escape(value))
-    console.print(table)
-    _print_findings(console, run, output)
-    granted = Text(" ".join(sentence.en for sentence in taken_for_granted(run)), style="dim")
-    console.print(granted, soft_wrap=False)
+    figures = table(run.scenario.title)
+    for row in summary_rows(run):
+        figures.add_row(*row)
+    show(figures)
+    _print_findings(run, output)
+    paragraph(" ".join(sentence.en for sentence in taken_for_granted(run)), "dim")
     reached = verdict(run.findings)
-    console.print(Text(f"verdict: {reached}", style=f"bold {COLOURS[reached]}"))
+    say(styled(f"verdict: {reached}", f"bold {COLOURS[reached]}"))
 
 
-def _print_findings(console: Console, run: DryRun, output: Path | None) -> None:
+def _print_findings(run: DryRun, output: Path | None) -> None:
+    name, width = str(run.scenario.program), width_of(outlet())
     for finding in run.findings[:_MOST_FINDINGS]:
-        console.print(_line(printable(str(run.scenario.program)), finding))
-        if finding.column:
-            width = finding.span[1] - finding.span[0]
-            excerpt = with_caret(run.program.excerpt(finding.line), finding.column, width)
-            console.print(Text(excerpt, style="dim"))
-        told = hint(finding, "en")
-        if told:
-            console.print(Text(f"    = {printable(told)}"))
+        excerpt = run.program.excerpt(finding.line) if finding.column else None
+        for line in finding_lines(name, finding, excerpt, "en", width):
+            say(painted(line, finding.severity))
     if len(run.findings) > _MOST_FINDINGS:
         there = "in report.json" if output else "in the report; -o DIR or --json shows them"
-        console.print(f"… and {len(run.findings) - _MOST_FINDINGS} findings more, {there}")
-
-
-def _line(name: str, finding: Finding) -> Text:
-    at = place(name, finding.line, finding.column)
-    text = Text(f"{at}: ")
-    text.append(f"{finding.severity}[{finding.code}]", style=COLOURS[finding.severity])
-    return text.append(f": {message(finding, 'en')}")
+        say(f"… and {len(run.findings) - _MOST_FINDINGS} findings more, {there}")
 
 
 def summary_rows(run: DryRun) -> list[Row]:

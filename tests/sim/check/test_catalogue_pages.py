@@ -8,7 +8,8 @@ from sim.check.batch import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.setup.machine.machine import load_machine
-from sim.show.findings.pages import page_text, severity_word, titles_text
+from sim.show.findings.pages import list_text, page_text, severity_word
+from sim.show.terminal.documents import documents
 from sim.show.words import Words
 
 OF_A_RUN = {code for code, of in CODES.items() if of.check is None}
@@ -57,11 +58,12 @@ def test_pages_call_severities_what_a_check_calls_them(language: Language) -> No
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_the_list_has_every_code_with_its_title_below_its_layer(language: Language) -> None:
-    layers = [part.splitlines()[1:] for part in titles_text(language).split("\n\n")]
+def test_the_list_has_every_code_with_its_title_below_its_layer_then_the_documents(language: Language) -> None:
+    *layers, named = [part.splitlines()[2:-1] for part in list_text(language).split("\n\n")]
     assert [{line.split()[0][2] for line in lines} for lines in layers] == [{layer} for layer in "123456"]
     listed = {line.split()[0]: line.split(maxsplit=2)[2] for lines in layers for line in lines}
     assert listed == {code: page(code, language).title for code in CODES}
+    assert [line.split()[0] for line in named] == list(documents())
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -133,7 +133,8 @@ def test_what_is_lost_fails_the_test_and_is_named(capsys: pytest.CaptureFixture[
     lost = replace(with_known_errors(), losses=((1, LOSS),))
     assert not lost.passes(None)
     print_ballbar(lost, None)
-    assert "ccw: the X stepper lost −12 µm at 1.250 s, −0.300, 0.040 mm from the start" in capsys.readouterr().out
+    told = " ".join(capsys.readouterr().out.split())
+    assert "ccw: the X stepper lost −12 µm at 1.250 s, −0.300, 0.040 mm from the start" in told
 
 
 def test_a_turn_that_does_not_go_round_has_no_figures(capsys: pytest.CaptureFixture[str]) -> None:

@@ -101,7 +101,7 @@ def test_a_failed_verdict_exits_1_and_names_line_and_code(tmp_path: Path) -> Non
     done = drycut("run", path)
     assert done.returncode == 1
     assert "part.3b:2:16: error[3B106]: " in done.stdout
-    assert "\n    B9900B0B39600GYNR5\n                   ^^^\n" in done.stdout
+    assert "\n  2 | B9900B0B39600GYNR5\n    |                ^^^\n" in done.stdout
     assert "verdict: fail" in done.stdout
 
 
@@ -112,15 +112,18 @@ def _huge(path: Path) -> None:
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda path: path.write_bytes(b""), "part.3b: error[3B100]: the file is empty"),
+        (lambda path: path.write_bytes(b""), "part.3b: error[3B100]: no 3B program\n    = found:    the file is empty"),
         (
             lambda path: path.write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0"),
-            "part.3b: error[3B100]: the file is no text",
+            "part.3b: error[3B100]: no 3B program\n    = found:    this is a picture",
         ),
-        (lambda path: path.write_text("hello", "utf-8"), "part.3b: error[3B100]: no block"),
+        (
+            lambda path: path.write_text("hello", "utf-8"),
+            "part.3b: error[3B100]: no 3B program\n    = found:    no block",
+        ),
         (lambda path: path.mkdir(), "is a folder without scenario.toml"),
         (lambda path: None, "cannot be read: No such file"),
-        (_huge, "part.3b:2:5: error[3B206]: a number of µm beyond any table"),
+        (_huge, "part.3b:2:5: error[3B206]: number beyond any table\n  2 | N2: B0B0B1000000000000000GXL1\n"),
     ],
     ids=["empty", "picture", "no block", "folder", "missing", "huge count"],
 )
@@ -130,7 +133,8 @@ def test_bad_programs_exit_2_with_one_clear_error(tmp_path: Path, make: object, 
     done = drycut("run", path, "-o", tmp_path / "out")
     assert done.returncode == 2
     assert done.stdout == ""
-    assert message in done.stderr.splitlines()[0]
+    assert message in done.stderr
+    assert done.stderr.startswith(("drycut: error: ", f"{path}:"))
     assert "Traceback" not in done.stderr
     assert not (tmp_path / "out").exists()
 
@@ -245,7 +249,7 @@ def test_run_prints_the_hints_that_check_prints(short: Path) -> None:
     short.write_text(short.read_text("utf-8").replace("GYL4", "GYL3"), "utf-8")
     told = [drycut(command, short).stdout.splitlines() for command in ("run", "check")]
     hints = [{line.strip() for line in lines if " = hint: " in line} for lines in told]
-    assert hints[0] == hints[1] == {"= hint: write L4"}
+    assert hints[0] == hints[1] == {"= hint:     write L4"}
 
 
 def test_run_without_output_needs_no_pictures(part: Path) -> None:

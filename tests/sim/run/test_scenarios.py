@@ -1,7 +1,9 @@
 """Every scenario of the project runs and is as it expects."""
 
+import math
 import re
 from collections.abc import Iterator
+from datetime import date
 from pathlib import Path
 
 import pytest
@@ -11,7 +13,7 @@ from runs import codes, run_folder
 from parser.findings.catalogue import texts
 from sim.run.findings import expectation_findings
 from sim.run.report import build_report
-from sim.setup.expectations import missed, read_expectation
+from sim.setup.expectations import missed, read_expectation, wanted
 from sim.setup.scenario import load_scenario
 
 FOLDERS = sorted(path for path in SCENARIOS.iterdir() if path.is_dir())
@@ -91,10 +93,23 @@ REPORT = {"a": {"b": 2.5, "c": True, "d": "x"}, "rows": [{"n": 1}, {"n": 2}], "n
         ({"rows.n": [1]}, False),
         ({"a.nowhere": 0}, False),
         ({"none": []}, True),
+        ({"rows.²": 1}, False),
+        ({"rows." + "9" * 5000: 1}, False),
+        ({"rows.n.x": 1}, False),
+        ({"a.b.x": 1}, False),
+        ({"a.b": {"max": 10**400}}, True),
+        ({"a.b": {"min": 10**400}}, False),
+        ({"a.b": date(2026, 1, 2)}, False),
     ],
 )
 def test_expectations_can_be_met_and_missed(expect: dict, met: bool) -> None:
     assert (missed(REPORT, read_expectation(expect, "test")) == ()) is met
+
+
+@pytest.mark.parametrize("ends", [{"min": 1.0}, {"min": 1.0, "max": 2.0}, {"max": math.inf}, {"max": -math.inf}])
+def test_a_range_is_written_as_it_is_read(ends: dict) -> None:
+    (read,) = read_expectation({"a.b": ends}, "test")
+    assert wanted(read) == ends
 
 
 @pytest.mark.parametrize(
@@ -105,6 +120,8 @@ def test_expectations_can_be_met_and_missed(expect: dict, met: bool) -> None:
         ({"a.b": {"min": 3, "max": 4.5}}, "2.5", "3 to 4.5"),
         ({"a.nowhere": "x"}, "nothing", '"x"'),
         ({"findings": []}, '["3B204", "3B301"]', "[]"),
+        ({"a.b": date(2026, 1, 2)}, "2.5", '"2026-01-02"'),
+        ({"a.d": {"max": math.inf}}, '"x"', "at most inf"),
     ],
 )
 def test_a_missed_expectation_says_what_was_found_and_wanted(expect: dict, found: str, wanted: str) -> None:
@@ -112,4 +129,4 @@ def test_a_missed_expectation_says_what_was_found_and_wanted(expect: dict, found
     (finding,) = expectation_findings(missed(REPORT | {"findings": tables}, read_expectation(expect, "test")))
     told = texts(finding)
     assert (told.found, told.expected) == (f"`{next(iter(expect))}` is {found}", wanted)
-    assert not re.search("[A-Za-z]{2}", texts(finding, "zh").expected.replace('"x"', ""))
+    assert not re.search("[A-Za-z]{2}", texts(finding, "zh").expected.replace('"x"', "").replace("inf", ""))

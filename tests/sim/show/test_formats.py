@@ -1,16 +1,18 @@
 """The formats of a check against their schemas, with kind texts and hostile ones."""
 
 import json
+import re
 import subprocess
 import sys
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
 import pytest
 import xmlschema
-from check_results import AXIS, CHECKS, COUNTED, HOSTILE, hostile, kind, parsed, result, unknown
+from check_results import AXIS, CHECKS, COUNTED, HOSTILE, hostile, kind, parsed, quieted, result, unknown
 from jsonschema import Draft202012Validator
 from places import ROOT
 
@@ -21,9 +23,14 @@ from sim.check.result import CheckResult, Coverage
 from sim.show.findings import FORMATS, render
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import spot
+from sim.show.terminal.printer import made
 
-SCHEMAS = {"json": ROOT / "docs" / "check.schema.json", "sarif": ROOT / "tests" / "schemas" / "sarif.schema.json"}
-EVERY = [("kind", kind), ("hostile", hostile), ("none", list)]
+SCHEMAS = {
+    "json": ROOT / "docs" / "check.schema.json",
+    "sarif": ROOT / "tests" / "schemas" / "sarif.schema.json",
+    "gitlab": ROOT / "tests" / "schemas" / "gitlab.schema.json",
+}
+EVERY = [("kind", kind), ("hostile", hostile), ("quieted", quieted), ("none", list)]
 
 
 def written(name: str, results: list[CheckResult], language: Language = "en", **options: Any) -> str:
@@ -53,7 +60,7 @@ def load(name: str, results: list[CheckResult], language: Language = "en") -> An
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("results", [make for _, make in EVERY], ids=[name for name, _ in EVERY])
 class TestEveryFormat:
-    def test_json_and_sarif_fit_their_schemas(self, results: Any, language: Language) -> None:
+    def test_json_sarif_and_gitlab_fit_their_schemas(self, results: Any, language: Language) -> None:
         for name in SCHEMAS:
             assert complaints(name, load(name, results(), language)) == []
 
@@ -64,18 +71,18 @@ class TestEveryFormat:
 
     def test_the_same_results_give_the_same_bytes(self, results: Any, language: Language) -> None:
         for name in FORMATS:
-            first = written(name, results(), language, stats=True)
-            assert written(name, results(), language, stats=True) == first
+            first = written(name, results(), language, statistics=True)
+            assert written(name, results(), language, statistics=True) == first
             assert first.encode("utf-8")
             assert not first or first.endswith("\n")
 
     def test_no_control_character_but_the_line_feed_gets_out(self, results: Any, language: Language) -> None:
         for name in FORMATS:
-            text = written(name, results(), language, stats=True)
+            text = written(name, results(), language, statistics=True)
             assert not [char for char in text if ord(char) < 0x20 and char != "\n"]
 
     def test_machine_formats_are_ascii(self, results: Any, language: Language) -> None:
-        for name in ("json", "sarif", "junit"):
+        for name in ("json", "sarif", "junit", "gitlab"):
             assert written(name, results(), language).isascii()
 
 
@@ -102,10 +109,17 @@ def test_results_are_written_as_they_come() -> None:
 def test_text_points_at_what_it_means() -> None:
     lines = written("text", kind()[1:2]).splitlines()
     at = next(index for index, line in enumerate(lines) if "error[3B204]" in line)
-    assert lines[at].startswith("dir/part 1.3b:2:15: error[3B204]: block 2: ")
+    assert lines[at] == f"dir/part 1.3b:2:15: error[3B204]: {texts(AXIS).title}"
     assert lines[at + 1] == f"  2 | {COUNTED}"
     assert lines[at + 2] == "  " + "  | " + " " * 14 + "^^"
-    assert lines[at + 3] == f"    = hint: {texts(AXIS).hint}"
+    assert lines[at + 3 : at + 9] == [
+        "    = found:    block 2: the block counts on X, and its steps end 140.70 µm from",
+        "                its exact end",
+        "    = expected: GY, whose steps end 0.40 µm from it",
+        "    = machine:  the table stops there, and all later blocks are shifted by as",
+        "                much",
+        "    = hint:     write GY, with J 39600",
+    ]
 
 
 def test_text_of_a_finding_without_a_place_names_the_file_alone() -> None:
@@ -121,15 +135,43 @@ def test_text_of_a_finding_of_a_whole_line_shows_the_line_without_a_caret() -> N
 
 
 def test_text_tells_how_far_the_check_came() -> None:
-    last = written("text", kind()[1:2]).splitlines()[-1]
-    assert last == (
-        "dir/part 1.3b: fail: 1 error, 1 warning, 1 note; 6 of 7 blocks read, 6 decoded, 5 stepped; checks: "
-        f"3 complete, 1 incomplete ({term('check-crossings')}: {term('reason-many')}), "
-        f"1 not asked ({term('check-travel')})"
-    )
+    assert written("text", kind()[1:2]).splitlines()[-3:] == [
+        "dir/part 1.3b: fail: 1 error, 1 warning, 1 note; 6 of 7 blocks read, 6 decoded,",
+        "    5 stepped; checks: 3 complete, 1 incomplete, 1 not asked",
+        f"    {term('check-crossings')}: {term('reason-many')}",
+    ]
     assert written("text", kind()[:1]) == (
         "good.3b: pass; 6 of 7 blocks read, 6 decoded, 5 stepped; checks: 3 complete\n"
     )
+    whole = Coverage(3, 3, 3, 3, CHECKS[:3])
+    assert written("text", [result("good.3b", coverage=whole)]) == "good.3b: pass; 3 blocks; checks: 3 complete\n"
+
+
+def test_text_names_the_settings_and_what_is_not_shown() -> None:
+    lines = written("text", quieted()).splitlines()
+    assert lines[:4] == [
+        "quiet.3b: pass: 10 not shown; 6 of 7 blocks read, 6 decoded, 5 stepped; checks:",
+        "    3 complete",
+        "    not shown: 1 by options, 2 by settings (shop/drycut.toml), 3 by remarks in",
+        "        the program, 4 in the baseline",
+    ]
+    assert (
+        lines[-5:]
+        == [
+            "told.3b: fail: 1 error; 6 of 7 blocks read, 6 decoded, 5 stepped; checks:",
+            "    3 complete; settings: shop/drycut.toml",
+            "baseline.3b: pass: 1 not shown; 6 of 7 blocks read, 6 decoded, 5 stepped;",
+            "    checks: 3 complete",
+            "    not shown: 1 in the baseline",
+            "3 files: 2 pass, 1 fail; 1 error, 11 not shown",
+        ][-5:]
+    )
+
+
+def test_quiet_text_says_what_is_not_shown_in_all_files_together() -> None:
+    assert written("text", quieted()[2:] * 3, quiet=True) == "not shown: 3 in the baseline\n"
+    named = [replace(quieted()[0], settings_file=f"{at}.toml") for at in range(5)]
+    assert "10 by settings (0.toml, 1.toml, 2.toml, and 2 more)" in " ".join(written("text", named, quiet=True).split())
 
 
 def test_text_sums_up_several_files() -> None:
@@ -146,8 +188,9 @@ def test_quiet_text_is_silent_on_good_files() -> None:
 
 
 def test_text_in_chinese() -> None:
-    text = written("text", kind(), "zh", stats=True)
-    assert "错误[3B204]: 第 2 段：" in text
+    text = written("text", kind(), "zh", statistics=True)
+    assert f"错误[3B204]: {texts(AXIS, 'zh').title}\n" in text
+    assert "= 发现：第 2 段：本段按 X 计数" in text
     assert f"= 提示：{texts(AXIS, 'zh').hint}" in text
     assert "good.3b: 通过；共 7 段，读入 6 段，解码 6 段，走步 5 段；检查：3 项查完\n" in text
     for word in ("error", "warning", "blocks", "pass", "complete"):
@@ -156,16 +199,16 @@ def test_text_in_chinese() -> None:
 
 def test_colours_come_only_when_asked_for() -> None:
     plain = written("text", kind())
-    coloured = written("text", kind(), colour=True)
+    coloured = made(written("text", kind(), colour=True), "text", colour=True)
     assert "\x1b" not in plain
-    assert "\x1b[31m\x1b[1merror[3B204]\x1b[0m" in coloured
+    assert "\x1b[1;31merror[3B204]\x1b[0m" in coloured
     import click
 
     assert click.unstyle(coloured) == plain
 
 
-def test_stats_count_by_code() -> None:
-    table = written("text", kind()[1:2] * 2, stats=True).splitlines()[-8:]
+def test_statistics_count_by_code() -> None:
+    table = written("text", kind()[1:2] * 2, statistics=True).splitlines()[-10:]
     assert table[0].split()[:3] == ["code", "severity", "count"]
     assert [row.split()[:3] for row in table[1:4]] == [
         ["3B102", "note", "2"],
@@ -173,10 +216,18 @@ def test_stats_count_by_code() -> None:
         ["3B205", "warning", "2"],
     ]
     assert texts(AXIS).title in table[2]
-    assert [row.split("  ")[0] for row in table[4:]] == ["files", "blocks", "steps", "path length"]
+    heads = ["files", "incomplete", "not asked", "blocks", "steps", "path length"]
+    assert [row.split("  ")[0] for row in table[4:]] == heads
     assert table[4].endswith("2 (2 fail)")
-    assert table[6].endswith("79,200")
-    assert table[7].endswith("124.408 mm")
+    assert table[5].endswith(f"{term('check-crossings')} 2")
+    assert table[6].endswith(f"{term('check-travel')} 2")
+    assert table[8].endswith("79,200")
+    assert table[9].endswith("124.408 mm")
+
+
+def test_statistics_count_what_is_not_shown() -> None:
+    table = written("text", quieted(), statistics=True)
+    assert "not shown    1 by options, 2 by settings (shop/drycut.toml), 3 by remarks in the\n" in table
 
 
 def test_no_line_of_text_is_a_command_to_a_build_server() -> None:
@@ -265,7 +316,7 @@ def test_sarif_tells_of_checks_that_did_not_end() -> None:
 
 def prints(*findings: Finding, **changes: Any) -> list[str]:
     run = load("sarif", [result("a.3b", *findings, **changes)])["runs"][0]
-    return [entry["partialFingerprints"]["drycutLine/v1"] for entry in run["results"]]
+    return [entry["partialFingerprints"]["drycutBlock/v1"] for entry in run["results"]]
 
 
 def test_fingerprints_stay_when_lines_are_put_in_above() -> None:
@@ -339,14 +390,125 @@ def test_github_commands() -> None:
 
 def test_nothing_escapes_from_a_github_command() -> None:
     *commands, summary = written("github", hostile()).split("\n")[:-1]
-    assert len(commands) == 7
+    assert len(commands) == 8
     for line in commands:
         _, kind_and_properties, text = line.split("::", 2)
         assert kind_and_properties.split(" ")[0] in {"error", "warning", "notice"}
         assert all("=" in part for part in kind_and_properties.split(" ", 1)[1].split(","))
         assert "%0D" not in text
-    assert summary.startswith("4 files: ")
+    assert summary.startswith("5 files: ")
     assert "file=%3A%3Aerror%3A%3Aa%2Cb%3Ac%25.3b" in "".join(commands)
+
+
+def test_github_says_what_is_not_shown_in_a_command_and_names_the_settings() -> None:
+    *_, notice, summary = written("github", quieted()).splitlines()
+    assert notice.startswith("::notice title=11 not shown::not shown: 1 by options, 2 by settings (shop/drycut.toml), ")
+    assert summary == "3 files: 2 pass, 1 fail; 1 error, 11 not shown"
+    assert "settings: shop/drycut.toml\n1 file: 1 fail; 1 error\n" in written("github", quieted()[1:2])
+
+
+# GitLab
+
+
+def test_gitlab_places_and_severities() -> None:
+    issues = load("gitlab", kind())
+    assert [(issue["check_name"], issue["severity"]) for issue in issues] == [
+        ("3B205", "minor"),
+        ("3B204", "major"),
+        ("3B102", "info"),
+        ("check-crossings", "minor"),
+        ("check-crossings", "minor"),
+    ]
+    assert issues[1]["location"] == {"path": "dir/part 1.3b", "lines": {"begin": 2}}
+    assert issues[2]["location"]["lines"] == {"begin": 1}
+    assert issues[1]["description"] == f"block 2: {texts(AXIS).message}"
+
+
+def test_gitlab_fingerprints_are_unique_and_stay_when_lines_are_put_in_above() -> None:
+    moved = AXIS._replace(line=9, block=5, span=(80, 82))
+    several = [result(name, AXIS, moved, excerpts={2: COUNTED, 9: COUNTED}) for name in ("a.3b", "b.3b")]
+    known = [issue["fingerprint"] for issue in load("gitlab", several)]
+    assert len(set(known)) == 4
+    (alone,) = load("gitlab", [result("a.3b", moved, excerpts={9: COUNTED})])
+    assert alone["fingerprint"] == known[0]
+    every = [issue["fingerprint"] for results in (kind(), hostile()) for issue in load("gitlab", results)]
+    assert len(set(every)) == len(every)
+
+
+def test_gitlab_paths_begin_at_the_folder_of_the_job(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    names = [str(tmp_path / "cut" / "a.3b"), "./cut/b.3b", "cut/c.3b"]
+    paths = [issue["location"]["path"] for issue in load("gitlab", [result(name, AXIS) for name in names])]
+    assert paths == ["cut/a.3b", "cut/b.3b", "cut/c.3b"]
+
+
+# Concise
+
+
+def test_concise_is_a_line_a_finding() -> None:
+    assert written("concise", kind()).splitlines() == [
+        "dir/part 1.3b:1: warning[3B205]: block 1: " + texts(kind()[1].findings[0]).found,
+        "dir/part 1.3b:2:15: error[3B204]: [*] block 2: " + texts(AXIS).found,
+        "dir/part 1.3b: note[3B102]: " + texts(Finding("3B102")).found,
+        f"dir/part 1.3b: incomplete: {term('check-crossings')}: {term('reason-many')}",
+        f"halt.3b: incomplete: {term('check-crossings')}: {term('reason-many')}",
+        "3 files: 1 pass, 1 fail, 1 incomplete; 1 error, 1 warning, 1 note",
+        "[*] 1 can be mended with --fix",
+    ]
+
+
+def test_concise_and_text_are_found_by_one_pattern() -> None:
+    pattern = re.compile(r"^(.+?):(?:(\d+):)?(?:(\d+):)? (error|warning|note)\[(3B\d{3})\]: (.+)$", re.MULTILINE)
+    found = [pattern.findall(written(name, kind())) for name in ("text", "concise")]
+    assert [[match[:5] for match in matches] for matches in found] == [
+        [
+            ("dir/part 1.3b", "1", "", "warning", "3B205"),
+            ("dir/part 1.3b", "2", "15", "error", "3B204"),
+            ("dir/part 1.3b", "", "", "note", "3B102"),
+        ]
+    ] * 2
+
+
+def test_concise_names_the_settings_and_what_is_not_shown() -> None:
+    assert written("concise", quieted()).splitlines()[-1] == (
+        "not shown: 1 by options, 2 by settings (shop/drycut.toml), 3 by remarks in the program, 5 in the baseline"
+    )
+    assert written("concise", quieted()[1:2]).splitlines()[-1] == "settings: shop/drycut.toml"
+
+
+# What is not shown, in formats for programs
+
+
+def test_json_names_the_settings_and_what_is_not_shown() -> None:
+    value = load("json", quieted())
+    assert [file["settings_file"] for file in value["files"]] == ["shop/drycut.toml", "shop/drycut.toml", None]
+    assert value["files"][0]["silenced"] == {"options": 1, "settings": 2, "remarks": 3, "baseline": 4}
+    assert value["totals"]["silenced"] == {"options": 1, "settings": 2, "remarks": 3, "baseline": 5}
+
+
+def test_sarif_names_the_settings_and_what_is_not_shown() -> None:
+    run = load("sarif", quieted())["runs"][0]
+    assert run["artifacts"][0]["properties"] == {
+        "settingsFile": "shop/drycut.toml",
+        "silenced": {"options": 1, "settings": 2, "remarks": 3, "baseline": 4},
+    }
+    assert [artifact["roles"] for artifact in run["artifacts"]][2:] == [
+        ["analysisTarget"],
+        ["userSpecifiedConfiguration"],
+    ]
+    assert run["artifacts"][3]["location"]["uri"] == "shop/drycut.toml"
+    notices = run["invocations"][0]["toolExecutionNotifications"]
+    assert [notice["descriptor"]["id"] for notice in notices] == ["findings-not-shown"] * 2
+    assert notices[0]["message"]["text"].startswith("not shown: 1 by options, 2 by settings (shop/drycut.toml)")
+    assert "properties" not in load("sarif", kind())["runs"][0]["artifacts"][0]
+
+
+def test_junit_names_the_settings_and_what_is_not_shown() -> None:
+    suite = parsed(written("junit", quieted()))[0]
+    properties = {entry.get("name"): entry.get("value") for entry in suite.iter("property")}
+    assert properties["settings"] == "shop/drycut.toml"
+    assert [properties[f"silenced.{by}"] for by in ("options", "settings", "remarks", "baseline")] == list("1234")
+    assert suite.findtext("system-out", "").startswith("not shown: 1 by options")
 
 
 # Places, and how light the formats are

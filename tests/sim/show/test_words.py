@@ -215,7 +215,7 @@ def test_an_unknown_key_is_a_key_error(key: str) -> None:
         said(key)
 
 
-@pytest.mark.parametrize("form", ["text", "json", "sarif", "junit", "github"])
+@pytest.mark.parametrize("form", ["text", "concise", "json", "sarif", "junit", "github", "gitlab"])
 def test_a_check_reads_no_words_but_its_own(form: str, tmp_path: Path) -> None:
     program = tmp_path / "part.3b"
     program.write_text("B9900 B0 B39600 GX NR1\n", encoding="ascii")

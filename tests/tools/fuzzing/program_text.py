@@ -1,8 +1,13 @@
-"""Inputs that nobody would write: bytes of sound programs damaged, and tokens of 3B and 4B thrown together."""
+"""3B and 4B that nobody would write: sound programs damaged, their tokens changed or thrown together."""
 
 import codecs
 import random
-from collections.abc import Callable
+import re
+from functools import cache
+
+from places import CORPUS, SCENARIOS
+
+from fuzzing.mutate import damaged, edited
 
 SEEDS = (
     "B10000B0B10000GXL1\nB0B10000B10000GYL2\nB10000B0B10000GXL3\nB0B10000B10000GYL4\nDD\n",
@@ -15,40 +20,12 @@ SEEDS = (
     "B10000B0B10000B0GXL1\nB0B5000B10000B5000DGXNR4\nB10000 B B10000 B0 GX L3\nB0B5000B10000B5000GX DD NR2\nDD\n",
     "; 穿丝 (slug)\nB1B1B5000GYL1\nD\nStart Point = 1.0 , 2.0\nB100B0B400GYNR1\nE\nB1B1B1GXL1\n",
 )
+"""One of each way of writing; corpus and scenarios give the others."""
 _ENCODINGS = ("utf-8", "utf-8-sig", "utf-16", "gb18030", "big5", "latin-1", "utf-16-le", "utf-16-be", "utf-32")
-_PIECES = (
-    *(
-        b"\0",
-        b"\xff\xfe",
-        b"\xfe\xff",
-        codecs.BOM_UTF8,
-        b"\x1a",
-        b"\x80",
-        b"\xed\xa0\x80",
-        b"\r",
-        b"\n",
-        b"\t",
-        b"\x0b",
-    ),
-    *(b"B", b"G", b"D", b"DD", b"//", b";", b"(", b")", b"\xa3\xc2", b"\xef\xbc\xa2", b"9" * 12, b" " * 40),
-)
+_LONGEST_SEED = 20_000
+_TOKEN = re.compile(r"\d+|[^\W\d]+|\s+|.", re.DOTALL)
 _NUMBERS = (
-    "",
-    "0",
-    "1",
-    "2",
-    "00",
-    "3",
-    "400",
-    "999999999",
-    "1000000000",
-    "9" * 40,
-    "-5",
-    "1.5",
-    "１２",
-    "٣",
-    "1e9",
-    "²",
+    *("", "0", "1", "2", "00", "3", "400", "999999999", "1000000000", "9" * 40, "-5", "1.5", "１２", "٣", "1e9", "²"),
 )
 _WORDS = (
     *(
@@ -88,6 +65,7 @@ _WORDS = (
         "Start Point = 1.0 , -2.0",
         "Start Point =",
     ),
+    *("// drycut: ignore 3B204", "; drycut: ignore-file 3B1", "(drycut: ignore)", "//drycut: ignore 3B, x"),
     *("Start Point = 9999999999.0 , 1.0", "Length= 1.0 mm", "Length=" + "9" * 30, "CAXA", "Offset F= 0.0", "****"),
     *(
         ";1.000,2.000",
@@ -121,12 +99,42 @@ _WORDS = (
 )
 
 
-def fuzzed(rng: random.Random) -> bytes:
+@cache
+def programs() -> tuple[bytes, ...]:
+    """Programs of the repository, as they are."""
+    files = [*CORPUS.glob("*/*.[34]b"), *SCENARIOS.glob("*/program.*")]
+    found = [file.read_bytes() for file in sorted(files)]
+    return (*(seed.encode() for seed in SEEDS), *(data for data in found if len(data) < _LONGEST_SEED))
+
+
+def fuzzed_program(rng: random.Random) -> bytes:
     """One input."""
-    data = _encoded(rng, _recombined(rng) if rng.random() < 0.5 else rng.choice(SEEDS))
-    for _ in range(rng.choice((0, 1, 1, 2, 5))):
-        data = rng.choice(_BYTE_CHANGES)(rng, data)
-    return data
+    kind = rng.random()
+    if kind < 0.4:
+        return damaged(rng, _encoded(rng, _recombined(rng)), programs())
+    data = rng.choice(programs())
+    if kind < 0.7:
+        return damaged(rng, data, programs())
+    try:
+        return _encoded(rng, changed(rng, data.decode()))
+    except UnicodeDecodeError:
+        return damaged(rng, data, programs())
+
+
+def changed(rng: random.Random, text: str) -> str:
+    """Lines or tokens changed, moved, doubled or left out."""
+    for _ in range(rng.choice((1, 1, 2, 4))):
+        pattern = "(?<=\n)" if rng.random() < 0.3 else ""
+        parts = re.split(pattern, text) if pattern else _TOKEN.findall(text)
+        text = "".join(edited(rng, parts, lambda part: _other(rng, part)))
+    return text
+
+
+def _other(rng: random.Random, part: str) -> str:
+    if not part.isdecimal():
+        return rng.choice(_WORDS)
+    near = str(max(0, int(part[:15]) + rng.choice((-1000, -2, -1, 1, 2, 1000)))) if part.isascii() else "1"
+    return rng.choice((near, near, f"{part}0", part[:-1], part[::-1], _number(rng)))
 
 
 def _recombined(rng: random.Random) -> str:
@@ -155,40 +163,3 @@ def _encoded(rng: random.Random, text: str) -> bytes:
         return codecs.BOM_UTF16_LE + (text[:at] + "\udc00" + text[at:]).encode("utf-16-le", "surrogatepass")
     encoding = rng.choice(_ENCODINGS) if rng.random() < 0.3 else "utf-8"
     return text.encode(encoding, "replace")
-
-
-def _flipped(rng: random.Random, data: bytes) -> bytes:
-    if not data:
-        return data
-    at = rng.randrange(len(data))
-    return data[:at] + bytes([data[at] ^ 1 << rng.randrange(8)]) + data[at + 1 :]
-
-
-def _inserted(rng: random.Random, data: bytes) -> bytes:
-    at = rng.randint(0, len(data))
-    return data[:at] + rng.choice((*_PIECES, bytes([rng.randrange(256)]))) + data[at:]
-
-
-def _deleted(rng: random.Random, data: bytes) -> bytes:
-    at = rng.randint(0, len(data))
-    return data[:at] + data[at + rng.choice((1, 1, 2, 10)) :]
-
-
-def _spliced(rng: random.Random, data: bytes) -> bytes:
-    other = rng.choice(SEEDS).encode()
-    return data[: rng.randint(0, len(data))] + other[rng.randint(0, len(other)) :]
-
-
-def _doubled(rng: random.Random, data: bytes) -> bytes:
-    first, past = sorted(rng.randint(0, len(data)) for _ in range(2))
-    return data[:past] + data[first:past][:500] + data[past:]
-
-
-def _truncated(rng: random.Random, data: bytes) -> bytes:
-    return data[: rng.randint(0, len(data))]
-
-
-_BYTE_CHANGES: tuple[Callable[[random.Random, bytes], bytes], ...] = (
-    *(_flipped, _inserted, _deleted),
-    *(_spliced, _doubled, _truncated),
-)

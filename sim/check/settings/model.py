@@ -1,0 +1,88 @@
+"""What a file is checked with."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal, Self
+
+from parser.dialect.reader import Marks
+from parser.findings.codes import Severity
+from parser.units import from_mm
+from sim.check.engine import Demands
+from sim.setup.wire import DEFAULT_WIRE
+
+if TYPE_CHECKING:
+    from sim.setup.machine.machine import Machine
+
+
+@dataclass(frozen=True, slots=True)
+class CheckSettings:
+    """What a file is checked with.
+
+    Attributes
+    ----------
+    machine, start_mm
+        Table that the program is to fit on, and its start there; the middle of the travel where `start_mm` is None.
+    wire_diameter_um, spark_gap_um
+        Wire; where only one is given the other is that of the usual wire.
+    may_stay_open
+        Whether contours may end away from their own path.
+    select, ignore
+        Beginnings of the codes that are shown, and of those that are not; an empty `select` is all.
+    ignore_here
+        Beginnings of the codes that a settings file does not show of this one file.
+    fail_on
+        Least severity that makes the exit code 1.
+    marks
+        Further end and pause marks.
+    file
+        Settings file that they come from, as it is named to people; empty where they come from none.
+    by_options
+        Names of those of the fields above that stand on the command line.
+    """
+
+    machine: "Machine | None" = None
+    start_mm: tuple[float, float] | None = None
+    wire_diameter_um: float | None = None
+    spark_gap_um: float | None = None
+    may_stay_open: bool = False
+    select: tuple[str, ...] = ()
+    ignore: tuple[str, ...] = ()
+    ignore_here: tuple[str, ...] = ()
+    fail_on: Severity = Severity.ERROR
+    marks: Marks = Marks()  # noqa: RUF009 - frozen
+    file: str = ""
+    by_options: frozenset[str] = frozenset()
+
+    @property
+    def demands(self) -> Demands:
+        """What the program is held against. SettingsError where wire and gap leave no kerf."""
+        table = self.machine.table if self.machine else None
+        start = self.start_mm or (table and (table.travel_x_mm / 2.0, table.travel_y_mm / 2.0))
+        start_um = start and (from_mm(start[0]), from_mm(start[1]))
+        return Demands(table, start_um, self._offset_um, self.may_stay_open)
+
+    @property
+    def _offset_um(self) -> float | None:
+        given = {"diameter_um": self.wire_diameter_um, "spark_gap_um": self.spark_gap_um}
+        known = {name: length for name, length in given.items() if length is not None}
+        return replace(DEFAULT_WIRE, **known).reach_um if known else None
+
+    def with_options(self, given: Mapping[str, Any]) -> Self:
+        """The settings with fields, by their names, as the command line gives them."""
+        return replace(self, **given, by_options=frozenset(given))
+
+    def silencer(self, code: str) -> Literal["", "options", "settings"]:
+        """What keeps findings of a code from being shown: nothing, or options, or else settings."""
+        hidden_by = {
+            "select": bool(self.select) and not code.startswith(self.select),
+            "ignore": code.startswith(self.ignore),
+            "ignore_here": code.startswith(self.ignore_here),
+        }
+        keys = {key for key, hides in hidden_by.items() if hides}
+        if not keys:
+            return ""
+        return "options" if keys & self.by_options else "settings"
+
+    def shows(self, code: str) -> bool:
+        """Whether findings of a code were selected and not ignored."""
+        return not self.silencer(code)

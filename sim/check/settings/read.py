@@ -1,0 +1,173 @@
+"""A settings file, read strictly: ``drycut.toml``, or ``[tool.drycut]`` of ``pyproject.toml``."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from parser.dialect.reader import Marks
+from parser.findings.codes import CODES, Severity
+from parser.findings.errors import SettingsError
+from parser.program import block_words, own_marks
+from parser.units import from_mm
+from sim.check.settings.model import CheckSettings
+from sim.check.settings.patterns import PathPattern, pattern_list
+from sim.setup.toml.reader import load_toml, number, pair, refuse_unknown, section, text, truth
+from sim.setup.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
+
+if TYPE_CHECKING:
+    from sim.setup.machine.machine import Machine
+
+NAMES = ("drycut.toml", "pyproject.toml")
+"""Names of settings files; in one folder the first goes first."""
+_PROJECT = NAMES[1]
+_KEYS = (
+    *("root", "machine", "start_mm", "open", "select", "ignore", "fail_on", "exclude", "baseline"),
+    *("end_marks", "pause_marks", "wire", "per_file_ignores"),
+)
+_WIRE = {"diameter_mm": WIRE_DIAMETER_MM, "spark_gap_mm": SPARK_GAP_MM}
+
+
+class IgnoredOf(NamedTuple):
+    """Beginnings of codes that are not shown of the files of a pattern."""
+
+    pattern: PathPattern
+    codes: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SettingsFile:
+    """What a settings file says.
+
+    Attributes
+    ----------
+    settings
+        What all its files are checked with.
+    per_file_ignores
+        Codes that are not shown of some files.
+    exclude
+        Files and folders that are left out where a folder is looked through.
+    baseline
+        File of known findings; None where it names none.
+    """
+
+    settings: CheckSettings = CheckSettings()  # noqa: RUF009 - frozen
+    per_file_ignores: tuple[IgnoredOf, ...] = ()
+    exclude: tuple[PathPattern, ...] = ()
+    baseline: Path | None = None
+
+    def settings_of(self, path: Path) -> CheckSettings:
+        """What one file is checked with; its path has no link in it but for its last part."""
+        codes = [code for ignored in self.per_file_ignores if ignored.pattern.matches(path) for code in ignored.codes]
+        return replace(self.settings, ignore_here=tuple(codes)) if codes else self.settings
+
+
+NO_SETTINGS = SettingsFile()
+
+
+def content_of(file: Path) -> Mapping[str, Any] | None:
+    """What a settings file holds for drycut; None for a ``pyproject.toml`` without ``[tool.drycut]``.
+
+    Raises FileUnreadableError or SettingsError.
+    """
+    content = load_toml(file)
+    if file.name != _PROJECT:
+        return content
+    tools = section(content, "tool", str(file))
+    return section(tools, "drycut", str(file)) if "drycut" in tools else None
+
+
+def read_settings(content: Mapping[str, Any], file: Path, name: str) -> SettingsFile:
+    """Settings of a file, of which the path has no link in it; it is named `name` to people.
+
+    Raises FileUnreadableError or SettingsError with file and key.
+    """
+    refuse_unknown(content, _KEYS, name)
+    truth(content, "root", name)
+    wire = section(content, "wire", name)
+    refuse_unknown(wire, _WIRE, f"{name}: [wire]")
+    lengths = {key: from_mm(number(wire[key], _WIRE[key], f"{name}: [wire]: {key}")) for key in wire}
+    settings = CheckSettings(
+        machine=_machine(content, file, name),
+        start_mm=pair(content, "start_mm", name),
+        wire_diameter_um=lengths.get("diameter_mm"),
+        spark_gap_um=lengths.get("spark_gap_mm"),
+        may_stay_open=truth(content, "open", name),
+        select=code_list(content.get("select", []), f"{name}: select"),
+        ignore=code_list(content.get("ignore", []), f"{name}: ignore"),
+        fail_on=severity(content.get("fail_on", Severity.ERROR), f"{name}: fail_on"),
+        marks=_marks(content, name),
+        file=name,
+    )
+    return SettingsFile(
+        settings,
+        _per_file_ignores(content, file.parent, name),
+        pattern_list(content.get("exclude", []), file.parent, f"{name}: exclude"),
+        file.parent / text(content, "baseline", name) if "baseline" in content else None,
+    )
+
+
+def code_list(value: object, where: str) -> tuple[str, ...]:
+    """Codes or their beginnings, such as ``3B2``. SettingsError for one that no code begins with."""
+    if not isinstance(value, list) or not all(isinstance(code, str) for code in value):
+        raise SettingsError(f"{where} is a list of codes; found {value!r}")
+    codes = tuple(code.strip().upper() for code in value if code.strip())
+    for code in codes:
+        if not any(known.startswith(code) for known in CODES):
+            raise SettingsError(f"{where}: no code begins with {code!r}; they are {_first_last()}")
+    return codes
+
+
+def severity(value: object, where: str) -> Severity:
+    """Least severity that fails: warning or error. SettingsError otherwise."""
+    if value not in (Severity.WARNING, Severity.ERROR):
+        raise SettingsError(f'{where} is "warning" or "error"; found {value!r}')
+    return Severity(str(value))
+
+
+def _per_file_ignores(content: Mapping[str, Any], folder: Path, where: str) -> tuple[IgnoredOf, ...]:
+    ignored = []
+    for key, value in section(content, "per_file_ignores", where).items():
+        here = f"{where}: [per_file_ignores]"
+        (pattern,) = pattern_list([key], folder, here)
+        ignored.append(IgnoredOf(pattern, code_list(value, f"{here}: {key}")))
+    return tuple(ignored)
+
+
+def _machine(content: Mapping[str, Any], file: Path, where: str) -> "Machine | None":
+    name = content.get("machine")
+    if name is None:
+        return None
+    if not isinstance(name, str):
+        raise SettingsError(f"{where}: machine is the name of a machine, or its .toml file; found {name!r}")
+    from sim.setup.machine.machine import load_machine  # noqa: PLC0415 - most checks know no machine
+
+    return load_machine(name, beside=file.parent)
+
+
+def _marks(content: Mapping[str, Any], where: str) -> Marks:
+    """Marks that neither are a word of blocks nor mean two things at once."""
+    own, of_blocks = own_marks(), block_words()
+    end, pause = _words(content, "end_marks", where), _words(content, "pause_marks", where)
+    for key, words, other in (("end_marks", end, (*own.pause, *pause)), ("pause_marks", pause, (*own.end, *end))):
+        for word in words:
+            if word in of_blocks:
+                raise SettingsError(f"{where}: {key}: {word!r} is a word of blocks; a mark is another")
+            if word in other:
+                raise SettingsError(f"{where}: {key}: {word!r} cannot both end and pause a program")
+    return Marks(end, pause)
+
+
+def _words(content: Mapping[str, Any], key: str, where: str) -> tuple[str, ...]:
+    """Marks: words of one to four letters."""
+    words = content.get(key, [])
+    if not isinstance(words, list) or not all(
+        isinstance(word, str) and word.isascii() and word.isalpha() and len(word) <= 4 for word in words
+    ):
+        raise SettingsError(f"{where}: {key} is a list of marks of up to four letters; found {words!r}")
+    return tuple(word.upper() for word in words)
+
+
+def _first_last() -> str:
+    codes = sorted(CODES)
+    return f"{codes[0]} to {codes[-1]}"

@@ -1,0 +1,122 @@
+"""Directives: remarks in a program that silence codes, ``// drycut: ignore 3B204`` (docs/check.md).
+
+Where remarks stand, the reader of the dialect knows; what they say to drycut stands here.
+"""
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.findings.codes import CODES
+from parser.findings.findings import Finding
+from parser.program import Program
+from parser.text.source import Span
+from sim.check.result import CheckState
+
+_WHOLE_FILE = 0
+"""In place of a line; a finding that means the whole program has no line either."""
+_NO_LINE = -1
+_NAMED = re.compile(r"drycut[ \t]*:", re.IGNORECASE)
+_BEGIN = re.compile(rf"\W*+{_NAMED.pattern}[ \t]*", re.IGNORECASE)
+_KIND = re.compile(r"(ignore-file|ignore)(?![\w-])[ \t]*:?[ \t]*", re.IGNORECASE)
+# A reason may stand behind the codes: a list of codes goes on behind a comma, or with what looks like a code.
+_CODES = re.compile(r"[A-Z0-9]++(?:[ \t]*+[,、][ \t]*+[A-Z0-9]++|[ \t]++\d[A-Z][A-Z0-9]*+)*+", re.IGNORECASE | re.ASCII)
+_CODE = re.compile(r"[A-Z0-9]+", re.IGNORECASE | re.ASCII)
+_BEGINNINGS = frozenset(code[:length] for code in CODES for length in range(2, len(code) + 1))
+_LONGEST_SHOWN = 40
+
+
+class Asked(NamedTuple):
+    """A code, or its beginning, that a remark asks to silence: on a line from 1, in the whole file, or nowhere."""
+
+    code: str
+    line: int
+    span: Span
+
+
+class Heeded(NamedTuple):
+    """What the directives of a program do.
+
+    Attributes
+    ----------
+    silenced
+        Places of the findings that they silence, among all findings.
+    told
+        Notes on directives that cannot be read (3B113), and on those that silence nothing (3B114).
+    """
+
+    silenced: frozenset[int] = frozenset()
+    told: tuple[Finding, ...] = ()
+
+
+def heed(program: Program, findings: Sequence[Finding], states: Iterable[CheckState]) -> Heeded:
+    """What the directives of a program do to its findings; `states` are those of the checks that gave them.
+
+    A code that a check did not look for to the end may be silenced in vain without a note: the finding may be there.
+    """
+    directives = list(_directives(program))
+    if not directives:
+        return Heeded()
+    asked = [one for one in directives if isinstance(one, Asked)]
+    wanted = {(one.line, one.code) for one in asked}
+    hits = [[place for place in _places(finding) if place in wanted] for finding in findings]
+    used = {place for hit in hits for place in hit}
+    unfinished = {state.name for state in states if state.state != "complete"}
+    idle = (one for one in asked if (one.line, one.code) not in used and not _checks_of(one.code) & unfinished)
+    return Heeded(
+        frozenset(at for at, hit in enumerate(hits) if hit),
+        (
+            *(one for one in directives if isinstance(one, Finding)),
+            *(program.lines.finding("3B114", one.span, silenced=one.code) for one in idle),
+        ),
+    )
+
+
+def _places(finding: Finding) -> Iterator[tuple[int, str]]:
+    """Where a directive may ask for a finding: its line or the file, its code or a beginning of that."""
+    for line in (finding.line, _WHOLE_FILE):
+        for length in range(2, len(finding.code) + 1):
+            yield line, finding.code[:length]
+
+
+def _checks_of(beginning: str) -> set[str]:
+    return {str(of.check) for code, of in CODES.items() if of.check and code.startswith(beginning)}
+
+
+def _directives(program: Program) -> Iterator[Asked | Finding]:
+    """What each directive asks for, and a finding for each that cannot be read, in their order."""
+    text, remarks = program.lines.text, program.reading.remarks
+    named = np.array([match.start() for match in _NAMED.finditer(text)], dtype=np.int64)
+    if not len(named) or not len(remarks):
+        return
+    at = np.searchsorted(remarks[:, 0], named, side="right") - 1
+    rows = np.unique(at[(at >= 0) & (named < remarks[at, 1])])
+    inked = program.lines.inked_lines(remarks)
+    for first, past in remarks[rows].tolist():
+        begin = _BEGIN.match(text, first, past)
+        if begin:
+            below = inked[np.searchsorted(inked, program.lines.line(first)) :][:1].tolist()
+            yield from _read(program, (begin.end(), past), *(below or [_NO_LINE]))
+
+
+def _read(program: Program, span: Span, line: int) -> Iterator[Asked | Finding]:
+    """What one directive asks for; it stands at `span`, and counts for a line or the whole file."""
+    text = program.lines.text
+    kind = _KIND.match(text, *span)
+    codes = _CODES.match(text, kind.end(), span[1]) if kind else None
+    if not kind or not codes:
+        yield _unreadable(program, span, "directive-without-code" if kind else "directive-unknown")
+        return
+    for code in _CODE.finditer(text, *codes.span()):
+        if code[0].upper() not in _BEGINNINGS:
+            yield _unreadable(program, code.span(), "directive-unknown-code")
+        else:
+            yield Asked(code[0].upper(), _WHOLE_FILE if kind[1].lower() == "ignore-file" else line, code.span())
+
+
+def _unreadable(program: Program, span: Span, what: str) -> Finding:
+    said = program.text[slice(*span)].strip()
+    shown = said if len(said) <= _LONGEST_SHOWN else said[:_LONGEST_SHOWN] + "…"
+    return program.lines.finding("3B113", span, what=what, text=shown)

@@ -1,0 +1,139 @@
+"""Where the results of one check go: to stdout in a format, and into files, each in a format of its own.
+
+Each file is whole or not there. In one folder all take their places together, or none does.
+"""
+
+import os
+import pickle
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, NamedTuple
+
+import click
+
+from sim.show.findings import FORMATS, render
+from sim.show.terminal import printer
+from sim.show.terminal.printer import coloured, made
+from sim.show.terminal.streams import outlet
+from sim.show.terminal.wrap import width_of
+
+if TYPE_CHECKING:
+    from sim.check.batch import Job
+    from sim.check.result import CheckResult
+    from sim.show.findings.options import Options
+
+
+Files = Mapping[Path, IO[str]]
+"""Files that are being written, by the paths at which they will stand."""
+
+
+class Output(NamedTuple):
+    """A format of `FORMATS`, and the file that it goes into; stdout where that is None."""
+
+    form: str
+    file: Path | None = None
+
+
+def outputs_of(asked: Sequence[Output], file: Path | None, baseline: Path | None = None) -> tuple[Output, ...]:
+    """The outputs of ``--format`` and ``--output-file``, that of stdout first; text where no format was asked for.
+
+    Raises UsageError where two go to one place, also where that is the `baseline` that is to be written, or where
+    `file` has no format to hold.
+    """
+    asked = asked or (Output("text"),)
+    plain = [output._replace(file=file) for output in asked if output.file is None]
+    if len(plain) > 1:
+        forms = " and ".join(output.form for output in plain)
+        raise click.UsageError(f"--format: {forms} cannot go to one place; write --format {plain[1].form}=FILE")
+    if file and not plain:
+        raise click.UsageError("--output-file has nothing to hold: each --format has a file of its own")
+    outputs = (*plain, *(output for output in asked if output.file))
+    seen = {_identity(baseline)} if baseline else set()
+    for path in (output.file for output in outputs if output.file):
+        if _identity(path) in seen:
+            raise click.UsageError(f"{path}: two outputs cannot go into one file")
+        seen.add(_identity(path))
+    return outputs
+
+
+def refuse_inputs(files: Iterable[Path], jobs: Iterable["Job"], others: Iterable[Path]) -> None:
+    """UsageError where a file that is to be written is one of the programs to check, or another file that is read."""
+    written = {_identity(file): file for file in files}
+    if not written:
+        return
+    for path in others:
+        if file := written.get(_identity(path)):
+            raise click.UsageError(f"{file}: is read by this run; an output cannot take its place")
+    for source in (job.source for job in jobs):
+        if isinstance(source, Path) and (file := written.get(_identity(source))):
+            raise click.UsageError(f"{file}: is one of the programs; an output cannot take its place")
+
+
+def write(results: Iterable["CheckResult"], outputs: Sequence[Output], options: "Options") -> None:
+    """Write the results in every format, each file whole or not at all.
+
+    The first output takes the results as the checks give them. Where there are others, each result is laid aside in a
+    file without a name, from which they read one after the other: no more than one result is held at a time. Where the
+    reader of stdout goes away, the files are finished still. FileUnreadableError where a file cannot be written.
+    """
+    first, *others = outputs
+    with _opened([output.file for output in outputs if output.file]) as files:
+        if not others:
+            _write_one(first, results, files, options)
+            return
+        with tempfile.TemporaryFile(prefix="drycut-") as kept:
+            coming = _keeping(results, kept)
+            _write_one(first, coming, files, options)
+            for output in others:
+                _write_one(output, _kept(kept), files, options)
+
+
+def _write_one(output: Output, results: Iterable["CheckResult"], files: Files, options: "Options") -> None:
+    form = FORMATS[output.form].form
+    if output.file:
+        files[output.file].writelines(made(text, form) for text in render(output.form, results, options))
+        return
+    stream = outlet()
+    style = options._replace(colour=coloured(stream), width=width_of(stream))
+    for text in render(output.form, results, style):
+        printer.write(text, form)
+
+
+@contextmanager
+def _opened(paths: Sequence[Path]) -> Iterator[Files]:
+    """The files, empty and open in UTF-8 with line feeds on every system; they take their places at the end."""
+    from sim.files import staged
+
+    with ExitStack() as stack:
+        opened: dict[Path, IO[str]] = {}
+        for folder in dict.fromkeys(path.parent for path in paths):
+            names = [path.name for path in paths if path.parent == folder]
+            made = stack.enter_context(staged(folder, names))
+            for name in names:
+                opened[folder / name] = stack.enter_context((made / name).open("w", encoding="utf-8", newline="\n"))
+        yield opened
+
+
+def _keeping(results: Iterable["CheckResult"], file: IO[bytes]) -> Iterator["CheckResult"]:
+    for result in results:
+        pickle.dump(result, file, pickle.HIGHEST_PROTOCOL)
+        yield result
+
+
+def _kept(file: IO[bytes]) -> Iterator["CheckResult"]:
+    """The results that were laid aside, from the first on."""
+    end = file.seek(0, os.SEEK_END)
+    file.seek(0)
+    while file.tell() < end:
+        yield pickle.load(file)  # noqa: S301 - written above, and no one else can open it
+
+
+def _identity(path: Path) -> object:
+    """The same for all names of a file, whether it is there yet or not."""
+    try:
+        found = path.stat()
+    except OSError:
+        return os.path.normcase(os.path.realpath(path))
+    return found.st_dev, found.st_ino

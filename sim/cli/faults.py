@@ -1,0 +1,68 @@
+"""A fault of drycut itself: what people are told, and a file with all that its makers need."""
+
+import platform
+import shlex
+import sys
+import tempfile
+from collections.abc import Iterator, Mapping
+from typing import Final
+
+from parser import __version__
+from parser.findings.catalogue import Language
+from parser.text.harmless import harmless
+from sim.show.terminal.printer import say
+from sim.show.terminal.wrap import wrapped
+from sim.show.words import Words
+
+EXIT: Final = 3
+_MOST_FILES = 10
+_INDENT = "    "
+
+
+def tell_faults(tracebacks: Mapping[str, str], language: Language) -> int:
+    """Tell of faults on stderr, each by the file at which it happened, and keep their tracebacks; the exit code.
+
+    The name is empty where a fault belongs to no one file. Of more than ten the others are in the file that is kept.
+    """
+    words = Words(language)
+    named = list(tracebacks.items())
+    for name, traceback in named[:_MOST_FILES]:
+        _tell(words("fault.head", at=f"{name}: " if name else "", error=_last_line(traceback)))
+    if len(named) > _MOST_FILES:
+        _tell(words("fault.more", count=f"{len(named) - _MOST_FILES:,}"))
+    _tell(words("fault.what"), _INDENT)
+    facts = [f"{words('fault.command')}{shlex.join(['drycut', *sys.argv[1:]])}", _version()]
+    kept = _kept([*facts, *_told(tracebacks)])
+    for fact in (*facts, f"{words('fault.traceback')}{kept or words('fault.not-written')}"):
+        _tell(fact, _INDENT)
+    return EXIT
+
+
+def _tell(text: str, head: str = "") -> None:
+    for line in wrapped(harmless(text), head=head, indent=_INDENT):
+        say(line, err=True)
+
+
+def _version() -> str:
+    return f"drycut {__version__}, Python {platform.python_version()}, {platform.platform()}"
+
+
+def _last_line(traceback: str) -> str:
+    return (traceback.strip().splitlines() or [""])[-1]
+
+
+def _told(tracebacks: Mapping[str, str]) -> Iterator[str]:
+    for name, traceback in tracebacks.items():
+        yield from ("", name, *traceback.splitlines())
+
+
+def _kept(lines: list[str]) -> str:
+    """Name of the file that holds the lines, in the system's folder for such; empty where none can be written."""
+    try:
+        with tempfile.NamedTemporaryFile(
+            "w", encoding="utf-8", errors="backslashreplace", prefix="drycut-fault-", suffix=".txt", delete=False
+        ) as file:
+            file.writelines(f"{harmless(line)}\n" for line in lines)
+            return file.name
+    except OSError:
+        return ""

@@ -1,0 +1,62 @@
+"""The documents for users, which pages of findings cite: beside the code in a wheel, in ``docs`` of the repository."""
+
+import re
+from functools import cache
+from pathlib import Path
+from typing import Final
+
+_PACKAGE: Final = Path(__file__).parents[2]
+_NOT_FOR_USERS: Final = {"architecture", "code-flow", "findings", "findings.zh"}
+"""Documents of those who change drycut, and those made of the pages of all codes; a wheel has none of them."""
+_LINK = re.compile(r"\[([^\[\]]+)\]\([^)]+\)")
+_CITED = re.compile(r"\b(?:docs/)?(\w+)(\.zh)?\.md\b")
+_HEADING = re.compile(r"^#+ ")
+_FENCE = "```"
+
+
+@cache
+def documents() -> tuple[str, ...]:
+    """Names of the documents, in their order; ``drycut explain NAME`` shows them."""
+    return tuple(sorted({path.stem for path in _folder().glob("*.md")} - _NOT_FOR_USERS))
+
+
+def document(name: str) -> str:
+    """Markdown of a document. KeyError where there is no such document."""
+    if name not in documents():
+        raise KeyError(name)
+    return (_folder() / f"{name}.md").read_text(encoding="utf-8")
+
+
+def section(markdown: str, number: str) -> str:
+    """The section ``## NUMBER. …`` of a document. KeyError where it has none."""
+    lines, inside, fenced = [], False, False
+    for line in markdown.splitlines():
+        fenced ^= line.startswith(_FENCE)
+        if not fenced and line.startswith("## "):
+            inside = line.startswith(f"## {number}. ")
+        if inside:
+            lines.append(line)
+    if not lines:
+        raise KeyError(number)
+    return "\n".join(lines)
+
+
+def cited(markdown: str) -> str:
+    """Markdown that cites documents by the command that shows them: ``docs/3b.md §2`` is ``drycut explain 3b §2``."""
+    return _CITED.sub(_command, _LINK.sub(r"\1", markdown))
+
+
+def title(name: str) -> str:
+    """Heading of a document. KeyError where there is no such document."""
+    return _HEADING.sub("", document(name).split("\n", 1)[0])
+
+
+def _folder() -> Path:
+    shipped = _PACKAGE / "docs"
+    return shipped if shipped.is_dir() else _PACKAGE.parent / "docs"
+
+
+def _command(match: re.Match[str]) -> str:
+    if match[1] == "findings":  # made of the pages of all codes, which the command lists
+        return "drycut explain --lang zh" if match[2] else "drycut explain"
+    return f"drycut explain {match[1]}" if match[1] in documents() else match[0]

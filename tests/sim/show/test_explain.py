@@ -1,0 +1,142 @@
+"""``drycut explain``: pages of codes and documents as a terminal shows them."""
+
+import re
+import tomllib
+
+import pytest
+from command import run_inside
+from places import ROOT
+
+from parser.findings.catalogue import LANGUAGES, Language, example, page
+from parser.findings.codes import CODES
+from parser.text.excerpt import cells
+from sim.show.findings.pages import page_text
+from sim.show.terminal.documents import cited, document, documents, section
+from sim.show.terminal.markdown import plain, shown
+
+RAW = re.compile(r"`|\*\*\w|\w\*\*|^#|\]\(|\.md\b|<!--|^\|", re.MULTILINE)
+
+
+def explained(code: str, language: Language, width: int = 80) -> list[str]:
+    return [line.text for line in shown(cited(page_text(code, language)), width)]
+
+
+def told(*arguments: str) -> str:
+    done = run_inside("explain", *arguments)
+    assert not done.returncode, done.stderr
+    return done.stdout.decode()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("width", [60, 80, 100])
+def test_every_page_fits_without_a_sign_of_markdown(language: Language, width: int) -> None:
+    for code in CODES:
+        lines = explained(code, language, width)
+        assert max(map(cells, lines)) <= width, code
+        assert not RAW.search("\n".join(lines)), code
+        assert "" not in (lines[0], lines[-1])
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_page_loses_nothing_but_the_signs(language: Language) -> None:
+    for code in CODES:
+        squeezed = "".join("".join(explained(code, language)).split())
+        of, program = page(code, language), example(code)
+        unfenced = re.sub("```.*", "", f"{of.why}\n\n{of.mend}")
+        for text in (of.title, *unfenced.split("\n\n")):
+            assert "".join(plain(cited(text)).split()) in squeezed, (code, text)
+        assert not program or "".join(program.mended.split()) in squeezed
+
+
+def test_a_page_has_headings_and_its_example_set_in() -> None:
+    lines = list(shown(cited(page_text("3B401", "en"))))
+    heads = [text for text, is_heading in lines if is_heading]
+    assert heads == [
+        "3B401: out of travel (error)",
+        "How to mend it:",
+        "Example, checked with --machine dk7740:",
+        "Mended:",
+    ]
+    assert "    B210000B0B210000GXL1" in [text for text, _ in lines]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_pages_cite_only_what_the_command_shows(language: Language) -> None:
+    cites = 0
+    for code in CODES:
+        text = "".join("".join(explained(code, language)).split())
+        for name, numbers in re.findall(r"drycutexplain(\w+?)((?:§\d[,、]?)*)(?!\w)", text):
+            assert name in documents(), (code, name)
+            for number in re.findall(r"\d+", numbers):
+                assert section(document(name), number)
+                cites += 1
+    assert cites > 40
+
+
+@pytest.mark.parametrize("name", documents())
+def test_a_document_fits_but_for_what_is_fenced(name: str) -> None:
+    out = told(name)
+    fenced = {
+        line.strip()
+        for block in re.findall(r"^```.*\n((?:.*\n)*?)```$", document(name), re.M)
+        for line in block.split("\n")
+    }
+    assert not [line for line in out.splitlines() if cells(line) > 80 and line.strip() not in fenced]
+    assert not RAW.search("\n".join(line for line in out.splitlines() if line.strip() not in fenced))
+    assert document(name) == (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8")
+
+
+def test_a_wheel_brings_the_documents_of_users() -> None:
+    build = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["hatch"]["build"]
+    shipped = build["targets"]["wheel"]["force-include"]
+    assert shipped == {f"docs/{name}.md": f"sim/docs/{name}.md" for name in documents()}
+    assert {"3b", "check", "scenarios"} < set(documents())
+    assert not {"architecture", "code-flow", "findings"} & set(documents())
+
+
+def test_sections_of_a_document_are_shown_by_their_number() -> None:
+    second = told("3b", "2")
+    assert second.startswith("2. File\n")
+    assert told("3B", "§2,", "§4").startswith(second)
+    assert "\n4. Faults and their effect, measured\n" in told("3b", "§2,", "§4")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["3B999"], "no finding has the code '3B999'"),
+        (["../check"], "no document the name"),
+        (["3b", "99"], "document '3b' has no section 99"),
+        (["3B204", "2"], "'3B204'"),
+    ],
+)
+def test_what_there_is_not_is_said(arguments: list[str], complaint: str) -> None:
+    done = run_inside("explain", *arguments)
+    assert done.returncode == 2
+    assert complaint in done.stderr.decode()
+
+
+def test_the_list_fits() -> None:
+    for language in LANGUAGES:
+        out = told("--lang", language)
+        assert max(map(cells, out.splitlines())) <= 80
+        assert "\n    3b         3B: what the format is, in the field\n" in out
+
+
+def test_lists_tables_and_chinese_keep_their_form() -> None:
+    lists = "# A\none `b|c`\ntwo\n\n* x\n  y\n* z\n\n"
+    text = lists + "| a | b |\n|---|---|\n| `1 \\| 2` | three four |\n\n中文，\n2 字\n字"
+    assert [line.text for line in shown(text, 14)] == [
+        "A",
+        "one b|c two",
+        "",
+        "* x y",
+        "* z",
+        "",
+        "a      b",
+        "-----  -------",
+        "1 | 2  three",
+        "       four",
+        "",
+        "中文，2 字字",
+    ]

@@ -1,0 +1,22 @@
+"""All that is fuzzed."""
+
+from fuzzing import card_logs, commands, drawings, programs, runs, setups
+from fuzzing.target import Target
+
+TARGETS = {
+    target.name: target
+    for target in (
+        Target("program", programs.make, programs.judge, 12.0),
+        Target("fix", programs.make, programs.judge_fix, 5.0),
+        Target("scenario", setups.make_scenario, setups.judge_scenario, 20.0),
+        Target("machine", setups.make_machine, setups.judge_machine, 20.0),
+        Target("settings", setups.make_settings, setups.judge_settings, 5.0),
+        Target("baseline", setups.make_baseline, setups.judge_baseline, 2.0),
+        Target("card", card_logs.make, card_logs.judge, 25.0),
+        Target("dxf", drawings.make, drawings.judge, 10.0, most_s=15.0),
+        Target("compare", drawings.make, drawings.judge_compared, 0.3, most_s=20.0),
+        Target("command", commands.make, commands.judge, 4.0, most_s=20.0, most_mb=800.0),
+        Target("run", runs.make, runs.judge, 0.2, most_s=20.0, most_mb=800.0),
+    )
+}
+"""Targets by their names."""
