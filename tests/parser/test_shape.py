@@ -12,6 +12,7 @@ from parser.program import parse_program
 from parser.shape.beside import Stretches, run_beside
 from parser.shape.closing import corners_at
 from parser.shape.contours import contour_rows, find_contours, runs
+from parser.shape.loops import find_loops
 from parser.shape.open_edges import Section, is_slot
 from parser.shape.returns import latest_return
 from parser.shape.turns import find_turns
@@ -172,3 +173,11 @@ def test_half_a_stretch_has_half_its_places_beside_another() -> None:
     beside = run_beside(path, Stretches(np.array([0, 2]), np.array([0, 2])), np.array([1, 0]), np.array([0, 1]))
     # A foot may lie ahead by half of what it lies aside, and 5 µm.
     assert beside.share.tolist() == [0.5, 1.0]
+
+
+@pytest.mark.parametrize("short_um", [1.0, 3.0, 4.9])
+def test_a_loop_does_not_end_at_the_short_block_that_it_begins_with(short_um: float) -> None:
+    pen = Pen().to(short_um, 0).to(9000, 0).to(9000, 9000).to(0, 9000).to(0, 0).to(-500, -500)
+    path = pen.path()
+    loops = find_loops(path, contour_rows(path), np.array([0]))
+    assert (loops.first.tolist(), loops.last.tolist(), loops.part_side.tolist()) == ([0], [4], [0])
