@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: demo test lint scripts browser bench steps mutate fuzz golden pages lock clean
+.PHONY: demo test lint scripts browser bench steps mutate survivors fuzz golden pages lock clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
@@ -41,6 +41,10 @@ steps: $(READY)
 # How many faults of each kind are found: the table of docs/check.md.
 mutate: $(READY)
 	PYTHONPATH=. $(BIN)/python tests/tools/mutation.py
+
+# How many small changes of our own code the tests notice, of a random sample: some minutes for each area.
+survivors: $(READY)
+	for area in checks stepping planner; do PYTHONPATH=. nice $(BIN)/python tests/tools/survivors.py $$area || exit; done
 
 # Promises that hold for any input, on a million inputs of all kinds; and the time of programs bad on purpose.
 fuzz: $(READY)

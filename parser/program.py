@@ -6,7 +6,7 @@ from pathlib import Path
 
 from parser.dialect.mender import Mender
 from parser.dialect.reader import STANDARD_MARKS, HeaderValue, Marks, Reader, Reading
-from parser.files.kinds import kind_of
+from parser.files.kinds import A_PROGRAM, kind_of
 from parser.files.reading import read_bytes
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
@@ -71,9 +71,9 @@ def load_program(data: bytes, name: str, marks: Marks = STANDARD_MARKS) -> Progr
     try:
         text, encoding = decode_text(data)
         return parse_program(text, name=name, encoding=encoding, marks=marks)
-    except ProgramError:
-        kind = kind_of(data)
-        if kind:
+    except ProgramError as error:
+        kind = kind_of(data) if error.finding.values.get("what") in {"not-text", "no-block"} else ""
+        if kind not in {"", A_PROGRAM}:  # blocks that all stand in remarks are a program without blocks
             raise ProgramError(no_program(kind)) from None
         raise
 

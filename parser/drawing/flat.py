@@ -13,7 +13,7 @@ from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 
 MOST_CURVES = 1_000_000
 """Lines and arcs that a drawing becomes, those of ellipses and splines among them."""
-_FARTHEST_UM = 1e10  # 10 km: no part is drawn there, and floating point still tells 0.001 µm apart
+FARTHEST_UM = 1e10  # 10 km: no part is drawn there, and floating point still tells 0.001 µm apart
 _LONGEST_STEP_RAD = 0.5 * np.pi  # of an ellipse, however small: its lines still go round its centre
 
 
@@ -48,7 +48,7 @@ def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float) ->
     forms = _placed(forms, maps[which])
     rho, thin = _axes(forms[:, MAJOR], forms[:, MINOR])
     line = forms[:, SWEEP] == 0.0
-    arc = np.isfinite(forms).all(axis=1) & ((rho <= _FARTHEST_UM) | (_is_round(forms) & _bends_near(forms, rho)))
+    arc = np.isfinite(forms).all(axis=1) & ((rho <= FARTHEST_UM) | (_is_round(forms) & _bends_near(forms, rho)))
     near = _is_near(forms[:, START]) & _is_near(forms[:, END]) & (line | arc)
     upright = near & ~line & (thin <= SAME_WITHIN_UM)
     kept = np.flatnonzero(near & ~upright)
@@ -118,7 +118,7 @@ def _cross(major: Floats, minor: Floats) -> Floats:
 
 def _is_near(place: Floats) -> NDArray[np.bool_]:
     """Whether places (k, d) are numbers that a table may have."""
-    return np.asarray((np.abs(place) <= _FARTHEST_UM).all(axis=1))
+    return np.asarray((np.abs(place) <= FARTHEST_UM).all(axis=1))
 
 
 def _is_round(forms: Floats) -> NDArray[np.bool_]:
@@ -132,7 +132,7 @@ def _is_round(forms: Floats) -> NDArray[np.bool_]:
 
 def _bends_near(forms: Floats, radius: Floats) -> NDArray[np.bool_]:
     """Whether arcs (k,) of circles bulge no farther from their chord than a table may reach: R (1 − cos(sweep / 2))."""
-    return np.asarray(2.0 * radius * np.sin(0.25 * forms[:, SWEEP]) ** 2 <= _FARTHEST_UM)
+    return np.asarray(2.0 * radius * np.sin(0.25 * forms[:, SWEEP]) ** 2 <= FARTHEST_UM)
 
 
 def _is_slanted(forms: Floats) -> NDArray[np.bool_]:

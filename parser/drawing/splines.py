@@ -8,7 +8,7 @@ from parser.geometry.curves import Floats, Ints
 _BETWEEN = np.array([0.25, 0.5, 0.75])  # shares of a chord's parameters where its distance from the curve is looked at
 _OF_TOLERANCE = 0.75  # the distance is not looked at everywhere
 _MOST_ROUNDS = 24  # each at least halves what is too far off: an end for splines that never come near
-_MOST_PLACES = 1_000_000  # no spline that is drawn needs more; damaged ones do
+MOST_PLACES = 1_000_000  # no spline that is drawn needs more; damaged ones do
 
 
 def flattened(spline: Spline, tolerance_um: float) -> Floats:
@@ -23,7 +23,7 @@ def flattened(spline: Spline, tolerance_um: float) -> Floats:
         parts = np.ceil(np.sqrt(_off(spline, at) / (_OF_TOLERANCE * tolerance_um))).astype(np.int64)
         if parts.max() <= 1:
             break
-        if parts.sum() > _MOST_PLACES:
+        if parts.sum() > MOST_PLACES:
             raise ValueError(f"{parts.sum()} places on one spline")
         at = _parted(at, np.maximum(parts, 1))
     return places_at(spline, at)

@@ -5,6 +5,8 @@ import tomllib
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
+A_PROGRAM = "kind-program"
+"""Term of a text with a block of 3B or 4B somewhere: what a drawing is not."""
 HINTS: Mapping[str, str] = MappingProxyType(
     {
         "kind-iso": "hint-post",
@@ -22,6 +24,7 @@ HINTS: Mapping[str, str] = MappingProxyType(
         "kind-card-log": "hint-replay",
         "is-a-pipe": "hint-stdin",
         "file-too-large": "hint-limit",
+        "too-many-blocks": "hint-split",
     }
 )
 """Term of the hint for what was found in place of a program, where the usual one does not help."""
@@ -103,7 +106,7 @@ def _is_toml(head: bytes) -> bool:
 
 _STRUCTURES: tuple[tuple[str, Callable[[bytes], bool]], ...] = (
     ("kind-utf16", _is_utf16),
-    ("kind-program", _is_program),
+    (A_PROGRAM, _is_program),
     ("kind-iso", _is_iso),
     ("kind-hpgl", _is_hpgl),
     ("kind-toml", _is_toml),

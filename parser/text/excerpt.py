@@ -23,7 +23,7 @@ def caret_lines(excerpt: str, column: int, width: int = 1, room: int = _ROOM) ->
     carets stand under what they mean.
     """
     behind = first_cells(printable(excerpt[column - 1 : column - 1 + room]), room)
-    most = max(int(room * _BEFORE), room - cells(behind))
+    most = max(int(room * _BEFORE), room - max(1, cells(behind)))
     before = first_cells(printable(excerpt[max(0, column - 1 - room) : column - 1])[::-1], most)[::-1]
     behind = first_cells(behind, room - cells(before))
     return before + behind, " " * cells(before) + "^" * max(1, cells(behind[:width]))

@@ -37,7 +37,7 @@ _COMMAND: Final = re.compile(
     rf"""
       \#(?=[{_UNSEEN}]*\#[\w.{_UNSEEN}-]*\[)
     | (?:(?<=section_start)|(?<=section_end)):(?=[{_UNSEEN}]*\d)
-    | :(?=:(?:{_GITHUB})(?:\s.*)?::)
+    | :(?=:(?:{_GITHUB})(?:\s(?:[^:]|:(?!:))*+)?::)
     """,
     re.VERBOSE | re.IGNORECASE,
 )

@@ -12,10 +12,11 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from parser.dialect.reader import STANDARD_MARKS, Marks
+from parser.findings.errors import ProgramError
 from parser.findings.facts import TooLarge
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
-from parser.text.encoding import narrow
+from parser.text.encoding import narrow, no_program
 from parser.text.lines import LineIndex
 from parser.threeb.columns import MAX_WORD_UM, RawBlocks, all_rows, columns_of, read_mm
 from parser.threeb.damage import Unread, unread
@@ -35,6 +36,8 @@ _MARK, _PASSED = GROUP_AT["mark"], GROUP_AT["passed"]
 
 _LINE = re.compile(r"[^\r\n]+")
 _BLOCKS_AT_ONCE = 1 << 16
+MOST_BLOCKS = 2_000_000
+"""Blocks that are read of one program: twenty times as many as the longest programs of lace and gears (assumed)."""
 
 
 class Mark(NamedTuple):
@@ -92,7 +95,7 @@ def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
     """Read a whole program text.
 
     Text that is no block, mark, header or remark becomes finding 3B101, a damaged block 3B106, a word over
-    `MAX_WORD_UM` 3B206; nothing is raised.
+    `MAX_WORD_UM` 3B206. Raises ProgramError (3B100) for more than `MOST_BLOCKS`.
     """
     folded = narrow(text)
     lines = LineIndex(folded)
@@ -132,6 +135,8 @@ def _tokens(folded: str, lines: LineIndex, marks: Marks) -> _Tokens:
             number += 1
             words += groups
             spans.extend(match.span(block))
+            if number > MOST_BLOCKS:
+                raise ProgramError(no_program("too-many-blocks", f"{MOST_BLOCKS:,}"))
             if number % _BLOCKS_AT_ONCE == 0:
                 read.append(columns_of(words, _pairs(spans), lines))
                 words, spans = [], array("q")

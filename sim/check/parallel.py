@@ -22,15 +22,15 @@ def check_files(jobs: Sequence[Job], progress: Callable[[int, int], None]) -> It
 
 
 def _results(jobs: Sequence[Job]) -> Iterator[CheckResult]:
-    """Results of all jobs. Where a process dies, nobody knows at which file: those of its task are checked alone."""
+    """Results of all jobs. Where a process dies, nobody knows at which file: its task is done one by one."""
     at = 0
     while at < len(jobs):
         for result in _until_one_dies(jobs[at:]):
             at += 1
             yield result
-        for job in jobs[at : at + _FILES_A_TASK]:
+        for result in _one_by_one(jobs[at : at + _FILES_A_TASK]):
             at += 1
-            yield _alone(job)
+            yield result
 
 
 def _until_one_dies(jobs: Sequence[Job]) -> Iterator[CheckResult]:
@@ -41,12 +41,18 @@ def _until_one_dies(jobs: Sequence[Job]) -> Iterator[CheckResult]:
             return
 
 
-def _alone(job: Job) -> CheckResult:
-    with ProcessPoolExecutor(1, initializer=_left_to_the_first) as pool:
-        try:
-            return pool.submit(check_any, job).result()
-        except BrokenProcessPool:
-            return not_checked(job, _DIED)
+def _one_by_one(jobs: Sequence[Job]) -> Iterator[CheckResult]:
+    """Results of jobs from one process: it dies at the file that it was given last, and another goes on."""
+    at = 0
+    while at < len(jobs):
+        with ProcessPoolExecutor(1, initializer=_left_to_the_first) as pool:
+            try:
+                while at < len(jobs):
+                    yield pool.submit(check_any, jobs[at]).result()
+                    at += 1
+            except BrokenProcessPool:
+                yield not_checked(jobs[at], _DIED)
+                at += 1
 
 
 def _left_to_the_first() -> None:

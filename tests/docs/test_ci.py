@@ -30,7 +30,7 @@ def blocks(language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```$", PAGE, flags=re.MULTILINE | re.DOTALL)
 
 
-(SH,), (MAKEFILE,), (PIPELINE,) = blocks("sh"), blocks("make"), blocks("groovy")
+(KNOWN, SH), (MAKEFILE,), (PIPELINE,) = blocks("sh"), blocks("make"), blocks("groovy")
 WITH_ACTION, WITHOUT_ACTION, GITLAB, HOOK, OWN_HOOK = map(read_yaml, blocks("yaml"))
 STEPS = WITHOUT_ACTION["jobs"]["drycut"]["steps"]
 
@@ -134,9 +134,10 @@ FINDINGS: dict[str, Callable[[Path], Any]] = {
 
 def test_every_recipe_is_run_here() -> None:
     assert re.findall(r"^```(\w*)$", PAGE, flags=re.MULTILINE)[::2] == [
-        *("sh", "make", "yaml", "yaml", "yaml", "groovy", "yaml", "yaml"),
+        *("sh", "sh", "make", "yaml", "yaml", "yaml", "groovy", "yaml", "yaml"),
     ]
     assert re.findall(r"^## (.*)$", PAGE, flags=re.MULTILINE) == [
+        "Old programs: only what is new fails",
         *("A plain shell", "make", "GitHub Actions", "GitLab CI", "Jenkins", "pre-commit"),
     ]
 
@@ -155,6 +156,19 @@ def test_a_recipe_ends_as_its_programs_are_with_its_files_written(shop: Shop, na
         assert len(FINDINGS[form](shop.folder / file)) == (0 if is_sound else 1), file
     if "pip install" in recipe.script:
         assert shop.calls.read_text("utf-8") == "install drycut @ git+URL@REF\n"
+
+
+def test_what_is_known_passes_a_recipe_and_what_is_new_fails_it(shop: Shop) -> None:
+    shop.write("part.3b", WRONG_AXIS)
+    assert shop.run(KNOWN).returncode == 0
+    recipe = RECIPES["gitlab"]
+    done = shop.run(recipe.script)
+    assert done.returncode == 0
+    assert "drycut.toml" in done.stdout
+    assert not FINDINGS["gitlab"](shop.folder / recipe.files["gitlab"])
+    shop.write("deep/零件.4b", WRONG_AXIS)
+    assert shop.run(recipe.script).returncode == 1
+    assert len(FINDINGS["gitlab"](shop.folder / recipe.files["gitlab"])) == 1
 
 
 def test_make_leaves_the_mends_for_a_person(shop: Shop) -> None:

@@ -1,5 +1,7 @@
 """Several figures: pauses, jumps in the air and start nodes."""
 
+import pytest
+
 from parser.geometry.curves import CurveKind
 from parser.program import parse_program
 
@@ -85,3 +87,12 @@ def test_a_lead_in_right_behind_a_pause_is_no_jump() -> None:
     program = parse_program(f"{hole} D {hole} D {hole} DD")
     assert not program.toolpath.is_jump.any()
     assert [finding.code for finding in program.findings] == ["3B308", "3B308"]
+
+
+@pytest.mark.parametrize(("side", "kerf"), [(10000, 400), (1000, 200)])
+def test_no_wire_is_threaded_within_a_kerf_of_a_corner_that_was_cut(side: int, kerf: int) -> None:
+    # No kerf is wider than 400 µm, nor than a twentieth of the way round a small figure.
+    square = SQUARE.replace("10", str(side))
+    for way in (f"B{kerf}B0B{kerf}GXL3", f"B0B{kerf}B{kerf}GYL4"):
+        assert jumps(f"{square} D {way} {square} DD") == []
+        assert jumps(f"{square} D {way.replace(str(kerf), str(kerf + 1))} {square} DD") == [5]

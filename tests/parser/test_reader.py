@@ -262,3 +262,22 @@ def test_a_printed_end_in_any_spelling(printed: str) -> None:
 def test_an_arc_without_radius_does_not_move() -> None:
     toolpath = parse_program("B1B0B100000GXNR1\nB0B100B100GYL2 DD").toolpath
     assert toolpath.end_um.tolist() == [[0.0, 0.0], [0.0, 100.0]]
+
+
+def test_more_blocks_than_are_read_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("parser.threeb.reader.MOST_BLOCKS", 4)
+    assert read_records("B9B0B9GXL1\n" * 4).blocks.x_um.tolist() == [9] * 4
+    with pytest.raises(ProgramError) as caught:
+        read_records("B9B0B9GXL1\n" * 5)
+    assert caught.value.finding.values == {"what": "too-many-blocks", "detail": "4", "hint": "hint-split"}
+
+
+@pytest.mark.parametrize("at_once", [1, 2, 3])
+def test_blocks_are_the_same_however_many_are_read_at_once(monkeypatch: pytest.MonkeyPatch, at_once: int) -> None:
+    text = "N1:B9B0B9GXL1\nD\n2:B0B9B9GYL2;1.000,2.000\nB9B5B9B10GDDXNR1\nDD\n"
+    whole = read_records(text)
+    monkeypatch.setattr("parser.threeb.reader._BLOCKS_AT_ONCE", at_once)
+    parted = read_records(text)
+    assert parted.marks == whole.marks
+    for column, same in zip(parted.blocks, whole.blocks, strict=True):
+        np.testing.assert_array_equal(column, same)

@@ -23,8 +23,9 @@ def main() -> None:
         ends: list[int] = []
         reads = missing = 0
         while len(ends) < RUNS:
-            missing += len(NAMES) - len(found(folder))
-            reads += len(NAMES)
+            # Who is held up on the way through a link may find nothing, once (docs/report.md).
+            missing += len(NAMES) - max(len(found(folder)) for _ in range(2))
+            reads += 2 * len(NAMES)
             number, status = os.waitpid(-1, os.WNOHANG)
             if number in runs:
                 ends.append(status)

@@ -2,9 +2,9 @@
 
     PYTHONPATH=. python tests/tools/survivors.py planner --sample 100 --seed 2
 
-Each change is made in memory, in a process of its own. The tests that ran its line run on it, quick ones first, until
-one fails. What survives is a border that no test stands at, code that is not needed, or a change that changes nothing,
-such as another allowance for rounding: which of them, a person decides. Needs fork: Linux or macOS.
+Each change is made in memory, in a process of its own. The tests that call its function run on it, quick ones first,
+until one fails. What survives is a border that no test stands at, code that is not needed, or a change that changes
+nothing, such as another allowance for rounding: which of them, a person decides. Needs fork: Linux or macOS.
 """
 
 import argparse
@@ -19,7 +19,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator
 from importlib.machinery import SourceFileLoader
 from types import CodeType, FrameType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 from unittest import mock
 
 import ezdxf  # noqa: F401 - here, so that no process of a change has to load it
@@ -32,7 +32,7 @@ from places import ROOT
 
 
 class Area(NamedTuple):
-    """Folders or files whose code is changed, and those whose tests are to notice it."""
+    """Folders whose code is changed, and folders or files whose tests are to notice it."""
 
     code: tuple[str, ...]
     tests: tuple[str, ...]
@@ -55,13 +55,13 @@ _PYTEST = ("-q", "-x", "-m", "not alone", "-p", "no:cacheprovider", "--rootdir",
 
 
 class Runs(NamedTuple):
-    """Which tests ran which lines: file -> line -> tests; and how long each test took, s."""
+    """Which tests called the function of which lines: file -> line -> tests; and how long each test took, s."""
 
     lines: dict[str, dict[int, list[str]]]
     took_s: dict[str, float]
 
     def of(self, file: str, line: int) -> list[str]:
-        """Tests that ran a line, quick ones first; of a line that runs on import, those that ran any of the file."""
+        """Tests that ran the function of a line, quick ones first; of no function, those that ran any of the file."""
         tests = self.lines.get(file, {})
         ran = tests.get(line) or {test for of in tests.values() for test in of}
         ordered = sorted(ran, key=lambda test: (self.took_s[test], test))
@@ -78,34 +78,32 @@ class Change(NamedTuple):
 
 
 class _Recorder:
-    """A plugin of pytest that records which test runs which line, by its function."""
+    """A plugin of pytest that records which test calls which functions of our code, by their lines."""
 
     def __init__(self) -> None:
         self.lines: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
         self.took_s: dict[str, float] = defaultdict(float)
-        self._test = ""
+        self._test, self._called = "", set[int]()
 
     @pytest.hookimpl(wrapper=True, tryfirst=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
-        self._test, began = item.nodeid.partition("[")[0], time.perf_counter()
-        sys.settrace(self._called)
+        self._test, self._called = item.nodeid.partition("[")[0], set()
+        began = time.perf_counter()
+        sys.settrace(self._call)
         try:
             return (yield)
         finally:
             sys.settrace(None)
             self.took_s[self._test] += time.perf_counter() - began
 
-    def _called(self, frame: FrameType, event: str, argument: object) -> Callable[..., Any] | None:
-        file = frame.f_code.co_filename
-        if not file.startswith(_CODE):
-            return None
-        lines = self.lines[file[len(str(ROOT)) + 1 :]]
-
-        def at_line(frame: FrameType, event: str, argument: object) -> Callable[..., Any]:
-            lines[frame.f_lineno].add(self._test)
-            return at_line
-
-        return at_line
+    def _call(self, frame: FrameType, event: str, argument: object) -> None:
+        code = frame.f_code
+        if id(code) not in self._called:
+            self._called.add(id(code))
+            if code.co_filename.startswith(_CODE):
+                of = self.lines[code.co_filename[len(str(ROOT)) + 1 :]]
+                for _, _, line in code.co_lines():
+                    of[line or code.co_firstlineno].add(self._test)
 
 
 def changes(area: Area) -> list[Change]:
@@ -119,7 +117,7 @@ def changes(area: Area) -> list[Change]:
 
 
 def recorded(area: Area) -> Runs:
-    """Which tests of an area ran which lines. ValueError where a test fails on the code as it is."""
+    """Which tests of an area ran what. ValueError where a test fails on the code as it is."""
     reader, writer = os.pipe()
     child = os.fork()
     if not child:

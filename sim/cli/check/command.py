@@ -57,17 +57,19 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     language = chosen(lang)
     from sim.cli.check.jobs import Asked, jobs_of
-    from sim.cli.check.outputs import outputs_of, refuse_programs
+    from sim.cli.check.outputs import outputs_of, refuse_inputs
     from sim.show.findings.options import Options
 
     given = {"--fix": fix, "--diff": diff, "--watch": watch}
     _refuse_contradictions(files, formats, asked, given)
-    outputs, options = outputs_of(formats, output_file), Asked(**asked)
+    options = Asked(**asked)
+    outputs = outputs_of(formats, output_file, options.write_baseline)
     style = Options(language, quiet=quiet, statistics=statistics)
 
     def found() -> list["Job"]:
         jobs = jobs_of(files, options)
-        refuse_programs(filter(None, (*(output.file for output in outputs), options.write_baseline)), jobs)
+        written = (*(output.file for output in outputs), options.write_baseline)
+        refuse_inputs(filter(None, written), jobs, filter(None, (options.baseline, options.config)))
         return jobs
 
     if watch:
@@ -125,8 +127,7 @@ def _check(jobs: Sequence["Job"], outputs: Sequence["Output"], style: "Options",
     outcome, ledger = _Outcome(), _ledger(options)
     write(outcome.watched(ledger.watched(jobs, _results(jobs))), outputs, style)
     printer.write(ledger.closed(style.language), err=True)
-    outcome.tell_faults(style.language)
-    return outcome.code
+    return outcome.told(style.language)
 
 
 def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:
@@ -143,26 +144,27 @@ def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:
 
 
 class _Outcome:
-    """Exit code of the results that pass by."""
+    """What the results that pass by come to."""
 
     def __init__(self) -> None:
-        self.code = 0
+        self._code = 0
         self._faults: dict[str, str] = {}
 
-    def tell_faults(self, language: "Language") -> None:
-        """Tell at which files drycut itself failed, if at any."""
-        if self._faults:
-            from sim.cli.faults import tell_faults
-
-            self.code = tell_faults(self._faults, language)
-
     def watched(self, results: Iterable["CheckResult"]) -> Iterator["CheckResult"]:
-        """The results; `code` grows with them."""
+        """The results, as they are."""
         for result in results:
             if result.fault:
                 self._faults[result.name] = result.fault
             elif result.unreadable:
-                self.code = 2
+                self._code = 2
             elif result.failed:
-                self.code = max(self.code, 1)
+                self._code = max(self._code, 1)
             yield result
+
+    def told(self, language: "Language") -> int:
+        """The exit code; at which files drycut itself failed is told."""
+        if not self._faults:
+            return self._code
+        from sim.cli.faults import tell_faults
+
+        return tell_faults(self._faults, language)

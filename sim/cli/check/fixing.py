@@ -19,6 +19,7 @@ from sim.check.settings import CheckSettings
 from sim.check.silence.sift import without_known
 from sim.cli.check.patches import for_people, for_tools
 from sim.files import replace_file
+from sim.show.terminal.wrap import wrapped
 from sim.show.words import Words
 
 
@@ -89,21 +90,21 @@ def fix_file(path: Path, name: str, settings: CheckSettings, known: frozenset[st
     return mend
 
 
-def left(mend: Mended, language: Language) -> str:
-    """What was not mended, as there is more than one way to do it; for people."""
-    say = Words(language)
+def left(mend: Mended, language: Language, width: int) -> str:
+    """What was not mended, as there is more than one way to do it; for people, the mends in lines of `width` cells."""
     return "".join(
-        say(
-            "findings.left",
-            place=place(printable(mend.program.name), unmended.finding.line, unmended.finding.column),
-            code=unmended.finding.code,
-            choices=say("findings.or").join(
-                say("findings.choice", block=choice.block, text=choice.text) for choice in unmended.choices
-            ),
-        )
-        + "\n"
-        for unmended in mend.unmended
+        f"{line}\n" for unmended in mend.unmended for line in _left(mend.program.name, unmended, language, width)
     )
+
+
+def _left(name: str, unmended: Unmended, language: Language, width: int) -> list[str]:
+    say, finding = Words(language), unmended.finding
+    where = place(printable(name), finding.line, finding.column)
+    choices = (say("findings.choice", block=choice.block, text=choice.text) for choice in unmended.choices)
+    return [
+        say("findings.left", place=where, code=finding.code),
+        *wrapped(say("findings.or").join(choices), width, head="    "),
+    ]
 
 
 def _errors(program: Program, settings: CheckSettings) -> Counter[tuple[str, int]]:

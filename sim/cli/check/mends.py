@@ -12,6 +12,7 @@ from sim.cli.scenario_options import describe
 from sim.files import staged
 from sim.show.terminal.printer import say, write, write_exactly
 from sim.show.terminal.streams import outlet
+from sim.show.terminal.wrap import width_of
 from sim.show.words import Words
 
 _Put = Callable[[Mended], object]
@@ -30,7 +31,7 @@ def fix_files(jobs: Sequence[Job], language: Language) -> bool:
             all_written = False
         else:
             if mend:
-                write(mend.diff + left(mend, language), err=True)
+                write(mend.diff + left(mend, language, width_of(outlet(err=True))), err=True)
     return all_written
 
 
@@ -56,7 +57,7 @@ def _show(job: Job, put: _Put, language: Language) -> int:
         return 2
     if mend.changed:
         put(mend)
-    write(left(mend, language), err=True)
+    write(left(mend, language, width_of(outlet(err=True))), err=True)
     return int(mend.changed)
 
 

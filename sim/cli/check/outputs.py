@@ -36,10 +36,11 @@ class Output(NamedTuple):
     file: Path | None = None
 
 
-def outputs_of(asked: Sequence[Output], file: Path | None) -> tuple[Output, ...]:
+def outputs_of(asked: Sequence[Output], file: Path | None, baseline: Path | None = None) -> tuple[Output, ...]:
     """The outputs of ``--format`` and ``--output-file``, that of stdout first; text where no format was asked for.
 
-    Raises UsageError where two go to one place, or where `file` has no format to hold.
+    Raises UsageError where two go to one place, also where that is the `baseline` that is to be written, or where
+    `file` has no format to hold.
     """
     asked = asked or (Output("text"),)
     plain = [output._replace(file=file) for output in asked if output.file is None]
@@ -49,7 +50,7 @@ def outputs_of(asked: Sequence[Output], file: Path | None) -> tuple[Output, ...]
     if file and not plain:
         raise click.UsageError("--output-file has nothing to hold: each --format has a file of its own")
     outputs = (*plain, *(output for output in asked if output.file))
-    seen: set[object] = set()
+    seen = {_identity(baseline)} if baseline else set()
     for path in (output.file for output in outputs if output.file):
         if _identity(path) in seen:
             raise click.UsageError(f"{path}: two outputs cannot go into one file")
@@ -57,11 +58,14 @@ def outputs_of(asked: Sequence[Output], file: Path | None) -> tuple[Output, ...]
     return outputs
 
 
-def refuse_programs(files: Iterable[Path], jobs: Iterable["Job"]) -> None:
-    """UsageError where a file that is to be written is one of the programs to check."""
+def refuse_inputs(files: Iterable[Path], jobs: Iterable["Job"], others: Iterable[Path]) -> None:
+    """UsageError where a file that is to be written is one of the programs to check, or another file that is read."""
     written = {_identity(file): file for file in files}
     if not written:
         return
+    for path in others:
+        if file := written.get(_identity(path)):
+            raise click.UsageError(f"{file}: is read by this run; an output cannot take its place")
     for source in (job.source for job in jobs):
         if isinstance(source, Path) and (file := written.get(_identity(source))):
             raise click.UsageError(f"{file}: is one of the programs; an output cannot take its place")

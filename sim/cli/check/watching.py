@@ -4,6 +4,7 @@ import glob
 import os
 import time
 from collections.abc import Callable, Iterator, Sequence
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple, NoReturn
 
@@ -12,7 +13,8 @@ import click
 from parser.findings.catalogue import Language
 from parser.findings.errors import DrycutError
 from parser.program import suffixes
-from sim.show.terminal.printer import say
+from sim.check.settings.read import NAMES
+from sim.show.terminal.printer import clear, say
 from sim.show.words import Words
 
 _LEAST_REST_S = 0.3
@@ -35,16 +37,18 @@ def watch(names: Sequence[str], check: Callable[[], object], language: Language)
     What keeps the first check from being done is raised; later it is told, as a later change may mend it.
     """
     seen = _look(names)
-    click.clear()
+    clear()
     check()
     while True:
         say(Words(language)("findings.watching"), err=True)
         seen = _settled_change(names, seen)
-        click.clear()
+        clear()
         try:
             check()
-        except (DrycutError, click.ClickException) as error:
+        except DrycutError as error:
             say(f"drycut: error: {error}", err=True)
+        except click.ClickException as error:
+            say(f"drycut: error: {error.format_message()}", err=True)
 
 
 def rest_s(look_s: float) -> float:
@@ -66,15 +70,24 @@ def _settled_change(names: Sequence[str], before: dict[str, _Seen]) -> dict[str,
 
 
 def _look(names: Sequence[str]) -> dict[str, _Seen]:
-    """The files that the names lead to; one that is gone, or cannot be looked at, is not among them."""
+    """The files that the names lead to, and settings that may count for them; none that cannot be looked at."""
     seen: dict[str, _Seen] = {}
-    for path in (path for name in names for path in _paths(name)):
+    programs = {path for name in names for path in _paths(name)}
+    folders = {os.path.dirname(path) for path in programs}  # noqa: PTH120 - as below
+    for path in (*programs, *{file for folder in folders for file in _settings_above(folder)}):
         try:
             found = os.stat(path)  # noqa: PTH116 - no Path for each of thousands of files, several times a second
         except OSError:
             continue
         seen[path] = _Seen(found.st_mtime_ns, found.st_size, found.st_ino)
     return seen
+
+
+@cache
+def _settings_above(folder: str) -> tuple[str, ...]:
+    """Settings files, there or not, in a folder and all above it; that is more than the search for settings reads."""
+    here = Path(folder).resolve()
+    return tuple(str(above / name) for above in (here, *here.parents) for name in NAMES)
 
 
 def _paths(name: str) -> Iterator[str]:

@@ -1,6 +1,7 @@
 """TOML settings read strictly: every key known, every number in its bounds, every complaint names file and key."""
 
 import math
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,6 +18,13 @@ class Bound(NamedTuple):
     high: float
 
 
+MOST_CHARACTERS = 1_000_000
+"""Of a settings, machine or scenario file: outlines of 50,000 corners."""
+MOST_PARTS = 50
+"""Of a key with dots, such as ``a.b.c``: the library takes a time that grows with their square."""
+_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+"""
+_DOTTED = re.compile(rf"(?<![\w-])(?:{_PART}\.[ \t]*+){{{MOST_PARTS}}}{_PART}", re.ASCII)
+
 PLACE_MM = Bound(-1e5, 1e5)
 AREA_RATE_MM2_MIN = Bound(0.1, 1e4)
 _MOST_BITS = 2048
@@ -27,7 +35,7 @@ def load_toml(path: Path) -> dict[str, Any]:
     try:
         import tomllib  # noqa: PLC0415 - most checks have no settings file
 
-        content = tomllib.loads(read_text(path))
+        content = tomllib.loads(_bounded(path, read_text(path)))
         if _is_endless(content):
             raise SettingsError(f"{path}: holds a whole number of more than {_MOST_BITS:,} bits; no setting takes one")
     except RecursionError:
@@ -43,6 +51,15 @@ def _is_endless(value: object) -> bool:
     """Whether a value holds a whole number of more digits than Python would print; hexadecimal ones can be read."""
     inside = value.values() if isinstance(value, Mapping) else value if isinstance(value, list) else ()
     return (isinstance(value, int) and value.bit_length() > _MOST_BITS) or any(map(_is_endless, inside))
+
+
+def _bounded(path: Path, content: str) -> str:
+    """The content of a settings file. SettingsError for more than the library reads in a second or so."""
+    if len(content) > MOST_CHARACTERS:
+        raise SettingsError(f"{path}: is longer than {MOST_CHARACTERS:,} characters, as no settings are")
+    if _DOTTED.search(content):
+        raise SettingsError(f"{path}: is nested too deep: a key has more than {MOST_PARTS} parts")
+    return content
 
 
 def refuse_unknown(table: Mapping[str, Any], known: Iterable[str], where: str) -> None:

@@ -33,7 +33,10 @@ _HIDDEN = "findings-not-shown"
 """Notification that findings are silenced; the others have the names of the checks."""
 
 # Names of the IANA registry, which §3.24.9 wants.
-_CHARSETS = {"utf-8": "UTF-8", "utf-8-sig": "UTF-8", "utf-16": "UTF-16", "gb18030": "GB18030", "latin-1": "ISO-8859-1"}
+_CHARSETS = {
+    **{"utf-8": "UTF-8", "utf-8-sig": "UTF-8", "utf-16-le": "UTF-16", "utf-16-be": "UTF-16"},  # these have a BOM
+    **{"gb18030": "GB18030", "big5": "Big5", "latin-1": "ISO-8859-1"},
+}
 
 
 def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:

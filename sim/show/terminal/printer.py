@@ -34,6 +34,12 @@ def write(text: str, form: Form = "text", *, err: bool = False) -> None:
     _print(made(text, form, colour=coloured(outlet(err=err))), err=err, ends=False)
 
 
+def clear() -> None:
+    """Clear the screen, where stdout is one."""
+    if moves_cursor(outlet()):
+        _print("\x1b[2J\x1b[1;1H", err=False, ends=False)
+
+
 def write_exactly(data: bytes, text: str) -> bool:
     """Print bytes to stdout, if there is nothing harmful in the text of which they are made; whether there was not."""
     if any(harmless(line) != line for line in re.split("[\r\n]", text.translate(_QUIET))):

@@ -170,3 +170,9 @@ def test_a_check_names_what_it_was_given_and_what_to_do(tmp_path: Path) -> None:
     assert done.returncode == 2
     assert b"error[3B100]: no 3B program\n" in done.stderr
     assert b" = found:    this is a DXF drawing" in done.stderr
+
+
+def test_blocks_in_remarks_alone_are_no_program_and_nothing_else() -> None:
+    with pytest.raises(ProgramError) as caught:
+        load_program(b"; B9B0B9GXL1\n; B0B9B9GYL2\n", "part.3b")
+    assert caught.value.finding.values["what"] == "no-block"

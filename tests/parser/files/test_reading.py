@@ -18,11 +18,14 @@ from parser.findings.errors import DrycutError, FileUnreadableError, SettingsErr
 ROOT = Path(__file__).parents[3]
 SHIPPED = {
     *("parser/findings/catalogue.py", "sim/show/words/words.py", "sim/setup/key_words.py", "sim/setup/key_tables.py"),
-    *("sim/show/html/bundle.py", "sim/show/findings/catalogue_document.py"),
+    *("sim/show/html/bundle.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/documents.py"),
 }
 """Modules that read files which drycut brings along, or its own documents."""
-OWN = {"sim/files.py", "sim/run/recording.py"}
-"""Modules that read what the same run wrote."""
+OWN = {
+    *("sim/files/moves.py", "sim/files/replaced.py", "sim/files/steps.py", "sim/run/recording.py"),
+    "sim/show/terminal/streams.py",  # reopens closed streams on nothing
+}
+"""Modules that read what drycut wrote, or look whether a file is still what the door read."""
 SQUARE = b"B9B0B9GXL1\nB0B9B9GYL2\nB9B0B9GXL3\nB0B9B9GYL4\nDD\n"
 _MAY_READ = re.compile(r"read_text|read_bytes|open\(|stdin|np\.load|fromfile")
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such files")

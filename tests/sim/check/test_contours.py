@@ -14,30 +14,30 @@ SQUARE = "B10000B0B10000GXL1 B0B10000B10000GYL2 B10000B0B10000GXL3 B0B10000B1000
 JUMP = "D B30000B0B30000GXL1 D"
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        HOLE,
-        f"B2000B0B2000GXL1 {SQUARE}",  # ends where its lead-in ended
-        f"B0B2000B2000GYL2 {SQUARE} B500B0B500GXL1",  # runs on past that, along its first side
-        "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B2400GYNR1",  # a circle cut past its start
-        "B15241B0B15241GXL3 B73215B15463B299320GYNR4",  # a circle off the axes, left where it began
-        SQUARE.replace("B0B10000B10000GYL4", "D B0B10000B10000GYL4"),  # a pause before the last cut
-    ],
-)
+CLOSED = [
+    HOLE,
+    f"B2000B0B2000GXL1 {SQUARE}",  # ends where its lead-in ended
+    f"B0B2000B2000GYL2 {SQUARE} B500B0B500GXL1",  # runs on past that, along its first side
+    "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B2400GYNR1",  # a circle cut past its start
+    "B15241B0B15241GXL3 B73215B15463B299320GYNR4",  # a circle off the axes, left where it began
+    SQUARE.replace("B0B10000B10000GYL4", "D B0B10000B10000GYL4"),  # a pause before the last cut
+]
+
+
+@pytest.mark.parametrize("text", CLOSED)
 def test_closed_contours_are_silent(text: str) -> None:
     assert codes(run_text(f"{text} DD")) == []
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        HOLE.replace("GXL3", "GXL1"),
-        HOLE.replace("B9900B0B39600GYNR1", "B9900B0B39000GYNR1"),  # short of its start
-        SQUARE.replace("B10000B0B10000GXL3", "B10000B0B9000GXL3"),
-        f"B0B2000B2000GYL2 {SQUARE} B500B500B500GYL1",  # in from outside, out into the part
-    ],
-)
+OPEN = [
+    HOLE.replace("GXL3", "GXL1"),
+    HOLE.replace("B9900B0B39600GYNR1", "B9900B0B39000GYNR1"),  # short of its start
+    SQUARE.replace("B10000B0B10000GXL3", "B10000B0B9000GXL3"),
+    f"B0B2000B2000GYL2 {SQUARE} B500B500B500GYL1",  # in from outside, out into the part
+]
+
+
+@pytest.mark.parametrize("text", OPEN)
 def test_open_contours_are_named(text: str) -> None:
     assert closure_codes(run_text(f"{text} DD")) == ["3B301"]
 
@@ -160,6 +160,11 @@ def _codes(text: str) -> list[str]:
     return [finding.code for finding in _checked(f"{text} DD")]
 
 
+def test_a_check_says_of_contours_what_a_run_says() -> None:
+    assert [_codes(text) for text in CLOSED] == [[]] * len(CLOSED)
+    assert all("3B301" in _codes(text) for text in OPEN)
+
+
 def _leaning(lines: int, circles: int = 0) -> str:
     """A triangle whose long side is stepped 2 µm short in X by each of its lines, which count on the shorter side.
 
@@ -198,3 +203,9 @@ def test_suspects_are_looked_for_in_the_first_fifty_open_contours() -> None:
     triangle = "B5000B0B5000GXL1 B0B5000B5000GYL2 B5000B5000B5000GYL1 D B0B90000B90000GYL2 D"
     named = [finding for finding in _checked(f"{' '.join([triangle] * 51)} DD") if finding.code == "3B304"]
     assert sorted({finding.values["first"] for finding in named}) == [1 + 4 * number for number in range(50)]
+
+
+@pytest.mark.parametrize(("arc", "is_open"), [("B0B5000B15000GYNR4", True), ("B0B5000B5000GYNR4", False)])
+def test_an_arc_of_more_than_half_a_turn_turns_back_though_its_ends_do_not(arc: str, *, is_open: bool) -> None:
+    # Three quarters of a circle behind a line end across it; a quarter runs on as a parting cut does.
+    assert ("3B301" in _codes(f"B9000B0B9000GXL1 {arc}")) == is_open

@@ -167,3 +167,19 @@ def test_a_loop_round_a_sharp_corner_is_none() -> None:
     pen = Pen(0, 0).to(21000, 0).to(20000, -1000).to(20000, 20000).to(0, 20000).to(0, 0)
     assert crossings(pen) == []
     assert crossings(Pen(0, 0).to(26001, 0).to(20000, -6000).to(20000, 20000).to(0, 20000).to(0, 0)) == [(0, 1)]
+
+
+@pytest.mark.parametrize(("side", "number"), [(2900, 0), (2800, 1)])
+def test_a_loop_round_a_corner_is_no_longer_than_half_of_the_shorter_side(side: int, number: int) -> None:
+    # The loop is 1000·sqrt(2) µm long.
+    pen = Pen(0, 0).to(side, 0).to(side - 1000, -1000).to(side - 1000, 20000).to(0, 20000).to(0, 0)
+    assert crossings(pen) == [(0, 1)] * number
+
+
+@pytest.mark.parametrize(("beyond_um", "number"), [(4.9, 0), (5.1, 1)])
+def test_a_crossing_is_clear_from_5_um_on_both_sides(beyond_um: float, number: int) -> None:
+    assert crossings(polyline([(0, 0), (1000, 0), (1000, 500), (300, 500), (300, -beyond_um)])) == [(0, 1)] * number
+    assert (
+        crossings(polyline([(300 - beyond_um, 0), (1000, 0), (1000, 500), (300, 500), (300, -900)]))
+        == [(0, 1)] * number
+    )

@@ -1,6 +1,10 @@
 """A finding is known again when its program was changed elsewhere."""
 
+import random
+
+from cam_programs import sound_program
 from checking import WRONG_AXIS
+from mutants import mutant
 
 from sim.check.batch import Job, check_file
 from sim.check.fingerprint import fingerprints
@@ -52,3 +56,20 @@ def test_another_text_or_another_code_is_another_finding() -> None:
 
 def test_what_has_no_place_has_a_fingerprint_too() -> None:
     assert list(known("hello").values()) == ["3B100"]
+
+
+def test_how_a_program_is_set_changes_no_fingerprint_of_a_broken_one() -> None:
+    draw = random.Random(17)
+    found = 0
+    for number in range(6):
+        broken = mutant(draw, sound_program(draw, printed=number % 2 == 1), None)
+        if broken is None:
+            continue
+        lines: list[str] = []
+        for line in broken.text:
+            lines += draw.choice(([], [], [""], ["// turned over 加工"], ["(by hand)", "  "]))
+            lines.append(line.lower() if draw.random() < 0.5 else line)
+        before, after = known("\n".join(broken.text)), known(draw.choice(("\n", "\r\n", "\r")).join(lines))
+        assert before == after, broken.text
+        found += len(before)
+    assert found > 4

@@ -99,7 +99,7 @@ def test_a_label_is_left_where_it_may_be_a_slip_of_either_sense(tmp_path: Path) 
     )
     data, told = fixed(tmp_path / "part.3b", text.encode())
     assert data == text.encode()
-    assert "3B203 is left as it is; more than one mend is possible: block 4 with NR4 or block 4 with SR3" in told
+    assert "3B203 is left as it is; more than one mend is possible:\n    block 4 with NR4 or block 4 with SR3" in told
 
 
 @pytest.mark.parametrize(
@@ -154,7 +154,7 @@ def test_two_possible_mends_change_nothing_and_are_told(tmp_path: Path) -> None:
     text = "B10000B0B10000GXL1\nB0B10000B10000GYL2\nB10000B0B10000GXL1\nB0B10000B10000GYL4\nDD\n"
     data, told = fixed(tmp_path / "part.3b", text.encode())
     assert data == text.encode()
-    assert "3B301 is left as it is; more than one mend is possible: block" in told
+    assert "3B301 is left as it is; more than one mend is possible:\n    block" in told
 
 
 def test_ignored_findings_are_not_mended(tmp_path: Path) -> None:

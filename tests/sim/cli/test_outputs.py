@@ -107,6 +107,9 @@ def test_the_exit_code_does_not_depend_on_the_outputs(programs: Path) -> None:
         (["--format=sarif="], "'sarif=' lacks the name of a file"),
         (["-o", "programs/sound.3b"], "programs/sound.3b: is one of the programs"),
         (["--format=sarif=link"], "link: is one of the programs"),
+        (["--write-baseline", "x", "-o", "./x"], "x: two outputs cannot go into one file"),
+        (["--baseline", "known.json", "-o", "known.json"], "known.json: is read by this run"),
+        (["--config", "drycut.toml", "--format=json=drycut.toml"], "drycut.toml: is read by this run"),
         (["-o", "programs"], "programs: is a folder"),
         (["-o", "programs/sound.3b/x"], "is a file; a folder of this name"),
     ],
@@ -115,6 +118,8 @@ def test_outputs_that_cannot_be_are_bad_use_before_any_work(
     programs: Path, options: list[str], complaint: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (programs / "link").symlink_to("programs/wrong.3b")
+    (programs / "known.json").write_text('{"schema": "drycut.baseline/1", "files": {}}', "ascii")
+    (programs / "drycut.toml").write_text("", "ascii")
     monkeypatch.setattr("sim.check.batch.check_file", lambda job: pytest.fail("a file was checked"))
     before = {path: path.read_bytes() for path in programs.rglob("*") if path.is_file()}
     done = run_inside("check", "programs", *options, cwd=programs)

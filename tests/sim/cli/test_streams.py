@@ -12,7 +12,7 @@ from places import SCENARIOS
 pytestmark = pytest.mark.skipif(not Path("/dev/full").exists(), reason="has no fork, or no device that is always full")
 
 SHORT = "B500B0B500GXL1 B0B500B500GYL2 B500B0B500GXL3 B0B500B500GYL4 DD"
-LOADS = ("card", "check.command", "compare", "draw", "explain", "replay", "run", "progress", "run_into")
+LOADS = ("card", "check.command", "compare", "explain", "run", "progress")
 # Commands with an exit code for each verdict.
 QUICK = [
     (["check", "good.3b"], 0),
@@ -28,8 +28,6 @@ LONG = [
     (["run", "good.3b"], 0),
     (["run", "fails.3b", "--json"], 1),
     (["compare", SCENARIOS / "punch"], 0),
-    (["draw", "good.3b", "-o", "cut.png", "--size", "thumbnail"], 0),
-    (["replay", "good.3b", "-o", "cut.gif", "--seconds", "0.5", "--fps", "1", "--size", "320x240"], 0),
 ]
 WAYS = [
     *(("closed", "closed", "closed"), ("null", "closed", "kept"), ("null", "kept", "closed")),

@@ -97,8 +97,31 @@ def test_each_settled_change_is_checked_once_until_ctrl_c(tmp_path: Path, watche
     (tmp_path / "a.new").write_text(SOUND, "ascii")
     (tmp_path / "a.new").replace(tmp_path / "b2.3b")
     assert "b2.3b: pass" in watcher.round()
+    (tmp_path / "drycut.toml").write_text('ignore = ["3B100"]\nselect = ["3B9"]\n', "ascii")
+    assert "no code begins with '3B9'" in watcher.round()
+    (tmp_path / "drycut.toml").write_text('ignore = ["3B102"]\n', "ascii")
+    assert "b2.3b: pass" in watcher.round()
     code, rest = watcher.end()
     assert (code, rest.strip()) == (130, "")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a terminal there is no file")
+def test_a_terminal_is_cleared_before_each_check(tmp_path: Path) -> None:
+    import pty
+
+    (tmp_path / "a.3b").write_text(SOUND, "ascii")
+    ours, theirs = pty.openpty()
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "LC_ALL": "C.UTF-8", "TERM": "xterm", "NO_COLOR": "1"}
+    command = [sys.executable, "-m", "sim.cli", "check", "a.3b", "--watch"]
+    with subprocess.Popen(command, cwd=tmp_path, env=environment, stdout=theirs, stderr=theirs) as process:
+        shown = b""
+        while b"watching" not in shown:
+            shown += os.read(ours, 1024)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(LONGEST_S) == 130
+    for end in (ours, theirs):
+        os.close(end)
+    assert shown.startswith(b"\x1b[2J\x1b[Ha.3b: pass")
 
 
 def test_looks_take_a_hundredth_of_the_time_up_to_some_seconds() -> None:
@@ -111,6 +134,7 @@ def test_looks_take_a_hundredth_of_the_time_up_to_some_seconds() -> None:
         (["-", "--watch"], "--watch looks at files"),
         (["a.3b", "--watch", "--fix"], "--fix and --watch cannot be done in one run"),
         (["a.3b", "--watch", "--diff"], "--diff and --watch cannot be done in one run"),
+        (["a.3b", "--watch", "--write-baseline", "known.json"], "--write-baseline has no place beside it"),
         (["a.3b", "--watch", "-o", "a.3b"], "a.3b: is one of the programs"),
         (["none", "--watch"], "none: no program there"),
         (["a.3b", "--watch", "--select", "X"], "no code begins with 'X'"),

@@ -38,7 +38,7 @@ def room_for(most: int) -> Iterator[None]:
         (("run", "part.3b", "--card-log", "out/part.log", "--interpolator", "card"), 500),
         (("draw", "part.3b", "-o", "out"), 40_000),
         (("draw", "part.3b", "-o", "out/cut.svg"), 2_000),
-        (("ballbar", "--radius", "1mm", "-o", "out"), 20_000),
+        (("ballbar", "--radius", "0.2mm", "-o", "out"), 20_000),
         (("replay", "part.3b", "-o", "out/film.gif", "--seconds", "0.5", "--fps", "2"), 2_000),
     ],
     ids=lambda value: value[0] if isinstance(value, tuple) else None,

@@ -22,7 +22,7 @@ from sim.files import locks, replace_file, scratch, staged
 
 TOOLS = ROOT / "tests" / "tools"
 PART = "B500B0B500GXL1\nB500B0B2000GYNR1\nB500B0B500GXL3\nDD\n"
-posix = pytest.mark.skipif(os.name == "nt", reason="Windows does not fork")
+posix = pytest.mark.skipif(os.name == "nt", reason="Windows neither forks nor tells a process to end")
 
 
 def counted(tool: str, *options: str) -> dict[str, int]:
@@ -130,6 +130,7 @@ def test_what_a_killed_run_left_among_temporary_files_is_cleared_by_the_next(
     assert list(tmp_path.iterdir()) == []
 
 
+@posix
 @pytest.mark.parametrize(
     ("number", "code"), [(signal.SIGTERM, 128 + signal.SIGTERM), (HANGUP, 128 + HANGUP), (signal.SIGINT, 130)]
 )

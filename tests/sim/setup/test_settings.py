@@ -1,6 +1,7 @@
 """Machine and scenario files: every key known, every bound kept, every complaint names file and key."""
 
 from pathlib import Path
+from time import process_time
 
 import pytest
 from places import MACHINES
@@ -8,6 +9,7 @@ from places import MACHINES
 from parser.findings.errors import FileUnreadableError, SettingsError
 from sim.setup.machine.machine import load_machine
 from sim.setup.scenario import load_scenario
+from sim.setup.toml.reader import load_toml
 from sim.units import clock, parse_length
 
 SHIPPED = MACHINES / "dk7740.toml"
@@ -128,3 +130,29 @@ def test_lengths_without_unit_are_refused(text: str) -> None:
 )
 def test_durations_for_people(seconds: float, text: str) -> None:
     assert clock(seconds) == text
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("a = " + "[" * 10_000 + "]" * 10_000, "nested too deep"),
+        ("a = " + "{a=" * 10_000 + "1" + "}" * 10_000, "nested too deep"),
+        (".".join(["a"] * 300_000) + " = 1", "nested too deep: a key has more than 50 parts"),
+        ("[" + " . ".join(['"a"', "'b'", "c-1"] * 30) + "]", "nested too deep: a key has more than 50 parts"),
+        ("#" * 1_000_001, "longer than 1,000,000 characters"),
+        ("a = " + '"' + "x" * 900_000, "is no TOML"),
+        ("a" * 900_000, "is no TOML"),
+        ('"' * 900_000, "is no TOML"),
+    ],
+)
+def test_hostile_settings_end_in_one_line_at_once(tmp_path: Path, content: str, said: str) -> None:
+    (tmp_path / "drycut.toml").write_text(content, "utf-8")
+    start = process_time()
+    with pytest.raises(SettingsError, match=said):
+        load_toml(tmp_path / "drycut.toml")
+    assert process_time() - start < 1.0
+
+
+def test_keys_of_as_many_parts_as_may_be_are_read(tmp_path: Path) -> None:
+    (tmp_path / "a.toml").write_text(".".join(["a"] * 50) + ' = "1.2.3"\n', "utf-8")
+    assert list(load_toml(tmp_path / "a.toml")) == ["a"]

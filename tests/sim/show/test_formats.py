@@ -1,5 +1,6 @@
 """The formats of a check against their schemas, with kind texts and hostile ones."""
 
+import codecs
 import json
 import re
 import subprocess
@@ -19,7 +20,9 @@ from places import ROOT
 from parser.findings.catalogue import LANGUAGES, Language, term, texts
 from parser.findings.codes import CODES, Check, Severity
 from parser.findings.findings import Finding
+from sim.check.batch import Job, check_file
 from sim.check.result import CheckResult, Coverage
+from sim.check.settings import CheckSettings
 from sim.show.findings import FORMATS, render
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import spot
@@ -292,6 +295,15 @@ def test_sarif_places_and_mends() -> None:
         {"deletedRegion": {"charOffset": 22, "charLength": 2}, "insertedContent": {"text": "GY"}}
     ]
     assert [run["artifacts"][1]["encoding"], axis["level"]] == ["GB18030", "error"]
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "gb18030", "big5", "latin-1"])
+def test_sarif_names_every_encoding_as_its_registry_does(encoding: str) -> None:
+    codec = codecs.lookup(encoding.removesuffix("-sig"))
+    remark = "caf\xe9" if encoding == "latin-1" else "線切割加工程式" if encoding == "big5" else "线切割加工程序"
+    data = f"{COUNTED}\nDD\n;{remark}\n".encode(encoding)
+    run = load("sarif", [check_file(Job("part.3b", data, CheckSettings()))])["runs"][0]
+    assert codecs.lookup(run["artifacts"][0]["encoding"]) == codec
 
 
 def test_sarif_rules_are_the_codes() -> None:

@@ -154,6 +154,8 @@ def test_the_width_is_that_of_the_terminal_in_bounds(monkeypatch: pytest.MonkeyP
 def test_a_shown_line_is_cut_only_where_it_must_be(room: int) -> None:
     fits = "加工" * (room // 4)
     assert caret_lines(fits, len(fits), 1, room)[0] == fits
+    shown, carets = caret_lines("B" * room, room + 1, 1, room)
+    assert (len(shown), len(carets)) == (room - 1, room)  # a caret behind the last character has its cell too
     for line in ("B" * 300, "加工B1" * 100, "\t" * 300, "e\u0301" * 300):
         for column in (1, 50, 150, len(line)):
             shown, carets = caret_lines(line, column, 40, room)

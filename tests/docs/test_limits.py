@@ -1,0 +1,48 @@
+"""The page of limits says what the code says."""
+
+import re
+
+from places import ROOT
+
+from parser.drawing import blocks, document, flat, splines
+from parser.files import reading
+from parser.threeb import columns, reader
+from sim.check import engine
+from sim.check.blame import settle
+from sim.check.shape import crossings
+from sim.measure.compare import effort
+from sim.setup.toml import reader as toml
+
+PAGE = (ROOT / "docs" / "limits.md").read_text("utf-8")
+VALUES = {
+    "size of a file, or of the standard input": f"{reading.MOST_MB} MB",
+    "blocks of a program": reader.MOST_BLOCKS,
+    "a number of a block, µm": columns.MAX_WORD_UM,
+    "steps of 1 µm": engine.MAX_STEPS,
+    "pairs of pieces of blocks compared for crossings": crossings.MOST_PAIRS,
+    "blocks of a program in which one wrong word is looked for": settle.MOST_BLOCKS,
+    "entities in the file": document.MOST_ENTITIES,
+    "entities once blocks are inserted": document.MOST_ENTITIES,
+    "blocks within blocks": blocks.MOST_NESTED,
+    "lines and arcs, with those of ellipses and splines": flat.MOST_CURVES,
+    "places on one spline": splines.MOST_PLACES,
+    "coordinates, and how far an arc bulges, km": round(flat.FARTHEST_UM / 1e9),
+    "pairs of places and curves looked at for one comparison": effort.MOST_HELD,
+    "characters of a file": toml.MOST_CHARACTERS,
+    "parts of a key with dots": toml.MOST_PARTS,
+}
+
+
+def test_every_limit_of_the_page_is_that_of_the_code() -> None:
+    rows = dict(re.findall(r"^\| ([^|]+?) \| ([\d,]+(?: MB)?) \|", PAGE, re.MULTILINE))
+    assert rows == {name: f"{value:,}" if isinstance(value, int) else value for name, value in VALUES.items()}
+
+
+def test_the_page_names_the_variable_that_sets_the_size() -> None:
+    assert f"`{reading.LIMIT_NAME}` in the environment" in PAGE
+
+
+def test_what_the_page_of_the_check_says_of_size_is_the_same() -> None:
+    check = (ROOT / "docs" / "check.md").read_text("utf-8")
+    assert "limits.md" in check
+    assert f"{crossings.MOST_PAIRS // 10**6} million pairs" in check
