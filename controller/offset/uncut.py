@@ -6,7 +6,7 @@ import numpy as np
 
 from parser.geometry.along import places_at
 from parser.geometry.broad_phase_places import near_places, nearest_um
-from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between
 from parser.geometry.distance import distance_to_curves
 
 _WITHIN_UM = 0.01  # a hundredth of a step
@@ -25,11 +25,14 @@ class _Stretches(NamedTuple):
 def uncut_um(contour: Curves, path: Curves, offset_um: float, rows: Ints) -> Floats:
     """Material (k,) µm left at the rows (k,) of a contour: how far at most each lies from the kerf, within 0.01 µm.
 
-    The kerf is what lies within the offset of the path. The path has at least one row with length.
+    The kerf is what lies within the offset of the path. Where the path has no row with length, the wire stands at
+    the begin of the contour (`compensate`).
     """
     most = np.zeros(len(rows))
     if not len(rows):
         return most
+    if not path.length_um.any():
+        path = _standing(contour)
     on = _whole(contour, path, offset_um, rows)
     while len(on.of):
         half = 0.5 * (on.last_um - on.first_um)
@@ -43,6 +46,12 @@ def uncut_um(contour: Curves, path: Curves, offset_um: float, rows: Ints) -> Flo
         may_be_nearest = away <= nearest[on.pair] + 2.0 * half[on.pair]
         on = _halved(on, left + half > most[on.of] + _WITHIN_UM, may_be_nearest)
     return most
+
+
+def _standing(contour: Curves) -> Curves:
+    """The begin of a contour, as a line so short that no figure tells it from a place; curves have length."""
+    place = contour.start_um[:1]
+    return curves_between(place, place + np.array([0.1 * _WITHIN_UM, 0.0]), np.full((1, 2), np.nan), np.zeros(1))
 
 
 def _whole(contour: Curves, path: Curves, offset_um: float, rows: Ints) -> _Stretches:

@@ -14,7 +14,7 @@ from fuzzing.worker import Done, Failure, Task, tried
 
 @pytest.mark.alone
 def test_every_planted_fault_is_told_with_the_number_of_its_input() -> None:
-    task = Task(planted.PLANTED, SEED, 0, planted.LAST, most_wall_s=2.0)
+    task = Task(planted.PLANTED, SEED, 0, planted.LAST, most_wall_s=4.0)
     with Pool(1) as pool:
         told = list(pool.run([task]))
     found = {one.number: one.promise for one in told if isinstance(one, Failure)}

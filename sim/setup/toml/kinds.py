@@ -79,6 +79,13 @@ class Name(Text):
 class FileName(Text):
     """A file beside the one that names it."""
 
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> str:
+        """The path, which ends in a name."""
+        path = super().checked(table, key, where)
+        if not Path(path).name:
+            raise SettingsError(f"{where}: {key} is the name of a file; found {path!r}")
+        return path
+
     def kept(self, value: Any) -> Path:
         """The path as it was given."""
         return Path(value)

@@ -31,6 +31,22 @@ def square(pen: Pen) -> Pen:
 
 
 @pytest.mark.parametrize(
+    ("text", "left_um"),
+    [
+        ("BBBGXL1", 0.0),
+        ("B2B0B2GXL1 B0B2B2GYL2 B2B0B2GXL3 B0B2B2GYL4 DD", 0.0),
+        ("B10B0B10GXL1 B0B10B10GYL2 B10B0B10GXL3 B0B10B10GYL4 DD", 0.0),
+        ("B500B0B500GXL1 B0B500B500GYL2 B500B0B500GXL3 B0B500B500GYL4 DD", 500.0 * math.sqrt(2.0) - 300.0),
+    ],
+)
+def test_what_stays_where_nothing_has_a_place_on_the_path_is_a_length(text: str, left_um: float) -> None:
+    wide = Offset((OffsetPass(100.0 if left_um == 0.0 else 300.0),), Side.LEFT)
+    made = offsetting(parse_program(text), wide)
+    assert len(made.left_um)
+    assert made.left_um.max() == pytest.approx(left_um, abs=0.02)
+
+
+@pytest.mark.parametrize(
     ("path", "expected"),
     [
         (square(Pen().to(0, 2000)).to(0, 0).path(), [OffsetSection(1, 5, closed=True)]),

@@ -72,6 +72,8 @@ def folder(tmp_path: Path, text: str) -> Path:
         ("wire = 3", r"wire is a table, \[wire\]"),
         ("[wire]\ndiameter_mm = 5", "diameter_mm is 5"),
         ("[work]\nthickness = 5", "did you mean thickness_mm"),
+        ("[drawing]\nfile = '/'", "file is the name of a file; found '/'"),
+        ("program = '.'", "program is the name of a file; found '.'"),
         ("[expect]\nverdict = {minimum = 3}", "verdict is a value or"),
         ("[expect]\nx = {min = 3, max = 2}", "x is a value or"),
         ("[" + "a." * 5000 + "b]", "is nested too deep"),

@@ -178,14 +178,13 @@ def _given(rng: random.Random, option: click.Option) -> list[str]:
 
 
 def _value(rng: random.Random, option: click.Option) -> str:
-    if slow := next((values for name, values in _SLOW.items() if name in option.opts), None):
-        return rng.choice(slow)
+    own = next((values for name, values in (_SLOW | _USUAL).items() if name in option.opts), None)
+    if own is not None and (rng.random() < 0.9 or not _SLOW.keys().isdisjoint(option.opts)):
+        return rng.choice(own)
     if rng.random() < 0.1:
         return rng.choice(TEXTS)
     if isinstance(option.type, click.Choice) and rng.random() < 0.9:
         return str(rng.choice(option.type.choices))
-    if usual := next((values for name, values in _USUAL.items() if name in option.opts), None):
-        return rng.choice(usual)
     if isinstance(option.type, click.Path):
         return _file(rng) if rng.random() < 0.3 else rng.choice(("out", "out.png", "out.svg", "a/b/c", "part.3b/x"))
     if option.type.name.startswith("length"):
