@@ -83,7 +83,7 @@ def _refuse_too_many(path: Path, entities: Iterable[object]) -> None:
 
 def _binary(path: Path, data: bytes) -> Document:
     try:
-        _refuse_too_many(path, (tag for tag in binary_tags_loader(data) if tag.code == 0))
+        _refuse_too_many(path, (tag for tag in binary_tags_loader(data) if tag[0] == 0))
         return Document.load(binary_tags_loader(data))
     except DrawingError:
         raise

@@ -31,7 +31,7 @@ _LONGEST_SHOWN = 40
 class Asked(NamedTuple):
     """A code, or its beginning, that a remark asks to silence: on a line from 1, in the whole file, or nowhere."""
 
-    code: str
+    silenced: str
     line: int
     span: Span
 
@@ -60,16 +60,16 @@ def heed(program: Program, findings: Sequence[Finding], states: Iterable[CheckSt
     if not directives:
         return Heeded()
     asked = [one for one in directives if isinstance(one, Asked)]
-    wanted = {(one.line, one.code) for one in asked}
+    wanted = {(one.line, one.silenced) for one in asked}
     hits = [[place for place in _places(finding) if place in wanted] for finding in findings]
     used = {place for hit in hits for place in hit}
     unfinished = {state.name for state in states if state.state != "complete"}
-    idle = (one for one in asked if (one.line, one.code) not in used and not _checks_of(one.code) & unfinished)
+    idle = (one for one in asked if (one.line, one.silenced) not in used and not _checks_of(one.silenced) & unfinished)
     return Heeded(
         frozenset(at for at, hit in enumerate(hits) if hit),
         (
             *(one for one in directives if isinstance(one, Finding)),
-            *(program.lines.finding("3B114", one.span, silenced=one.code) for one in idle),
+            *(program.lines.finding("3B114", one.span, silenced=one.silenced) for one in idle),
         ),
     )
 
