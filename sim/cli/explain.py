@@ -1,6 +1,7 @@
 """``drycut explain``."""
 
 import re
+from collections.abc import Iterator
 
 import click
 
@@ -48,8 +49,13 @@ def _markdown(name: str | None, sections: tuple[str, ...], language: Language) -
     if code not in of_documents:
         raise click.UsageError(f"no finding has the code {name!r}, and no document the name; drycut explain lists them")
     text = document(of_documents[code])
-    numbers = re.findall(r"\d+", " ".join(sections))
     try:
-        return cited("\n\n".join(section(text, number) for number in numbers) if sections else text)
+        return cited("\n\n".join(section(text, one) for one in _numbers(sections)) if sections else text)
     except KeyError as error:
         raise click.UsageError(f"document {name!r} has no section {error.args[0]}") from None
+
+
+def _numbers(sections: tuple[str, ...]) -> Iterator[str]:
+    """Numbers of sections, which may be written as pages cite them, such as ``§2``; what has none is taken whole."""
+    for one in sections:
+        yield from re.findall(r"\d+", one) or [one]

@@ -107,6 +107,7 @@ def test_sections_of_a_document_are_shown_by_their_number() -> None:
         (["3B999"], "no finding has the code '3B999'"),
         (["../check"], "no document the name"),
         (["3b", "99"], "document '3b' has no section 99"),
+        (["3b", "steps"], "document '3b' has no section steps"),
         (["3B204", "2"], "'3B204'"),
     ],
 )
