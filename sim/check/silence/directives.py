@@ -4,6 +4,7 @@ Where remarks stand, the reader of the dialect knows; what they say to drycut st
 """
 
 import re
+import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
@@ -22,7 +23,8 @@ _NAMED = re.compile(r"drycut[ \t]*:", re.IGNORECASE)
 _BEGIN = re.compile(rf"\W*+{_NAMED.pattern}[ \t]*", re.IGNORECASE)
 _KIND = re.compile(r"(ignore-file|ignore)(?![\w-])[ \t]*:?[ \t]*", re.IGNORECASE)
 # A reason may stand behind the codes: a list of codes goes on behind a comma, or with what looks like a code.
-_CODES = re.compile(r"[A-Z0-9]++(?:[ \t]*+[,、][ \t]*+[A-Z0-9]++|[ \t]++\d[A-Z][A-Z0-9]*+)*+", re.IGNORECASE | re.ASCII)
+_COMMA = rf"[ \t]*+[,{unicodedata.lookup('IDEOGRAPHIC COMMA')}][ \t]*+"
+_CODES = re.compile(rf"[A-Z0-9]++(?:{_COMMA}[A-Z0-9]++|[ \t]++\d[A-Z][A-Z0-9]*+)*+", re.IGNORECASE | re.ASCII)
 _CODE = re.compile(r"[A-Z0-9]+", re.IGNORECASE | re.ASCII)
 _BEGINNINGS = frozenset(code[:length] for code in CODES for length in range(2, len(code) + 1))
 _LONGEST_SHOWN = 40

@@ -1,5 +1,6 @@
 """``drycut draw`` as a user meets it: the files it writes, their sizes, bad use, and the options of a run."""
 
+import re
 import subprocess
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -28,7 +29,8 @@ def part(tmp_path: Path) -> Path:
 
 
 def said(done: subprocess.CompletedProcess[bytes]) -> str:
-    return done.stderr.decode()
+    """What stderr says, but for progress, which is told after a second."""
+    return re.sub(r"^drycut: .*, +\d+ ?%\n", "", done.stderr.decode(), flags=re.MULTILINE)
 
 
 def texts_of(svg: Path) -> str:

@@ -121,7 +121,7 @@ def test_a_terminal_is_cleared_before_each_check(tmp_path: Path) -> None:
         assert process.wait(LONGEST_S) == 130
     for end in (ours, theirs):
         os.close(end)
-    assert shown.startswith(b"\x1b[2J\x1b[Ha.3b: pass")
+    assert shown.startswith(b"\x1b[2J\x1b[1;1Ha.3b: pass")
 
 
 def test_looks_take_a_hundredth_of_the_time_up_to_some_seconds() -> None:

@@ -130,6 +130,13 @@ def test_what_a_killed_run_left_among_temporary_files_is_cleared_by_the_next(
     assert list(tmp_path.iterdir()) == []
 
 
+NOT_IGNORED = {  # as a terminal has them; under nohup, say, one of them is ignored
+    signal.SIGTERM: signal.SIG_DFL,
+    HANGUP: signal.SIG_DFL,
+    signal.SIGINT: signal.default_int_handler,
+}
+
+
 @posix
 @pytest.mark.parametrize(
     ("number", "code"), [(signal.SIGTERM, 128 + signal.SIGTERM), (HANGUP, 128 + HANGUP), (signal.SIGINT, 130)]
@@ -144,7 +151,11 @@ def test_a_run_that_is_told_to_end_takes_its_files_with_it(
 
     monkeypatch.setattr("sim.cli.run_into.dry_run", told_to_end)
     (tmp_path / "part.3b").write_text(PART)
-    done = run_inside("run", tmp_path / "part.3b", "-o", tmp_path / "out", "--card-log", tmp_path / "part.log")
+    before = signal.signal(number, NOT_IGNORED[number])
+    try:
+        done = run_inside("run", tmp_path / "part.3b", "-o", tmp_path / "out", "--card-log", tmp_path / "part.log")
+    finally:
+        signal.signal(number, before)
     assert (done.returncode, done.stdout) == (code, b"")
     assert [path.name for path in tmp_path.iterdir()] == ["part.3b"]
 
