@@ -11,6 +11,7 @@ EXACT_PER_ARC_UM = 1.0
 _OF_LINES_UM = 2.0  # ends in whole µm, of a CAM that rounds them apart
 _MOST_OFF_UM = 20.0  # however many arcs: their errors do not add up, and corners lie no nearer than this
 _SAME_WAY = 0.99  # cosine of the angle between two ways along one curve
+_LATE = 256  # rows that are looked at first
 
 
 def closure_tolerance_um(arcs: int) -> float:
@@ -25,11 +26,21 @@ def ends_closed(toolpath: Toolpath, begin: int, past: int) -> bool:
     last block leaves such a corner in the direction of the block that it cuts once more.
     """
     last = past - 1
-    if corners_at(toolpath, begin, past, toolpath.end_um[last]).size:
+    if any(corners_at(toolpath, first, past, toolpath.end_um[last]).size for first in late_first(begin, past)):
         return True
     again = corners_at(toolpath, begin, last, toolpath.start_um[last])
     heading = _heading(toolpath, last)
     return any(float(_heading(toolpath, row) @ heading) > _SAME_WAY for row in again.tolist())
+
+
+def late_first(begin: int, past: int) -> tuple[int, ...]:
+    """Where to begin to look for a corner: at the last rows up to but without `past`, and then at `begin`.
+
+    One that counts among some rows counts among more. Where a figure is never left, and grows by a pass at each pause,
+    its last rows nearly always have it: to look at all of them each time would take the square of their number.
+    """
+    late = past - _LATE
+    return (late, begin) if late > begin else (begin,)
 
 
 def corners_at(toolpath: Toolpath, begin: int, past: int, place_um: Floats) -> Ints:

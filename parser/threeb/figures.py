@@ -10,7 +10,7 @@ import numpy as np
 
 from parser.geometry.curves import CurveKind, Floats, Ints
 from parser.shape.beside import BESIDE_UM
-from parser.shape.closing import corners_at, ends_closed
+from parser.shape.closing import corners_at, ends_closed, late_first
 from parser.threeb.columns import RawBlocks
 from parser.threeb.reader import Mark
 from parser.toolpath import Toolpath
@@ -106,6 +106,10 @@ def _close(toolpath: Toolpath, begin: int, at: int, until: int) -> bool:
 
 def _at_cut_corner(toolpath: Toolpath, begin: int, at: int, row: int) -> bool:
     """Whether a row ends within a kerf of a corner that the rows from `begin` up to but without `at` have."""
+    return any(_by_corner(toolpath, first, at, row) for first in late_first(begin, at))
+
+
+def _by_corner(toolpath: Toolpath, begin: int, at: int, row: int) -> bool:
     corner = np.concatenate([toolpath.start_um[begin:at], toolpath.end_um[at - 1 : at]])
     off = np.hypot(*(corner - toolpath.end_um[row]).T)
     return bool((off <= min(BESIDE_UM, _KERF_SHARE * float(toolpath.length_um[begin:at].sum()))).any())

@@ -115,17 +115,16 @@ def _idle_pauses(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
             idle.append((mark, -1 if repeated else row))
         begin = row
     passes = find_passes(toolpath) if any(row >= 0 for _, row in idle) else None
+    trimmed = {one.edge for one in passes.passes if abs(one.shift_um) > _SAME_PLACE_UM} if passes else set()
     for mark, row in idle:
-        if passes is None or not _before_trim(passes, row):
+        if passes is None or not _before_trim(passes, trimmed, row):
             yield records.lines.finding("3B308", mark.span)
 
 
-def _before_trim(passes: Passes, row: int) -> bool:
-    """Whether a pause before a row stands between two passes over one edge that is trimmed."""
+def _before_trim(passes: Passes, trimmed: set[int], row: int) -> bool:
+    """Whether a pause before a row stands between two passes over one edge, which must be one of the trimmed."""
     around = passes.around(row)
-    if around is None or around[0].edge != around[1].edge:
-        return False
-    return any(one.edge == around[0].edge and abs(one.shift_um) > _SAME_PLACE_UM for one in passes.passes)
+    return around is not None and around[0].edge == around[1].edge and around[0].edge in trimmed
 
 
 def _unpaused_nodes(records: Records, toolpath: Toolpath) -> Iterator[Finding]:

@@ -30,6 +30,8 @@ HOSTILE: dict[str, Callable[[int], str]] = {
     "10^5 pauses in a zigzag": lambda n: "B10B5B10GXL1\nB5B9B9GYL2\nB9B5B9GXL3\nB3B8B8GYL4\nD\n" * (n // 4) + "DD\n",
     "10^5 identical circles": lambda n: "B5000B0B20000GYNR1\n" * (n // 10) + "DD\n",
     "10^5 identical small circles": lambda n: CIRCLE * n + "DD\n",
+    "10^5 circles with a jump of 1 µm": lambda n: (CIRCLE + "D\nB0B0B1GXL1\nD\n") * n + "DD\n",
+    "10^5 circles with pauses": lambda n: (CIRCLE + "D\n") * n + "DD\n",
     "10^5 lines of a star": lambda n: "B9000B100B9000GXL1\nB9000B101B9000GXL3\n" * (n // 20) + "DD\n",
     "an open contour of 10^5 blocks": lambda n: SQUARE * (n // 4) + "B700B300B700GXL1\nDD\n",
     "10^4 open contours": lambda n: (SQUARE + "B700B300B700GXL1\n" + _JUMP) * (n // 10) + "DD\n",
