@@ -20,7 +20,8 @@ def _from_lines(curves: Curves, row: Ints, x: Floats, y: Floats) -> tuple[Floats
     by_y = curves.end_um[:, 1][row] - curves.start_um[:, 1][row]
     length = np.hypot(by_x, by_y)
     inverse = 1.0 / np.where(length > 0.0, length, 1.0)
-    ux, uy = by_x * inverse, by_y * inverse
+    # A line without length has no direction: any will do.
+    ux, uy = np.where(length > 0.0, by_x * inverse, 1.0), by_y * inverse
     dx, dy = x - curves.start_um[:, 0][row], y - curves.start_um[:, 1][row]
     along = dx * ux + dy * uy
     across = dx * uy - dy * ux

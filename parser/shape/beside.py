@@ -115,8 +115,8 @@ def _near(curves: Curves, place_um: Floats) -> Near:
     """Pairs of places and rows that may run beside each other; of few all, which is faster than to look."""
     if len(curves) * len(place_um) > _FEW_PAIRS:
         return near_places(curves, place_um, BESIDE_UM)
-    row = np.flatnonzero(curves.length_um > 0.0)
-    return Near(np.repeat(np.arange(len(place_um)), len(row)), np.tile(row, len(place_um)))
+    row, place = np.arange(len(curves)), np.arange(len(place_um))
+    return Near(np.repeat(place, len(row)), np.tile(row, len(place)))
 
 
 def run_beside(toolpath: Toolpath, stretches: Stretches, one: Ints, other: Ints) -> Beside:
@@ -152,7 +152,7 @@ def _some_beside(
     for axis, (low, high) in enumerate(zip(boxes[0].T, boxes[1].T, strict=True)):
         place = places.place_um[:, axis][at]
         near &= (place >= (low[row] - BESIDE_UM)[:, None]) & (place <= (high[row] + BESIDE_UM)[:, None])
-    of, sample = np.nonzero(near & (toolpath.length_um[row] > 0.0)[:, None])
+    of, sample = np.nonzero(near)
     return _by_pair(_beside(toolpath, row[of], at[of, sample], places.place_um, places.way), len(one))
 
 

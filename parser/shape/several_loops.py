@@ -51,12 +51,12 @@ def _by_corners(toolpath: Toolpath, contour: Ints, at_hole: Bools) -> tuple[Ints
     A way out and back by two blocks is none, nor is one by the start hole.
     """
     first, last = loops_in_order(toolpath, contour)
-    row = np.maximum(last - 1, first)
+    row = last - 1
     arcs = toolpath.is_arc[row] & toolpath.is_arc[last]
     lines = ~toolpath.is_arc[row] & ~toolpath.is_arc[last]
     back = np.sign(toolpath.sweep_rad[row]) * np.sign(toolpath.sweep_rad[last]) < 0.0
     center = np.hypot(*(toolpath.center_um[row] - toolpath.center_um[last]).T)
-    out_and_back = (row < last) & (first == row) & (lines | (arcs & back & (center <= CLOSED_WITHIN_UM)))
+    out_and_back = (first == row) & (lines | (arcs & back & (center <= CLOSED_WITHIN_UM)))
     before = np.append(0, np.cumsum(at_hole))
     kept = ~out_and_back & (before[first] == before[last + 1])
     return first[kept], last[kept]

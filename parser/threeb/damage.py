@@ -93,23 +93,22 @@ def _other_text(text: str, first: int, past: int) -> Iterator[Unread]:
 
 def _damaged_block(base: int, piece: str) -> Unread:
     """The first field of a damaged block, at `base` of the text, that is not what a block has there."""
-    label = _LABEL.match(piece)
-    at = label.end() if label else 0
+    at = _met(_LABEL, piece, 0).end()
     for number, field in enumerate(_FIELDS):
         if piece[at : at + 1] not in ("B", "b"):
             if number == 3:
                 break  # 3B: the fourth number is 4B's alone
             return _wrong(base, piece, _word_at(piece, at), "field-b", "wanted-b")
-        digits = _NUMBER.match(piece, at + 1)
-        first, at = (digits.start(1), digits.end()) if digits else (at + 1, at + 1)
+        digits = _met(_NUMBER, piece, at + 1)
+        at = digits.end()
         if number < 2 and at == len(piece):
             return _wrong(base, piece, (at, at), "field-b", "wanted-b")
         if number < 3 and piece[at : at + 1].isdigit() and piece.upper().count("B") < 3:
             return _wrong(base, piece, _word_at(piece, at), "field-b", "wanted-b")
         if not _ends_number(piece[at:], number):
-            return _wrong(base, piece, (first, _number_end(piece, at)), field, "wanted-number")
+            return _wrong(base, piece, (digits.start(1), _met(_OF_NUMBER, piece, at).end()), field, "wanted-number")
         if number == 3 and _OF_AXIS_AND_SENSE.match(piece, at):
-            return _wrong(base, piece, digits.span(1) if digits else (first, at), field, "wanted-radius")
+            return _wrong(base, piece, digits.span(1), field, "wanted-radius")
     return _damaged_end(base, piece, at)
 
 
@@ -117,11 +116,8 @@ def _damaged_end(base: int, piece: str, at: int) -> Unread:
     """Behind the numbers: the axis or the sense with its quadrant is wrong."""
     axis = _AXIS.match(piece, at)
     if not axis:
-        match = _TO_AXIS.match(piece, at)
-        return _wrong(base, piece, match.span(1) if match else (at, at), "field-axis", "wanted-axis")
-    sense = _TO_SENSE.match(piece, axis.end())
-    span = sense.span(1) if sense else (axis.end(), axis.end())
-    return _wrong(base, piece, span, "field-sense", "wanted-sense")
+        return _wrong(base, piece, _met(_TO_AXIS, piece, at).span(1), "field-axis", "wanted-axis")
+    return _wrong(base, piece, _met(_TO_SENSE, piece, axis.end()).span(1), "field-sense", "wanted-sense")
 
 
 def _ends_number(rest: str, number: int) -> bool:
@@ -132,15 +128,14 @@ def _ends_number(rest: str, number: int) -> bool:
     return rest[:1] in ("B", "b", "G", "g") or (number >= 2 and not _AXIS.search(rest) and not rest[:1].isdigit())
 
 
-def _number_end(piece: str, at: int) -> int:
-    """End of what stands for a number: before the next letter that begins a field."""
-    match = _OF_NUMBER.match(piece, at)
-    return match.end() if match else at
+def _met(pattern: re.Pattern[str], piece: str, at: int) -> re.Match[str]:
+    """What a pattern that fits any text, if only the empty one, matches at a place of a piece."""
+    return next(pattern.finditer(piece, at))
 
 
 def _word_at(piece: str, at: int) -> tuple[int, int]:
-    match = _WORD.match(piece, at)
-    return match.span(1) if match and match[1] else (at, at)
+    word = _met(_WORD, piece, at)
+    return word.span(1) if word[1] else (at, at)
 
 
 def _wrong(base: int, piece: str, span: tuple[int, int], field: str, wanted: str) -> Unread:

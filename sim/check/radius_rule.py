@@ -68,7 +68,7 @@ def vanishing_findings(program: Program, contour: Ints, passes: Passes, offset_u
 def _turns(toolpath: Toolpath, ways: Directions, rows: Ints) -> Floats:
     """(m,) signed angle from each of the rows of an outline into the next, the first behind the last."""
     arriving, leaving = ways.arriving[rows], np.roll(ways.leaving[rows], -1, axis=0)
-    if len(rows) > 1 and toolpath.is_arc[rows[-1]]:  # it may run on past the place where the outline closes
+    if toolpath.is_arc[rows[-1]]:  # it may run on past the place where the outline closes
         arriving[-1] = headings_at(toolpath, rows[-1:], toolpath.start_um[rows[:1]])[0]
     cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
     turns: Floats = np.arctan2(cross, (arriving * leaving).sum(axis=1))

@@ -103,3 +103,34 @@ def test_a_joint_is_a_tangent_to_half_a_degree(tilt: float, *, is_sharp: bool) -
     found = checked("\n".join([*(line.replace("G", "B0G") for line in lines), "DD"])).findings
     (sharp,) = (f for f in found if f.code == "3B214")
     assert sharp.values["more"] == 3 + is_sharp
+
+
+@pytest.mark.parametrize(("rise_um", "at"), [(11, 4), (12, 3)])
+def test_short_sides_are_tangent_to_what_whole_um_tilt_them_more(rise_um: int, at: int) -> None:
+    """A side of 1 mm may be tilted by 3 µm, 0.17°, more than half a degree: 0.63° is a tangent, 0.69° is none."""
+    lines = ["B0B5000B5000GYL2", f"B1000B{rise_um}B1000GXL1", "B200000B0B200000GXL1", "B0B90000B90000GYL2"]
+    lines += ["B201000B0B201000GXL3", f"B0B{90000 + rise_um}B{90000 + rise_um}GYL4", "B0B5000B5000GYL4"]
+    assert told("\n".join([*(line.replace("G", "B0G") for line in lines), "DD"])) == [("3B214", at)]
+
+
+OVERCUT = (  # rounded corners of 5 mm; it begins within an arc, and the last one cuts that half once more
+    "B3000B4000B4000B0GYL3 B3000B4000B3000B5000GXDNR1 B20000B0B20000B0GXL3 B0B5000B5000B5000GYDNR2 "
+    "B0B20000B20000B0GYL4 B5000B0B5000B5000GXDNR3 B20000B0B20000B0GXL1 B0B5000B5000B5000GYDNR4 "
+    "B0B20000B20000B0GYL2 B5000B0B5000B5000GXDNR1 B0B3000B3000B0GYL2 DD"
+)
+
+
+@pytest.mark.parametrize("text", [OVERCUT, "B3000B0B3000B0GXL3 B5000B0B20500B5000GYDNR1 B3000B0B3000B0GXL1 DD"])
+def test_an_outline_that_runs_on_along_its_arc_closes_in_a_tangent(text: str) -> None:
+    assert "3B214" not in [code for code, _ in told(text)]
+
+
+@pytest.mark.parametrize("mark", ["", "D"])
+def test_an_arc_without_a_mark_has_none_against_its_turn(mark: str) -> None:
+    assert "3B215" not in [code for code, _ in told(PUNCH.replace("GYDDSR4", f"GY{2 * mark}SR4"))]
+
+
+@pytest.mark.parametrize("side", ["B20000B0B20000B0GXL3", "B0B20000B20000B0GYL4"])
+def test_a_block_of_no_length_does_no_harm_to_its_outline(side: str) -> None:
+    (sharp,) = (f for f in checked(SQUARE.replace(side, f"B0B0B0B0GXL1 {side}")).findings if f.code == "3B214")
+    assert (sharp.block, sharp.values["other"], sharp.values["more"]) == (3, 2, 3)
