@@ -34,9 +34,9 @@ def verdict(result: CheckResult, language: Language) -> str:
 def reach(result: CheckResult, language: Language) -> str:
     """How far the check of a file came: ``3 blocks; checks: 9 complete, 3 not asked; settings: drycut.toml``."""
     say, read = Words(language), result.coverage
+    came = (_blocks(read, language), say("findings.checks", states=_states(read.checks, language)))
     parts = (
-        _blocks(read, language),
-        say("findings.checks", states=_states(read.checks, language)),
+        *((say("findings.nothing-checked"),) if result.unreadable else came),
         settings(result.silenced, (result.settings_file,), language),
     )
     return say("findings.stop").join(filter(None, parts))
