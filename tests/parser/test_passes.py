@@ -117,3 +117,15 @@ def test_each_block_of_a_rough_cut_is_held_against_the_last_pass() -> None:
     shift = row_shifts_um(path, find_passes(path))
     assert shift[1:6] == pytest.approx([40.0, 40.0, -30.0, 40.0, 40.0])
     assert np.isnan(shift[[0, *range(6, 13)]]).all()
+
+
+def test_without_a_lead_in_the_waste_lies_where_the_first_pass_is_cut() -> None:
+    """A pin of 1 mm and a hole of 2 mm, both by jumps; the trims of the hole lie within its edge."""
+    pen = Pen(1070, 0)
+    for pin, hole in ((1070, 1930), (1030, 1970), (1000, 2000)):
+        pen.jump(pin, 0).arc(0, 0, 2 * np.pi).jump(9000 + hole, 0).arc(9000, 0, 2 * np.pi)
+    found = find_passes(pen.path()).passes
+    assert [(one.edge, one.number, one.part_side) for one in found] == [
+        (0, 1, 0), (1, 1, 0), (0, 2, 0), (1, 2, 0), (0, 3, 0), (1, 3, 0)
+    ]  # fmt: skip
+    assert [one.shift_um for one in found] == pytest.approx([70.0, 70.0, 30.0, 30.0, 0.0, 0.0])

@@ -181,3 +181,26 @@ def test_a_loop_does_not_end_at_the_short_block_that_it_begins_with(short_um: fl
     path = pen.path()
     loops = find_loops(path, contour_rows(path), np.array([0]))
     assert (loops.first.tolist(), loops.last.tolist(), loops.part_side.tolist()) == ([0], [4], [0])
+
+
+def test_a_short_block_comes_back_as_the_one_before_it_does() -> None:
+    path = Pen().to(9000, 0).to(9000, 9000).to(3, 0).to(0, 0).path()
+    assert latest_return(path, contour_rows(path)).tolist() == [-1, -1, 0, 0]
+
+
+@pytest.mark.parametrize(
+    ("lead", "arcs", "part_side"),
+    [
+        ("B1000B0B1000GXL1", "B1000B0B2000GYNR1 B1000B0B2000GYNR3", -1),
+        ("B1000B0B1000GXL1", "B1000B0B2000GYSR4 B1000B0B2000GYSR2", 1),
+        ("B1000B0B1000GXL3", "B1000B0B2000GYNR3 B1000B0B2000GYNR1", -1),
+        ("B1000B0B1000GXL3", "B1000B0B2000GYSR2 B1000B0B2000GYSR4", 1),
+        ("B0B1000B1000GYL2", "B0B1000B2000GXNR2 B0B1000B2000GXNR4", -1),
+        ("B0B1000B1000GYL2", "B0B1000B2000GXSR1 B0B1000B2000GXSR3", 1),
+        ("B0B1000B1000GYL4", "B0B1000B2000GXNR4 B0B1000B2000GXNR2", -1),
+        ("B0B1000B1000GYL4", "B0B1000B2000GXSR3 B0B1000B2000GXSR1", 1),
+    ],
+)
+def test_the_middle_of_a_circle_by_its_halves_lies_within_it(lead: str, arcs: str, part_side: int) -> None:
+    path = parse_program(f"{lead} {arcs} DD").toolpath
+    assert find_loops(path, contour_rows(path), np.array([0])).part_side.tolist() == [part_side]

@@ -119,3 +119,34 @@ def test_where_more_than_fifty_ends_are_off_no_word_is_looked_for(wrong: int, *,
     codes = [finding.code for finding in checked(f"{blocks}B10000B0B10000GXL1\nDD\n").findings]
     assert codes.count("3B217") == (wrong - 1 if is_looked_for else 0)
     assert codes.count("3B207") == (1 if is_looked_for else wrong)
+
+
+def mended(text: str) -> list[tuple[str, int, bool]]:
+    return [(found.code, found.block, bool(found.edits)) for found in checked(text).findings]
+
+
+WRONG_LABEL = SQUARE.replace("GYL2", "GYL3").format("B10000B0B10000GXL3")
+"""L3 leads to the wrong place and is no label of a line straight up."""
+TURNED_BACK = SQUARE.replace("GYL2", "GYL4").format("B10000B0B10000GXL3")
+"""L4 is one, of a line straight down: either side may be the one that is wrong."""
+
+
+def test_a_suspect_is_mended_where_its_label_breaks_the_rule_as_well() -> None:
+    assert mended(WRONG_LABEL) == [("3B304", 1, True), ("3B301", 4, False)]
+    assert mended(TURNED_BACK) == [("3B304", 1, False), ("3B304", 3, False), ("3B301", 4, False)]
+
+
+def test_figures_with_one_suspect_and_with_two_are_each_told_as_by_themselves() -> None:
+    first = TURNED_BACK.replace("DD", "D\nB30000B0B30000GXL1\nD")
+    behind = [(code, block + 5, is_mended) for code, block, is_mended in mended(WRONG_LABEL)]
+    assert mended(first + WRONG_LABEL) == mended(TURNED_BACK) + behind
+
+
+@pytest.mark.parametrize(("most", "is_settled"), [(4, True), (3, False)])
+def test_a_longer_program_keeps_all_that_its_checks_suspect(
+    most: int, monkeypatch: pytest.MonkeyPatch, *, is_settled: bool
+) -> None:
+    monkeypatch.setattr("sim.check.blame.settle.MOST_BLOCKS", most)
+    found = mended(WRONG_LABEL)
+    assert (("3B304", 1, True) in found) == is_settled
+    assert [one for one in found if one[2]] == ([("3B304", 1, True)] if is_settled else [])

@@ -40,6 +40,7 @@ def test_a_square_without_corner_arcs_is_named_with_what_its_sides_miss_each_oth
     assert (found.code, found.block, found.values["more"]) == ("3B214", 3, 3)
     assert found.values["shift"] == pytest.approx(100.0 * math.sqrt(2.0), abs=1e-6)
     assert told(SQUARE.replace("B0G", "G")) == []  # the same in 3B
+    assert "3B214" not in [code for code, _ in told(SQUARE.replace("B20000B0G", "B20000G", 1))]  # one side of it
 
 
 @pytest.mark.parametrize(("header", "offset_um"), [("", 100.0), ("Conner R= 0.0 , Offset F= 0.12 , Name\n", 120.0)])
