@@ -50,6 +50,13 @@ def test_hostile_programs_end_in_bounded_time(name: str) -> None:
     assert result.coverage.checks
 
 
+def test_a_figure_that_is_never_left_takes_no_square_of_its_pauses() -> None:
+    text = HOSTILE["20,000 circles with a jump of 1 µm"](50_000)
+    begin = time.process_time()
+    check_file(Job("hostile.3b", text.encode(), CheckSettings()))
+    assert time.process_time() - begin < SLOWEST_S
+
+
 @pytest.mark.parametrize("text", SEEDS)
 def test_the_programs_that_are_fuzzed_are_read_to_their_last_block(text: str) -> None:
     cover = check_file(Job("seed.3b", text.encode(), CheckSettings())).coverage

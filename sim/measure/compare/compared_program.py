@@ -15,25 +15,16 @@ from sim.measure.compare.contour_names import contour_names, failing_contours, m
 from sim.measure.compare.program_edge import ProgramEdges, edge_at, program_edges, with_gouges
 from sim.measure.compare.result import Asked, Comparison
 
-MOST_CONTOURS = 2_000
-"""Contours of a program that are compared: overlapping ones cost some 0.04 s each."""
-
 
 def compare_program(toolpath: Toolpath, offset_um: float, drawing: Drawing, asked: Asked) -> Comparison:
     """The edge of a program whose wire cuts `offset_um` past its path, against a drawing.
 
-    SettingsError where no contour closes, where there are more than `MOST_CONTOURS`, where the offset leaves no edge,
-    or where it could not be worked out.
+    SettingsError where no contour closes, where there are more than are compared (`rings_of`), where the offset leaves
+    no edge, or where it could not be worked out.
     """
     of = program_edges(toolpath, offset_um)
     if not of.rings.rings:
         raise SettingsError("no contour of the program closes a loop, so that there is no edge to compare")
-    contours = len(of.rings.rings)
-    if contours > MOST_CONTOURS:
-        raise SettingsError(
-            f"the program has {contours:,} closed contours, and no more than {MOST_CONTOURS:,} are compared; split the"
-            " program"
-        )
     try:
         tried = [(edge_at(of, sides, offset_um), sides) for sides in of.sides]
     except RegionError as error:

@@ -7,6 +7,7 @@ import numpy as np
 import shapely
 
 from parser.drawing.model import running
+from parser.findings.errors import SettingsError
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.geometry.feet import feet
@@ -14,6 +15,11 @@ from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import contour_rows
 from parser.shape.passes import Pass, Passes, find_passes
 from parser.toolpath import Toolpath
+
+MOST_CONTOURS = 2_000
+"""Contours of a program that are compared: overlapping ones cost some 0.04 s each."""
+MOST_PASSES = 10_000
+"""Passes over all of them: five over each of the most contours."""
 
 _SAGITTA_UM = 0.05  # of the chords of an outline
 
@@ -79,13 +85,18 @@ class Rings(NamedTuple):
 
 
 def rings_of(toolpath: Toolpath) -> Rings:
-    """Edges of all contours, the leads beside them, and the contours without one."""
+    """Edges of all contours, the leads beside them, and the contours without one.
+
+    SettingsError where there are more than `MOST_CONTOURS` edges or `MOST_PASSES` passes.
+    """
     found = find_passes(toolpath)
+    edges = _by_edge(found)
+    _refuse_too_many(edges)
     block, contour = toolpath.source.block, contour_rows(toolpath)
     rings, open_blocks, within = [], [], []
     leads: list[PathPass] = []
-    for passes in _by_edge(found):
-        if len(passes) == 1 and not passes[0].is_closed:
+    for passes in edges:
+        if not _is_ring(passes):
             open_blocks.append((int(block[passes[0].first]), int(block[passes[0].last])))
             continue
         made, rests = zip(*(_path(toolpath, one) for one in passes), strict=True)
@@ -111,6 +122,20 @@ def _by_edge(found: Passes) -> list[list[Pass]]:
     for one in found.passes:
         edges.setdefault(one.edge, []).append(one)
     return list(edges.values())
+
+
+def _is_ring(passes: Sequence[Pass]) -> bool:
+    return len(passes) > 1 or passes[0].is_closed
+
+
+def _refuse_too_many(edges: Sequence[Sequence[Pass]]) -> None:
+    rings = [len(passes) for passes in edges if _is_ring(passes)]
+    counts = (("closed contours", len(rings), MOST_CONTOURS), ("passes over its contours", sum(rings), MOST_PASSES))
+    for what, number, most in counts:
+        if number > most:
+            raise SettingsError(
+                f"the program has {number:,} {what}, and no more than {most:,} are compared; split the program"
+            )
 
 
 def _path(toolpath: Toolpath, one: Pass) -> tuple[PathPass, PathPass]:
