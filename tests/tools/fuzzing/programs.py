@@ -123,7 +123,7 @@ def _of_verdict(result: CheckResult) -> Iterator[str]:
     incomplete = any(check.state == "incomplete" for check in cover.checks)
     if result.verdict != ("fail" if errors else "incomplete" if incomplete else "pass"):
         yield f"verdict {result.verdict}"
-    if result.verdict == "pass" and cover.read < cover.found:
+    if result.verdict == "pass" and cover.read < cover.found and not result.silenced.remarks:
         yield "passes with blocks that were not read"
 
 
