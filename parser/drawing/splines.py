@@ -8,6 +8,7 @@ from parser.geometry.curves import Floats, Ints
 _BETWEEN = np.array([0.25, 0.5, 0.75])  # shares of a chord's parameters where its distance from the curve is looked at
 _OF_TOLERANCE = 0.75  # the distance is not looked at everywhere
 _MOST_ROUNDS = 24  # each at least halves what is too far off: an end for splines that never come near
+_AT_ONCE = 1 << 16
 MOST_PLACES = 1_000_000  # no spline that is drawn needs more; damaged ones do
 
 
@@ -30,7 +31,12 @@ def flattened(spline: Spline, tolerance_um: float) -> Floats:
 
 
 def places_at(spline: Spline, at: Floats) -> Floats:
-    """Places (k, 2) at parameters (k,) within the knots that bound the spline, by de Boor's algorithm."""
+    """Places (k, 2) at parameters (k,), one or more, within the knots that bound the spline."""
+    return np.concatenate([_de_boor(spline, at[first : first + _AT_ONCE]) for first in range(0, len(at), _AT_ONCE)])
+
+
+def _de_boor(spline: Spline, at: Floats) -> Floats:
+    """Places by de Boor's algorithm, which holds some ten arrays for each degree."""
     degree, knot = spline.degree, spline.knot
     span = np.clip(np.searchsorted(knot, at, side="right") - 1, degree, len(spline.control) - 1)
     rational = np.column_stack([spline.control[:, :2] * spline.weight[:, None], spline.weight])

@@ -1,13 +1,17 @@
 """A drawing as hostile as it may be ends in a drawing or in one line, and in bounded time."""
 
+import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from parser.drawing import document, flat
 from parser.drawing.blocks import MOST_NESTED
+from parser.drawing.forms import Spline
 from parser.drawing.read import read_drawing
+from parser.drawing.splines import places_at
 from parser.findings.errors import DrawingError
 from parser.findings.remarks import remark_text
 
@@ -112,3 +116,14 @@ def test_entities_are_counted_before_the_library_makes_anything_of_them(
         (tmp_path / "part.dxf").write_bytes(dxf("".join(map(line, range(60)))).replace("\n", end).encode())
         with pytest.raises(DrawingError, match="more than 50 entities"):
             read_drawing(tmp_path / "part.dxf")
+
+
+def test_a_million_places_on_a_spline_take_little_more_room_than_they_fill() -> None:
+    spline = Spline(np.random.default_rng(1).uniform(0.0, 1e4, (12, 3)), np.ones(12), np.arange(16.0), 3)
+    at = np.linspace(3.0, 12.0, 1_000_000)
+    tracemalloc.start()
+    place = places_at(spline, at)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert most < 4 * place.nbytes
+    assert (place[::1000] == places_at(spline, at[::1000])).all()
