@@ -130,12 +130,16 @@ def _is_ring(passes: Sequence[Pass]) -> bool:
 
 def _refuse_too_many(edges: Sequence[Sequence[Pass]]) -> None:
     rings = [len(passes) for passes in edges if _is_ring(passes)]
-    counts = (("closed contours", len(rings), MOST_CONTOURS), ("passes over its contours", sum(rings), MOST_PASSES))
-    for what, number, most in counts:
-        if number > most:
-            raise SettingsError(
-                f"the program has {number:,} {what}, and no more than {most:,} are compared; split the program"
-            )
+    if len(rings) > MOST_CONTOURS:
+        raise SettingsError(
+            f"the program has {len(rings):,} closed contours, and no more than {MOST_CONTOURS:,} are compared; "
+            "split the program"
+        )
+    if sum(rings) > MOST_PASSES:
+        raise SettingsError(
+            f"the program has {sum(rings):,} passes over its contours, and no more than {MOST_PASSES:,} are compared; "
+            "split the program"
+        )
 
 
 def _path(toolpath: Toolpath, one: Pass) -> tuple[PathPass, PathPass]:
