@@ -80,7 +80,7 @@ class _Tokens(NamedTuple):
     marks, passed, lengths
         Marks and start nodes; header lines and remarks behind ``;``; lengths in start nodes.
     remarks
-        (r, 2) int64, what stands in the remarks: first character of each, and one past the last.
+        (m, 2) int64, first character and one past the last of each remark, with what begins and ends it.
     """
 
     blocks: RawBlocks

@@ -7,16 +7,13 @@ import numpy as np
 
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
-from parser.dialect.at_block import at_block
 from parser.findings.codes import Check
-from parser.findings.errors import ProgramError
 from parser.findings.facts import DoubtfulEnd, TooLarge, telling
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
 from parser.program import Program, parse_program
 from parser.shape.contours import Contour, contour_rows, find_contours
 from parser.shape.passes import find_passes
-from parser.text.source import Field
 from sim.check.closures import OpenContour, contour_findings
 from sim.check.count_axes import stepped_end_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
@@ -24,14 +21,12 @@ from sim.check.header_offset import header_offset_findings
 from sim.check.passes import pass_findings
 from sim.check.radius_rule import radius_rule_findings, vanishing_findings
 from sim.check.result import CheckState, Coverage
+from sim.check.too_large import too_many_steps
 from sim.check.travel import travel_findings
 from sim.check.uncut_jumps import uncut_jump_findings
 
 if TYPE_CHECKING:  # most checks know no machine
     from sim.setup.machine.table_model import TableModel
-
-MAX_STEPS = 300_000_000
-"""Steps that one run takes: 240 m of path, two months of cutting; a word damaged to nine digits asks for more."""
 
 PARSER_CHECKS = (Check.GRAMMAR, Check.ORDER, Check.BLOCKS, Check.PRINTED_ENDS, Check.HEADER)
 PATH_CHECKS = (Check.STEPS, Check.CONTOURS, Check.SENSES, Check.CROSSINGS, Check.PASSES, Check.CORNERS, Check.TRAVEL)
@@ -109,24 +104,6 @@ def _every_check(program: Program, demands: Demands) -> Checked:
     states = (*_parser_states(program), *path.states)
     coverage = Coverage(counts.found, counts.whole, decoded, decoded, states)
     return Checked(findings, coverage, steps, contours, path.judged)
-
-
-def too_many_steps(program: Program, steps: Steps) -> list[Finding]:
-    """Finding 3B206 where a program makes more steps than any table does."""
-    if len(steps) <= MAX_STEPS:
-        return []
-    row = int(np.argmax(steps.count))
-    of = program.toolpath, program.lines
-    found = at_block(*of, "3B206", row, Field.COUNT, what="too-many-steps", limit=MAX_STEPS)
-    return [found.with_fact(TooLarge())]
-
-
-def refuse_too_large(program: Program) -> None:
-    """ProgramError (3B206) for a program with numbers, or more steps, than any table does."""
-    found = [finding for finding, _ in telling(program.findings, TooLarge)]
-    found = found or too_many_steps(program, interpolate(program.toolpath))
-    if found:
-        raise ProgramError(found[0], excerpt=program.excerpt(found[0].line))
 
 
 class _PathChecks:

@@ -43,15 +43,10 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     drycut compare scenarios/punch
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.drawing.read import read_drawing
-    from parser.findings.errors import ProgramError
-    from parser.program import read_program
     from parser.units import mm
-    from sim.check.engine import refuse_too_large
     from sim.cli.overrides import OfDrawing, drawing_target
-    from sim.cli.scenario_options import refused
     from sim.measure.compare.compared_program import compare_program
     from sim.measure.compare.result import Asked
-    from sim.run.offsetting import offsetting
     from sim.run.report.drawing import document_text
     from sim.setup.part import OFFSET_MM
     from sim.setup.scenario import load_scenario
@@ -64,13 +59,7 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     drawing = drawing_target(scenario.drawing, OfDrawing(**options))
     if drawing is None:
         raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
-    try:
-        program = read_program(scenario.program)
-        refuse_too_large(program)
-        if scenario.offset is not None:
-            program = offsetting(program, scenario.offset).program
-    except ProgramError as error:
-        raise refused(scenario, error) from None
+    program = _program(scenario)
     offset_um, source = _offset(offset, program, scenario)
     shown = read_drawing(drawing.file, layer=drawing.layer, gap_um=drawing.gap_um)
     asked = Asked(drawing.tolerance_um, drawing.fit, drawing.sharp_corners)
@@ -80,6 +69,22 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     else:
         print_comparison(done, program.name, source)
     raise click.exceptions.Exit(0 if done.passes else 1)
+
+
+def _program(scenario: "Scenario") -> "Program":
+    """The program of a scenario, with the offset that its controller is to add; one that cannot be read is refused."""
+    from parser.findings.errors import ProgramError
+    from parser.program import read_program
+    from sim.check.too_large import refuse_too_large
+    from sim.cli.scenario_options import refused
+    from sim.run.offsetting import offsetting
+
+    try:
+        program = read_program(scenario.program)
+        refuse_too_large(program)
+        return program if scenario.offset is None else offsetting(program, scenario.offset).program
+    except ProgramError as error:
+        raise refused(scenario, error) from None
 
 
 def _offset(given: float | None, program: "Program", scenario: "Scenario") -> tuple[float, str]:

@@ -9,14 +9,14 @@ from controller.motion.limits import Feeds
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.findings.codes import Check
-from parser.findings.errors import ProgramError
-from parser.findings.facts import TooLarge, WithoutOffset, telling
+from parser.findings.facts import WithoutOffset
 from parser.findings.findings import Finding
 from parser.program import Program
 from parser.shape.passes import find_passes
-from sim.check.engine import Demands, run_checks, too_many_steps
+from sim.check.engine import Demands, run_checks
 from sim.check.passes import asked_pass_findings
 from sim.check.result import CheckState, Coverage
+from sim.check.too_large import refusal, too_many_steps
 from sim.check.travel import travel_findings
 from sim.run.offsetting import Offsetting, offsetting
 from sim.setup.quiz import refuse_unanswerable
@@ -57,7 +57,7 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     refuse_unanswerable(scenario.quiz, program.toolpath)
     checked = run_checks(program, _demands(scenario))
     if checked.steps is None:
-        raise _refusal(program, checked.findings)
+        raise refusal(program, checked.findings)
     feeds = scenario.machine.feeds(scenario.thickness_mm)
     if scenario.offset is None:
         return Prepared(program, checked.steps, None, feeds, checked.findings, checked.coverage)
@@ -65,7 +65,7 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     steps = interpolate(offset.program.toolpath)
     beyond = too_many_steps(offset.program, steps)
     if beyond:
-        raise _refusal(program, beyond)
+        raise refusal(program, beyond)
     travel = travel_findings(offset.program, steps, scenario.machine.table, scenario.start_um)
     coverage = _looked_at(checked.coverage, (Check.CORNERS, Check.TRAVEL))
     by_pass = np.array([scenario.pass_feed_um_s(one) for one in scenario.offset.passes])
@@ -104,9 +104,3 @@ def _looked_at(coverage: Coverage, names: Sequence[Check]) -> Coverage:
     """The coverage with some checks done after all."""
     states = (CheckState(state.name) if state.name in names else state for state in coverage.checks)
     return coverage._replace(checks=tuple(states))
-
-
-def _refusal(program: Program, findings: Sequence[Finding]) -> ProgramError:
-    """Error of a program that asks for more than any table can do."""
-    finding, _ = next(telling(findings, TooLarge))
-    return ProgramError(finding, excerpt=program.excerpt(finding.line))

@@ -7,7 +7,7 @@ from places import ROOT
 from parser.drawing import blocks, document, flat, splines
 from parser.files import reading
 from parser.threeb import columns, reader
-from sim.check import engine
+from sim.check import too_large
 from sim.check.blame import settle
 from sim.check.shape import crossings
 from sim.measure.compare import effort, rings
@@ -18,7 +18,7 @@ VALUES = {
     "size of a file, or of the standard input": f"{reading.MOST_MB} MB",
     "blocks of a program": reader.MOST_BLOCKS,
     "a number of a block, µm": columns.MAX_WORD_UM,
-    "steps of 1 µm": engine.MAX_STEPS,
+    "steps of 1 µm": too_large.MAX_STEPS,
     "pairs of pieces of blocks compared for crossings": crossings.MOST_PAIRS,
     "blocks of a program in which one wrong word is looked for": settle.MOST_BLOCKS,
     "entities in the file": document.MOST_ENTITIES,

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
@@ -55,38 +55,33 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     drycut check programs/ --format text --format sarif=drycut.sarif
     drycut check part.3b --fix
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    language = chosen(lang)
-    from sim.cli.check.jobs import Asked, jobs_of
-    from sim.cli.check.outputs import outputs_of, refuse_inputs
+    from sim.cli.check.jobs import Asked
+    from sim.cli.check.outputs import outputs_of
     from sim.show.findings.options import Options
 
-    given = {"--fix": fix, "--diff": diff, "--watch": watch}
-    _refuse_contradictions(files, formats, asked, given)
-    options = Asked(**asked)
-    outputs = outputs_of(formats, output_file, options.write_baseline)
-    style = Options(language, quiet=quiet, statistics=statistics)
-
-    def found() -> list["Job"]:
-        jobs = jobs_of(files, options)
-        written = (*(output.file for output in outputs), options.write_baseline)
-        refuse_inputs(filter(None, written), jobs, filter(None, (options.baseline, options.config)))
-        return jobs
-
+    _refuse_contradictions(files, formats, asked, {"--fix": fix, "--diff": diff, "--watch": watch})
+    options, style = Asked(**asked), Options(chosen(lang), quiet=quiet, statistics=statistics)
+    work = _Work(files, options, outputs_of(formats, output_file, options.write_baseline), style)
     if watch:
         from sim.cli.check import watching
 
-        watching.watch(files, lambda: _check(found(), outputs, style, options), language)
-    jobs = found()
-    code = 0
+        watching.watch(files, lambda: _check(work, _jobs(work)), style.language)
+    jobs = _jobs(work)
     if diff:
         from sim.cli.check.mends import show_diffs
 
-        raise _exit(show_diffs(jobs, output_file, language), is_zero=exit_zero)
-    if fix:
-        from sim.cli.check.mends import fix_files
+        raise _exit(show_diffs(jobs, output_file, style.language), is_zero=exit_zero)
+    code = _fix(jobs, style.language) if fix else 0
+    raise _exit(max(code, _check(work, jobs)), is_zero=exit_zero)
 
-        code = 0 if fix_files(jobs, language) else 2
-    raise _exit(max(code, _check(jobs, outputs, style, options)), is_zero=exit_zero)
+
+class _Work(NamedTuple):
+    """What a check is asked for: the names, the options that settings give way to, where the results go, and how."""
+
+    names: Sequence[str]
+    options: "Asked"
+    outputs: Sequence["Output"]
+    style: "Options"
 
 
 def _exit(code: int, *, is_zero: bool) -> click.exceptions.Exit:
@@ -119,15 +114,33 @@ def _refuse_contradictions(
         raise click.UsageError("--watch checks again and again; --write-baseline has no place beside it")
 
 
-def _check(jobs: Sequence["Job"], outputs: Sequence["Output"], style: "Options", options: "Asked") -> int:
+def _jobs(work: _Work) -> list["Job"]:
+    """The jobs; UsageError where an output would take the place of what is read."""
+    from sim.cli.check.jobs import jobs_of
+    from sim.cli.check.outputs import refuse_inputs
+
+    jobs, options = jobs_of(work.names, work.options), work.options
+    written = (*(output.file for output in work.outputs), options.write_baseline)
+    refuse_inputs(filter(None, written), jobs, filter(None, (options.baseline, options.config)))
+    return jobs
+
+
+def _fix(jobs: Sequence["Job"], language: "Language") -> int:
+    """Mend the files of the jobs; the exit code that this asks for."""
+    from sim.cli.check.mends import fix_files
+
+    return 0 if fix_files(jobs, language) else 2
+
+
+def _check(work: _Work, jobs: Sequence["Job"]) -> int:
     """Check the files of the jobs and write what was found; the exit code."""
     from sim.cli.check.outputs import write
     from sim.show.terminal import printer
 
-    outcome, ledger = _Outcome(), _ledger(options)
-    write(outcome.watched(ledger.watched(jobs, _results(jobs))), outputs, style)
-    printer.write(ledger.closed(style.language), err=True)
-    return outcome.told(style.language)
+    outcome, ledger, language = _Outcome(), _ledger(work.options), work.style.language
+    write(outcome.watched(ledger.watched(jobs, _results(jobs))), work.outputs, work.style)
+    printer.write(ledger.closed(language), err=True)
+    return outcome.told(language)
 
 
 def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:

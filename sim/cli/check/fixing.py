@@ -7,13 +7,13 @@ from typing import NamedTuple
 from parser.files.reading import read_bytes
 from parser.findings.catalogue import Language
 from parser.findings.codes import Severity
-from parser.findings.errors import ProgramError
+from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.findings.findings import Finding, edited
 from parser.program import Program, load_program
 from parser.text.encoding import encode_text, printable
 from parser.text.excerpt import place
 from sim.check.batch import result_of
-from sim.check.engine import run_checks
+from sim.check.engine import Checked, run_checks
 from sim.check.fixes import Choice, choices, with_edits
 from sim.check.settings import CheckSettings
 from sim.check.silence.sift import without_known
@@ -59,7 +59,7 @@ def mended(path: Path, name: str, settings: CheckSettings, known: frozenset[str]
     """Mend what is certain, keeping encoding, line ends and all else; nothing where a mend would bring a new error.
 
     What settings, remarks or the baseline, of which the fingerprints are `known`, silence is not mended. Raises
-    ProgramError or OSError for a file that cannot be read.
+    ProgramError or FileUnreadableError for a file that cannot be read.
     """
     before = read_bytes(path)
     program = load_program(before, name, settings.marks)
@@ -69,9 +69,7 @@ def mended(path: Path, name: str, settings: CheckSettings, known: frozenset[str]
     unmended = tuple(Unmended(f, possible) for f in shown if len(possible := choices(program, f, findings)) > 1)
     text = edited(program.text, [edit for finding in shown for edit in finding.edits])
     after = encode_text(text, program.encoding)
-    if text == program.text or _errors(load_program(after, name, settings.marks), settings) - _errors(
-        program, settings
-    ):
+    if text == program.text or _brings_errors(load_program(after, name, settings.marks), settings, checked):
         return Mended(program, before, program.text, before, unmended)
     return Mended(program, before, text, after, unmended)
 
@@ -83,7 +81,7 @@ def fix_file(path: Path, name: str, settings: CheckSettings, known: frozenset[st
     """
     try:
         mend = mended(path, name, settings, known)
-    except (ProgramError, OSError):
+    except (ProgramError, FileUnreadableError):
         return None
     if mend.changed:
         replace_file(path, mend.before, mend.after)
@@ -107,7 +105,12 @@ def _left(name: str, unmended: Unmended, language: Language, width: int) -> list
     ]
 
 
-def _errors(program: Program, settings: CheckSettings) -> Counter[tuple[str, int]]:
+def _brings_errors(program: Program, settings: CheckSettings, before: Checked) -> bool:
+    """Whether a mended program has an error that was not there before."""
+    return bool(_errors(run_checks(program, settings.demands)) - _errors(before))
+
+
+def _errors(checked: Checked) -> Counter[tuple[str, int]]:
     """Errors by code and line; mends neither add lines before others nor take any away."""
-    findings = run_checks(program, settings.demands).findings
-    return Counter((finding.code, finding.line) for finding in findings if finding.severity is Severity.ERROR)
+    errors = (finding for finding in checked.findings if finding.severity is Severity.ERROR)
+    return Counter((finding.code, finding.line) for finding in errors)

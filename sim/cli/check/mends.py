@@ -52,8 +52,8 @@ def _show(job: Job, put: _Put, language: Language) -> int:
         for line in describe(job.name, error):
             say(line, err=True)
         return 2
-    except OSError as error:
-        say(f"{job.name}: cannot be read: {error.strerror or error}", err=True)
+    except FileUnreadableError as error:
+        say(f"drycut: error: {error}", err=True)
         return 2
     if mend.changed:
         put(mend)

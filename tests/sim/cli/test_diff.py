@@ -134,3 +134,9 @@ def test_options_that_contradict_diff_are_bad_use(tmp_path: Path, options: list[
     assert (done.returncode, done.stdout) == (2, b"")
     assert complaint in done.stderr.decode()
     assert (tmp_path / "part.3b").read_text("ascii") == WRONG_AXIS
+
+
+def test_a_file_that_cannot_be_read_is_said_once(tmp_path: Path) -> None:
+    done = run_inside("check", "none.3b", "--diff", cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (2, b"")
+    assert done.stderr == b"drycut: error: none.3b: cannot be read: No such file or directory\n"
