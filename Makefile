@@ -78,4 +78,5 @@ $(READY): pyproject.toml requirements-lock.txt
 	$(PYTHON) -m venv --clear .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --requirement requirements-lock.txt
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
+	$(BIN)/python -m sim.cli.compile
 	@touch $@

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from sim.check.batch import check_program
     from sim.check.result import CheckResult
     from sim.check.settings import CheckSettings
-    from sim.cli.run_into import run_into
+    from sim.jobs.run_into import run_into
     from sim.measure.compare.compared_program import compare_program
     from sim.run.dryrun import DryRun, dry_run, verdict
     from sim.run.recording import recorded
@@ -77,7 +77,7 @@ _HOMES = {
     "read_drawing": "parser.drawing.read",
     "read_program": "parser.program",
     "recorded": "sim.run.recording",
-    "run_into": "sim.cli.run_into",
+    "run_into": "sim.jobs.run_into",
     "texts": "parser.findings.catalogue",
     "verdict": "sim.run.dryrun",
 }

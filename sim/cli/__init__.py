@@ -8,6 +8,7 @@ from types import FrameType
 
 import click
 
+from controller.compiled.telling import on_compiling
 from parser import __version__
 from parser.findings.errors import DrycutError
 from sim.show.terminal.printer import say, write
@@ -61,6 +62,7 @@ def main() -> None:
     """
     prepare_streams()
     _end_on_signals()
+    on_compiling(lambda: say("drycut: compiling its loops, which takes some seconds the first time", err=True))
     code = _run()
     try:
         sys.stdout.flush()

@@ -73,7 +73,7 @@ def run(
     else:
         print_summary(done, output)
         if output is not None:
-            from sim.cli.run_into import FILES
+            from sim.jobs.run_into import FILES
 
             say(f"written: {output}/ {', '.join(FILES)}")
     raise click.exceptions.Exit(0 if verdict(done.findings) == "pass" else 1)
@@ -90,7 +90,7 @@ def _run(program: "Program", scenario: "Scenario", output: Path | None, card_log
     with StageProgress() as progress, logging_to(card_log, settings) as log:
         if output is None:
             return check_expectations(dry_run(program, scenario, progress, log=log))
-        from sim.cli.run_into import run_into
+        from sim.jobs.run_into import run_into
 
         return run_into(output, program, scenario, progress, log)
 
@@ -103,7 +103,7 @@ def _refuse_to_overwrite(card_log: Path | None, *, program_file: Path, output: P
         raise click.BadParameter("names no file", param_hint="--card-log")
     taken = {program_file.resolve(): "the program"}
     if output is not None:
-        from sim.cli.run_into import FILES
+        from sim.jobs.run_into import FILES
 
         taken |= {(output / name).resolve(): "a file of the run" for name in FILES}
     other = taken.get(card_log.resolve())

@@ -26,7 +26,7 @@ from sim.check.batch import Job, check_file
 from sim.check.files import find_files
 from sim.check.settings import CheckSettings
 from sim.check.settings.search import SettingsSearch
-from sim.cli.run_into import FILES
+from sim.jobs.run_into import FILES
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.report import build_report
 from sim.setup.part import Offset, OffsetPass

@@ -149,7 +149,7 @@ def test_a_run_that_is_told_to_end_takes_its_files_with_it(
         os.kill(os.getpid(), number)
         time.sleep(10)
 
-    monkeypatch.setattr("sim.cli.run_into.dry_run", told_to_end)
+    monkeypatch.setattr("sim.jobs.run_into.dry_run", told_to_end)
     (tmp_path / "part.3b").write_text(PART)
     before = signal.signal(number, NOT_IGNORED[number])
     try:

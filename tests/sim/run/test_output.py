@@ -14,8 +14,8 @@ from runs import plain_scenario
 
 from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.program import parse_program
-from sim.cli.run_into import run_into
 from sim.files import staged
+from sim.jobs.run_into import run_into
 from sim.table.motion import silent
 
 TEXT = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 D B3000B0B3000GXL2 D B50B0B50GXL1 DD"
@@ -136,7 +136,7 @@ import re, sys
 from pathlib import Path
 from runs import plain_scenario, silent
 from parser.program import parse_program
-from sim.cli.run_into import run_into
+from sim.jobs.run_into import run_into
 text = "B100B100B10000GXNR1" * 520  # 18 turns each
 run = run_into(Path(sys.argv[1]), parse_program(text), plain_scenario(), silent)
 print(len(run.stepped), re.search(r"VmHWM:\\s+(\\d+) kB", Path("/proc/self/status").read_text())[1])

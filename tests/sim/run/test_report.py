@@ -13,7 +13,7 @@ from runs import plain_scenario, run_text
 
 from parser.program import parse_program
 from parser.toolpath import Axis
-from sim.cli.run_into import run_into
+from sim.jobs.run_into import run_into
 from sim.run.report import build_report
 from sim.setup.wire import DEFAULT_WIRE
 from sim.show.terminal.run import print_summary
