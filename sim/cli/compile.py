@@ -3,7 +3,14 @@
 import importlib
 from typing import Final
 
-LOOPS: Final[tuple[str, ...]] = ()
+LOOPS: Final[tuple[str, ...]] = (
+    "sim.table.physics.drive",
+    "sim.table.physics.rating",
+    "sim.table.physics.turning",
+    "sim.table.record.bins",
+    "sim.table.record.gather",
+    "sim.table.solve.tick",
+)
 """Modules with compiled loops."""
 
 
