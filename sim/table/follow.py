@@ -95,6 +95,11 @@ class Following:
         """When a drive tripped, as far as the table has followed; infinite where none did."""
         return self._trip[1].t_s if self._trip else np.inf
 
+    @property
+    def ticks(self) -> int:
+        """Ticks that both axes have gone through."""
+        return sum(run.state.noted.ticks for run in self._runs)
+
     def take(self, pulses: Pulses) -> None:
         """Take the next pulses, in program coordinates, and let the table follow as far as they lead."""
         places = np.concatenate([self._last_um, np.stack([pulses.x_um, pulses.y_um], axis=1)])

@@ -1,7 +1,7 @@
-"""The table at work: hours of cutting and a rapid run, against the time they take, fine ticks, and a trace's memory.
+"""The table at work: CPU time for a tick and a step, hours of cutting, a rapid run, a circular test, a trace's memory.
 
-The contour is 300 mm of lines and arcs, a rounded square in whole µm, in 40 mm steel. All of it in ticks of 0.1 ms is
-70 million of them: a smaller contour is compared with its fine run.
+The contour is 300 mm of lines and arcs, a rounded square in whole µm, in 40 mm steel. A smaller one is compared with
+its run in ticks of 0.1 ms, and through the reference engine.
 """
 
 import argparse
@@ -10,14 +10,18 @@ import resource
 import subprocess
 import sys
 import time
+from typing import NamedTuple
 
 import numpy as np
 
+from controller.host.host import Host
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from parser.program import parse_program
-from sim.setup.machine.machine import Machine, load_machine
-from sim.table.motion import Motion, Moved, motion_of, simulate
+from sim.run.ballbar.circle import circle_test, run_test
+from sim.setup.machine.machine import Machine, TableEngine, load_machine
+from sim.table.follow import Following
+from sim.table.motion import Motion, Moved, motion_of, silent, simulate
 
 FINE_TICK_S = 1e-4
 THICKNESS_MM = 40.0
@@ -61,8 +65,58 @@ def rapid() -> Motion:
 def timed(run: Motion) -> tuple[float, Moved]:
     """Seconds to simulate, and what came of it."""
     began = time.perf_counter()
-    moved = simulate(run, _drop, _silent)
+    moved = simulate(run, _drop, silent)
     return time.perf_counter() - began, moved
+
+
+class Followed(NamedTuple):
+    """What a table took for the pulses of a motion: CPU seconds, at best, steps and ticks."""
+
+    cpu_s: float
+    steps: int
+    ticks: int
+
+
+def followed(run: Motion, times: int = 5) -> Followed:
+    """CPU time of the table alone, without card and host: the least of some times."""
+    stretches: list[Pulses] = []
+    Host(run.drive, run.card, stretches.append).run()
+    taken = []
+    for _ in range(times):
+        table, began = Following(run.table, run.ticks), time.process_time()
+        for pulses in stretches:
+            table.take(pulses)
+        table.finish()
+        taken.append(time.process_time() - began)
+    return Followed(min(taken), sum(len(pulses.t_s) for pulses in stretches), table.ticks)
+
+
+def tick_lines() -> list[str]:
+    """What a tick and a step take, how that grows, and how many times as long the reference takes."""
+    runs = {length: followed(cutting(length)) for length in (36.0, 108.0, 324.0)}
+    small, large = runs[36.0], runs[324.0]
+    slower = followed(small_in("pymunk"), 1).cpu_s / followed(small_in("compiled")).cpu_s
+    return [
+        f"{'table, a tick':<20}{large.cpu_s / large.ticks * 1e9:.1f} ns, {large.ticks / large.steps:.1f} ticks a step, "
+        f"{large.cpu_s / large.steps * 1e9:.0f} ns a step",
+        f"{'table, growth':<20}exponent {math.log(large.cpu_s / small.cpu_s) / math.log(9.0):.2f} from 36 to 324 mm",
+        f"{'table, in pymunk':<20}{slower:,.0f} times as long",
+    ]
+
+
+def small_in(engine: TableEngine) -> Motion:
+    """A square of 0.2 mm through an engine."""
+    machine = load_machine(STEPPER)._replace(engine=engine)
+    square = "B200B0B200GXL1 B0B200B200GYL2 B200B0B200GXL3 B0B200B200GYL4 DD"
+    return motion(square, machine, machine.feeds(THICKNESS_MM))
+
+
+def circle_line() -> str:
+    """A circular test at a feed of cutting."""
+    test = circle_test(load_machine(STEPPER), 20_000.0, 100.0)
+    began = time.process_time()
+    run_test(test, silent)
+    return f"{'circular test':<20}{time.process_time() - began:.2f} s of CPU for 20 mm at 6 mm/min"
 
 
 def fine(run: Motion) -> Motion:
@@ -73,10 +127,6 @@ def fine(run: Motion) -> Motion:
 
 def _drop(pulses: Pulses) -> None:
     """Nobody looks at them here."""
-
-
-def _silent(stage: str, done: int, total: int) -> None:
-    """Nobody watches."""
 
 
 def apart_um(one: Moved, other: Moved) -> float:
@@ -110,6 +160,8 @@ def table_lines(length_mm: float, part_mm: float) -> list[str]:
     """All that is measured, in lines to print."""
     memory = ", ".join(f"{peak_mib(spacing, length_mm):.0f} MiB at {spacing:g} µm" for spacing in (5.0, 50.0))
     return [
+        *tick_lines(),
+        circle_line(),
         speed_line("table, cutting", cutting(length_mm), 1000.0),
         truth_line("table, cutting", cutting(part_mm), f"{part_mm:g} mm of {length_mm:g}"),
         speed_line("table, rapid", rapid(), 20.0),

@@ -11,7 +11,7 @@ from parser.toolpath import Axis
 from sim.setup.machine.table_model import TableModel
 from sim.table.physics.state import Slide
 
-_ITERATIONS = 50  # guides hold at right angles; a stop has to take the velocity of both bodies, whatever their masses
+_ITERATIONS = 400  # guides hold at right angles; a stop has to take the velocity of both bodies, whatever their masses
 
 
 class Bodies:
