@@ -64,7 +64,7 @@ ENGINE_OPTION = click.option(
     "--engine",
     type=click.Choice(["compiled", "pymunk"]),
     help="What works out the motion of the table: one compiled loop, or the same in Python in a pymunk space, for "
-    "comparison; that takes some hundred times as long.",
+    "comparison; that takes some thousand times as long.",
 )
 
 _OPTIONS = (

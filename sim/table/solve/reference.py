@@ -1,6 +1,6 @@
 """The reference: the same ticks in Python, with the table as bodies that pymunk moves; ``--engine pymunk``.
 
-It is some hundred times slower than the compiled loop, which tests hold against it.
+It is some thousand times slower than the compiled loop, which tests hold against it.
 """
 
 from parser.toolpath import Axis as AxisName
