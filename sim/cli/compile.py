@@ -3,7 +3,12 @@
 import importlib
 from typing import Final
 
-LOOPS: Final[tuple[str, ...]] = ()
+LOOPS: Final[tuple[str, ...]] = (
+    "sim.measure.deviation.across",
+    "sim.measure.deviation.away",
+    "sim.measure.deviation.deviation",
+    "sim.measure.deviation.meters",
+)
 """Modules with compiled loops."""
 
 
