@@ -3,7 +3,10 @@
 import importlib
 from typing import Final
 
-LOOPS: Final[tuple[str, ...]] = ()
+LOOPS: Final[tuple[str, ...]] = (
+    "sim.cut.kerf.edges",
+    "sim.cut.kerf.stars",
+)
 """Modules with compiled loops."""
 
 
