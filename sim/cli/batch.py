@@ -67,15 +67,15 @@ def run_shop(names: Sequence[str], output: Path | None, spread: Spread, options:
     with StageProgress() as progress, pool_of(spread) as pool:
         done = run_batch(programs, output, pool, lambda count, total: progress("programs", count, total))
     if as_json:
-        write(index_text(done.index), "json")
+        write(index_text(done.document), "json")
     else:
-        print_batch(done.index, output)
+        print_batch(done.document, output)
     if done.faults:
         from sim.cli.faults import tell_faults
         from sim.cli.scenario_options import chosen
 
         return tell_faults(done.faults, chosen(None))
-    counts = done.index["counts"]
+    counts = done.document["counts"]
     return 0 if counts["pass"] == counts["programs"] else 1
 
 

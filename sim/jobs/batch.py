@@ -23,9 +23,9 @@ TAKEN: Final = frozenset({*FILES, NAME, *INDEX})
 
 
 class Batch(NamedTuple):
-    """What came of a shop: its index, and the tracebacks of faults of drycut by the files at which they happened."""
+    """What came of a shop: its index as data, and tracebacks of faults of drycut by the files that they happened at."""
 
-    index: dict[str, Any]
+    document: dict[str, Any]
     faults: dict[str, str]
 
 

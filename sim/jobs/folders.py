@@ -61,12 +61,8 @@ def _safe(part: str, taken: frozenset[str]) -> str:
     """A name that every system takes, the same where it is one already."""
     plain = unicodedata.normalize("NFC", part)
     clean = _UNSAFE.sub("_", plain).rstrip(". ")[:_MOST]
-    if (
-        clean == plain
-        and not _DEVICES.fullmatch(clean)
-        and not clean.startswith(_HIDDEN)
-        and clean.lower() not in taken
-    ):
+    ours = clean.startswith(_HIDDEN) or clean.lower() in taken
+    if clean == plain and not ours and not _DEVICES.fullmatch(clean):
         return clean
     return f"{clean.lstrip('.')}~{_mark(part)}"
 

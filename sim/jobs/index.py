@@ -3,15 +3,14 @@
 import json
 from collections import Counter
 from collections.abc import Sequence
-from typing import Any, Final, Literal, NamedTuple
+from typing import Any, Final, NamedTuple
 
 from parser import __version__
 from parser.findings.codes import CODES, Severity
 from parser.findings.findings import Finding
 
 SCHEMA: Final = "drycut.index/1"
-Verdict = Literal["pass", "fail", "refused", "fault"]
-VERDICTS: Final[tuple[Verdict, ...]] = ("pass", "fail", "refused", "fault")
+VERDICTS: Final = ("pass", "fail", "refused", "fault")
 _WORST_FIRST: Final = tuple(Severity)
 
 
@@ -35,7 +34,7 @@ class Row(NamedTuple):
         The path that ran, small: SVG path data (`sim.show.index_page.thumbnail`); empty without a report.
     """
 
-    verdict: Verdict
+    verdict: str
     title: str
     message: str = ""
     findings: tuple[tuple[str, int], ...] = ()
@@ -72,12 +71,9 @@ def build_index(entries: Sequence[Entry]) -> dict[str, Any]:
 def index_text(index: dict[str, Any]) -> str:
     """The index as JSON text, a line for each program."""
     head = {key: value for key, value in index.items() if key != "programs"}
-    lines = ",\n".join(_line(program) for program in index["programs"])
-    return (
-        "{\n"
-        + "".join(f'"{key}": {_line(value)},\n' for key, value in head.items())
-        + f'"programs": [\n{lines}\n]\n}}\n'
-    )
+    top = "".join(f'"{key}": {_line(value)},\n' for key, value in head.items())
+    programs = ",\n".join(map(_line, index["programs"]))
+    return f'{{\n{top}"programs": [\n{programs}\n]\n}}\n'
 
 
 def _counts(entries: Sequence[Entry]) -> dict[str, int]:

@@ -57,9 +57,8 @@ def find_programs(
     Raises FileUnreadableError for a name that leads to nothing, and what `scenario_of` raises for any program alone.
     """
     away = out.resolve()
-    files = [
-        Path(file) for file in find_files(names, lambda path: path.resolve() == away, (*suffixes(), f"/{SCENARIO}"))
-    ]
+    ends = (*suffixes(), f"/{SCENARIO}")
+    files = [Path(file) for file in find_files(names, lambda path: path.resolve() == away, ends)]
     scenarios = {file: _scenario(file.parent, scenario_of) for file in files if file.name.lower() == SCENARIO}
     theirs = _Theirs(scenarios)
     apart = [file for file in files if file in scenarios or file not in theirs]
@@ -67,9 +66,7 @@ def find_programs(
     folders = folder_names(ways, names, taken)
     alone = _Alone(scenario_of)
     return [
-        _found(file, scenarios[file], folder)
-        if file in scenarios
-        else ShopProgram(file.as_posix(), folder, alone.of(file))
+        _found(file, scenarios[file] if file in scenarios else alone.of(file), folder)
         for file, folder in zip(apart, folders, strict=True)
     ]
 

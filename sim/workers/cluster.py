@@ -68,7 +68,8 @@ class _Cluster:
 
     def ahead(self) -> int:
         """Jobs under way at once: some for each thread that there is now."""
-        return _AHEAD_EACH * max(1, sum(self._client.nthreads().values()))
+        threads: dict[str, int] = self._client.nthreads()
+        return _AHEAD_EACH * max(1, sum(threads.values()))
 
     @contextmanager
     def open(self, *, alone: bool = False) -> Iterator[Executor]:

@@ -19,7 +19,7 @@ _AHEAD_EACH: Final = 2  # one that it does, and one that waits for it
 class Processes:
     """A `Pool` of processes of this machine, as many as asked for, else as many as it has cores for us."""
 
-    died = (BrokenProcessPool,)
+    died: tuple[type[BaseException], ...] = (BrokenProcessPool,)
 
     def __init__(self, count: int | None = None) -> None:
         self._count = min(count or cores(), _MOST)
@@ -45,9 +45,7 @@ class Processes:
 
 def cores() -> int:
     """Cores that this process may use."""
-    if sys.platform == "linux":
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
 
 
 def _ready() -> None:

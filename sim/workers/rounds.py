@@ -48,7 +48,7 @@ def results(
 
 
 def in_order(numbered: Iterable[tuple[int, Result]]) -> Iterator[Result]:
-    """Results in the order of their numbers, which are all of 0, 1, 2 …"""
+    """Results in the order of their numbers: all of 0, 1, 2 and so on."""
     early: dict[int, Result] = {}
     due = 0
     for number, result in numbered:
