@@ -3,7 +3,11 @@
 import importlib
 from typing import Final
 
-LOOPS: Final[tuple[str, ...]] = ()
+LOOPS: Final[tuple[str, ...]] = (
+    "sim.measure.compare.nearest_loop",
+    "sim.measure.compare.shape_rows",
+    "sim.measure.compare.stretch_loop",
+)
 """Modules with compiled loops."""
 
 
