@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 from places import MACHINES, ROOT
+from runs import scenario_run
 
 from controller.stepping.words import interpolate
 from parser.findings.catalogue import Language
@@ -27,7 +28,7 @@ from sim.check.engine import PARSER_CHECKS, PATH_CHECKS
 from sim.check.settings import read as check_settings
 from sim.check.settings.search import SettingsSearch
 from sim.cli.check.command import check
-from sim.cut.kerf.swept import rays as kerf_rays
+from sim.cut.kerf.stars import rays as kerf_rays
 from sim.jobs.run_into import trace_arrays
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.report import build_report
@@ -78,6 +79,8 @@ def complaints(report: object) -> list[str]:
 
 @cache
 def run_of(folder: Path) -> DryRun:
+    if folder in SCENARIOS:
+        return scenario_run(folder.name)
     case = load_scenario(folder)
     return dry_run(read_program(case.program), case, lambda stage, done, total: None)
 
@@ -242,8 +245,7 @@ def test_report_keys_are_documented() -> None:
 
 
 def test_trace_arrays_are_documented() -> None:
-    case = load_scenario(ROOT / "scenarios" / "round-hole")
-    arrays = trace_arrays(dry_run(read_program(case.program), case, lambda stage, done, total: None))
+    arrays = trace_arrays(scenario_run("round-hole"))
     table = read(DOCS / "report.md").partition("## trace.npz")[2]
     rows = [row for row in table.splitlines() if row.startswith("| `")]
     dtypes = {name: row.split("|")[2].strip() for row in rows for name in re.findall(r"`(\w+)`", row.split("|")[1])}

@@ -15,28 +15,26 @@ from browser import OpenPage
 from hypothesis import given
 from hypothesis import strategies as st
 from page_types import types_of, unlike
-from places import SCENARIOS
 from plain import AWAY_X, AWAY_Y, SIGNS, TOWARD_X, TOWARD_Y, PlainBlock, motion_quadrant
 from replayed import ASSETS, document_of, exports, recording_of, replay_of
+from runs import scenario_recording
 from strategies import program_text
 
 from controller.stepping.pulses import Pulses
 from controller.stepping.words import interpolate
 from parser.geometry.curves import Floats
-from parser.program import parse_program, read_program
+from parser.program import parse_program
 from parser.toolpath import Point
 from sim.measure.deviation.across import across, across_um
-from sim.run.recording import Recording, recorded
+from sim.run.recording import Recording
 from sim.run.report import build_report
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.obstacles import Clamp
 from sim.setup.quiz import Question
-from sim.setup.scenario import load_scenario
 from sim.setup.wire import Wire
 from sim.show.replay import tape as tape_module
 from sim.show.replay.document import replay_document
 from sim.show.replay.tape import GRAIN_UM, TICK_S, Packer, tape, varints
-from sim.table.motion import silent
 from sim.table.trace import Trace
 
 TRIANGLE = "B0B300B300GYL2 B300B200B300GXL4 B300B100B300GXL3 DD"
@@ -421,9 +419,8 @@ def test_the_deviation_of_the_wire_is_that_of_the_report(open_page: OpenPage, la
 
 @pytest.mark.parametrize("name", ["wire-lag-corner", "wire-lag-arc", "backlash", "friction", "servo-trip"])
 def test_no_moment_of_a_replay_deviates_more_than_the_report(open_page: OpenPage, name: str) -> None:
-    scenario = load_scenario(SCENARIOS / name)
-    with recorded(read_program(scenario.program), scenario, silent) as recording:
-        assert_as_the_report_says(replay_of(open_page, replay_document(recording)), recording)
+    recording = scenario_recording(name)
+    assert_as_the_report_says(replay_of(open_page, replay_document(recording)), recording)
 
 
 def test_a_wire_ahead_of_its_block_is_measured_from_the_next_one(open_page: OpenPage) -> None:
@@ -595,11 +592,9 @@ def test_a_million_steps_are_small_and_soon_decoded(open_page: OpenPage) -> None
 
 
 def test_a_finding_lies_where_it_says_and_else_at_its_block() -> None:
-    with recorded(
-        read_program(SCENARIOS / "out-of-travel" / "program.3b"), load_scenario(SCENARIOS / "out-of-travel")
-    ) as of:
-        findings = {one.code: one for one in of.run.findings}
-        entries = {entry["code"]: entry for entry in replay_document(of)["findings"]}
+    of = scenario_recording("out-of-travel")
+    findings = {one.code: one for one in of.run.findings}
+    entries = {entry["code"]: entry for entry in replay_document(of)["findings"]}
     assert entries["3B401"]["place_um"] is None  # its x_mm and y_mm are the travel of the table
     assert entries["3B401"]["row"] == findings["3B401"].block - 1
     assert entries["3B402"]["place_um"] == pytest.approx(
