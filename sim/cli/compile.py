@@ -3,7 +3,14 @@
 import importlib
 from typing import Final
 
-LOOPS: Final[tuple[str, ...]] = ()
+LOOPS: Final[tuple[str, ...]] = (
+    "sim.cut.kerf.edges",
+    "sim.cut.kerf.stars",
+    "sim.measure.deviation.across",
+    "sim.measure.deviation.away",
+    "sim.measure.deviation.deviation",
+    "sim.measure.deviation.meters",
+)
 """Modules with compiled loops."""
 
 

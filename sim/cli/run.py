@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from parser.findings.errors import ProgramError
+from sim.cli.batch import Spread, is_shop, run_shop, spread_options
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
 
@@ -16,14 +17,15 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
+@click.argument("names", nargs=-1, required=True, metavar="PROGRAM|SCENARIO|FOLDER|GLOB...")
 @click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="Write report.html, replay.html, cut.png, report.json and trace.npz here.",
+    help="Write report.html, replay.html, cut.png, report.json and trace.npz here; of many programs, a folder of each.",
 )
+@spread_options
 @scenario_options
 @click.option(
     "--card-log",
@@ -31,22 +33,25 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="Write every call to the card here, to be replayed by drycut card replay.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print report.json instead of the summary.")
-def run(
-    path: Path,
+@click.option("--json", "as_json", is_flag=True, help="Print report.json, of many index.json, instead of the summary.")
+def run(  # noqa: PLR0913 - click hands over each option by its name
+    *,
+    names: tuple[str, ...],
     output: Path | None,
     card_log: Path | None,
     as_json: bool,
+    jobs: int | None,
+    scheduler: str | None,
     **options: Any,
 ) -> None:
-    """Dry-run a 3B program, or a scenario folder that holds one.
+    """Dry-run a 3B program, or a scenario folder that holds one; or all of them in folders and globs.
 
     Plans and steps the program as its controller does, lets the table follow, and compares both with the ideal
     geometry.
 
     \b
     Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input,
-    3 a fault of drycut itself.
+    3 a fault of drycut itself. Of many programs: 0 all pass, 1 one does not or cannot be run.
 
     \b
     drycut run part.3b -o out/
@@ -55,6 +60,7 @@ def run(
     drycut run contour.3b --offset 0.1mm --side right
     drycut run contour.3b --offset 0.18mm,0.12mm,0.1mm --side right
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
+    drycut run programs/ 'jigs/*.4b' -o out/ --jobs 4
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.program import read_program
     from sim.run.dryrun import verdict
@@ -62,7 +68,15 @@ def run(
     from sim.show.terminal.printer import say, write
     from sim.show.terminal.run import print_summary
 
-    scenario = overridden(path, Overrides(**options))
+    if is_shop(names):
+        if card_log is not None:
+            raise click.UsageError("--card-log takes the calls of one program")
+        raise click.exceptions.Exit(
+            run_shop(names, output, Spread(jobs, scheduler), Overrides(**options), as_json=as_json)
+        )
+    if jobs is not None or scheduler is not None:
+        raise click.UsageError("--jobs and --scheduler are for many programs; this is one")
+    scenario = overridden(Path(names[0]), Overrides(**options))
     try:
         program = read_program(scenario.program)
         done = _run(program, scenario, output, card_log)

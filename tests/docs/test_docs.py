@@ -28,7 +28,7 @@ from sim.check.engine import PARSER_CHECKS, PATH_CHECKS
 from sim.check.settings import read as check_settings
 from sim.check.settings.search import SettingsSearch
 from sim.cli.check.command import check
-from sim.cut.kerf.swept import rays as kerf_rays
+from sim.cut.kerf.stars import rays as kerf_rays
 from sim.jobs.run_into import trace_arrays
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.report import build_report
