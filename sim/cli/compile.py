@@ -13,6 +13,12 @@ LOOPS: Final[tuple[str, ...]] = (
     "sim.measure.deviation.away",
     "sim.measure.deviation.deviation",
     "sim.measure.deviation.meters",
+    "sim.table.physics.drive",
+    "sim.table.physics.rating",
+    "sim.table.physics.turning",
+    "sim.table.record.bins",
+    "sim.table.record.gather",
+    "sim.table.solve.tick",
 )
 """Modules with compiled loops."""
 
