@@ -4,6 +4,8 @@ import importlib
 from typing import Final
 
 LOOPS: Final[tuple[str, ...]] = (
+    "sim.cut.kerf.last_beside",
+    "sim.measure.compare.coarser",
     "sim.measure.compare.nearest_loop",
     "sim.measure.compare.shape_rows",
     "sim.measure.compare.stretch_loop",
