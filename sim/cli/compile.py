@@ -5,8 +5,10 @@ from typing import Final
 
 LOOPS: Final[tuple[str, ...]] = (
     "sim.cut.kerf.edges",
+    "sim.cut.kerf.last_beside",
     "sim.cut.kerf.stars",
     "sim.cut.play.touching",
+    "sim.measure.compare.coarser",
     "sim.measure.compare.nearest_loop",
     "sim.measure.compare.shape_rows",
     "sim.measure.compare.stretch_loop",
