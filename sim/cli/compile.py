@@ -4,6 +4,7 @@ import importlib
 from typing import Final
 
 LOOPS: Final[tuple[str, ...]] = (
+    "controller.stepping.chunks",
     "sim.measure.deviation.across",
     "sim.measure.deviation.away",
     "sim.measure.deviation.deviation",

@@ -25,9 +25,7 @@ def path_of_segments(rows: Sequence[PathEntry]) -> Path:
     return Path(start, tangent, normal, curvature, np.array([row.length_um for row in lines], dtype=np.float64))
 
 
-def path_of_blocks(
-    rows: Sequence[PathEntry], steps: Steps, place: Place, at_um: tuple[int, int, int, int]
-) -> Path:
+def path_of_blocks(rows: Sequence[PathEntry], steps: Steps, place: Place, at_um: tuple[int, int, int, int]) -> Path:
     """Ideal path of n stepped blocks, each from where the steps of the one before it end, the first as far as left."""
     blocks = [row for row in rows if isinstance(row, Stepped)]
     n = len(blocks)
