@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from paths import Pen
 from places import SCENARIOS
 from plain_deviation import plain_deviation
-from runs import machine, plain_scenario, run_folder, run_text
+from runs import machine, plain_scenario, run_text, scenario_run
 
 from controller.motion.plan import Plan
 from parser.program import read_program
@@ -259,7 +259,7 @@ def test_the_wire_adds_its_lag_squared_over_the_diameter_on_a_circle() -> None:
 
 
 def test_without_lag_the_wire_is_the_table() -> None:
-    run = run_folder(SCENARIOS / "round-hole")
+    run = scenario_run("round-hole")
     assert run.deviations.wire is run.deviations.table
     assert run.trace.wire_um is run.trace.table_um
 

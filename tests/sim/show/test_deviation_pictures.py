@@ -15,17 +15,15 @@ import pytest
 import shapely
 from golden_pictures import assert_golden
 from paths import Pen
-from places import SCENARIOS
 from plain import PlainBlock, plain_steps
 from plain_deviation import plain_deviation
 from recorder import Recorder, recording_sheet
-from runs import plain_scenario, run_text
+from runs import plain_scenario, run_text, scenario_run
 
-from parser.program import parse_program, read_program
+from parser.program import parse_program
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recorded
 from sim.setup.part import DrawingTarget
-from sim.setup.scenario import load_scenario
 from sim.show.draw.dial import NOMINAL, RING, RINGS
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import DARK, LIGHT, Paint
@@ -69,9 +67,7 @@ def samples(text: str) -> Samples:
 
 @cache
 def of_scenario(name: str) -> Samples:
-    scenario = load_scenario(SCENARIOS / name)
-    with recorded(read_program(scenario.program), scenario, silent) as found:
-        return samples_of(found.run)
+    return samples_of(scenario_run(name))
 
 
 def moved(text: str, place_um: Callable[[np.ndarray], np.ndarray]) -> DryRun:
