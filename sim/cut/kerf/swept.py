@@ -12,14 +12,12 @@ import numpy as np
 import shapely
 
 from parser.geometry.curves import Curves, Floats, Ints
+from sim.cut.kerf.stars import stars
 from sim.cut.kerf.ways import WireWay
 from sim.cut.regions import Region, Regions, unions
 
-_SCALLOP_UM = 0.02  # left standing between two rays
-_SIMPLER_UM = 0.01  # polygons are simplified by
 _STRETCH = 1.9  # offsets, at most; at 2 the discs at its ends would only just reach its middle
 _TURN_RAD = 0.5  # of a stretch, at most
-_CHUNK = 1 << 10  # places looked at in one go, each along some 300 rays: 2.6 MB, which stay in the cache
 
 
 class Swept(NamedTuple):
@@ -79,58 +77,6 @@ def middles(way: WireWay, first: Ints) -> Floats:
     half = 0.5 * (way.along_um[first] + way.along_um[last])
     middle: Floats = way.place_um[np.searchsorted(way.along_um, half)]
     return middle
-
-
-def stars(place_um: Floats, first: Ints, middle_um: Floats, offset_um: float) -> Regions:
-    """Union of the discs of each stretch, (s,); every disc must hold the stretch's middle (s, 2)."""
-    toward = rays(offset_um)
-    bounds = np.append(first, len(place_um))
-    reach = [_reach_um(place_um, bounds[low:past], middle_um[low : past - 1], offset_um) for low, past in _runs(bounds)]
-    if not reach:
-        return np.empty(0, dtype=object)
-    border = middle_um[:, None, :] + np.concatenate(reach)[:, :, None] * toward
-    simple: Regions = shapely.simplify(filled(border), _SIMPLER_UM, preserve_topology=False)
-    return simple
-
-
-def filled(border_um: Floats) -> Regions:
-    """Polygons (n,) with the corners `border_um` (n, k, 2)."""
-    polygons: Regions = np.asarray(shapely.polygons(border_um))
-    return polygons
-
-
-def rays(offset_um: float) -> Floats:
-    """Unit vectors (k, 2) all round, so many that chords between them stay within 0.02 µm of the discs.
-
-    At the end of a stretch, the far side of the disc is two offsets from the middle. There the chords between rays are
-    twice as long as on a circle of one offset; a chord of length d is d²/8r high.
-    """
-    number = int(np.ceil(4.0 * np.pi * np.sqrt(offset_um / (8.0 * _SCALLOP_UM))))
-    angle = np.arange(number) * (2.0 * np.pi / number)
-    return np.stack([np.cos(angle), np.sin(angle)], axis=1)
-
-
-def _runs(bounds: Ints) -> list[tuple[int, int]]:
-    """Runs of stretches of about `_CHUNK` places each, as slices of the bounds, the end of the last one included."""
-    if len(bounds) < 2:
-        return []
-    chunk = bounds[:-1] // _CHUNK
-    low = np.flatnonzero(np.diff(chunk, prepend=-1))
-    return list(zip(low.tolist(), (np.append(low[1:], len(chunk)) + 1).tolist(), strict=True))
-
-
-def _reach_um(place: Floats, bounds: Ints, middle: Floats, offset_um: float) -> Floats:
-    """Distances (s, k) from middles to the borders of the stars, along the rays."""
-    toward = rays(offset_um)
-    out = place[bounds[0] : bounds[-1]] - np.repeat(middle, np.diff(bounds), axis=0)
-    half = out @ np.stack([-toward[:, 1], toward[:, 0]])
-    # In place, so that the arrays stay in the cache: reading and writing them is the work here.
-    np.square(half, out=half)
-    np.subtract(offset_um**2, half, out=half)
-    np.sqrt(np.maximum(half, 0.0, out=half), out=half)
-    half += out @ toward.T
-    reach: Floats = np.maximum.reduceat(half, bounds[:-1] - bounds[0], axis=0)
-    return reach
 
 
 def _levels(regions: Regions) -> tuple[Regions, ...]:

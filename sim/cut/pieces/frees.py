@@ -8,7 +8,8 @@ import shapely
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats
-from sim.cut.kerf.swept import Swept, middles, stars
+from sim.cut.kerf.stars import stars
+from sim.cut.kerf.swept import Swept, middles
 from sim.cut.kerf.ways import WireWay
 from sim.cut.regions import Region, difference, union
 
