@@ -13,6 +13,7 @@ from sim.run.report import report_text
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
 from sim.show.pictures.cut.of_run import draw_cut_of_run
+from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.inline import inline_pictures
 from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
@@ -53,11 +54,11 @@ def run_into(  # noqa: PLR0913 - what it is run with, and whom it tells
 
 def _show(recording: Recording, report: dict[str, Any], folder: Path, progress: Progress, *, has_trace: bool) -> None:
     """Write the report and what people look at; then nothing holds the files of the steps any more."""
-    run = recording.run
+    run, subject = recording.run, subject_of(recording)
     (folder / "report.json").write_text(report_text(report), encoding="utf-8")
-    draw_cut_of_run(pixels(), run, recording.pieces).image().save(folder / "cut.png", dpi=(200, 200))
+    draw_cut_of_run(pixels(), run, recording.pieces, subject.shapes).image().save(folder / "cut.png", dpi=(200, 200))
     progress("replay", 0, 1)
     (folder / "replay.html").write_text(replay_page(recording), encoding="utf-8")
-    pictures = inline_pictures(recording, progress)
+    pictures = inline_pictures(subject, progress)
     page = report_page(run, report, pictures, has_trace=has_trace)
     (folder / "report.html").write_text(page, encoding="utf-8")
