@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from sim.check.settings import CheckSettings
     from sim.jobs.run_into import run_into
     from sim.measure.compare.compared_program import compare_program
-    from sim.run.dryrun import DryRun, dry_run, verdict
+    from sim.run.dryrun import DryRun, dry_run
+    from sim.run.findings import verdict
     from sim.run.recording import recorded
     from sim.run.report import build_report
     from sim.setup.machine.machine import load_machine
@@ -79,7 +80,7 @@ _HOMES = {
     "recorded": "sim.run.recording",
     "run_into": "sim.jobs.run_into",
     "texts": "parser.findings.catalogue",
-    "verdict": "sim.run.dryrun",
+    "verdict": "sim.run.findings",
 }
 
 

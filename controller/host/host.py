@@ -53,8 +53,8 @@ class Host:
         self._row_of = np.concatenate([[0], self._entries.row]).astype(np.int32)
         words = words_of(drive.toolpath)
         columns = words.x_um, words.y_um, words.count_um, words.count_axis, words.quadrant, words.turn
-        self._blocks = [column[self._entries.row].tolist() for column in columns]
-        self._lengths = drive.limits.length_um[self._entries.row].tolist()
+        told = [column[self._entries.row].tolist() for column in (*columns, drive.limits.length_um)]
+        self._blocks = list(zip(*told, strict=True))
         self._ends = self._entries.end_um.tolist()
         self._centers = self._entries.center_um.tolist()
         self._angles = self._entries.angle_deg.tolist()
@@ -101,7 +101,7 @@ class Host:
             self._must(card.GT_MvXY, 0.0, 0.0, *motion)
 
     def _push_words(self, entry: int) -> None:
-        self._push(self.card.step_block, *(column[entry] for column in self._blocks), self._lengths[entry])
+        self._push(self.card.step_block, *self._blocks[entry])
 
     def _push_geometry(self, entry: int) -> None:
         if self._angles[entry]:

@@ -6,6 +6,9 @@ from typing import Final
 LOOPS: Final[tuple[str, ...]] = (
     "sim.cut.kerf.edges",
     "sim.cut.kerf.stars",
+    "sim.measure.compare.nearest_loop",
+    "sim.measure.compare.shape_rows",
+    "sim.measure.compare.stretch_loop",
     "sim.measure.deviation.across",
     "sim.measure.deviation.away",
     "sim.measure.deviation.deviation",

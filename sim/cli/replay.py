@@ -102,7 +102,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.program import read_program
     from sim.cli.progress import StageProgress
-    from sim.run.dryrun import verdict
+    from sim.run.findings import verdict
     from sim.run.recording import recorded
     from sim.show.film.screen import Look
     from sim.show.terminal.printer import say

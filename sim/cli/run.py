@@ -63,7 +63,7 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     drycut run programs/ 'jigs/*.4b' -o out/ --jobs 4
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.program import read_program
-    from sim.run.dryrun import verdict
+    from sim.run.findings import verdict
     from sim.run.report import build_report, report_text
     from sim.show.terminal.printer import say, write
     from sim.show.terminal.run import print_summary

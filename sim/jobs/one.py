@@ -14,7 +14,8 @@ from parser.program import load_program
 from sim.files import scratch
 from sim.jobs.index import Row, counted
 from sim.jobs.run_into import FILES, run_into
-from sim.run.dryrun import DryRun, verdict
+from sim.run.dryrun import DryRun
+from sim.run.findings import verdict
 from sim.run.report.rounded import rounded
 from sim.run.versions import versions
 from sim.setup.scenario import Scenario

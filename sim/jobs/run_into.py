@@ -13,7 +13,7 @@ from sim.run.recording import Recording, check_expectations, recording_of
 from sim.run.report import build_report, report_text
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
-from sim.show.pictures.cut.picture import draw_cut_of_run
+from sim.show.pictures.cut.of_run import draw_cut_of_run
 from sim.show.pictures.inline import inline_pictures
 from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page

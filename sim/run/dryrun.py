@@ -10,7 +10,6 @@ from controller.card.log.writer import CardLog
 from controller.motion.limits import Feeds
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
-from parser.findings.codes import Severity
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Floats
 from parser.program import Program
@@ -86,6 +85,8 @@ class DryRun:
         The cut edge beside its drawing; None where there is no drawing, or no edge.
     findings
         Of program and run, in file order; behind them one for each of `missed`.
+    checked
+        Those of `findings` that were known before anything moved.
     coverage
         How far their checks came.
     missed
@@ -111,6 +112,7 @@ class DryRun:
     remains: Remains | None
     comparison: Comparison | None
     findings: tuple[Finding, ...]
+    checked: tuple[Finding, ...]
     coverage: Coverage
     missed: tuple[Missed, ...] = ()
 
@@ -151,11 +153,6 @@ class DryRun:
     def toolpath(self) -> Toolpath:
         """The exact geometry that was run, the offset added."""
         return self.program.toolpath
-
-
-def verdict(findings: tuple[Finding, ...]) -> str:
-    """``fail`` where any finding is an error, else ``pass``."""
-    return "fail" if any(finding.severity is Severity.ERROR for finding in findings) else "pass"
 
 
 def dry_run(
@@ -206,6 +203,7 @@ def dry_run(
         remains=left.remains,
         comparison=left.comparison,
         findings=tuple(sorted([*ready.findings, *met, *lost, *left.findings], key=file_order)),
+        checked=ready.findings,
         coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
 

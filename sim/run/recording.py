@@ -38,7 +38,7 @@ class Recording(NamedTuple):
         What the cut leaves of the work (`pieces_of_run`).
     steps
         Every pulse, in program coordinates, in arrays that lie in files: take slices of them. The place before the
-        first one is `sim.table.motion.origin_um` of the toolpath.
+        first one is `sim.table.trace.origin_um` of the toolpath.
     """
 
     run: DryRun

@@ -22,7 +22,7 @@ from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
 from sim.table.solve.slow_step import NO_PLAY
 from sim.table.solve.trial import slow_step
-from sim.table.trace import Trace
+from sim.table.trace import Trace, origin_um
 from sim.table.when.rhythm import rhythm
 from sim.table.when.ticks import Ticks, choose_ticks
 
@@ -90,12 +90,6 @@ def motion_of(
     table = Setup(machine.table, start_um, origin_um(toolpath), slow or NO_PLAY, speed_limit_um_s=(x, y))
     ticks = choose_ticks(toolpath, plan, beats, spacing_um, every_step=slow is None)
     return Motion(drive, controller.card_settings, table, ticks)
-
-
-def origin_um(toolpath: Toolpath) -> tuple[int, int]:
-    """Start of the program in whole µm, where the steps begin."""
-    x, y = np.rint(toolpath.start_um[0]).astype(int).tolist()
-    return x, y
 
 
 def simulate(

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Toolpath
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,3 +41,9 @@ class Trace:
 
     def __len__(self) -> int:
         return len(self.t_s)
+
+
+def origin_um(toolpath: Toolpath) -> tuple[int, int]:
+    """Start of the program in whole µm, where the steps begin."""
+    x, y = np.rint(toolpath.start_um[0]).astype(int).tolist()
+    return x, y

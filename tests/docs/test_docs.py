@@ -38,6 +38,7 @@ from sim.setup.machine import machine
 from sim.setup.scenario import load_scenario
 from sim.setup.toml.kinds import Number
 from sim.show.findings.catalogue_document import NAMES, anchor, documents, findings_document
+from sim.show.terminal.run import summary_rows
 
 DOCS = ROOT / "docs"
 PAGES = sorted([*ROOT.glob("*.md"), *DOCS.glob("*.md")])
@@ -507,6 +508,7 @@ def test_readme_shows_the_keyhole() -> None:
     report = report_of(ROOT / "scenarios" / "keyhole")
     assert f"{report['summary']['steps']:,} of 1 µm" in page
     assert f"{report['summary']['length_um'] / 1000:.3f} mm" in page
+    assert dict(summary_rows(scenario_run("keyhole")))["closure"] in page
     deviation = report["deviation"]
     for largest in (
         deviation["wire"],

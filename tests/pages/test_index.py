@@ -52,7 +52,7 @@ def test_search_and_choices_leave_what_fits_and_heads_sort_it(open_page: OpenPag
     assert rows.first.locator(".time").inner_text() == "0:01:02"
     shown.select_option("#verdict", "")
     shown.select_option("#code", "3B405")
-    shown.click("text=Last")
+    shown.get_by_role("button", name="Last", exact=True).click()
     assert shown.inner_text(".count") == "rows 601–750 of 750"
 
 

@@ -26,8 +26,8 @@ from sim.run.prepare import prepare
 from sim.run.recording import Recording, recorded
 from sim.setup.quiz import Question, WrittenQuestion
 from sim.show.replay.document import replay_page
-from sim.table.motion import motion_of, origin_um, silent
-from sim.table.trace import Trace
+from sim.table.motion import motion_of, silent
+from sim.table.trace import Trace, origin_um
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

@@ -61,8 +61,3 @@ def scenario_run(name: str) -> DryRun:
 
 def codes(run: DryRun) -> list[str]:
     return [finding.code for finding in run.findings]
-
-
-def closure_codes(run: DryRun) -> list[str]:
-    """Codes of what is said about whether contours close, without their suspects."""
-    return [code for code in codes(run) if code in ("3B301", "3B302")]

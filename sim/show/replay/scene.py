@@ -11,7 +11,7 @@ from sim.run.dryrun import DryRun
 from sim.run.report.rounded import rounded
 from sim.setup.obstacles import Outline
 from sim.table.follow import Setup
-from sim.table.motion import origin_um
+from sim.table.trace import origin_um
 
 _OUTLINE_UM = 1.0
 """Outlines of pieces are simplified by a step, and drawn in whole µm."""

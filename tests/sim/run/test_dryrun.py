@@ -6,7 +6,7 @@ from places import SCENARIOS
 from runs import codes, machine, run_text, scenario_run
 
 from parser.findings.errors import ProgramError
-from sim.run.dryrun import verdict
+from sim.run.findings import verdict
 from sim.setup.machine.machine import Machine
 
 CIRCLE = "B9900B0B9900GXL1 {arc} B9900B0B9900GXL3 DD"

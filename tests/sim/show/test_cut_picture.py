@@ -27,7 +27,8 @@ from sim.show.draw.layout import Box, Page
 from sim.show.draw.paints import DARK, Paint
 from sim.show.draw.sheet import drawing, pixels
 from sim.show.pictures.cut.flags import flag_reach, flags_of, places_um
-from sim.show.pictures.cut.picture import draw_cut, draw_cut_of_run, layout_of
+from sim.show.pictures.cut.of_run import draw_cut_of_run
+from sim.show.pictures.cut.picture import draw_cut, layout_of
 from sim.show.pictures.cut.sizes import length_text, sizes_of_cut
 from sim.show.pictures.cut.subject import Cut
 

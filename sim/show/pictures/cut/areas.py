@@ -1,15 +1,13 @@
 """The pieces that a cut frees, as filled areas, and what is written on them."""
 
 from collections.abc import Iterator
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 import shapely
 
 from parser.geometry.curves import Floats
 from parser.toolpath import Toolpath
-from sim.cut.pieces.kept_shapes import kept_shapes
-from sim.cut.pieces.pieces import Piece, Pieces
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box, Page, View, box_around
@@ -18,14 +16,19 @@ from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.cut.subject import Board
 from sim.show.words import Words
 
+if TYPE_CHECKING:  # of a path no pieces are known, and their rooms take long to load
+    from sim.cut.pieces.pieces import Piece, Pieces
+
 MOST_LABELS: Final = 40
 _TRIES: Final = 9  # places for a label along each side of a piece
 _FILLS: Final = {"part": Paint.PART, "slug": Paint.SLUG}
 _EDGES: Final = {"part": Paint.PART_EDGE, "slug": Paint.SLUG_EDGE}
 
 
-def draw_pieces(canvas: Canvas, page: Page, pieces: Pieces) -> None:
+def draw_pieces(canvas: Canvas, page: Page, pieces: "Pieces") -> None:
     """Fill what comes free, and draw its edges and those of the openings that slugs leave in the frame."""
+    from sim.cut.pieces.kept_shapes import kept_shapes  # noqa: PLC0415 - as above
+
     width = style.EDGE_WIDTH * page.unit
     for piece in pieces.freed:
         rings = _rings_px(piece.outline_um, page.view)
@@ -45,7 +48,7 @@ def _rings_px(polygon: shapely.Polygon, view: View) -> list[Floats]:
     return [ring for ring in drawn if len(ring) > 2]
 
 
-def draw_labels(board: Board, toolpath: Toolpath, pieces: Pieces) -> None:
+def draw_labels(board: Board, toolpath: Toolpath, pieces: "Pieces") -> None:
     """Write on pieces what they are, their area, and which block frees them, as far as there is room."""
     largest = sorted(pieces.freed, key=lambda piece: -piece.area_mm2)[:MOST_LABELS]
     for piece in largest:
@@ -66,7 +69,7 @@ def _label(board: Board, choices: list[list[str]], outline_um: shapely.Polygon) 
             return
 
 
-def _texts(say: Words, toolpath: Toolpath, piece: Piece) -> Iterator[list[str]]:
+def _texts(say: Words, toolpath: Toolpath, piece: "Piece") -> Iterator[list[str]]:
     """What may be written on a piece, most first."""
     what, area = say(f"cut.{piece.kind}"), area_text(piece.area_mm2)
     number = int(toolpath.source.block[piece.freed.block - 1])

@@ -3,8 +3,6 @@
 from typing import Final, NamedTuple
 
 from parser.geometry.curves import Floats
-from sim.cut.pieces.pieces import Pieces
-from sim.run.dryrun import DryRun
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.furniture import draw_axes, draw_frame, draw_header
@@ -21,7 +19,7 @@ from sim.show.pictures.cut.numbers import draw_numbers
 from sim.show.pictures.cut.outlines import clamps_on, draw_bodies, works_on
 from sim.show.pictures.cut.size_lines import Extents, draw_extents, draw_rounds, extents_of
 from sim.show.pictures.cut.sizes import CutSizes, sizes_of_cut
-from sim.show.pictures.cut.subject import Board, Cut, cut_of_run
+from sim.show.pictures.cut.subject import Board, Cut
 from sim.show.pictures.cut.table import draw_border, draw_table, shows_border
 from sim.show.words import Words
 
@@ -38,11 +36,6 @@ class CutLayout(NamedTuple):
     sizes: CutSizes
     extents: Extents | None
     codes: list[Entry]
-
-
-def draw_cut_of_run(sheet: Sheet[AnyCanvas], run: DryRun, pieces: Pieces | None) -> AnyCanvas:
-    """Draw the cut of a run, with the pieces that it frees where they are known."""
-    return draw_cut(sheet, cut_of_run(run, pieces, sheet.say))
 
 
 def draw_cut(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
