@@ -113,7 +113,8 @@ def _with_drawing(task: Task, folder: Path) -> Scenario:
     own = task.scenario.drawing
     if own is None or task.drawing is None:
         return task.scenario
-    here = folder / own.file.name
+    here = folder / "drawing" / own.file.name
+    here.parent.mkdir()
     here.write_bytes(task.drawing)
     return replace(task.scenario, drawing=own._replace(file=here))
 

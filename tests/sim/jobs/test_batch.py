@@ -160,6 +160,17 @@ def test_one_that_cannot_be_run_or_at_which_drycut_fails_leaves_the_others(shop:
     assert found["02.3b"]["from_cache"]
 
 
+def test_a_drawing_that_cannot_be_read_is_told_by_its_own_place(
+    shop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (shop / "scenario.toml").write_text('program = "00.3b"\n[drawing]\nfile = "made"\n', "utf-8")
+    (shop / "made").write_text("no drawing", "ascii")
+    run_folder(shop, tmp_path / "out")
+    row = rows(tmp_path / "out")["00.3b"]
+    assert row["verdict"] == "refused"
+    assert row["message"].startswith(f"{shop / 'made'}: ")
+
+
 @pytest.mark.usefixtures("quick")
 def test_a_run_that_is_stopped_goes_on_where_it_was(
     shop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
