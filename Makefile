@@ -3,6 +3,9 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
+# Tests start hundreds of processes: each would compile again all that it imports, and each core all tests.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: demo test lint style types imports scripts browser bench steps mutate survivors fuzz golden pages lock clean
 
 demo: $(READY)

@@ -13,11 +13,14 @@ import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Final, TypeVar
+from typing import Any, Final, TypeVar, get_type_hints
 
 import numba
+import numpy as np
 import platformdirs
+from numba import types
 from numba.core import config, event
+from numpy.typing import NDArray
 
 from controller.compiled.telling import compiling
 
@@ -25,27 +28,54 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 _COMPILING: Final = "numba:compile"  # an event of numba, where no code on disk fits
 _OPTIONS: Final = {"nogil": True, "error_model": "numpy"}
+_OF_TUPLES: Final = {"forceinline": True, "_nrt": False}
+_TYPES: Final[dict[Any, types.Type]] = {
+    float: types.float64,
+    int: types.int64,
+    bool: types.boolean,
+    NDArray[np.float64]: types.float64[::1],
+    NDArray[np.int64]: types.int64[::1],
+}
 _made_of: Final[dict[Callable[..., Any], str]] = {}  # loops, with the digest of all sources that went into them
 
 
-def compiled(signature: str) -> Callable[[Function], Function]:
+def compiled(signature: str, *tuples: type) -> Callable[[Function], Function]:
     """Compile a function for a signature in numba's words, such as ``"f8(f8[::1], i8)"``.
+
+    A signature may also name NamedTuples, which are given as `tuples`: ``"(Drive, f8)"``. Their fields are floats,
+    ints, bools, arrays (n,) of float64 or int64, and other such tuples. Such a function becomes a part of the loops
+    that call it, and no references to its arrays are counted, which would take longer than all else; so it makes no
+    arrays. Without a result before its bracket, the result is what the function makes.
 
     Its code is kept in the user's cache folder, or where the environment's ``NUMBA_CACHE_DIR`` says; where neither can
     be written, it is compiled again in each process. Division by zero gives infinities and NaN, as in numpy.
     """
 
     def made(function: Function) -> Function:
-        digest = _digest(function)
+        digest, typed = _digest(function), _signature(signature, tuples)
+        options = _OPTIONS | _OF_TUPLES if tuples else _OPTIONS
         with _keeping(digest):
             try:
-                loop: Function = numba.njit(signature, cache=True, **_OPTIONS)(function)
+                loop: Function = numba.njit(typed, cache=True, **options)(function)
             except RuntimeError:  # numba found no place to keep it
-                loop = numba.njit(signature, **_OPTIONS)(function)
+                loop = numba.njit(typed, **options)(function)
         _made_of[loop] = digest
         return loop
 
     return made
+
+
+def _signature(text: str, tuples: tuple[type, ...]) -> Any:
+    """A signature as numba has it; numba itself reads a text so, but knows no tuples of others."""
+    return eval(text, {}, vars(types) | {one.__name__: _tuple_type(one) for one in tuples})  # noqa: S307
+
+
+def _tuple_type(one: type) -> types.Type:
+    """Type of a NamedTuple; numba has one of its own for those with fields that are all alike."""
+    fields = tuple(_TYPES[of] if of in _TYPES else _tuple_type(of) for of in get_type_hints(one).values())
+    if len(set(fields)) == 1:
+        return types.NamedUniTuple(fields[0], len(fields), one)
+    return types.NamedTuple(fields, one)
 
 
 class _Started(event.Listener):  # type: ignore[misc]  # numba has no types
@@ -63,13 +93,22 @@ event.register(_COMPILING, _Started())
 
 
 def _digest(function: Callable[..., Any]) -> str:
-    """Digest of a function's module and of all compiled loops that the module has.
+    """Digest of a function's module, and of all compiled loops, numbers and NamedTuples that the module has.
 
-    numba itself looks at the file of a function alone, and not at what it calls in others.
+    numba itself looks at the file of a function alone, and not at what it takes from others.
     """
-    known = (_made_of[value] for value in function.__globals__.values() if _is_loop(value))
     own = Path(function.__code__.co_filename).read_bytes()
-    return hashlib.sha256(b"\n".join([own, *(digest.encode() for digest in sorted(set(known)))])).hexdigest()[:16]
+    known = {text for name, value in function.__globals__.items() if (text := _text_of(name, value))}
+    return hashlib.sha256(b"\n".join([own, *(text.encode() for text in sorted(known))])).hexdigest()[:16]
+
+
+def _text_of(name: str, value: object) -> str:
+    """What a global value puts into a compiled loop, as text; none where it puts in nothing."""
+    if _is_loop(value):
+        return _made_of[value]  # type: ignore[index]  # a loop is a function
+    if isinstance(value, type) and hasattr(value, "_fields"):
+        return f"{name}: {get_type_hints(value)}"
+    return f"{name} = {value!r}" if isinstance(value, int | float) else ""
 
 
 def _is_loop(value: object) -> bool:

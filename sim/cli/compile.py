@@ -5,7 +5,10 @@ from typing import Final
 
 LOOPS: Final[tuple[str, ...]] = (
     "sim.cut.kerf.edges",
+    "sim.cut.kerf.last_beside",
     "sim.cut.kerf.stars",
+    "sim.cut.play.touching",
+    "sim.measure.compare.coarser",
     "sim.measure.compare.nearest_loop",
     "sim.measure.compare.shape_rows",
     "sim.measure.compare.stretch_loop",
@@ -13,6 +16,12 @@ LOOPS: Final[tuple[str, ...]] = (
     "sim.measure.deviation.away",
     "sim.measure.deviation.deviation",
     "sim.measure.deviation.meters",
+    "sim.table.physics.drive",
+    "sim.table.physics.rating",
+    "sim.table.physics.turning",
+    "sim.table.record.bins",
+    "sim.table.record.gather",
+    "sim.table.solve.tick",
 )
 """Modules with compiled loops."""
 

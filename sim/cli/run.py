@@ -1,7 +1,7 @@
 """``drycut run``."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     "--output",
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="Write report.html, replay.html, cut.png, report.json and trace.npz here; of many programs, a folder of each.",
+    help="Write report.html, replay.html, cut.png and report.json here; of many programs, a folder of each.",
 )
 @spread_options
 @scenario_options
@@ -33,12 +33,14 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="Write every call to the card here, to be replayed by drycut card replay.",
 )
+@click.option("--trace", is_flag=True, help="Write trace.npz too: every step, and every sample of the table.")
 @click.option("--json", "as_json", is_flag=True, help="Print report.json, of many index.json, instead of the summary.")
 def run(  # noqa: PLR0913 - click hands over each option by its name
     *,
     names: tuple[str, ...],
     output: Path | None,
     card_log: Path | None,
+    trace: bool,
     as_json: bool,
     jobs: int | None,
     scheduler: str | None,
@@ -51,7 +53,8 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
 
     \b
     Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input,
-    3 a fault of drycut itself. Of many programs: 0 all pass, 1 one does not or cannot be run.
+    3 a fault of drycut itself. Of many programs: 0 all pass, 1 one does not
+    or cannot be run.
 
     \b
     drycut run part.3b -o out/
@@ -71,15 +74,19 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     if is_shop(names):
         if card_log is not None:
             raise click.UsageError("--card-log takes the calls of one program")
+        if trace:
+            raise click.UsageError("--trace is for one program; of many, it would fill the disk")
         raise click.exceptions.Exit(
             run_shop(names, output, Spread(jobs, scheduler), Overrides(**options), as_json=as_json)
         )
     if jobs is not None or scheduler is not None:
         raise click.UsageError("--jobs and --scheduler are for many programs; this is one")
+    if trace and output is None:
+        raise click.UsageError("--trace needs -o DIR, where trace.npz is to go")
     scenario = overridden(Path(names[0]), Overrides(**options))
     try:
         program = read_program(scenario.program)
-        done = _run(program, scenario, output, card_log)
+        done = _run(program, scenario, _Files(output, card_log, trace))
     except ProgramError as error:
         raise refused(scenario, error) from None
     if as_json:
@@ -88,25 +95,34 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
         print_summary(done, output)
         if output is not None:
             from sim.jobs.run_into import FILES
+            from sim.jobs.trace_file import TRACE
 
-            say(f"written: {output}/ {', '.join(FILES)}")
+            say(f"written: {output}/ {', '.join([*FILES, *([TRACE] if trace else [])])}")
     raise click.exceptions.Exit(0 if verdict(done.findings) == "pass" else 1)
 
 
-def _run(program: "Program", scenario: "Scenario", output: Path | None, card_log: Path | None) -> "DryRun":
+class _Files(NamedTuple):
+    """What a run is to write: its files into a folder, its calls into a log, and whether it writes its trace."""
+
+    output: Path | None
+    card_log: Path | None
+    trace: bool
+
+
+def _run(program: "Program", scenario: "Scenario", files: _Files) -> "DryRun":
     from sim.cli.progress import StageProgress
     from sim.run.card_log import logging_to
     from sim.run.dryrun import dry_run
     from sim.run.recording import check_expectations
 
     settings = scenario.machine.controller.card_settings
-    _refuse_to_overwrite(card_log, program_file=scenario.program, output=output)
-    with StageProgress() as progress, logging_to(card_log, settings) as log:
-        if output is None:
+    _refuse_to_overwrite(files.card_log, program_file=scenario.program, output=files.output)
+    with StageProgress() as progress, logging_to(files.card_log, settings) as log:
+        if files.output is None:
             return check_expectations(dry_run(program, scenario, progress, log=log))
         from sim.jobs.run_into import run_into
 
-        return run_into(output, program, scenario, progress, log)
+        return run_into(files.output, program, scenario, progress, log, trace=files.trace)
 
 
 def _refuse_to_overwrite(card_log: Path | None, *, program_file: Path, output: Path | None) -> None:
@@ -117,9 +133,9 @@ def _refuse_to_overwrite(card_log: Path | None, *, program_file: Path, output: P
         raise click.BadParameter("names no file", param_hint="--card-log")
     taken = {program_file.resolve(): "the program"}
     if output is not None:
-        from sim.jobs.run_into import FILES
+        from sim.jobs.run_into import NAMES
 
-        taken |= {(output / name).resolve(): "a file of the run" for name in FILES}
+        taken |= {(output / name).resolve(): "a file of the run" for name in NAMES}
     other = taken.get(card_log.resolve())
     if other is not None:
         raise click.BadParameter(f"{card_log} is {other}; give the log a name of its own", param_hint="--card-log")

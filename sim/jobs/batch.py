@@ -11,7 +11,7 @@ from sim.files import staged
 from sim.jobs.index import Entry, Row, build_index, index_text
 from sim.jobs.kept import NAME, digest_of, drop, keep, kept
 from sim.jobs.one import Done, Task, fault_of, made_by, run_task
-from sim.jobs.run_into import FILES
+from sim.jobs.run_into import NAMES
 from sim.jobs.shop import ShopProgram
 from sim.show.index_page import Beside, index_page
 from sim.show.words.phrases import same
@@ -19,7 +19,7 @@ from sim.workers.pool import Pool
 from sim.workers.rounds import DIED, Lost, results
 
 INDEX: Final = ("index.html", "index.json")
-TAKEN: Final = frozenset({*FILES, NAME, *INDEX})
+TAKEN: Final = frozenset({*NAMES, NAME, *INDEX})
 """Names of files in OUT and in its folders, which no folder of a program may have."""
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -69,10 +69,17 @@ def recorded(program: Program, scenario: Scenario, progress: Progress = silent) 
 
 def check_expectations(run: DryRun) -> DryRun:
     """The run, with a finding for each expectation of its scenario that it does not meet."""
-    if not run.scenario.expect:
-        return run
-    unmet = missed(build_report(run), run.scenario.expect)
-    return replace(run, missed=unmet, findings=(*run.findings, *expectation_findings(unmet)))
+    return reported(run)[0] if run.scenario.expect else run
+
+
+def reported(run: DryRun) -> tuple[DryRun, dict[str, Any]]:
+    """The run as `check_expectations` has it, and its report."""
+    report = build_report(run)
+    unmet = missed(report, run.scenario.expect)
+    if not unmet:
+        return run, report
+    run = replace(run, missed=unmet, findings=(*run.findings, *expectation_findings(unmet)))
+    return run, build_report(run)
 
 
 def pieces_of_run(run: DryRun) -> Pieces:

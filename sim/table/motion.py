@@ -20,8 +20,6 @@ from sim.table.follow import Following, Setup
 from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
-from sim.table.solve.slow_step import NO_PLAY
-from sim.table.solve.trial import slow_step
 from sim.table.trace import Trace, origin_um
 from sim.table.when.rhythm import rhythm
 from sim.table.when.ticks import Ticks, choose_ticks
@@ -59,8 +57,7 @@ class Motion(NamedTuple):
 
     def until(self, t_s: float) -> "Motion":
         """The same motion, stopped at a time."""
-        ticks = self.ticks.until(max(t_s, self.ticks.step_tick_s))
-        return self._replace(ticks=ticks, until_s=t_s)
+        return self._replace(ticks=self.ticks.until(max(t_s, *self.ticks.step_tick_s)), until_s=t_s)
 
 
 class Moved(NamedTuple):
@@ -84,11 +81,9 @@ def motion_of(
     limits = row_limits(toolpath, feeds, controller.limits)
     plan = plan_rows(limits, jerk_um_s3=controller.limits.jerk_um_s3)
     drive = Drive(toolpath, limits, plan, origin_um(toolpath), controller.interpolation)
-    beats = rhythm(machine.table)
-    slow = slow_step(machine.table, beats)
     x, y = controller.limits.axis_speed_um_s
-    table = Setup(machine.table, start_um, origin_um(toolpath), slow or NO_PLAY, speed_limit_um_s=(x, y))
-    ticks = choose_ticks(toolpath, plan, beats, spacing_um, every_step=slow is None)
+    table = Setup(machine.table, start_um, origin_um(toolpath), speed_limit_um_s=(x, y))
+    ticks = choose_ticks(toolpath, plan, rhythm(machine.table), spacing_um)
     return Motion(drive, controller.card_settings, table, ticks)
 
 

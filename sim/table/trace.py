@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
-from parser.toolpath import Toolpath
+from parser.toolpath import Axis, Toolpath
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,6 +38,11 @@ class Trace:
         return Trace(
             self.t_s[:count], self.commanded_um[:count], self.table_um[:count], self.wire_um[:count], self.row[:count]
         )
+
+    def place_with(self, axis: Axis, at_um: float, t_s: float) -> tuple[float, float]:
+        """Place of the table at a time when one axis was at a place; the other one is taken between two samples."""
+        x, y = (float(np.interp(t_s, self.t_s, column)) for column in self.table_um.T)
+        return (at_um, y) if axis is Axis.X else (x, at_um)
 
     def __len__(self) -> int:
         return len(self.t_s)

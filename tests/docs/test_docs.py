@@ -29,7 +29,7 @@ from sim.check.settings import read as check_settings
 from sim.check.settings.search import SettingsSearch
 from sim.cli.check.command import check
 from sim.cut.kerf.stars import rays as kerf_rays
-from sim.jobs.run_into import trace_arrays
+from sim.jobs.trace_file import trace_arrays
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.report import build_report
 from sim.setup import scenario

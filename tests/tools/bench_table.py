@@ -67,7 +67,8 @@ def timed(run: Motion) -> tuple[float, Moved]:
 
 def fine(run: Motion) -> Motion:
     """The same in ticks of 0.1 ms all the way, sampled at the same times."""
-    return run._replace(ticks=run.ticks._replace(tick_s=np.full(len(run.ticks.t_s), FINE_TICK_S)))
+    alike = dict.fromkeys(("step_tick_s", "steps_tick_s", "shaken_tick_s"), (FINE_TICK_S, FINE_TICK_S))
+    return run._replace(ticks=run.ticks._replace(**alike))
 
 
 def _drop(pulses: Pulses) -> None:

@@ -62,10 +62,10 @@ def still(t_s: Floats) -> Floats:
 
 
 def even_ticks(until_s: float, tick_s: float = TICK_S) -> Ticks:
-    """Ticks all alike, each of them sampled."""
+    """Ticks all alike, and as many samples."""
     n = round(until_s / tick_s)
     t_s = tick_s * np.arange(1.0, n + 1.0)
-    return Ticks(t_s, np.full(n, tick_s), np.ones(n, dtype=bool), np.zeros(n, dtype=np.int64))
+    return Ticks(t_s, np.zeros(n, dtype=np.int64), np.empty((0, 2)), *[(tick_s, tick_s)] * 3)
 
 
 def draw(model: TableModel, pulses: Pulses, ticks: Ticks, start_um: tuple[float, float] = CENTRE) -> Drawn:
@@ -88,9 +88,9 @@ def motion(
 
 
 def fixed(chosen: Motion, tick_s: float = TICK_S) -> Motion:
-    """The same motion in ticks of one length all the way, and none long; samples at the same times."""
-    n = len(chosen.ticks.t_s)
-    return chosen._replace(ticks=chosen.ticks._replace(tick_s=np.full(n, tick_s)))
+    """The same motion in ticks of one length all the way; samples at the same times."""
+    alike = dict.fromkeys(("step_tick_s", "steps_tick_s", "shaken_tick_s"), (tick_s, tick_s))
+    return chosen._replace(ticks=chosen.ticks._replace(**alike))
 
 
 def moved(motion: Motion) -> Moved:

@@ -44,6 +44,11 @@ class Motor(NamedTuple):
     following_error_limit_um: float
     force_curve: tuple[tuple[float, float], ...]
 
+    @property
+    def may_trip(self) -> bool:
+        """Whether it is a servo."""
+        return self.kind == "servo"
+
 
 class TableModel(NamedTuple):
     """Moving masses, drives and what resists them; mm, kg, N as named, pairs for X and Y.

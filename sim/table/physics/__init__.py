@@ -1,1 +1,1 @@
-"""The equations of one axis: motor, drive, and the slide as a body in pymunk; the border type is `State`."""
+"""The equations of one axis: motor, drive, and the state of its slide; the border types are `Drive` and `Slide`."""

@@ -1,40 +1,37 @@
-"""State of tables between two ticks."""
+"""State of a slide between two ticks."""
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
 
-from parser.geometry.curves import Floats, Ints
-
-
-class State(NamedTuple):
-    """State of n tables.
+class Slide(NamedTuple):
+    """A slide, and what its motor has lost.
 
     Attributes
     ----------
+    t_s
+        Now.
     at_um, velocity
-        (n, 2), places, µm, and velocities, µm/s.
+        Its place, and its velocity, µm/s, half a tick before.
+    tick_s
+        Length of the tick that has just passed; 0 after a rest.
     lost_um
-        (n, 2), way that the motors have lost so far: how far each stands behind the place commanded.
-    tripped
-        (n,), whether a servo has given up.
+        Way that the motor has lost so far: how far it stands behind the place commanded.
+    lag_um, force
+        Its lag behind the motor, and the force of the drive over the mass, µm/s², in that tick.
+    rests
+        Whether it stands until its motor turns again.
     """
 
-    at_um: Floats
-    velocity: Floats
-    lost_um: Floats
-    tripped: NDArray[np.bool_]
+    t_s: float
+    at_um: float
+    velocity: float
+    tick_s: float
+    lost_um: float
+    lag_um: float
+    force: float
+    rests: bool
 
-    def of(self, tables: Ints) -> "State":
-        """State of some of them."""
-        return State(self.at_um[tables], self.velocity[tables], self.lost_um[tables], self.tripped[tables])
 
-    def put(self, tables: Ints, state: "State") -> None:
-        """Overwrite the state of some of them."""
-        self.at_um[tables], self.velocity[tables] = state.at_um, state.velocity
-        self.lost_um[tables], self.tripped[tables] = state.lost_um, state.tripped
-
-    def copy(self) -> "State":
-        """The same, to be changed."""
-        return self.of(np.arange(len(self.tripped)))
+def resting(at_um: float) -> Slide:
+    """A slide at rest at a place, its motor there too, at time 0."""
+    return Slide(0.0, at_um, 0.0, 0.0, 0.0, 0.0, 0.0, True)

@@ -1,12 +1,11 @@
 """What the drives lose: steps that a stepper slips past, the following error at which a servo trips."""
 
+from collections.abc import Iterable
 from typing import Literal, NamedTuple
 
-import numpy as np
-
 from parser.toolpath import Axis
-from sim.setup.machine.table_model import TableModel
-from sim.table.record.travelled import Travelled
+from sim.table.trace import Trace
+from sim.table.when.ticks import Ticks
 
 LossKind = Literal["lost-steps", "trip"]
 
@@ -30,7 +29,8 @@ class Loss(NamedTuple):
         positive direction. Where the slips cancel out, the sum of their magnitudes instead. Of a trip, the following
         error: command less place.
     x_um, y_um
-        Place of the table then, in program coordinates.
+        Place of the table then, in program coordinates; that of the other axis is taken between two samples of the
+        trace.
     """
 
     kind: LossKind
@@ -42,43 +42,45 @@ class Loss(NamedTuple):
     y_um: float
 
 
-class LossTally:
-    """Sums up losses as a table travels, one entry for each block and axis."""
+class Slip(NamedTuple):
+    """A slip of a motor: when, by how much, and where its slide was; or the lag at which it tripped."""
 
-    def __init__(self, model: TableModel) -> None:
-        self._limit_um = model.motor.following_error_limit_um
-        self._lost: dict[tuple[int, int], Loss] = {}
-        self._slipped: dict[tuple[int, int], float] = {}
-        self._trip: Loss | None = None
-
-    def take(self, travelled: Travelled) -> None:
-        """Take the next ticks."""
-        for tick, axis in np.argwhere(travelled.lost_um != 0.0).tolist():
-            key = int(travelled.row[tick]), axis
-            amount = float(travelled.lost_um[tick, axis])
-            self._slipped[key] = self._slipped.get(key, 0.0) + abs(amount)
-            known = self._lost.get(key)
-            if known is None:
-                self._lost[key] = _loss("lost-steps", travelled, tick, axis, amount)
-            else:
-                self._lost[key] = known._replace(amount_um=known.amount_um + amount)
-        if self._trip is None:
-            over = np.argwhere(np.abs(travelled.lag_um) > self._limit_um)
-            if len(over):
-                tick, axis = over[0].tolist()
-                self._trip = _loss("trip", travelled, tick, axis, float(travelled.lag_um[tick, axis]))
-
-    def result(self) -> tuple[Loss, ...]:
-        """All losses, in order of time."""
-        lost = [
-            loss if loss.amount_um != 0.0 else loss._replace(amount_um=self._slipped[key])
-            for key, loss in self._lost.items()
-        ]
-        losses = [*lost, *([self._trip] if self._trip else [])]
-        return tuple(sorted(losses, key=lambda loss: (loss.t_s, loss.axis)))
+    t_s: float
+    amount_um: float
+    at_um: float
 
 
-def _loss(kind: LossKind, travelled: Travelled, tick: int, axis: int, amount_um: float) -> Loss:
-    x_um, y_um = travelled.place_um[tick].tolist()
-    t_s, row = float(travelled.t_s[tick]), int(travelled.row[tick])
-    return Loss(kind, Axis(axis), row, t_s, amount_um, x_um, y_um)
+class SlipTally:
+    """Sums up the slips of one axis, one entry for each block."""
+
+    def __init__(self, ticks: Ticks) -> None:
+        self._ticks = ticks
+        self._first: dict[int, Slip] = {}
+        self._sums: dict[int, tuple[float, float]] = {}
+
+    def take(self, slips: Iterable[Slip]) -> None:
+        """Take the next slips."""
+        for slip in slips:
+            row = self._ticks.row_at(slip.t_s)
+            self._first.setdefault(row, slip)
+            amount, way = self._sums.get(row, (0.0, 0.0))
+            self._sums[row] = amount + slip.amount_um, way + abs(slip.amount_um)
+
+    def losses(self, axis: Axis, trace: Trace) -> list[Loss]:
+        """The losses of all blocks."""
+        losses = []
+        for row, slip in self._first.items():
+            amount, way = self._sums[row]
+            place = trace.place_with(axis, slip.at_um, slip.t_s)
+            losses.append(Loss("lost-steps", axis, row, slip.t_s, amount or way, *place))
+        return losses
+
+
+def trip_loss(axis: Axis, trip: Slip, trace: Trace, ticks: Ticks) -> Loss:
+    """A trip as a loss."""
+    return Loss("trip", axis, ticks.row_at(trip.t_s), *trip[:2], *trace.place_with(axis, trip.at_um, trip.t_s))
+
+
+def in_order(losses: Iterable[Loss]) -> tuple[Loss, ...]:
+    """Losses in order of time."""
+    return tuple(sorted(losses, key=lambda loss: (loss.t_s, loss.axis)))

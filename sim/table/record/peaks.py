@@ -1,18 +1,16 @@
 """Peaks: the largest force, speed and lag of each axis, and how near they came to their limits."""
 
-from typing import Literal, NamedTuple
+from typing import Final, Literal, NamedTuple
 
-import numpy as np
-
-from parser.geometry.curves import Floats
 from parser.toolpath import Axis
-from sim.setup.machine.table_model import TableModel
-from sim.table.physics.drive import drives_of
-from sim.table.record.travelled import Travelled
-from sim.table.solve.march import pull_out_um
+from sim.table.physics.drive import Drive
+from sim.table.record.gather import PEAK_COLUMNS, Record
+from sim.table.trace import Trace
+from sim.table.when.ticks import Ticks
 from sim.units import newtons
 
 Quantity = Literal["force", "speed", "lag"]
+_QUANTITIES: Final[tuple[Quantity, ...]] = ("force", "speed", "lag")
 
 
 class Peak(NamedTuple):
@@ -28,7 +26,8 @@ class Peak(NamedTuple):
         Largest magnitude, and the limit at that moment, infinite where there is none. Where the limit changes with the
         step rate, they are those of the moment with the largest share.
     row, t_s, x_um, y_um
-        Block (row of the toolpath), time, and place of the table in program coordinates.
+        Block (row of the toolpath), time, and place of the table in program coordinates; that of the other axis is
+        taken between two samples of the trace.
     """
 
     quantity: Quantity
@@ -46,48 +45,17 @@ class Peak(NamedTuple):
         return self.value / self.limit
 
 
-class PeakMeter:
-    """Finds the peaks as a table travels; `speed_limit_um_s` is that of each axis, infinite where there is none."""
-
-    def __init__(self, model: TableModel, speed_limit_um_s: tuple[float, float]) -> None:
-        self._model, self._drives = model, drives_of(model)
-        self._speed_limit = np.array(speed_limit_um_s)
-        self._peaks: dict[tuple[Quantity, int], Peak] = {}
-
-    def take(self, travelled: Travelled) -> None:
-        """Take the next ticks."""
-        if not len(travelled.t_s):
-            return
-        mass = self._drives.mass_kg[:, 0]
-        most_n = newtons(travelled.limit * mass)
-        self._hold("force", newtons(np.abs(travelled.force) * mass), most_n, travelled)
-        speed = np.abs(travelled.velocity)
-        self._hold("speed", speed, np.broadcast_to(self._speed_limit, speed.shape), travelled)
-        servo = self._model.motor.kind == "servo"
-        lag_limit = np.full_like(travelled.limit, self._model.motor.following_error_limit_um)
-        if not servo:
-            lag_limit = pull_out_um(self._drives, self._model, travelled.limit.T).T
-        self._hold("lag", np.abs(travelled.lag_um), lag_limit, travelled)
-
-    def result(self) -> tuple[Peak, ...]:
-        """Peaks of force, speed and lag, of X and Y each; none where nothing moved."""
-        return tuple(self._peaks.values())
-
-    def _hold(self, quantity: Quantity, values: Floats, limits: Floats, travelled: Travelled) -> None:
-        for axis in (Axis.X, Axis.Y):
-            value, limit = values[:, axis], limits[:, axis]
-            tick = int(np.argmax(value / limit if np.isfinite(limit).all() else value))
-            x_um, y_um = travelled.place_um[tick].tolist()
-            peak = Peak(
-                quantity,
-                axis,
-                float(value[tick]),
-                float(limit[tick]),
-                int(travelled.row[tick]),
-                float(travelled.t_s[tick]),
-                x_um,
-                y_um,
-            )
-            known = self._peaks.get((quantity, axis))
-            if known is None or (peak.share, peak.value) > (known.share, known.value):
-                self._peaks[quantity, axis] = peak
+def peaks_of(
+    records: tuple[Record, Record], drives: tuple[Drive, Drive], trace: Trace, ticks: Ticks
+) -> tuple[Peak, ...]:
+    """Peaks of force, speed and lag, of X and Y each."""
+    peaks = []
+    for number, quantity in enumerate(_QUANTITIES):
+        for axis in Axis:
+            peak = records[axis].peaks[number * PEAK_COLUMNS : (number + 1) * PEAK_COLUMNS].tolist()
+            _, value, limit, t_s, at_um = peak
+            if quantity == "force":
+                value, limit = (newtons(one * drives[axis].mass_kg) for one in (value, limit))
+            place = trace.place_with(axis, at_um, t_s)
+            peaks.append(Peak(quantity, axis, value, limit, ticks.row_at(t_s), t_s, *place))
+    return tuple(peaks)

@@ -59,9 +59,21 @@ def test_a_sound_program_passes_and_prints_its_figures(part: Path) -> None:
 def test_output_goes_where_it_is_sent(short: Path, tmp_path: Path) -> None:
     done = drycut("run", short, "-o", tmp_path / "a" / "b")
     assert done.returncode == 0
-    written = ["report.html", "replay.html", "cut.png", "report.json", "trace.npz"]
+    written = ["report.html", "replay.html", "cut.png", "report.json"]
     assert sorted(path.name for path in (tmp_path / "a" / "b").iterdir()) == sorted(written)
     assert done.stdout.splitlines()[-1] == f"written: {tmp_path / 'a' / 'b'}/ {', '.join(written)}"
+    again = drycut("run", part, "-o", tmp_path / "a" / "b", "--trace")
+    written.append("trace.npz")
+    assert sorted(path.name for path in (tmp_path / "a" / "b").iterdir()) == sorted(written)
+    assert again.stdout.splitlines()[-1] == f"written: {tmp_path / 'a' / 'b'}/ {', '.join(written)}"
+
+
+def test_a_trace_needs_a_folder_and_one_program(part: Path, tmp_path: Path) -> None:
+    for arguments, message in (((part,), "--trace needs -o DIR"), ((part, part, "-o", "out"), "for one program")):
+        done = drycut("run", *arguments, "--trace", cwd=tmp_path)
+        assert (done.returncode, done.stdout) == (2, "")
+        assert message in done.stderr
+        assert list(tmp_path.iterdir()) == [part]
 
 
 def test_without_output_no_file_is_written(short: Path, tmp_path: Path) -> None:

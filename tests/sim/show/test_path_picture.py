@@ -1,8 +1,7 @@
-"""The picture of a path as it is programmed: drawn without a run, with all that the check knows, also in small."""
+"""The picture of a path as it is programmed: drawn without a run, with all that the check knows."""
 
 import subprocess
 import sys
-import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +19,6 @@ from sim.show.draw.sheet import pixels
 from sim.show.pictures.cut.of_path import Programmed, draw_path, programmed
 from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.path import PATH, PathAlone
-from sim.show.pictures.thumbnail import path_thumbnail, run_thumbnail
 
 PART = "B0B5000B5000GYL2 B9900B0B9900GXL1 B0B9900B9900GYL2 B9900B0B9900GXL3 B0B9900B9900GYL4 B0B5000B5000GYL4 DD"
 OPEN = PART.replace("B9900B0B9900GXL3", "B9000B0B9000GXL3")
@@ -91,27 +89,3 @@ def test_among_the_pictures_of_a_run_it_is_the_same() -> None:
     assert all(np.array_equal(a.at, b.at) for a, b in zip(first.drawn, second.drawn, strict=True) if a.what != "region")
     assert any(finding.code.startswith("3B4") for finding in run.findings)  # which the path does not know
     assert not any(text.startswith("3B4") for text in first.texts)
-
-
-def test_a_thumbnail_is_a_small_element_with_the_marks_of_its_findings() -> None:
-    sound, wrong = (path_thumbnail(of_text(text)) for text in (PART, OPEN))
-    assert ET.fromstring(sound).get("aria-label") == "test"  # noqa: S314 - made here
-    assert "f-error" in wrong
-    assert "f-error" not in sound
-    assert len(wrong) < 4000
-
-
-def test_the_thumbnail_of_a_run_marks_what_the_run_found() -> None:
-    assert "f-error" in run_thumbnail(run_folder(ROOT / "scenarios" / "servo-trip"))
-    assert "f-error" not in path_thumbnail(of_folder("servo-trip"))
-
-
-def test_the_thumbnail_of_a_long_path_has_some_kilobytes() -> None:
-    turn = np.linspace(0.0, 20.0 * np.pi, 3001)
-    place = np.rint(np.stack([np.cos(turn), np.sin(turn)], axis=1) * turn[:, None] * 500.0).astype(int)
-    words = []
-    for x, y in np.diff(place, axis=0).tolist():
-        quadrant = {(True, True): 1, (False, True): 2, (False, False): 3, (True, False): 4}[x >= 0, y >= 0]
-        axis, count = ("X", abs(x)) if abs(x) >= abs(y) else ("Y", abs(y))
-        words.append(f"B{abs(x)}B{abs(y)}B{count}G{axis}L{quadrant}")
-    assert len(path_thumbnail(of_text("\n".join([*words, "DD"])))) < 40_000

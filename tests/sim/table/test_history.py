@@ -1,7 +1,6 @@
 """The history of a run: lowest, highest and mean of what the table did in each bin of time, and of nothing else."""
 
 from itertools import pairwise
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,20 +9,14 @@ from hypothesis import strategies as st
 from places import SCENARIOS
 from plain_table import TICK_S, PlainAxis, plain_motor, plain_places
 from runs import run_folder
-from table_runs import MODEL, STEPPER, draw, even_ticks, fixed, motion, moved, pulses_of
+from table_runs import MODEL, STEPPER, draw, even_ticks, motion, moved, pulses_of
 
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from sim.setup.machine.machine import load_machine
-from sim.table import follow
-from sim.table.record.bins import Envelope
-from sim.table.record.history import BINS, LEAST_BINS, History, HistoryMeter, SlabRun
-from sim.table.record.ripple import QUANTITIES
-from sim.table.record.travelled import Travelled
-from sim.table.solve.slab import Slab
-from sim.table.solve.slow_step import NO_PLAY
-from sim.table.when.ticks import Ticks
+from sim.table.record.bins import Bins, Envelope, Values, binned
+from sim.table.record.history import BINS, LEAST_BINS, QUANTITIES, History
 
 WAVES = pulses_of(lambda t: 400.0 * np.sin(20.0 * t), lambda t: 300.0 * np.sin(31.0 * t), 0.5)
 HELD = MODEL._replace(friction_n=(30.0, 20.0), backlash_um=(3.0, 2.0), drive_damping_ratio=0.7)
@@ -48,83 +41,26 @@ def plainly(t_s: Floats, edges_s: Floats, values: Floats) -> Envelope:
     return Envelope(np.array(low), np.array(high), np.array(mean))
 
 
-def meter_of(edges_s: Floats) -> HistoryMeter:
-    """A meter of a run in these ticks: too few samples for more than the least number of bins."""
-    n = len(edges_s) - 1
-    ticks = Ticks(edges_s[1:], np.ones(n), np.zeros(n, dtype=bool), np.zeros(n, dtype=np.int64))
-    return HistoryMeter(MODEL, NO_PLAY, ticks, (0, 0))
-
-
-def slab_of(edges_s: Floats) -> Slab:
-    """Short ticks, of which the meter needs nothing but their times."""
-    n = len(edges_s) - 1
-    pairs, none = np.zeros((n + 1, 2)), np.zeros(n + 1, dtype=bool)
-    length = np.append(np.diff(edges_s), 0.0)
-    return Slab(edges_s, length, length, none, none, pairs, pairs, pairs, none, pairs, np.zeros(n, dtype=np.int64))
-
-
-def one_lane(velocity: Floats, n: int) -> SimpleNamespace:
-    """A lane of n ticks that begins with a velocity (1, 2)."""
-    return SimpleNamespace(inside=np.ones((n, 1), dtype=bool), begun=SimpleNamespace(velocity=velocity))
-
-
-def random_travelled(edges_s: Floats, rng: np.random.Generator) -> Travelled:
-    n = len(edges_s) - 1
-    columns = {name: rng.normal(size=(n, 2)) for name in Travelled._fields}
-    return Travelled(**columns | {"t_s": edges_s[1:], "row": np.zeros(n, dtype=np.int64)})
-
-
-def test_a_step_in_a_tick_of_hardly_any_length_is_no_speed_of_the_table() -> None:
-    edges = np.array([0.0, 1.0, 1.0 + 1e-6, 2.0])
-    way_um = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]])
-    travelled = random_travelled(edges, np.random.default_rng(1))._replace(velocity=way_um / np.diff(edges)[:, None])
-    plain = slab_of(edges)
-    columns = {name: getattr(plain, name) for name in Slab._fields}
-    slab = Slab(**columns | {"long": np.ones(4, dtype=bool)})
-    meter = meter_of(edges)
-    meter.take(SlabRun(slab, one_lane(np.zeros((1, 2)), 3), travelled, np.cumsum(way_um, axis=0)), np.inf)
-    history = meter.result()
-    assert np.abs(history.velocity_um_s.high).max() < 1e4  # the step alone shakes it so
-    way = (history.velocity_um_s.mean * np.diff(history.t_s)[:, None]).sum(axis=0)
-    assert way == pytest.approx([1.0, 0.0], abs=1e-6)
-
-
-def part_of(travelled: Travelled, since: int, until: int) -> Travelled:
-    return Travelled._make(column[since:until] for column in travelled)
-
-
 @settings(max_examples=30)
-@given(st.integers(0, 2**32 - 1), st.integers(1, 120), st.integers(1, 5))
-def test_every_tick_counts_in_each_bin_that_it_covers_for_as_long_as_it_does(seed: int, n: int, slabs: int) -> None:
+@given(st.integers(0, 2**32 - 1), st.integers(1, 120))
+def test_every_tick_counts_in_each_bin_that_it_covers_for_as_long_as_it_does(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     # From far shorter than a bin to many bins long; now and then on a border of bins.
     edges = np.concatenate([[0.0], np.cumsum(10.0 ** rng.uniform(-4.0, 1.0, n))])
     edges[1:-1] = np.sort(
         np.where(rng.random(n - 1) < 0.2, np.round(edges[1:-1] / edges[-1], 2) * edges[-1], edges[1:-1])
     )
-    edges = np.unique(edges)
-    travelled, commanded = random_travelled(edges, rng), rng.normal(size=(len(edges) - 1, 2))
-    meter, cuts = meter_of(edges), np.unique([0, len(edges) - 1, *rng.integers(1, len(edges), slabs)]).tolist()
-    for since, until in pairwise(cuts):
-        part = part_of(travelled, since, until)
-        before = travelled.velocity[since - 1 : since] if since else np.zeros((1, 2))
-        run = SlabRun(slab_of(edges[since : until + 1]), one_lane(before, until - since), part, commanded[since:until])
-        meter.take(run, np.inf)
-    history = meter.result()
-    assert len(history.t_s) == LEAST_BINS + 1
-    assert (history.t_s[0], history.t_s[-1]) == (0.0, edges[-1])
-    values = {
-        "velocity_um_s": travelled.velocity,
-        "acceleration_um_s2": np.diff(travelled.velocity, axis=0, prepend=0.0) / np.diff(edges)[:, None],
-        "lag_um": travelled.lag_um,
-        "following_error_um": commanded - travelled.place_um,
-        "force_n": travelled.force * np.array([160.0, 60.0]) / 1e6,
-    }
-    for name, envelope in envelopes(history).items():
-        plain = plainly(history.t_s, edges, values[name])
-        assert envelope.low == pytest.approx(plain.low, abs=1e-9), name
-        assert envelope.high == pytest.approx(plain.high, abs=1e-9), name
-        assert envelope.mean == pytest.approx(plain.mean, rel=1e-6, abs=1e-6 * np.abs(values[name]).max()), name
+    edges, number = np.unique(edges), 0
+    border_s, cells = np.linspace(0.0, edges[-1], LEAST_BINS + 1), LEAST_BINS * len(QUANTITIES)
+    bins = Bins(border_s, np.full(cells, np.inf), np.full(cells, -np.inf), np.zeros(cells))
+    values = rng.normal(size=(len(edges) - 1, len(QUANTITIES)))
+    for since, until, row in zip(edges, edges[1:], values, strict=False):
+        number = binned(bins, number, since, until, Values(*row))
+    plain = plainly(border_s, edges, values)
+    low, high, area = (column.reshape(LEAST_BINS, -1) for column in bins[1:])
+    assert low == pytest.approx(plain.low)
+    assert high == pytest.approx(plain.high)
+    assert area / np.diff(border_s)[:, None] == pytest.approx(plain.mean, rel=1e-6, abs=1e-6 * np.abs(values).max())
 
 
 UNTIL_S, FINE_S = 0.1, 5e-5
@@ -134,20 +70,6 @@ WITHIN = {  # where steps of 1 µm come to 500 µm/s, 0.25 m/s², 25 N
     "lag_um": 0.03,
     "following_error_um": 0.06,
     "force_n": 0.6,
-}
-CREEPING_WITHIN = {
-    "velocity_um_s": 12.0,
-    "acceleration_um_s2": 1.5e4,
-    "lag_um": 0.1,
-    "following_error_um": 0.1,
-    "force_n": 3.0,
-}
-MEAN_WITHIN = {  # half a step is undecided where friction holds slides
-    "velocity_um_s": 8.0,
-    "acceleration_um_s2": 2e3,
-    "lag_um": 0.6,
-    "following_error_um": 0.6,
-    "force_n": 5.0,
 }
 STEPS_S = [0.0104, 0.0144, 0.0174, 0.0204, 0.0604, 0.0634]  # inside of bins of 1 ms
 PLACES_UM = [1, 2, 3, 4, 3, 2]
@@ -171,7 +93,8 @@ def test_it_is_what_a_plain_table_does() -> None:
     t_s, x = np.array(STEPS_S), np.array(PLACES_UM, dtype=np.int32)
     pulses = Pulses(t_s, x, x, np.zeros_like(x))
     ticks = even_ticks(UNTIL_S, FINE_S)
-    history = draw(MODEL, pulses, ticks._replace(sampled=np.arange(1, len(ticks.t_s) + 1) % 20 == 0)).moved.history
+    sparse = ticks._replace(t_s=ticks.t_s[19::20], row=ticks.row[19::20])
+    history = draw(MODEL, pulses, sparse).moved.history
     bins = len(history.t_s) - 1
     assert bins == LEAST_BINS
     for axis, mass_kg in enumerate(MODEL.moved_kg):
@@ -179,23 +102,6 @@ def test_it_is_what_a_plain_table_does() -> None:
         for name, envelope in envelopes(history).items():
             for of, plainly_so in zip(envelope, plain[name], strict=True):
                 assert of[:, axis] == pytest.approx(plainly_so, abs=WITHIN[name]), name
-
-
-SQUARE = "B150B0B150GXL1 B0B150B150GYL2 B150B0B150GXL3 B0B150B150GYL4 B60B0B240GYNR1 DD"
-
-
-@pytest.mark.parametrize(("machine", "feed_um_s"), [("dk7740", 43.75), ("dk7732", 180.0)])
-def test_creeping_shows_the_single_steps_that_fine_ticks_all_the_way_do(machine: str, feed_um_s: float) -> None:
-    chosen = motion(SQUARE, load_machine(machine), Feeds(feed_um_s, feed_um_s), spacing_um=5.0)
-    creeping, fine = moved(chosen).history, moved(fixed(chosen)).history
-    assert np.array_equal(creeping.t_s, fine.t_s)
-    for name, envelope in envelopes(creeping).items():
-        plain, within = envelopes(fine)[name], CREEPING_WITHIN[name]
-        assert (envelope.low.min(), envelope.high.max()) == pytest.approx((plain.low.min(), plain.high.max()), rel=0.07)
-        for of, plainly_so in zip(envelope[:2], plain[:2], strict=True):
-            # But for bins in which an axis makes a step now and then, or turns.
-            assert np.quantile(np.abs(of - plainly_so), 0.8) < within, name
-        assert envelope.mean == pytest.approx(plain.mean, abs=MEAN_WITHIN[name]), name
 
 
 def test_the_mean_velocity_is_the_way_and_the_mean_acceleration_the_change_of_velocity() -> None:
@@ -208,15 +114,6 @@ def test_the_mean_velocity_is_the_way_and_the_mean_acceleration_the_change_of_ve
     gained = (history.acceleration_um_s2.mean * width_s).sum(axis=0)
     last = np.diff(drawn.at_um[-2:], axis=0)[0] / np.diff(drawn.t_s[-2:])
     assert gained == pytest.approx(last, abs=30.0)  # µm/s of some thousand; the same
-
-
-def test_slabs_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    one = draw(MODEL, WAVES, even_ticks(0.48)).moved.history
-    monkeypatch.setattr(follow, "SLAB_TICKS", 700)
-    many = draw(MODEL, WAVES, even_ticks(0.48)).moved.history
-    for name, envelope in envelopes(many).items():
-        for of, same in zip(envelope, envelopes(one)[name], strict=True):
-            assert of == pytest.approx(same, abs=WITHIN[name]), name
 
 
 def test_after_a_trip_there_is_no_more() -> None:
@@ -252,6 +149,5 @@ def test_a_creeping_slide_follows_half_the_time_of_a_step_late() -> None:
     machine = load_machine("dk7740")._replace(table=slow)
     chosen = motion("B100B0B100GXL1 DD", machine, Feeds(15.0, 15.0), spacing_um=25.0)
     error = moved(chosen).history.following_error_um
-    assert chosen.ticks.long.any()
     assert error.mean[10:80, 0].mean() == pytest.approx(15.0 * 0.02 / 2.0, abs=0.02)  # µm
     assert error.high[10:80, 0].max() == pytest.approx(1.0, abs=0.05)  # µm, as soon as a step is commanded

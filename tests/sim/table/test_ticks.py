@@ -10,11 +10,10 @@ from table_runs import MODEL, Drawn, draw, even_ticks, farthest_um, fixed, motio
 from controller.motion.limits import Feeds, MotionLimits
 from parser.program import parse_program
 from sim.setup.machine.machine import load_machine
-from sim.setup.machine.table_model import TableModel
 from sim.table import follow
 from sim.table.motion import Moved, motion_of
-from sim.table.solve import passes
-from sim.table.when.rhythm import STEP_RAD, rhythm
+from sim.table.record.history import QUANTITIES
+from sim.table.when.rhythm import rhythm
 from sim.table.when.ticks import Ticks, choose_ticks
 
 BEATS = rhythm(MODEL._replace(drive_damping_ratio=0.7))
@@ -24,30 +23,18 @@ def ticks_of(text: str, feeds: Feeds, limits: MotionLimits, spacing_um: float = 
     """Ticks of a program, and the times at which its blocks end."""
     toolpath = parse_program(f"{text} DD").toolpath
     plan = plan_toolpath(toolpath, feeds, limits)
-    return choose_ticks(toolpath, plan, BEATS, spacing_um, every_step=False), plan.time_at(
-        np.cumsum(toolpath.length_um)
-    )
+    return choose_ticks(toolpath, plan, BEATS, spacing_um), plan.time_at(np.cumsum(toolpath.length_um))
 
 
 def test_ticks_rise_sample_the_end_of_every_block_and_keep_their_spacing() -> None:
     text = "B1000B0B1000GXL1 B0B333B333GYL2 B100B0B400GYNR1"
     ticks, borders = ticks_of(text, Feeds(50.0, 10_000.0), MotionLimits(100_000.0))
-    sampled = ticks.t_s[ticks.sampled]
-    assert np.diff(ticks.t_s, prepend=0.0).min() > 0.0
+    sampled = ticks.t_s
+    assert np.diff(sampled, prepend=0.0).min() > 0.0
     assert np.abs(sampled[:, None] - borders).min(axis=0).max() < 1e-6
     assert np.diff(sampled[sampled < borders[-1]]).max() <= 5.0 / 50.0 * 1.01
     assert np.array_equal(np.unique(ticks.row), [0, 1, 2])
-    assert sampled[-1] == ticks.t_s[-1] == pytest.approx(borders[-1] + BEATS.died_s)
-
-
-def test_slow_cutting_is_left_to_long_ticks_but_for_as_long_before_a_sample_as_a_step_is_felt() -> None:
-    ticks, _ = ticks_of("B9000B0B9000GXL1", Feeds(20.0, 20.0), MotionLimits(100_000.0), spacing_um=50.0)
-    length = np.diff(ticks.t_s, prepend=0.0)
-    assert length[ticks.long].sum() > 0.95 * ticks.t_s[-1]
-    late = ticks.sampled & (ticks.t_s < 9000.0 / 20.0)
-    assert not ticks.long[late].any()
-    assert ticks.tick_s[~ticks.long].max() <= STEP_RAD / BEATS.frequency
-    assert ticks.parts.sum() < 9000 // 50 * 80
+    assert sampled[-1] == pytest.approx(borders[-1] + BEATS.died_s)
 
 
 @pytest.mark.parametrize(
@@ -61,8 +48,8 @@ def test_slow_cutting_is_left_to_long_ticks_but_for_as_long_before_a_sample_as_a
 )
 def test_ticks_are_finest_at_corners_alone(text: str, fine: bool) -> None:
     ticks, borders = ticks_of(text, Feeds(1000.0, 1000.0), MotionLimits(100.0))
-    after = (ticks.t_s > borders[0] + 1e-6) & (ticks.t_s < borders[0] + BEATS.died_s)
-    assert (ticks.tick_s[after].max() < 0.9 * STEP_RAD / BEATS.frequency) is np.bool_(fine)
+    at_the_corner = (ticks.shaken_s[:, 0] <= borders[0]) & (ticks.shaken_s[:, 1] > borders[0] + 0.9 * BEATS.died_s)
+    assert at_the_corner.any() is np.bool_(fine)
 
 
 SQUARE = "B300B0B300GXL1 B0B300B300GYL2 B300B0B300GXL3 B0B300B300GYL4 B100B0B400GYNR1 DD"
@@ -99,31 +86,6 @@ WAVES = pulses_of(lambda t: 400.0 * np.sin(20.0 * t), lambda t: 300.0 * np.sin(3
 TICKS = even_ticks(0.48)
 
 
-@pytest.mark.parametrize("model", [LOOSE, WEAK])
-@pytest.mark.parametrize(
-    ("start_um", "within_um"),
-    [
-        ((200_000.0, 250_000.0), 0.02),
-        ((150.0, 150.0), 0.2),  # where a table runs against a stop at up to 9 mm/s, a tick sooner or later
-    ],
-)
-def test_lanes_side_by_side_agree_with_one_table_that_runs_all_of_it(
-    model: TableModel, start_um: tuple[float, float], within_um: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    many = draw(model, WAVES, TICKS, start_um)
-    monkeypatch.setattr(passes, "LANE_TICKS", 1 << 30)
-    one = draw(model, WAVES, TICKS, start_um)
-    assert many.at_um == pytest.approx(one.at_um, abs=within_um)
-    assert [loss[:3] for loss in many.moved.losses] == [loss[:3] for loss in one.moved.losses]
-    assert [loss.amount_um for loss in many.moved.losses] == [loss.amount_um for loss in one.moved.losses]
-
-
-def test_slabs_agree_with_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    one = draw(WEAK, WAVES, TICKS)
-    monkeypatch.setattr(follow, "SLAB_TICKS", 700)
-    assert draw(WEAK, WAVES, TICKS).at_um == pytest.approx(one.at_um, abs=0.02)  # µm
-
-
 def in_parts(parts: int) -> Drawn:
     following = follow.Following(follow.Setup(WEAK, (200_000.0, 250_000.0), (0, 0)), TICKS)
     borders = np.linspace(0, len(WAVES.t_s), parts + 1).astype(int).tolist()
@@ -134,13 +96,15 @@ def in_parts(parts: int) -> Drawn:
     return Drawn(moved.trace.t_s, moved.trace.table_um, moved)
 
 
-def test_the_run_is_the_same_to_the_byte_however_its_pulses_are_cut(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(follow, "SLAB_TICKS", 700)
+def test_the_run_is_the_same_to_the_byte_however_its_pulses_are_cut() -> None:
     whole = in_parts(1)
-    assert in_parts(1).at_um.tobytes() == whole.at_um.tobytes()
-    for parts in (2, 7, 60):
-        assert in_parts(parts).at_um == pytest.approx(whole.at_um, abs=1e-6)  # µm: places of motors are summed anew
-        assert [loss[:5] for loss in in_parts(parts).moved[1]] == [loss[:5] for loss in whole.moved[1]]
+    for parts in (1, 2, 7, 60):
+        cut = in_parts(parts)
+        assert cut.at_um.tobytes() == whole.at_um.tobytes()
+        assert cut.moved.losses == whole.moved.losses
+        assert cut.moved.peaks == whole.moved.peaks
+        for name in QUANTITIES:
+            assert np.array_equal(getattr(cut.moved.history, name), getattr(whole.moved.history, name))
 
 
 def test_axes_do_not_pull_at_one_another() -> None:
