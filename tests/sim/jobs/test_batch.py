@@ -259,6 +259,7 @@ def test_a_program_that_kills_its_worker_is_told_and_the_others_are_run(
         (["shop"], "many programs need -o DIR"),
         (["shop/*.nc", "-o", "out"], "no program there"),
         (["shop", "-o", "out", "--card-log", "a.log"], "--card-log takes the calls of one program"),
+        (["shop", "-o", "out", "--trace"], "--trace is for one program"),
         (["shop/00.3b", "-o", "out", "--jobs", "2"], "this is one"),
         (["shop", "-o", "out", "--jobs", "0"], "--jobs"),
         (["shop", "-o", "out", "--jobs", "2", "--scheduler", "tcp://127.0.0.1:1"], "say two things"),
