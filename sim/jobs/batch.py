@@ -13,7 +13,8 @@ from sim.jobs.kept import NAME, digest_of, drop, keep, kept
 from sim.jobs.one import Done, Task, fault_of, made_by, run_task
 from sim.jobs.run_into import NAMES
 from sim.jobs.shop import ShopProgram
-from sim.show.index_page import index_page
+from sim.show.index_page import Beside, index_page
+from sim.show.words.phrases import same
 from sim.workers.pool import Pool
 from sim.workers.rounds import DIED, Lost, results
 
@@ -36,14 +37,17 @@ def run_batch(programs: Sequence[ShopProgram], out: Path, pool: Pool, progress: 
     them from there. `progress` is told how many of how many are done. FileUnreadableError where `out` cannot be
     written; ClusterError where workers fail as a whole.
     """
+    if out.exists() and not out.is_dir():
+        raise FileUnreadableError(f"{out}: is a file; a folder of this name is to be written into")
     work = _Work(programs, out, progress)
     for number, done in results(run_task, work.tasks(), pool):
         work.take(number, done)
     entries = [work.entries[number] for number in range(len(programs))]
     index = build_index(entries)
+    beside = [Beside(entry.row.picture, entry.row.message) for entry in entries]
     with staged(out, INDEX) as stage:
         (stage / "index.json").write_text(index_text(index), "utf-8")
-        (stage / "index.html").write_text(index_page(index, [entry.row.picture for entry in entries]), "utf-8")
+        (stage / "index.html").write_text(index_page(index, beside), "utf-8")
     return Batch(index, work.faults)
 
 
@@ -90,7 +94,7 @@ class _Work:
         self._enter(number, done.row)
 
     def _refuse(self, number: int, message: str) -> None:
-        self.take(number, Done(Row("refused", _title(self._programs[number]), message), {}))
+        self.take(number, Done(Row("refused", _title(self._programs[number]), same(message)), {}))
 
     def _enter(self, number: int, row: Row, *, from_cache: bool = False) -> None:
         program = self._programs[number]

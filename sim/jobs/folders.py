@@ -64,7 +64,8 @@ def _safe(part: str, taken: frozenset[str]) -> str:
     ours = clean.startswith(_HIDDEN) or clean.lower() in taken
     if clean == plain and not ours and not _DEVICES.fullmatch(clean):
         return clean
-    return f"{clean.lstrip('.')}~{_mark(part)}"
+    visible = clean.lstrip(". ")
+    return f"{'_' if _DEVICES.fullmatch(visible) else ''}{visible}~{_mark(part)}"
 
 
 def _mark(text: str) -> str:

@@ -6,9 +6,11 @@ from collections.abc import Sequence
 from typing import Any, Final, NamedTuple
 
 from parser import __version__
+from parser.findings.catalogue import Said
 from parser.findings.codes import CODES, Severity
 from parser.findings.findings import Finding
 
+_NONE: Final = Said("", "")
 SCHEMA: Final = "drycut.index/1"
 VERDICTS: Final = ("pass", "fail", "refused", "fault")
 _WORST_FIRST: Final = tuple(Severity)
@@ -25,7 +27,7 @@ class Row(NamedTuple):
     title
         Title of its scenario; of a program alone, its file name.
     message
-        Why there is no report, in English; empty where there is one.
+        Why there is no report; empty where there is one. Only findings are told in Chinese as well.
     findings
         Code and count, the worst severity first, then by code.
     time_s, max_um
@@ -36,7 +38,7 @@ class Row(NamedTuple):
 
     verdict: str
     title: str
-    message: str = ""
+    message: Said = _NONE
     findings: tuple[tuple[str, int], ...] = ()
     time_s: float | None = None
     max_um: float | None = None
@@ -96,7 +98,7 @@ def _program(entry: Entry) -> dict[str, Any]:
         "file": entry.file,
         "title": row.title,
         "verdict": row.verdict,
-        "message": row.message or None,
+        "message": row.message.en or None,
         "findings": [
             {"code": code, "severity": str(CODES[code].severity), "count": count} for code, count in row.findings
         ],

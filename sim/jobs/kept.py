@@ -13,6 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
+from parser.findings.catalogue import Said
 from sim.files import staged
 from sim.jobs.index import Row
 from sim.setup.scenario import Scenario
@@ -52,7 +53,9 @@ def kept(folder: Path, digest: str) -> Row | None:
             return None
         if any(_sum((folder / name).read_bytes()) != told for name, told in record["files"].items()):
             return None
-        return Row(**{**record["row"], "findings": tuple(map(tuple, record["row"]["findings"]))})
+        row = record["row"]
+        findings = tuple((code, count) for code, count in row["findings"])
+        return Row(**{**row, "findings": findings, "message": Said(*row["message"])})
     except (OSError, ValueError, LookupError, TypeError, AttributeError):
         return None
 

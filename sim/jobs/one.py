@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final, NamedTuple
 
+from parser.findings.catalogue import LANGUAGES, Said, texts
 from parser.findings.errors import ClusterError, DrawingError, DrycutError, ProgramError
 from parser.program import load_program
 from sim.files import scratch
@@ -19,6 +20,7 @@ from sim.run.report.rounded import rounded
 from sim.run.versions import versions
 from sim.setup.scenario import Scenario
 from sim.show.index_page.thumbnail import thumbnail
+from sim.show.words.phrases import same
 
 _BY_ITSELF: Final = threading.Lock()  # workers of a cluster may have several threads, and pygame knows one
 
@@ -68,17 +70,21 @@ def run_task(task: Task) -> Done:
         with _BY_ITSELF, scratch() as folder:
             return _run(task, folder)
     except ProgramError as error:
-        row = Row("refused", task.scenario.title, str(error), counted((*error.others, error.finding)))
+        row = Row("refused", task.scenario.title, _message(error), counted((*error.others, error.finding)))
         return Done(row, {})
     except DrycutError as error:
-        return Done(Row("refused", task.scenario.title, str(error)), {})
+        return Done(Row("refused", task.scenario.title, same(error)), {})
     except Exception:
         return fault_of(task.scenario.title, traceback.format_exc())
 
 
 def fault_of(title: str, told: str) -> Done:
     """A program at which drycut itself failed; the last line of what is told stands in its row."""
-    return Done(Row("fault", title, told.strip().splitlines()[-1]), {}, told)
+    return Done(Row("fault", title, same(told.strip().splitlines()[-1])), {}, told)
+
+
+def _message(error: ProgramError) -> Said:
+    return Said(*(texts(error.finding, language).message for language in LANGUAGES))
 
 
 def _refuse_other_makers(task: Task) -> None:
@@ -107,7 +113,8 @@ def _with_drawing(task: Task, folder: Path) -> Scenario:
     own = task.scenario.drawing
     if own is None or task.drawing is None:
         return task.scenario
-    here = folder / own.file.name
+    here = folder / "drawing" / own.file.name
+    here.parent.mkdir()
     here.write_bytes(task.drawing)
     return replace(task.scenario, drawing=own._replace(file=here))
 

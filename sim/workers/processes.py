@@ -14,6 +14,8 @@ from typing import Final
 
 _MOST: Final = 61 if sys.platform == "win32" else 1_000_000  # what Windows can wait for (concurrent.futures)
 _AHEAD_EACH: Final = 2  # one that it does, and one that waits for it
+_PATIENCE_S: Final = 1.0  # a process that is told to end clears its files away first
+_MOST_TOLD: Final = 5
 
 
 class Processes:
@@ -36,16 +38,28 @@ class Processes:
             yield executor
         except BaseException:
             executor.shutdown(wait=False, cancel_futures=True)
-            for child in multiprocessing.active_children():
-                child.terminate()
+            _end_all()
             raise
-        finally:
-            executor.shutdown()
+        executor.shutdown()
 
 
 def cores() -> int:
     """Cores that this process may use."""
     return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
+
+
+def _end_all() -> None:
+    """End the processes that this one has started: each in what it does, then in the job that it has taken already.
+
+    One that does not hear, since it is in a long compiled loop, is killed.
+    """
+    told = 0
+    while children := multiprocessing.active_children():
+        for child in children:
+            child.terminate() if told < _MOST_TOLD else child.kill()
+        for child in children:
+            child.join(_PATIENCE_S)
+        told += 1
 
 
 def _ready() -> None:

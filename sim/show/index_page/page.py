@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from parser.findings.catalogue import LANGUAGES, Said, page
 from sim.show.html.environment import rendered
@@ -11,8 +11,15 @@ from sim.show.index_page.thumbnail import HEIGHT, WIDTH
 _ASSETS: Final = Path(__file__).with_name("assets")
 
 
-def index_page(index: Mapping[str, Any], pictures: Sequence[str]) -> str:
-    """``index.html`` of an index; `pictures` are the thumbnails of its programs, as SVG path data, in their order.
+class Beside(NamedTuple):
+    """What of a program the index lacks: its picture as SVG path data, and its message in both languages."""
+
+    picture: str
+    message: Said
+
+
+def index_page(index: Mapping[str, Any], beside: Sequence[Beside]) -> str:
+    """``index.html`` of an index; `beside` are more of its programs, in their order.
 
     The same index gives the same bytes. Whatever a program or a file name says stands escaped.
     """
@@ -23,11 +30,15 @@ def index_page(index: Mapping[str, Any], pictures: Sequence[str]) -> str:
         "index.html.j2",
         counts=index["counts"],
         data={
-            "programs": [{**program, "picture": path} for program, path in zip(programs, pictures, strict=True)],
+            "programs": [_program(program, more) for program, more in zip(programs, beside, strict=True)],
             "titles": {code: _title(code)._asdict() for code in codes},
             "box": [WIDTH, HEIGHT],
         },
     )
+
+
+def _program(program: Mapping[str, Any], more: Beside) -> dict[str, Any]:
+    return {**program, "picture": more.picture, "message": more.message._asdict() if more.message.en else None}
 
 
 def _title(code: str) -> Said:

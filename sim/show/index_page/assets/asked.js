@@ -22,7 +22,7 @@ const WEIGHT = { error: 1e8, warning: 1e4, note: 1 };
  */
 export function searched(program) {
   const codes = program.findings.map((found) => found.code);
-  return [program.file, program.title, program.message ?? "", ...codes].join("\n").toLowerCase();
+  return [program.file, program.title, ...Object.values(program.message ?? {}), ...codes].join("\n").toLowerCase();
 }
 
 /**

@@ -19,7 +19,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {string} file
  * @property {string} title
  * @property {Verdict} verdict
- * @property {string | null} message why there is no report
+ * @property {Said | null} message why there is no report
  * @property {Found[]} findings the worst first
  * @property {number | null} time_s
  * @property {number | null} max_um

@@ -53,7 +53,7 @@ function named(program) {
   const last = program.file.lastIndexOf("/") + 1;
   const folder = make("span", { className: "folder" }, program.file.slice(0, last));
   const name = [folder, make("span", { className: "name" }, program.file.slice(last))];
-  const told = program.message ? [make("span", { className: "message" }, program.message)] : [];
+  const told = program.message ? [make("span", { className: "message" }, ...both(program.message))] : [];
   const titled = program.file.endsWith(program.title) ? [] : [make("span", { className: "title" }, program.title)];
   if (program.folder === null) return [make("span", { className: "file" }, ...name), ...titled, ...told];
   const there = program.folder.split("/").map(encodeURIComponent).join("/");
@@ -68,9 +68,10 @@ function named(program) {
  */
 function codes(findings, index) {
   if (!findings.length) return [NOTHING];
-  return findings.map((found) => {
+  return findings.flatMap((found) => {
     const title = pick(index.titles[found.code]);
-    return make("span", { className: `code ${found.severity}`, title }, found.count > 1 ? `${found.code} ×${found.count}` : found.code);
+    const text = found.count > 1 ? `${found.code} ×${found.count}` : found.code;
+    return [make("span", { className: `code ${found.severity}`, title }, text), " "];
   });
 }
 
