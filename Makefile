@@ -3,21 +3,32 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: demo test lint scripts browser bench steps mutate survivors fuzz golden pages lock clean
+# Tests start hundreds of processes: each would compile again all that it imports, and each core all tests.
+unexport PYTHONDONTWRITEBYTECODE
+
+.PHONY: demo test lint style types imports scripts browser bench steps mutate survivors fuzz golden pages lock clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
 	@echo "open out/keyhole/report.html in a browser"
 
-# Each file on one core, as its tests share what they make.
+# Each core begins with a run of files, as their tests share what they make, and takes from the others when it is done.
 test: lint browser
-	$(BIN)/pytest -m alone
-	$(BIN)/pytest -m "not alone" --numprocesses auto --dist loadfile
+	$(BIN)/pytest -m alone $$(grep -rl --include='test_*.py' 'mark\.alone' tests)
+	$(BIN)/pytest -m "not alone" --numprocesses auto --dist worksteal
 
-lint: $(READY) scripts
+# All at once: types take the longest, on one core.
+lint: $(READY)
+	@$(MAKE) --no-print-directory --jobs types style imports scripts
+
+style: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+
+types: $(READY)
 	$(BIN)/mypy
+
+imports: $(READY)
 	$(BIN)/lint-imports --no-cache
 
 # Types and style of the scripts of pages, where there is node; pages are made without it.

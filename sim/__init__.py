@@ -19,8 +19,10 @@ if TYPE_CHECKING:
     from sim.check.result import CheckResult
     from sim.check.settings import CheckSettings
     from sim.jobs.run_into import run_into
+    from sim.jobs.trace_file import StoredTrace, read_trace
     from sim.measure.compare.compared_program import compare_program
-    from sim.run.dryrun import DryRun, dry_run, verdict
+    from sim.run.dryrun import DryRun, dry_run
+    from sim.run.findings import verdict
     from sim.run.recording import recorded
     from sim.run.report import build_report
     from sim.setup.machine.machine import load_machine
@@ -39,6 +41,7 @@ __all__ = [
     "OffsetPass",
     "Program",
     "Scenario",
+    "StoredTrace",
     "Wire",
     "build_report",
     "check_program",
@@ -49,6 +52,7 @@ __all__ = [
     "parse_program",
     "read_drawing",
     "read_program",
+    "read_trace",
     "recorded",
     "run_into",
     "texts",
@@ -66,6 +70,7 @@ _HOMES = {
     "OffsetPass": "sim.setup.part",
     "Program": "parser.program",
     "Scenario": "sim.setup.scenario",
+    "StoredTrace": "sim.jobs.trace_file",
     "Wire": "sim.setup.wire",
     "build_report": "sim.run.report",
     "check_program": "sim.check.batch",
@@ -76,10 +81,11 @@ _HOMES = {
     "parse_program": "parser.program",
     "read_drawing": "parser.drawing.read",
     "read_program": "parser.program",
+    "read_trace": "sim.jobs.trace_file",
     "recorded": "sim.run.recording",
     "run_into": "sim.jobs.run_into",
     "texts": "parser.findings.catalogue",
-    "verdict": "sim.run.dryrun",
+    "verdict": "sim.run.findings",
 }
 
 

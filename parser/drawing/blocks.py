@@ -46,9 +46,10 @@ class _Layers(NamedTuple):
 
 
 class _Into(NamedTuple):
-    """Entities still to be looked at: where they are placed, and by which INSERT."""
+    """Entities still to be looked at, at least so many: where they are placed, and by which INSERT."""
 
     entities: Iterator[DXFEntity]
+    least: int
     place: Floats
     layer: str
     frozen: bool
@@ -62,7 +63,7 @@ def placed_entities(document: Document, place: Floats) -> Iterator[Placed]:
     Raises DrawingError, without the name of the file, where blocks multiply or nest beyond all bounds.
     """
     layers, number = _layers(document), 0
-    stack = [_Into(iter(document.modelspace()), place, "0", False, ())]
+    stack = [_Into(iter(document.modelspace()), 0, place, "0", False, ())]
     while stack:
         inside = stack[-1]
         entity = next(inside.entities, None)
@@ -70,10 +71,10 @@ def placed_entities(document: Document, place: Floats) -> Iterator[Placed]:
             stack.pop()
             continue
         number += 1
-        if number > MOST_ENTITIES:
-            raise DrawingError(f"holds more than {MOST_ENTITIES:,} entities once its blocks are inserted")
         placed = _placed(entity, inside, layers)
         opened = _opened(entity, placed.layer, inside, layers) if isinstance(entity, Insert) else None
+        if number + (opened.least if opened else 0) > MOST_ENTITIES:
+            raise DrawingError(f"holds more than {MOST_ENTITIES:,} entities once its blocks are inserted")
         if opened is not None:
             if len(opened.blocks) > MOST_NESTED:
                 raise DrawingError(f"has blocks within blocks, more than {MOST_NESTED} deep; explode them")
@@ -109,10 +110,18 @@ def _opened(insert: Insert, layer: str, inside: _Into, layers: _Layers) -> _Into
 
 def _into(insert: Insert, layer: str, inside: _Into, layers: _Layers) -> _Into | None:
     if insert.mcount > 1:
-        return inside._replace(entities=iter(insert.multi_insert()))
+        return _each_of(insert, layer, inside, layers)
     name, block = str(insert.dxf.get("name", "")), insert.block()
     if block is None or name.lower() in map(str.lower, inside.blocks):
         return None
     frozen = inside.frozen or layer.lower() in layers.frozen or bool(insert.dxf.get("invisible", 0))
     place = behind(of_insert(insert.matrix44()), inside.place)
-    return _Into(iter(block), place, layer, frozen, (*inside.blocks, name))
+    return _Into(iter(block), len(block), place, layer, frozen, (*inside.blocks, name))
+
+
+def _each_of(insert: Insert, layer: str, inside: _Into, layers: _Layers) -> _Into:
+    """The INSERTs of an array, counted before they are made: each of them opens what the first one does."""
+    first = next(insert.multi_insert(), None)
+    opened = _opened(first, layer, inside, layers) if first else None
+    least = insert.mcount * (1 + (opened.least if opened else 0)) if first else 0
+    return inside._replace(entities=iter(insert.multi_insert()), least=least)

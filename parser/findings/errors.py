@@ -58,3 +58,7 @@ class ControllerError(DrycutError, RuntimeError):
 
 class DrawingError(DrycutError, ValueError):
     """A drawing that is no DXF, is damaged beyond mending, or holds no curve where curves were asked for."""
+
+
+class ClusterError(DrycutError, ConnectionError):
+    """Workers on other machines that cannot be reached, or that would make other files than this one."""

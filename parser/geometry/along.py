@@ -8,8 +8,8 @@ from parser.geometry.directions import headings
 
 def places(curves: Curves, row: Ints, fraction: Floats) -> Floats:
     """Places (m, 2) on the curves of the rows `row` (m,), at fractions (m,) of their length."""
-    start = curves.start_um[row]
-    place = start + fraction[:, None] * (curves.end_um[row] - start)
+    start = curves.start_um.take(row, axis=0)
+    place = start + fraction[:, None] * (curves.end_um.take(row, axis=0) - start)
     arc = np.flatnonzero(curves.is_arc[row])
     on = row[arc]
     angle = curves.start_angle_rad[on] + fraction[arc] * curves.sweep_rad[on]

@@ -40,12 +40,17 @@ def _on_circle(curves: Curves, row: Ints, angle: Floats) -> Floats:
 
 
 def _on_lines(curves: Curves, row: Ints, place: Floats) -> Floats:
-    start = curves.start_um[row]
-    by = curves.end_um[row] - start
-    square = (by * by).sum(axis=1)
-    share = ((place - start) * by).sum(axis=1) / np.where(square > 0.0, square, 1.0)
+    start = curves.start_um.take(row, axis=0)
+    by = curves.end_um.take(row, axis=0) - start
+    square = _dot(by, by)
+    share = _dot(place - start, by) / np.where(square > 0.0, square, 1.0)
     foot: Floats = start + np.clip(share, 0.0, 1.0)[:, None] * by
     return foot
+
+
+def _dot(one: Floats, other: Floats) -> Floats:
+    dot: Floats = one[:, 0] * other[:, 0] + one[:, 1] * other[:, 1]
+    return dot
 
 
 def _on_arcs(curves: Curves, row: Ints, place: Floats) -> Floats:

@@ -13,13 +13,18 @@ LINE_END = re.compile(r"\r\n|\r|\n")
 
 _LF, _CR, _SPACE = 0x0A, 0x0D, 0x20
 
+Codes = NDArray[np.uint8]
+"""(n,) the characters of a text, one a byte: those of ASCII, and a question mark for any other."""
+
 
 class LineIndex:
     """Line and column, both from 1, of the characters of one text. Lines end with LF, CRLF or CR."""
 
     def __init__(self, text: str) -> None:
         self.text = text
-        code = np.frombuffer(text.encode("utf-32-le"), dtype=np.uint32)
+        self.codes: Codes = np.frombuffer(text.encode("ascii", "replace"), dtype=np.uint8)
+        """The characters of the text."""
+        code = self.codes
         cr = code == _CR
         cr[:-1] &= code[1:] != _LF
         self._starts = np.concatenate([[0], np.flatnonzero((code == _LF) | cr) + 1])

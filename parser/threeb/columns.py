@@ -8,6 +8,7 @@ import numpy as np
 from parser.geometry.curves import Ints
 from parser.text.lines import LineIndex
 from parser.threeb.grammar import BLOCK_FIELDS, GROUP_AT, GROUPS
+from parser.threeb.plain_lines import PlainLines
 from parser.units import from_mm
 
 MAX_WORD_UM = 999_999_999
@@ -71,12 +72,32 @@ def columns_of(words: list[str | None], span: Ints, lines: LineIndex) -> RawBloc
     )
 
 
+def columns_of_plain(plain: PlainLines, lines: LineIndex) -> RawBlocks:
+    """Columns of blocks that stand alone in their lines: without radius, mark, label and printed end."""
+    n = len(plain.x_um)
+    return RawBlocks(
+        **plain._asdict(),
+        radius_um=np.full(n, -1, dtype=np.int64),
+        curve=np.zeros(n, dtype=np.int64),
+        line=lines.lines(plain.span[:, 0]),
+        label=("",) * n,
+        printed_um=np.full((n, 2), np.nan),
+    )
+
+
 def all_rows(parts: list[RawBlocks]) -> RawBlocks:
-    """The blocks of one or more parts, one behind the other."""
+    """The blocks of one or more parts, in the order of the text."""
+    parts = [part for part in parts if len(part.line)] or parts[:1]
+    if len(parts) == 1:
+        return parts[0]
     columns = {
         name: np.concatenate([getattr(part, name) for part in parts]) for name in RawBlocks._fields if name != "label"
     }
-    return RawBlocks(**columns, label=tuple(chain.from_iterable(part.label for part in parts)))
+    order = np.argsort(columns["span"][:, 0], kind="stable")
+    label = list(chain.from_iterable(part.label for part in parts))
+    return RawBlocks(
+        **{name: column[order] for name, column in columns.items()}, label=tuple([label[row] for row in order.tolist()])
+    )
 
 
 def _labels(*columns: list[str | None]) -> tuple[str, ...]:

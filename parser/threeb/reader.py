@@ -1,11 +1,13 @@
 """Program text to records: blocks as columns of raw words, marks, start nodes, headers, and what could not be read.
 
-One pass of one pattern over the whole text; what stands between its matches is looked at only where it is not blank.
+Lines that hold one block alone are read as arrays, all others by one pass of one pattern; what stands between its
+matches is looked at only where it is not blank.
 """
 
 import re
 from array import array
 from bisect import bisect_left
+from itertools import chain
 from operator import itemgetter
 from typing import Literal, NamedTuple
 
@@ -18,7 +20,7 @@ from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
 from parser.text.encoding import narrow, no_program
 from parser.text.lines import LineIndex
-from parser.threeb.columns import MAX_WORD_UM, RawBlocks, all_rows, columns_of, read_mm
+from parser.threeb.columns import MAX_WORD_UM, RawBlocks, all_rows, columns_of, columns_of_plain, read_mm
 from parser.threeb.damage import Unread, unread
 from parser.threeb.grammar import (
     FOREIGN_ENDS,
@@ -30,6 +32,7 @@ from parser.threeb.grammar import (
     token_pattern,
 )
 from parser.threeb.header import Header, HeaderLength, read_header, read_length
+from parser.threeb.plain_lines import plain_lines
 from parser.threeb.stolen_numbers import left_out, misfits, without_stolen_numbers
 
 _MARK, _PASSED = GROUP_AT["mark"], GROUP_AT["passed"]
@@ -120,7 +123,38 @@ def read_records(text: str, marks: Marks = STANDARD_MARKS) -> Records:
 
 
 def _tokens(folded: str, lines: LineIndex, marks: Marks) -> _Tokens:
-    """The tokens of a text. Words become numbers every so many blocks: as texts they take ten times the room."""
+    """The tokens of a text: those of its plain lines, and what the pattern finds between them."""
+    plain = plain_lines(lines.codes)
+    if len(plain.span) > MOST_BLOCKS:
+        raise _too_many_blocks()
+    between = _matched(folded, lines, marks, _inked(lines, plain.span), MOST_BLOCKS - len(plain.span))
+    if not len(plain.span):
+        return between
+    before = plain.span[:, 0].searchsorted([mark.span[0] for mark in between.marks]).tolist()
+    marked = [mark._replace(after=mark.after + n) for mark, n in zip(between.marks, before, strict=True)]
+    spans = np.concatenate([plain.span, between.covered[1:-1].reshape(-1, 2)])
+    spans = spans[np.argsort(spans[:, 0], kind="stable")]
+    return between._replace(
+        blocks=all_rows([columns_of_plain(plain, lines), between.blocks]),
+        covered=np.concatenate([[0], spans.ravel(), [len(folded)]]),
+        marks=marked,
+    )
+
+
+def _inked(lines: LineIndex, spans: Ints) -> list[tuple[int, int]]:
+    """Stretches of a text outside of the spans (n, 2) that are not blank."""
+    edges = np.concatenate([[0], spans.ravel(), [len(lines.text)]]).reshape(-1, 2)
+    inked: list[tuple[int, int]] = edges[lines.has_ink(edges[:, 0], edges[:, 1])].tolist()
+    return inked
+
+
+def _matched(
+    folded: str, lines: LineIndex, marks: Marks, stretches: list[tuple[int, int]], most_blocks: int
+) -> _Tokens:
+    """What the pattern finds in stretches of a text, which begin and end with lines or with plain blocks.
+
+    Words become numbers every so many blocks: as texts they take ten times the room.
+    """
     read: list[RawBlocks] = []
     words: list[str | None] = []  # one flat list: a hundred thousand tuples would keep the garbage collector busy
     spans, covered, remarks = array("q"), array("q", [0]), array("q")
@@ -128,15 +162,16 @@ def _tokens(folded: str, lines: LineIndex, marks: Marks) -> _Tokens:
     passed: list[tuple[int, int]] = []
     lengths: list[HeaderLength] = []
     block, number = GROUP_AT["block"] + 1, 0
-    for match in token_pattern(marks).finditer(folded):
+    pattern = token_pattern(marks)
+    for match in chain.from_iterable(pattern.finditer(folded, *stretch) for stretch in stretches):
         span, groups = match.span(), match.groups()
         covered.extend(span)
         if groups[block - 1]:
             number += 1
             words += groups
             spans.extend(match.span(block))
-            if number > MOST_BLOCKS:
-                raise ProgramError(no_program("too-many-blocks", f"{MOST_BLOCKS:,}"))
+            if number > most_blocks:
+                raise _too_many_blocks()
             if number % _BLOCKS_AT_ONCE == 0:
                 read.append(columns_of(words, _pairs(spans), lines))
                 words, spans = [], array("q")
@@ -151,6 +186,10 @@ def _tokens(folded: str, lines: LineIndex, marks: Marks) -> _Tokens:
     covered.append(len(folded))
     read.append(columns_of(words, _pairs(spans), lines))
     return _Tokens(all_rows(read), np.array(covered, dtype=np.int64), found, passed, _pairs(remarks), lengths)
+
+
+def _too_many_blocks() -> ProgramError:
+    return ProgramError(no_program("too-many-blocks", f"{MOST_BLOCKS:,}"))
 
 
 def _pairs(ends: "array[int]") -> Ints:
@@ -186,8 +225,7 @@ def _too_large(raw: RawBlocks, marks: list[Mark], lines: LineIndex) -> list[Find
 
 def _gaps(covered: Ints, lines: LineIndex, first_block: int) -> list[tuple[int, int]]:
     """What no token covers and is not blank. Before the first block, lines that do not look like one are header."""
-    edges = covered.reshape(-1, 2)
-    inked: list[tuple[int, int]] = edges[lines.has_ink(edges[:, 0], edges[:, 1])].tolist()
+    inked = _inked(lines, covered[1:-1])
     behind = bisect_left(inked, first_block, key=itemgetter(0))
     header = (line.span() for gap in inked[:behind] for line in _LINE.finditer(lines.text, *gap))
     return [*(span for span in header if LIKE_A_BLOCK.search(lines.text, *span)), *inked[behind:]]

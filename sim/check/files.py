@@ -9,23 +9,25 @@ from parser.findings.errors import FileUnreadableError
 from parser.program import suffixes
 
 
-def find_files(names: Sequence[str], is_excluded: Callable[[Path], bool]) -> list[str]:
+def find_files(
+    names: Sequence[str], is_excluded: Callable[[Path], bool], ends: tuple[str, ...] | None = None
+) -> list[str]:
     """Files of the names: files themselves, all programs in folders and below, and what globs match.
 
+    In folders the files whose ``/NAME`` ends in one of `ends` count, in any case; where None, those of all dialects.
     Files and folders that `is_excluded` are left out, unless they are named themselves. Each file stands there once, as
     it was first spelled. A folder or a link that cannot be read is among them, so that reading it tells. Raises
     FileUnreadableError for a name that leads to no file.
     """
     found: dict[str, str] = {}
     for name in names:
-        looked = _Looked(is_excluded)
+        looked = _Looked(is_excluded, ends or suffixes())
         files = list(looked.files(name))
         if not files:
-            ends = " or ".join(suffixes())
             raise FileUnreadableError(
                 f"{name}: no program there that is not excluded; a file that is named itself is checked still"
                 if looked.left_out
-                else f"{name}: no program there; expected files that end in {ends}"
+                else f"{name}: no program there; expected files that end in {' or '.join(suffixes())}"
             )
         for file in files:
             found.setdefault(file if file == "-" else os.path.realpath(file), file)
@@ -35,8 +37,9 @@ def find_files(names: Sequence[str], is_excluded: Callable[[Path], bool]) -> lis
 class _Looked:
     """Looks through what one name leads to; `left_out` tells whether something in it is excluded."""
 
-    def __init__(self, is_excluded: Callable[[Path], bool]) -> None:
+    def __init__(self, is_excluded: Callable[[Path], bool], ends: tuple[str, ...]) -> None:
         self._is_excluded = is_excluded
+        self._ends = ends
         self.left_out = False
 
     def files(self, name: str) -> Iterator[str]:
@@ -59,10 +62,9 @@ class _Looked:
         With broken links that are named like one, and folders that cannot be listed.
         """
         shut: list[str] = []
-        ends = suffixes()
         for here, folders, names in os.walk(folder, onerror=lambda error: shut.append(str(error.filename))):
             folders[:] = [name for name in folders if self._keeps(Path(here) / name)]
-            for file in (Path(here) / name for name in names if name.lower().endswith(ends)):
+            for file in (Path(here) / name for name in names if f"/{name}".lower().endswith(self._ends)):
                 if (file.is_file() or (file.is_symlink() and not file.exists())) and self._keeps(file):
                     yield str(file)
         yield from shut

@@ -81,7 +81,7 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     if engine is not None:
         model = model._replace(engine=engine)
     test = circle_test(model, radius, feed)
-    with StageProgress() as progress:
+    with StageProgress("run-ccw", "run-cw") as progress:
         done = run_test(test, progress)
     written = _write(done, tolerance, output) if output is not None else []
     if as_json:

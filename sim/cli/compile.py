@@ -4,6 +4,19 @@ import importlib
 from typing import Final
 
 LOOPS: Final[tuple[str, ...]] = (
+    "controller.stepping.chunks",
+    "sim.cut.kerf.edges",
+    "sim.cut.kerf.last_beside",
+    "sim.cut.kerf.stars",
+    "sim.cut.play.touching",
+    "sim.measure.compare.coarser",
+    "sim.measure.compare.nearest_loop",
+    "sim.measure.compare.shape_rows",
+    "sim.measure.compare.stretch_loop",
+    "sim.measure.deviation.across",
+    "sim.measure.deviation.away",
+    "sim.measure.deviation.deviation",
+    "sim.measure.deviation.meters",
     "sim.table.physics.drive",
     "sim.table.physics.rating",
     "sim.table.physics.turning",

@@ -1,5 +1,6 @@
 """``drycut draw``."""
 
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,9 +11,14 @@ from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
 
 if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+
     from parser.findings.catalogue import Language
+    from parser.findings.findings import Finding
+    from sim.setup.scenario import Scenario
     from sim.show.draw.paints import ThemeName
     from sim.show.pictures.files import PictureFiles
+    from sim.show.pictures.shown import Shown
 
 SUFFIXES = (".png", ".svg")
 
@@ -37,7 +43,7 @@ class Width(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
         raise click.BadParameter(f"{value!r} is none of {names}, nor a width of {widths}", ctx, param)
 
 
-@click.command(short_help="Draw pictures of a dry run, as PNG or SVG.")
+@click.command(short_help="Draw a program, or pictures of a dry run, as PNG or SVG.")
 @click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
 @click.option(
     "-o",
@@ -52,7 +58,8 @@ class Width(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
     "names",
     multiple=True,
     metavar="NAME",
-    help="cut, along, whiskers, polar, histogram, worst or motion; cut for a file, all for a folder. May be repeated.",
+    help="path, cut, along, whiskers, polar, histogram, worst or motion; path for a file, all for a folder. "
+    "May be repeated.",
 )
 @click.option("--size", type=Width(), default="screen", show_default=True, help="thumbnail, screen, a4, a3, or px.")
 @click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True, help="Colours.")
@@ -69,8 +76,9 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     svg: bool,
     **options: Any,
 ) -> None:
-    """Dry-run a 3B program, or a scenario folder that holds one, and draw pictures of it.
+    """Draw a 3B program, or a scenario folder that holds one: its path, or pictures of a dry run of it.
 
+    path: the path as it is programmed, with what the check finds; nothing runs for it. All others need a dry run.
     cut: the path as it will be cut, with kerf, parts and findings. along, whiskers, polar, histogram: how far wire
     and steps lie from the ideal path. worst: the worst places, down to single steps of 1 µm. motion: speed,
     acceleration, following error and force of each axis over time.
@@ -83,43 +91,69 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut draw part.3b -o part.png
     drycut draw part.3b -o part.svg --lang zh --theme dark
     drycut draw scenarios/keyhole -o pictures/ --size a3
-    drycut draw scenarios/keyhole -o worst.png --picture worst
+    drycut draw part.3b -o cut.png --picture cut
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from parser.program import read_program
-    from sim.cli.progress import StageProgress
-    from sim.run.dryrun import verdict
-    from sim.run.recording import recorded
+    from sim.run.findings import verdict
     from sim.show.pictures.files import write_pictures
     from sim.show.terminal.printer import say
 
     asked = _asked(output, names, svg)
     scenario = overridden(path, Overrides(**options))
     try:
-        with StageProgress() as progress, recorded(read_program(scenario.program), scenario, progress) as recording:
-            written = write_pictures(recording, asked, size, theme, lang)
-            passed = verdict(recording.run.findings) == "pass"
+        with _shown(asked, scenario) as (shown, findings):
+            written = write_pictures(shown, asked, size, theme, lang)
     except ProgramError as error:
         raise refused(scenario, error) from None
     say(f"written: {', '.join(map(str, written))}")
-    raise click.exceptions.Exit(0 if passed else 1)
+    raise click.exceptions.Exit(0 if verdict(findings) == "pass" else 1)
+
+
+@contextmanager
+def _shown(asked: "PictureFiles", scenario: "Scenario") -> "Iterator[tuple[Shown, tuple[Finding, ...]]]":
+    """What the pictures are drawn of, with its findings: the program alone where no other picture needs a run."""
+    from parser.program import read_program
+    from sim.show.pictures.path import PATH, PathAlone
+
+    program = read_program(scenario.program)
+    if set(asked.files) == {PATH}:
+        from sim.show.pictures.cut.of_path import programmed
+
+        alone = PathAlone(programmed(program, scenario))
+        yield alone, alone.programmed.findings
+        return
+    from sim.cli.progress import StageProgress
+    from sim.run.recording import recorded, stages_of
+    from sim.show.pictures.gallery import subject_of
+
+    stages = [*stages_of(scenario), "pictures"]
+    with StageProgress(*stages) as progress, recorded(program, scenario, progress) as recording:
+        progress("pictures", 0, 1)
+        yield subject_of(recording), recording.run.findings
 
 
 def _asked(output: Path, names: tuple[str, ...], svg: bool) -> "PictureFiles":
     """Which pictures are to become which files. BadParameter for what does not fit together."""
     from sim.show.pictures.files import PictureFiles
-    from sim.show.pictures.gallery import PICTURES
+    from sim.show.pictures.path import PATH
 
     for name in names:
-        if name not in PICTURES:
-            raise click.BadParameter(f"{name!r} is none of {', '.join(PICTURES)}", param_hint="--picture")
+        if name != PATH and name not in _all():
+            raise click.BadParameter(f"{name!r} is none of {', '.join(_all())}", param_hint="--picture")
     suffix = output.suffix.lower()
     if suffix not in SUFFIXES or output.is_dir():
         if suffix and not output.is_dir():
             raise click.BadParameter(f"{output} is neither a folder nor a .png or .svg", param_hint="-o")
         kind = ".svg" if svg else ".png"
-        return PictureFiles(output, {name: name + kind for name in names or PICTURES})
+        return PictureFiles(output, {name: name + kind for name in names or _all()})
     if len(set(names)) > 1:
         raise click.BadParameter(f"{output} is one picture, of {' or '.join(names)}; give a folder", param_hint="-o")
     if svg and suffix != ".svg":
         raise click.BadParameter(f"--svg is for folders; {output} says itself what it is", param_hint="--svg")
-    return PictureFiles(output.parent, {(names or ("cut",))[0]: output.name})
+    return PictureFiles(output.parent, {(names or (PATH,))[0]: output.name})
+
+
+def _all() -> "Collection[str]":
+    """The names of all pictures; what draws those of a run takes long to load."""
+    from sim.show.pictures.gallery import PICTURES
+
+    return PICTURES

@@ -1,29 +1,30 @@
 """``drycut run``."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
 from parser.findings.errors import ProgramError
+from sim.cli.batch import Spread, is_shop, run_shop, spread_options
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
 
 if TYPE_CHECKING:
-    from parser.program import Program
     from sim.run.dryrun import DryRun
     from sim.setup.scenario import Scenario
 
 
 @click.command()
-@click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
+@click.argument("names", nargs=-1, required=True, metavar="PROGRAM|SCENARIO|FOLDER|GLOB...")
 @click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="Write report.html, replay.html, cut.png, report.json and trace.npz here.",
+    help="Write report.html, replay.html, cut.png and report.json here; of many programs, a folder of each.",
 )
+@spread_options
 @scenario_options
 @click.option(
     "--card-log",
@@ -31,22 +32,28 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="Write every call to the card here, to be replayed by drycut card replay.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print report.json instead of the summary.")
-def run(
-    path: Path,
+@click.option("--trace", is_flag=True, help="Write trace.npz too: every step, and every sample of the table.")
+@click.option("--json", "as_json", is_flag=True, help="Print report.json, of many index.json, instead of the summary.")
+def run(  # noqa: PLR0913 - click hands over each option by its name
+    *,
+    names: tuple[str, ...],
     output: Path | None,
     card_log: Path | None,
+    trace: bool,
     as_json: bool,
+    jobs: int | None,
+    scheduler: str | None,
     **options: Any,
 ) -> None:
-    """Dry-run a 3B program, or a scenario folder that holds one.
+    """Dry-run a 3B program, or a scenario folder that holds one; or all of them in folders and globs.
 
     Plans and steps the program as its controller does, lets the table follow, and compares both with the ideal
     geometry.
 
     \b
     Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input,
-    3 a fault of drycut itself.
+    3 a fault of drycut itself. Of many programs: 0 all pass, 1 one does not
+    or cannot be run.
 
     \b
     drycut run part.3b -o out/
@@ -55,17 +62,28 @@ def run(
     drycut run contour.3b --offset 0.1mm --side right
     drycut run contour.3b --offset 0.18mm,0.12mm,0.1mm --side right
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
+    drycut run programs/ 'jigs/*.4b' -o out/ --jobs 4
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from parser.program import read_program
-    from sim.run.dryrun import verdict
+    from sim.run.findings import verdict
     from sim.run.report import build_report, report_text
     from sim.show.terminal.printer import say, write
     from sim.show.terminal.run import print_summary
 
-    scenario = overridden(path, Overrides(**options))
+    if is_shop(names):
+        if card_log is not None:
+            raise click.UsageError("--card-log takes the calls of one program")
+        if trace:
+            raise click.UsageError("--trace is for one program; of many, it would fill the disk")
+        raise click.exceptions.Exit(
+            run_shop(names, output, Spread(jobs, scheduler), Overrides(**options), as_json=as_json)
+        )
+    if jobs is not None or scheduler is not None:
+        raise click.UsageError("--jobs and --scheduler are for many programs; this is one")
+    if trace and output is None:
+        raise click.UsageError("--trace needs -o DIR, where trace.npz is to go")
+    scenario = overridden(Path(names[0]), Overrides(**options))
     try:
-        program = read_program(scenario.program)
-        done = _run(program, scenario, output, card_log)
+        done = _run(scenario, _Files(output, card_log, trace))
     except ProgramError as error:
         raise refused(scenario, error) from None
     if as_json:
@@ -74,25 +92,41 @@ def run(
         print_summary(done, output)
         if output is not None:
             from sim.jobs.run_into import FILES
+            from sim.jobs.trace_file import TRACE
 
-            say(f"written: {output}/ {', '.join(FILES)}")
+            say(f"written: {output}/ {', '.join([*FILES, *([TRACE] if trace else [])])}")
     raise click.exceptions.Exit(0 if verdict(done.findings) == "pass" else 1)
 
 
-def _run(program: "Program", scenario: "Scenario", output: Path | None, card_log: Path | None) -> "DryRun":
+class _Files(NamedTuple):
+    """What a run is to write: its files into a folder, its calls into a log, and whether it writes its trace."""
+
+    output: Path | None
+    card_log: Path | None
+    trace: bool
+
+
+def _run(scenario: "Scenario", files: _Files) -> "DryRun":
+    from parser.program import read_program
     from sim.cli.progress import StageProgress
     from sim.run.card_log import logging_to
     from sim.run.dryrun import dry_run
-    from sim.run.recording import check_expectations
+    from sim.run.recording import check_expectations, stages_of
 
     settings = scenario.machine.controller.card_settings
-    _refuse_to_overwrite(card_log, program_file=scenario.program, output=output)
-    with StageProgress() as progress, logging_to(card_log, settings) as log:
-        if output is None:
-            return check_expectations(dry_run(program, scenario, progress, log=log))
-        from sim.jobs.run_into import run_into
+    _refuse_to_overwrite(files.card_log, program_file=scenario.program, output=files.output)
+    if files.output is None:
+        stages = stages_of(scenario)
+    else:
+        from sim.jobs.run_into import run_into, stages_of_files
 
-        return run_into(output, program, scenario, progress, log)
+        stages = stages_of_files(scenario, trace=files.trace)
+    with StageProgress("read", *stages) as progress, logging_to(files.card_log, settings) as log:
+        progress("read", 0, 1)
+        program = read_program(scenario.program)
+        if files.output is None:
+            return check_expectations(dry_run(program, scenario, progress, log=log))
+        return run_into(files.output, program, scenario, progress, log, trace=files.trace)
 
 
 def _refuse_to_overwrite(card_log: Path | None, *, program_file: Path, output: Path | None) -> None:
@@ -103,9 +137,9 @@ def _refuse_to_overwrite(card_log: Path | None, *, program_file: Path, output: P
         raise click.BadParameter("names no file", param_hint="--card-log")
     taken = {program_file.resolve(): "the program"}
     if output is not None:
-        from sim.jobs.run_into import FILES
+        from sim.jobs.run_into import NAMES
 
-        taken |= {(output / name).resolve(): "a file of the run" for name in FILES}
+        taken |= {(output / name).resolve(): "a file of the run" for name in NAMES}
     other = taken.get(card_log.resolve())
     if other is not None:
         raise click.BadParameter(f"{card_log} is {other}; give the log a name of its own", param_hint="--card-log")

@@ -1,4 +1,4 @@
-"""Arrays of all steps of a run: streamed to ``.npy`` files as the steps come, then joined to one ``.npz``."""
+"""Arrays of all steps of a run: streamed to ``.npy`` files as the steps come, and joined to one ``.npz``."""
 
 import os
 import shutil
@@ -91,11 +91,11 @@ def _finish_head(file: IO[bytes]) -> None:
 
 
 def write_npz(path: Path, files: Mapping[str, Path], arrays: Mapping[str, NDArray[Any]]) -> None:
-    """Write an uncompressed ``.npz`` of finished ``.npy`` files, which are removed, and of arrays.
+    """Write a compressed ``.npz`` of finished ``.npy`` files, which are removed, and of arrays.
 
     The same input gives the same bytes.
     """
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED, allowZip64=True) as archive:
+    with zipfile.ZipFile(path, "w") as archive:
         for name, source in files.items():
             with source.open("rb") as file, archive.open(_member(name), "w", force_zip64=True) as member:
                 shutil.copyfileobj(file, member, 1 << 20)
@@ -106,4 +106,6 @@ def write_npz(path: Path, files: Mapping[str, Path], arrays: Mapping[str, NDArra
 
 
 def _member(name: str) -> zipfile.ZipInfo:
-    return zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
+    member = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
+    member.compress_type = zipfile.ZIP_DEFLATED
+    return member

@@ -18,9 +18,8 @@ from sim.cut.pieces.pieces import Piece, Pieces
 from sim.measure.deviation.across import Across, across
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording
-from sim.table.motion import origin_um
 from sim.table.record.losses import Loss
-from sim.table.trace import Trace
+from sim.table.trace import Trace, origin_um
 
 Event = Finding | Stop | Piece | Loss
 What_co = TypeVar("What_co", bound=Event, covariant=True)

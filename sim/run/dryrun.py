@@ -10,7 +10,6 @@ from controller.card.log.writer import CardLog
 from controller.motion.limits import Feeds
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
-from parser.findings.codes import Severity
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Floats
 from parser.program import Program
@@ -86,6 +85,8 @@ class DryRun:
         The cut edge beside its drawing; None where there is no drawing, or no edge.
     findings
         Of program and run, in file order; behind them one for each of `missed`.
+    checked
+        Those of `findings` that were known before anything moved.
     coverage
         How far their checks came.
     missed
@@ -111,6 +112,7 @@ class DryRun:
     remains: Remains | None
     comparison: Comparison | None
     findings: tuple[Finding, ...]
+    checked: tuple[Finding, ...]
     coverage: Coverage
     missed: tuple[Missed, ...] = ()
 
@@ -153,11 +155,6 @@ class DryRun:
         return self.program.toolpath
 
 
-def verdict(findings: tuple[Finding, ...]) -> str:
-    """``fail`` where any finding is an error, else ``pass``."""
-    return "fail" if any(finding.severity is Severity.ERROR for finding in findings) else "pass"
-
-
 def dry_run(
     program: Program,
     scenario: Scenario,
@@ -170,7 +167,9 @@ def dry_run(
     Raises ProgramError where the program asks for more than any table can do, and DrawingError where the scenario's
     drawing cannot be read.
     """
+    progress("checks", 0, 1)
     drawing, ready = drawing_of(scenario.drawing), prepare(program, scenario)
+    progress("plan", 0, 1)
     program, toolpath = ready.program, ready.program.toolpath
     motion, ended = motion_to_end(ready, scenario)
     meters = Meters(motion, ready.steps)
@@ -183,7 +182,7 @@ def dry_run(
     passes, border_s = find_passes(toolpath), _borders(plan, ready.steps.along_um)
     time_s = _times_within(border_s, ended.t_s if ended else plan.duration_s)
     way, reach_um = wire_taken(toolpath, plan, cut), scenario.wire.reach_um
-    left = left_of(program, cut, contours, scenario, drawing)
+    left = left_of(program, cut, contours, scenario, drawing, progress)
     lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     met = [*obstacle_findings(program, trace, contours, scenario), *missed_work_findings(program, trace, scenario)]
     return DryRun(
@@ -206,6 +205,7 @@ def dry_run(
         remains=left.remains,
         comparison=left.comparison,
         findings=tuple(sorted([*ready.findings, *met, *lost, *left.findings], key=file_order)),
+        checked=ready.findings,
         coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
 

@@ -1,14 +1,20 @@
-"""Findings on a run as a whole: what its scenario expects of the report, and the report does not say."""
+"""The verdict on a run, and findings on it as a whole: what its scenario expects of the report, which has it not."""
 
 import json
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from parser.findings.catalogue import TO
+from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from sim.setup.expectations import Expectation, Missed, wanted
 
 _LONGEST_SHOWN = 80
+
+
+def verdict(findings: Iterable[Finding]) -> str:
+    """``fail`` where any finding is an error, else ``pass``."""
+    return "fail" if any(finding.severity is Severity.ERROR for finding in findings) else "pass"
 
 
 def expectation_findings(missed: Iterable[Missed]) -> list[Finding]:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -27,6 +27,13 @@ MOST_PASSES = 6.0
 their kerf takes 85 s."""
 
 
+def stages_of(scenario: Scenario) -> list[str]:
+    """The stages that a recorded run of a scenario tells its progress of, in their order."""
+    asked = scenario.kerf or scenario.drawing is not None
+    left = ["kerf", *(["comparison"] if scenario.drawing is not None else [])]
+    return ["checks", "plan", "run", *(left if asked else ["pieces"])]
+
+
 class Recording(NamedTuple):
     """A run and all its steps.
 
@@ -38,7 +45,7 @@ class Recording(NamedTuple):
         What the cut leaves of the work (`pieces_of_run`).
     steps
         Every pulse, in program coordinates, in arrays that lie in files: take slices of them. The place before the
-        first one is `sim.table.motion.origin_um` of the toolpath.
+        first one is `sim.table.trace.origin_um` of the toolpath.
     """
 
     run: DryRun
@@ -51,7 +58,8 @@ def recording_of(run: DryRun, files: Mapping[str, Path], progress: Progress) -> 
     x, y, block, t_s = (
         np.load(files[f"step_{name}"], mmap_mode="r", allow_pickle=False) for name in ("x_um", "y_um", "block", "t_s")
     )
-    progress("pieces", 0, 1)
+    if run.remains is None:
+        progress("pieces", 0, 1)
     return Recording(run, pieces_of_run(run), Pulses(t_s, x[1:], y[1:], block - 1))
 
 
@@ -69,10 +77,17 @@ def recorded(program: Program, scenario: Scenario, progress: Progress = silent) 
 
 def check_expectations(run: DryRun) -> DryRun:
     """The run, with a finding for each expectation of its scenario that it does not meet."""
-    if not run.scenario.expect:
-        return run
-    unmet = missed(build_report(run), run.scenario.expect)
-    return replace(run, missed=unmet, findings=(*run.findings, *expectation_findings(unmet)))
+    return reported(run)[0] if run.scenario.expect else run
+
+
+def reported(run: DryRun) -> tuple[DryRun, dict[str, Any]]:
+    """The run as `check_expectations` has it, and its report."""
+    report = build_report(run)
+    unmet = missed(report, run.scenario.expect)
+    if not unmet:
+        return run, report
+    run = replace(run, missed=unmet, findings=(*run.findings, *expectation_findings(unmet)))
+    return run, build_report(run)
 
 
 def pieces_of_run(run: DryRun) -> Pieces:

@@ -20,7 +20,7 @@ from sim.table.follow import Following, Setup
 from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
-from sim.table.trace import Trace
+from sim.table.trace import Trace, origin_um
 from sim.table.when.rhythm import rhythm
 from sim.table.when.ticks import Ticks, choose_ticks
 
@@ -85,12 +85,6 @@ def motion_of(
     table = Setup(machine.table, start_um, origin_um(toolpath), (x, y), machine.engine)
     ticks = choose_ticks(toolpath, plan, rhythm(machine.table), spacing_um)
     return Motion(drive, controller.card_settings, table, ticks)
-
-
-def origin_um(toolpath: Toolpath) -> tuple[int, int]:
-    """Start of the program in whole µm, where the steps begin."""
-    x, y = np.rint(toolpath.start_um[0]).astype(int).tolist()
-    return x, y
 
 
 def simulate(

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
-from parser.toolpath import Axis
+from parser.toolpath import Axis, Toolpath
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,3 +46,9 @@ class Trace:
 
     def __len__(self) -> int:
         return len(self.t_s)
+
+
+def origin_um(toolpath: Toolpath) -> tuple[int, int]:
+    """Start of the program in whole µm, where the steps begin."""
+    x, y = np.rint(toolpath.start_um[0]).astype(int).tolist()
+    return x, y

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from command import run_command
+from command import run_inside
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -251,21 +251,20 @@ def test_no_damage_of_a_line_is_a_traceback(number: int, data: st.DataObject) ->
         assert str(error).startswith("part.log")  # noqa: PT017 - an error is allowed, not asked for
 
 
-@pytest.mark.alone
 def test_logging_takes_microseconds_a_call() -> None:
     call, stream = Logged(12.34567890123, "GT_LnXY", (1234.5, 0.25), 0, 0x2001), io.StringIO()
     log, best = CardLog(stream, CardSettings()), math.inf
     for _ in range(5):
-        began = time.perf_counter()
+        began = time.process_time()
         for _ in range(10_000):
             log(call)
-        best = min(best, (time.perf_counter() - began) / 10_000)
+        best = min(best, (time.process_time() - began) / 10_000)
     assert best < 30e-6, "about 3 µs on a quiet machine"
 
 
 def test_the_command_tells_that_all_is_equal(tmp_path: Path) -> None:
     (tmp_path / "part.log").write_text(session(), "utf-8")
-    done = run_command("card", "replay", "part.log", cwd=tmp_path)
+    done = run_inside("card", "replay", "part.log", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, b"")
     text = done.stdout.decode()
     assert text.startswith("part.log: equal: 27 calls, 5.5")
@@ -274,14 +273,14 @@ def test_the_command_tells_that_all_is_equal(tmp_path: Path) -> None:
 
 def test_the_command_shows_the_first_differences(tmp_path: Path) -> None:
     (tmp_path / "part.log").write_text(session().replace(" 2001 ", " 2002 "), "utf-8")
-    done = run_command("card", "replay", "part.log", cwd=tmp_path)
+    done = run_inside("card", "replay", "part.log", cwd=tmp_path)
     text = done.stdout.decode()
     assert done.returncode == 1
     assert text.startswith(
         "part.log:3: error: the card differs\n  expected: 0.0                      2002 GT_GetExOpt()"
     )
     (tmp_path / "part.log").write_text(session().replace("e-05", "e-06"), "utf-8")
-    assert run_command("card", "replay", "part.log", cwd=tmp_path).returncode == 1
+    assert run_inside("card", "replay", "part.log", cwd=tmp_path).returncode == 1
 
 
 def test_no_more_than_20_differences_are_shown(tmp_path: Path) -> None:
@@ -289,19 +288,19 @@ def test_no_more_than_20_differences_are_shown(tmp_path: Path) -> None:
     call = next(line for line in lines if "GT_GetExOpt" in line)
     many = [lines[0], lines[1], *[call] * 30, lines[-1]]
     (tmp_path / "part.log").write_text("\n".join(many), "utf-8")
-    done = run_command("card", "replay", "part.log", "--json", cwd=tmp_path)
+    done = run_inside("card", "replay", "part.log", "--json", cwd=tmp_path)
     result = json.loads(done.stdout)
     assert done.returncode == 1
     assert (result["equal"], result["calls"], result["differences"]) == (False, 30, 30)
     assert [entry["line"] for entry in result["first"]] == [*range(4, 24)]
-    text = run_command("card", "replay", "part.log", cwd=tmp_path).stdout.decode()
+    text = run_inside("card", "replay", "part.log", cwd=tmp_path).stdout.decode()
     assert "part.log: and 10 more\n" in text
     assert "part.log: 30 differences: 30 calls" in text
 
 
 @pytest.mark.parametrize("name", ["none.log", "."])
 def test_the_command_ends_with_2_for_what_it_cannot_read(tmp_path: Path, name: str) -> None:
-    done = run_command("card", "replay", name, cwd=tmp_path)
+    done = run_inside("card", "replay", name, cwd=tmp_path)
     assert done.returncode == 2
     assert done.stderr.decode().startswith(f"drycut: error: {name}: cannot be read")
     assert done.stdout == b""

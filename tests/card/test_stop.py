@@ -579,8 +579,10 @@ def test_a_new_plan_within_the_last_servo_period_before_a_wait_loses_no_pulse(be
         if behind == "block":
             card.step_block(77, 40, 77, 0, 4, 0, math.hypot(77, 40))
         card.GT_StrtMtn()
+        while card.GT_GetPrfPnt()[1][0] < 76.0:
+            card.sleep(0.1)
         while card.GT_GetPrfPnt()[1][0] < 79.0:
-            pass
+            pass  # each call takes 1 µs
         if disturbed:
             card.GT_Override(1.0)
         watched.until_idle()

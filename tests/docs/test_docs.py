@@ -16,7 +16,9 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 from places import MACHINES, ROOT
+from runs import scenario_run
 
+from controller.stepping.chunks import chunk_of
 from controller.stepping.words import interpolate
 from parser.findings.catalogue import Language
 from parser.findings.catalogue import page as catalogue_page
@@ -27,8 +29,8 @@ from sim.check.engine import PARSER_CHECKS, PATH_CHECKS
 from sim.check.settings import read as check_settings
 from sim.check.settings.search import SettingsSearch
 from sim.cli.check.command import check
-from sim.cut.kerf.swept import rays as kerf_rays
-from sim.jobs.run_into import trace_arrays
+from sim.cut.kerf.stars import rays as kerf_rays
+from sim.jobs.trace_file import trace_arrays
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.report import build_report
 from sim.setup import scenario
@@ -37,6 +39,7 @@ from sim.setup.machine import machine
 from sim.setup.scenario import load_scenario
 from sim.setup.toml.kinds import Number
 from sim.show.findings.catalogue_document import NAMES, anchor, documents, findings_document
+from sim.show.terminal.run import summary_rows
 
 DOCS = ROOT / "docs"
 PAGES = sorted([*ROOT.glob("*.md"), *DOCS.glob("*.md")])
@@ -78,6 +81,8 @@ def complaints(report: object) -> list[str]:
 
 @cache
 def run_of(folder: Path) -> DryRun:
+    if folder in SCENARIOS:
+        return scenario_run(folder.name)
     case = load_scenario(folder)
     return dry_run(read_program(case.program), case, lambda stage, done, total: None)
 
@@ -242,8 +247,7 @@ def test_report_keys_are_documented() -> None:
 
 
 def test_trace_arrays_are_documented() -> None:
-    case = load_scenario(ROOT / "scenarios" / "round-hole")
-    arrays = trace_arrays(dry_run(read_program(case.program), case, lambda stage, done, total: None))
+    arrays = trace_arrays(scenario_run("round-hole"))
     table = read(DOCS / "report.md").partition("## trace.npz")[2]
     rows = [row for row in table.splitlines() if row.startswith("| `")]
     dtypes = {name: row.split("|")[2].strip() for row in rows for name in re.findall(r"`(\w+)`", row.split("|")[1])}
@@ -441,7 +445,7 @@ def test_code_flow_quotes_the_numbers_of_the_code() -> None:
     toolpath = read_program(ROOT / "scenarios" / "keyhole" / "program.3b").toolpath
     block, steps = toolpath.block(3), interpolate(toolpath)
     low, high = int(steps.before[3]), int(steps.before[4])
-    first = steps.chunk(low, low + 6)
+    first = chunk_of(steps, low, low + 6)
     x, y = first.x_um - np.int32(block.center_um.x), first.y_um - np.int32(block.center_um.y)
     deviation = x.astype(np.int64) ** 2 + y.astype(np.int64) ** 2 - 43243**2 - 24900**2
     shown = [
@@ -505,6 +509,7 @@ def test_readme_shows_the_keyhole() -> None:
     report = report_of(ROOT / "scenarios" / "keyhole")
     assert f"{report['summary']['steps']:,} of 1 µm" in page
     assert f"{report['summary']['length_um'] / 1000:.3f} mm" in page
+    assert dict(summary_rows(scenario_run("keyhole")))["closure"] in page
     deviation = report["deviation"]
     for largest in (
         deviation["wire"],

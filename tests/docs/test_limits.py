@@ -10,7 +10,7 @@ from parser.threeb import columns, reader
 from sim.check import too_large
 from sim.check.blame import settle
 from sim.check.shape import crossings
-from sim.measure.compare import effort, rings
+from sim.measure.compare import nearest, rings
 from sim.setup.toml import reader as toml
 
 PAGE = (ROOT / "docs" / "limits.md").read_text("utf-8")
@@ -29,7 +29,7 @@ VALUES = {
     "coordinates, and how far an arc bulges, km": round(flat.FARTHEST_UM / 1e9),
     "closed contours of a program held against a drawing by `drycut compare`": rings.MOST_CONTOURS,
     "passes over these contours": rings.MOST_PASSES,
-    "pairs of places and curves looked at for one comparison": effort.MOST_HELD,
+    "pairs of places and curves looked at for one comparison": nearest.MOST_HELD,
     "characters of a file": toml.MOST_CHARACTERS,
     "parts of a key with dots": toml.MOST_PARTS,
 }

@@ -63,14 +63,14 @@ def test_source_package_holds_what_tests_and_documents_need(tmp_path: Path) -> N
 
 def test_the_benchmark_runs_and_prints_its_figures() -> None:
     done = subprocess.run(
-        [sys.executable, "tests/tools/bench.py", "--blocks", "60"],
+        [sys.executable, "tests/tools/bench.py", "path", "check", "--blocks", "60"],
         cwd=ROOT,
         capture_output=True,
         text=True,
         check=True,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
     )
-    for figure in ("60 blocks", "blocks/s", "ns per step", "plain loop", "peak memory"):
+    for figure in ("60 blocks", "blocks/s", "ns per step", "plain loop", "peak memory", "with its start"):
         assert figure in done.stdout
 
 

@@ -14,22 +14,21 @@ import pytest
 from browser import OpenPage
 from golden_pictures import assert_golden_screen
 from PIL import Image
-from places import SCENARIOS
 from replayed import exports, recording_of
-from runs import plain_scenario
+from runs import plain_scenario, scenario_recording
 
+from controller.stepping.chunks import chunks_of
 from controller.stepping.pulses import Pulses, time_steps
 from parser.findings.catalogue import Said
-from parser.program import parse_program, read_program
+from parser.program import parse_program
 from sim.measure.deviation.meters import StepTally
 from sim.run.dryrun import DryRun
 from sim.run.prepare import prepare
 from sim.run.recording import Recording, recorded
 from sim.setup.quiz import Question, WrittenQuestion
-from sim.setup.scenario import load_scenario
 from sim.show.replay.document import replay_page
-from sim.table.motion import motion_of, origin_um, silent
-from sim.table.trace import Trace
+from sim.table.motion import motion_of, silent
+from sim.table.trace import Trace, origin_um
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -590,9 +589,7 @@ def test_nothing_of_a_program_or_a_scenario_becomes_a_part_of_the_page(open_page
 
 
 def test_after_a_trip_the_replay_ends_there_and_says_so(open_page: OpenPage) -> None:
-    scenario = load_scenario(SCENARIOS / "servo-trip")
-    with recorded(read_program(scenario.program), scenario, silent) as recording:
-        page = opened(open_page, replay_page(recording))
+    page = opened(open_page, replay_page(scenario_recording("servo-trip")))
     assert page.get_by_text("A drive tripped: the replay ends there.").is_visible()
     do(page, "drycut.player.seek(1e9)")
     assert state(page)["block"] == 4
@@ -621,7 +618,7 @@ def million_steps() -> str:
     scenario = plain_scenario(may_stay_open=True)
     ready = prepare(program, scenario)
     motion = motion_of(program.toolpath, scenario.machine.feeds(40.0), scenario.machine, scenario.start_um, 5.0)
-    timed = [time_steps(chunk, motion.drive.plan) for chunk in ready.steps.chunks()]
+    timed = [time_steps(chunk, motion.drive.plan) for chunk in chunks_of(ready.steps)]
     pulses = Pulses._make(np.concatenate(column) for column in zip(*timed, strict=True))
     return replay_page(Recording(_ran(small.run, program, motion.drive.plan, pulses), small.pieces, pulses))
 

@@ -82,26 +82,21 @@ def test_the_switch_changes_the_language_of_every_text(open_page: OpenPage, bad:
     assert set(left) <= {"95 %\nµm"}, "words that stand in English alone"
 
 
-@pytest.mark.parametrize(
-    ("column", "entry", "unit_um"),
-    [
-        ("J", "count_um", 1.0),
-        ("to X", "exact.end_um.0", 1000.0),
-        ("radius", "exact.radius_um", 1000.0),
-        ("length", "exact.length_um", 1000.0),
-        ("deviation, table", "table.max_deviation_um", 1.0),
-    ],
-)
-def test_cells_show_the_figures_of_the_report(
-    open_page: OpenPage, part: Made, column: str, entry: str, unit_um: float
-) -> None:
-    values = [reached(block, entry) for block in part.report["blocks"]]
-    shown = cells(open_page(part.html).page, column)
-    digits = {len(text.partition(".")[2]) for text in shown if text != "–"}
-    assert digits == {{"J": 0, "deviation, table": 2}.get(column, 3)}
-    half = 0.5001 * 10.0 ** -digits.pop()
-    expected = ["–" if value is None else pytest.approx(value / unit_um, abs=half) for value in values]
-    assert ["–" if text == "–" else float(text.replace(",", "")) for text in shown] == expected
+def test_cells_show_the_figures_of_the_report(open_page: OpenPage, part: Made) -> None:
+    page = open_page(part.html).page
+    for column, entry, unit_um, decimals in (
+        ("J", "count_um", 1.0, 0),
+        ("to X", "exact.end_um.0", 1000.0, 3),
+        ("radius", "exact.radius_um", 1000.0, 3),
+        ("length", "exact.length_um", 1000.0, 3),
+        ("deviation, table", "table.max_deviation_um", 1.0, 2),
+    ):
+        values = [reached(block, entry) for block in part.report["blocks"]]
+        shown = cells(page, column)
+        assert {len(text.partition(".")[2]) for text in shown if text != "–"} == {decimals}, column
+        half = 0.5001 * 10.0**-decimals
+        expected = ["–" if value is None else pytest.approx(value / unit_um, abs=half) for value in values]
+        assert ["–" if text == "–" else float(text.replace(",", "")) for text in shown] == expected, column
 
 
 def test_a_head_sorts_up_then_down_and_says_so(open_page: OpenPage, part: Made) -> None:

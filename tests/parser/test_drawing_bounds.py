@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from ezdxf.entities.insert import Insert
 
 from parser.drawing import document, flat
 from parser.drawing.blocks import MOST_NESTED
@@ -100,6 +101,22 @@ def test_what_is_more_than_a_drawing_may_hold_is_one_line(
     with pytest.raises(DrawingError) as caught:
         _read(tmp_path, text())
     assert f"part.dxf: {said}" in str(caught.value)
+
+
+def test_an_array_is_counted_before_its_copies_are_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    made: list[Insert] = []
+    copy = Insert.copy
+    monkeypatch.setattr(
+        Insert, "copy", lambda self, *given, **named: (made.append(self), copy(self, *given, **named))[1]
+    )
+    with pytest.raises(DrawingError, match="holds more than 200,000 entities once its blocks are inserted"):
+        _read(tmp_path, array())
+    assert len(made) <= 1
+
+
+def test_an_array_without_a_copy_places_nothing(tmp_path: Path) -> None:
+    _read(tmp_path, dxf(line() + insert("A", "70\n-3\n71\n-3\n44\n1\n45\n1\n"), block("A", line())))
+    assert len(read_drawing(tmp_path / "part.dxf").curves) == 1
 
 
 def test_blocks_may_nest_up_to_the_limit(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from drawings import Arc, Line, Place
 from line_words import line_words
-from plain import PlainBlock, counted_way
+from plain import PlainBlock, counted_way, plain_end
 
 from parser.threeb.decode import decode
 from parser.threeb.reader import read_records
@@ -25,13 +25,13 @@ class Damage(NamedTuple):
 
 
 def built(moves: list[Line | Arc]) -> list[PlainBlock]:
-    """Blocks of a contour from (0, 0), each begun at the decoded end of the last, as a CAM does."""
+    """Blocks of a contour from (0, 0), each begun at the exact end of the last, as a CAM does."""
     at, program = (0.0, 0.0), []
     for move in moves:
         block = _line(at, move) if isinstance(move, Line) else _arc(at, move)
         program.append(block)
-        end = decoded(program[-1:]).end_um[0]
-        at = (at[0] + float(end[0]), at[1] + float(end[1]))
+        end = plain_end(block)
+        at = (at[0] + end[0], at[1] + end[1])
     return program
 
 

@@ -3,6 +3,7 @@
 import contextlib
 import io
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -15,6 +16,7 @@ from sim.cli import main
 
 HANGUP = getattr(signal, "SIGHUP", signal.SIGTERM)
 """What a closed terminal sends; Windows has no such signal."""
+_PROGRESS = re.compile(rb"drycut: (?!error: ).*\d ?%.*")
 _PLAIN = {"PYTHONPATH": str(ROOT), "PYTHONUTF8": "1", "COLUMNS": "100", "LC_ALL": "C.UTF-8", "NO_COLOR": "1"}
 
 
@@ -31,6 +33,11 @@ def run_command(
         timeout=120,
         check=False,
     )
+
+
+def without_progress(stderr: bytes) -> bytes:
+    """What a command said beside its progress, which it tells where the machine is slow."""
+    return b"".join(line for line in stderr.splitlines(keepends=True) if not _PROGRESS.fullmatch(line.rstrip()))
 
 
 def run_inside(*arguments: object, cwd: Path | None = None, **environment: str) -> subprocess.CompletedProcess[bytes]:

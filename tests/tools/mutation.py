@@ -9,7 +9,7 @@ how many pass without any finding.
 import argparse
 import random
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -43,7 +43,8 @@ def main() -> None:
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--missed", metavar="KIND", help="print the mutants of this kind that were missed")
     asked = options.parse_args()
-    done = list(trials(random.Random(asked.seed), asked.mutants))
+    rng = random.Random(asked.seed)
+    done = list(trials(rng, (sound_program(rng, printed=at % 2 == 1) for at in range(asked.mutants))))
     for printed in (False, True):
         print("with printed ends" if printed else "without printed ends")
         print(f"{'fault':24}{'mutants':>8}{'moved':>8}{'block':>8}{'contour':>9}{'missed':>8}{'error':>8}")
@@ -59,10 +60,9 @@ def main() -> None:
 _COLUMNS = (("block", 8), ("contour", 9), ("missed", 8), ("error", 8))
 
 
-def trials(rng: random.Random, number: int, kind: str | None = None) -> Iterator[Trial]:
-    """Mutants of sound programs, half of them with printed ends; of one kind where it is given."""
-    for at in range(number):
-        sound = sound_program(rng, printed=at % 2 == 1)
+def trials(rng: random.Random, programs: Iterable[Sound], kind: str | None = None) -> Iterator[Trial]:
+    """A mutant of each sound program that can be broken so; of one kind where it is given."""
+    for sound in programs:
         made = mutant(rng, sound, kind)
         if made is not None:
             yield _tried(sound, made)

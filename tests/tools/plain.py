@@ -86,6 +86,18 @@ def _arc(block: PlainBlock, most: int) -> list[tuple[int, int]]:
     return places
 
 
+def plain_end(block: PlainBlock) -> tuple[float, float]:
+    """Exact end of a block relative to its start."""
+    return plain_arc_end(block) if block.sense != "L" else plain_line_end(block)
+
+
+def plain_line_end(block: PlainBlock) -> tuple[float, float]:
+    """Exact end of a line relative to its start: where its count is reached on the counted axis."""
+    sx, sy = SIGNS[block.quadrant]
+    share = block.count / (block.x if block.axis == "X" else block.y)
+    return sx * block.x * share, sy * block.y * share
+
+
 def plain_arc_end(block: PlainBlock) -> tuple[float, float]:
     """Exact end of an arc relative to its start, by counting off from extreme to extreme."""
     sx, sy = SIGNS[block.quadrant]

@@ -2,7 +2,6 @@
 
 from typing import TYPE_CHECKING, Any
 
-from browser import OpenPage
 from places import ROOT
 from runs import plain_scenario
 
@@ -28,10 +27,14 @@ def document_of(text: str, **changes: object) -> dict[str, Any]:
     return replay_document(recording_of(text, **changes))
 
 
-def replay_of(open_page: OpenPage, document: dict[str, Any]) -> "Page":
-    """A page with the `replay` of a document and the `model` of it."""
+def empty_page() -> str:
+    """A page with the scripts that read documents, for `replay_of`."""
     scripts = f"const {{ decode }} = {exports('decode')}, {{ modelOf }} = {exports('model')};"
-    page = open_page(f"<!doctype html><html lang=en><title>replay</title><script>{scripts}</script>").page
+    return f"<!doctype html><html lang=en><title>replay</title><script>{scripts}</script>"
+
+
+def replay_of(page: "Page", document: dict[str, Any]) -> "Page":
+    """The page made of `empty_page`, with the `replay` of a document and the `model` of it in place of those before."""
     page.evaluate("async (doc) => { window.replay = await decode(doc); window.model = modelOf(replay); }", document)
     return page
 

@@ -1,14 +1,18 @@
 """Dry runs for tests."""
 
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
+import numpy as np
 from lawful import assert_plan_is_lawful
+from places import SCENARIOS
 
 from controller.motion.limits import row_limits
+from controller.stepping.pulses import Pulses
 from parser.program import parse_program, read_program
 from sim.run.dryrun import DryRun, dry_run
-from sim.run.recording import check_expectations
+from sim.run.recording import Recording, check_expectations, recorded
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.scenario import Scenario, load_scenario
 from sim.table.motion import silent
@@ -41,10 +45,19 @@ def run_folder(folder: Path) -> DryRun:
     return check_expectations(lawful(dry_run(read_program(scenario.program), scenario, silent)))
 
 
+@cache
+def scenario_recording(name: str) -> Recording:
+    """A scenario of the project with every step: run once for all tests of a process, which change nothing in it."""
+    scenario = load_scenario(SCENARIOS / name)
+    with recorded(read_program(scenario.program), scenario, silent) as found:
+        lawful(found.run)
+        return found._replace(steps=Pulses(*(np.array(column) for column in found.steps)))
+
+
+def scenario_run(name: str) -> DryRun:
+    """The run of a scenario of the project, held to what it expects."""
+    return scenario_recording(name).run
+
+
 def codes(run: DryRun) -> list[str]:
     return [finding.code for finding in run.findings]
-
-
-def closure_codes(run: DryRun) -> list[str]:
-    """Codes of what is said about whether contours close, without their suspects."""
-    return [code for code in codes(run) if code in ("3B301", "3B302")]

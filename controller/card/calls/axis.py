@@ -10,15 +10,13 @@ from controller.card.core.codes import AxisSts, Code, Refused
 class AxisCalls(CardBase):
     """Drives, limits and captures of an axis."""
 
-    def _answer(self, function: Function, given: tuple[Any, ...]) -> Any:
-        """The answer; a refusal by an axis that the call is addressed to is latched there as a host error."""
-        answer = super()._answer(function, given)
-        code = answer[0] if function.zeros else answer
-        if code in (Code.COMMAND, Code.PARAMETER) and function.of_axis and given:
+    def _refuse(self, function: Function, given: tuple[Any, ...], refused: Refused) -> None:
+        """Keep a refusal; one by an axis that the call is addressed to is latched there as a host error."""
+        super()._refuse(function, given, refused)
+        if refused.code in (Code.COMMAND, Code.PARAMETER) and function.of_axis and given:
             for axis in self._state.axes[: self.settings.axes]:
                 if axis.number == given[0]:
                     axis.latched |= AxisSts.HOST_ERROR
-        return answer
 
     @gt()
     def GT_AxisOn(self, axis: UShort) -> None:

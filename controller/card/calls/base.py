@@ -12,6 +12,7 @@ from controller.stepping.pulses import Pulses
 
 LONGEST_S = 1e9
 """A card is simulated for 31 years at most: until then its clock tells servo periods apart to a thousandth."""
+_OK = int(Code.OK)
 
 
 class Logged(NamedTuple):
@@ -50,8 +51,8 @@ class CardBase:
         self._engines = [
             Engine(settings, state, on_pulses if number == 0 else None) for number, state in enumerate(self._states)
         ]
-        self._number = 0
         self._now_s = 0.0
+        self._select(0)
 
     @property
     def time_s(self) -> float:
@@ -75,13 +76,10 @@ class CardBase:
             engine.motion.hand_out_heard()
         self._log(began, "sleep", (ms,), None)
 
-    @property
-    def _state(self) -> CardState:
-        return self._states[self._number]
-
-    @property
-    def _engine(self) -> Engine:
-        return self._engines[self._number]
+    def _select(self, number: int) -> None:
+        """Let the calls go to a card, counted from 0."""
+        self._number = number
+        self._state, self._engine = self._states[number], self._engines[number]
 
     def _axis(self, number: int) -> AxisState:
         """Axis 1 to 4. Refused with 7 where the card has none of that number."""
@@ -102,17 +100,21 @@ class CardBase:
         return answer
 
     def _answer(self, function: Function, given: tuple[Any, ...]) -> Any:
-        body, types, zeros, when_closed, _ = function
+        body, readers, zeros, when_closed, _ = function
         if not (self._state.opened or when_closed):
             return (int(Code.CLOSED), *zeros) if zeros else int(Code.CLOSED)
         try:
-            values = body(self, *read_arguments(types, given))
+            values = body(self, *read_arguments(readers, given))
         except Refused as refused:
-            self._state.command_status = refused.command_status
+            self._refuse(function, given, refused)
             return (int(refused.code), *zeros) if zeros else int(refused.code)
         if not zeros:
-            return int(Code.OK)
-        return (int(Code.OK), *values) if len(zeros) > 1 else (int(Code.OK), values)
+            return _OK
+        return (_OK, *values) if len(zeros) > 1 else (_OK, values)
+
+    def _refuse(self, function: Function, given: tuple[Any, ...], refused: Refused) -> None:
+        """Keep what a refused call leaves behind."""
+        self._state.command_status = refused.command_status
 
     def _log(self, began: float, name: str, arguments: tuple[Any, ...], answer: Any) -> None:
         if self._on_call is not None:

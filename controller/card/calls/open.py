@@ -43,7 +43,7 @@ class OpenCalls(CardBase):
         self._one_is_open()
         if not 1 <= card <= self.settings.cards:
             raise Refused(Code.PARAMETER)
-        self._number = card - 1
+        self._select(card - 1)
 
     def _one_is_open(self) -> None:
         if not any(state.opened for state in self._states):

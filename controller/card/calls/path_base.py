@@ -2,7 +2,7 @@
 
 from controller.card.calls.base import CardBase
 from controller.card.core.codes import Code, Refused
-from controller.card.engine.entries import NO_LENGTH, Pace, Place, Segment, Stepped, four
+from controller.card.engine.entries import NO_LENGTH, Pace, PathEntry, Place, Segment, four
 from controller.card.engine.shapes import arc_about, arc_by_radius, check_size, checked_line
 
 
@@ -28,7 +28,7 @@ class PathBase(CardBase):
         start = engine.list_end() if engine.list.is_open else engine.motion.place()
         return max(1, engine.list.number), engine.speeds.pace(rapid=rapid), start
 
-    def _submit(self, entry: Segment | Stepped) -> None:
+    def _submit(self, entry: PathEntry) -> None:
         """Put a path entry into the open list, or run it at once. It uses up the end speed that was set for it."""
         self._check_axes(entry)
         if self._engine.list.is_open:
@@ -40,12 +40,15 @@ class PathBase(CardBase):
             raise Refused(Code.COMMAND)
         self._engine.speeds.end_um_s = None
 
-    def _check_axes(self, entry: Segment | Stepped) -> None:
+    def _check_axes(self, entry: PathEntry) -> None:
         """Refused with 1 where an axis that it moves is off, if the settings want that."""
         if not self.settings.needs_axis_on:
             return
-        moves = zip(entry.tangent, entry.normal, strict=True) if isinstance(entry, Segment) else ((1, 1), (1, 1))
-        if any((t or n) and not own.enabled for (t, n), own in zip(moves, self._state.axes, strict=False)):
+        if isinstance(entry, Segment):
+            moves = [t != 0.0 or n != 0.0 for t, n in zip(entry.tangent, entry.normal, strict=True)]
+        else:
+            moves = [True, True]
+        if not all(own.enabled for moved, own in zip(moves, self._state.axes, strict=False) if moved):
             raise Refused(Code.COMMAND)
 
     def _pulses(self, values: tuple[float, ...], start: Place) -> Place:

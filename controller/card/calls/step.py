@@ -42,5 +42,4 @@ class StepCalls(PathBase):
             raise Refused(Code.LENGTH)
         engine = self._engine
         number, pace = max(1, engine.list.number), engine.speeds.pace(rapid=False)
-        words = (int(x_um), int(y_um), int(count_um), int(axis), int(quadrant), int(turn))
-        self._submit(Stepped(number, pace, *words, float(length_um)))
+        self._submit(Stepped(number, pace, x_um, y_um, count_um, axis, quadrant, turn, length_um))

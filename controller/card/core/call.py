@@ -9,9 +9,37 @@ import math
 import operator
 from collections.abc import Callable
 from inspect import Parameter, signature
-from typing import Annotated, Any, NamedTuple, get_type_hints
+from typing import Annotated, Any, NamedTuple, TypeAlias, get_type_hints
 
 from controller.card.core.codes import Code, Refused
+
+Reader: TypeAlias = Callable[[Any], Any]
+"""Gives an argument as its C type holds it."""
+
+
+def _read_double(value: Any) -> float:
+    try:
+        if math.isfinite(value):
+            return float(value)
+    except (TypeError, OverflowError):
+        pass
+    raise Refused(Code.PARAMETER)
+
+
+def _reader_of_whole(low: int, high: int) -> Callable[[Any], int]:
+    def read(value: Any) -> int:
+        try:
+            if low <= (whole := operator.index(value)) <= high:
+                return int(whole)
+        except TypeError:
+            pass
+        raise Refused(Code.PARAMETER)
+
+    return read
+
+
+def _read_as_given(value: Any) -> Any:
+    return value
 
 
 class CType(NamedTuple):
@@ -21,17 +49,10 @@ class CType(NamedTuple):
     low: int | None = None
     high: int | None = None
 
-    def read(self, value: Any) -> Any:
-        """The number as int or float. Refused with 7 unless it is a finite one, and a whole one within the bounds."""
-        try:
-            if self.low is None or self.high is None:
-                if math.isfinite(value):
-                    return float(value)
-            elif self.low <= (whole := operator.index(value)) <= self.high:
-                return whole
-        except (TypeError, OverflowError):
-            pass
-        raise Refused(Code.PARAMETER)
+    @property
+    def reader(self) -> Reader:
+        """Gives a number as int or float. Refused with 7 unless it is a finite one, or a whole one in the bounds."""
+        return _read_double if self.low is None or self.high is None else _reader_of_whole(self.low, self.high)
 
 
 UShort = Annotated[int, CType("unsigned short", 0, 0xFFFF)]
@@ -48,13 +69,13 @@ ADDRESSED = ("axis", "Axis", "AxisNum")
 
 
 class Function(NamedTuple):
-    """A function of the card: its body, the C types of its parameters, and what `gt` was told.
+    """A function of the card: its body, the readers of its arguments, and what `gt` was told.
 
     `of_axis` tells whether it is addressed to an axis by number.
     """
 
     body: Callable[..., Any]
-    types: list[CType | None]
+    readers: list[Reader]
     zeros: tuple[Any, ...]
     when_closed: bool
     of_axis: bool
@@ -74,9 +95,9 @@ def gt(*, zeros: tuple[Any, ...] = (), when_closed: bool = False) -> Callable[[C
     def wrap(body: Callable[..., Any]) -> Callable[..., Any]:
         hints = get_type_hints(body, include_extras=True)
         parameters = [p for p in signature(body).parameters.values() if p.name != "self"]
-        types = [_c_type(hints[p.name]) for p in parameters]
+        readers = [_reader_of(hints[p.name]) for p in parameters]
         of_axis = bool(parameters) and parameters[0].name in ADDRESSED
-        function = Function(body, types, zeros, when_closed, of_axis)
+        function = Function(body, readers, zeros, when_closed, of_axis)
 
         @functools.wraps(body)
         def call(self: Any, *args: Any, **named: Any) -> Any:
@@ -88,8 +109,10 @@ def gt(*, zeros: tuple[Any, ...] = (), when_closed: bool = False) -> Callable[[C
     return wrap
 
 
-def _c_type(hint: Any) -> CType | None:
-    return next((meta for meta in getattr(hint, "__metadata__", ()) if isinstance(meta, CType)), None)
+def _reader_of(hint: Any) -> Reader:
+    """Reader of a parameter's C type; where it has none, what is given is taken."""
+    c_types = (meta for meta in getattr(hint, "__metadata__", ()) if isinstance(meta, CType))
+    return next((c_type.reader for c_type in c_types), _read_as_given)
 
 
 def _bound(parameters: list[Parameter], args: tuple[Any, ...], named: dict[str, Any]) -> tuple[Any, ...]:
@@ -109,6 +132,6 @@ def _bound(parameters: list[Parameter], args: tuple[Any, ...], named: dict[str, 
     return tuple(values)
 
 
-def read_arguments(types: list[CType | None], given: tuple[Any, ...]) -> list[Any]:
+def read_arguments(readers: list[Reader], given: tuple[Any, ...]) -> list[Any]:
     """Arguments as their C types hold them. Refused with 7 where one does not fit."""
-    return [value if c_type is None else c_type.read(value) for c_type, value in zip(types, given, strict=True)]
+    return [read(value) for read, value in zip(readers, given, strict=True)]

@@ -102,7 +102,8 @@ class Engine:
 
     def check_room(self, entries: int = 1) -> None:
         """Refused with 1, list full, where the list does not take so many entries."""
-        if self._pending() + entries > self._settings.capacity:
+        room = self._settings.capacity - entries
+        if len(self.list.entries) > room and self._pending() > room:
             raise Refused(Code.COMMAND, LIST_FULL)
 
     def push(self, entry: Entry) -> None:

@@ -118,10 +118,13 @@ class Output(NamedTuple):
         """None: it fits any motion."""
 
 
-Entry: TypeAlias = Segment | Stepped | Wait | Output
+PathEntry: TypeAlias = Segment | Stepped
+"""An entry along a path; without length it only counts as executed."""
+
+Entry: TypeAlias = PathEntry | Wait | Output
 
 
-def steps_made(entry: Segment | Stepped) -> int:
+def steps_made(entry: PathEntry) -> int:
     """Steps of an entry that are made."""
     return entry.done if isinstance(entry, Stepped) else 0
 

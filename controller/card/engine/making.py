@@ -7,7 +7,7 @@ import numpy as np
 
 from controller.card.core.settings import CardSettings
 from controller.card.core.units import UM_S3_PER_PULSE_MS3
-from controller.card.engine.entries import Entry, Segment, Stepped, Stepping, Wait, steps_made
+from controller.card.engine.entries import Entry, PathEntry, Stepped, Stepping, Wait, steps_made
 from controller.card.engine.motion_list import steps_of
 from controller.card.engine.rows import limits_of, path_of_blocks, path_of_segments
 from controller.card.engine.speeds import Speeds
@@ -28,10 +28,10 @@ def make_stretch(
     entries: Sequence[Entry], start: Start, speeds: Speeds, settings: CardSettings, deceleration_um_s2: float = 0.0
 ) -> Stretch:
     """Stretch of entries of one kind, run as fast as the limits allow, or braked for a stop where that is asked for."""
-    rows = [e for e in entries if isinstance(e, Segment | Stepped) and e.kind]
+    rows = [e for e in entries if isinstance(e, PathEntry) and e.kind is not None]
     steps = steps_of([e for e in rows if isinstance(e, Stepped)]) if rows and rows[0].kind is Stepping.STEPPED else None
     path = path_of_segments(rows) if steps is None else path_of_blocks(rows, steps, start.place, start.at_um)
-    row_of = np.cumsum([0, *(isinstance(e, Segment | Stepped) and e.kind is not None for e in entries)])
+    row_of = np.cumsum([0, *(isinstance(e, PathEntry) and e.kind is not None for e in entries)])
     waits = np.array([e.seconds if isinstance(e, Wait) else 0.0 for e in entries])
     limits = limits_of(rows, np.bincount(row_of[1:], waits, len(rows) + 1).astype(np.float64), path, speeds, settings)
     plan, deceleration_um_s2 = _planned(limits, start, settings, deceleration_um_s2)
@@ -97,7 +97,7 @@ def _ends(waits_s: Floats, row_of: Ints, before_um: Floats, plan: Plan, stops: b
 
 
 def _interpolator(  # noqa: PLR0913, PLR0917 - what a stretch is made of
-    rows: Sequence[Segment | Stepped], steps: Steps | None, path: Path, plan: Plan, start: Start, settings: CardSettings
+    rows: Sequence[PathEntry], steps: Steps | None, path: Path, plan: Plan, start: Start, settings: CardSettings
 ) -> tuple[Interpolator | None, float]:
     """What makes the pulses, and the clock time at which it has made them."""
     if not rows:

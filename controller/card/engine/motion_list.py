@@ -6,7 +6,7 @@ from itertools import islice
 import numpy as np
 
 from controller.card.core.codes import Code, Refused
-from controller.card.engine.entries import ORIGIN, Entry, Place, Segment, Stepped, Stepping, line
+from controller.card.engine.entries import ORIGIN, Entry, PathEntry, Place, Segment, Stepped, Stepping, line
 from controller.stepping.point_by_point import interpolate_words
 from controller.stepping.steps import Steps
 from parser.toolpath import StepWords
@@ -85,7 +85,7 @@ class MotionList:
 
     def start_from(self, place: Place) -> None:
         """Let the list begin at a place. Refused with 1 unless its first path entry is a line."""
-        paths = ((n, entry) for n, entry in enumerate(self.entries) if isinstance(entry, Segment | Stepped))
+        paths = ((n, entry) for n, entry in enumerate(self.entries) if isinstance(entry, PathEntry))
         first, entry = next(paths, (0, None))
         if entry is None:
             return

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from controller.card.core.settings import AXES, CardSettings
-from controller.card.engine.entries import Pace, Place, Segment, Stepped
+from controller.card.engine.entries import Pace, PathEntry, Place, Segment, Stepped
 from controller.card.engine.speeds import Speeds
 from controller.motion.path import Path
 from controller.motion.planner import RowLimits
@@ -14,7 +14,7 @@ from controller.stepping.steps import Steps
 from parser.geometry.curves import Floats
 
 
-def path_of_segments(rows: Sequence[Segment | Stepped]) -> Path:
+def path_of_segments(rows: Sequence[PathEntry]) -> Path:
     """Path of n lines and arcs in four axes."""
     lines = [row for row in rows if isinstance(row, Segment)]
     start, tangent, normal = (
@@ -25,9 +25,7 @@ def path_of_segments(rows: Sequence[Segment | Stepped]) -> Path:
     return Path(start, tangent, normal, curvature, np.array([row.length_um for row in lines], dtype=np.float64))
 
 
-def path_of_blocks(
-    rows: Sequence[Segment | Stepped], steps: Steps, place: Place, at_um: tuple[int, int, int, int]
-) -> Path:
+def path_of_blocks(rows: Sequence[PathEntry], steps: Steps, place: Place, at_um: tuple[int, int, int, int]) -> Path:
     """Ideal path of n stepped blocks, each from where the steps of the one before it end, the first as far as left."""
     blocks = [row for row in rows if isinstance(row, Stepped)]
     n = len(blocks)
@@ -55,7 +53,7 @@ _SIGNS = ((0, 0), (1, 1), (-1, 1), (-1, -1), (1, -1))
 
 
 def limits_of(
-    rows: Sequence[Segment | Stepped], waits_s: Floats, path: Path, speeds: Speeds, settings: CardSettings
+    rows: Sequence[PathEntry], waits_s: Floats, path: Path, speeds: Speeds, settings: CardSettings
 ) -> RowLimits:
     """What the plan of the n rows has to keep, with waits (n + 1,) s at their borders.
 

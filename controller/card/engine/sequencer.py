@@ -11,7 +11,7 @@ from dataclasses import replace
 from controller.card.core.codes import AxisSts
 from controller.card.core.settings import CardSettings
 from controller.card.core.state import CardState
-from controller.card.engine.entries import Entry, Segment, Stepped
+from controller.card.engine.entries import Entry, PathEntry
 from controller.card.engine.events import Capture, Events, Trip, events_of, grows_s, take_due
 from controller.card.engine.making import make_stretch
 from controller.card.engine.motion import CardMotion
@@ -92,7 +92,7 @@ class Sequencer:
         if not left:
             self._events.grows_s = math.inf  # all is run, but for the last servo period
             return
-        if not any(isinstance(entry, Segment | Stepped) and entry.kind for entry in left):
+        if not any(isinstance(entry, PathEntry) and entry.kind for entry in left):
             self._motion.hand_out(math.inf)  # the last period's pulses: what is left makes none
         motion = stretch.plan.at(now - stretch.start.clock_s)
         speed, acceleration = float(motion.speed_um_s), float(motion.acceleration_um_s2)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.card.engine.entries import Entry, Place, Segment, Stepped, Wait, four, steps_made
+from controller.card.engine.entries import Entry, PathEntry, Place, Segment, Wait, four, steps_made
 from controller.motion.path import Path
 from controller.motion.plan import Plan
 from controller.stepping.interpolators import EqualTime, Interpolator, PointByPoint
@@ -59,7 +59,7 @@ class Stretch:
 
     start: Start
     entries: Sequence[Entry]
-    rows: Sequence[Segment | Stepped]
+    rows: Sequence[PathEntry]
     numbers: NDArray[np.int32]
     row_of: Ints
     path: Path
@@ -81,7 +81,7 @@ class Stretch:
 
     def done(self, now_s: float) -> int:
         """Entries finished."""
-        return int(np.searchsorted(self.ends_s, now_s, side="right"))
+        return int(self.ends_s.searchsorted(now_s, side="right"))
 
     def number(self, now_s: float) -> int | None:
         """Number of the path entry being executed, the last one once all are; None without any."""
@@ -159,13 +159,13 @@ class Stretch:
         first = left[0] if left else None
         if isinstance(first, Wait):
             left[0] = Wait(float(self.ends_s[done]) - now_s if self.ends_s[done] < math.inf else first.seconds)
-        elif isinstance(first, Segment | Stepped) and first.kind:
+        elif isinstance(first, PathEntry) and first.kind:
             row = int(self.row_of[done])
             on_row = min(max(self.along(now_s) - float(self.before_um[row]), 0.0), float(self.path.length_um[row]))
             left[0] = self._rest(first, row, on_row, made)
         return left
 
-    def _rest(self, entry: Segment | Stepped, row: int, on_row_um: float, made: int) -> Segment | Stepped:
+    def _rest(self, entry: PathEntry, row: int, on_row_um: float, made: int) -> PathEntry:
         if isinstance(entry, Segment) or self.steps is None:
             return entry.rest(on_row_um) if isinstance(entry, Segment) else entry
         return entry._replace(offset_um=entry.offset_um + on_row_um, done=made - int(self.steps.before[row]))

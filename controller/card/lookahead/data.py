@@ -2,7 +2,7 @@
 
 from typing import Any, NamedTuple
 
-from controller.card.core.call import Char, CType, Double, Long, Short, read_arguments
+from controller.card.core.call import Char, Double, Long, Reader, Short, read_arguments
 from controller.card.core.codes import Code, Refused
 from controller.card.core.units import UM_S_PER_PULSE_MS
 from controller.card.engine.entries import Pace, Place, Segment, four
@@ -53,10 +53,10 @@ def checked_data(given: Any) -> TLookData:
     """Refused with 7 where it is no block, or a field does not fit its C type."""
     if not isinstance(given, tuple) or len(given) != len(TLookData._fields):
         raise Refused(Code.PARAMETER)
-    return TLookData(*read_arguments(_TYPES, given))
+    return TLookData(*read_arguments(_READERS, given))
 
 
-_TYPES: list[CType | None] = [hint.__metadata__[0] for hint in TLookData.__annotations__.values()]
+_READERS: list[Reader] = [hint.__metadata__[0].reader for hint in TLookData.__annotations__.values()]
 
 
 def segment_of(data: TLookData, start: Place, pulses_per_unit: float) -> Segment:

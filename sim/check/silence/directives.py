@@ -90,9 +90,9 @@ def _checks_of(beginning: str) -> set[str]:
 def _directives(program: Program) -> Iterator[Asked | Finding]:
     """What each directive asks for, and a finding for each that cannot be read, in their order."""
     text, remarks = program.lines.text, program.reading.remarks
-    named = np.array([match.start() for match in _NAMED.finditer(text)], dtype=np.int64)
-    if not len(named) or not len(remarks):
+    if not len(remarks):
         return
+    named = np.array([match.start() for match in _NAMED.finditer(text)], dtype=np.int64)
     at = np.searchsorted(remarks[:, 0], named, side="right") - 1
     rows = np.unique(at[(at >= 0) & (named < remarks[at, 1])])
     inked = program.lines.inked_lines(remarks)

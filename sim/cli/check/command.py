@@ -151,9 +151,10 @@ def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:
         return
     from sim.check.parallel import check_files
     from sim.cli.progress import StageProgress
+    from sim.workers.processes import Processes
 
     with StageProgress() as progress:
-        yield from check_files(jobs, lambda done, total: progress("check", done, total))
+        yield from check_files(jobs, Processes(), lambda done, total: progress("check", done, total))
 
 
 class _Outcome:

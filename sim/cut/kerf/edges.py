@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from controller.compiled.loops import compiled
 from parser.geometry.along import headings_along, places_at
 from parser.geometry.boxes import reach_um
 from parser.geometry.curves import Curves, Floats, Ints
@@ -66,11 +67,7 @@ class _Stations(NamedTuple):
 def edges_of(curves: Curves, cut: NDArray[np.bool_], ways: tuple[WireWay, ...], offset_um: float) -> Edges:
     """Edges beside the rows that are `cut` (n,), by where the wire went."""
     stations = _stations(curves, np.flatnonzero(cut))
-    left, right = np.full((2, len(stations.row)), -np.inf)
-    if ways:
-        row, place = (np.concatenate(column) for column in zip(*((one.row, one.place_um) for one in ways), strict=True))
-        _reach(curves, stations, (row, place), offset_um, (left, right))
-    left[np.isinf(left)], right[np.isinf(right)] = np.nan, np.nan
+    left, right = np.where(np.isinf(reaches := _reaches(curves, stations, ways, offset_um)), np.nan, reaches)
     return Edges(stations.row, stations.place_um, stations.left, left, right, _inner(stations, offset_um))
 
 
@@ -99,28 +96,36 @@ def _stations(curves: Curves, rows: Ints) -> _Stations:
     return _Stations(row, places_at(curves, row, along), to_left(heading), first, number, spacing)
 
 
-def _reach(
-    curves: Curves, stations: _Stations, places: tuple[Ints, Floats], offset_um: float, into: tuple[Floats, Floats]
-) -> None:
-    """Raise the reaches `into` (left and right, at the stations) to where the discs of each station's block end.
-
-    `places` are those of the wire: rows (p,) and places (p, 2).
-    """
-    row, place = places
+def _reaches(curves: Curves, stations: _Stations, ways: tuple[WireWay, ...], offset_um: float) -> Floats:
+    """How far (2, m) the discs of each station's own block reach to the left and to the right; −inf where none is."""
+    reaches = np.full((2, len(stations.row)), -np.inf)
+    if not ways:
+        return reaches
+    row, place = (np.concatenate(column) for column in zip(*((one.row, one.place_um) for one in ways), strict=True))
     nearest = np.rint(_along_um(curves, row, place) / stations.spacing_um[row]).astype(np.int64)
+    low, past = stations.first[row], stations.first[row] + stations.number[row]
     # A block with more than two stations has them more than half the usual spacing apart: no disc meets more of them.
     most = int(np.ceil(2.0 * offset_um / _SPACING_UM)) + 1
-    for by in range(-most, most + 1):
-        near = np.flatnonzero((nearest + by >= 0) & (nearest + by < stations.number[row]))
-        at = stations.first[row[near]] + nearest[near] + by
-        out = place[near] - stations.place_um[at]
-        normal = stations.left[at]
-        aside = out[:, 0] * normal[:, 1] - out[:, 1] * normal[:, 0]
-        met = np.flatnonzero(np.abs(aside) <= offset_um)
-        half = np.sqrt(offset_um**2 - aside[met] ** 2)
-        beside = (out[met] * normal[met]).sum(axis=1)
-        np.maximum.at(into[0], at[met], half + beside)
-        np.maximum.at(into[1], at[met], half - beside)
+    met = np.stack([np.maximum(low + nearest - most, low), np.minimum(low + nearest + most + 1, past)], axis=1)
+    _raise_to_discs(place, met, np.hstack([stations.place_um, stations.left]), offset_um, reaches)
+    return reaches
+
+
+@compiled("void(f8[:,::1], i8[:,::1], f8[:,::1], f8, f8[:,::1])")
+def _raise_to_discs(place: Floats, met: Ints, station: Floats, offset: float, reaches: Floats) -> None:
+    """Raise the reaches (2, m) to where the normals of the stations leave the discs about the places (p, 2).
+
+    Each disc counts at the stations from `met` (p, 2) on, one past the last; `station` (m, 4) are places and normals.
+    """
+    for p in range(place.shape[0]):
+        for at in range(met[p, 0], met[p, 1]):
+            out_x, out_y = place[p, 0] - station[at, 0], place[p, 1] - station[at, 1]
+            aside = out_x * station[at, 3] - out_y * station[at, 2]
+            if abs(aside) <= offset:
+                half = np.sqrt(offset * offset - aside * aside)
+                beside = out_x * station[at, 2] + out_y * station[at, 3]
+                reaches[0, at] = max(reaches[0, at], half + beside)
+                reaches[1, at] = max(reaches[1, at], half - beside)
 
 
 def _along_um(curves: Curves, row: Ints, place_um: Floats) -> Floats:

@@ -10,10 +10,8 @@ import numpy as np
 import shapely
 
 from parser.geometry.curves import Floats, Ints
+from sim.cut.kerf.last_beside import NOBODY, last_beside
 from sim.cut.kerf.ways import WireWay
-
-NOBODY = -1
-"""In place of a row: no wire came within its reach, as at the edge of the work."""
 
 _INEXACT_UM = 0.2  # an edge may lie beside the discs of the wire by so much: outlines are simplified by 0.05 µm
 _SPACING = 0.25  # reaches between the places of an edge that is looked at
@@ -27,21 +25,11 @@ def rows_that_made(ways: Iterable[WireWay], place_um: Floats, reach_um: float) -
     Where several ran over the same way, it is the last of them.
     """
     parts = [(way.place_um, way.row) for way in ways if len(way.row)]
-    made = np.full(len(place_um), NOBODY, dtype=np.int64)
-    if not parts or not len(place_um):
-        return made
-    wire, row = (np.concatenate(column) for column in zip(*parts, strict=True))
-    tree = shapely.STRtree(shapely.points(wire))  # type: ignore[arg-type]
-    points = np.asarray(shapely.points(place_um), dtype=np.object_)
-    (at, _), distance = tree.query_nearest(points, return_distance=True, all_matches=False)
-    nearest = np.full(len(place_um), np.inf)
-    nearest[at] = distance
-    reached = np.flatnonzero(nearest < reach_um + _INEXACT_UM)
-    which, near = tree.query(points[reached], predicate="dwithin", distance=nearest[reached] + _ALIKE_UM)
-    last = np.zeros(len(reached), dtype=np.int64)
-    np.maximum.at(last, which, near)  # ways are in the order they are cut
-    made[reached] = row[last]
-    return made
+    if not parts:
+        return np.full(len(place_um), NOBODY, dtype=np.int64)
+    wire, row = (np.concatenate(column) for column in zip(*parts, strict=True))  # ways are in the order they are cut
+    last = last_beside(wire, place_um, reach_um + _INEXACT_UM, _ALIKE_UM)
+    return np.where(last == NOBODY, NOBODY, row[last])
 
 
 def share_made(edge_um: shapely.LinearRing, way_um: Sequence[Floats], reach_um: float) -> float:

@@ -3,11 +3,11 @@
 from dataclasses import replace
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Curves, Floats, curves_between, joined
 from parser.geometry.directions import directions, to_left
-from sim.cut.kerf.swept import filled
 from sim.cut.regions import Region, Regions, union_all
 
 _CHORD_UM = 0.01
@@ -22,7 +22,7 @@ def nominal_region(curves: Curves, cut: NDArray[np.bool_], offset_um: float) -> 
     tight = arcs.picked(arcs.radius_um < offset_um)
     round_ends = _along_arcs(joined([_corners(curves, cut), _discs(tight.start_um), _discs(tight.end_um)]), offset_um)
     angle = np.arange(_SEAL) * (2.0 * np.pi / _SEAL)
-    seals = filled(
+    seals = _filled(
         _on_circles(curves.end_um[cut], np.full(int(cut.sum()), offset_um), np.tile(angle, (int(cut.sum()), 1)))
     )
     return union_all(np.concatenate([seals, round_ends, _along_lines(lines, offset_um), _along_arcs(arcs, offset_um)]))
@@ -55,7 +55,7 @@ def _along_lines(lines: Curves, offset_um: float) -> Regions:
     by = (lines.end_um - lines.start_um) * (offset_um / lines.length_um)[:, None]
     left = to_left(by)
     corners = [lines.start_um + left, lines.start_um - left, lines.end_um - left, lines.end_um + left]
-    return filled(np.stack(corners, axis=1))
+    return _filled(np.stack(corners, axis=1))
 
 
 def _along_arcs(arcs: Curves, offset_um: float) -> Regions:
@@ -70,10 +70,16 @@ def _along_arcs(arcs: Curves, offset_um: float) -> Regions:
     inner = np.maximum(arcs.radius_um - offset_um, 0.0)
     center = arcs.center_um[row]
     border = [_on_circles(center, outer[row], angle), _on_circles(center, inner[row], angle[:, ::-1])]
-    return filled(np.concatenate(border, axis=1))
+    return _filled(np.concatenate(border, axis=1))
 
 
 def _on_circles(center: Floats, radius: Floats, angle_rad: Floats) -> Floats:
     unit = np.stack([np.cos(angle_rad), np.sin(angle_rad)], axis=-1)
     places: Floats = center[:, None, :] + radius[:, None, None] * unit
     return places
+
+
+def _filled(border_um: Floats) -> Regions:
+    """Polygons (n,) with the corners `border_um` (n, k, 2)."""
+    polygons: Regions = np.asarray(shapely.polygons(border_um))
+    return polygons

@@ -12,14 +12,16 @@ import numpy as np
 import shapely
 
 from parser.geometry.curves import Curves, Floats, Ints
+from sim.cut.kerf.stars import stars
 from sim.cut.kerf.ways import WireWay
 from sim.cut.regions import Region, Regions, unions
 
-_SCALLOP_UM = 0.02  # left standing between two rays
-_SIMPLER_UM = 0.01  # polygons are simplified by
 _STRETCH = 1.9  # offsets, at most; at 2 the discs at its ends would only just reach its middle
 _TURN_RAD = 0.5  # of a stretch, at most
-_CHUNK = 1 << 10  # places looked at in one go, each along some 300 rays: 2.6 MB, which stay in the cache
+
+
+Box = tuple[float, float, float, float]
+"""Lowest x and y, highest x and y, µm."""
 
 
 class Swept(NamedTuple):
@@ -33,11 +35,14 @@ class Swept(NamedTuple):
         (s,) int64, first place of each stretch.
     levels
         Regions of the stretches, then of pairs of these, and so on up to the whole.
+    boxes
+        (…, 4) float64 of each level: lowest x and y, highest x and y of its regions.
     """
 
     way: WireWay
     first: Ints
     levels: tuple[Regions, ...]
+    boxes: tuple[Floats, ...]
 
     @property
     def region_um(self) -> Region:
@@ -45,12 +50,45 @@ class Swept(NamedTuple):
         whole: Region = self.levels[-1][0] if len(self.levels[0]) else shapely.Polygon()
         return whole
 
+    def near(self, first: int, past: int, box: Box) -> list[Region]:
+        """Regions that are swept on some stretches, as far as they come near a box: together, all within the box.
+
+        Of the pairs, those that lie in a box of three times the size are given as one.
+        """
+        larger, found = _larger(box), list[Region]()
+        todo = [(len(self.levels) - 1, 0)]
+        while todo:
+            level, at = todo.pop()
+            low, high = at << level, min((at + 1) << level, len(self.first))
+            if low >= past or high <= first or not _meet(own := tuple(self.boxes[level][at].tolist()), box):
+                continue
+            if level == 0 or (low >= first and high <= past and _holds(larger, own)):
+                found.append(self.levels[level][at])
+            else:
+                todo += [(level - 1, one) for one in (2 * at + 1, 2 * at) if one < len(self.levels[level - 1])]
+        return found
+
+
+def _meet(one: Box, other: Box) -> bool:
+    return one[0] <= other[2] and other[0] <= one[2] and one[1] <= other[3] and other[1] <= one[3]
+
+
+def _holds(box: Box, other: Box) -> bool:
+    return box[0] <= other[0] and box[1] <= other[1] and box[2] >= other[2] and box[3] >= other[3]
+
+
+def _larger(box: Box) -> Box:
+    """A box of three times the size round another."""
+    wide, high = box[2] - box[0], box[3] - box[1]
+    return box[0] - wide, box[1] - high, box[2] + wide, box[3] + high
+
 
 def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
     """The region that a wire with this offset sweeps on its way along the rows of some curves."""
     first = _stretches(way, _longest_um(curves, offset_um))
     regions = stars(way.place_um, first, middles(way, first), offset_um)
-    return Swept(way, first, _levels(regions))
+    levels = _levels(regions)
+    return Swept(way, first, levels, tuple(np.asarray(shapely.bounds(level)).reshape(-1, 4) for level in levels))
 
 
 def _longest_um(curves: Curves, offset_um: float) -> Floats:
@@ -79,58 +117,6 @@ def middles(way: WireWay, first: Ints) -> Floats:
     half = 0.5 * (way.along_um[first] + way.along_um[last])
     middle: Floats = way.place_um[np.searchsorted(way.along_um, half)]
     return middle
-
-
-def stars(place_um: Floats, first: Ints, middle_um: Floats, offset_um: float) -> Regions:
-    """Union of the discs of each stretch, (s,); every disc must hold the stretch's middle (s, 2)."""
-    toward = rays(offset_um)
-    bounds = np.append(first, len(place_um))
-    reach = [_reach_um(place_um, bounds[low:past], middle_um[low : past - 1], offset_um) for low, past in _runs(bounds)]
-    if not reach:
-        return np.empty(0, dtype=object)
-    border = middle_um[:, None, :] + np.concatenate(reach)[:, :, None] * toward
-    simple: Regions = shapely.simplify(filled(border), _SIMPLER_UM, preserve_topology=False)
-    return simple
-
-
-def filled(border_um: Floats) -> Regions:
-    """Polygons (n,) with the corners `border_um` (n, k, 2)."""
-    polygons: Regions = np.asarray(shapely.polygons(border_um))
-    return polygons
-
-
-def rays(offset_um: float) -> Floats:
-    """Unit vectors (k, 2) all round, so many that chords between them stay within 0.02 µm of the discs.
-
-    At the end of a stretch, the far side of the disc is two offsets from the middle. There the chords between rays are
-    twice as long as on a circle of one offset; a chord of length d is d²/8r high.
-    """
-    number = int(np.ceil(4.0 * np.pi * np.sqrt(offset_um / (8.0 * _SCALLOP_UM))))
-    angle = np.arange(number) * (2.0 * np.pi / number)
-    return np.stack([np.cos(angle), np.sin(angle)], axis=1)
-
-
-def _runs(bounds: Ints) -> list[tuple[int, int]]:
-    """Runs of stretches of about `_CHUNK` places each, as slices of the bounds, the end of the last one included."""
-    if len(bounds) < 2:
-        return []
-    chunk = bounds[:-1] // _CHUNK
-    low = np.flatnonzero(np.diff(chunk, prepend=-1))
-    return list(zip(low.tolist(), (np.append(low[1:], len(chunk)) + 1).tolist(), strict=True))
-
-
-def _reach_um(place: Floats, bounds: Ints, middle: Floats, offset_um: float) -> Floats:
-    """Distances (s, k) from middles to the borders of the stars, along the rays."""
-    toward = rays(offset_um)
-    out = place[bounds[0] : bounds[-1]] - np.repeat(middle, np.diff(bounds), axis=0)
-    half = out @ np.stack([-toward[:, 1], toward[:, 0]])
-    # In place, so that the arrays stay in the cache: reading and writing them is the work here.
-    np.square(half, out=half)
-    np.subtract(offset_um**2, half, out=half)
-    np.sqrt(np.maximum(half, 0.0, out=half), out=half)
-    half += out @ toward.T
-    reach: Floats = np.maximum.reduceat(half, bounds[:-1] - bounds[0], axis=0)
-    return reach
 
 
 def _levels(regions: Regions) -> tuple[Regions, ...]:

@@ -1,22 +1,24 @@
 """How far a piece that is free can move in its opening, and whether it pinches the wire."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 import shapely
-from shapely import affinity, ops
+from shapely import ops
 from shapely.geometry.base import BaseGeometry
 
 from parser.geometry.curves import Floats
 from parser.toolpath import Point
-from sim.cut.pieces.pieces import Pieces
+from sim.cut.pieces.pieces import Piece, Pieces
 from sim.cut.play.touching import Sides, shifted_until, sides_of, turned_until
-from sim.cut.regions import union_all
+from sim.cut.play.walls import SIMPLER_UM, Walls, room_of, walls_of
 
 _DIRECTIONS = 16
-_COARSE_UM = 0.5  # outlines are simplified by this, then by twice as much, until few corners are left
-_CORNERS = 1000
+_CORNERS = 1000  # an outline with more is simplified by twice as much, and so on
 _COARSEST_UM = 8.0
+_NEAR_UM = 1000.0  # walls are looked at in a box so much larger than the piece, then farther
+_FARTHER = 4.0  # times
 
 
 class Shift(NamedTuple):
@@ -80,48 +82,40 @@ def plays_of(pieces: Pieces, wire_radius_um: float) -> tuple[Play, ...]:
     """
     if not pieces.freed:
         return ()
-    rooms = _rooms(pieces)
-    filled = [shapely.Polygon(piece.outline_um.exterior) for piece in pieces.freed]
-    return tuple(
-        play_between(outline, _walls(rooms, outline, piece.freed.t_s), piece.freed.wire_um, wire_radius_um)
-        for piece, outline in zip(pieces.freed, filled, strict=True)
-    )
+    walls = walls_of(pieces)
+    return tuple(_play(walls, piece, wire_radius_um) for piece in pieces.freed)
 
 
-def play_between(outline_um: shapely.Polygon, walls_um: BaseGeometry, wire_um: Point, wire_radius_um: float) -> Play:
-    """Play of an outline without holes between walls, which are lines, with a wire beside it."""
-    (edge, from_edge), (walls, from_walls) = _coarse(outline_um.exterior), _coarse(walls_um)
-    scene = _Scene(edge, sides_of(edge), walls, sides_of(walls), outline_um.centroid)
+def _play(walls: Walls, piece: Piece, wire_radius_um: float) -> Play:
+    """Play of one piece: between the walls near it, where it meets them there; else between those farther off.
+
+    No corner leaves its circle about the centre of gravity in a turn, and the room holds all of them.
+    """
+    outline, wire = shapely.Polygon(piece.outline_um.exterior), piece.freed.wire_um
+    room, far_um = room_of(walls, outline, wire, piece.freed.t_s), _NEAR_UM
+    while True:
+        near, is_all = room.within(far_um)
+        if is_all or not near.is_empty:
+            play = play_between(outline, near, wire, wire_radius_um, walls_to_um=SIMPLER_UM)
+            met_um = max(math.dist(wire, play.pinch.wall_um), *(shift.by_um for shift in play.shifts))
+            if is_all or met_um + play.exact_to_um < far_um:
+                return play
+        far_um *= _FARTHER
+
+
+def play_between(
+    outline_um: shapely.Polygon, walls_um: BaseGeometry, wire_um: Point, wire_radius_um: float, walls_to_um: float = 0.0
+) -> Play:
+    """Play of an outline without holes between walls, with a wire beside it.
+
+    The walls are lines, which lie within `walls_to_um` of the real ones.
+    """
+    (edge, from_edge), (walls, from_walls) = _coarse(outline_um.exterior), _coarse(walls_um, walls_to_um)
+    center = np.array(outline_um.centroid.coords[0])
+    scene = _Scene(edge, sides_of(edge), walls, sides_of(walls), center)
     shifts = tuple(_shift(scene, angle) for angle in np.arange(_DIRECTIONS) * (360.0 / _DIRECTIONS))
     turns = _turn(scene, 1), _turn(scene, -1)
     return Play(shifts, turns, _pinch(scene, wire_um, wire_radius_um, shifts, turns), from_edge + from_walls)
-
-
-class _Rooms(NamedTuple):
-    """The rings of frame and pieces, each filled, in a tree; and the time (r,) until which each of them stands, s."""
-
-    tree: shapely.STRtree
-    until_s: Floats
-
-
-def _rooms(pieces: Pieces) -> _Rooms:
-    frame = pieces.frame
-    standing = frame.openings_um if frame.outline_um is None else (frame.outline_um,)
-    rings, of = shapely.get_rings([*standing, *(piece.outline_um for piece in pieces.freed)], return_index=True)
-    until = np.array([*(np.inf for _ in standing), *(piece.freed.t_s for piece in pieces.freed)])
-    return _Rooms(shapely.STRtree(list(map(shapely.Polygon, rings))), until[of])
-
-
-def _walls(rooms: _Rooms, filled: shapely.Polygon, t_s: float) -> BaseGeometry:
-    """Rings that still stand round an outline after a time: in the smallest ring that holds it, or all if none does."""
-    polygons = rooms.tree.geometries
-    holding = rooms.tree.query(filled, predicate="within")
-    holding = holding[rooms.until_s[holding] > t_s]
-    opening = min(polygons[holding].tolist(), key=lambda one: one.area, default=None)
-    near = np.arange(len(polygons)) if opening is None else rooms.tree.query(opening, predicate="intersects")
-    walls = polygons[near[rooms.until_s[near] > t_s]]
-    walls = walls[~shapely.contains(filled, walls) & ~shapely.contains_properly(walls, opening)]
-    return union_all(shapely.boundary(walls))
 
 
 class _Scene(NamedTuple):
@@ -131,16 +125,22 @@ class _Scene(NamedTuple):
     moving: Sides
     walls: BaseGeometry
     standing: Sides
-    about: shapely.Point
+    about_um: Floats
 
 
-def _coarse(lines_um: BaseGeometry) -> tuple[BaseGeometry, float]:
+def _coarse(lines_um: BaseGeometry, exact_to_um: float = 0.0) -> tuple[BaseGeometry, float]:
     """Lines with fewer corners, and how far they are from the real ones."""
-    tolerance, lines = _COARSE_UM, shapely.simplify(lines_um, _COARSE_UM)
+    tolerance, lines = SIMPLER_UM, _simplified(lines_um, SIMPLER_UM - exact_to_um)
     while shapely.get_num_coordinates(lines) > _CORNERS and tolerance < _COARSEST_UM:
         tolerance *= 2.0
-        lines = shapely.simplify(lines_um, tolerance)
+        lines = _simplified(lines_um, tolerance - exact_to_um)
     return lines, tolerance
+
+
+def _simplified(lines_um: BaseGeometry, by_um: float) -> BaseGeometry:
+    """Lines simplified one by one: whether they cross each other then does not matter to what touches them."""
+    lines: BaseGeometry = shapely.simplify(lines_um, by_um, preserve_topology=False)
+    return lines
 
 
 def _shift(scene: _Scene, toward_deg: float) -> Shift:
@@ -149,8 +149,7 @@ def _shift(scene: _Scene, toward_deg: float) -> Shift:
 
 
 def _turn(scene: _Scene, sense: int) -> Turn:
-    about = np.array([scene.about.x, scene.about.y])
-    touch = turned_until(scene.moving, scene.standing, about, sense)
+    touch = turned_until(scene.moving, scene.standing, scene.about_um, sense)
     return Turn(sense * float(np.degrees(touch.by)), touch.place_um)
 
 
@@ -158,12 +157,13 @@ def _pinch(
     scene: _Scene, wire_um: Point, wire_radius_um: float, shifts: tuple[Shift, ...], turns: tuple[Turn, Turn]
 ) -> Pinch:
     wall = ops.nearest_points(shapely.Point(wire_um), scene.walls)[1]
+    wall_um = np.array([wall.x, wall.y])
     beside = ops.nearest_points(wall, scene.edge)[1]
     straight = _shift(scene, float(np.degrees(np.arctan2(wall.y - beside.y, wall.x - beside.x))))
-    poses = [_shifted(scene.edge, shift) for shift in (*shifts, straight) if np.isfinite(shift.by_um)]
-    poses += [affinity.rotate(scene.edge, turn.by_deg, scene.about) for turn in turns if np.isfinite(turn.by_deg)]
+    seen = [_seen_after_shift(wall_um, shift) for shift in (*shifts, straight) if np.isfinite(shift.by_um)]
+    seen += [_seen_after_turn(wall_um, turn, scene.about_um) for turn in turns if np.isfinite(turn.by_deg)]
     width = scene.edge.distance(wall)
-    narrowest = min([width, *(pose.distance(wall) for pose in poses)])
+    narrowest = float(shapely.distance(scene.edge, shapely.points([wall_um, *seen])).min())
     return Pinch(
         wall_um=Point(wall.x, wall.y),
         width_um=width,
@@ -173,6 +173,17 @@ def _pinch(
     )
 
 
-def _shifted(edge: BaseGeometry, shift: Shift) -> BaseGeometry:
+def _seen_after_shift(place_um: Floats, shift: Shift) -> Floats:
+    """Where a place is, seen from a piece that shifts: the piece stays, and the place moves back."""
     angle = np.radians(shift.toward_deg)
-    return affinity.translate(edge, shift.by_um * np.cos(angle), shift.by_um * np.sin(angle))
+    seen: Floats = place_um - shift.by_um * np.array([np.cos(angle), np.sin(angle)])
+    return seen
+
+
+def _seen_after_turn(place_um: Floats, turn: Turn, about_um: Floats) -> Floats:
+    """The same of a piece that turns about a place."""
+    angle = np.radians(turn.by_deg)
+    x, y = place_um - about_um
+    back = np.array([np.cos(angle) * x + np.sin(angle) * y, np.cos(angle) * y - np.sin(angle) * x])
+    seen: Floats = about_um + back
+    return seen

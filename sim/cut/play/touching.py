@@ -4,17 +4,15 @@ When two polygons come into touch, a corner of one meets a side of the other. Wh
 form, for a shift and for a turn. A physics engine would let them overlap a little first.
 """
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from parser.geometry.curves import Floats, Ints
+from controller.compiled.loops import compiled
+from parser.geometry.curves import Floats
 from parser.toolpath import Point
-
-_CHUNK = 1 << 20  # pairs of corners and sides looked at in one go: some 100 MB
 
 
 class Sides(NamedTuple):
@@ -38,10 +36,6 @@ class _First(NamedTuple):
     corner: Floats
 
 
-_Ways = Callable[[Floats, Sides], Floats]
-"""Ways (c,) of corners (c, 2) to the first side that each meets, infinite where it meets none."""
-
-
 def sides_of(lines_um: BaseGeometry) -> Sides:
     """All sides of lines and rings."""
     points, line = shapely.get_coordinates(shapely.get_parts(lines_um), return_index=True)
@@ -52,8 +46,7 @@ def sides_of(lines_um: BaseGeometry) -> Sides:
 def shifted_until(moving: Sides, standing: Sides, toward_rad: float) -> Contact:
     """How far `moving` shifts in a direction until it touches `standing`."""
     u = np.array([np.cos(toward_rad), np.sin(toward_rad)])
-    there = _first(moving, standing, lambda corner, side: _along(corner, side, u))
-    back = _first(standing, moving, lambda corner, side: _along(corner, side, -u))
+    there, back = _first_ahead(moving, standing, u), _first_ahead(standing, moving, -u)
     if back.by < there.by:
         return Contact(back.by, Point(*back.corner.tolist()))
     return _touch(there.by, there.corner + np.where(np.isfinite(there.by), there.by, np.nan) * u)
@@ -61,8 +54,7 @@ def shifted_until(moving: Sides, standing: Sides, toward_rad: float) -> Contact:
 
 def turned_until(moving: Sides, standing: Sides, about_um: Floats, sense: int) -> Contact:
     """Angle by which `moving` turns about a place until it touches `standing`; a sense of +1 is counter-clockwise."""
-    there = _first(moving, standing, lambda corner, side: _round(corner - about_um, side, about_um, sense))
-    back = _first(standing, moving, lambda corner, side: _round(corner - about_um, side, about_um, -sense))
+    there, back = _first_round(moving, standing, about_um, sense), _first_round(standing, moving, about_um, -sense)
     if back.by < there.by:
         return _touch(back.by, back.corner)
     angle = sense * there.by if np.isfinite(there.by) else np.nan
@@ -74,52 +66,59 @@ def _touch(by: float, place: Floats) -> Contact:
     return Contact(by, Point(*place.tolist()))
 
 
-def _first(of: Sides, sides: Sides, ways: _Ways) -> _First:
-    first = _First(np.inf, np.full(2, np.nan))
-    rows = max(_CHUNK // max(len(sides.start), 1), 1)
-    for low in range(0, len(of.start), rows):
-        corners = of.start[low : low + rows]
-        way = ways(corners, sides)
-        at = int(np.argmin(way))
-        if way[at] < first.by:
-            first = _First(float(way[at]), corners[at])
-    return first
+def _first_ahead(of: Sides, sides: Sides, u: Floats) -> _First:
+    """The first corner to meet a side as all shift in the direction u."""
+    seen = np.stack([u, [-u[1], u[0]]], axis=1)  # along u, and across it
+    by, at = _ahead(of.start @ seen, sides.start @ seen, sides.end @ seen)
+    return _First(by, of.start[at] if at >= 0 else np.full(2, np.nan))
 
 
-def _along(corner: Floats, side: Sides, u: Floats) -> Floats:
-    """Ways of corners in the direction u."""
-    across = np.array([-u[1], u[0]])
-    level, low, high = corner @ across, side.start @ across, side.end @ across
-    # Few sides cross the level of a corner. A side along u crosses none, but it ends at sides that do.
-    one, other = np.nonzero((low <= level[:, None]) != (high <= level[:, None]))
-    share = (level[one] - low[other]) / (high - low)[other]
-    ahead = (side.start @ u)[other] + share * ((side.end - side.start) @ u)[other] - (corner @ u)[one]
-    return _least(len(corner), one, np.where(ahead >= 0.0, ahead, np.inf))
+def _first_round(of: Sides, sides: Sides, about_um: Floats, sense: int) -> _First:
+    """The first corner to meet a side as all turn about a place."""
+    by, at = _round(of.start - about_um, sides.start - about_um, sides.end - sides.start, float(sense))
+    return _First(by, of.start[at] if at >= 0 else np.full(2, np.nan))
 
 
-def _round(out: Floats, side: Sides, about: Floats, sense: int) -> Floats:
-    """Angles (c,) by which corners, (c, 2) seen from the place `about`, turn about it until they meet a side."""
-    start, by = side.start - about, side.end - side.start
-    square, radius = (by * by).sum(axis=1), (out * out).sum(axis=1)
-    foot = np.clip(-(start * by).sum(axis=1) / square, 0.0, 1.0)
-    nearest = ((start + foot[:, None] * by) ** 2).sum(axis=1)
-    farthest = np.maximum((start * start).sum(axis=1), ((start + by) ** 2).sum(axis=1))
-    one, other = np.nonzero((nearest <= radius[:, None]) & (farthest >= radius[:, None]))
-    foot = -(start * by).sum(axis=1) / square
-    apart = ((start + foot[:, None] * by) ** 2).sum(axis=1)
-    half = np.sqrt(np.maximum(radius[one] - apart[other], 0.0) / square[other])
-    turns = [_turn(out[one], start[other], by[other], foot[other] + way * half, sense) for way in (-1.0, 1.0)]
-    return _least(len(out), one, np.minimum(*turns))
+@compiled("Tuple((f8, i8))(f8[:,::1], f8[:,::1], f8[:,::1])")
+def _ahead(corner: Floats, start: Floats, end: Floats) -> tuple[float, int]:
+    """The shortest way along the first axis from a corner (c, 2) to a side (m, 2), and which corner; inf and −1."""
+    least, first = np.inf, -1
+    for c in range(corner.shape[0]):
+        level = corner[c, 1]
+        for s in range(start.shape[0]):
+            # Few sides cross the level of a corner. A side along it crosses none, but it ends at sides that do.
+            if (start[s, 1] <= level) != (end[s, 1] <= level):
+                share = (level - start[s, 1]) / (end[s, 1] - start[s, 1])
+                ahead = start[s, 0] + share * (end[s, 0] - start[s, 0]) - corner[c, 0]
+                if 0.0 <= ahead < least:
+                    least, first = ahead, c
+    return least, first
 
 
-def _turn(out: Floats, start: Floats, by: Floats, share: Floats, sense: int) -> Floats:
-    """Angles (k,) at (0, 0) from corners to points on sides, at a `share` of each; infinite beyond the side's ends."""
-    to = start + share[:, None] * by
-    angle = np.arctan2(to[:, 1], to[:, 0]) - np.arctan2(out[:, 1], out[:, 0])
-    return np.where((share >= 0.0) & (share <= 1.0), np.mod(sense * angle, 2.0 * np.pi), np.inf)
+@compiled("Tuple((f8, i8))(f8[:,::1], f8[:,::1], f8[:,::1], f8)")
+def _round(corner: Floats, start: Floats, by: Floats, sense: float) -> tuple[float, int]:
+    """The least angle about (0, 0) from a corner (c, 2) to a side (m, 2), and which corner; inf and −1.
 
-
-def _least(number: int, of: Ints, value: Floats) -> Floats:
-    least = np.full(number, np.inf)
-    np.minimum.at(least, of, value)
-    return least
+    A side meets the circle of a corner where its own distance from (0, 0) is the radius: at up to two places.
+    """
+    least, first = np.inf, -1
+    for s in range(start.shape[0]):
+        x, y, by_x, by_y = start[s, 0], start[s, 1], by[s, 0], by[s, 1]
+        square = by_x * by_x + by_y * by_y
+        foot = -(x * by_x + y * by_y) / square
+        inside = min(max(foot, 0.0), 1.0)
+        nearest = (x + inside * by_x) ** 2 + (y + inside * by_y) ** 2
+        farthest = max(x * x + y * y, (x + by_x) ** 2 + (y + by_y) ** 2)
+        apart = (x + foot * by_x) ** 2 + (y + foot * by_y) ** 2
+        for c in range(corner.shape[0]):
+            radius = corner[c, 0] ** 2 + corner[c, 1] ** 2
+            if nearest <= radius <= farthest:
+                half = np.sqrt(max(radius - apart, 0.0) / square)
+                angle = np.arctan2(corner[c, 1], corner[c, 0])
+                for share in (foot - half, foot + half):
+                    if 0.0 <= share <= 1.0:
+                        there = np.arctan2(y + share * by_y, x + share * by_x)
+                        turn = np.mod(sense * (there - angle), 2.0 * np.pi)
+                        if turn < least:
+                            least, first = turn, c
+    return least, first

@@ -9,16 +9,18 @@ from shapely.geometry.polygon import orient
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Ints, curves_between, joined
 from parser.toolpath import Toolpath
-from sim.cut.kerf.makers import NOBODY, rows_that_made
+from sim.cut.kerf.last_beside import NOBODY
+from sim.cut.kerf.makers import rows_that_made
 from sim.cut.kerf.region import Kerf
 from sim.cut.pieces.kept_shapes import kept_shapes
 from sim.cut.pieces.pieces import Pieces
+from sim.measure.compare.coarser import coarser
 from sim.measure.compare.edge import Edge
 from sim.measure.compare.nearest import indexed, nearest
 
 _PART_LEFT, _PART_RIGHT = 1, -1
 _SIMPLER_UM = 0.05
-"""Outlines are as exact as 0.1 µm; with half the corners they are compared twice as fast."""
+"""Outlines are as exact as 0.1 µm; with half the corners they are compared twice as fast (docs/compare.md)."""
 _LONGEST_UM = 100.0  # of a side: two blocks may make one straight edge
 
 
@@ -45,13 +47,10 @@ def edge_as_cut(toolpath: Toolpath, kerf: Kerf, pieces: Pieces) -> Edge | None:
 def _rings(pieces: Pieces) -> Iterator[tuple[shapely.LinearRing, int]]:
     """Outlines, counter-clockwise, and the side that the part lies on."""
     for shape in kept_shapes(pieces):
-        outline = orient(_simpler(shapely.Polygon(shape.outline_um.exterior))).exterior
-        yield outline, _PART_LEFT if shape.what == "part" else _PART_RIGHT
-
-
-def _simpler(polygon: shapely.Polygon) -> shapely.Polygon:
-    simpler: shapely.Polygon = shapely.segmentize(shapely.simplify(polygon, _SIMPLER_UM), _LONGEST_UM)
-    return simpler
+        outline = orient(shapely.Polygon(shape.outline_um.exterior)).exterior
+        corners = coarser(np.asarray(outline.coords)[:, :2], _SIMPLER_UM)
+        longest = shapely.segmentize(shapely.LinearRing(corners), _LONGEST_UM)
+        yield longest, _PART_LEFT if shape.what == "part" else _PART_RIGHT
 
 
 def _sides(ring: shapely.LinearRing) -> Curves:

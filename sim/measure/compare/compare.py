@@ -38,15 +38,15 @@ def compare(edge: Edge, drawing: Drawing, asked: Asked) -> Comparison:
 
 def _compare(edge: Edge, drawing: Drawing, asked: Asked) -> Comparison:
     whole = as_drawn(drawing)
-    index = indexed(whole.curves)
+    index, of_edge = indexed(whole.curves), indexed(edge.curves)
     as_it_is = fit(edge.curves, edge.loop, index, whole.loop) if asked.fitted else None
     placement = as_it_is.placement if as_it_is else IN_PLACE
-    rolled = reachable(drawing, part_sides(edge, drawing, placement), edge.reach_um)
+    rolled = reachable(drawing, part_sides(edge, of_edge, drawing, placement), edge.reach_um)
     target = rolled if asked.sharp_corners == "tell" else whole
     if as_it_is:
         placement = settled(edge, target, placement, asked.tolerance_um)
     laid = placed(target.curves, placement)
-    there, back = directed(edge.curves, indexed(laid)), directed(laid, indexed(edge.curves))
+    there, back = directed(edge.curves, indexed(laid)), directed(laid, of_edge)
     slip = unit_slip(edge.curves, edge.loop, index, whole.loop, as_it_is)
     gouges = tuple(gouge for gouge in edge.gouges if gouge.depth_um > asked.tolerance_um)
     names = [slip.remark] if slip else _posed(placement, edge.curves, asked.tolerance_um)

@@ -47,12 +47,7 @@ class Fitted(NamedTuple):
 
 def places_of(edge: Curves, stage: Stage) -> Spread:
     """The places of an edge that a stage takes."""
-    number = stage.places
-    places = spread(edge, number)
-    if len(places.row) <= 3 * number:
-        return places
-    every = slice(None, None, len(places.row) // number)  # of very many curves, every so many places
-    return Spread(places.place_um[every], places.row[every], places.weight_um[every])
+    return spread(edge, stage.places, 3 * stage.places)
 
 
 def last_stage(edge: Curves) -> Stage:

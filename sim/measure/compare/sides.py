@@ -8,7 +8,7 @@ from parser.geometry.directions import headings, headings_at
 from parser.geometry.feet import feet
 from sim.measure.compare.directed import Directed
 from sim.measure.compare.edge import Edge
-from sim.measure.compare.nearest import indexed, nearest
+from sim.measure.compare.nearest import Index, nearest
 from sim.measure.compare.placement import Placement, placed
 from sim.measure.compare.spread import spread
 
@@ -16,12 +16,12 @@ _PLACES = 400  # of a drawn loop
 _BESIDE = 4.0  # times the wire's reach: how far an edge may lie from the loop that it is of, on its wrong side too
 
 
-def part_sides(edge: Edge, drawing: Drawing, placement: Placement) -> Ints:
+def part_sides(edge: Edge, index: Index, drawing: Drawing, placement: Placement) -> Ints:
     """Side (k,) of the part along each closed loop of the drawing: +1 left, −1 right, 0 where no edge lies beside it.
 
-    Loops are run as the drawing has them, counter-clockwise before they are mirrored.
+    The index is that of the edge. Loops are run as the drawing has them, counter-clockwise before they are mirrored.
     """
-    index, sides = indexed(edge.curves), []
+    sides = []
     for loop in (each for each in drawing.loops if each.closed):
         ring = placed(running(drawing.curves, loop.row, loop.backwards), placement)
         at = spread(ring, _PLACES)

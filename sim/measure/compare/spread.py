@@ -19,17 +19,19 @@ class Spread(NamedTuple):
     weight_um: Floats
 
 
-def spread(curves: Curves, number: int) -> Spread:
-    """At least `number` places, at least two on each curve."""
+def spread(curves: Curves, number: int, most: int | None = None) -> Spread:
+    """At least `number` places, at least two on each curve; where these are more than `most`, every so many of them."""
     length = float(curves.length_um.sum())
     by_length = np.ceil(curves.length_um * (0.5 * number / length)) if length else 0.0
     stretches = np.maximum(np.maximum(by_length, np.ceil(np.abs(curves.sweep_rad) / _WIDEST_RAD)), 1.0)
-    row = np.repeat(np.arange(len(curves)), stretches.astype(np.int64))
-    at = np.arange(len(row)) - (np.cumsum(stretches) - stretches)[row]
-    fraction = [(at + 0.5 + side * _GAUSS) / stretches[row] for side in (-1.0, 1.0)]
-    weight = 0.5 * (curves.length_um / stretches)[row]
-    both = np.concatenate([row, row])
-    return Spread(places(curves, both, np.concatenate(fraction)), both, np.concatenate([weight, weight]))
+    rows = np.repeat(np.arange(len(curves)), stretches.astype(np.int64))
+    every = max(2 * len(rows) // number, 1) if most is not None and 2 * len(rows) > most else 1
+    # First of the two places on all stretches, then the second ones.
+    second, stretch = np.divmod(np.arange(0, 2 * len(rows), every), len(rows))
+    row = rows[stretch]
+    at = stretch - (np.cumsum(stretches) - stretches)[row]
+    fraction = (at + 0.5 + (2.0 * second - 1.0) * _GAUSS) / stretches[row]
+    return Spread(places(curves, row, fraction), row, 0.5 * (curves.length_um / stretches)[row])
 
 
 def centroid(of: Spread) -> Floats:

@@ -88,15 +88,19 @@ def _pairs(edge: list[CurveGroup], drawing: list[CurveGroup]) -> list[tuple[Curv
 
 
 def _moments(out: Floats, weight: Floats) -> NDArray[np.complex128]:
-    complex_ = out[:, 0] + 1j * out[:, 1]
-    phase = np.exp(1j * np.outer(_HARMONICS, np.angle(complex_)))
-    moments: NDArray[np.complex128] = phase @ (weight * np.abs(complex_) ** 2)
+    place = out[:, 0] + 1j * out[:, 1]
+    away = np.abs(place)
+    turn = np.divide(place, away, out=np.ones_like(place), where=away > 0.0)
+    moments, share = np.empty(len(_HARMONICS), np.complex128), weight * away**2 + 0j
+    for at in range(len(_HARMONICS)):  # each k has the phase of the one before it, turned once more
+        share *= turn
+        moments[at] = share.sum()
     return moments
 
 
 def _peaks(edge: NDArray[np.complex128], drawing: NDArray[np.complex128]) -> list[float]:
     """Turns of the edge, rad within ±π, at which the moments agree best: the highest, and of high ones the smallest."""
-    agree = (_BACK @ (drawing * edge.conj())).real
+    agree = (_BACK * (drawing * edge.conj())).sum(axis=1).real
     peak = np.flatnonzero((agree >= np.roll(agree, 1)) & (agree > np.roll(agree, -1)))
     peak = peak[agree[peak] >= _NEAR_PEAK * agree.max()]
     turn = np.mod(_TURNS[peak] + np.pi, 2.0 * np.pi) - np.pi

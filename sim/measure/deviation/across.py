@@ -14,10 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats, Ints
-from parser.geometry.distance import distance_to_curves
 from parser.geometry.feet import feet
 from parser.toolpath import Toolpath
+from sim.measure.deviation.away import away_from_block, blocks_of, side_of_block
 from sim.measure.deviation.deviation import Deviation, Where
 from sim.table.trace import Trace
 
@@ -59,31 +60,38 @@ def across_um(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floa
     return _measured(toolpath, trace, place_um, along_um)[1]
 
 
+@compiled("Tuple((i8, f8))(f8[:, ::1], i8, f8, f8, i8, f8)")
+def _nearer(  # noqa: PLR0913, PLR0917 - a compiled loop hands over numbers one by one
+    blocks: Floats, row: int, x: float, y: float, best: int, away: float
+) -> tuple[int, float]:
+    """Another block and its distance from a place, where it is nearer than the best so far; else that one."""
+    if 0 <= row < len(blocks):
+        there, _ = away_from_block(blocks, row, x, y)
+        if there < away - _NEARER_UM:
+            return row, there
+    return best, away
+
+
+@compiled("Tuple((i8[::1], f8[::1]))(f8[:, ::1], i8[::1], i8[::1], f8[::1], f8[::1])")
+def _nearest(blocks: Floats, row: Ints, earliest: Ints, x: Floats, y: Floats) -> tuple[Ints, Floats]:
+    """The nearest of the blocks that may count for each place (m,), and how far it is away, left positive."""
+    nearest, off = np.empty_like(row), np.empty_like(x)
+    for i in range(len(row)):
+        best = row[i]
+        away, beyond = away_from_block(blocks, best, x[i], y[i])
+        if beyond != 0:
+            best, away = _nearer(blocks, row[i] + beyond, x[i], y[i], best, away)
+        for trailing in range(row[i] - 1, earliest[i] - 1, -1):
+            best, away = _nearer(blocks, trailing, x[i], y[i], best, away)
+        nearest[i], off[i] = best, away * side_of_block(blocks, best, x[i], y[i])
+    return nearest, off
+
+
 def _measured(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floats) -> tuple[Ints, Floats]:
     """Rows (m,) that places are measured from, and the distances (m,), left positive."""
-    x, y = np.ascontiguousarray(place_um[:, 0]), np.ascontiguousarray(place_um[:, 1])
-    row = trace.row.copy()
-    away, beyond = distance_to_curves(toolpath, row, x, y)
-    past = np.flatnonzero(beyond)
-    _take_nearer(toolpath, past, trace.row[past] + beyond[past], (x, y), (row, away))
-    earliest = _earliest(toolpath, trace, place_um, along_um)
-    trailing = np.flatnonzero(earliest < trace.row)
-    back = 1
-    while len(trailing):
-        _take_nearer(toolpath, trailing, trace.row[trailing] - back, (x, y), (row, away))
-        back += 1
-        trailing = trailing[earliest[trailing] <= trace.row[trailing] - back]
-    return row, away * _side(toolpath, row, x, y)
-
-
-def _take_nearer(
-    toolpath: Toolpath, samples: Ints, row: Ints, xy: tuple[Floats, Floats], best: tuple[Ints, Floats]
-) -> None:
-    """Measure some samples from the blocks `row` instead, where those are nearer than the best so far."""
-    row = np.clip(row, 0, len(toolpath) - 1)
-    away, _ = distance_to_curves(toolpath, row, xy[0][samples], xy[1][samples])
-    nearer = away < best[1][samples] - _NEARER_UM
-    best[0][samples[nearer]], best[1][samples[nearer]] = row[nearer], away[nearer]
+    row = trace.row.astype(np.int64)
+    x, y = (place_um[:, axis].astype(np.float64) for axis in (0, 1))
+    return _nearest(blocks_of(toolpath), row, _earliest(toolpath, trace, place_um, along_um), x, y)
 
 
 def _earliest(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floats) -> Ints:
@@ -96,20 +104,6 @@ def _earliest(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floa
     found = np.searchsorted(before, reach[left], side="right") - 1
     first[left] = np.clip(found, trace.row[left] - _MOST_BACK, trace.row[left]).clip(0)
     return first
-
-
-def _side(toolpath: Toolpath, row: Ints, x: Floats, y: Floats) -> Floats:
-    """+1 left of the blocks `row` and on them, −1 right of them."""
-    right = np.empty(len(row), dtype=bool)
-    arc = toolpath.is_arc[row]
-    line, bent = np.flatnonzero(~arc), np.flatnonzero(arc)
-    of = row[line]
-    start, by = toolpath.start_um, toolpath.end_um - toolpath.start_um
-    right[line] = (x[line] - start[:, 0][of]) * by[:, 1][of] > (y[line] - start[:, 1][of]) * by[:, 0][of]
-    of, center = row[bent], toolpath.center_um
-    outside = np.hypot(x[bent] - center[:, 0][of], y[bent] - center[:, 1][of]) > toolpath.radius_um[of]
-    right[bent] = outside == (toolpath.sweep_rad[of] > 0.0)
-    return np.where(right, -1.0, 1.0)
 
 
 def summed(toolpath: Toolpath, trace: Trace, place_um: Floats, off_um: Floats) -> Deviation:

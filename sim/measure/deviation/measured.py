@@ -56,9 +56,10 @@ class Meters:
 
     def deviations(self, trace: Trace) -> Deviations:
         """Of all pulses so far, and of the trace that they made."""
-        commanded, table = (self._stage(trace, place) for place in (trace.commanded_um, trace.table_um))
+        along_um = self._plan.at(trace.t_s).along_um
+        commanded, table = (self._stage(trace, along_um, place) for place in (trace.commanded_um, trace.table_um))
         bows = trace.wire_um is not trace.table_um
-        wire = self._stage(trace, trace.wire_um) if bows else table
+        wire = self._stage(trace, along_um, trace.wire_um) if bows else table
         sampling = self._sampling.result() if self._sampling is not None else None
         of_table = summed(self._toolpath, trace, *table)
         return Deviations(
@@ -68,7 +69,7 @@ class Meters:
             wire=summed(self._toolpath, trace, *wire) if bows else of_table,
             by_cause=Causes(
                 interpolation=whole(self._steps.own if sampling is None else sampling.rounding),
-                carried=self._carried(trace, commanded),
+                carried=self._carried(trace, along_um, commanded),
                 planning=NOTHING if sampling is None else cut_off(self._toolpath, trace, self._plan, self._period_s),
                 table=added(trace, table, commanded),
                 wire=added(trace, wire, table) if bows else NOTHING,
@@ -76,12 +77,12 @@ class Meters:
             sampling=sampling,
         )
 
-    def _stage(self, trace: Trace, place_um: Floats) -> Stage:
-        return Stage(place_um, across_um(self._toolpath, trace, place_um, self._plan.at(trace.t_s).along_um))
+    def _stage(self, trace: Trace, along_um: Floats, place_um: Floats) -> Stage:
+        return Stage(place_um, across_um(self._toolpath, trace, place_um, along_um))
 
-    def _carried(self, trace: Trace, commanded: Stage) -> Part:
+    def _carried(self, trace: Trace, along_um: Floats, commanded: Stage) -> Part:
         """What the command adds to where it would be without what the blocks before missed."""
         if not self._drift.any():
             return NOTHING
         own_um = trace.commanded_um - self._drift[trace.row]
-        return added(trace, commanded, self._stage(trace, own_um))
+        return added(trace, commanded, self._stage(trace, along_um, own_um))

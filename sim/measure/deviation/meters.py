@@ -4,13 +4,17 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from controller.compiled.loops import compiled
 from controller.host.entries import Drive
 from controller.motion.path import path_of
 from controller.stepping.equal_time import chord_error_um
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Bools, Floats, Ints
 from sim.measure.deviation.deviation import Deviation, DeviationMeter
+
+Whole = NDArray[np.int32]
 
 PERIOD_ROUNDING = 1e-3
 """Share of a period by which rounding may move its end: 10⁻⁷ s over months of cutting."""
@@ -48,18 +52,13 @@ class StepMeters:
 
     def __init__(self, drive: Drive, drift_um: Floats) -> None:
         self._placed = DeviationMeter(drive.toolpath)
-        self._own = DeviationMeter(drive.toolpath) if drift_um.any() else self._placed
-        self._drift = drift_um
+        self._own = DeviationMeter(drive.toolpath, drift_um) if drift_um.any() else self._placed
 
     def take(self, pulses: Pulses) -> None:
         """Take the next pulses."""
-        settled = at_rest_between(pulses)
-        row, t_s = pulses.row[settled], pulses.t_s[settled]
-        x, y = pulses.x_um[settled].astype(np.float64), pulses.y_um[settled].astype(np.float64)
-        self._placed.add(row, x, y, t_s)
-        if self._own is self._placed:
-            return
-        self._own.add(row, x - self._drift[:, 0][row], y - self._drift[:, 1][row], t_s)
+        self._placed.add(pulses.row, pulses.x_um, pulses.y_um, pulses.t_s)
+        if self._own is not self._placed:
+            self._own.add(pulses.row, pulses.x_um, pulses.y_um, pulses.t_s)
 
     @property
     def placed(self) -> Deviation:
@@ -81,7 +80,7 @@ class SamplingMeter:
         self._before = self._path.before_um
         self._shift = np.array(drive.origin_um) - drive.toolpath.start_um[:1]
         self._most = np.zeros(2)
-        self._rounding = DeviationMeter(drive.toolpath)
+        self._rounding = DeviationMeter(drive.toolpath, self._shift)
 
     def take(self, pulses: Pulses) -> None:
         """Take the next pulses."""
@@ -91,8 +90,7 @@ class SamplingMeter:
         wanted = self._path.place(row, along - self._before[row]) + self._shift
         place = np.stack([pulses.x_um[settled], pulses.y_um[settled]], axis=1)
         self._most = np.maximum(self._most, np.abs(place - wanted).max(axis=0, initial=0.0))
-        own = place - self._shift
-        self._rounding.add(pulses.row[settled], own[:, 0], own[:, 1], pulses.t_s[settled])
+        self._rounding.add(pulses.row[settled], place[:, 0], place[:, 1], pulses.t_s[settled])
 
     def _ends_period(self, t_s: Floats) -> Bools:
         """Whether the pulse is the last at the end of a servo period; motion begins with one."""
@@ -125,6 +123,15 @@ class BlockSteps:
         return int(self.count.sum())
 
 
+@compiled("void(i4[::1], i4[::1], i4[::1], i8[::1], i8[:, ::1])")
+def _tally(row: Whole, x_um: Whole, y_um: Whole, count: Ints, end_um: Ints) -> None:
+    """Count the steps (m,) of each block, and keep where the last one ends."""
+    for i in range(len(row)):
+        own = row[i]
+        count[own] += 1
+        end_um[own, 0], end_um[own, 1] = x_um[i], y_um[i]
+
+
 class StepTally:
     """Counts steps as they stream in, in memory that does not grow with them."""
 
@@ -135,22 +142,11 @@ class StepTally:
 
     def take(self, pulses: Pulses) -> None:
         """Take the next pulses, in program coordinates, rows never falling."""
-        if not len(pulses.row):
-            return
-        first = np.flatnonzero(np.diff(pulses.row, prepend=-1))
-        last = np.append(first[1:], len(pulses.row)) - 1
-        rows = pulses.row[first]
-        self._count[rows] += last - first + 1
-        self._end[rows, 0], self._end[rows, 1] = pulses.x_um[last], pulses.y_um[last]
+        row, x, y = (column.astype(np.int32) for column in (pulses.row, pulses.x_um, pulses.y_um))
+        _tally(row, x, y, self._count, self._end)
 
     def result(self) -> BlockSteps:
         """Of all steps so far; a block without steps ends where it began."""
         stepped = np.arange(1, len(self._count) + 1) * (self._count > 0)
         latest = np.maximum.accumulate(np.concatenate([[0], stepped]))
         return BlockSteps(self._count.copy(), np.concatenate([self._origin, self._end])[latest])
-
-
-def at_rest_between(pulses: Pulses) -> slice | Bools:
-    """The pulses after which some time passes: of two axes that are pulsed at once, the place is that after both."""
-    last: Bools = np.diff(pulses.t_s, append=np.inf) > 0.0
-    return slice(None) if last.all() else last

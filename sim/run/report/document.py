@@ -12,7 +12,8 @@ from parser.shape.contours import Contour
 from sim.check.result import CheckState, Coverage
 from sim.measure.compare.result import Comparison
 from sim.run.assumptions import assumptions_of
-from sim.run.dryrun import DryRun, verdict
+from sim.run.dryrun import DryRun
+from sim.run.findings import verdict
 from sim.run.report.blocks import block_entries
 from sim.run.report.drawing import comparison_document
 from sim.run.report.figures import deviation_entries, ended_entry, limit_entry, loss_entry, offset_entry

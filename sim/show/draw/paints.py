@@ -25,6 +25,7 @@ class Paint(StrEnum):
     CLAMP = "clamp"
     CLAMP_EDGE = "clamp-edge"
     KERF = "kerf"
+    LEAD = "lead"
     TRIM_1 = "trim-1"
     TRIM_2 = "trim-2"
     TRIM_3 = "trim-3"
@@ -73,6 +74,7 @@ LIGHT: Final[Theme] = {
     Paint.CLAMP: (226, 226, 226),
     Paint.CLAMP_EDGE: (130, 130, 130),
     Paint.KERF: (118, 194, 238),
+    Paint.LEAD: (194, 214, 226),
     Paint.TRIM_1: (246, 190, 96),
     Paint.TRIM_2: (142, 214, 142),
     Paint.TRIM_3: (224, 160, 214),
@@ -118,6 +120,7 @@ DARK: Final[Theme] = {
     Paint.CLAMP: (58, 60, 64),
     Paint.CLAMP_EDGE: (150, 152, 158),
     Paint.KERF: (32, 112, 160),
+    Paint.LEAD: (58, 80, 94),
     Paint.TRIM_1: (154, 88, 16),
     Paint.TRIM_2: (34, 116, 58),
     Paint.TRIM_3: (136, 62, 124),

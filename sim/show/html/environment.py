@@ -1,6 +1,7 @@
 """Templates of the pages: one self-contained file each, and whatever a program or a scenario says stands escaped."""
 
 import json
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,12 @@ def rendered(assets: Path, template: str, **values: Any) -> str:
     ``{{ script_words("replay_scripts") | script_json }}`` a file of texts for scripts, which look for them in the
     element ``words``, and ``said("replay.quiz")`` a text in both languages; all else is escaped.
     """
+    return _environment(assets).get_template(template).render(**values)
+
+
+@cache
+def _environment(assets: Path) -> Environment:
+    """What templates of a folder are read by, each of them once in a process: a shop has thousands of pages."""
     environment = Environment(
         loader=FileSystemLoader([assets, _SHARED]),
         autoescape=True,
@@ -42,7 +49,7 @@ def rendered(assets: Path, template: str, **values: Any) -> str:
         "script_words": _script_words,
         "theme_css": theme_css,
     }
-    return environment.get_template(template).render(**values)
+    return environment
 
 
 class _Inlined:

@@ -1,4 +1,4 @@
-"""Pictures of a run as files, all of them or none."""
+"""Pictures as files, all of them or none."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,12 +9,11 @@ from PIL import Image, ImageOps
 from parser.findings.catalogue import Language
 from parser.findings.errors import SettingsError
 from sim.files import staged
-from sim.run.recording import Recording
 from sim.show.draw.paints import THEMES, ThemeName
 from sim.show.draw.raster import Raster
 from sim.show.draw.sheet import Sheet, drawing, pixels
 from sim.show.draw.svg import Svg
-from sim.show.pictures.gallery import PICTURES, Subject, label, subject_of
+from sim.show.pictures.shown import Shown, label
 
 DPI = 300
 """At which the named sizes are paper sizes."""
@@ -28,39 +27,38 @@ class PictureFiles(NamedTuple):
 
 
 def write_pictures(
-    recording: Recording, asked: PictureFiles, width_px: int, theme: ThemeName, language: Language
+    shown: Shown, asked: PictureFiles, width_px: int, theme: ThemeName, language: Language
 ) -> list[Path]:
     """Draw pictures and write them; the files written.
 
-    A picture of what the run has not is left out. Raises SettingsError where none is left, FileUnreadableError where
-    the folder cannot be written; nothing is written then, and no older file taken away.
+    A picture with nothing to show is left out. Raises SettingsError where none is left, FileUnreadableError where the
+    folder cannot be written; nothing is written then, and no older file taken away.
     """
-    subject = subject_of(recording)
     drawn: list[str] = []
     with staged(asked.folder, list(asked.files.values())) as stage:
         for name, file in asked.files.items():
-            made = (max(width_px, PICTURES[name].least_px), THEMES[theme], language)
+            made = (max(width_px, shown.least_px(name)), THEMES[theme], language)
             if file.lower().endswith(".svg"):
-                written = _write_svg(stage / file, name, subject, drawing(*made), width_px)
+                written = _write_svg(stage / file, name, shown, drawing(*made), width_px)
             else:
-                written = _write_pixels(stage / file, name, subject, pixels(*made), width_px)
+                written = _write_pixels(stage / file, name, shown, pixels(*made), width_px)
             drawn += [file] * written
         if not drawn:
             raise SettingsError(f"{', '.join(asked.files)}: this program has nothing to show there; nothing written")
     return [asked.folder / file for file in drawn]
 
 
-def _write_svg(file: Path, name: str, subject: Subject, sheet: Sheet[Svg], width_px: int) -> bool:
+def _write_svg(file: Path, name: str, shown: Shown, sheet: Sheet[Svg], width_px: int) -> bool:
     """Write a picture as SVG that is shown `width_px` wide; False where there is none."""
-    svg = PICTURES[name].draw(sheet, subject)
+    svg = shown.draw(name, sheet)
     if svg is not None:
-        file.write_text(svg.document(label(name, subject, sheet.language), width_px), encoding="utf-8")
+        file.write_text(svg.document(label(name, shown.title, sheet.language), width_px), encoding="utf-8")
     return svg is not None
 
 
-def _write_pixels(file: Path, name: str, subject: Subject, sheet: Sheet[Raster], width_px: int) -> bool:
+def _write_pixels(file: Path, name: str, shown: Shown, sheet: Sheet[Raster], width_px: int) -> bool:
     """Write a picture as PNG, made smaller to `width_px` where it is wider; False where there is none."""
-    raster = PICTURES[name].draw(sheet, subject)
+    raster = shown.draw(name, sheet)
     if raster is not None:
         image = ImageOps.contain(raster.image(), (width_px, raster.height_px), Image.Resampling.LANCZOS)
         image.save(file, format="png", dpi=(DPI, DPI))

@@ -1,14 +1,15 @@
-"""All pictures of a run by name: the list that commands, report and tests go by."""
+"""All pictures by name: the list that commands, report and tests go by."""
 
 from collections.abc import Mapping
 from typing import Final, NamedTuple, Protocol
 
-from parser.findings.catalogue import Language
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording
 from sim.show.draw import style
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.pictures.cut.picture import draw_cut_of_run
+from sim.show.pictures.cut.of_path import Programmed, draw_path
+from sim.show.pictures.cut.of_run import draw_cut_of_run
+from sim.show.pictures.cut.shapes import Shapes
 from sim.show.pictures.deviation.along import draw_along
 from sim.show.pictures.deviation.histogram import draw_histogram
 from sim.show.pictures.deviation.polar import draw_polar
@@ -16,24 +17,36 @@ from sim.show.pictures.deviation.samples import Samples, samples_of
 from sim.show.pictures.deviation.whiskers import draw_whiskers
 from sim.show.pictures.deviation.worst import draw_worst
 from sim.show.pictures.motion.picture import draw_motion
-from sim.show.words import Words
+from sim.show.pictures.path import PATH
 
 
 class Subject(NamedTuple):
-    """What pictures show: a recorded run, and how far its samples lie from the ideal path."""
+    """What pictures show (`sim.show.pictures.shown.Shown`).
+
+    It is a recorded run, how far its samples lie from the ideal path, and what pictures of its cut have in common.
+    """
 
     recording: Recording
     samples: Samples
+    shapes: Shapes
 
     @property
     def title(self) -> str:
         """Title of the run."""
         return self.recording.run.scenario.title
 
+    def least_px(self, name: str) -> int:
+        """How narrow a picture can be."""
+        return PICTURES[name].least_px
+
+    def draw(self, name: str, sheet: Sheet[AnyCanvas]) -> AnyCanvas | None:
+        """The page of a picture, drawn; None where the run has nothing to show there."""
+        return PICTURES[name].draw(sheet, self)
+
 
 def subject_of(recording: Recording) -> Subject:
     """A recorded run as the subject of pictures."""
-    return Subject(recording, samples_of(recording.run))
+    return Subject(recording, samples_of(recording.run), Shapes())
 
 
 class Draw(Protocol):
@@ -78,8 +91,12 @@ def _of_run(draw: DrawRun) -> Draw:
     return drawn
 
 
+def _path(sheet: Sheet[AnyCanvas], run: DryRun) -> AnyCanvas:
+    return draw_path(sheet, Programmed(run.program, run.scenario, run.offset, run.checked))
+
+
 def _cut(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:
-    return draw_cut_of_run(sheet, subject.recording.run, subject.recording.pieces)
+    return draw_cut_of_run(sheet, subject.recording.run, subject.recording.pieces, subject.shapes)
 
 
 def _worst(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:
@@ -87,6 +104,7 @@ def _worst(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:
 
 
 PICTURES: Final[Mapping[str, Picture]] = {
+    PATH: Picture(_of_run(_path), least_px=style.LEAST_THUMBNAIL),
     "cut": Picture(_cut, least_px=style.LEAST_THUMBNAIL),
     "along": Picture(_of_samples(draw_along)),
     "whiskers": Picture(_of_samples(draw_whiskers)),
@@ -95,9 +113,4 @@ PICTURES: Final[Mapping[str, Picture]] = {
     "worst": Picture(_worst),
     "motion": Picture(_of_run(draw_motion)),
 }
-"""By the names that ``drycut draw --picture`` takes, in the order of the report."""
-
-
-def label(name: str, subject: Subject, language: Language) -> str:
-    """What a picture is, for those who cannot see it."""
-    return f"{subject.title}: {Words(language)(f'common.picture_{name}')}"
+"""By the names that ``drycut draw --picture`` takes, in the order of the report; all but ``path`` need a run."""

@@ -4,9 +4,10 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from parser.findings.catalogue import LANGUAGES, Language
-from sim.run.recording import Recording
 from sim.show.draw.sheet import drawing
-from sim.show.pictures.gallery import PICTURES, Subject, label, subject_of
+from sim.show.pictures.gallery import PICTURES, Subject
+from sim.show.pictures.path import PATH
+from sim.show.pictures.shown import label
 from sim.table.motion import Progress
 
 WIDTH_PX = 1600
@@ -19,18 +20,18 @@ class Inline(NamedTuple):
     svg: Mapping[Language, str]
 
 
-def inline_pictures(recording: Recording, progress: Progress) -> list[Inline]:
-    """All pictures that there are of a run."""
-    subject = subject_of(recording)
+def inline_pictures(subject: Subject, progress: Progress) -> list[Inline]:
+    """All pictures that there are of what a run did."""
+    names = [name for name in PICTURES if name != PATH]  # the cut shows it, and more
     found: list[Inline] = []
-    for done, name in enumerate(PICTURES):
-        progress("pictures", done, len(PICTURES))
+    for done, name in enumerate(names):
+        progress("pictures", done, len(names))
         found.append(_inline(name, subject))
     return [picture for picture in found if picture.svg]
 
 
 def _inline(name: str, subject: Subject) -> Inline:
     """A picture in both languages; in none where the run has nothing to show there."""
-    drawn = {one: PICTURES[name].draw(drawing(WIDTH_PX, language=one), subject) for one in LANGUAGES}
-    svg = {one: svg.fragment(label(name, subject, one)) for one, svg in drawn.items() if svg is not None}
+    drawn = {one: subject.draw(name, drawing(WIDTH_PX, language=one)) for one in LANGUAGES}
+    svg = {one: svg.fragment(label(name, subject.title, one)) for one, svg in drawn.items() if svg is not None}
     return Inline(name, svg)

@@ -7,7 +7,7 @@ from parser import __version__
 from parser.program import Program
 from parser.text.encoding import printable
 from sim.run.course import course_of, passes_of
-from sim.run.dryrun import verdict
+from sim.run.findings import verdict
 from sim.run.recording import Recording
 from sim.show.draw.tones import tones_of
 from sim.show.html.environment import rendered
@@ -23,7 +23,7 @@ from sim.show.replay.happenings import (
 from sim.show.replay.questions import question_entries
 from sim.show.replay.scene import piece_entry, scene
 from sim.show.replay.tape import tape
-from sim.table.motion import origin_um
+from sim.table.trace import origin_um
 
 SCHEMA = "drycut.replay/1"
 

@@ -8,7 +8,8 @@ from parser.findings.catalogue import LANGUAGES, Said, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.units import mm
-from sim.run.dryrun import DryRun, verdict
+from sim.run.dryrun import DryRun
+from sim.run.findings import verdict
 from sim.show.report_page.tables import reached
 from sim.show.words import said
 from sim.show.words.phrases import catalogued, lasting, listed, numbered, same

@@ -34,8 +34,10 @@ from sim.show.words import said
 _ASSETS: Final = Path(__file__).with_name("assets")
 
 
-def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inline]) -> str:
+def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inline], *, has_trace: bool = False) -> str:
     """``report.html`` of a run; `report` is its ``report.json``, whose figures the page shows.
+
+    With `has_trace` a ``trace.npz`` stands beside it.
 
     Everything that comes from a program, a file name or a scenario stands escaped. The same run gives the same bytes.
     """
@@ -60,6 +62,7 @@ def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inlin
         tables={table.name: table for table in tables},
         tables_data=[table.data() for table in tables],
         groups=setting_groups(run.scenario, run.program),
+        has_trace=has_trace,
         machine=report["machine"]["name"],
         reproduction=reproduction(run),
         dark_pictures=_recoloured(DARK),

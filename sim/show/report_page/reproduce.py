@@ -1,18 +1,14 @@
 """What it takes to run the same again: versions, the program's check sum, and the files beside it."""
 
 import hashlib
-import platform
-from importlib import metadata
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
-from parser import __version__
 from parser.text.encoding import encode_text
 from sim.run.dryrun import DryRun
+from sim.run.versions import versions
 from sim.setup.machine.machine import machine_sections
 from sim.setup.scenario import MACHINE_FILE, scenario_sections
 from sim.setup.toml.writer import toml_text
-
-_PACKAGES: Final = ("numpy", "shapely", "pymunk", "ezdxf", "pygame-ce", "pillow", "jinja2", "click", "rich")
 
 
 class Reproduction(NamedTuple):
@@ -49,9 +45,5 @@ def reproduction(run: DryRun) -> Reproduction:
             ("scenario.toml", toml_text(scenario_sections(scenario))),
             (MACHINE_FILE, toml_text(machine_sections(scenario.machine))),
         ),
-        versions=(
-            ("drycut", __version__),
-            ("Python", platform.python_version()),
-            *((name, metadata.version(name)) for name in _PACKAGES),
-        ),
+        versions=versions(),
     )

@@ -5,7 +5,8 @@ from pathlib import Path
 
 from parser.units import mm
 from sim.measure.deviation.deviation import Where
-from sim.run.dryrun import DryRun, verdict
+from sim.run.dryrun import DryRun
+from sim.run.findings import verdict
 from sim.setup.key_words import value_word
 from sim.show.assumptions import taken_for_granted
 from sim.show.terminal.colours import COLOURS, painted, styled

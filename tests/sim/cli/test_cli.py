@@ -1,4 +1,4 @@
-"""The command line as a user meets it: in a process of its own, with good and with bad input."""
+"""The command line as a user meets it, with good and with bad input; in a process of its own where that matters."""
 
 import json
 import os
@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from click import Context
 from click.testing import CliRunner
-from command import run_command
+from command import run_command, run_inside, without_progress
 from places import ROOT, SCENARIOS
 
 from sim import __version__
@@ -20,7 +20,7 @@ SOUND = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 DD"
 
 
 def drycut(*args: str | Path, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    done = run_command(*args, cwd=cwd)
+    done = run_inside(*args, cwd=cwd)
     return subprocess.CompletedProcess(done.args, done.returncode, done.stdout.decode(), done.stderr.decode())
 
 
@@ -39,10 +39,11 @@ def short(tmp_path: Path) -> Path:
     return path
 
 
-@pytest.mark.alone  # progress is told after a second
 def test_a_sound_program_passes_and_prints_its_figures(part: Path) -> None:
+    process = run_command("run", part)
+    assert (process.returncode, without_progress(process.stderr)) == (0, b"")
     done = drycut("run", part)
-    assert (done.returncode, done.stderr) == (0, "")
+    assert (done.returncode, done.stdout) == (0, process.stdout.decode())
     for figure in (
         "零件.3b",
         "82.004 mm",
@@ -55,38 +56,51 @@ def test_a_sound_program_passes_and_prints_its_figures(part: Path) -> None:
         assert figure in done.stdout
 
 
-def test_output_goes_where_it_is_sent(part: Path, tmp_path: Path) -> None:
-    done = drycut("run", part, "-o", tmp_path / "a" / "b")
+def test_output_goes_where_it_is_sent(short: Path, tmp_path: Path) -> None:
+    done = drycut("run", short, "-o", tmp_path / "a" / "b")
     assert done.returncode == 0
-    written = ["report.html", "replay.html", "cut.png", "report.json", "trace.npz"]
+    written = ["report.html", "replay.html", "cut.png", "report.json"]
     assert sorted(path.name for path in (tmp_path / "a" / "b").iterdir()) == sorted(written)
     assert done.stdout.splitlines()[-1] == f"written: {tmp_path / 'a' / 'b'}/ {', '.join(written)}"
+    again = drycut("run", short, "-o", tmp_path / "a" / "b", "--trace")
+    written.append("trace.npz")
+    assert sorted(path.name for path in (tmp_path / "a" / "b").iterdir()) == sorted(written)
+    assert again.stdout.splitlines()[-1] == f"written: {tmp_path / 'a' / 'b'}/ {', '.join(written)}"
 
 
-def test_without_output_no_file_is_written(part: Path, tmp_path: Path) -> None:
-    drycut("run", part.name, cwd=tmp_path)
-    assert list(tmp_path.iterdir()) == [part]
+def test_a_trace_needs_a_folder_and_one_program(short: Path, tmp_path: Path) -> None:
+    for arguments, message in (((short,), "--trace needs -o DIR"), ((short, short, "-o", "out"), "for one program")):
+        done = drycut("run", *arguments, "--trace", cwd=tmp_path)
+        assert (done.returncode, done.stdout) == (2, "")
+        assert message in done.stderr
+        assert not (tmp_path / "out").exists()
+
+
+def test_without_output_no_file_is_written(short: Path, tmp_path: Path) -> None:
+    drycut("run", short.name, cwd=tmp_path)
+    assert list(tmp_path.iterdir()) == [short]
 
 
 def test_a_scenario_folder_runs(tmp_path: Path) -> None:
-    done = drycut("run", SCENARIOS / "keyhole")
+    done = drycut("run", SCENARIOS / "punch")
     assert done.returncode == 0
-    assert "0.28 µm exact, 2.24 µm stepped" in done.stdout
-    assert drycut("run", ".", cwd=SCENARIOS / "keyhole").returncode == 0
+    for figure in ("Punch: a plate of 12 × 8 mm with a slot", "0.1 mm to the right", "off drawing.dxf"):
+        assert figure in done.stdout
+    assert drycut("run", ".", cwd=SCENARIOS / "punch").stdout == done.stdout
 
 
-def test_json_is_the_report(part: Path, tmp_path: Path) -> None:
-    done = drycut("run", part, "--json", "-o", tmp_path / "out")
+def test_json_is_the_report(short: Path, tmp_path: Path) -> None:
+    done = drycut("run", short, "--json", "-o", tmp_path / "out")
     assert done.stdout == (tmp_path / "out" / "report.json").read_text("utf-8")
     assert json.loads(done.stdout)["schema"] == "drycut.report/1"
 
 
-def test_options_take_the_place_of_the_scenario(part: Path, tmp_path: Path) -> None:
+def test_options_take_the_place_of_the_scenario(short: Path, tmp_path: Path) -> None:
     shipped = (resources.files("sim.setup.machine") / "dk7740.toml").read_text("utf-8")
     machine = tmp_path / "mine.toml"
     machine.write_text(shipped.replace("DK7740 class, stepper drives", "mine"), "utf-8")
     done = drycut(
-        *("run", part, "--json", "--machine", machine, "--thickness", "60mm"),
+        *("run", short, "--json", "--machine", machine, "--thickness", "60mm"),
         *("--wire-diameter", "0.12mm", "--gap", "15um", "--wire-lag", "20um"),
     )
     report = json.loads(done.stdout)
@@ -152,14 +166,14 @@ def test_bad_programs_exit_2_with_one_clear_error(tmp_path: Path, make: object, 
         (["-o", __file__], "is a file; a folder of this name is to be written into"),
     ],
 )
-def test_bad_options_exit_2_with_one_clear_line(part: Path, args: list[str], message: str) -> None:
-    done = drycut("run", part, *args)
+def test_bad_options_exit_2_with_one_clear_line(short: Path, args: list[str], message: str) -> None:
+    done = drycut("run", short, *args)
     assert (done.returncode, done.stdout) == (2, "")
     assert message in done.stderr
     assert len(done.stderr.splitlines()) == 1
 
 
-def test_bad_machine_files_are_named(part: Path, tmp_path: Path) -> None:
+def test_bad_machine_files_are_named(short: Path, tmp_path: Path) -> None:
     shipped = (resources.files("sim.setup.machine") / "dk7740.toml").read_text("utf-8")
     for text, message in (
         (
@@ -169,13 +183,12 @@ def test_bad_machine_files_are_named(part: Path, tmp_path: Path) -> None:
         (shipped.replace("= 140.0", "= -140.0"), "carriage_mass_kg is -140"),
     ):
         (tmp_path / "m.toml").write_text(text, "utf-8")
-        done = drycut("run", part, "--machine", tmp_path / "m.toml", "-o", tmp_path / "out")
+        done = drycut("run", short, "--machine", tmp_path / "m.toml", "-o", tmp_path / "out")
         assert done.returncode == 2
         assert message in done.stderr
         assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.alone  # progress is told after a second
 @pytest.mark.parametrize("encoding", ["gbk", "ascii", "cp1252"])
 def test_any_encoding_of_the_output_will_do(short: Path, encoding: str) -> None:
     done = subprocess.run(
@@ -184,7 +197,7 @@ def test_any_encoding_of_the_output_will_do(short: Path, encoding: str) -> None:
         check=False,
         env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"},
     )
-    assert (done.returncode, done.stderr) == (0, b"")
+    assert (done.returncode, without_progress(done.stderr)) == (0, b"")
     assert "0.00 um exact" in done.stdout.decode(encoding).replace("µ", "u")
 
 
@@ -195,11 +208,11 @@ def test_output_that_cannot_be_written_is_one_clear_line(short: Path) -> None:
             [sys.executable, "-m", "sim.cli", "run", str(short)],
             stdout=full,
             stderr=subprocess.PIPE,
-            encoding="utf-8",
             check=False,
             env={**os.environ, "PYTHONPATH": str(ROOT)},
         )
-    assert (done.returncode, done.stderr) == (2, "drycut: error: output: No space left on device\n")
+    told = without_progress(done.stderr)
+    assert (done.returncode, told) == (2, b"drycut: error: output: No space left on device\n")
 
 
 def test_names_are_shown_as_they_can_be(tmp_path: Path) -> None:
@@ -208,14 +221,13 @@ def test_names_are_shown_as_they_can_be(tmp_path: Path) -> None:
         assert (done.returncode, len(done.stderr.splitlines())) == (2, 1)
         assert done.stderr.startswith("drycut: error: ")
     path = tmp_path / "[red]\x1b[31m.3b"
-    path.write_text(SOUND, "utf-8")
+    path.write_text("B500B0B500GXL1 DD", "utf-8")
     assert "[red]\ufffd[31m.3b" in drycut("run", path).stdout
 
 
-def test_long_work_shows_its_progress_on_stderr(tmp_path: Path) -> None:
-    path = tmp_path / "long.3b"
-    path.write_text("B100B100B10000GXNR1" * 150 + "DD", "utf-8")
-    done = drycut("run", path)
+def test_long_work_shows_its_progress_on_stderr(short: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sim.cli.progress._QUIET_S", 0.0)  # as if any work were long
+    done = drycut("run", short)
     assert "drycut: " in done.stderr
     assert "%" in done.stderr
     assert "drycut: " not in done.stdout
@@ -252,9 +264,9 @@ def test_run_prints_the_hints_that_check_prints(short: Path) -> None:
     assert hints[0] == hints[1] == {"= hint:     write L4"}
 
 
-def test_run_without_output_needs_no_pictures(part: Path) -> None:
+def test_run_without_output_needs_no_pictures(short: Path) -> None:
     code = (
-        f"import sys; from sim.cli import cli; cli.main(['run', {str(part)!r}], standalone_mode=False);"
+        f"import sys; from sim.cli import cli; cli.main(['run', {str(short)!r}], standalone_mode=False);"
         "print('drawn' if {'pygame', 'PIL'} & set(sys.modules) else 'not drawn')"
     )
     done = subprocess.run(
@@ -271,13 +283,13 @@ def test_run_without_output_needs_no_pictures(part: Path) -> None:
 def test_the_card_log_of_a_run_replays_and_takes_no_other_files_place(tmp_path: Path) -> None:
     part, log = tmp_path / "part.3b", tmp_path / "logs" / "part.log"
     part.write_text("B500B0B500GXL1 B500B0B2000GYNR1 B500B0B500GXL3 DD")
-    assert run_command("run", part, "--interpolator", "card", "--card-log", log).returncode == 0
-    replayed = run_command("card", "replay", log)
+    assert run_inside("run", part, "--interpolator", "card", "--card-log", log).returncode == 0
+    replayed = run_inside("card", "replay", log)
     assert (replayed.returncode, replayed.stderr) == (0, b"")
     assert b": equal: " in replayed.stdout
     for other, output in ((part, None), (tmp_path / "out" / "cut.png", tmp_path / "out"), (Path("/dev/full"), None)):
         before = part.read_bytes()
-        done = run_command("run", part, "--card-log", other, *(["-o", output] if output else []))
+        done = run_inside("run", part, "--card-log", other, *(["-o", output] if output else []))
         assert done.returncode == 2
         assert done.stderr.startswith(b"drycut: error: ")
         assert part.read_bytes() == before
@@ -287,7 +299,7 @@ def test_the_card_log_of_a_run_replays_and_takes_no_other_files_place(tmp_path: 
 def test_a_refused_run_leaves_no_card_log(tmp_path: Path) -> None:
     part = tmp_path / "part.3b"
     part.write_text("B0B0B1000000000000GXL1")
-    assert run_command("run", part, "--card-log", tmp_path / "new" / "part.log").returncode == 2
+    assert run_inside("run", part, "--card-log", tmp_path / "new" / "part.log").returncode == 2
     assert sorted(path.name for path in tmp_path.iterdir()) == ["part.3b"]
 
 
@@ -295,11 +307,11 @@ def test_a_scenario_run_by_another_interpolator_is_held_to_all_but_its_steps(tmp
     expected = '"summary.steps" = 7\n"contours.0.closure_stepped_um" = 7.0\n"summary.blocks" = 3\n'
     (tmp_path / "program.3b").write_text("B500B0B500GXL1 B500B0B2000GYNR1 B500B0B500GXL3 DD")
     (tmp_path / "scenario.toml").write_text(f"[expect]\n{expected}", "utf-8")
-    done = run_command("run", tmp_path, "--interpolator", "card")
+    done = run_inside("run", tmp_path, "--interpolator", "card")
     assert done.returncode == 0
     assert b"another interpolator steps: summary.steps, contours.0.closure_stepped_um" in done.stderr
     (tmp_path / "scenario.toml").write_text('[expect]\n"summary.blocks" = 4\n', "utf-8")
-    assert run_command("run", tmp_path, "--interpolator", "card").returncode == 1
+    assert run_inside("run", tmp_path, "--interpolator", "card").returncode == 1
     (tmp_path / "scenario.toml").write_text(f"[expect]\n{expected}", "utf-8")
-    own = run_command("run", tmp_path, "--interpolator", "point-by-point")
+    own = run_inside("run", tmp_path, "--interpolator", "point-by-point")
     assert (own.returncode, b"[expect]" in own.stderr) == (1, False)

@@ -119,7 +119,7 @@ def test_options_of_a_run_hold(part: Path, tmp_path: Path) -> None:
     told = {}
     for name, options in {"plain": (), "thick": ("--thickness", "60mm"), "offset": ("--offset", "0.1mm")}.items():
         side = ("--side", "right") if name == "offset" else ()
-        done = run_inside("draw", part, "-o", tmp_path / f"{name}.svg", *options, *side, *SMALL)
+        done = run_inside("draw", part, "-o", tmp_path / f"{name}.svg", "--picture", "cut", *options, *side, *SMALL)
         assert done.returncode in (0, 1), said(done)
         told[name] = texts_of(tmp_path / f"{name}.svg")
     assert len(set(told.values())) == 3
@@ -148,7 +148,7 @@ def test_a_program_in_a_scenario_folder_is_drawn_under_its_title(part: Path, tmp
     [
         ((), "Missing option '-o'"),
         (("-o", "cut.jpg"), "cut.jpg is neither a folder nor a .png or .svg"),
-        (("-o", "cut.png", "--picture", "pie"), "'pie' is none of cut, along, whiskers"),
+        (("-o", "cut.png", "--picture", "pie"), "'pie' is none of path, cut, along"),
         (("-o", "cut.png", "--picture", "cut", "--picture", "along"), "give a folder"),
         (("-o", "cut.png", "--svg"), "--svg is for folders"),
         (("-o", "cut.png", "--size", "0"), "nor a width of 160 to 10000 px"),

@@ -11,6 +11,7 @@ from sim.check.batch import check_file
 from sim.check.parallel import check_files
 from sim.check.result import CheckResult, Silenced
 from sim.cli.check.jobs import Asked, jobs_of
+from sim.workers.processes import Processes
 
 NOTHING = Asked(*[None] * 6, (), None, no_config=False, baseline=None, write_baseline=None)
 
@@ -197,7 +198,7 @@ def test_files_are_silenced_alike_on_all_cores(shop: Path, monkeypatch: pytest.M
     monkeypatch.chdir(shop)
     jobs = jobs_of(["."], NOTHING._replace(baseline=Path("known.json"), fail_on="warning"))
     told: list[tuple[int, int]] = []
-    results = list(check_files(jobs, lambda done, total: told.append((done, total))))
+    results = list(check_files(jobs, Processes(), lambda done, total: told.append((done, total))))
     assert [result.silenced for result in results] == [
         Silenced(remarks=1),
         Silenced(baseline=1),

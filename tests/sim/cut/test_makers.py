@@ -9,7 +9,8 @@ from paths import Pen
 from traced import STEEL, F, kerf_along, square
 
 from parser.toolpath import Point, Toolpath
-from sim.cut.kerf.makers import NOBODY, rows_that_made
+from sim.cut.kerf.last_beside import NOBODY, last_beside
+from sim.cut.kerf.makers import rows_that_made
 from sim.cut.kerf.region import Kerf
 from sim.cut.pieces.pieces import pieces_of
 
@@ -79,3 +80,14 @@ def test_of_any_edge_the_nearest_row_tells(sagging):
 def test_nothing_cut_made_nothing():
     assert rows_that_made([], np.zeros((2, 2)), F).tolist() == [NOBODY, NOBODY]
     assert rows_that_made([], np.zeros((0, 2)), F).tolist() == []
+
+
+def test_the_last_place_beside_one_is_that_of_all_pairs() -> None:
+    rng = np.random.default_rng(23)
+    wire = np.concatenate([np.cumsum(rng.normal(0.0, 3.0, (400, 2)), axis=0)] * 2)
+    place = wire[:200] + rng.normal(0.0, 60.0, (200, 2))
+    apart = np.hypot(*(place[:, None] - wire).T).T
+    beside = apart <= apart.min(axis=1, keepdims=True) + 0.5
+    last = np.where(apart.min(axis=1) < 40.0, len(wire) - 1 - np.argmax(beside[:, ::-1], axis=1), NOBODY)
+    assert 20 < (last == NOBODY).sum() < 180
+    assert last_beside(wire, place, 40.0, 0.5).tolist() == last.tolist()

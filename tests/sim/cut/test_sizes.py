@@ -7,8 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from paths import Pen
-from places import SCENARIOS
-from runs import run_folder
+from runs import scenario_run
 from traced import STEEL, F, exactly, kerf_along, square, trace_of
 
 from parser.toolpath import Toolpath
@@ -148,7 +147,7 @@ def test_circles_are_found_from_places_on_parts_of_them():
 
 
 def test_the_play_of_a_table_shows_in_the_size_of_its_square():
-    run = run_folder(SCENARIOS / "backlash")
+    run = scenario_run("backlash")
     kerf = kerf_of(run.toolpath, run.trace, run.contours, run.scenario.wire.reach_um)
     found = sizes_of(run.toolpath, kerf, pieces_of(kerf, None, STEEL), None)
     # The first side is cut on its line, the three others 5.13 to 5.16 µm off theirs: the part is small by that.

@@ -9,14 +9,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from paths import Pen
 from places import SCENARIOS
-from runs import machine, plain_scenario, run_folder, run_text
+from plain_deviation import plain_deviation
+from runs import machine, plain_scenario, run_text, scenario_run
 
 from controller.motion.plan import Plan
 from parser.program import read_program
 from parser.toolpath import Toolpath
 from sim.measure.deviation.across import across_um, summed
 from sim.measure.deviation.causes import NOTHING, Stage, added, cut_off
-from sim.measure.deviation.deviation import DeviationMeter, distance
+from sim.measure.deviation.deviation import DeviationMeter
 from sim.measure.deviation.measured import Deviations
 from sim.run.dryrun import DryRun, dry_run
 from sim.setup.machine.controller_model import read_controller
@@ -178,7 +179,7 @@ def chords_away(path: Toolpath, plan: Plan, period: float) -> float:
     for row in range(len(path)):
         rows = np.full(points.shape[1], row)
         for k, on_chords in enumerate(points):
-            away[k] = np.minimum(away[k], distance(path, rows, on_chords[:, 0].copy(), on_chords[:, 1].copy()))
+            away[k] = np.minimum(away[k], plain_deviation(path, rows, on_chords[:, 0].copy(), on_chords[:, 1].copy()))
     return float(away.max())
 
 
@@ -258,7 +259,7 @@ def test_the_wire_adds_its_lag_squared_over_the_diameter_on_a_circle() -> None:
 
 
 def test_without_lag_the_wire_is_the_table() -> None:
-    run = run_folder(SCENARIOS / "round-hole")
+    run = scenario_run("round-hole")
     assert run.deviations.wire is run.deviations.table
     assert run.trace.wire_um is run.trace.table_um
 

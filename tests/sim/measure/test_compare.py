@@ -72,6 +72,23 @@ def test_the_nearest_curve_is_that_of_all_pairs(seed: int) -> None:
         assert near == np.flatnonzero(exact <= exact.min())[0]
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_the_nearest_of_many_scattered_lines_and_arcs_is_that_of_all_pairs(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    start, center = np.round(rng.normal(0.0, 9000.0, (300, 2))), rng.normal(0.0, 9000.0, (300, 2))
+    sweep = np.where(rng.random(300) < 0.5, 0.0, rng.uniform(-7.0, 7.0, 300))
+    cos, sin, (x, y) = np.cos(sweep), np.sin(sweep), (start - center).T
+    turned = center + np.stack([cos * x - sin * y, sin * x + cos * y], axis=1)
+    end = np.where(sweep[:, None] == 0.0, np.roll(start, -1, axis=0), turned)
+    of, row = curves_between(start, end, center, sweep), np.arange(300)
+    place = np.concatenate([rng.normal(0.0, 20_000.0, (40, 2)), start[:20], center[:20]])
+    found = nearest(indexed(of), place)
+    for at, distance, near in zip(place, found.distance_um, found.row, strict=True):
+        exact, _ = distance_to_curves(of, row, np.full(len(of), at[0]), np.full(len(of), at[1]))
+        assert distance == pytest.approx(exact.min(), abs=1e-9)
+        assert near == np.flatnonzero(exact <= exact.min())[0]
+
+
 @settings(max_examples=8)
 @given(st.integers(0, 10**6), st.floats(-30.0, 30.0), st.floats(-30.0, 30.0), st.floats(-0.003, 0.003))
 def test_the_largest_distance_is_right_to_a_hundredth_of_a_micrometre(

@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from plain_deviation import plain_deviation
 from strategies import program_text, programs
 
 from parser.geometry.curves import CurveKind
 from parser.program import parse_program
 from parser.toolpath import Block, Toolpath
-from sim.measure.deviation.deviation import DeviationMeter, distance
+from sim.measure.deviation.away import away_from_path, blocks_of
+from sim.measure.deviation.deviation import DeviationMeter
 
 SPOTS = 4001
 
@@ -37,7 +39,7 @@ def test_distance_lies_between_nearest_neighbour_and_own_block(program: list, da
     row = data.draw(st.integers(0, len(toolpath) - 1))
     x, y = data.draw(st.floats(-600, 600)), data.draw(st.floats(-600, 600))
     x, y = x + toolpath.start_um[row, 0], y + toolpath.start_um[row, 1]
-    found = float(distance(toolpath, np.array([row]), np.array([x]), np.array([y]))[0])
+    found = away_from_path(blocks_of(toolpath), row, x, y)
     spacing = float(toolpath.length_um.max()) / SPOTS
     assert found >= nearest(toolpath, {row - 1, row, row + 1}, (x, y)) - spacing
     assert found <= nearest(toolpath, {row}, (x, y)) + 1e-6
@@ -62,8 +64,7 @@ HALF = parse_program("B0B50B100GXSR1 DD").toolpath  # from (0, 50) of its centre
     ],
 )
 def test_distance_in_plain_cases(toolpath: Toolpath, row: int, place: tuple[float, float], expected: float) -> None:
-    found = distance(toolpath, np.array([row]), np.array([place[0]]), np.array([place[1]]))
-    assert found[0] == pytest.approx(expected)
+    assert away_from_path(blocks_of(toolpath), row, *place) == pytest.approx(expected)
 
 
 @settings(max_examples=50)
@@ -94,5 +95,32 @@ def test_past_the_end_of_an_arc_the_next_block_counts() -> None:
     # A quarter turn from (0, 0) to (100, 100), then straight up.
     toolpath = parse_program("B0B100B100GYNR4 B0B50B50GYL2 DD").toolpath
     assert toolpath.end_um[0] == pytest.approx([100.0, 100.0])
-    found = distance(toolpath, np.array([0, 1]), np.array([103.0, 98.0]), np.array([120.0, 99.0]))
-    assert found == pytest.approx([3.0, abs(math.hypot(98.0, 1.0) - 100.0)])
+    blocks = blocks_of(toolpath)
+    assert away_from_path(blocks, 0, 103.0, 120.0) == pytest.approx(3.0)
+    assert away_from_path(blocks, 1, 98.0, 99.0) == pytest.approx(abs(math.hypot(98.0, 1.0) - 100.0))
+
+
+@settings(max_examples=60)
+@given(programs, st.integers(0, 2**32 - 1))
+def test_the_meter_measures_as_whole_arrays_do(program: list, seed: int) -> None:
+    toolpath = parse_program(program_text(program)).toolpath
+    rng = np.random.default_rng(seed)
+    row = np.sort(rng.integers(0, len(toolpath), 40))
+    near = toolpath.start_um[row] + rng.normal(0.0, 30.0, (40, 2))
+    drift = rng.uniform(-1.0, 1.0, (len(toolpath), 2))
+    meter, back = DeviationMeter(toolpath, drift), near - drift[row]
+    meter.add(row, near[:, 0], near[:, 1], np.arange(40.0))
+    found, wanted = meter.result(), plain_deviation(toolpath, row, *back.T)
+    by_row = [wanted[row == own].max() if own in row else math.nan for own in range(len(toolpath))]
+    assert found.by_row_um == pytest.approx(by_row, abs=1e-9, nan_ok=True)  # µm
+    assert found.rms_um == pytest.approx(math.sqrt(np.mean(wanted**2)), abs=1e-9)
+    assert found.where is not None
+    assert np.hypot(*(back - (found.where.x_um, found.where.y_um)).T).min() < 1e-9
+
+
+def test_of_positions_at_the_same_time_the_last_counts() -> None:
+    meter = DeviationMeter(CORNER)
+    row, x, t_s = np.zeros(3, dtype=np.int32), np.array([10, 11, 11], dtype=np.int32), np.array([0.0, 1.0, 1.0])
+    meter.add(row, x, np.array([0, -5, -1], dtype=np.int32), t_s)
+    assert meter.result().max_um == 1.0
+    assert meter.result().rms_um == pytest.approx(math.sqrt(0.5))

@@ -1,4 +1,4 @@
-"""The work of a comparison is counted before it is done, and ends in one line where it is too much."""
+"""The work of a comparison is counted while it is done, and ends in one line where it is too much."""
 
 from pathlib import Path
 
@@ -8,37 +8,53 @@ from command import run_inside
 from places import ROOT
 
 from parser.findings.errors import DrawingError
-from sim.measure.compare import effort
-from sim.measure.compare.effort import Effort
+from parser.geometry.curves import Curves, curves_between
+from sim.measure.compare import nearest as near
+from sim.measure.compare.directed import directed
+from sim.measure.compare.nearest import indexed, nearest
+from sim.measure.compare.placement import Placement, placed
 
 
-def test_no_chord_within_reach_of_a_place_goes_uncounted() -> None:
-    rng = np.random.default_rng(17)
-    middle = rng.normal(0.0, 3000.0, (5000, 2))
-    place, within = rng.normal(0.0, 9000.0, (300, 2)), 10.0 ** rng.uniform(0.0, 4.0, 300)
-    counted = Effort(middle).spend(place, within)
-    near = (np.abs(place[:, None] - middle) <= within[:, None, None]).all(axis=2).sum(axis=1)
-    assert (counted >= near).all()
-    assert counted.sum() < 2 * near.sum()
+def test_a_crowd_at_one_distance_is_counted_and_what_lies_apart_is_not() -> None:
+    number = np.arange(1000)
+    turn = 2.0 * np.pi * number / len(number)
+    around = 1000.0 * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    spokes = indexed(curves_between(around, 2.0 * around, np.full_like(around, np.nan), np.zeros(len(number))))
+    nearest(spokes, np.zeros((7, 2)))
+    assert spokes.effort.held >= 7 * 900  # from their middle all are equally far
+    apart = indexed(_row_of_lines(1000))
+    nearest(apart, np.column_stack([number + 0.3, np.ones(len(number))]))
+    assert apart.effort.held < 10 * len(number)
 
 
-def test_chords_in_one_place_or_on_one_line_are_counted() -> None:
-    assert Effort(np.zeros((7, 2))).spend(np.zeros((2, 2)), np.array([0.0, 1.0])).tolist() == [7, 7]
-    on_line = np.column_stack([np.arange(100.0), np.zeros(100)])
-    assert Effort(on_line).spend(np.array([[50.0, 1e9]]), np.array([2e9])).tolist() == [100]
+def test_more_than_a_comparison_may_take_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(near, "MOST_HELD", 100)
+    lines, places = indexed(_row_of_lines(1000)), np.tile([[0.3, 1.0], [900.0, 1.0]], (20, 1))
+    nearest(lines, places[:2])
+    with pytest.raises(DrawingError, match="cannot be compared: more than 100 pairs"):
+        nearest(lines, places)
 
 
-def test_more_than_a_comparison_may_take_is_refused() -> None:
-    crowd = Effort(np.zeros((100_000, 2)))
-    one = np.zeros((1, 2)), np.zeros(1)
-    for _ in range(effort.MOST_HELD // 100_000):
-        crowd.spend(*one)
-    with pytest.raises(DrawingError, match="cannot be compared: more than 300,000,000 pairs"):
-        crowd.spend(*one)
+def test_ten_times_as_many_curves_are_ten_times_the_work() -> None:
+    held = []
+    for number in (600, 6000):
+        turn = np.arange(number) * (2.0 * np.pi / number)
+        corner = (50_000.0 + 2000.0 * np.sin(40.0 * turn))[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        none = np.full_like(corner, np.nan)
+        ring = curves_between(corner, np.roll(corner, -1, axis=0), none, np.zeros(number))
+        index = indexed(ring)
+        directed(placed(ring, Placement(0.0, (3.0, 2.0), mirror=False)), index)
+        held.append(index.effort.held)
+    assert held[1] < 12 * held[0]
+
+
+def _row_of_lines(number: int) -> Curves:
+    start = np.column_stack([np.arange(float(number)), np.zeros(number)])
+    return curves_between(start, start + np.array([0.5, 0.0]), np.full_like(start, np.nan), np.zeros(number))
 
 
 def test_the_commands_say_so_and_end_with_2(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(effort, "MOST_HELD", 1000)
+    monkeypatch.setattr(near, "MOST_HELD", 1000)
     done = run_inside("compare", ROOT / "scenarios" / "punch")
     assert (done.returncode, done.stdout) == (2, b"")
     assert b"drycut: error: drawing.dxf: cannot be compared: more than 1,000 pairs" in done.stderr

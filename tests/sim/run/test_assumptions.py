@@ -4,8 +4,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from places import MACHINES, SCENARIOS
-from runs import run_folder, run_text
+from places import MACHINES
+from runs import run_text, scenario_run
 
 from parser.findings.errors import SettingsError
 from parser.program import read_program
@@ -56,7 +56,7 @@ def test_a_machine_that_is_named_is_no_default(program: Path, tmp_path: Path) ->
 
 
 def test_what_was_looked_at_is_not_among_what_was_not() -> None:
-    punch = run_folder(SCENARIOS / "punch")
+    punch = scenario_run("punch")
     assert assumptions_of(punch).compared
     assert not any("drawing" in sentence.en for sentence in taken_for_granted(punch))
     bowed = run_text(LINE, wire=replace(DEFAULT_WIRE, lag=20.0), may_stay_open=True)

@@ -5,17 +5,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from places import SCENARIOS
-from runs import plain_scenario
+from runs import plain_scenario, scenario_recording
 
 from parser.findings.findings import Finding
-from parser.program import parse_program, read_program
+from parser.program import parse_program
 from parser.toolpath import Stop
 from sim.cut.pieces.pieces import Piece
 from sim.measure.deviation.across import across_um
 from sim.run.course import Course, course_of
 from sim.run.recording import recorded
-from sim.setup.scenario import load_scenario
 from sim.table.motion import silent
 from sim.table.record.losses import Loss
 
@@ -34,9 +32,7 @@ DD
 
 
 def course_of_scenario(name: str) -> Course:
-    scenario = load_scenario(SCENARIOS / name)
-    with recorded(read_program(scenario.program), scenario, silent) as recording:
-        return course_of(recording)
+    return course_of(scenario_recording(name))
 
 
 def course_of_text(text: str) -> Course:

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from places import SCENARIOS
-from runs import codes, machine, run_folder, run_text
+from runs import codes, machine, run_text, scenario_run
 
 from parser.findings.errors import ProgramError
-from sim.run.dryrun import verdict
+from sim.run.findings import verdict
 from sim.setup.machine.machine import Machine
 
 CIRCLE = "B9900B0B9900GXL1 {arc} B9900B0B9900GXL3 DD"
@@ -83,7 +83,7 @@ def test_the_table_stops_at_its_travel() -> None:
 
 
 def test_table_follows_at_cutting_speed_within_its_play_and_a_step() -> None:
-    run = run_folder(SCENARIOS / "round-hole")
+    run = scenario_run("round-hole")
     table = run.scenario.machine.table
     play = (np.array(table.backlash_um) / 2) + np.array(table.friction_n) / table.drive_stiffness_n_um  # µm
     lag = np.abs(run.trace.table_um - run.trace.commanded_um)
@@ -154,7 +154,7 @@ def test_a_start_node_off_the_grid_keeps_its_place() -> None:
 
 
 def test_what_follows_a_trip_is_not_measured() -> None:
-    run = run_folder(SCENARIOS / "servo-trip")
+    run = scenario_run("servo-trip")
     trip = run.ended
     assert trip is not None
     assert np.isnan(run.deviations.table.by_row_um[trip.row + 1 :]).all()

@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from places import SCENARIOS
-from runs import codes, machine, run_folder, run_text
+from runs import codes, machine, run_text, scenario_run
 
 from controller.card.log.writer import CardLog
 from parser.program import parse_program
@@ -61,7 +60,7 @@ def test_all_totals_are_of_what_ran() -> None:
 
 
 def test_after_a_trip_table_and_picture_give_one_total() -> None:
-    run = run_folder(SCENARIOS / "servo-trip")
+    run = scenario_run("servo-trip")
     report = build_report(run)
     assert run.ended is not None
     assert report["ended"]["cause"] == "trip"

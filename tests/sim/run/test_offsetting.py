@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from paths import Pen
 from places import ROOT, SCENARIOS
-from runs import codes, run_folder, run_text
+from runs import codes, run_text, scenario_run
 
 from controller.offset.path import Made
 from controller.offset.sections import OffsetSection, Side, rounds_of
@@ -133,7 +133,7 @@ def test_travel_is_that_of_the_offset_path() -> None:
 
 
 def test_a_neck_narrower_than_the_kerf_is_named_with_both_walls() -> None:
-    run = run_folder(SCENARIOS / "narrow-neck")
+    run = scenario_run("narrow-neck")
     walls = {(f.block, f.values["other"]): f.values["depth"] for f in run.findings if f.code == "3B503"}
     assert walls[3, 5] == pytest.approx(110.0, abs=0.1)
     assert walls[5, 3] == pytest.approx(110.0, abs=0.1)

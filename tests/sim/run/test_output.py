@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
@@ -16,10 +17,11 @@ from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.program import parse_program
 from sim.files import staged
 from sim.jobs.run_into import run_into
+from sim.jobs.trace_file import read_trace
 from sim.table.motion import silent
 
 TEXT = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 D B3000B0B3000GXL2 D B50B0B50GXL1 DD"
-NAMES = ["cut.png", "replay.html", "report.html", "report.json", "trace.npz"]
+NAMES = ["cut.png", "replay.html", "report.html", "report.json"]
 
 
 def digests(folder: Path) -> dict[str, str]:
@@ -27,7 +29,7 @@ def digests(folder: Path) -> dict[str, str]:
 
 
 def test_trace_holds_every_step_from_the_start(tmp_path: Path) -> None:
-    run = run_into(tmp_path / "out", parse_program(TEXT), plain_scenario(), silent)
+    run = run_into(tmp_path / "out", parse_program(TEXT), plain_scenario(), silent, trace=True)
     trace = np.load(tmp_path / "out" / "trace.npz")
     n = len(run.stepped)
     assert {name: (trace[name].dtype.str, trace[name].shape) for name in trace if name.startswith("step")} == {
@@ -48,9 +50,42 @@ def test_trace_holds_every_step_from_the_start(tmp_path: Path) -> None:
 
 def test_two_runs_give_the_same_bytes(tmp_path: Path) -> None:
     for name in ("a", "b"):
-        run_into(tmp_path / name, parse_program(TEXT), plain_scenario(), silent)
+        run_into(tmp_path / name, parse_program(TEXT), plain_scenario(), silent, trace=True)
     assert digests(tmp_path / "a") == digests(tmp_path / "b")
-    assert sorted(digests(tmp_path / "a")) == NAMES
+    assert sorted(digests(tmp_path / "a")) == [*NAMES, "trace.npz"]
+
+
+def test_no_trace_of_an_earlier_run_stays(tmp_path: Path) -> None:
+    run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent, trace=True)
+    assert "trace.npz" in (tmp_path / "report.html").read_text("utf-8")
+    run_into(tmp_path, parse_program("B10B0B10GXL1"), plain_scenario(), silent)
+    assert sorted(digests(tmp_path)) == NAMES
+    assert "trace.npz" not in (tmp_path / "report.html").read_text("utf-8")
+
+
+def test_a_trace_is_read_as_it_was_written(tmp_path: Path) -> None:
+    run_into(tmp_path, parse_program(TEXT), plain_scenario(), silent, trace=True)
+    arrays, trace = np.load(tmp_path / "trace.npz"), read_trace(tmp_path / "trace.npz")
+    assert {field.name for field in fields(trace)} == set(arrays)
+    for name in arrays:
+        assert getattr(trace, name).dtype == arrays[name].dtype
+        assert np.array_equal(getattr(trace, name), arrays[name])
+
+
+@pytest.mark.parametrize("content", [None, b"", b"PK\x03\x04 half", b"hello", "a folder", "an array", "other arrays"])
+def test_what_is_no_trace_is_told_as_such(tmp_path: Path, content: bytes | str | None) -> None:
+    file = tmp_path / "trace.npz"
+    if content == "a folder":
+        file.mkdir()
+    elif content == "an array":
+        with file.open("wb") as out:
+            np.save(out, np.arange(3))
+    elif content == "other arrays":
+        np.savez(file, x_um=np.arange(3.0))
+    elif isinstance(content, bytes):
+        file.write_bytes(content)
+    with pytest.raises(FileUnreadableError, match=r"trace\.npz"):
+        read_trace(file)
 
 
 def test_a_refused_run_writes_nothing(tmp_path: Path) -> None:
@@ -138,7 +173,7 @@ from runs import plain_scenario, silent
 from parser.program import parse_program
 from sim.jobs.run_into import run_into
 text = "B100B100B10000GXNR1" * 520  # 18 turns each
-run = run_into(Path(sys.argv[1]), parse_program(text), plain_scenario(), silent)
+run = run_into(Path(sys.argv[1]), parse_program(text), plain_scenario(), silent, trace=True)
 print(len(run.stepped), re.search(r"VmHWM:\\s+(\\d+) kB", Path("/proc/self/status").read_text())[1])
 """
 

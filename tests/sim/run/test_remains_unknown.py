@@ -5,7 +5,7 @@ import shapely
 from runs import codes, run_text
 from shapely.errors import GEOSException
 
-from sim.run.dryrun import verdict
+from sim.run.findings import verdict
 from sim.run.recording import NO_PIECES, pieces_of_run
 from sim.run.report import build_report
 

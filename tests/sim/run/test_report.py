@@ -223,7 +223,9 @@ def test_the_summary_leaves_out_what_there_is_not(capsys: pytest.CaptureFixture[
 
 
 def test_trace_file_is_the_trace(tmp_path: Path) -> None:
-    run = run_into(tmp_path, parse_program(TEXT), plain_scenario(wire=replace(DEFAULT_WIRE, lag=10.0)), silent)
+    run = run_into(
+        tmp_path, parse_program(TEXT), plain_scenario(wire=replace(DEFAULT_WIRE, lag=10.0)), silent, trace=True
+    )
     arrays, trace = np.load(tmp_path / "trace.npz"), run.trace
     assert np.array_equal(arrays["t_s"], trace.t_s)
     assert np.array_equal(np.stack([arrays["x_um"], arrays["y_um"]], axis=1), trace.wire_um)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from places import SCENARIOS
-from runs import codes, run_folder
+from runs import codes, run_folder, scenario_run
 
 from parser.findings.catalogue import texts
 from sim.run.findings import expectation_findings
@@ -29,7 +29,7 @@ def times_in(part: object) -> Iterator[float]:
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
 def test_scenario_is_as_it_expects(folder: Path) -> None:
-    run = run_folder(folder)
+    run = scenario_run(folder.name)
     assert [finding for finding in run.findings if finding.code == "3B490"] == []
     report = build_report(run)
     assert max(times_in(report), default=0.0) <= report["time_s"]["total"]
@@ -51,7 +51,7 @@ def test_scenario_says_where_it_comes_from_and_what_it_expects(folder: Path) -> 
     ],
 )
 def test_things_in_the_way_are_met_where_their_edges_stand(name: str, x_mm: float) -> None:
-    (finding,) = run_folder(SCENARIOS / name).findings
+    (finding,) = scenario_run(name).findings
     assert finding.values["x_mm"] == pytest.approx(x_mm, abs=0.0005)
 
 

@@ -12,9 +12,8 @@ import pytest
 import shapely
 from golden_pictures import assert_golden
 from paths import Pen
-from places import SCENARIOS
 from recorder import Recorder, recording_sheet
-from runs import run_folder
+from runs import scenario_run
 from traced import F, kerf_along, pieces_along, square, trace_of
 
 from parser.findings.codes import CODES
@@ -28,7 +27,8 @@ from sim.show.draw.layout import Box, Page
 from sim.show.draw.paints import DARK, Paint
 from sim.show.draw.sheet import drawing, pixels
 from sim.show.pictures.cut.flags import flag_reach, flags_of, places_um
-from sim.show.pictures.cut.picture import draw_cut, draw_cut_of_run, layout_of
+from sim.show.pictures.cut.of_run import draw_cut_of_run
+from sim.show.pictures.cut.picture import draw_cut, layout_of
 from sim.show.pictures.cut.sizes import length_text, sizes_of_cut
 from sim.show.pictures.cut.subject import Cut
 
@@ -388,17 +388,17 @@ def test_a_thumbnail_has_neither_numbers_nor_sizes_nor_legend() -> None:
 
 
 def test_golden_with_clamps_pieces_and_findings() -> None:
-    run = run_folder(SCENARIOS / "clamp-hit")
+    run = scenario_run("clamp-hit")
     assert_golden(draw_cut_of_run(pixels(800), run, pieces_of_run(run)).image(), "cut-findings.png")
 
 
 def test_golden_of_an_offset_run_dark_in_chinese() -> None:
-    run = run_folder(SCENARIOS / "narrow-neck")
+    run = scenario_run("narrow-neck")
     assert_golden(draw_cut_of_run(pixels(800, DARK, "zh"), run, pieces_of_run(run)).image(), "cut-dark-zh.png")
 
 
 def test_golden_thumbnail() -> None:
-    run = run_folder(SCENARIOS / "narrow-neck")
+    run = scenario_run("narrow-neck")
     assert_golden(draw_cut_of_run(pixels(320), run, pieces_of_run(run)).image(), "cut-thumbnail.png")
 
 

@@ -15,17 +15,15 @@ import pytest
 import shapely
 from golden_pictures import assert_golden
 from paths import Pen
-from places import SCENARIOS
 from plain import PlainBlock, plain_steps
+from plain_deviation import plain_deviation
 from recorder import Recorder, recording_sheet
-from runs import plain_scenario, run_text
+from runs import plain_scenario, run_text, scenario_run
 
-from parser.program import parse_program, read_program
-from sim.measure.deviation.deviation import distance
+from parser.program import parse_program
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recorded
 from sim.setup.part import DrawingTarget
-from sim.setup.scenario import load_scenario
 from sim.show.draw.dial import NOMINAL, RING, RINGS
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import DARK, LIGHT, Paint
@@ -69,9 +67,7 @@ def samples(text: str) -> Samples:
 
 @cache
 def of_scenario(name: str) -> Samples:
-    scenario = load_scenario(SCENARIOS / name)
-    with recorded(read_program(scenario.program), scenario, silent) as found:
-        return samples_of(found.run)
+    return samples_of(scenario_run(name))
 
 
 def moved(text: str, place_um: Callable[[np.ndarray], np.ndarray]) -> DryRun:
@@ -124,7 +120,7 @@ def test_lines_are_as_wide_as_the_sheet_asks_for(name: str) -> None:
 def test_deviation_is_as_large_as_the_report_s(text: str) -> None:
     of = samples(text)
     x, y = of.trace.commanded_um.T
-    assert np.abs(of.steps_um) == pytest.approx(distance(of.run.toolpath, of.trace.row, x, y), abs=1e-9)
+    assert np.abs(of.steps_um) == pytest.approx(plain_deviation(of.run.toolpath, of.trace.row, x, y), abs=1e-9)
     assert of.max_um == of.run.deviations.wire.max_um
     assert of.p95_um == of.run.deviations.wire.p95_um
     assert np.abs(of.table_um).max() == of.run.deviations.table.max_um
@@ -168,7 +164,7 @@ def test_feet_lie_on_the_path_as_far_away_as_the_deviation(name: str) -> None:
     toolpath, row = of.run.toolpath, of.trace.row
     foot = of.foot_um
     assert np.hypot(*(of.trace.wire_um - foot).T) == pytest.approx(np.abs(of.wire_um), abs=1e-6)
-    on = np.min([distance(toolpath, np.full(len(row), at), *foot.T) for at in range(len(toolpath))], axis=0)
+    on = np.min([plain_deviation(toolpath, np.full(len(row), at), *foot.T) for at in range(len(toolpath))], axis=0)
     assert on.max() < 1e-6
 
 

@@ -10,15 +10,13 @@ import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
-from places import SCENARIOS
-from runs import plain_scenario
+from runs import plain_scenario, scenario_recording
 
 from parser.findings.errors import SettingsError
-from parser.program import parse_program, read_program
+from parser.program import parse_program
 from sim.run.course import Course, course_of
 from sim.run.recording import recorded
 from sim.run.report import build_report
-from sim.setup.scenario import load_scenario
 from sim.show.draw.layout import Box, View, centred
 from sim.show.draw.paints import LIGHT, Paint
 from sim.show.film.clock import FilmClock
@@ -62,10 +60,8 @@ def course() -> Iterator[Course]:
 
 
 @pytest.fixture(scope="module")
-def tripped() -> Iterator[Course]:
-    scenario = load_scenario(SCENARIOS / "servo-trip")
-    with recorded(read_program(scenario.program), scenario, silent) as recording:
-        yield course_of(recording)
+def tripped() -> Course:
+    return course_of(scenario_recording("servo-trip"))
 
 
 @pytest.fixture
@@ -248,9 +244,7 @@ def test_what_happens_is_told_when_it_does(course: Course) -> None:
 
 
 def test_of_what_falls_together_the_finding_is_told() -> None:
-    scenario = load_scenario(SCENARIOS / "drops-early")
-    with recorded(read_program(scenario.program), scenario, silent) as recording:
-        course = course_of(recording)
+    course = course_of(scenario_recording("drops-early"))
     (piece,) = course.pieces
     assert told(course, piece.t_s + 1e-6, 1.0, Words("en")).value.startswith("3B406")
 
@@ -266,9 +260,7 @@ def test_a_trip_ends_the_run_and_says_so(tripped: Course) -> None:
 
 @pytest.mark.parametrize("name", ["wire-lag-corner", "wire-lag-arc", "backlash", "friction", "servo-trip"])
 def test_no_frame_shows_more_deviation_than_the_report(name: str) -> None:
-    scenario, say = load_scenario(SCENARIOS / name), Words("en")
-    with recorded(read_program(scenario.program), scenario, silent) as recording:
-        course = course_of(recording)
+    course, say = course_of(scenario_recording(name)), Words("en")
     most_um = build_report(course.run)["deviation"]["wire"]["max_um"]
     clock = FilmClock(20.0, 50, course.duration_s)
     shown = []
@@ -550,9 +542,7 @@ def test_a_display_that_does_not_answer_is_none(monkeypatch: pytest.MonkeyPatch)
 
 
 def test_pieces_are_drawn_up_into_their_kerf_and_no_further() -> None:
-    scenario = load_scenario(SCENARIOS / "drops-early")
-    with recorded(read_program(scenario.program), scenario, silent) as recording:
-        course = course_of(recording)
+    course = course_of(scenario_recording("drops-early"))
     (piece,), (drawn,) = course.pieces, outlines_um(course)
     kerf = swept(course, course.duration_s)
     assert drawn.buffer(1e-6).contains(piece.what.outline_um)

@@ -1,12 +1,17 @@
 """The comparison with golden pictures: it fails where it must, leaves what to look at, and renews what it must."""
 
+from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import golden_pictures
 import pytest
-from browser import OpenPage
+from browser import Browsers, Pages
 from golden_pictures import SCREEN, assert_golden, compare, screen
 from PIL import Image, ImageDraw
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
 
 PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>page</title>
 <style>
@@ -78,6 +83,14 @@ def test_a_golden_picture_is_renewed_only_where_it_no_longer_fits(
         assert Image.open(elsewhere / "plain.png").tobytes() == kept.tobytes()
 
 
+@pytest.fixture(scope="module")
+def sheet(browsers: Browsers, tmp_path_factory: pytest.TempPathFactory) -> Iterator["Page"]:
+    """One page for one text after another."""
+    pages = Pages(browsers.of, tmp_path_factory.mktemp("sheet"))
+    yield pages.open(PAGE.format(**PLAIN), 500, 400, shipped_font=True).page
+    pages.close()
+
+
 @pytest.mark.parametrize(
     ("changed", "same"),
     [
@@ -93,11 +106,11 @@ def test_a_golden_picture_is_renewed_only_where_it_no_longer_fits(
     ],
 )
 def test_a_screen_may_be_smoothed_otherwise_but_not_laid_out_otherwise(
-    open_page: OpenPage, elsewhere: Path, changed: dict[str, str], same: bool
+    sheet: "Page", elsewhere: Path, changed: dict[str, str], same: bool
 ) -> None:
-    shots = [
-        screen(open_page(PAGE.format(**{**PLAIN, **change}), 500, 400, shipped_font=True).page)
-        for change in ({}, changed)
-    ]
+    shots = []
+    for change in ({}, changed):
+        sheet.set_content(PAGE.format(**{**PLAIN, **change}))
+        shots.append(screen(sheet))
     shots[0].save(elsewhere / "page.png")
     assert (compare(shots[1], "page.png", elsewhere / "failures", SCREEN) == "") == same

@@ -7,9 +7,8 @@ from itertools import combinations
 import numpy as np
 import pytest
 from golden_pictures import assert_golden
-from places import SCENARIOS
 from recorder import Drawn, Recorder, recording_sheet
-from runs import run_folder, run_text
+from runs import run_text, scenario_run
 
 from parser.geometry.curves import Floats
 from sim.run.dryrun import DryRun
@@ -28,11 +27,6 @@ TEXT = "B800B0B800GXL1 D B0B500B500GYL2 B300B0B300GXL3 DD"
 @cache
 def plain() -> DryRun:
     return run_text(TEXT)
-
-
-@cache
-def scenario(name: str) -> DryRun:
-    return run_folder(SCENARIOS / name)
 
 
 def drawn(run: DryRun, width_px: int = 1600, language: str = "en") -> Recorder:
@@ -131,7 +125,7 @@ def test_x_and_y_differ_in_grey_too() -> None:
 
 
 def test_limits_show_as_levels_where_they_are_near_and_are_told_where_they_are_not() -> None:
-    near, far = drawn(scenario("lost-steps")), drawn(plain())
+    near, far = drawn(scenario_run("lost-steps")), drawn(plain())
     assert {"limit X, Y 150 N", "pull-out X, Y 6 µm", "feed 0.0437 mm/s", "jump feed 10 mm/s"} <= set(near.texts)
     force = frames_of(near)[3]
     scale = np.polyfit(*values_beside(near, force), 1)
@@ -155,7 +149,7 @@ def test_blocks_stand_where_they_run() -> None:
 
 
 def test_pauses_and_losses_are_marked_through_all_panels_and_named_in_the_legend() -> None:
-    canvas, run = drawn(scenario("lost-steps")), scenario("lost-steps")
+    canvas, run = drawn(scenario_run("lost-steps")), scenario_run("lost-steps")
     frames = frames_of(canvas)
     px, s = times_below(canvas, frames[-1])
     upright = [one for one in canvas.of("dashed", Paint.ERROR) if one.at[0, 0] == one.at[1, 0]]
@@ -169,7 +163,7 @@ def test_pauses_and_losses_are_marked_through_all_panels_and_named_in_the_legend
 
 
 def test_after_a_trip_the_machine_stands() -> None:
-    run, canvas = scenario("servo-trip"), drawn(scenario("servo-trip"))
+    run, canvas = scenario_run("servo-trip"), drawn(scenario_run("servo-trip"))
     frames = frames_of(canvas)
     shaded = [one.at for one in canvas.of("box", Paint.GRID)]
     assert [(box.top, box.right, box.bottom) for box in shaded] == [(f.top, f.right, f.bottom) for f in frames]
@@ -185,7 +179,7 @@ def test_after_a_trip_the_machine_stands() -> None:
 @pytest.mark.parametrize("language", ["en", "zh"])
 @pytest.mark.parametrize("name", ["servo-trip", "lost-steps"])
 def test_no_text_overlaps_another_or_leaves_the_page(name: str, language: str, width_px: int) -> None:
-    canvas = drawn(scenario(name), width_px, language)
+    canvas = drawn(scenario_run(name), width_px, language)
     boxes = canvas.text_boxes()
     page = Box(0.0, 0.0, canvas.width_px, canvas.height_px)
     assert all(page.holds(box) for box in boxes)
@@ -194,9 +188,9 @@ def test_no_text_overlaps_another_or_leaves_the_page(name: str, language: str, w
 
 
 def test_english_and_chinese_both_say_everything() -> None:
-    english, chinese = drawn(scenario("servo-trip")), drawn(scenario("servo-trip"), language="zh")
+    english, chinese = drawn(scenario_run("servo-trip")), drawn(scenario_run("servo-trip"), language="zh")
     assert len(english.drawn) == len(chinese.drawn)
-    title = scenario("servo-trip").scenario.title
+    title = scenario_run("servo-trip").scenario.title
     said = [(a, b) for a, b in zip(english.texts, chinese.texts, strict=True) if a == b and a != title]
     assert not any(any(char.isalpha() for char in a) for a, _ in said if a not in ("D", "3B403 X"))
 
@@ -211,7 +205,7 @@ def test_it_is_drawn_as_pixels_in_the_dark_and_as_svg() -> None:
 
 
 def test_golden() -> None:
-    assert_golden(draw_motion(pixels(600), scenario("lost-steps")).image(), "motion.png")
+    assert_golden(draw_motion(pixels(600), scenario_run("lost-steps")).image(), "motion.png")
 
 
 def test_a_program_of_thousands_of_blocks_shows_round_numbers_that_do_not_overlap() -> None:

@@ -22,7 +22,7 @@ from sim.show.draw.sheet import pixels
 from sim.show.draw.tones import paint_of_pass, tones_of
 from sim.show.film.readout import read_out
 from sim.show.film.screen import Look, Screen
-from sim.show.pictures.cut.picture import draw_cut_of_run
+from sim.show.pictures.cut.of_run import draw_cut_of_run
 from sim.show.pictures.motion.picture import draw_motion
 from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page

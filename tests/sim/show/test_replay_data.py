@@ -5,42 +5,53 @@ import json
 import math
 import random
 import zlib
+from collections.abc import Iterator
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 import shapely
-from browser import OpenPage
+from browser import Browsers, Pages
 from hypothesis import given
 from hypothesis import strategies as st
 from page_types import types_of, unlike
-from places import SCENARIOS
 from plain import AWAY_X, AWAY_Y, SIGNS, TOWARD_X, TOWARD_Y, PlainBlock, motion_quadrant
-from replayed import ASSETS, document_of, exports, recording_of, replay_of
+from replayed import ASSETS, document_of, empty_page, exports, recording_of, replay_of
+from runs import scenario_recording
 from strategies import program_text
 
+from controller.stepping.chunks import chunk_of
 from controller.stepping.pulses import Pulses
 from controller.stepping.words import interpolate
 from parser.geometry.curves import Floats
-from parser.program import parse_program, read_program
+from parser.program import parse_program
 from parser.toolpath import Point
 from sim.measure.deviation.across import across, across_um
-from sim.run.recording import Recording, recorded
+from sim.run.recording import Recording
 from sim.run.report import build_report
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.obstacles import Clamp
 from sim.setup.quiz import Question
-from sim.setup.scenario import load_scenario
 from sim.setup.wire import Wire
 from sim.show.replay import tape as tape_module
 from sim.show.replay.document import replay_document
 from sim.show.replay.tape import GRAIN_UM, TICK_S, Packer, tape, varints
-from sim.table.motion import silent
 from sim.table.trace import Trace
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
 
 TRIANGLE = "B0B300B300GYL2 B300B200B300GXL4 B300B100B300GXL3 DD"
 SERVO, DK = load_machine("servo-400x500"), load_machine("dk7740")
+
+
+@pytest.fixture(scope="module")
+def empty(browsers: Browsers, tmp_path_factory: pytest.TempPathFactory) -> Iterator["Page"]:
+    """One page for one document after another, of which nothing stays."""
+    pages = Pages(browsers.of, tmp_path_factory.mktemp("replay"))
+    yield pages.open(empty_page()).page
+    pages.close()
 
 
 def unpacked(text: str) -> bytes:
@@ -172,13 +183,13 @@ def assert_replayed(page: Any, recording: Recording) -> None:
         pytest.param({"wire": Wire(180.0, 10.0, 20.0)}, id="wire that lags"),
     ],
 )
-def test_a_run_is_replayed_as_it_ran(open_page: OpenPage, changes: dict[str, object]) -> None:
+def test_a_run_is_replayed_as_it_ran(empty: "Page", changes: dict[str, object]) -> None:
     recording = recording_of(TRIANGLE, **changes)
-    assert_replayed(replay_of(open_page, replay_document(recording)), recording)
+    assert_replayed(replay_of(empty, replay_document(recording)), recording)
 
 
-def test_a_program_without_a_step_has_a_replay(open_page: OpenPage) -> None:
-    page = replay_of(open_page, document_of("B0 B5000 B0 GY L2 DD"))
+def test_a_program_without_a_step_has_a_replay(empty: "Page") -> None:
+    page = replay_of(empty, document_of("B0 B5000 B0 GY L2 DD"))
     state = page.evaluate("model.stateAt(1)")
     assert (state["step"], state["block"], state["x"], state["y"], state["count_left"]) == (0, 0, 0, 0, 0)
     assert page.evaluate("[model.timeOf(5), model.deviation(0).um]") == [0, 0]
@@ -234,10 +245,10 @@ DECISIONS = """() => Array.from({length: replay.steps}, (_, at) => model.decisio
     [Number(d.f), d.axis, d.sign, d.motion, d.rule, Number(d.fAfter), d.counted, d.row])"""
 
 
-def test_every_decision_is_the_step_that_the_tape_makes(open_page: OpenPage) -> None:
+def test_every_decision_is_the_step_that_the_tape_makes(empty: "Page") -> None:
     program = all_ways()
     recording = recording_of(program_text(program))
-    page = replay_of(open_page, replay_document(recording))
+    page = replay_of(empty, replay_document(recording))
     decided = page.evaluate(DECISIONS)
     expected = [(*step, at) for at, block in enumerate(program) for step in plain_decisions(block)]
     assert [(f, axis, sign, motion, row) for f, axis, sign, motion, _, _, _, row in decided] == expected
@@ -249,10 +260,10 @@ def test_every_decision_is_the_step_that_the_tape_makes(open_page: OpenPage) -> 
     assert all(counted == (axis == program[row].axis) for _, axis, _, _, _, _, counted, row in decided)
 
 
-def stepped_page(open_page: OpenPage, program: list[PlainBlock]) -> Any:
+def stepped_page(empty: "Page", program: list[PlainBlock]) -> Any:
     """A page with all steps of a program, one a second, and of its blocks what decisions need."""
     steps = interpolate(parse_program(program_text(program)).toolpath)
-    chunk = steps.chunk(0, len(steps))
+    chunk = chunk_of(steps, 0, len(steps))
     pulses = Pulses(np.arange(len(steps), dtype=np.float64), chunk.x_um, chunk.y_um, chunk.row)
     blocks = {
         "first_step": steps.before.tolist(),
@@ -265,17 +276,17 @@ def stepped_page(open_page: OpenPage, program: list[PlainBlock]) -> Any:
         "length_um": [1.0] * len(program),
     }
     stepping = {"interpolator": "point-by-point", "blocks": blocks, "tape": taped(pulses, (0, 0), still(np.zeros(1)))}
-    return replay_of(open_page, stepping)
+    return replay_of(empty, stepping)
 
 
-def test_decisions_on_figures_beyond_doubles_are_exact(open_page: OpenPage) -> None:
+def test_decisions_on_figures_beyond_doubles_are_exact(empty: "Page") -> None:
     """R² and X·Y past 2⁵³, where a double no longer knows F = 1 from F = 0."""
     program = [
         PlainBlock(799_999_999, 1, 40, "Y", "NR", 1),
         PlainBlock(400_000_001, 399_999_999, 300, "X", "L", 3),
         PlainBlock(500_000_003, 600_000_001, 200, "X", "SR", 2),
     ]
-    page = stepped_page(open_page, program)
+    page = stepped_page(empty, program)
     decided = page.evaluate("""() => Array.from({length: replay.steps}, (_, at) => model.decision(at + 1)).map((d) =>
         [String(d.f), d.axis, d.sign, d.motion])""")
     expected = [(str(f), *rest) for block in program for f, *rest in plain_decisions(block)]
@@ -293,8 +304,8 @@ KEYHOLE = [
 ]
 
 
-def test_every_decision_of_the_keyhole_is_its_step(open_page: OpenPage) -> None:
-    page = stepped_page(open_page, KEYHOLE)
+def test_every_decision_of_the_keyhole_is_its_step(empty: "Page") -> None:
+    page = stepped_page(empty, KEYHOLE)
     astray, checked = page.evaluate("""() => {
         const checked = [];
         let astray = 0;
@@ -313,12 +324,12 @@ def test_every_decision_of_the_keyhole_is_its_step(open_page: OpenPage) -> None:
 
 @pytest.mark.parametrize("off", [-1, 0, 1])
 @pytest.mark.parametrize("quadrant", [1, 2])
-def test_a_decision_far_along_a_long_line_is_exact(open_page: OpenPage, quadrant: int, off: int) -> None:
+def test_a_decision_far_along_a_long_line_is_exact(empty: "Page", quadrant: int, off: int) -> None:
     """Products past 2⁵³, beside the line by a step across."""
     word_x, word_y, times = 600_000_007, 500_000_003, 3
     done_x, done_y = word_x * times // 4, word_y * times // 4 + off
     f = (word_x * done_y - word_y * done_x) * (1 if quadrant == 1 else -1)
-    page = replay_of(open_page, document_of(TRIANGLE))
+    page = replay_of(empty, document_of(TRIANGLE))
     blocks = {"first_step": [0, 2], "word_x_um": [word_x], "word_y_um": [word_y], "quadrant": [quadrant], "turn": [0]}
     made = page.evaluate(
         f"([blocks, x, y]) => {{ const {{ decisionAt }} = {exports('decisions')};"
@@ -333,14 +344,14 @@ def test_a_decision_far_along_a_long_line_is_exact(open_page: OpenPage, quadrant
     assert off or abs(word_x * done_y) > 2**53
 
 
-def test_the_card_decides_nothing(open_page: OpenPage) -> None:
-    page = replay_of(open_page, document_of(TRIANGLE, machine=SERVO))
+def test_the_card_decides_nothing(empty: "Page") -> None:
+    page = replay_of(empty, document_of(TRIANGLE, machine=SERVO))
     assert page.evaluate("[model.decision(1), model.stateAt(0).count_left]") == [None, None]
 
 
-def test_j_counts_down_on_its_axis_alone(open_page: OpenPage) -> None:
+def test_j_counts_down_on_its_axis_alone(empty: "Page") -> None:
     program = all_ways()[:20]
-    page = replay_of(open_page, document_of(program_text(program)))
+    page = replay_of(empty, document_of(program_text(program)))
     left = page.evaluate("""() => Array.from({length: replay.steps}, (_, at) => {
         const row = model.blockOfStep(at + 1); return [row, model.countLeft(row, at + 1)]; })""")
     expected = []
@@ -354,13 +365,13 @@ def test_j_counts_down_on_its_axis_alone(open_page: OpenPage) -> None:
 
 
 @pytest.mark.parametrize("jerk_um_s3", [math.inf, 30.0])
-def test_a_state_is_that_of_its_time(open_page: OpenPage, jerk_um_s3: float) -> None:
+def test_a_state_is_that_of_its_time(empty: "Page", jerk_um_s3: float) -> None:
     limits = DK.controller.limits._replace(acceleration_um_s2=30.0, jerk_um_s3=jerk_um_s3)
     slow = DK._replace(controller=DK.controller._replace(limits=limits))
     text = "B0B300B300GYL2 B300B0B600GYNR1 B50B20B50GXL4 DD"
     recording = recording_of(text, wire=Wire(180.0, 10.0, 30.0), machine=slow)
     run, steps = recording.run, recording.steps
-    page = replay_of(open_page, replay_document(recording))
+    page = replay_of(empty, replay_document(recording))
     times = np.linspace(0.0, run.plan.duration_s, 401)
     times = times[np.abs(times[:, None] - steps.t_s[None, :]).min(axis=1) > TICK_S]
     states = page.evaluate("(times) => times.map((t) => model.stateAt(t))", times.tolist())
@@ -379,10 +390,10 @@ def test_a_state_is_that_of_its_time(open_page: OpenPage, jerk_um_s3: float) -> 
 
 
 @pytest.mark.parametrize("machine", [DK, SERVO], ids=["point by point", "card"])
-def test_steps_belong_to_the_blocks_that_make_them(open_page: OpenPage, machine: Machine) -> None:
+def test_steps_belong_to_the_blocks_that_make_them(empty: "Page", machine: Machine) -> None:
     text = "B100B0B100GXL1 B0B100B0GYL2 B100B100B100GYL1 B0B9B9GYL2 DD"
     recording = recording_of(text, machine=machine)
-    page = replay_of(open_page, replay_document(recording))
+    page = replay_of(empty, replay_document(recording))
     rows = page.evaluate("() => Array.from({length: replay.steps}, (_, at) => model.blockOfStep(at + 1))")
     assert rows == recording.steps.row.tolist()
     assert page.evaluate("[model.blockOfStep(0), model.timeOf(0), model.stepAt(-1), model.stepAt(1e9)]") == [
@@ -412,21 +423,20 @@ def assert_as_the_report_says(page: Any, recording: Recording) -> None:
 
 
 @pytest.mark.parametrize("lag_um", [0.0, 40.0])
-def test_the_deviation_of_the_wire_is_that_of_the_report(open_page: OpenPage, lag_um: float) -> None:
+def test_the_deviation_of_the_wire_is_that_of_the_report(empty: "Page", lag_um: float) -> None:
     text = "B0B300B300GYL2 B300B0B600GYNR1 B40B5B40GXL1 B30B60B60GYL3 B30B40B90GXSR4 DD"
     recording = recording_of(text, wire=Wire(180.0, 10.0, lag_um))
-    assert_as_the_report_says(replay_of(open_page, replay_document(recording)), recording)
+    assert_as_the_report_says(replay_of(empty, replay_document(recording)), recording)
     assert recording.run.deviations.wire.max_um > 1.0
 
 
 @pytest.mark.parametrize("name", ["wire-lag-corner", "wire-lag-arc", "backlash", "friction", "servo-trip"])
-def test_no_moment_of_a_replay_deviates_more_than_the_report(open_page: OpenPage, name: str) -> None:
-    scenario = load_scenario(SCENARIOS / name)
-    with recorded(read_program(scenario.program), scenario, silent) as recording:
-        assert_as_the_report_says(replay_of(open_page, replay_document(recording)), recording)
+def test_no_moment_of_a_replay_deviates_more_than_the_report(empty: "Page", name: str) -> None:
+    recording = scenario_recording(name)
+    assert_as_the_report_says(replay_of(empty, replay_document(recording)), recording)
 
 
-def test_a_wire_ahead_of_its_block_is_measured_from_the_next_one(open_page: OpenPage) -> None:
+def test_a_wire_ahead_of_its_block_is_measured_from_the_next_one(empty: "Page") -> None:
     """Past a line's end and past an arc's end, where the block that is reached soon is nearer."""
     recording = recording_of("B300B0B300GXL1 B0B300B600GYNR4 B300B0B300GXL3 DD")
     run, steps = recording.run, recording.steps
@@ -436,7 +446,7 @@ def test_a_wire_ahead_of_its_block_is_measured_from_the_next_one(open_page: Open
     trace = Trace(t_s, wire, wire, wire, np.array([0, 0, 1]))
     row = across(run.toolpath, trace, wire, run.plan.at(t_s).along_um).row
     assert row.tolist() == [0, 1, 2]
-    page = replay_of(open_page, {**replay_document(recording), "tape": tape(steps, (0, 0), trace, row)})
+    page = replay_of(empty, {**replay_document(recording), "tape": tape(steps, (0, 0), trace, row)})
     found = page.evaluate("() => Array.from(replay.samples.t, (t) => model.deviation(t).um)")
     assert found == pytest.approx([0.0, abs(300.0 - math.hypot(45.0, 296.0)), 6.0], abs=2 * GRAIN_UM)
 
@@ -503,14 +513,14 @@ def tripping() -> Recording:
     return recording_of(text, machine=SERVO._replace(table=table))
 
 
-def test_the_replay_ends_where_a_servo_trips(open_page: OpenPage) -> None:
+def test_the_replay_ends_where_a_servo_trips(empty: "Page") -> None:
     recording = tripping()
     trip = recording.run.ended
     assert trip is not None
     document = replay_document(recording)
     assert document["duration_s"] == trip.t_s
     assert document["ended"]["row"] == trip.row < len(recording.run.toolpath) - 1
-    page = replay_of(open_page, document)
+    page = replay_of(empty, document)
     made, latest, sampled = page.evaluate("[replay.steps, replay.t[replay.steps], replay.samples.t.at(-1)]")
     assert 0 < made == len(recording.steps.t_s) < recording.run.toolpath.length_um.sum()  # µm, one step each
     assert max(latest, sampled) <= trip.t_s + TICK_S
@@ -555,7 +565,7 @@ def long_document() -> dict[str, Any]:
     program = [block for pair in zip(turns, slanted, strict=False) for block in pair]
     toolpath = parse_program(program_text(program)).toolpath
     steps = interpolate(toolpath)
-    chunk = steps.chunk(0, len(steps))
+    chunk = chunk_of(steps, 0, len(steps))
     times = LONG_STEPS // len(steps) + 1
     x, y = (np.diff(column, prepend=np.int32(0)) for column in (chunk.x_um, chunk.y_um))
     along = np.diff(chunk.along_um, prepend=0.0)
@@ -575,11 +585,11 @@ def long_document() -> dict[str, Any]:
     }
 
 
-def test_a_million_steps_are_small_and_soon_decoded(open_page: OpenPage) -> None:
+def test_a_million_steps_are_small_and_soon_decoded(empty: "Page") -> None:
     """A table that jitters at random is the worst case; the bound on the time is ten times what it takes here."""
     document = {**document_of(TRIANGLE), **long_document()}
     assert len(json.dumps(document["tape"])) < 3_500_000
-    page = replay_of(open_page, document)
+    page = replay_of(empty, document)
     found = page.evaluate(
         """async (doc) => {
         const began = performance.now();
@@ -595,11 +605,9 @@ def test_a_million_steps_are_small_and_soon_decoded(open_page: OpenPage) -> None
 
 
 def test_a_finding_lies_where_it_says_and_else_at_its_block() -> None:
-    with recorded(
-        read_program(SCENARIOS / "out-of-travel" / "program.3b"), load_scenario(SCENARIOS / "out-of-travel")
-    ) as of:
-        findings = {one.code: one for one in of.run.findings}
-        entries = {entry["code"]: entry for entry in replay_document(of)["findings"]}
+    of = scenario_recording("out-of-travel")
+    findings = {one.code: one for one in of.run.findings}
+    entries = {entry["code"]: entry for entry in replay_document(of)["findings"]}
     assert entries["3B401"]["place_um"] is None  # its x_mm and y_mm are the travel of the table
     assert entries["3B401"]["row"] == findings["3B401"].block - 1
     assert entries["3B402"]["place_um"] == pytest.approx(

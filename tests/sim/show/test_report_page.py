@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from page_types import types_of, unlike
 from places import ROOT, SCENARIOS
 from report_pages import PART, SMALL, Made, Outline, hostile, made, staircase
-from runs import run_folder, run_text
+from runs import run_folder, run_text, scenario_run
 
 from parser.findings.catalogue import Said
 from parser.program import load_program, read_program
@@ -180,7 +180,7 @@ def test_the_verdict_is_told_in_a_sentence(text: str, en: str, zh: str) -> None:
 
 
 def test_a_tripped_drive_is_told_with_the_verdict() -> None:
-    run = run_folder(SCENARIOS / "servo-trip")
+    run = scenario_run("servo-trip")
     time = lasting(run.ended.t_s)
     assert why(run)[1].en.startswith(f"The X drive tripped in block 5 after {time.en}: nothing after it is cut")
     assert time.zh in why(run)[1].zh

@@ -12,6 +12,7 @@ from places import ROOT
 
 from parser.findings.catalogue import LANGUAGES, Said
 from sim.run.ballbar.turn import NAMES, SENSES
+from sim.show.html.bundle import joined
 from sim.show.words import Words, said
 from sim.show.words.words import FOLDER, texts
 
@@ -118,10 +119,21 @@ def test_every_text_is_used() -> None:
     assert not unused, unused
 
 
+def script_of(room: str) -> str:
+    """The script of the page of a room, with all that it imports."""
+    return joined(ROOT / "sim" / "show" / room / "assets" / "main.js")
+
+
+def test_the_scripts_of_a_shop_name_all_texts_that_their_page_hands_over() -> None:
+    named = set(re.findall(r'"([\w-]+)"', script_of("index_page")))
+    assert set(texts("index_scripts")) - named == set()
+    asked = set(re.findall(r'\b(?:say|said)\("([\w-]+)"', script_of("index_page")))
+    assert asked - set(texts("index_scripts")) == set()
+
+
 @pytest.mark.parametrize("page", ["replay", "report"])
 def test_scripts_ask_for_texts_that_their_page_hands_over(page: str) -> None:
-    folder = ROOT / "sim" / "show" / {"replay": "replay", "report": "report_page"}[page] / "assets"
-    source = "\n".join(path.read_text(encoding="utf-8") for path in sorted(folder.glob("*.js")))
+    source = script_of({"replay": "replay", "report": "report_page"}[page])
     asked = re.findall(r"""\b(?:say|said)\((?:[^()]*\? )?"(\w+)"(?: : "(\w+)")?""", source)
     assert {key for keys in asked for key in keys if key} == set(texts(f"{page}_scripts"))
 
@@ -129,7 +141,7 @@ def test_scripts_ask_for_texts_that_their_page_hands_over(page: str) -> None:
 def test_every_stage_of_the_work_has_a_text() -> None:
     source = "\n".join(sources(".py").values())
     stages = set(re.findall(r"""\bprogress\("([\w-]+)",""", source)) | {f"run-{NAMES[sense]}" for sense in SENSES}
-    assert stages == set(texts("progress"))
+    assert stages | {"step", "left"} == set(texts("progress"))
 
 
 def spelled_out(line: str) -> str:

@@ -61,6 +61,7 @@ def entries(cut: Cut, page: Page, say: Words, seen: Seen, numbers: str) -> list[
     found = (
         (True, Entry(_kerf(seen.kerf_px, Paint.KERF), say("cut.kerf_wider", kerf=kerf) if wider else kerf)),
         *((True, entry) for entry in _pass_entries(cut, say, seen.kerf_px)),
+        (cut.leads is not None and cut.leads.any(), Entry(_kerf(seen.kerf_px, Paint.LEAD), say("cut.lead"))),
         (
             True,
             Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say("cut.offset_path" if cut.contour else "cut.programmed")),

@@ -77,18 +77,27 @@ def _bands(cut: Cut, view: View) -> list[Band]:
         points, row = cut.trace.wire_um, cut.trace.row
     tone = _tones(cut)
     return [
-        Band(run, Paint.KERF if number == _LEAD else paint_of_pass(number))
+        Band(run, _paint(number, cut))
         for number in sorted(set(tone.tolist()) - {0}, reverse=True)
         for run in _runs_px(points, row, tone != number, view)
     ]
 
 
+def _paint(number: int, cut: Cut) -> Paint:
+    """Paint of the kerf on rows of a tone's number: that of leads where the picture tells them apart."""
+    if number == _LEAD:
+        return Paint.KERF if cut.leads is None else Paint.LEAD
+    return paint_of_pass(number)
+
+
 def _tones(cut: Cut) -> Ints:
-    """Number of the pass whose tone each row (n,) has; 0 for jumps."""
+    """Number of the pass whose tone each row (n,) has; `_LEAD` for leads that show, 0 for jumps."""
     numbers = np.ones(len(cut.toolpath), dtype=np.int64)
     if cut.passes is not None:
         own = np.array([*(tone_number(one.number) for one in cut.passes.passes), _LEAD])
         numbers = own[cut.passes.of_row]  # the last for the rows of no pass, −1
+    if cut.leads is not None:
+        numbers[cut.leads] = _LEAD
     return np.where(cut.toolpath.is_jump, 0, numbers)
 
 

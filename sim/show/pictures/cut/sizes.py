@@ -1,6 +1,6 @@
 """Which sizes a picture gives: width and height of what is kept, and its largest radii, as they are meant to be."""
 
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
@@ -9,10 +9,12 @@ from parser.shape.contours import contour_rows
 from parser.shape.loops import Loops, find_loops
 from parser.toolpath import Toolpath
 from parser.units import mm
-from sim.cut.pieces.pieces import Pieces
-from sim.cut.sizes.sizes import Sizes
 from sim.show.draw.flatten import bounds_um, flatten
 from sim.show.pictures.cut.subject import Cut
+
+if TYPE_CHECKING:  # of a path none are known, and their rooms take long to load
+    from sim.cut.pieces.pieces import Pieces
+    from sim.cut.sizes.sizes import Sizes
 
 LEAST_SWEEP_RAD: Final = np.radians(30.0)
 _WHOLE_RAD: Final = np.radians(359.0)
@@ -69,7 +71,7 @@ def sizes_of_cut(cut: Cut) -> CutSizes:
     return _of_path(cut.toolpath, cut.kerf_um / 2, cut.pieces)
 
 
-def _measured(toolpath: Toolpath, sizes: Sizes) -> CutSizes:
+def _measured(toolpath: Toolpath, sizes: "Sizes") -> CutSizes:
     box = max(sizes.boxes, key=lambda one: one.nominal_um.x * one.nominal_um.y)
     half, centre = np.array(box.nominal_um) / 2, np.array(box.center_um)
     row = np.array([one.block - 1 for one in sizes.radii], dtype=np.int64)
@@ -77,7 +79,7 @@ def _measured(toolpath: Toolpath, sizes: Sizes) -> CutSizes:
     return CutSizes(np.stack([centre - half, centre + half]), _rounds(toolpath, arcs), toolpath, of_path=False)
 
 
-def _of_path(toolpath: Toolpath, offset_um: float, pieces: Pieces | None) -> CutSizes:
+def _of_path(toolpath: Toolpath, offset_um: float, pieces: "Pieces | None") -> CutSizes:
     contours = contour_rows(toolpath)
     loops = find_loops(toolpath, contours, np.arange(contours.max(initial=-1) + 1))
     if not len(loops.contour):
@@ -93,7 +95,7 @@ def _of_path(toolpath: Toolpath, offset_um: float, pieces: Pieces | None) -> Cut
     return CutSizes(box if (box[1] > box[0]).all() else None, rounds, toolpath, of_path)
 
 
-def _sides(toolpath: Toolpath, loops: Loops, pieces: Pieces | None) -> Ints:
+def _sides(toolpath: Toolpath, loops: Loops, pieces: "Pieces | None") -> Ints:
     """Side (k,) that the part lies on: the lead-in tells; without one, the kind of the largest piece it frees."""
     freed = sorted(pieces.freed, key=lambda piece: piece.area_mm2) if pieces else []
     side, kinds = loops.part_side.copy(), {piece.freed.contour - 1: piece.kind for piece in freed}

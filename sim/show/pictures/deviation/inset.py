@@ -9,7 +9,7 @@ from parser.geometry.along import places_at
 from parser.geometry.curves import Bools, Floats
 from sim.show.draw.chart import stretches
 from sim.show.pictures.deviation.samples import Samples
-from sim.table.motion import origin_um
+from sim.table.trace import origin_um
 
 LEAST_SIDE_UM: Final = 24.0
 SIDES: Final = 3.2

@@ -2,7 +2,7 @@
 import { both, element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import { fill, sorted } from "./cells.js";
-import { turningOf } from "./turning.js";
+import { turningOf } from "../../html/assets/turning.js";
 
 /** @import { Column, TableData } from "./data.js" */
 

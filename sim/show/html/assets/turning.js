@@ -1,8 +1,8 @@
 // What turns the pages of a long table, and says which rows are to be seen.
-import { both, make } from "../../html/assets/elements.js";
-import { said } from "../../html/assets/language.js";
+import { both, make } from "./elements.js";
+import { said } from "./language.js";
 
-/** @import { Said } from "../../html/assets/language.js" */
+/** @import { Said } from "./language.js" */
 
 /**
  * Buttons and a place for a table of so many rows; `turnTo(first)` is called with the first row to show.

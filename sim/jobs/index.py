@@ -1,0 +1,113 @@
+"""``index.json`` of a shop: a row for each of its programs, and what they come to (docs/batch.md)."""
+
+import json
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any, Final, NamedTuple
+
+from parser import __version__
+from parser.findings.catalogue import Said
+from parser.findings.codes import CODES, Severity
+from parser.findings.findings import Finding
+
+_NONE: Final = Said("", "")
+SCHEMA: Final = "drycut.index/1"
+VERDICTS: Final = ("pass", "fail", "refused", "fault")
+_WORST_FIRST: Final = tuple(Severity)
+
+
+class Row(NamedTuple):
+    """What came of one program.
+
+    Attributes
+    ----------
+    verdict
+        That of its report; ``refused`` where it, its scenario or its drawing cannot be read or run, ``fault`` where
+        drycut itself failed.
+    title
+        Title of its scenario; of a program alone, its file name.
+    message
+        Why there is no report; empty where there is one. Only findings are told in Chinese as well.
+    findings
+        Code and count, the worst severity first, then by code.
+    time_s, max_um
+        How long the machine runs, and the largest deviation of the wire; None without a report.
+    picture
+        The path that ran, small: SVG path data (`sim.show.index_page.thumbnail`); empty without a report.
+    """
+
+    verdict: str
+    title: str
+    message: Said = _NONE
+    findings: tuple[tuple[str, int], ...] = ()
+    time_s: float | None = None
+    max_um: float | None = None
+    picture: str = ""
+
+
+class Entry(NamedTuple):
+    """A row in its place: the file as it was named, its folder in OUT (None without a report), and where it is from."""
+
+    file: str
+    folder: str | None
+    row: Row
+    from_cache: bool
+
+
+def counted(findings: Sequence[Finding]) -> tuple[tuple[str, int], ...]:
+    """How often each code occurs, the worst severity first, then by code."""
+    counts = Counter(finding.code for finding in findings)
+    return tuple(sorted(counts.items(), key=lambda one: (_WORST_FIRST.index(CODES[one[0]].severity), one[0])))
+
+
+def build_index(entries: Sequence[Entry]) -> dict[str, Any]:
+    """The index as plain data, in the order of the entries; the order of keys is fixed, and there is no clock in it."""
+    return {
+        "schema": SCHEMA,
+        "drycut": __version__,
+        "counts": _counts(entries),
+        "programs": [_program(entry) for entry in entries],
+    }
+
+
+def index_text(index: dict[str, Any]) -> str:
+    """The index as JSON text, a line for each program."""
+    head = {key: value for key, value in index.items() if key != "programs"}
+    top = "".join(f'"{key}": {_line(value)},\n' for key, value in head.items())
+    programs = ",\n".join(map(_line, index["programs"]))
+    return f'{{\n{top}"programs": [\n{programs}\n]\n}}\n'
+
+
+def _counts(entries: Sequence[Entry]) -> dict[str, int]:
+    verdicts = Counter(entry.row.verdict for entry in entries)
+    severities = Counter[Severity]()
+    for entry in entries:
+        for code, count in entry.row.findings:
+            severities[CODES[code].severity] += count
+    return {
+        "programs": len(entries),
+        **{verdict: verdicts[verdict] for verdict in VERDICTS},
+        "from_cache": sum(entry.from_cache for entry in entries),
+        **{f"{severity}s": severities[severity] for severity in _WORST_FIRST},
+    }
+
+
+def _program(entry: Entry) -> dict[str, Any]:
+    row = entry.row
+    return {
+        "file": entry.file,
+        "title": row.title,
+        "verdict": row.verdict,
+        "message": row.message.en or None,
+        "findings": [
+            {"code": code, "severity": str(CODES[code].severity), "count": count} for code, count in row.findings
+        ],
+        "time_s": row.time_s,
+        "max_um": row.max_um,
+        "folder": entry.folder,
+        "from_cache": entry.from_cache,
+    }
+
+
+def _line(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)

@@ -1,0 +1,135 @@
+"""One program of a shop, as a worker runs it: bytes come in and bytes go out, for the worker may be another machine."""
+
+import platform
+import threading
+import traceback
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Final, NamedTuple
+
+from parser.findings.catalogue import LANGUAGES, Said, texts
+from parser.findings.errors import ClusterError, DrawingError, DrycutError, ProgramError
+from parser.program import load_program
+from sim.files import scratch
+from sim.jobs.index import Row, counted
+from sim.jobs.run_into import FILES, run_into
+from sim.run.dryrun import DryRun
+from sim.run.findings import verdict
+from sim.run.report.rounded import rounded
+from sim.run.versions import versions
+from sim.setup.scenario import Scenario
+from sim.show.index_page.thumbnail import thumbnail
+from sim.show.words.phrases import same
+
+_BY_ITSELF: Final = threading.Lock()  # workers of a cluster may have several threads, and pygame knows one
+
+
+class Task(NamedTuple):
+    """A program to run.
+
+    Attributes
+    ----------
+    name, data
+        Name of its file, as shown, and its bytes.
+    scenario
+        What it is run with.
+    drawing
+        Bytes of the scenario's drawing; None without one.
+    made_by
+        What its bytes must come from: `made_by` of who asks for them.
+    """
+
+    name: str
+    data: bytes
+    scenario: Scenario
+    drawing: bytes | None
+    made_by: tuple[tuple[str, str], ...]
+
+
+class Done(NamedTuple):
+    """What came of it: its row of the index, its files by their names, and the traceback of a fault of drycut."""
+
+    row: Row
+    files: Mapping[str, bytes]
+    fault: str = ""
+
+
+def made_by() -> tuple[tuple[str, str], ...]:
+    """What the bytes of a run come from here: the versions, and the system with its kind of processor."""
+    return (*versions(), ("system", f"{platform.system()} {platform.machine()}"))
+
+
+def run_task(task: Task) -> Done:
+    """Run a program. Whatever is wrong with it is told in its row.
+
+    ClusterError where this worker would make other bytes than the one who asks.
+    """
+    _refuse_other_makers(task)
+    try:
+        with _BY_ITSELF, scratch() as folder:
+            return _run(task, folder)
+    except ProgramError as error:
+        row = Row("refused", task.scenario.title, _message(error), counted((*error.others, error.finding)))
+        return Done(row, {})
+    except DrycutError as error:
+        return Done(Row("refused", task.scenario.title, same(error)), {})
+    except Exception:
+        return fault_of(task.scenario.title, traceback.format_exc())
+
+
+def fault_of(title: str, told: str) -> Done:
+    """A program at which drycut itself failed; the last line of what is told stands in its row."""
+    return Done(Row("fault", title, same(told.strip().splitlines()[-1])), {}, told)
+
+
+def _message(error: ProgramError) -> Said:
+    return Said(*(texts(error.finding, language).message for language in LANGUAGES))
+
+
+def _refuse_other_makers(task: Task) -> None:
+    asked = dict(task.made_by)
+    for name, here in made_by():
+        if here != asked.get(name):
+            raise ClusterError(
+                f"the worker on {platform.node()} has {name} {here}, not {asked.get(name)} as this machine; "
+                "its files would be others"
+            )
+
+
+def _run(task: Task, folder: Path) -> Done:
+    """Run a program into a folder, and take its files from there."""
+    made = folder / "made"
+    scenario = _with_drawing(task, folder)
+    try:
+        run = run_into(made, load_program(task.data, task.name), scenario)
+    except DrawingError as error:  # people know the drawing by where it stands
+        raise DrawingError(str(error).replace(*_places_of_drawing(scenario, task.scenario))) from None
+    return Done(_row(run), {name: (made / name).read_bytes() for name in FILES if (made / name).exists()})
+
+
+def _with_drawing(task: Task, folder: Path) -> Scenario:
+    """The scenario with its drawing in a folder, under its own name."""
+    own = task.scenario.drawing
+    if own is None or task.drawing is None:
+        return task.scenario
+    here = folder / "drawing" / own.file.name
+    here.parent.mkdir()
+    here.write_bytes(task.drawing)
+    return replace(task.scenario, drawing=own._replace(file=here))
+
+
+def _places_of_drawing(here: Scenario, own: Scenario) -> tuple[str, str]:
+    return str(here.drawing and here.drawing.file), str(own.drawing and own.drawing.file)
+
+
+def _row(run: DryRun) -> Row:
+    """The row of a run, its figures those of ``report.json``."""
+    return Row(
+        verdict(run.findings),
+        run.scenario.title,
+        findings=counted(run.findings),
+        time_s=rounded(run.ran_s),
+        max_um=rounded(run.deviations.wire.max_um),
+        picture=thumbnail(run.toolpath),
+    )

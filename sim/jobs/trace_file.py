@@ -1,0 +1,89 @@
+"""``trace.npz``: every step and every sample of a run, as numpy arrays; written where it is asked for, and read."""
+
+import zipfile
+import zlib
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parser.findings.errors import FileUnreadableError
+from parser.geometry.curves import Floats
+from sim.files import write_npz
+from sim.run.dryrun import DryRun
+
+TRACE: Final = "trace.npz"
+
+Counts = NDArray[np.int32]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StoredTrace:
+    """What ``trace.npz`` holds of a run of n steps and m samples, in program coordinates; blocks count from 1.
+
+    Attributes
+    ----------
+    step_x_um, step_y_um
+        (n + 1,) int32, the start first, then the place commanded after each step.
+    step_block
+        (n,) int32, block that made each step.
+    step_t_s
+        (n,) float64, time of each step, never falling; two axes may step at once.
+    t_s
+        (m,) float64, times of the samples from 0, strictly rising and not evenly spaced.
+    x_um, y_um
+        (m,) float64, where the wire really was.
+    table_x_um, table_y_um
+        (m,) float64, where the table stood; the same without wire lag.
+    commanded_x_um, commanded_y_um
+        (m,) float64, sum of the steps handed out by then.
+    block
+        (m,) int32, block that was running.
+    """
+
+    step_x_um: Counts
+    step_y_um: Counts
+    step_block: Counts
+    step_t_s: Floats
+    t_s: Floats
+    x_um: Floats
+    y_um: Floats
+    table_x_um: Floats
+    table_y_um: Floats
+    commanded_x_um: Floats
+    commanded_y_um: Floats
+    block: Counts
+
+
+def read_trace(path: Path | str) -> StoredTrace:
+    """The arrays of a ``trace.npz``. FileUnreadableError where there is none, or where it is something else."""
+    try:
+        with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            return StoredTrace(**{field.name: arrays[field.name] for field in fields(StoredTrace)})
+    except OSError as error:
+        raise FileUnreadableError(f"{path}: {error.strerror or 'holds no trace of a run'}") from None
+    except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile, zlib.error):
+        raise FileUnreadableError(f"{path}: holds no trace of a run, as drycut run -o DIR --trace writes it") from None
+
+
+def write_trace(folder: Path, run: DryRun, steps: Mapping[str, Path]) -> None:
+    """Write `TRACE` into a folder, of a run and of the finished files of its steps, which are removed."""
+    write_npz(folder / TRACE, steps, trace_arrays(run))
+
+
+def trace_arrays(run: DryRun) -> dict[str, Floats | Counts]:
+    """The arrays of the samples, by their names in `StoredTrace`."""
+    trace = run.trace
+    return {
+        "t_s": trace.t_s,
+        "x_um": trace.wire_um[:, 0],
+        "y_um": trace.wire_um[:, 1],
+        "table_x_um": trace.table_um[:, 0],
+        "table_y_um": trace.table_um[:, 1],
+        "commanded_x_um": trace.commanded_um[:, 0],
+        "commanded_y_um": trace.commanded_um[:, 1],
+        "block": (trace.row + 1).astype(np.int32),
+    }

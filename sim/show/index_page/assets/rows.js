@@ -1,0 +1,97 @@
+// A row of the table: the picture of a program, where its files are, and what came of it.
+import { both, make } from "../../html/assets/elements.js";
+import { pick, said, say } from "../../html/assets/language.js";
+
+/** @import { Found, Index, Program } from "./data.js" */
+
+const SVG = "http://www.w3.org/2000/svg";
+const NOTHING = "–";
+
+/**
+ * The row of a program.
+ * @param {Program} program
+ * @param {Index} index
+ */
+export function rowOf(program, index) {
+  const verdict = make("span", { className: "word" }, ...both(said(program.verdict)));
+  const kept = program.from_cache ? [make("span", { className: "aside" }, ...both(said("kept")))] : [];
+  const row = make(
+    "tr",
+    { className: program.verdict },
+    make("td", { className: "picture" }, ...picture(program, index.box)),
+    make("th", { scope: "row" }, ...named(program)),
+    make("td", { className: "verdict" }, verdict, ...kept),
+    make("td", { className: "codes" }, ...codes(program.findings, index)),
+    figure("time", program.time_s === null ? NOTHING : clock(program.time_s)),
+    figure("worst", program.max_um === null ? NOTHING : program.max_um.toFixed(2), program.max_um === null ? "" : "µm"),
+  );
+  return row;
+}
+
+/**
+ * The path of a program, small.
+ * @param {Program} program
+ * @param {[number, number]} box
+ */
+function picture(program, box) {
+  if (!program.picture) return [];
+  const drawn = document.createElementNS(SVG, "svg");
+  const path = document.createElementNS(SVG, "path");
+  drawn.setAttribute("viewBox", `0 0 ${box[0]} ${box[1]}`);
+  drawn.setAttribute("role", "img");
+  drawn.setAttribute("aria-label", say("picture-of", { name: program.file }));
+  path.setAttribute("d", program.picture);
+  drawn.append(path);
+  return [drawn];
+}
+
+/**
+ * Name of a program: a link to its report where there is one, its title, and why there is none.
+ * @param {Program} program
+ */
+function named(program) {
+  const last = program.file.lastIndexOf("/") + 1;
+  const folder = make("span", { className: "folder" }, program.file.slice(0, last));
+  const name = [folder, make("span", { className: "name" }, program.file.slice(last))];
+  const told = program.message ? [make("span", { className: "message" }, ...both(program.message))] : [];
+  const titled = program.file.endsWith(program.title) ? [] : [make("span", { className: "title" }, program.title)];
+  if (program.folder === null) return [make("span", { className: "file" }, ...name), ...titled, ...told];
+  const there = program.folder.split("/").map(encodeURIComponent).join("/");
+  const replay = make("a", { className: "replay", href: `${there}/replay.html` }, ...both(said("replay")));
+  return [make("a", { className: "file", href: `${there}/report.html` }, ...name), ...titled, replay];
+}
+
+/**
+ * The codes of findings, with how often each occurs.
+ * @param {Found[]} findings
+ * @param {Index} index
+ */
+function codes(findings, index) {
+  if (!findings.length) return [NOTHING];
+  return findings.flatMap((found) => {
+    const title = pick(index.titles[found.code]);
+    const text = found.count > 1 ? `${found.code} ×${found.count}` : found.code;
+    return [make("span", { className: `code ${found.severity}`, title }, text), " "];
+  });
+}
+
+/**
+ * A cell with a number.
+ * @param {string} name
+ * @param {string} text
+ * @param {string} unit
+ */
+function figure(name, text, unit = "") {
+  const cell = make("td", { className: `number ${name}` }, text, ...(unit ? [" ", make("span", { className: "unit" }, unit)] : []));
+  return cell;
+}
+
+/**
+ * A time as h:min:s, the next whole second.
+ * @param {number} timeS
+ */
+export function clock(timeS) {
+  const seconds = Math.ceil(timeS);
+  const [hours, minutes] = [Math.floor(seconds / 3600), Math.floor(seconds / 60) % 60];
+  return `${hours}:${String(minutes).padStart(2, "0")}:${String(seconds % 60).padStart(2, "0")}`;
+}

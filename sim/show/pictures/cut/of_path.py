@@ -1,0 +1,65 @@
+"""The programmed path, and what the check finds on it: no table runs for this picture, and nothing is worked out."""
+
+from typing import NamedTuple
+
+from parser.findings.findings import Finding
+from parser.program import Program
+from parser.shape.passes import find_passes
+from sim.run.offsetting import Offsetting
+from sim.run.prepare import prepare
+from sim.setup.scenario import Scenario
+from sim.show.draw.sheet import AnyCanvas, Sheet
+from sim.show.pictures.cut.picture import draw_cut
+from sim.show.pictures.cut.subject import Cut
+from sim.show.pictures.cut.surroundings import bodies_of, note_of, travel_um
+from sim.show.words import Words
+
+
+class Programmed(NamedTuple):
+    """A program as it is to run, before anything moves.
+
+    Attributes
+    ----------
+    program
+        The program, its toolpath the one that is to run.
+    scenario
+        Machine, wire and work.
+    offset
+        What the controller's compensation made of it; None where it runs as written.
+    findings
+        Of the check that every run begins with.
+    """
+
+    program: Program
+    scenario: Scenario
+    offset: Offsetting | None
+    findings: tuple[Finding, ...]
+
+
+def programmed(program: Program, scenario: Scenario) -> Programmed:
+    """Check a program, and add the offset of its scenario. Raises what `sim.run.prepare.prepare` does."""
+    ready = prepare(program, scenario)
+    return Programmed(ready.program, scenario, ready.offset, ready.findings)
+
+
+def draw_path(sheet: Sheet[AnyCanvas], shown: Programmed) -> AnyCanvas:
+    """Draw a path as it is programmed."""
+    return draw_cut(sheet, cut_of_path(shown, sheet.say))
+
+
+def cut_of_path(shown: Programmed, say: Words) -> Cut:
+    """A cut of which no more is known than its program, machine and wire."""
+    toolpath, scenario = shown.program.toolpath, shown.scenario
+    passes = find_passes(toolpath)
+    return Cut(
+        toolpath=toolpath,
+        kerf_um=scenario.wire.kerf_um,
+        title=scenario.title,
+        note=note_of(toolpath, scenario, shown.findings, say("cut.not_run"), say),
+        passes=passes if any(one.number > 1 for one in passes.passes) else None,
+        leads=(passes.of_row < 0) & ~toolpath.is_jump,
+        contour=None if shown.offset is None else shown.offset.passed.drawn,
+        bodies=bodies_of(scenario),
+        findings=shown.findings,
+        travel_um=travel_um(toolpath, scenario),
+    )

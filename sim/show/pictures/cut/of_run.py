@@ -1,0 +1,37 @@
+"""The cut of a run: where the wire really was, and what it leaves."""
+
+from sim.cut.pieces.pieces import Pieces
+from sim.run.dryrun import DryRun
+from sim.show.draw.sheet import AnyCanvas, Sheet
+from sim.show.pictures.cut.picture import draw_cut
+from sim.show.pictures.cut.shapes import Shapes
+from sim.show.pictures.cut.subject import Cut
+from sim.show.pictures.cut.surroundings import bodies_of, note_of, travel_um
+from sim.show.words import Words
+from sim.units import clock
+
+
+def draw_cut_of_run(
+    sheet: Sheet[AnyCanvas], run: DryRun, pieces: Pieces | None, shapes: Shapes | None = None
+) -> AnyCanvas:
+    """Draw the cut of a run, with the pieces that it frees where they are known; with `shapes` of earlier pictures."""
+    return draw_cut(sheet, cut_of_run(run, pieces, sheet.say), shapes)
+
+
+def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words) -> Cut:
+    """The cut of a run, with the pieces that it frees where they are known."""
+    scenario = run.scenario
+    return Cut(
+        toolpath=run.toolpath,
+        kerf_um=scenario.wire.kerf_um,
+        title=scenario.title,
+        note=note_of(run.toolpath, scenario, run.findings, clock(run.ran_s), say),
+        trace=run.cut,
+        passes=run.passes if run.has_trims else None,
+        contour=None if run.offset is None else run.offset.passed.drawn,
+        bodies=bodies_of(scenario),
+        pieces=pieces,
+        sizes=None if run.remains is None else run.remains.sizes,
+        findings=run.findings,
+        travel_um=travel_um(run.toolpath, scenario),
+    )

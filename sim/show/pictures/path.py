@@ -1,0 +1,29 @@
+"""The picture of a path by itself, for which no table runs and no engine is loaded."""
+
+from typing import Final, NamedTuple
+
+from sim.show.draw import style
+from sim.show.draw.sheet import AnyCanvas, Sheet
+from sim.show.pictures.cut.of_path import Programmed, draw_path
+
+PATH: Final = "path"
+"""Its name, as ``drycut draw --picture`` takes it."""
+
+
+class PathAlone(NamedTuple):
+    """A program of which nothing but `PATH` is to be drawn; see `sim.show.pictures.shown.Shown`."""
+
+    programmed: Programmed
+
+    @property
+    def title(self) -> str:
+        """Title of its scenario."""
+        return self.programmed.scenario.title
+
+    def least_px(self, name: str) -> int:
+        """How narrow the picture can be: it has a thumbnail."""
+        return style.LEAST_THUMBNAIL
+
+    def draw(self, name: str, sheet: Sheet[AnyCanvas]) -> AnyCanvas:
+        """The page, drawn."""
+        return draw_path(sheet, self.programmed)

@@ -1,0 +1,26 @@
+"""What pictures show, asked for them by name: a program alone, or a run of it."""
+
+from typing import Protocol
+
+from parser.findings.catalogue import Language
+from sim.show.draw.sheet import AnyCanvas, Sheet
+from sim.show.words import Words
+
+
+class Shown(Protocol):
+    """What pictures are drawn of."""
+
+    @property
+    def title(self) -> str:
+        """What people call it."""
+
+    def least_px(self, name: str) -> int:
+        """How narrow a picture can be."""
+
+    def draw(self, name: str, sheet: Sheet[AnyCanvas]) -> AnyCanvas | None:
+        """The page of a picture, drawn; None where there is nothing to show in it."""
+
+
+def label(name: str, title: str, language: Language) -> str:
+    """What a picture is, for those who cannot see it."""
+    return f"{title}: {Words(language)(f'common.picture_{name}')}"

@@ -1,0 +1,82 @@
+"""Workers of other machines: those of a Dask scheduler (https://distributed.dask.org), the extra ``cluster``.
+
+Dask does a job again on another worker where one dies, and gives it up as `KilledWorker` when four died at it
+(``distributed.scheduler.allowed-failures``). Scheduler and workers import what they are handed, so drycut is installed
+where they run.
+"""
+
+import logging
+from collections.abc import Iterator
+from concurrent.futures import CancelledError, Executor
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Final
+
+from parser.findings.errors import ClusterError
+
+if TYPE_CHECKING:
+    from sim.workers.pool import Pool
+
+_WAIT_S: Final = 15
+_AHEAD_EACH: Final = 2  # one that a thread does, and one that is there when it is done
+_ANOTHER: Final = "has another drycut, or none: install the one that runs here"
+
+
+@contextmanager
+def cluster(address: str) -> Iterator["Pool"]:
+    """The workers of a scheduler, as long as the context lasts.
+
+    ClusterError where there is no scheduler, where it has no workers, where it is lost on the way, and where one of
+    them has no drycut.
+    """
+    client = _client(address)
+    try:
+        try:
+            client.wait_for_workers(1, timeout=_WAIT_S)
+        except TimeoutError:
+            raise ClusterError(f"{address}: the scheduler has had no workers for {_WAIT_S} s") from None
+        yield _Cluster(client)
+    except (ModuleNotFoundError, AttributeError) as error:
+        raise ClusterError(f"{address}: a worker {_ANOTHER} ({error})") from None
+    except CancelledError:
+        raise ClusterError(
+            f"{address}: the scheduler is lost; what is done is kept, and the next call goes on"
+        ) from None
+    finally:
+        client.close()
+
+
+def _client(address: str) -> Any:
+    try:
+        from distributed import Client  # noqa: PLC0415 - an extra, which takes half a second to load
+    except ImportError:
+        raise ClusterError("a scheduler needs the extra cluster: pip install 'drycut[cluster]'") from None
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what is lost is told here
+    try:
+        return Client(address, timeout=_WAIT_S, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise ClusterError(f"{address}: no Dask scheduler answers there: {error}") from None
+
+
+class _Cluster:
+    """A `Pool` of the workers that a scheduler has at any moment; they may come and go."""
+
+    def __init__(self, client: Any) -> None:
+        from distributed.scheduler import KilledWorker  # noqa: PLC0415 - as above
+
+        self._client = client
+        self.died: tuple[type[BaseException], ...] = (KilledWorker,)
+
+    def ahead(self) -> int:
+        """Jobs under way at once: some for each thread that there is now."""
+        threads: dict[str, int] = self._client.nthreads()
+        return _AHEAD_EACH * max(1, sum(threads.values()))
+
+    @contextmanager
+    def open(self, *, alone: bool = False) -> Iterator[Executor]:
+        """The workers; which of them does a job is the scheduler's to say, also where one job is handed over alone."""
+        executor: Executor = self._client.get_executor(pure=False)
+        try:
+            yield executor
+        except BaseException:
+            executor.shutdown(wait=False)
+            raise

@@ -1,0 +1,85 @@
+"""The page of a shop in a browser: search, filter, sort and turn; both languages, dark, phone, paper."""
+
+import pytest
+from browser import OpenPage
+from page_checks import complaints
+
+from parser.findings.catalogue import Said
+from sim.jobs.index import Entry, Row, build_index
+from sim.show.index_page import Beside, index_page
+
+SQUARE = "M20,20l50,0 0,40 -50,0 0,-40"
+
+
+def entry(number: int) -> Entry:
+    """Programs in turn: two that pass, one that fails, one that cannot be run."""
+    file = f"shop/{number // 100:02}/part-{number:04}.3b"
+    if number % 4 == 3:
+        message = Said(f"no block in part {number}", f"第 {number} 个文件没有程序段")
+        return Entry(file, None, Row("refused", f"part-{number:04}.3b", message, (("3B100", 1),)), from_cache=False)
+    row = Row("pass", f"Part {number}", time_s=60.0 + number, max_um=number % 7 + 0.5, picture=SQUARE)
+    if number % 4 == 2:
+        row = row._replace(verdict="fail", findings=(("3B301", number + 1), ("3B405", 1)))
+    return Entry(file, f"{number // 100:02}/part #{number}%.3b", row, from_cache=number % 2 == 0)
+
+
+def page(count: int) -> str:
+    entries = [entry(number) for number in range(count)]
+    return index_page(build_index(entries), [Beside(one.row.picture, one.row.message) for one in entries])
+
+
+@pytest.mark.parametrize(("lang", "dark"), [("en", True), ("zh", False)])
+def test_the_page_offers_anyone_what_pages_must(open_page: OpenPage, lang: str, dark: bool) -> None:
+    shown = open_page(page(8), lang=lang, dark=dark).page
+    assert complaints(shown) == []
+
+
+def test_search_and_choices_leave_what_fits_and_heads_sort_it(open_page: OpenPage) -> None:
+    shown = open_page(page(3000)).page
+    rows = shown.locator("tbody tr")
+    assert rows.count() == 200
+    assert shown.inner_text("#shown") == "3,000 of 3,000 programs"
+    shown.fill("#search", "PART-29 no")
+    assert shown.inner_text("#shown") == "25 of 3,000 programs"
+    shown.fill("#search", "")
+    shown.select_option("#verdict", "fail")
+    assert shown.inner_text("#shown") == "750 of 3,000 programs"
+    shown.click("th.findings button")
+    assert rows.first.locator(".codes").inner_text() == "3B301 ×2999 3B405"
+    shown.click("th.time button")
+    shown.click("th.time button")
+    assert shown.get_attribute("th.time", "aria-sort") == "ascending"
+    assert rows.first.locator(".time").inner_text() == "0:01:02"
+    shown.select_option("#verdict", "")
+    shown.select_option("#code", "3B405")
+    shown.get_by_role("button", name="Last", exact=True).click()
+    assert shown.inner_text(".count") == "rows 601–750 of 750"
+
+
+def test_links_lead_to_the_files_of_each_program(open_page: OpenPage) -> None:
+    shown = open_page(page(8)).page
+    assert shown.locator("a.file").first.get_attribute("href") == "00/part%20%230%25.3b/report.html"
+    assert shown.locator("tr.refused a").count() == 0
+
+
+def test_a_change_of_language_keeps_what_was_asked(open_page: OpenPage) -> None:
+    shown = open_page(page(8)).page
+    shown.select_option("#verdict", "refused")
+    shown.click(".language")
+    assert shown.input_value("#verdict") == "refused"
+    assert shown.locator("tbody .message").first.inner_text() == "第 3 个文件没有程序段"
+    shown.fill("#search", "没有程序段 7")
+    assert shown.locator("tbody tr").count() == 1
+    shown.fill("#search", "nothing like this")
+    assert shown.inner_text(".none") == "没有符合条件的程序。"
+
+
+def test_a_shop_without_programs_says_so(open_page: OpenPage) -> None:
+    assert open_page(page(0)).page.inner_text(".none") == "There is no program."
+
+
+def test_on_paper_stand_rows_and_no_controls(open_page: OpenPage) -> None:
+    shown = open_page(page(30)).page
+    shown.emulate_media(media="print")
+    assert shown.locator("tbody tr:visible").count() == 30
+    assert shown.locator("form:visible, .language:visible").count() == 0

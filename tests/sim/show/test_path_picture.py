@@ -1,0 +1,91 @@
+"""The picture of a path as it is programmed: drawn without a run, with all that the check knows."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from golden_pictures import assert_golden
+from places import ROOT
+from recorder import Recorder, recording_sheet
+from runs import plain_scenario, run_folder
+
+from parser.program import parse_program, read_program
+from sim.run.recording import NO_PIECES, Recording
+from sim.setup.scenario import load_scenario
+from sim.show.draw.paints import DARK, Paint
+from sim.show.draw.sheet import pixels
+from sim.show.pictures.cut.of_path import Programmed, draw_path, programmed
+from sim.show.pictures.gallery import subject_of
+from sim.show.pictures.path import PATH, PathAlone
+
+PART = "B0B5000B5000GYL2 B9900B0B9900GXL1 B0B9900B9900GYL2 B9900B0B9900GXL3 B0B9900B9900GYL4 B0B5000B5000GYL4 DD"
+OPEN = PART.replace("B9900B0B9900GXL3", "B9000B0B9000GXL3")
+ENGINE = {"pymunk", "numba", "sim.table.motion", "sim.cut.remains", "sim.run.dryrun", "jinja2", "ezdxf"}
+
+
+def of_text(text: str, **changes: object) -> Programmed:
+    return programmed(parse_program(text, "part.3b"), plain_scenario(**changes))
+
+
+def of_folder(name: str) -> Programmed:
+    scenario = load_scenario(ROOT / "scenarios" / name)
+    return programmed(read_program(scenario.program), scenario)
+
+
+def recorded(shown: Programmed, language: str = "en") -> Recorder:
+    return draw_path(recording_sheet(language=language), shown)
+
+
+def test_golden() -> None:
+    assert_golden(draw_path(pixels(800), of_text(OPEN)).image(), "path.png")
+
+
+def test_golden_of_passes_dark_in_chinese() -> None:
+    assert_golden(draw_path(pixels(800, DARK, "zh"), of_folder("rough-and-trim")).image(), "path-dark-zh.png")
+
+
+def test_nothing_of_the_engine_is_loaded_for_it(tmp_path: Path) -> None:
+    (tmp_path / "part.3b").write_text(PART, "ascii")
+    code = (
+        "import sys\nfrom sim.cli import main\nsys.argv = ['drycut', 'draw', 'part.3b', '-o', 'part.png']\n"
+        "try: main()\nexcept SystemExit as ended: print(ended.code, *sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True)
+    written, told = done.stdout.splitlines()
+    code, *modules = told.split()
+    assert (written, code) == ("written: part.png", "0")
+    assert set(modules) & ENGINE == set()
+
+
+@pytest.mark.parametrize(("language", "said"), [("en", "checked, not run"), ("zh", "已检查，未运行")])
+def test_it_says_that_nothing_ran_and_shows_what_the_check_finds(language: str, said: str) -> None:
+    sound, wrong = recorded(of_text(PART), language), recorded(of_text(OPEN), language)
+    assert any(said in text for text in sound.texts)
+    assert not any(text.startswith("3B") for text in sound.texts)
+    assert any(text.startswith("3B301") for text in wrong.texts)
+    assert wrong.of("polyline", Paint.ACTUAL) == []
+
+
+def test_leads_differ_from_edges() -> None:
+    canvas = recorded(of_text(PART))
+    leads = [one.at for one in canvas.of("polyline", Paint.LEAD)]
+    assert len(leads) == 3  # in, out, and the sample of the legend
+    assert "lead in or out" in canvas.texts
+    edge_only = recorded(of_text(PART.partition(" ")[2].replace(" B0B5000B5000GYL4", "")))
+    assert edge_only.of("polyline", Paint.LEAD) == []
+    assert "lead in or out" not in edge_only.texts
+
+
+def test_among_the_pictures_of_a_run_it_is_the_same() -> None:
+    run = run_folder(ROOT / "scenarios" / "servo-trip")
+    among = subject_of(Recording(run, NO_PIECES, None))  # type: ignore[arg-type]  # no picture of steps is asked for
+    alone = PathAlone(of_folder("servo-trip"))
+    first, second = (shown.draw(PATH, recording_sheet()) for shown in (among, alone))
+    assert first is not None
+    assert first.texts == second.texts
+    assert len(first.drawn) == len(second.drawn)
+    assert all(np.array_equal(a.at, b.at) for a, b in zip(first.drawn, second.drawn, strict=True) if a.what != "region")
+    assert any(finding.code.startswith("3B4") for finding in run.findings)  # which the path does not know
+    assert not any(text.startswith("3B4") for text in first.texts)
