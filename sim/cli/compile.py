@@ -5,6 +5,7 @@ from typing import Final
 
 LOOPS: Final[tuple[str, ...]] = (
     "sim.cut.kerf.edges",
+    "sim.cut.kerf.makers",
     "sim.cut.kerf.stars",
     "sim.cut.play.touching",
 )

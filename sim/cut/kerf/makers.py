@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 import shapely
 
+from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats, Ints
 from sim.cut.kerf.ways import WireWay
 
@@ -31,17 +32,51 @@ def rows_that_made(ways: Iterable[WireWay], place_um: Floats, reach_um: float) -
     if not parts or not len(place_um):
         return made
     wire, row = (np.concatenate(column) for column in zip(*parts, strict=True))
-    tree = shapely.STRtree(shapely.points(wire))  # type: ignore[arg-type]
-    points = np.asarray(shapely.points(place_um), dtype=np.object_)
-    (at, _), distance = tree.query_nearest(points, return_distance=True, all_matches=False)
-    nearest = np.full(len(place_um), np.inf)
-    nearest[at] = distance
-    reached = np.flatnonzero(nearest < reach_um + _INEXACT_UM)
-    which, near = tree.query(points[reached], predicate="dwithin", distance=nearest[reached] + _ALIKE_UM)
-    last = np.zeros(len(reached), dtype=np.int64)
-    np.maximum.at(last, which, near)  # ways are in the order they are cut
-    made[reached] = row[last]
+    within = reach_um + _INEXACT_UM
+    order, spans = _in_cells(wire, place_um, within + _ALIKE_UM)
+    last = _last_of_nearest(wire[order], order, np.ascontiguousarray(place_um), spans, within)
+    made[last >= 0] = row[last[last >= 0]]
     return made
+
+
+def _in_cells(wire: Floats, place_um: Floats, cell_um: float) -> tuple[Ints, Ints]:
+    """Order (p,) of the wire's places in square cells, and where in it those near to each place (m, 2) stand.
+
+    They are spans (m, 3, 2), each from the first to one past the last: three cells one above the other, in the column
+    of the place and those beside it.
+    """
+    low = np.minimum(wire.min(axis=0), place_um.min(axis=0))
+    cells, near = (np.floor((place - low) / cell_um).astype(np.int64) for place in (wire, place_um))
+    high = max(int(cells[:, 1].max()), int(near[:, 1].max())) + 3  # an empty cell below and above each column
+    key = cells[:, 0] * high + cells[:, 1]
+    order = np.argsort(key, kind="stable")
+    middle = (near[:, :1] + np.arange(-1, 2)) * high + near[:, 1:]
+    begin, past = np.searchsorted(key[order], middle - 1), np.searchsorted(key[order], middle + 1, "right")
+    return order, np.stack([begin, past], axis=2)
+
+
+@compiled("i8[::1](f8[:,::1], i8[::1], f8[:,::1], i8[:,:,::1], f8)")
+def _last_of_nearest(wire: Floats, index: Ints, place: Floats, spans: Ints, within: float) -> Ints:
+    """The last (m,) of the wire's places that come equally near to each place (m, 2); −1 where none is `within`.
+
+    `wire` (p, 2) with the index of each; of these, each place has those near to it in spans (m, 3, 2).
+    """
+    found = np.full(place.shape[0], -1)
+    for at in range(place.shape[0]):
+        least = within * within
+        for again in range(2):  # how near, then which
+            for begin, past in spans[at]:
+                for near in range(begin, past):
+                    off_x, off_y = wire[near, 0] - place[at, 0], wire[near, 1] - place[at, 1]
+                    square = off_x * off_x + off_y * off_y
+                    if again == 0:
+                        least = min(least, square)
+                    elif square <= least:
+                        found[at] = max(found[at], index[near])
+            if least >= within * within:
+                break
+            least = (np.sqrt(least) + _ALIKE_UM) ** 2
+    return found
 
 
 def share_made(edge_um: shapely.LinearRing, way_um: Sequence[Floats], reach_um: float) -> float:
