@@ -71,9 +71,9 @@ class FreeQuestion(NamedTuple):
         """Whether the box holds all of the stock, so that the answer is final."""
         return bool(self.border_um.is_empty)
 
-    def part(self, kerf_um: Region) -> shapely.Polygon:
-        """What is left round the point of the piece; empty where the kerf has taken that."""
-        parts = np.array(parted(self.stock_um, kerf_um), dtype=np.object_)
+    def left(self, part_um: Region, kerf_um: Region) -> shapely.Polygon:
+        """What a kerf leaves of a part round the point of the piece; empty where it has taken that."""
+        parts = np.array(parted(part_um, kerf_um), dtype=np.object_)
         held: list[shapely.Polygon] = parts[shapely.contains(parts, self.piece)].tolist()
         return held[0] if held else shapely.Polygon()
 
@@ -103,51 +103,43 @@ def closing_of(
     question: FreeQuestion, swept: tuple[Swept, ...], contours: list[int], offset_um: float
 ) -> Closing | None:
     """The first moment at which the kerfs of some contours, in the order they are cut, answer the question with yes."""
-    before = _cut(question, _Cut(shapely.Polygon(), shapely.Polygon()), [shapely.Polygon()])
+    part = question.left(question.stock_um, shapely.Polygon())
     for contour in contours:
-        after = _cut(question, before, swept[contour].near(0, len(swept[contour].first), question.box))
-        if question.is_free(after.part_um):
-            return _within(question, before, swept[contour], offset_um, FreeMoment(contour, -1, after.part_um))
-        before = after
+        after = _left(question, part, swept[contour].near(0, len(swept[contour].first), question.box))
+        if question.is_free(after):
+            return _within(question, part, swept[contour], offset_um, FreeMoment(contour, -1, after))
+        part = after
     return None
 
 
-class _Cut(NamedTuple):
-    """A kerf as far as it lies near the box, and what it leaves round the point of the piece."""
-
-    kerf_um: Region
-    part_um: shapely.Polygon
+def _left(question: FreeQuestion, part: shapely.Polygon, kerfs: list[Region]) -> shapely.Polygon:
+    return question.left(part, union_all(kerfs)) if kerfs else part
 
 
-def _cut(question: FreeQuestion, before: _Cut, more: list[Region]) -> _Cut:
-    if not more:
-        return before
-    kerf = union_all([before.kerf_um, *more])
-    return _Cut(kerf, question.part(kerf))
-
-
-def _within(question: FreeQuestion, before: _Cut, swept: Swept, offset_um: float, whole: FreeMoment) -> Closing:
+def _within(
+    question: FreeQuestion, hung: shapely.Polygon, swept: Swept, offset_um: float, whole: FreeMoment
+) -> Closing:
     """The moment on the wire's way whose whole kerf frees the piece: halves the stretches, then the places of one."""
     low, high, piece = 0, len(swept.first), whole.piece_um
     while high - low > 1:
         middle = low + (1 << ((high - low - 1).bit_length() - 1))  # as the tree of the regions is halved
-        after = _cut(question, before, swept.near(low, middle, question.box))
-        if after is not before and question.is_free(after.part_um):
-            high, piece = middle, after.part_um
+        after = _left(question, hung, swept.near(low, middle, question.box))
+        if question.is_free(after):
+            high, piece = middle, after
         else:
-            low, before = middle, after
+            low, hung = middle, after
     way = swept.way
     about = middles(way, swept.first)[low : low + 1]
     first, past = np.append(swept.first, len(way.row))[low : low + 2].tolist()
-    low, high, hung = first - 1, past - 1, before.part_um
+    before, low, high = hung, first - 1, past - 1
     while high - low > 1:
         at = (low + high) // 2
         star = stars(way.place_um[first : at + 1], np.zeros(1, dtype=np.int64), about, offset_um)
-        part = _cut(question, before, star.tolist()).part_um
-        if question.is_free(part):
-            high, piece = at, part
+        after = question.left(before, star[0])
+        if question.is_free(after):
+            high, piece = at, after
         else:
-            low, hung = at, part
+            low, hung = at, after
     return Closing(FreeMoment(whole.contour, high, piece), hung)
 
 

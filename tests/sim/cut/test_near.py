@@ -1,0 +1,95 @@
+"""What is looked at near a piece alone comes out as with all that was cut: when it comes free, and what it touches."""
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+from paths import Pen
+from traced import STEEL, F, kerf_along, pieces_along
+
+from parser.toolpath import Toolpath
+from sim.cut.kerf.makers import rows_that_made
+from sim.cut.kerf.stars import SIMPLER_UM, rays, stars
+from sim.cut.pieces import moments
+from sim.cut.pieces.pieces import pieces_of
+from sim.cut.play import freedom
+from sim.cut.play.freedom import plays_of
+
+
+def lattice(lines: int) -> Toolpath:
+    """To and fro, then up and down across that: the first line across frees whole rows, which later ones part."""
+    pen, size = Pen(0, 0), 1000.0 * lines
+    for row in range(lines + 1):
+        pen.to(size if row % 2 == 0 else 0, 1000.0 * row)
+        if row < lines:
+            pen.to(pen.x, 1000.0 * (row + 1))
+    pen.to(pen.x, size + 600)
+    toward = 1.0 if pen.x == 0 else -1.0
+    for column in range(lines):
+        pen.to(pen.x + toward * (500 if column == 0 else 1000), pen.y)
+        pen.to(pen.x, -600 if column % 2 == 0 else size + 600)
+    return pen.path()
+
+
+def flower() -> Toolpath:
+    """Loops that each cross the one before."""
+    pen = Pen(0, 0)
+    for step in range(1, 160):
+        angle = step * math.pi / 20
+        pen.to(step * 25 + 900 * math.sin(angle), 900 * (1 - math.cos(angle)))
+    return pen.path()
+
+
+@pytest.mark.parametrize("path", [lattice(4), flower()], ids=["lattice", "flower"])
+def test_pieces_come_free_in_their_boxes_as_in_all_of_the_stock(path, monkeypatch):
+    kerf = kerf_along(path)
+    near = pieces_of(kerf, None, STEEL).freed
+    monkeypatch.setattr(moments, "_BESIDE", 1e6)
+    whole = pieces_of(kerf, None, STEEL).freed
+    assert len(near) > 8
+    assert len({piece.freed for piece in near}) < len(near) or path.length_um.max() < 1000
+    assert [piece.freed for piece in near] == [piece.freed for piece in whole]
+    assert [piece.cut_after_um for piece in near] == pytest.approx([piece.cut_after_um for piece in whole])
+
+
+@pytest.mark.parametrize("path", [lattice(4), flower()], ids=["lattice", "flower"])
+def test_pieces_touch_the_walls_near_them_as_among_all_walls(path, monkeypatch):
+    pieces = pieces_along(path)
+    monkeypatch.setattr(freedom, "_NEAR_UM", 300.0)
+    near = plays_of(pieces, 90.0)
+    monkeypatch.setattr(freedom, "_NEAR_UM", 1e6)
+    for one, other in zip(near, plays_of(pieces, 90.0), strict=True):
+        within = one.exact_to_um + other.exact_to_um
+        shifts = [[shift.by_um for shift in play.shifts] for play in (one, other)]
+        assert np.isfinite(shifts[0]).any()
+        # Directions along a wall graze it or not by less than the outlines are exact to.
+        grazing = sum(abs(a - b) > 10.0 * within for a, b in zip(*shifts, strict=True) if a != b)
+        assert grazing <= 1
+        assert one.pinch.width_um == pytest.approx(other.pinch.width_um, abs=within)
+
+
+def test_a_star_reaches_to_the_farthest_disc_along_each_ray():
+    rng = np.random.default_rng(3)
+    place = np.cumsum(rng.uniform(0.0, 3.0, (60, 2)), axis=0) * 0.8
+    middle, toward = place[30:31], rays(F)
+    out = place - middle
+    along, across = out @ toward.T, out @ np.stack([-toward[:, 1], toward[:, 0]])
+    reach = (along + np.sqrt(F**2 - across**2)).max(axis=0)
+    (star,) = stars(place, np.zeros(1, dtype=np.int64), middle, F)
+    border = np.array(star.exterior.coords)[:-1]
+    assert len(border) <= len(toward)
+    off = np.array([star.exterior.distance(point) for point in shapely.points(middle + reach[:, None] * toward)])
+    assert off.max() <= SIMPLER_UM * (1.0 + 1e-9)
+
+
+def test_of_places_equally_near_the_last_is_told_as_by_all_distances():
+    path = flower()
+    (swept,) = kerf_along(path).swept
+    way, rng = swept.way, np.random.default_rng(4)
+    place = way.place_um[rng.integers(0, len(way.row), 400)] + rng.uniform(-1.2 * F, 1.2 * F, (400, 2))
+    off = np.hypot(*(place[:, None] - way.place_um).transpose(2, 0, 1))
+    least = off.min(axis=1)
+    last = np.array([np.flatnonzero(one <= near + 0.04)[-1] for one, near in zip(off, least, strict=True)])
+    expected = np.where(least < F + 0.2, way.row[last], -1)
+    assert rows_that_made([way], place, F).tolist() == expected.tolist()
