@@ -6,6 +6,7 @@ where they run.
 """
 
 import logging
+import re
 from collections.abc import Iterator
 from concurrent.futures import CancelledError, Executor
 from contextlib import contextmanager
@@ -16,8 +17,9 @@ from parser.findings.errors import ClusterError
 if TYPE_CHECKING:
     from sim.workers.pool import Pool
 
-_WAIT_S: Final = 15
+MOST_WAIT_S: Final = 15
 _AHEAD_EACH: Final = 2  # one that a thread does, and one that is there when it is done
+_ADDRESS: Final = re.compile(r"(tcp|tls|ws|wss)://[^/]+:\d+")
 _ANOTHER: Final = "has another drycut, or none: install the one that runs here"
 
 
@@ -31,9 +33,9 @@ def cluster(address: str) -> Iterator["Pool"]:
     client = _client(address)
     try:
         try:
-            client.wait_for_workers(1, timeout=_WAIT_S)
+            client.wait_for_workers(1, timeout=MOST_WAIT_S)
         except TimeoutError:
-            raise ClusterError(f"{address}: the scheduler has had no workers for {_WAIT_S} s") from None
+            raise ClusterError(f"{address}: the scheduler has had no workers for {MOST_WAIT_S} s") from None
         yield _Cluster(client)
     except (ModuleNotFoundError, AttributeError) as error:
         raise ClusterError(f"{address}: a worker {_ANOTHER} ({error})") from None
@@ -46,13 +48,15 @@ def cluster(address: str) -> Iterator["Pool"]:
 
 
 def _client(address: str) -> Any:
+    if not _ADDRESS.fullmatch(address):
+        raise ClusterError(f"{address}: is no address of a scheduler, such as tcp://host:8786")
     try:
         from distributed import Client  # noqa: PLC0415 - an extra, which takes half a second to load
     except ImportError:
         raise ClusterError("a scheduler needs the extra cluster: pip install 'drycut[cluster]'") from None
     logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what is lost is told here
     try:
-        return Client(address, timeout=_WAIT_S, set_as_default=False)
+        return Client(address, timeout=MOST_WAIT_S, set_as_default=False)
     except (OSError, ValueError) as error:
         raise ClusterError(f"{address}: no Dask scheduler answers there: {error}") from None
 

@@ -89,7 +89,7 @@ def test_a_worker_of_two_is_killed_and_then_the_scheduler(running: Running, tmp_
 
 @pytest.mark.filterwarnings("ignore")
 def test_a_scheduler_that_does_not_answer_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sim.workers.cluster._WAIT_S", 0.2)
+    monkeypatch.setattr("sim.workers.cluster.MOST_WAIT_S", 0.2)
     make_shop(tmp_path / "shop", 1)
     done = run_inside("run", "shop", "-o", "out", "--scheduler", "tcp://127.0.0.1:9", cwd=tmp_path)
     assert done.returncode == 2
