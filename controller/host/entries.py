@@ -7,6 +7,7 @@ import numpy as np
 from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.motion.plan import Plan
 from controller.motion.planner import RowLimits
+from controller.stepping.words import words_of
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Toolpath
 
@@ -103,3 +104,16 @@ def _turns(sweep_rad: Floats, interpolation: Interpolation) -> Ints:
     if interpolation == "point-by-point":
         return np.ones(len(sweep_rad), dtype=np.int64)
     return np.maximum(np.ceil(np.abs(sweep_rad) / (2.0 * np.pi) - 1e-12), 1.0).astype(np.int64)
+
+
+def blocks_told(drive: Drive, entries: Entries) -> list[tuple[float, ...]]:
+    """What `step_block` is given for each entry: the words of its block, and the length µm."""
+    words, row = words_of(drive.toolpath), entries.row
+    columns = words.x_um, words.y_um, words.count_um, words.count_axis, words.quadrant, words.turn
+    return list(zip(*(column[row].tolist() for column in (*columns, drive.limits.length_um)), strict=True))
+
+
+def shapes_told(entries: Entries) -> list[tuple[float, ...]]:
+    """What `GT_LnXY` is given for each line, the end, and `GT_ArcXY` for each arc, centre and angle; user units, °."""
+    ends, centers, angles = (column.tolist() for column in (entries.end_um, entries.center_um, entries.angle_deg))
+    return [(*center, angle) if angle else tuple(end) for end, center, angle in zip(ends, centers, angles, strict=True)]

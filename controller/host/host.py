@@ -11,9 +11,8 @@ from controller.card.core.codes import LIST_FULL, Code, CrdSts
 from controller.card.core.settings import CardSettings
 from controller.card.core.units import UM_S_PER_PULSE_MS
 from controller.card.ge import GECard
-from controller.host.entries import Drive, entries_of
+from controller.host.entries import Drive, blocks_told, entries_of, shapes_told
 from controller.stepping.pulses import Pulses
-from controller.stepping.words import words_of
 from parser.findings.errors import ControllerError
 
 AXES = (1, 2)  # X and Y
@@ -51,13 +50,9 @@ class Host:
         self._drive, self._take = drive, take
         self._entries = entries_of(drive)
         self._row_of = np.concatenate([[0], self._entries.row]).astype(np.int32)
-        words = words_of(drive.toolpath)
-        columns = words.x_um, words.y_um, words.count_um, words.count_axis, words.quadrant, words.turn
-        told = [column[self._entries.row].tolist() for column in (*columns, drive.limits.length_um)]
-        self._blocks = list(zip(*told, strict=True))
-        self._ends = self._entries.end_um.tolist()
-        self._centers = self._entries.center_um.tolist()
-        self._angles = self._entries.angle_deg.tolist()
+        self._steps_words = drive.interpolation == "point-by-point"
+        told = blocks_told(drive, self._entries) if self._steps_words else shapes_told(self._entries)
+        self._told: list[tuple[float, ...]] = told
         self._end_s = drive.plan.time_at(np.cumsum(drive.limits.length_um)[self._entries.row])
         self._pushed = 0
         self._began_s: float | None = None
@@ -65,7 +60,7 @@ class Host:
     def run(self) -> None:
         """Run the whole program. ControllerError where the card refuses a call that it should take."""
         self._prepare()
-        push = self._push_words if self._drive.interpolation == "point-by-point" else self._push_geometry
+        push = self._push_words if self._steps_words else self._push_geometry
         entries = self._entries
         speeds, accelerations = entries.speed_pulse_ms.tolist(), entries.acceleration_pulse_ms2.tolist()
         ends, waits = entries.end_pulse_ms.tolist(), entries.wait_ms.tolist()
@@ -101,13 +96,11 @@ class Host:
             self._must(card.GT_MvXY, 0.0, 0.0, *motion)
 
     def _push_words(self, entry: int) -> None:
-        self._push(self.card.step_block, *self._blocks[entry])
+        self._push(self.card.step_block, *self._told[entry])
 
     def _push_geometry(self, entry: int) -> None:
-        if self._angles[entry]:
-            self._push(self.card.GT_ArcXY, *self._centers[entry], self._angles[entry])
-        else:
-            self._push(self.card.GT_LnXY, *self._ends[entry])
+        call = self.card.GT_ArcXY if self._entries.angle_deg[entry] else self.card.GT_LnXY
+        self._push(call, *self._told[entry])
 
     def _push(self, call: Callable[..., int], *arguments: float) -> None:
         """Make a call that needs room in the list, when there is room."""

@@ -11,9 +11,10 @@ import numpy as np
 
 from controller.motion.path import Path
 from controller.motion.plan import Plan
+from controller.stepping.chunks import CHUNK_STEPS, chunk_of
 from controller.stepping.equal_time import ROUNDING_UM, Clock, SampledMotion
 from controller.stepping.pulses import Pulses, no_pulses, time_steps
-from controller.stepping.steps import CHUNK_STEPS, Steps
+from controller.stepping.steps import Steps
 
 _FIRST_STEPS = 256  # worked out at first: a plan is often replaced before it has run far
 _FIRST_PERIODS, _MOST_PERIODS = 32, 2048  # looked at ahead of what is asked for
@@ -99,7 +100,7 @@ class PointByPoint:
     def _work_out(self) -> None:
         """Work out the next chunk, without steps that come after the plan's end."""
         until = min(self._done + self._size, len(self._steps))
-        chunk = self._steps.chunk(self._done, until)
+        chunk = chunk_of(self._steps, self._done, until)
         timed = time_steps(chunk, self._plan, self._began_s, self._from_um)
         np.maximum(timed.t_s, self._latest_s, out=timed.t_s)
         x, y = self._origin_um

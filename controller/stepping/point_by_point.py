@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from controller.stepping.quadrants import walk_arcs
 from controller.stepping.steps import Steps
-from controller.stepping.strokes import Followed, arc_strokes, follow, line_strokes
+from controller.stepping.strokes import arc_strokes, line_strokes, reached
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.toolpath import Axis, StepWords
 
@@ -31,12 +31,11 @@ def interpolate_words(words: StepWords, length_um: Floats) -> Steps:
     count = np.zeros(n, dtype=np.int64)
     count[line] = count_line(place[line], in_j[line], words.count_axis[line], first_is_x)
     count[arc] = walk.steps
-    line_ends = follow(line_strokes(line, place[line], sign[line], first_is_x, count[line]), *_last_step(count[line]))
-    last = arc_strokes(arc, walk, words.turn[arc], np.maximum(walk.steps - 1, 0), walk.steps)
-    arc_ends = follow(last, *_last_step(last.steps))
+    lines = line_strokes(line, place[line], sign[line], first_is_x, count[line]).picked(count[line] > 0)
+    arcs = arc_strokes(arc, walk, words.turn[arc], np.maximum(walk.steps - 1, 0), walk.steps)
     moved, along = np.zeros((n, 2), dtype=np.int64), np.zeros(n)
-    for rows, ends in ((line[count[line] > 0], line_ends), (last.row, arc_ends)):
-        moved[rows], along[rows] = _columns(ends), ends.along_um
+    for last in (lines, arcs):
+        moved[last.row], along[last.row] = reached(last, last.steps)
     return Steps(
         count=count,
         before=_running(count),
@@ -70,15 +69,6 @@ def count_line(extent: Ints, count_um: Ints, count_axis: Ints, first_is_x: Bools
     waits_for_second = first * before // np.maximum(second, 1) + 1
     steps = count_um + np.where(on_first, waits_for_first, waits_for_second)
     return np.where(count_um > 0, np.minimum(steps, _ENDLESS_STEPS), 0)
-
-
-def _last_step(count: Ints) -> tuple[Ints, Ints]:
-    """Skip all but the last step of strokes that have any."""
-    return np.maximum(count - 1, 0), np.minimum(count, 1)
-
-
-def _columns(ends: Followed) -> Ints:
-    return np.stack([ends.x_um, ends.y_um], axis=1)
 
 
 def _running(column: NDArray[Number]) -> NDArray[Number]:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.motion.plan import Plan
-from controller.stepping.steps import StepChunk
+from controller.stepping.chunks import StepChunk
 from parser.geometry.curves import Floats
 
 ROUNDING = 1e-13

@@ -1,41 +1,16 @@
 """Steps: the 1 µm steps of a whole program as data that answers for any stretch of it.
 
-Nothing is stored per step. `Steps` keeps one row a block; `Steps.chunk` works out any stretch of steps in closed
-form, so that a program of any length streams in bounded memory.
+Nothing is stored per step. `Steps` keeps one row a block; `chunks` makes any stretch of steps from that, so that a
+program of any length streams in bounded memory.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from controller.stepping.quadrants import ArcWalk
-from controller.stepping.strokes import Strokes, arc_strokes, follow, line_strokes
+from controller.stepping.strokes import Strokes, arc_strokes, line_strokes, reached
 from parser.geometry.curves import Bools, Floats, Ints
-
-CHUNK_STEPS = 1 << 18
-"""Steps worked out at once: their arrays stay in a processor's cache, and the cost of an array call is spread thin."""
-
-
-class StepChunk(NamedTuple):
-    """m steps in order.
-
-    Attributes
-    ----------
-    x_um, y_um
-        (m,) int32, where the table stands after each step, from where it stood at the program's start.
-    row
-        (m,) int32, row of the toolpath that made the step.
-    along_um
-        (m,) float64, length of the ideal path covered by then, never falling.
-    """
-
-    x_um: NDArray[np.int32]
-    y_um: NDArray[np.int32]
-    row: NDArray[np.int32]
-    along_um: Floats
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,26 +57,12 @@ class Steps:
         if self.before[block] == count:
             x, y = self.corner_um[block]
         else:
-            (x,), (y,), _, _ = self.chunk(count - 1, count)
+            last = self.strokes_of(count - 1, count)
+            x, y = reached(last, count - self.before[last.row] - last.base).place_um[0]
         return int(x), int(y)
 
-    def chunks(self, size: int = CHUNK_STEPS) -> Iterator[StepChunk]:
-        """All steps in stretches of `size`; the last may be shorter."""
-        return (self.chunk(since, min(since + size, len(self))) for since in range(0, len(self), size))
-
-    def chunk(self, since: int, until: int) -> StepChunk:
-        """Steps number since + 1 to until. ValueError unless 0 ≤ since ≤ until ≤ len."""
-        if not 0 <= since <= until <= len(self):
-            raise ValueError(f"steps {since} to {until} of {len(self)}")
-        strokes = self._strokes(since, until)
-        row = strokes.row
-        skipped = np.maximum(since - self.before[row] - strokes.base, 0)
-        taken = np.minimum(until - self.before[row] - strokes.base, strokes.steps) - skipped
-        x, y, along = follow(strokes, skipped, taken)
-        return StepChunk(x.astype(np.int32), y.astype(np.int32), np.repeat(row.astype(np.int32), taken), along)
-
-    def _strokes(self, since: int, until: int) -> Strokes:
-        """Strokes that hold steps of the stretch, in order, placed in the program."""
+    def strokes_of(self, since: int, until: int) -> Strokes:
+        """Strokes that hold steps number since + 1 to until, in order, placed in the program."""
         low = int(np.searchsorted(self.before, since, side="right")) - 1
         high = int(np.searchsorted(self.before, until, side="left"))
         lines = slice(*np.searchsorted(self.line_row, [low, high]))

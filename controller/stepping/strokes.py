@@ -1,4 +1,4 @@
-"""Strokes: stretches of steps in which each axis moves one way only, with every step in closed form.
+"""Strokes: stretches of steps in which each axis moves one way only, with any step in closed form.
 
 A line is one stroke, an arc one per quadrant. Of the first k steps of a stroke, `firsts` are on its first axis; the
 staircase of point-by-point comparison gives that number without walking:
@@ -10,15 +10,12 @@ staircase of point-by-point comparison gives that number without walking:
   u0 − k, which is where it stands while F ≥ 0.
 """
 
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from controller.stepping.quadrants import AWAY, TOWARD, ArcWalk, ceil_sqrt
 from parser.geometry.curves import Bools, Floats, Ints
-
-Number = TypeVar("Number", np.int64, np.float64, np.bool_)
 
 
 class Strokes(NamedTuple):
@@ -66,11 +63,10 @@ class Strokes(NamedTuple):
         return Strokes._make(column[order] for column in self)
 
 
-class Followed(NamedTuple):
-    """Steps of strokes, (n,): place (int64 µm) and length of the ideal path by then (float64 µm)."""
+class Reached(NamedTuple):
+    """After steps of m strokes: places (m, 2) int64 µm, and lengths (m,) float64 µm of the ideal path by then."""
 
-    x_um: Ints
-    y_um: Ints
+    place_um: Ints
     along_um: Floats
 
 
@@ -150,35 +146,36 @@ def firsts_of_arc(u0: Ints, v0: Ints, radius_sq: Ints, k: Ints) -> Ints:
     return np.minimum(k, u0 - u)
 
 
-def follow(strokes: Strokes, skipped: Ints, taken: Ints) -> Followed:
-    """The `taken` steps after the first `skipped` of each stroke, (m,) each, strung together.
+def firsts_among(strokes: Strokes, k: Ints) -> Ints:
+    """First-axis steps among the first k (m,) ≥ 0 of each stroke, (m,) int64."""
+    of_lines = np.where(k > 0, firsts_of_line(strokes.a, np.maximum(strokes.a + strokes.b, 1), k), 0)
+    return np.where(strokes.is_arc, firsts_of_arc(strokes.a, strokes.b, strokes.radius_sq, k), of_lines)
 
-    The length of the ideal path is that of the step's foot on it: along a line its share in the direction, along an
-    arc the angle seen from the centre.
+
+def lengths_of_lines(strokes: Strokes) -> Floats:
+    """Lengths (m, 3) µm of the ideal path: for each step on the first axis, besides for each step, and before the line.
+
+    The foot of a step on a line lies where its share in the direction is.
     """
-
-    def each(column: NDArray[Number]) -> NDArray[Number]:
-        return np.repeat(column, taken)
-
-    k = np.arange(1, int(taken.sum()) + 1) - each(np.cumsum(taken) - taken - skipped)
-    firsts = firsts_of_line(each(strokes.a), each(strokes.a + strokes.b), k)
     extent = np.maximum(np.hypot(strokes.a, strokes.b), 1.0) / strokes.stretch
-    along = each((strokes.a - strokes.b) / extent) * firsts + each(strokes.b / extent) * k + each(strokes.lead_um)
-    if strokes.is_arc.any():
-        arc = np.flatnonzero(each(strokes.is_arc))
-        firsts[arc], along[arc] = _follow_arcs(strokes.picked(strokes.is_arc), k[arc], taken[strokes.is_arc])
-    # first · firsts + second · (k − firsts), axis by axis
-    turn, second = strokes.first - strokes.second, strokes.second
-    x = each(turn[:, 0]) * firsts + each(second[:, 0]) * k + each(strokes.origin[:, 0])
-    y = each(turn[:, 1]) * firsts + each(second[:, 1]) * k + each(strokes.origin[:, 1])
-    return Followed(x, y, along)
+    return np.column_stack([(strokes.a - strokes.b) / extent, strokes.b / extent, strokes.lead_um])
 
 
-def _follow_arcs(strokes: Strokes, k: Ints, taken: Ints) -> tuple[Ints, Floats]:
-    """First-axis steps and path lengths of the k-th steps of arcs."""
-    u0, v0 = np.repeat(strokes.a, taken), np.repeat(strokes.b, taken)
-    firsts = firsts_of_arc(u0, v0, np.repeat(strokes.radius_sq, taken), k)
+def lengths_of_arcs(strokes: Strokes) -> tuple[Floats, Floats]:
+    """Lengths (m,) µm of the ideal path: by the angle 0 of the arc's frame, and for each rad from there.
+
+    The foot of a step on an arc lies where its angle from the centre is.
+    """
     radius = np.sqrt(strokes.radius_sq) * strokes.stretch
-    lead = strokes.lead_um - radius * np.arctan2(strokes.b, strokes.a)
-    angle = np.arctan2(v0 + (k - firsts), u0 - firsts)
-    return firsts, np.repeat(lead, taken) + np.repeat(radius, taken) * angle
+    return strokes.lead_um - radius * np.arctan2(strokes.b, strokes.a), radius
+
+
+def reached(strokes: Strokes, k: Ints) -> Reached:
+    """Where the k-th (m,) ≥ 1 step of each stroke ends."""
+    on_first = firsts_among(strokes, k)
+    on_second = k - on_first
+    place = strokes.origin + strokes.first * on_first[:, None] + strokes.second * on_second[:, None]
+    by_first, by_step, before = lengths_of_lines(strokes).T
+    lead, radius = lengths_of_arcs(strokes)
+    on_arc = lead + radius * np.arctan2(strokes.b + on_second, strokes.a - on_first)
+    return Reached(place, np.where(strokes.is_arc, on_arc, by_first * on_first + by_step * k + before))

@@ -70,4 +70,5 @@ def _meeting(boxes: Boxes, first: int, past: int, mates: Ints, base: int) -> Int
     near = (boxes.low_y[one] <= boxes.high_y[other]) & (boxes.low_y[other] <= boxes.high_y[one])
     near &= (boxes.row[one] != boxes.row[other]) & (boxes.contour[one] == boxes.contour[other])
     a, b = boxes.row[one[near]], boxes.row[other[near]]
-    return distinct(np.minimum(a, b) * base + np.maximum(a, b))
+    keys: Ints = np.minimum(a, b) * base + np.maximum(a, b)
+    return keys

@@ -38,7 +38,11 @@ def to_left(way: Floats) -> Floats:
 
 def _headings(curves: Curves, row: Ints, angle_rad: Floats) -> Floats:
     """Directions of lines along their chord, of arcs across the radius at an angle from the centre."""
-    by = curves.end_um[row] - curves.start_um[row]
-    length = np.hypot(by[:, 0], by[:, 1])[:, None]
-    tangent = np.stack([-np.sin(angle_rad), np.cos(angle_rad)], axis=1) * np.sign(curves.sweep_rad[row])[:, None]
-    return np.where((curves.kind[row] == CurveKind.ARC)[:, None], tangent, by / np.where(length > 0.0, length, 1.0))
+    by = curves.end_um.take(row, axis=0) - curves.start_um.take(row, axis=0)
+    length = np.hypot(by[:, 0], by[:, 1])
+    heading: Floats = by / np.where(length > 0.0, length, 1.0)[:, None]
+    arc = np.flatnonzero(curves.kind[row] == CurveKind.ARC)
+    if len(arc):
+        angle, turn = angle_rad[arc], np.sign(curves.sweep_rad[row[arc]])
+        heading[arc] = np.stack([-np.sin(angle) * turn, np.cos(angle) * turn], axis=1)
+    return heading

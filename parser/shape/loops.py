@@ -5,12 +5,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.curves import Curves, Floats, Ints, total_before
 from parser.geometry.distance import distance_to_curves
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
 
 _LEAD_IN_BLOCKS = 4  # at most; the loop begins no later
+_ROUNDING_UM = 1.0
 
 
 class Loops(NamedTuple):
@@ -49,6 +50,10 @@ class _Part(NamedTuple):
     row: Ints
     of: Ints
 
+    def take(self, at: NDArray[np.bool_]) -> "_Part":
+        """Those rows where `at` (m,) is True."""
+        return _Part(self.row[at], self.of[at])
+
 
 def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints, within_um: float = CLOSED_WITHIN_UM) -> Loops:
     """Loops of the contours `wanted` (k,), numbers that occur in `contour_of_row` (n,), in order.
@@ -59,12 +64,15 @@ def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints, within_um
     contour, begin, of, number = np.unique(
         contour_of_row[row], return_index=True, return_inverse=True, return_counts=True
     )
-    part, begin = _Part(row, of), row[begin]
+    begin, run = row[begin], total_before(toolpath.length_um)
+    lead_past = np.minimum(begin + _LEAD_IN_BLOCKS, len(toolpath))
+    near = _may_pass(toolpath, row, toolpath.start_um[begin][of], (run[lead_past] - run[begin] + within_um)[of])
+    part = _Part(row, of).take(near)
     first, last = begin.copy(), np.full(len(contour), len(toolpath), dtype=np.int64)
     for skipped in range(_LEAD_IN_BLOCKS + 1):
         met = np.where(
             skipped < number,
-            _first_met(toolpath, part, np.minimum(begin + skipped, len(toolpath) - 1), within_um),
+            _first_met(toolpath, part, np.minimum(begin + skipped, len(toolpath) - 1), run, within_um),
             len(toolpath),
         )
         earlier = met < last
@@ -74,12 +82,15 @@ def find_loops(toolpath: Toolpath, contour_of_row: Ints, wanted: Ints, within_um
     return Loops(contour, first, last, part_sides(toolpath, begin, first, last))
 
 
-def _first_met(toolpath: Toolpath, part: _Part, first: Ints, within_um: float) -> Ints:
-    """Rows (k,) that are the first to pass the start of the rows `first` (k,) again; n where none does."""
+def _first_met(toolpath: Toolpath, part: _Part, first: Ints, run_um: Floats, within_um: float) -> Ints:
+    """Rows (k,) that are the first to pass the start of the rows `first` (k,) again; n where none does.
+
+    `run_um` (n + 1,) is the length of the path before each row.
+    """
+    part = part.take(_may_pass(toolpath, part.row, toolpath.start_um[first][part.of], within_um))
     place = toolpath.start_um[first][part.of]
     off, _ = distance_to_curves(toolpath, part.row, place[:, 0], place[:, 1])
-    run = np.cumsum(toolpath.length_um) - toolpath.length_um
-    since = run[part.row] - run[first][part.of]
+    since = run_um[part.row] - run_um[first][part.of]
     # Short first blocks are still near the place they leave; a circle comes back by itself.
     met = (off <= within_um) & (part.row > first[part.of]) & (since > 2.0 * within_um)
     met |= (part.row == first[part.of]) & is_circle(toolpath.picked(first))[part.of]
@@ -88,6 +99,14 @@ def _first_met(toolpath: Toolpath, part: _Part, first: Ints, within_um: float) -
     result = np.full(len(first), len(toolpath), dtype=np.int64)
     result[which] = part.row[at[once]]
     return result
+
+
+def _may_pass(toolpath: Toolpath, row: Ints, place_um: Floats, within_um: Floats | float) -> NDArray[np.bool_]:
+    """Rows (m,) that may come so near to places (m, 2): no block leads farther from its start than it is long."""
+    reach = toolpath.length_um[row] + (within_um + _ROUNDING_UM)
+    near: NDArray[np.bool_] = np.abs(toolpath.start_um[:, 0][row] - place_um[:, 0]) <= reach
+    near &= np.abs(toolpath.start_um[:, 1][row] - place_um[:, 1]) <= reach
+    return near
 
 
 def is_circle(curves: Curves) -> NDArray[np.bool_]:

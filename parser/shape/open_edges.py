@@ -147,7 +147,7 @@ def _visits(toolpath: Toolpath, corner: Floats, edge: Ints) -> list[tuple[int, i
     along = np.abs((off * ways).sum(axis=2))
     first = np.flatnonzero(np.diff(end, prepend=-1) != 0)
     found = []
-    for begin, until in zip(first.tolist(), [*first[1:].tolist(), len(end)], strict=True):
+    for begin, until in pairwise([*first.tolist(), len(end)]):
         if end[begin] >= 0:
             near = along[begin:until, end[begin]]
             level = begin + np.flatnonzero(near <= near.min() + CLOSED_WITHIN_UM)

@@ -38,13 +38,13 @@ def find_turns(toolpath: Toolpath, contour: Ints) -> Turns:
     n = len(toolpath)
     ways, before = directions(toolpath), total_before(toolpath.length_um)
     leave = np.full(n, -1, dtype=np.int64)
-    for blocks in range(_MOST_STEPS, -1, -1):
-        there = np.arange(n - blocks - 1)
-        back = there + blocks + 1
-        turned = (ways.arriving[there] * ways.leaving[back]).sum(axis=1) <= _BACK
-        turned &= (contour[there] >= 0) & (contour[there] == contour[back])
-        turned &= before[back] - before[there + 1] <= _MOST_STEP_UM
-        leave[there[turned]] = back[turned]
+    for blocks in range(min(_MOST_STEPS, n - 1), -1, -1):
+        arriving, leaving = ways.arriving[: n - blocks - 1], ways.leaving[blocks + 1 :]
+        turned = arriving[:, 0] * leaving[:, 0] + arriving[:, 1] * leaving[:, 1] <= _BACK
+        turned &= (contour[: n - blocks - 1] >= 0) & (contour[: n - blocks - 1] == contour[blocks + 1 :])
+        turned &= before[blocks + 1 : n] - before[1 : n - blocks] <= _MOST_STEP_UM
+        row = np.flatnonzero(turned)
+        leave[row] = row + blocks + 1
     there = np.flatnonzero(leave >= 0)
     back = leave[there]
     by = toolpath.start_um[back] - toolpath.end_um[there]

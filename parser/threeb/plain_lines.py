@@ -96,8 +96,8 @@ def _fits(sign: Codes, begin: Ints, is_arc: NDArray[np.bool_]) -> NDArray[np.boo
     fits &= (axis == _X) | (axis == _Y)
     is_line_end = (sense == _L) & (behind == _DIGIT)
     is_arc_end = ((sense == _N) | (sense == _S)) & (behind == _R) & (sign[begin + _ARC_SIGNS - 1] == _DIGIT)
-    fits &= np.where(is_arc, is_arc_end, is_line_end)
-    return np.asarray(fits)
+    whole: NDArray[np.bool_] = fits & np.where(is_arc, is_arc_end, is_line_end)
+    return whole
 
 
 def _values(codes: Codes, first: Ints, past: Ints) -> Ints:

@@ -22,11 +22,12 @@ def uncut_jump_findings(program: Program, contour: Ints, passes: Passes) -> list
     `contour` (n,) is each row's contour, −1 where it has none. By its hole the wire goes to the next pass over an edge.
     """
     toolpath = program.toolpath
+    is_arc = toolpath.is_arc
     first, last = loops_in_order(toolpath, contour)
     found = []
     for here, there in zip(range(len(first) - 1), range(1, len(first)), strict=True):
         begin, arrival = int(last[here]) + 1, int(first[there])
-        if contour[begin - 1] != contour[arrival] or arrival <= begin or toolpath.is_arc[begin:arrival].any():
+        if contour[begin - 1] != contour[arrival] or arrival <= begin or is_arc[begin:arrival].any():
             continue
         around = passes.around(begin)
         if around and around[0].edge == around[1].edge:

@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.scenario_options import Length
+from sim.cli.scenario_options import ENGINE_OPTION, Length
 
 if TYPE_CHECKING:
     from sim.run.ballbar.circle import Ballbar
+    from sim.setup.machine.machine import TableEngine
 
 
 class Speed(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
@@ -32,6 +33,7 @@ class Speed(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
     type=click.Choice(["point-by-point", "card"]),
     help="How the path becomes steps, in place of the machine's own.",
 )
+@ENGINE_OPTION
 @click.option("--tolerance", type=Length(), help="Largest circularity G(b) that passes, such as 10um.")
 @click.option(
     "-o",
@@ -46,6 +48,7 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     feed: float | None,
     machine: str,
     interpolator: str | None,
+    engine: "TableEngine | None",
     tolerance: float | None,
     output: Path | None,
     as_json: bool,
@@ -75,8 +78,10 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     model = load_machine(machine)
     if interpolator is not None:
         model = model.stepping_by(interpolator)  # type: ignore[arg-type]
+    if engine is not None:
+        model = model._replace(engine=engine)
     test = circle_test(model, radius, feed)
-    with StageProgress() as progress:
+    with StageProgress("run-ccw", "run-cw") as progress:
         done = run_test(test, progress)
     written = _write(done, tolerance, output) if output is not None else []
     if as_json:

@@ -4,6 +4,7 @@ import importlib
 from typing import Final
 
 LOOPS: Final[tuple[str, ...]] = (
+    "controller.stepping.chunks",
     "sim.cut.kerf.edges",
     "sim.cut.kerf.last_beside",
     "sim.cut.kerf.stars",

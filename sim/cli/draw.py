@@ -122,10 +122,12 @@ def _shown(asked: "PictureFiles", scenario: "Scenario") -> "Iterator[tuple[Shown
         yield alone, alone.programmed.findings
         return
     from sim.cli.progress import StageProgress
-    from sim.run.recording import recorded
+    from sim.run.recording import recorded, stages_of
     from sim.show.pictures.gallery import subject_of
 
-    with StageProgress() as progress, recorded(program, scenario, progress) as recording:
+    stages = [*stages_of(scenario), "pictures"]
+    with StageProgress(*stages) as progress, recorded(program, scenario, progress) as recording:
+        progress("pictures", 0, 1)
         yield subject_of(recording), recording.run.findings
 
 

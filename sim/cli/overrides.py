@@ -10,6 +10,7 @@ from sim.setup.toml.reader import number
 from sim.show.terminal.printer import say
 
 if TYPE_CHECKING:
+    from sim.setup.machine.machine import TableEngine
     from sim.setup.part import DrawingTarget, Offset, SharpCorners
     from sim.setup.scenario import Scenario
     from sim.setup.wire import Wire
@@ -24,6 +25,7 @@ class Overrides(NamedTuple):
     gap: float | None
     wire_lag: float | None
     interpolator: str | None
+    engine: "TableEngine | None"
     offset: tuple[float, ...] | None
     side: str | None
     past_stop: bool
@@ -43,6 +45,8 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
     scenario = scenarios.load_scenario(path)
     if options.machine is not None:
         scenario = replace(scenario, machine=load_machine(options.machine), machine_by_default=False)
+    if options.engine is not None:
+        scenario = replace(scenario, machine=scenario.machine._replace(engine=options.engine))
     thickness_mm = scenario.thickness_mm
     if options.thickness is not None:
         thickness_mm = number(mm(options.thickness), scenarios.THICKNESS_MM, "--thickness in mm")

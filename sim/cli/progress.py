@@ -1,67 +1,120 @@
 """Progress on stderr for work that takes longer than a second: a bar on a terminal, a line now and then elsewhere."""
 
+import math
+import threading
 import time
+from collections.abc import Mapping
+from contextlib import suppress
 from types import TracebackType
 from typing import Final, Self
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, Progress, SpinnerColumn, TaskID, TextColumn
 
 from sim.show.terminal.printer import coloured, moves_cursor, say
-from sim.show.terminal.streams import outlet
+from sim.show.terminal.streams import OutputError, outlet
 from sim.show.terminal.wrap import width_of
 from sim.show.words.words import Words
+from sim.units import clock
 
 SAY: Final = Words("en")
+WEIGHTS: Final[Mapping[str, float]] = {"run": 4.0, "kerf": 4.0, "comparison": 3.0, "pieces": 3.0, "pictures": 3.0}
+"""About how long stages take beside the others, which count 1: of a part of six blocks and of one of ten thousand."""
 _QUIET_S = 1.0
 _BETWEEN_LINES_S = 5.0
+_LEAST_SHARE = 0.05  # of the work, before which nothing is said of the time that is left
 _LINES = 25  # rich asks the environment where one of the two is not told
 
 
 class StageProgress:
-    """Progress of stages that ``progress.toml`` names; call it with stage, done and total."""
+    """Progress of stages that ``progress.toml`` names; call it with stage, done and total.
 
-    def __init__(self) -> None:
-        self._next_s = time.monotonic() + _QUIET_S
-        self._bar: Progress | None = None
-        self._tasks: dict[str, TaskID] = {}
+    `stages` are all that are to come, in their order; one that is not among them is taken for another at the end. The
+    first sign comes a second after the start, whether or not a stage has told of itself since.
+    """
+
+    def __init__(self, *stages: str) -> None:
+        self._stages = list(stages)
+        self._stage, self._share = "", 0.0
+        self._began_s = time.monotonic()
+        self._ended = threading.Event()
+        self._told = threading.Lock()
+        self._shown: tuple[Progress, TaskID] | None = None
+        self._teller = threading.Thread(target=self._tell, daemon=True)
 
     def __enter__(self) -> Self:
+        self._teller.start()
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
-        if self._bar is not None:
-            self._bar.stop()
+        self.finish()
+
+    def finish(self) -> None:
+        """Nothing more is to come: the bar goes."""
+        self._ended.set()
+        self._teller.join()
+        if self._shown is not None:
+            self._shown[0].stop()
+            self._shown = None
 
     def __call__(self, stage: str, done: int, total: int) -> None:
         """Show how far a stage has come."""
-        if self._bar is not None:
-            self._show(self._bar, stage, done, total)
-        elif time.monotonic() >= self._next_s and done < total:
-            if moves_cursor(outlet(err=True)):
-                self._bar = _bar()
-                self._show(self._bar, stage, done, total)
-            else:
-                say(f"drycut: {SAY(f'progress.{stage}')}, {done / total:.0%}", err=True)
-                self._next_s = time.monotonic() + _BETWEEN_LINES_S
+        with self._told:
+            if stage not in self._stages:
+                self._stages.append(stage)
+            self._stage = stage
+            self._share = self._share_at(stage, done / total if total else 1.0)
+            if self._shown is not None:
+                self._update(*self._shown)
 
-    def _show(self, bar: Progress, stage: str, done: int, total: int) -> None:
-        if stage not in self._tasks:
-            self._tasks[stage] = bar.add_task(SAY(f"progress.{stage}"), total=total)
-        bar.update(self._tasks[stage], completed=done, total=total)
+    def _share_at(self, stage: str, of_stage: float) -> float:
+        """How much of the whole is done when so much of a stage is."""
+        weights = [WEIGHTS.get(name, 1.0) for name in self._stages]
+        at = self._stages.index(stage)
+        return (sum(weights[:at]) + weights[at] * of_stage) / sum(weights)
+
+    def _tell(self) -> None:
+        """Show the bar after a second, or say a line then and every few seconds; in a thread of its own."""
+        wait_s = _QUIET_S
+        while not self._ended.wait(wait_s):
+            with self._told:
+                if not self._stage:
+                    wait_s = _QUIET_S
+                elif moves_cursor(outlet(err=True)):
+                    self._shown = _bar()
+                    self._update(*self._shown)
+                    return
+                else:
+                    with suppress(OutputError):  # the command itself meets it too, and tells it
+                        say(f"drycut: {self._line()}, {self._share:.0%}", err=True)
+                    wait_s = _BETWEEN_LINES_S
+
+    def _update(self, bar: Progress, task: TaskID) -> None:
+        bar.update(task, description=self._line(), completed=self._share)
+
+    def _line(self) -> str:
+        """The stage, which of how many it is, and about how long the rest will take."""
+        at, text = self._stages.index(self._stage) + 1, SAY(f"progress.{self._stage}")
+        if len(self._stages) > 1:
+            text = SAY("progress.step", number=at, count=len(self._stages), stage=text)
+        if self._share < _LEAST_SHARE:
+            return text
+        left_s = (time.monotonic() - self._began_s) * (1.0 / self._share - 1.0)
+        left = clock(left_s) if left_s >= 60.0 else f"{math.ceil(left_s)} s"
+        return SAY("progress.left", stage=text, left=left)
 
 
-def _bar() -> Progress:
+def _bar() -> tuple[Progress, TaskID]:
     # It draws over itself with escape sequences, past the printer, and holds words of ours alone.
     stream = outlet(err=True)
     console = Console(file=stream, width=width_of(stream), height=_LINES, no_color=not coloured(stream))
     bar = Progress(
+        SpinnerColumn(),
         TextColumn("{task.description}"),
         BarColumn(),
         TextColumn("{task.percentage:>3.0f} %"),
-        TimeRemainingColumn(),
         console=console,
         transient=True,
     )
     bar.start()
-    return bar
+    return bar, bar.add_task("", total=1.0)

@@ -103,7 +103,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from parser.program import read_program
     from sim.cli.progress import StageProgress
     from sim.run.findings import verdict
-    from sim.run.recording import recorded
+    from sim.run.recording import recorded, stages_of
     from sim.show.film.screen import Look
     from sim.show.terminal.printer import say
 
@@ -111,7 +111,11 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     _refuse(output, seconds, fps, look)
     scenario = overridden(path, Overrides(**options))
     try:
-        with StageProgress() as progress, recorded(read_program(scenario.program), scenario, progress) as recording:
+        stages = [*stages_of(scenario), *([] if output is None else ["film"])]
+        program = read_program(scenario.program)
+        with StageProgress(*stages) as progress, recorded(program, scenario, progress) as recording:
+            if output is None:
+                progress.finish()
             _show(recording, output, seconds, fps, look, progress)
             passed = verdict(recording.run.findings) == "pass"
     except ProgramError as error:

@@ -11,7 +11,6 @@ from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
 
 if TYPE_CHECKING:
-    from parser.program import Program
     from sim.run.dryrun import DryRun
     from sim.setup.scenario import Scenario
 
@@ -65,7 +64,6 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
     drycut run programs/ 'jigs/*.4b' -o out/ --jobs 4
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from parser.program import read_program
     from sim.run.findings import verdict
     from sim.run.report import build_report, report_text
     from sim.show.terminal.printer import say, write
@@ -85,8 +83,7 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
         raise click.UsageError("--trace needs -o DIR, where trace.npz is to go")
     scenario = overridden(Path(names[0]), Overrides(**options))
     try:
-        program = read_program(scenario.program)
-        done = _run(program, scenario, _Files(output, card_log, trace))
+        done = _run(scenario, _Files(output, card_log, trace))
     except ProgramError as error:
         raise refused(scenario, error) from None
     if as_json:
@@ -109,19 +106,26 @@ class _Files(NamedTuple):
     trace: bool
 
 
-def _run(program: "Program", scenario: "Scenario", files: _Files) -> "DryRun":
+def _run(scenario: "Scenario", files: _Files) -> "DryRun":
+    from parser.program import read_program
     from sim.cli.progress import StageProgress
     from sim.run.card_log import logging_to
     from sim.run.dryrun import dry_run
-    from sim.run.recording import check_expectations
+    from sim.run.recording import check_expectations, stages_of
 
     settings = scenario.machine.controller.card_settings
     _refuse_to_overwrite(files.card_log, program_file=scenario.program, output=files.output)
-    with StageProgress() as progress, logging_to(files.card_log, settings) as log:
+    if files.output is None:
+        stages = stages_of(scenario)
+    else:
+        from sim.jobs.run_into import run_into, stages_of_files
+
+        stages = stages_of_files(scenario, trace=files.trace)
+    with StageProgress("read", *stages) as progress, logging_to(files.card_log, settings) as log:
+        progress("read", 0, 1)
+        program = read_program(scenario.program)
         if files.output is None:
             return check_expectations(dry_run(program, scenario, progress, log=log))
-        from sim.jobs.run_into import run_into
-
         return run_into(files.output, program, scenario, progress, log, trace=files.trace)
 
 

@@ -60,6 +60,13 @@ def chosen(asked: str | None) -> Language:
     return "zh" if locale.lower().startswith("zh") else "en"
 
 
+ENGINE_OPTION = click.option(
+    "--engine",
+    type=click.Choice(["compiled", "pymunk"]),
+    help="What works out the motion of the table: one compiled loop, or the same in Python in a pymunk space, for "
+    "comparison; that takes some hundred times as long.",
+)
+
 _OPTIONS = (
     click.option("--machine", metavar="NAME|FILE", help="Shipped machine, such as dk7740, or a machine file (.toml)."),
     click.option("--thickness", type=Length(), help="Thickness of the work, such as 40mm."),
@@ -82,6 +89,7 @@ _OPTIONS = (
         type=click.Choice(["left", "right"]),
         help="Side of the contour on which the wire runs, along the cutting direction of the first pass.",
     ),
+    ENGINE_OPTION,
     click.option("--past-stop", is_flag=True, help="Go on where the table meets its end stop, else it ends there."),
     click.option("--kerf", is_flag=True, help="Work out the kerf, the pieces that it leaves, and their sizes."),
     click.option(

@@ -8,11 +8,12 @@ from parser.program import Program
 from sim.files import StepFiles, staged
 from sim.jobs.trace_file import TRACE, write_trace
 from sim.run.dryrun import DryRun, dry_run
-from sim.run.recording import Recording, recording_of, reported
+from sim.run.recording import Recording, recording_of, reported, stages_of
 from sim.run.report import report_text
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
 from sim.show.pictures.cut.of_run import draw_cut_of_run
+from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.inline import inline_pictures
 from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
@@ -51,13 +52,21 @@ def run_into(  # noqa: PLR0913 - what it is run with, and whom it tells
     return run
 
 
+def stages_of_files(scenario: Scenario, *, trace: bool) -> list[str]:
+    """The stages that `run_into` tells its progress of, in their order."""
+    return [*stages_of(scenario), "pictures", "pages", *(["trace"] if trace else [])]
+
+
 def _show(recording: Recording, report: dict[str, Any], folder: Path, progress: Progress, *, has_trace: bool) -> None:
     """Write the report and what people look at; then nothing holds the files of the steps any more."""
-    run = recording.run
+    run, subject = recording.run, subject_of(recording)
+    progress("pictures", 0, 1)
+    draw_cut_of_run(pixels(), run, recording.pieces, subject.shapes).image().save(folder / "cut.png", dpi=(200, 200))
+    pictures = inline_pictures(subject, progress)
+    progress("pages", 0, 3)
     (folder / "report.json").write_text(report_text(report), encoding="utf-8")
-    draw_cut_of_run(pixels(), run, recording.pieces).image().save(folder / "cut.png", dpi=(200, 200))
-    progress("replay", 0, 1)
+    progress("pages", 1, 3)
     (folder / "replay.html").write_text(replay_page(recording), encoding="utf-8")
-    pictures = inline_pictures(recording, progress)
+    progress("pages", 2, 3)
     page = report_page(run, report, pictures, has_trace=has_trace)
     (folder / "report.html").write_text(page, encoding="utf-8")

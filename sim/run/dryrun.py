@@ -167,7 +167,9 @@ def dry_run(
     Raises ProgramError where the program asks for more than any table can do, and DrawingError where the scenario's
     drawing cannot be read.
     """
+    progress("checks", 0, 1)
     drawing, ready = drawing_of(scenario.drawing), prepare(program, scenario)
+    progress("plan", 0, 1)
     program, toolpath = ready.program, ready.program.toolpath
     motion, ended = motion_to_end(ready, scenario)
     meters = Meters(motion, ready.steps)
@@ -180,7 +182,7 @@ def dry_run(
     passes, border_s = find_passes(toolpath), _borders(plan, ready.steps.along_um)
     time_s = _times_within(border_s, ended.t_s if ended else plan.duration_s)
     way, reach_um = wire_taken(toolpath, plan, cut), scenario.wire.reach_um
-    left = left_of(program, cut, contours, scenario, drawing)
+    left = left_of(program, cut, contours, scenario, drawing, progress)
     lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
     met = [*obstacle_findings(program, trace, contours, scenario), *missed_work_findings(program, trace, scenario)]
     return DryRun(

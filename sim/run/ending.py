@@ -6,7 +6,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from controller.motion.plan import Plan
-from controller.stepping.steps import CHUNK_STEPS, Steps
+from controller.stepping.chunks import CHUNK_STEPS, chunk_of
+from controller.stepping.steps import Steps
 from parser.toolpath import Axis, Toolpath
 from parser.units import from_mm
 from sim.check.travel import ROUNDING_UM, beyond_um
@@ -73,7 +74,7 @@ def _travel_end(
     for row in np.flatnonzero((beyond > -_STEPPED_UM).any(axis=1)).tolist():
         past = int(steps.before[row + 1])
         for since in range(int(steps.before[row]), past, CHUNK_STEPS):
-            chunk = steps.chunk(since, min(since + CHUNK_STEPS, past))
+            chunk = chunk_of(steps, since, min(since + CHUNK_STEPS, past))
             place = np.stack([chunk.x_um, chunk.y_um], axis=1) + np.array(start_um)
             out = np.argwhere((place < -ROUNDING_UM) | (place > highest + ROUNDING_UM))
             if len(out):
@@ -84,7 +85,9 @@ def _travel_end(
 def _before_step(toolpath: Toolpath, steps: Steps, plan: Plan, number: int, axis: Axis) -> Ending:
     """The place and the time before the step that has so many steps before it."""
     row = int(np.searchsorted(steps.before, number, side="right")) - 1
-    along_um = steps.chunk(number - 1, number).along_um if number > steps.before[row] else steps.along_um[row : row + 1]
+    along_um = (
+        chunk_of(steps, number - 1, number).along_um if number > steps.before[row] else steps.along_um[row : row + 1]
+    )
     x, y = steps.place_after(number)
     x0, y0 = origin_um(toolpath)
     return Ending("travel", axis, row, float(plan.time_at(along_um)[0]), float(x + x0), float(y + y0))

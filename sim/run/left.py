@@ -14,6 +14,7 @@ from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
+from sim.table.motion import Progress
 from sim.table.trace import Trace
 
 _REMAINS: Final = "check-remains"  # the check of what a cut leaves, which only a run makes
@@ -40,13 +41,19 @@ def drawing_of(target: DrawingTarget | None) -> Drawing | None:
     return read_drawing(target.file, layer=target.layer, gap_um=target.gap_um)
 
 
-def left_of(
-    program: Program, cut: Trace, contours: tuple[Contour, ...], scenario: Scenario, drawing: Drawing | None
+def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom it tells
+    program: Program,
+    cut: Trace,
+    contours: tuple[Contour, ...],
+    scenario: Scenario,
+    drawing: Drawing | None,
+    progress: Progress,
 ) -> Left:
     """What a cut leaves, as far as the scenario asks for it."""
     target = scenario.drawing
     if not scenario.kerf and target is None:
         return Left(None, None, [], CheckState(_REMAINS, "not asked", "reason-no-kerf"))
+    progress("kerf", 0, 1)
     try:
         remains = remains_of(program, cut, contours, scenario)
     except RegionError as error:
@@ -55,5 +62,6 @@ def left_of(
     found = piece_findings(program, remains.pieces)
     if target is None or drawing is None:
         return Left(remains, None, found, CheckState(_REMAINS))
+    progress("comparison", 0, 1)
     comparison = compare_cut(program, remains, drawing, target)
     return Left(remains, comparison, [*found, *drawing_findings(program, comparison)], CheckState(_REMAINS))

@@ -27,6 +27,13 @@ MOST_PASSES = 6.0
 their kerf takes 85 s."""
 
 
+def stages_of(scenario: Scenario) -> list[str]:
+    """The stages that a recorded run of a scenario tells its progress of, in their order."""
+    asked = scenario.kerf or scenario.drawing is not None
+    left = ["kerf", *(["comparison"] if scenario.drawing is not None else [])]
+    return ["checks", "plan", "run", *(left if asked else ["pieces"])]
+
+
 class Recording(NamedTuple):
     """A run and all its steps.
 
@@ -51,7 +58,8 @@ def recording_of(run: DryRun, files: Mapping[str, Path], progress: Progress) -> 
     x, y, block, t_s = (
         np.load(files[f"step_{name}"], mmap_mode="r", allow_pickle=False) for name in ("x_um", "y_um", "block", "t_s")
     )
-    progress("pieces", 0, 1)
+    if run.remains is None:
+        progress("pieces", 0, 1)
     return Recording(run, pieces_of_run(run), Pulses(t_s, x[1:], y[1:], block - 1))
 
 

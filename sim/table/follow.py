@@ -8,13 +8,17 @@ from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Axis
 from parser.units import from_mm
+from sim.setup.machine.machine import TableEngine
 from sim.setup.machine.table_model import TableModel
+from sim.table.physics.bodies import Bodies
 from sim.table.physics.drive import drives_of
 from sim.table.physics.motor import GRACE_S
 from sim.table.record.history import History, history_of
 from sim.table.record.losses import Loss, Slip, SlipTally, in_order, trip_loss
 from sim.table.record.peaks import Peak, peaks_of
-from sim.table.solve.run import AxisRun, axis_of
+from sim.table.solve.reference import InBodies
+from sim.table.solve.run import AxisRun, Engine, axis_of
+from sim.table.solve.tick import followed
 from sim.table.trace import Trace
 from sim.table.when.ticks import Ticks
 
@@ -32,12 +36,15 @@ class Setup(NamedTuple):
         The same place in program coordinates, where the pulses begin.
     speed_limit_um_s
         Speed limits of X and Y, for their peaks; infinite where there is none.
+    engine
+        What goes through its ticks: one compiled loop, or the same in Python with bodies that pymunk moves.
     """
 
     model: TableModel
     start_um: tuple[float, float]
     origin_um: tuple[int, int]
     speed_limit_um_s: tuple[float, float] = (np.inf, np.inf)
+    engine: TableEngine = "compiled"
 
     @property
     def room_um(self) -> Floats:
@@ -47,16 +54,27 @@ class Setup(NamedTuple):
         return room
 
 
+def _engines(setup: Setup) -> list[Engine]:
+    """What goes through the ticks of X, and of Y."""
+    if setup.engine == "compiled":
+        return [followed for _ in Axis]
+    x, y = setup.origin_um
+    bodies = Bodies(setup.model, setup.room_um, (float(x), float(y)))
+    return [InBodies(bodies, axis).followed for axis in Axis]
+
+
 class Following:
     """A table that follows pulses, from rest at the program's start; `ticks` tell how finely it is watched."""
 
     def __init__(self, setup: Setup, ticks: Ticks) -> None:
         self._setup, self._ticks, room = setup, ticks, setup.room_um
+        engines = _engines(setup)
         self._runs = [
             AxisRun(
                 axis_of(setup.model, axis, ticks, room[:, axis], setup.speed_limit_um_s[axis]),
                 setup.origin_um[axis],
                 ticks,
+                engines[axis],
             )
             for axis in Axis
         ]

@@ -82,7 +82,7 @@ def motion_of(
     plan = plan_rows(limits, jerk_um_s3=controller.limits.jerk_um_s3)
     drive = Drive(toolpath, limits, plan, origin_um(toolpath), controller.interpolation)
     x, y = controller.limits.axis_speed_um_s
-    table = Setup(machine.table, start_um, origin_um(toolpath), speed_limit_um_s=(x, y))
+    table = Setup(machine.table, start_um, origin_um(toolpath), (x, y), machine.engine)
     ticks = choose_ticks(toolpath, plan, rhythm(machine.table), spacing_um)
     return Motion(drive, controller.card_settings, table, ticks)
 

@@ -17,6 +17,7 @@ from controller.card.engine.speeds import speeds_of
 from controller.card.engine.stretch import Start
 from controller.motion.path import Path
 from controller.motion.planner import RowLimits, plan_rows
+from controller.stepping.chunks import chunk_of
 from controller.stepping.point_by_point import interpolate_words
 from parser.toolpath import StepWords
 
@@ -56,7 +57,7 @@ def test_blocks_through_a_list_are_timed_as_one_plan_of_all(capacity):
     border[[0, -1]] = 0.0
     plan = plan_rows(RowLimits(length, np.full(400, 5000.0), np.full(400, 1e5), border, np.zeros(401)))
     steps = interpolate_words(words, length)
-    whole = steps.chunk(0, len(steps))
+    whole = chunk_of(steps, 0, len(steps))
     due = plan.time_at(whole.along_um)
     np.testing.assert_array_equal(pulses.x_um, whole.x_um)
     np.testing.assert_array_equal(pulses.y_um, whole.y_um)

@@ -14,6 +14,8 @@ from strategies import program_text, programs
 from controller.motion.path import path_of
 from controller.motion.plan import EMPTY_PLAN, Plan
 from controller.motion.planner import RowLimits, plan_rows
+from controller.stepping import interpolators
+from controller.stepping.chunks import StepChunk, chunk_of
 from controller.stepping.interpolators import EqualTime, Interpolator, PointByPoint
 from controller.stepping.pulses import Pulses
 from controller.stepping.steps import Steps
@@ -90,7 +92,7 @@ def test_steps_come_when_the_plan_reaches_their_feet(program: list[PlainBlock]) 
     assert list(zip(pulses.x_um.tolist(), pulses.y_um.tolist(), strict=True)) == walked
     assert motion.done == len(walked)
     assert motion.at_um == (x, y)
-    feet = steps.chunk(0, len(steps)).along_um
+    feet = chunk_of(steps, 0, len(steps)).along_um
     at = plan.at(pulses.t_s - BEGAN_S).along_um
     assert at == pytest.approx(np.maximum.accumulate(feet), abs=1e-6)  # µm
     assert np.diff(pulses.t_s).min(initial=0.0) >= 0.0
@@ -111,41 +113,30 @@ def test_a_stop_and_a_new_plan_lose_no_step(program: list[PlainBlock], stops: li
             made += list(zip(part.x_um.tolist(), part.y_um.tolist(), strict=True))
             assert part.t_s[0] >= began
         at, done, began = motion.at_um, motion.done, began + plan.duration_s
-        assert done == np.searchsorted(np.maximum.accumulate(steps.chunk(0, len(steps)).along_um), until + 1e-6)
+        assert done == np.searchsorted(np.maximum.accumulate(chunk_of(steps, 0, len(steps)).along_um), until + 1e-6)
         assert list(motion.pulses(began + 9.0)) == []
-    whole = steps.chunk(0, len(steps))
+    whole = chunk_of(steps, 0, len(steps))
     assert made == list(zip((whole.x_um + 5).tolist(), (whole.y_um + 5).tolist(), strict=True))
 
 
-class CountingSteps:
-    """Steps that count how many were worked out."""
+def test_no_step_is_worked_out_twice_and_few_ahead(monkeypatch: pytest.MonkeyPatch) -> None:
+    worked_out = 0
 
-    def __init__(self, steps: Steps) -> None:
-        self._steps, self.worked_out = steps, 0
-        self.along_um = steps.along_um
+    def counted(steps: Steps, since: int, until: int) -> StepChunk:
+        nonlocal worked_out
+        worked_out += until - since
+        return chunk_of(steps, since, until)
 
-    def __len__(self) -> int:
-        return len(self._steps)
-
-    def place_after(self, count: int) -> tuple[int, int]:
-        return self._steps.place_after(count)
-
-    def chunk(self, since: int, until: int) -> object:
-        self.worked_out += until - since
-        return self._steps.chunk(since, until)
-
-
-def test_no_step_is_worked_out_twice_and_few_ahead() -> None:
+    monkeypatch.setattr(interpolators, "chunk_of", counted)
     toolpath = toolpath_of([PlainBlock(9900, 0, 39600, "Y", "NR", 1)])
-    steps = CountingSteps(interpolate(toolpath))
-    plan = plan_of(toolpath)
-    motion = PointByPoint(steps, plan, 0.0, (0, 0))  # type: ignore[arg-type]
+    steps, plan = interpolate(toolpath), plan_of(toolpath)
+    motion = PointByPoint(steps, plan, 0.0, (0, 0))
     for time in np.linspace(0.0, 1.0, 500):
         list(motion.pulses(float(time)))
-    assert steps.worked_out <= 1000  # at 500 µm/s not 650 steps are due by then
+    assert worked_out <= 1000  # at 500 µm/s not 650 steps are due by then
     for time in np.linspace(1.0, plan.duration_s + 1.0, 500):
         list(motion.pulses(float(time)))
-    assert steps.worked_out == len(steps)
+    assert worked_out == len(steps)
 
 
 def test_a_long_block_comes_in_bounded_chunks() -> None:

@@ -19,6 +19,7 @@ from controller.offset.compensate import compensate
 from controller.offset.passes import PassedPath, in_passes
 from controller.offset.path import Made, OffsetPath, offset_toolpath
 from controller.offset.sections import OffsetSection, Side
+from controller.stepping.chunks import chunks_of
 from controller.stepping.words import interpolate
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.distance import distance_to_curves
@@ -574,7 +575,7 @@ def test_steps_do_not_stray_over_ten_thousand_arcs() -> None:
 def test_every_step_is_near_its_block() -> None:
     toolpath = along(300, (300.0, 20_000.0), 2)
     stepped = offset_toolpath(once(toolpath), compensate(toolpath, whole(toolpath, closed=False), 100.0, Side.RIGHT))
-    for chunk in interpolate(stepped).chunks():
+    for chunk in chunks_of(interpolate(stepped)):
         x, y = chunk.x_um + stepped.start_um[0, 0], chunk.y_um + stepped.start_um[0, 1]
         off, _ = distance_to_curves(stepped, chunk.row.astype(np.int64), x, y)
         assert off.max() < 4.0

@@ -9,6 +9,7 @@ from places import SCENARIOS
 from plain import PlainBlock, plain_steps
 from strategies import arcs, blocks, lines, program_text, programs
 
+from controller.stepping.chunks import chunk_of, chunks_of
 from controller.stepping.quadrants import ceil_sqrt
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
@@ -21,7 +22,9 @@ def steps_of(*program: PlainBlock) -> Steps:
 
 def places(steps: Steps, size: int = 1 << 18) -> list[tuple[int, int]]:
     return [
-        place for chunk in steps.chunks(size) for place in zip(chunk.x_um.tolist(), chunk.y_um.tolist(), strict=True)
+        place
+        for chunk in chunks_of(steps, size)
+        for place in zip(chunk.x_um.tolist(), chunk.y_um.tolist(), strict=True)
     ]
 
 
@@ -68,7 +71,7 @@ def test_programs_step_block_after_block_in_any_chunks(program: list, size: int)
     steps = steps_of(*program)
     assert places(steps, size) == expected
     assert steps.corner_um[-1].tolist() == [x, y]
-    rows = np.concatenate([chunk.row for chunk in steps.chunks(size)])
+    rows = np.concatenate([chunk.row for chunk in chunks_of(steps, size)])
     assert np.array_equal(rows, np.repeat(np.arange(len(program)), steps.count))
 
 
@@ -89,7 +92,7 @@ def test_place_after_any_number_of_steps(program: list, data: st.DataObject) -> 
 @given(programs)
 def test_path_length_never_falls_and_each_step_is_one_axis(program: list) -> None:
     steps = steps_of(*program)
-    chunk = steps.chunk(0, len(steps))
+    chunk = chunk_of(steps, 0, len(steps))
     along = np.concatenate([[0.0], chunk.along_um])
     assert np.diff(along).min() >= -1e-9
     assert along[-1] <= steps.along_um[-1] + 1e-6
@@ -110,7 +113,7 @@ def test_step_deviates_no_more_than_a_micrometre_from_its_circle(
     count = max(1, int(exact * sweep * 2 / np.pi))
     block = PlainBlock(abs(x0), abs(y0), count, "X", "NR" if turn > 0 else "SR", quadrant)
     steps = steps_of(block)
-    chunk = steps.chunk(0, len(steps))
+    chunk = chunk_of(steps, 0, len(steps))
     off = np.hypot(chunk.x_um + x0, chunk.y_um + y0) - exact
     assert np.abs(off).max() <= 1.0  # µm
 
@@ -141,7 +144,7 @@ def test_ceil_sqrt_beside_squares(root: int) -> None:
 def test_many_turns_cost_no_more_than_the_steps_asked_for() -> None:
     steps = steps_of(PlainBlock(1, 1, 999_999_999, "X", "NR", 1))
     assert len(steps) > 1_000_000_000
-    last = steps.chunk(len(steps) - 1000, len(steps))
+    last = chunk_of(steps, len(steps) - 1000, len(steps))
     assert len(last.x_um) == 1000
     assert np.abs(last.x_um).max() <= 4
 
@@ -155,7 +158,7 @@ def test_wrong_count_axis_stops_a_circle_140_micrometres_early() -> None:
 def test_chunks_out_of_range_are_refused(block: PlainBlock) -> None:
     steps = steps_of(block)
     with pytest.raises(ValueError, match="steps"):
-        steps.chunk(0, len(steps) + 1)
+        chunk_of(steps, 0, len(steps) + 1)
 
 
 def test_blocks_that_never_end_make_no_step() -> None:
@@ -189,5 +192,5 @@ def test_every_small_block_steps_as_the_plain_walk(sense: str) -> None:
     assert len(steps) == len(places(steps, 7))
     for since, until in ((0, 1), (5, 6), (17, 40), (len(steps) - 1, len(steps)), (9, 9)):
         assert places(steps)[since:until] == [
-            (int(x), int(y)) for x, y in zip(*steps.chunk(since, until)[:2], strict=True)
+            (int(x), int(y)) for x, y in zip(*chunk_of(steps, since, until)[:2], strict=True)
         ]

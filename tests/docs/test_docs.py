@@ -18,6 +18,7 @@ from jsonschema import Draft202012Validator
 from places import MACHINES, ROOT
 from runs import scenario_run
 
+from controller.stepping.chunks import chunk_of
 from controller.stepping.words import interpolate
 from parser.findings.catalogue import Language
 from parser.findings.catalogue import page as catalogue_page
@@ -444,7 +445,7 @@ def test_code_flow_quotes_the_numbers_of_the_code() -> None:
     toolpath = read_program(ROOT / "scenarios" / "keyhole" / "program.3b").toolpath
     block, steps = toolpath.block(3), interpolate(toolpath)
     low, high = int(steps.before[3]), int(steps.before[4])
-    first = steps.chunk(low, low + 6)
+    first = chunk_of(steps, low, low + 6)
     x, y = first.x_um - np.int32(block.center_um.x), first.y_um - np.int32(block.center_um.y)
     deviation = x.astype(np.int64) ** 2 + y.astype(np.int64) ** 2 - 43243**2 - 24900**2
     shown = [

@@ -17,6 +17,7 @@ from PIL import Image
 from replayed import exports, recording_of
 from runs import plain_scenario, scenario_recording
 
+from controller.stepping.chunks import chunks_of
 from controller.stepping.pulses import Pulses, time_steps
 from parser.findings.catalogue import Said
 from parser.program import parse_program
@@ -617,7 +618,7 @@ def million_steps() -> str:
     scenario = plain_scenario(may_stay_open=True)
     ready = prepare(program, scenario)
     motion = motion_of(program.toolpath, scenario.machine.feeds(40.0), scenario.machine, scenario.start_um, 5.0)
-    timed = [time_steps(chunk, motion.drive.plan) for chunk in ready.steps.chunks()]
+    timed = [time_steps(chunk, motion.drive.plan) for chunk in chunks_of(ready.steps)]
     pulses = Pulses._make(np.concatenate(column) for column in zip(*timed, strict=True))
     return replay_page(Recording(_ran(small.run, program, motion.drive.plan, pulses), small.pieces, pulses))
 

@@ -1,10 +1,12 @@
 """Passes there and back over an edge that is left open: how far aside, how long, how much alike, and where they end."""
 
+import numpy as np
 import pytest
 from paths import Pen
 
+from parser.program import parse_program
 from parser.shape.contours import contour_rows
-from parser.shape.open_edges import open_sections
+from parser.shape.open_edges import open_sections, sections_elsewhere
 from parser.shape.turns import find_turns
 
 THERE, BACK = (1, 1, False), (3, 3, False)
@@ -68,3 +70,9 @@ def test_most_of_a_pass_says_how_far_aside_it_lies() -> None:
 def test_a_way_from_end_to_end_is_the_tab_unless_it_comes_by_the_hole(off_um: float, *, is_tab: bool) -> None:
     pen = there().to(0, 40).to(off_um, -2000).to(9000, -2000).to(9000, 40)
     assert sections_of(pen) == [THERE, BACK, *([(4, 6, True)] if is_tab else [])]
+
+
+def test_a_contour_that_comes_nowhere_near_an_edge_has_no_pass_over_it() -> None:
+    figure = "B1000B0B1000GXL1\nB0B1000B1000GYL2\nB1000B0B1000GXL3\nB0B1000B1000GYL4\n"
+    toolpath = parse_program(f"{figure}D\nB90000B0B90000GXL1\nD\n{figure}DD\n").toolpath
+    assert sections_elsewhere(toolpath, (5, 9), np.arange(1)) == []

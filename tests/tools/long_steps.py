@@ -13,6 +13,7 @@ import numpy as np
 from plain import PlainBlock, plain_steps
 from strategies import program_text
 
+from controller.stepping.chunks import chunks_of
 from controller.stepping.words import interpolate
 from parser.program import parse_program
 
@@ -37,7 +38,7 @@ def difference(program: list[PlainBlock], size: int) -> tuple[int, str]:
     steps = interpolate(parse_program(program_text(program)).toolpath)
     if len(steps) != len(expected):
         return len(expected), f"{len(steps)} steps, not {len(expected)}"
-    chunks = list(steps.chunks(size))
+    chunks = list(chunks_of(steps, size))
     made = np.stack([np.concatenate([c.x_um for c in chunks]), np.concatenate([c.y_um for c in chunks])], axis=1)
     wrong = np.flatnonzero((made != expected).any(axis=1) | (np.concatenate([c.row for c in chunks]) != row))
     if len(wrong):

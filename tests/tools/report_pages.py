@@ -9,6 +9,7 @@ from replayed import recording_of
 
 from sim.run.dryrun import DryRun
 from sim.run.report import build_report
+from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.inline import inline_pictures
 from sim.show.report_page import report_page
 from sim.table.motion import silent
@@ -72,7 +73,7 @@ def made(text: str, **changes: object) -> Made:
     recording = recording_of(text, **changes)
     run = recording.run
     report = build_report(run)
-    return Made(report_page(run, report, inline_pictures(recording, silent)), run, report)
+    return Made(report_page(run, report, inline_pictures(subject_of(recording), silent)), run, report)
 
 
 def hostile() -> Made:

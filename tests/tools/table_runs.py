@@ -9,7 +9,7 @@ from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from parser.program import parse_program
-from sim.setup.machine.machine import Machine
+from sim.setup.machine.machine import Machine, TableEngine
 from sim.setup.machine.table_model import Motor, TableModel
 from sim.table.follow import Following, Setup
 from sim.table.motion import Motion, Moved, motion_of, silent, simulate
@@ -68,9 +68,15 @@ def even_ticks(until_s: float, tick_s: float = TICK_S) -> Ticks:
     return Ticks(t_s, np.zeros(n, dtype=np.int64), np.empty((0, 2)), *[(tick_s, tick_s)] * 3)
 
 
-def draw(model: TableModel, pulses: Pulses, ticks: Ticks, start_um: tuple[float, float] = CENTRE) -> Drawn:
+def draw(
+    model: TableModel,
+    pulses: Pulses,
+    ticks: Ticks,
+    start_um: tuple[float, float] = CENTRE,
+    engine: TableEngine = "compiled",
+) -> Drawn:
     """Let a table follow pulses from standstill."""
-    following = Following(Setup(model, start_um, (0, 0)), ticks)
+    following = Following(Setup(model, start_um, (0, 0), engine=engine), ticks)
     following.take(pulses)
     moved = Moved(*following.finish())
     return Drawn(moved.trace.t_s, moved.trace.table_um, moved)

@@ -28,7 +28,7 @@ def make_stretch(
     entries: Sequence[Entry], start: Start, speeds: Speeds, settings: CardSettings, deceleration_um_s2: float = 0.0
 ) -> Stretch:
     """Stretch of entries of one kind, run as fast as the limits allow, or braked for a stop where that is asked for."""
-    rows = [e for e in entries if isinstance(e, PathEntry) and e.kind]
+    rows = [e for e in entries if isinstance(e, PathEntry) and e.kind is not None]
     steps = steps_of([e for e in rows if isinstance(e, Stepped)]) if rows and rows[0].kind is Stepping.STEPPED else None
     path = path_of_segments(rows) if steps is None else path_of_blocks(rows, steps, start.place, start.at_um)
     row_of = np.cumsum([0, *(isinstance(e, PathEntry) and e.kind is not None for e in entries)])

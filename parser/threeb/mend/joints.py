@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
 from parser.threeb.mend.likelihood import joint
@@ -11,37 +12,33 @@ from parser.toolpath import Toolpath
 from parser.words.moves import Moves
 
 
-class Ring(NamedTuple):
-    """A contour as it should close: from `end` back to the start of `begin`; `rows` (n,) may be at fault.
+class Rings(NamedTuple):
+    """Contours as they should close: (k,) or one of all: from row `end` back to the start of row `begin`.
 
-    `is_led` tells that it closes where a lead-out ends on a lead-in, which is no joint.
+    `is_led` tells that one closes where a lead-out ends on a lead-in, which is no joint.
     """
 
-    rows: Ints
-    begin: int
-    end: int
-    gap_um: Floats
-    points: int = 0
-    is_led: bool = False
+    begin: Ints | int
+    end: Ints | int
+    is_led: NDArray[np.bool_] | bool
 
 
-def joint_points(toolpath: Toolpath, ring: Ring, row: Ints, made: Moves) -> Ints:
-    """(k,) points of the joints of a ring that the rows touch, if they moved so, and of the one that closes it."""
-    before = np.where(row == ring.begin, ring.end, row - 1)
-    after = np.where(row == ring.end, ring.begin, row + 1)
-    was = moves_of(word_table(toolpath, np.concatenate([before, after, [ring.end, ring.begin]])))
+def joint_points(toolpath: Toolpath, rings: Rings, row: Ints, made: Moves) -> Ints:
+    """(k,) points of the joints of rings that the rows touch, if they moved so, and of the one that closes each."""
+    k = len(row)
+    begin, end = np.broadcast_to(rings.begin, k), np.broadcast_to(rings.end, k)
+    at_begin, at_end = row == begin, row == end
+    before, after = np.where(at_begin, end, row - 1), np.where(at_end, begin, row + 1)
+    was = moves_of(word_table(toolpath, np.concatenate([before, after, end, begin])))
     arriving, leaving = _directions(was, 1.0), _directions(was, 0.0)
     own_leaving, own_arriving = _directions(made, 0.0), _directions(made, 1.0)
-    k = len(row)
     slack = 1.0 / np.maximum(was.length_um, 1.0)
     own = 1.0 / np.maximum(made.length_um, 1.0)
     entering = joint(arriving[:k], own_leaving, slack[:k] + own)
-    exiting = joint(own_arriving, leaving[k:-2], slack[k:-2] + own)
-    at_begin, at_end = row == ring.begin, row == ring.end
-    if ring.is_led:
-        return np.where(at_begin, 0, entering) + np.where(at_end, 0, exiting)
-    closing = joint(arriving[-2:-1], leaving[-1:], slack[-2:-1] + slack[-1:])
-    return entering + exiting + np.where(at_begin | at_end, 0, closing)
+    exiting = joint(own_arriving, leaving[k : 2 * k], slack[k : 2 * k] + own)
+    closing = joint(arriving[2 * k : 3 * k], leaving[3 * k :], slack[2 * k : 3 * k] + slack[3 * k :])
+    led = np.where(at_begin, 0, entering) + np.where(at_end, 0, exiting)
+    return np.where(rings.is_led, led, entering + exiting + np.where(at_begin | at_end, 0, closing))
 
 
 def _directions(made: Moves, fraction: float) -> Floats:

@@ -14,13 +14,13 @@ from parser.text.source import Field
 from parser.threeb.decode import decoded_words
 from parser.threeb.mend.edits import counted_on
 from parser.threeb.mend.likelihood import slip
-from parser.threeb.mend.solved import solved_numbers
+from parser.threeb.mend.solved import COUNT, X, Y, solved_numbers
 from parser.toolpath import Axis, StepWords, Toolpath
 from parser.words.labels import label
 from parser.words.moves import Moves, moves, with_axes_named
 
-X, Y, COUNT, AXIS, QUADRANT, TURN = range(6)
-"""Columns of a table of words."""
+AXIS, QUADRANT, TURN = range(3, 6)
+"""Columns of a table of words, behind X, Y and COUNT."""
 SENSE = QUADRANT  # which with the turn is one field, Z
 FIELDS = (Field.X, Field.Y, Field.COUNT, Field.AXIS, Field.SENSE)
 """Fields that may be written otherwise, by their numbers, X to SENSE."""
@@ -28,7 +28,7 @@ FIELDS = (Field.X, Field.Y, Field.COUNT, Field.AXIS, Field.SENSE)
 _COLUMNS = ("x_um", "y_um", "count_um", "count_axis", "quadrant", "turn")
 _OTHER_FIELD = 7  # points of a changed axis, and of a changed quadrant or sense, like one changed digit
 _TWO_CHANGED = 2  # points of a changed quadrant and sense, like two changed digits
-_SENSES = tuple(product((0, 1, -1), (1, 2, 3, 4)))  # (turn, quadrant): what Z can say
+_SENSES = np.array(list(product((0, 1, -1), (1, 2, 3, 4))))  # (turn, quadrant): what Z can say
 _PLACES = 10 ** np.arange(9)  # places of the digits of a word of up to nine
 
 
@@ -58,35 +58,34 @@ def mends(word: Ints, by_um: Floats, gap_um: Floats, tolerance_um: float) -> Men
     word, by_um
         (n, 6) words of n blocks and (n, 2) what they do.
     gap_um
-        (2,) by which each block should end elsewhere.
+        (2,) or (n, 2) by which each block should end elsewhere.
     tolerance_um
         Distance within which it does.
     """
     want = by_um + gap_um
-    fixed = _that_end(_other_axes_and_senses(word), want, tolerance_um)
-    solved = [
-        _that_end(_near(word, _numbers(word, want, field, tolerance_um)), want, tolerance_um) for field in (X, Y, COUNT)
-    ]
-    return _joined([fixed, *solved])
-
-
-def _other_axes_and_senses(word: Ints) -> Mends:
-    """Each block counted on the other axis, and with each of the eleven other Z."""
-    rows = np.arange(len(word))
-    other_axis = word.copy()
-    other_axis[:, AXIS] = 1 - word[:, AXIS]
-    made = [Mends(rows, np.full(len(word), AXIS), other_axis)]
     bare = _is_bare(word)
-    for turn, quadrant in _SENSES:
-        changed = word.copy()
-        changed[:, QUADRANT], changed[:, TURN] = quadrant, turn
-        # A line that leaves X and Y out runs along the axis that its new digit names.
-        changed[bare, X], changed[bare, Y] = 0, 0
-        words = with_axes_named(words_of(changed))
-        changed[:, X], changed[:, Y] = words.x_um, words.y_um
-        differs = (word[:, QUADRANT] != quadrant) | (word[:, TURN] != turn)
-        made.append(Mends(rows[differs], np.full(int(differs.sum()), SENSE), changed[differs]))
-    return _joined(made)
+    numbers = _near(word, _numbers(word, want, tolerance_um, bare))
+    return _that_end(_joined([_other_axes(word), _other_senses(word, bare), numbers]), want, tolerance_um)
+
+
+def _other_axes(word: Ints) -> Mends:
+    """Each block counted on the other axis."""
+    changed = word.copy()
+    changed[:, AXIS] = 1 - word[:, AXIS]
+    return Mends(np.arange(len(word)), np.full(len(word), AXIS), changed)
+
+
+def _other_senses(word: Ints, bare: NDArray[np.bool_]) -> Mends:
+    """Each block with each of the eleven other Z."""
+    n = len(_SENSES)
+    row, changed = np.tile(np.arange(len(word)), n), np.tile(word, (n, 1))
+    changed[:, [TURN, QUADRANT]] = np.repeat(_SENSES, len(word), axis=0)
+    differs = (changed[:, [TURN, QUADRANT]] != word[row][:, [TURN, QUADRANT]]).any(axis=1)
+    # A line that leaves X and Y out runs along the axis that its new digit names.
+    changed[np.tile(bare, n), :COUNT] = 0
+    words = with_axes_named(words_of(changed))
+    changed[:, X], changed[:, Y] = words.x_um, words.y_um
+    return Mends(row[differs], np.full(int(differs.sum()), SENSE), changed[differs])
 
 
 def _is_bare(word: Ints) -> NDArray[np.bool_]:
@@ -96,15 +95,15 @@ def _is_bare(word: Ints) -> NDArray[np.bool_]:
     return bare
 
 
-def _numbers(word: Ints, want_um: Floats, field: int, tolerance_um: float) -> Mends:
+def _numbers(word: Ints, want_um: Floats, tolerance_um: float, bare: NDArray[np.bool_]) -> Mends:
     """Blocks with one number solved, as near as whole µm come."""
-    solved = solved_numbers(words_of(word), want_um, field, tolerance_um)
-    able = ~_is_bare(word)[solved.row] | (field == COUNT)
-    row, changed = solved.row[able], word[solved.row[able]]
-    changed[:, field] = solved.value[able]
-    made = Mends(row, np.full(len(row), field), changed)
+    solved = solved_numbers(words_of(word), want_um, tolerance_um)
+    able = ~bare[solved.row] | (solved.field == COUNT)
+    row, field = solved.row[able], solved.field[able]
+    changed = word[row]
+    changed[np.arange(len(row)), field] = solved.value[able]
     # Solving is good to a few µm: what it gives is looked at more closely below.
-    return _that_end(made, want_um, 4.0 * tolerance_um)
+    return _that_end(Mends(row, field, changed), want_um, 4.0 * tolerance_um)
 
 
 def _near(word: Ints, solved: Mends) -> Mends:
@@ -113,29 +112,27 @@ def _near(word: Ints, solved: Mends) -> Mends:
     A closed contour still ends some µm off, and a flat line hardly feels its X: many numbers close it then, and only
     one of them was meant.
     """
-    if not len(solved.row):
-        return solved
-    field = int(solved.field[0])
-    written, value = word[solved.row, field], solved.word[np.arange(len(solved.row)), field]
-    ruled = _ruled(solved.word, field)
-    values = np.concatenate([value[None], ruled[None], *_slips(written, value)])
+    at = np.arange(len(solved.row))
+    written, value = word[solved.row, solved.field], solved.word[at, solved.field]
+    values = np.concatenate([value[None], _ruled(solved.word, solved.field)[None], *_slips(written, value)])
+    row, field = (np.tile(column, len(values)) for column in (solved.row, solved.field))
     changed = np.tile(solved.word, (len(values), 1))
-    changed[:, field] = values.ravel()
-    row = np.tile(solved.row, len(values))
-    differs = (changed[:, field] != word[row, field]) & (changed[:, field] >= (field == COUNT))
-    return Mends(row[differs], np.full(int(differs.sum()), field), changed[differs])
+    changed[np.arange(len(row)), field] = values.ravel()
+    number = values.ravel()
+    differs = (number != word[row, field]) & (number >= (field == COUNT))
+    return Mends(row[differs], field[differs], changed[differs])
 
 
-def _ruled(word: Ints, field: int) -> Ints:
+def _ruled(word: Ints, field: Ints) -> Ints:
     """The number that the rest of a block asks for.
 
     J of an unreduced line is its longer side. J of an arc is the nearest count of whole quarters of its circle.
     """
-    if field == COUNT:
-        radius = np.maximum(np.hypot(word[:, X], word[:, Y]), 1.0)
-        quarters = np.rint(np.rint(word[:, COUNT] / radius) * radius).astype(np.int64)
-        return np.where(word[:, TURN] == 0, np.maximum(word[:, X], word[:, Y]), quarters)
-    return np.where(word[:, AXIS] == field, word[:, COUNT], word[:, field])
+    radius = np.maximum(np.hypot(word[:, X], word[:, Y]), 1.0)
+    quarters = np.rint(np.rint(word[:, COUNT] / radius) * radius).astype(np.int64)
+    count = np.where(word[:, TURN] == 0, np.maximum(word[:, X], word[:, Y]), quarters)
+    written = word[np.arange(len(word)), field]
+    return np.where(field == COUNT, count, np.where(word[:, AXIS] == field, word[:, COUNT], written))
 
 
 def _slips(written: Ints, value: Ints) -> list[Ints]:

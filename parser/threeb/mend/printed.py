@@ -5,7 +5,7 @@ import numpy as np
 from parser.dialect.mender import Mend
 from parser.geometry.curves import Ints
 from parser.threeb.block_checks import counts_fit
-from parser.threeb.mend.joints import Ring, joint_points
+from parser.threeb.mend.joints import Rings, joint_points
 from parser.threeb.mend.likelihood import familiar, obedience, sizes
 from parser.threeb.mend.mends import FIELDS, SENSE, Mends, ease, field_text, mends, moves_of, word_table, words_of
 from parser.threeb.print_checks import print_change
@@ -55,6 +55,6 @@ def _beside(toolpath: Toolpath, row: int, made: Moves) -> Ints:
     begin = int(jumps[at - 1]) + 1 if at else 0
     past = int(jumps[at]) if at < len(jumps) else len(toolpath)
     others = np.delete(np.arange(begin, past), row - begin)
-    ring = Ring(others, begin, past - 1, np.zeros(2), is_led=True)
+    ring = Rings(begin, past - 1, is_led=True)
     known = np.sort(sizes(moves_of(word_table(toolpath, others))))
     return joint_points(toolpath, ring, np.full(len(made.length_um), row), made) + familiar(sizes(made), known, 1)

@@ -9,39 +9,47 @@ from parser.threeb.columns import MAX_WORD_UM
 from parser.toolpath import Axis, StepWords
 from parser.words.arcs import ArcEnds, arc_ends
 
-_COUNT = 2
+X, Y, COUNT = range(3)
+"""Numbers of a block that are solved for."""
+
 _ROUNDS = 4  # of Newton's method; from the closed forms two suffice, four where they are ill-conditioned
 _ADMITTED = 0.1  # of the radius: how far off a guess may end for Newton's method to start from it
 
 
 class Solved(NamedTuple):
-    """Numbers found, `value` (k,) in whole µm for the blocks `row` (k,); a block may have several or none."""
+    """Numbers found, `value` (k,) in whole µm for the `field` (k,) of the blocks `row` (k,): several, one or none."""
 
     row: Ints
+    field: Ints
     value: Ints
 
 
-def solved_numbers(words: StepWords, want_um: Floats, field: int, tolerance_um: float) -> Solved:
-    """Values of a field, 0 X, 1 Y or 2 J, with which n blocks may end `want_um` (n, 2) from their starts."""
+def solved_numbers(words: StepWords, want_um: Floats, tolerance_um: float) -> Solved:
+    """Values of X, of Y and of J with which n blocks may end `want_um` (n, 2) from their starts."""
     is_line = words.turn == 0
-    lines, arcs = np.flatnonzero(is_line), np.flatnonzero(~is_line & (words.x_um**2 + words.y_um**2 > 1))
-    if field == _COUNT:
-        found = [_whole(lines, _line_count(words, want_um)[lines]), _arc_count(words, want_um, arcs)]
-    else:
-        arcs = np.flatnonzero(~is_line)
-        found = [_whole(lines, _line_extent(words, want_um, field)[lines])]
-        guesses = [_whole(arcs, guess) for guess in _arc_guesses(_of(words, arcs), want_um[arcs], field)]
-        row, value = (np.concatenate(columns) for columns in zip(*guesses, strict=True))
-        found.append(_polished(words, want_um, field, Solved(row, value), tolerance_um))
+    lines, arcs = np.flatnonzero(is_line), np.flatnonzero(~is_line)
+    round_ = arcs[words.x_um[arcs] ** 2 + words.y_um[arcs] ** 2 > 1]
+    found = [_whole(lines, COUNT, _line_count(words, want_um)[lines]), *_arc_counts(words, want_um, round_)]
+    found += [_whole(lines, field, _line_extent(words, want_um, field)[lines]) for field in (X, Y)]
+    arc, want = _of(words, arcs), want_um[arcs]
+    guesses = [_whole(arcs, field, guess) for field in (X, Y) for guess in _arc_guesses(arc, want, field)]
+    found.append(_polished(words, want_um, _joined(guesses), tolerance_um))
     # Guesses run together: one value of a block is looked at once.
-    row, value = (np.concatenate(columns) for columns in zip(*found, strict=True))
-    return Solved(*np.divmod(np.unique(row * (MAX_WORD_UM + 1) + value), MAX_WORD_UM + 1))
+    row, field, value = _joined(found)
+    at, value = np.divmod(np.unique((field * len(is_line) + row) * (MAX_WORD_UM + 1) + value), MAX_WORD_UM + 1)
+    field, row = np.divmod(at, max(len(is_line), 1))
+    return Solved(row, field, value)
 
 
-def _whole(row: Ints, value: Floats) -> Solved:
-    """Values rounded, those left out that no word can say."""
+def _joined(found: list[Solved]) -> Solved:
+    return Solved(*(np.concatenate(columns) for columns in zip(*found, strict=True)))
+
+
+def _whole(row: Ints, field: int, value: Floats) -> Solved:
+    """Values of a field rounded, those left out that no word can say."""
     fits = np.isfinite(value) & (value > -0.5) & (value <= MAX_WORD_UM)
-    return Solved(row[fits], np.round(value[fits]).astype(np.int64))
+    row = row[fits]
+    return Solved(row, np.full(len(row), field), np.round(value[fits]).astype(np.int64))
 
 
 def _of(words: StepWords, row: Ints) -> StepWords:
@@ -62,13 +70,13 @@ def _line_extent(words: StepWords, want_um: Floats, field: int) -> Floats:
         return want[:, field] * other / want[:, 1 - field]
 
 
-def _arc_count(words: StepWords, want_um: Floats, arcs: Ints) -> Solved:
+def _arc_counts(words: StepWords, want_um: Floats, arcs: Ints) -> list[Solved]:
     """J to the wanted place within one turn, and J of the full turn."""
     arc = _of(words, arcs)
     start = (np.stack([arc.x_um, arc.y_um], axis=1) * arc.signs).astype(np.float64)
     full: Floats = 4.0 * np.hypot(arc.x_um, arc.y_um)
     count = np.mod(_phase(arc, start + want_um[arcs]) - _phase(arc, start), full)
-    return Solved(*(np.concatenate(both) for both in zip(_whole(arcs, count), _whole(arcs, full), strict=True)))
+    return [_whole(arcs, COUNT, count), _whole(arcs, COUNT, full)]
 
 
 def _phase(arc: StepWords, place_um: Floats) -> Floats:
@@ -102,28 +110,30 @@ def _arc_guesses(arc: StepWords, want_um: Floats, field: int) -> list[Floats]:
         ]
 
 
-def _polished(words: StepWords, want_um: Floats, field: int, guess: Solved, tolerance_um: float) -> Solved:
+def _polished(words: StepWords, want_um: Floats, guess: Solved, tolerance_um: float) -> Solved:
     """Guesses made exact by Newton's method on both coordinates of the end, with the slope over 1 µm."""
-    row, value = guess
+    row, field, value = guess
     for turn in range(_ROUNDS):
         arc = _of(words, row)
         here = _ends(arc, field, value)
         miss = want_um[row] - here.end_um + here.start_um
         if turn == 0:
             near = np.hypot(miss[:, 0], miss[:, 1]) <= _ADMITTED * here.radius_um + tolerance_um
-            row, value, miss, arc = row[near], value[near], miss[near], _of(arc, np.flatnonzero(near))
-            here = ArcEnds(*(column[near] for column in here))
+            row, field, value, miss = row[near], field[near], value[near], miss[near]
+            arc, here = _of(arc, np.flatnonzero(near)), ArcEnds(*(column[near] for column in here))
         beyond = _ends(arc, field, value + 1)
         slope = (beyond.end_um - beyond.start_um) - (here.end_um - here.start_um)
         square = (slope**2).sum(axis=1)
         step = (miss * slope).sum(axis=1) / np.where(square > 0.0, square, np.inf)
         value = np.round(np.clip(value + step, 0.0, MAX_WORD_UM - 1.0)).astype(np.int64)
-    return Solved(row, value)
+    return Solved(row, field, value)
 
 
-def _ends(arc: StepWords, field: int, value: Ints) -> ArcEnds:
+def _ends(arc: StepWords, field: Ints, value: Ints) -> ArcEnds:
     """Arcs with another X or Y; a radius too small for a circle is taken as 2 µm."""
     start = np.stack([arc.x_um, arc.y_um], axis=1)
-    start[:, field] = value
-    start[(start**2).sum(axis=1) <= 1, field] = 2
+    at = np.arange(len(field))
+    start[at, field] = value
+    dots = np.flatnonzero((start**2).sum(axis=1) <= 1)
+    start[dots, field[dots]] = 2
     return arc_ends(start * arc.signs, arc.count_um, arc.count_axis, arc.turn)

@@ -7,11 +7,12 @@ that do, the likeliest are named: the ones that turn an unlikely block into a li
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from parser.dialect.mender import Suspect
 from parser.geometry.curves import Floats, Ints
 from parser.shape.closing import closure_tolerance_um
-from parser.threeb.mend.joints import Ring, joint_points
+from parser.threeb.mend.joints import Rings, joint_points
 from parser.threeb.mend.likelihood import alike, familiar, obedience, sizes
 from parser.threeb.mend.mends import (
     FIELDS,
@@ -39,6 +40,35 @@ _CLOSED_LOOP = 6  # points if a loop closes between lead-in and lead-out: then o
 _LEAST = 7  # points of a mend worth naming: one slip that makes the contour no less likely
 
 
+class _Ring(NamedTuple):
+    """A contour as it should close: from row `end` back to the start of row `begin`; `rows` (n,) may be at fault.
+
+    `gap_um` (2,) is what a mend makes up for; `is_led` and `points` are those of `Rings` and of all mends of the ring.
+    """
+
+    rows: Ints
+    begin: int
+    end: int
+    gap_um: Floats
+    points: int = 0
+    is_led: bool = False
+
+
+class _Asked(NamedTuple):
+    """Rows (n,) that may be at fault, each with what its ring is: a row stands once for each ring."""
+
+    row: Ints
+    begin: Ints
+    end: Ints
+    gap_um: Floats
+    points: Ints
+    is_led: NDArray[np.bool_]
+
+    def take(self, at: Ints) -> "_Asked":
+        """Those at the indices `at`, in which one may stand several times."""
+        return _Asked(self.row[at], self.begin[at], self.end[at], self.gap_um[at], self.points[at], self.is_led[at])
+
+
 class _Ranked(NamedTuple):
     """Mends with their rows in the toolpath, their points, and how far from closed they leave the contour."""
 
@@ -58,15 +88,13 @@ def suspects(toolpath: Toolpath, first_row: int, past_row: int) -> tuple[Suspect
     rows = np.arange(first_row, past_row)
     tolerance = min(closure_tolerance_um(int(toolpath.is_arc[rows].sum())), _MOST_OFF_UM)
     all_sizes = np.sort(sizes(moves_of(word_table(toolpath, rows))))
-    best = [
-        _ranked(toolpath, ring, part, all_sizes, tolerance)
-        for ring in _rings(toolpath, first_row, past_row, tolerance)
-        for part in np.array_split(ring.rows, len(ring.rows) // _ROWS_AT_ONCE + 1)
-    ]
+    asked = _asked(_rings(toolpath, first_row, past_row, tolerance))
+    parts = np.array_split(np.arange(len(asked.row)), len(asked.row) // _ROWS_AT_ONCE + 1)
+    best = [_ranked(toolpath, asked.take(part), all_sizes, tolerance) for part in parts]
     return _named(toolpath, _leading(best))
 
 
-def _rings(toolpath: Toolpath, first: int, past: int, tolerance_um: float) -> list[Ring]:
+def _rings(toolpath: Toolpath, first: int, past: int, tolerance_um: float) -> list[_Ring]:
     """Where the contour may close, and which rows may be at fault then.
 
     If the lead-out goes back along the lead-in, these two are cleared. If the loop between them closes, one of these
@@ -75,39 +103,64 @@ def _rings(toolpath: Toolpath, first: int, past: int, tolerance_um: float) -> li
     last = past - 1
     start, end = toolpath.start_um, toolpath.end_um
     gap = start[first] - end[last]
-    own = Ring(np.arange(first, past), first, last, gap, _OWN_START)
+    own = _Ring(np.arange(first, past), first, last, gap, _OWN_START)
     if past - first < 3:
         return [own]
-    after_lead = Ring(np.arange(first + 1, past), first + 1, last, start[first + 1] - end[last])
+    after_lead = _Ring(np.arange(first + 1, past), first + 1, last, start[first + 1] - end[last])
     there_and_back = end[first] - start[first] + end[last] - start[last]
     loop = start[first + 1] - end[last - 1]
     if np.hypot(*loop) <= tolerance_um:
-        return [Ring(np.array([first, last]), first, last, gap, _CLOSED_LOOP, is_led=True), own, after_lead]
+        return [_Ring(np.array([first, last]), first, last, gap, _CLOSED_LOOP, is_led=True), own, after_lead]
     if np.hypot(*there_and_back) <= tolerance_um:
-        return [Ring(np.arange(first + 1, last), first + 1, last - 1, loop)]
+        return [_Ring(np.arange(first + 1, last), first + 1, last - 1, loop)]
     return [own, after_lead]
 
 
-def _ranked(toolpath: Toolpath, ring: Ring, rows: Ints, all_um: Floats, tolerance_um: float) -> _Ranked:
-    """Mends of some rows of a ring, with their points: those of the block mended less those of the block written."""
-    word = word_table(toolpath, rows)
+def _asked(rings: list[_Ring]) -> _Asked:
+    """The rows of all rings, one ring's behind the other's."""
+    of = np.repeat(np.arange(len(rings)), [len(ring.rows) for ring in rings])
+    each = _Asked(
+        row=np.arange(len(rings)),
+        begin=np.array([ring.begin for ring in rings]),
+        end=np.array([ring.end for ring in rings]),
+        gap_um=np.array([ring.gap_um for ring in rings]),
+        points=np.array([ring.points for ring in rings]),
+        is_led=np.array([ring.is_led for ring in rings]),
+    )
+    return each.take(of)._replace(row=np.concatenate([ring.rows for ring in rings]))
+
+
+def _ranked(toolpath: Toolpath, asked: _Asked, all_um: Floats, tolerance_um: float) -> _Ranked:
+    """Mends of some rows, with their points: those of the block mended less those of the block written."""
+    word = word_table(toolpath, asked.row)
     was = moves_of(word)
-    made = mends(word, was.by_um, ring.gap_um, tolerance_um)
-    now, row = moves_of(made.word), rows[made.row]
+    made = mends(word, was.by_um, asked.gap_um, tolerance_um)
+    of = asked.take(made.row)
     before, after = word[made.row], made.word
-    old = Moves(*(column[made.row] for column in was))
-    points = (
-        obedience(words_of(after), now)
-        - obedience(words_of(before), old)
-        + joint_points(toolpath, ring, row, now)
-        - joint_points(toolpath, ring, row, old)
+    both = Moves(*(np.concatenate(pair) for pair in zip(moves_of(after), _taken(was, made.row), strict=True)))
+    now, old = (Moves(*(column[half] for column in both)) for half in _halves(len(of.row)))
+    rings = Rings(np.tile(of.begin, 2), np.tile(of.end, 2), np.tile(of.is_led, 2))
+    points = obedience(words_of(np.concatenate([after, before])), both)
+    points += joint_points(toolpath, rings, np.tile(of.row, 2), both)
+    here, there = (points[half] for half in _halves(len(of.row)))
+    ranked = (
+        here
+        - there
         + familiar(sizes(now), all_um, 1 + alike(sizes(now), sizes(old)))
         - familiar(sizes(old), all_um, 2)
         + ease(before, made)
-        + ring.points
+        + of.points
     )
-    off = now.by_um - old.by_um - ring.gap_um
-    return _Ranked(row, made.field, made.word, points, np.hypot(off[:, 0], off[:, 1]))
+    off = now.by_um - old.by_um - of.gap_um
+    return _Ranked(of.row, made.field, made.word, ranked, np.hypot(off[:, 0], off[:, 1]))
+
+
+def _taken(moves: Moves, at: Ints) -> Moves:
+    return Moves(*(column[at] for column in moves))
+
+
+def _halves(n: int) -> tuple[slice, slice]:
+    return slice(n), slice(n, 2 * n)
 
 
 def _leading(found: list[_Ranked]) -> Mends:

@@ -96,18 +96,30 @@ def _crossing(meets: Meets, at: int) -> Crossing:
 
 def _proper(toolpath: Toolpath, meets: Meets, contour_of_row: Ints, passes: Passes) -> Meets:
     """Those of the places that are crossings, in the order the wire meets them."""
-    on_late, kept = np.empty(0), np.arange(len(meets.late))
-    for row in (meets.early, meets.late):
-        before, after = _along(toolpath, row[kept], meets.place_um[kept])
-        clear = np.minimum(before, after) > CLEAR_UM
-        on_late, kept = before[clear], kept[clear]
-    meets = meets.take(kept)
-    sine, sides = _sides(toolpath, meets)
+    near = _in_reach(toolpath, meets.early, meets.place_um) & _in_reach(toolpath, meets.late, meets.place_um)
+    meets = meets.take(np.flatnonzero(near))
+    early_um = np.minimum(*_along(toolpath, meets.early, meets.place_um))
+    clear = np.flatnonzero(early_um > CLEAR_UM)
+    meets, early_um = meets.take(clear), early_um[clear]
+    before, after = _along(toolpath, meets.late, meets.place_um)
+    late_um = np.minimum(before, after)
+    clear = np.flatnonzero(late_um > CLEAR_UM)
+    meets, early_um, late_um, on_late = meets.take(clear), early_um[clear], late_um[clear], before[clear]
+    sine = _sines(toolpath, meets)
+    sides = early_um * sine, late_um * sine
     corner_loop = _is_corner_loop(toolpath, meets)
     clearance = np.minimum(*sides)
     at_pass = _to_passes(contour_of_row, passes, meets, sides)
     crossing = np.flatnonzero((sine > _LEAST_SINE) & (clearance > CLEAR_UM) & ~corner_loop & ~at_pass)
     return meets.take(crossing[np.lexsort((on_late[crossing], meets.late[crossing]))])
+
+
+def _in_reach(toolpath: Toolpath, row: Ints, place_um: Floats) -> Bools:
+    """Whether places (k, 2) lie no farther from the starts of blocks than these are long, as all on them do."""
+    reach = toolpath.length_um[row]
+    near: Bools = np.abs(place_um[:, 0] - toolpath.start_um[:, 0][row]) <= reach
+    near &= np.abs(place_um[:, 1] - toolpath.start_um[:, 1][row]) <= reach
+    return near
 
 
 def _is_corner_loop(toolpath: Toolpath, meets: Meets) -> Bools:
@@ -131,12 +143,11 @@ def _to_passes(contour_of_row: Ints, passes: Passes, meets: Meets, sides: tuple[
     return ends
 
 
-def _sides(toolpath: Toolpath, meets: Meets) -> tuple[Floats, tuple[Floats, Floats]]:
-    """How blocks meet, (k,) each: the sine of their angle; how far µm the nearer end of each lies off the other one."""
+def _sines(toolpath: Toolpath, meets: Meets) -> Floats:
+    """Sines (k,) of the angles at which blocks meet."""
     a, b = (headings_at(toolpath, row, meets.place_um) for row in (meets.early, meets.late))
-    sine = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-    early, late = (np.minimum(*_along(toolpath, row, meets.place_um)) * sine for row in (meets.early, meets.late))
-    return sine, (early, late)
+    sine: Floats = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    return sine
 
 
 def _along(toolpath: Toolpath, row: Ints, place_um: Floats) -> tuple[Floats, Floats]:

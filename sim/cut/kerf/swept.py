@@ -20,6 +20,10 @@ _STRETCH = 1.9  # offsets, at most; at 2 the discs at its ends would only just r
 _TURN_RAD = 0.5  # of a stretch, at most
 
 
+Box = tuple[float, float, float, float]
+"""Lowest x and y, highest x and y, µm."""
+
+
 class Swept(NamedTuple):
     """The region that the wire sweeps on its way through one contour.
 
@@ -31,11 +35,14 @@ class Swept(NamedTuple):
         (s,) int64, first place of each stretch.
     levels
         Regions of the stretches, then of pairs of these, and so on up to the whole.
+    boxes
+        (…, 4) float64 of each level: lowest x and y, highest x and y of its regions.
     """
 
     way: WireWay
     first: Ints
     levels: tuple[Regions, ...]
+    boxes: tuple[Floats, ...]
 
     @property
     def region_um(self) -> Region:
@@ -43,12 +50,45 @@ class Swept(NamedTuple):
         whole: Region = self.levels[-1][0] if len(self.levels[0]) else shapely.Polygon()
         return whole
 
+    def near(self, first: int, past: int, box: Box) -> list[Region]:
+        """Regions that are swept on some stretches, as far as they come near a box: together, all within the box.
+
+        Of the pairs, those that lie in a box of three times the size are given as one.
+        """
+        larger, found = _larger(box), list[Region]()
+        todo = [(len(self.levels) - 1, 0)]
+        while todo:
+            level, at = todo.pop()
+            low, high = at << level, min((at + 1) << level, len(self.first))
+            if low >= past or high <= first or not _meet(own := tuple(self.boxes[level][at].tolist()), box):
+                continue
+            if level == 0 or (low >= first and high <= past and _holds(larger, own)):
+                found.append(self.levels[level][at])
+            else:
+                todo += [(level - 1, one) for one in (2 * at + 1, 2 * at) if one < len(self.levels[level - 1])]
+        return found
+
+
+def _meet(one: Box, other: Box) -> bool:
+    return one[0] <= other[2] and other[0] <= one[2] and one[1] <= other[3] and other[1] <= one[3]
+
+
+def _holds(box: Box, other: Box) -> bool:
+    return box[0] <= other[0] and box[1] <= other[1] and box[2] >= other[2] and box[3] >= other[3]
+
+
+def _larger(box: Box) -> Box:
+    """A box of three times the size round another."""
+    wide, high = box[2] - box[0], box[3] - box[1]
+    return box[0] - wide, box[1] - high, box[2] + wide, box[3] + high
+
 
 def swept_along(curves: Curves, way: WireWay, offset_um: float) -> Swept:
     """The region that a wire with this offset sweeps on its way along the rows of some curves."""
     first = _stretches(way, _longest_um(curves, offset_um))
     regions = stars(way.place_um, first, middles(way, first), offset_um)
-    return Swept(way, first, _levels(regions))
+    levels = _levels(regions)
+    return Swept(way, first, levels, tuple(np.asarray(shapely.bounds(level)).reshape(-1, 4) for level in levels))
 
 
 def _longest_um(curves: Curves, offset_um: float) -> Floats:

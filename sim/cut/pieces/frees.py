@@ -1,4 +1,8 @@
-"""When a piece comes free: the first place of the wire at which its kerf parts it from the frame."""
+"""When a piece comes free: the first place of the wire at which its kerf parts it from the frame.
+
+Whether a piece is parted is asked in a box round it, with the kerf that lies there. What the kerf closes in within the
+box is free. What reaches the border of the box, or the frame, is not free as far as the box tells.
+"""
 
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -9,9 +13,9 @@ from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats
 from sim.cut.kerf.stars import stars
-from sim.cut.kerf.swept import Swept, middles
+from sim.cut.kerf.swept import Box, Swept, middles
 from sim.cut.kerf.ways import WireWay
-from sim.cut.regions import Region, difference, union
+from sim.cut.regions import Region, difference, union_all
 
 _SPARED = 0.1  # offsets: a wire that reaches less deep into a piece only takes off what an earlier cut left on it
 
@@ -34,59 +38,117 @@ class FreeMoment(NamedTuple):
     piece_um: shapely.Polygon
 
 
-class FreeQuestion(NamedTuple):
-    """The question whether a piece is free of its frame: the stock of both, a point in the piece, one in the frame."""
+class Closing(NamedTuple):
+    """When the kerf closes round a piece within a box, and what the piece was one with in there just before."""
 
-    stock_um: shapely.Polygon
+    moment: FreeMoment
+    hung_um: Region
+
+
+class FreeQuestion(NamedTuple):
+    """The question whether a piece is closed in within a box.
+
+    Attributes
+    ----------
+    box
+        Lowest x and y, highest x and y, µm.
+    stock_um
+        What there is of piece and frame within the box.
+    border_um
+        The border of the box, as far as the stock goes on behind it.
+    piece, frame
+        A point in the piece, and one in the frame.
+    """
+
+    box: Box
+    stock_um: Region
+    border_um: Region
     piece: shapely.Point
     frame: shapely.Point
 
-    def free(self, kerf_um: Region) -> shapely.Polygon | None:
-        """The piece, where a kerf parts it from the frame; else None."""
-        part = next((part for part in parted(self.stock_um, kerf_um) if part.contains(self.piece)), None)
-        return None if part is None or part.contains(self.frame) else part
+    @property
+    def is_whole(self) -> bool:
+        """Whether the box holds all of the stock, so that the answer is final."""
+        return bool(self.border_um.is_empty)
+
+    def part(self, kerf_um: Region) -> shapely.Polygon:
+        """What is left round the point of the piece; empty where the kerf has taken that."""
+        parts = np.array(parted(self.stock_um, kerf_um), dtype=np.object_)
+        held: list[shapely.Polygon] = parts[shapely.contains(parts, self.piece)].tolist()
+        return held[0] if held else shapely.Polygon()
+
+    def is_free(self, part: shapely.Polygon) -> bool:
+        """Whether such a part is closed in."""
+        if part.is_empty:
+            return False
+        return not (part.contains(self.frame) or part.intersects(self.border_um))
 
 
-def parted(stock_um: shapely.Polygon, kerf_um: Region) -> list[shapely.Polygon]:
+def question_of(stock_um: shapely.Polygon, box: Box, piece: shapely.Point, frame: shapely.Point) -> FreeQuestion:
+    """The question within a box, or within all of the stock where the box holds it."""
+    square = shapely.box(*box)
+    if square.contains(stock_um):
+        return FreeQuestion(box, stock_um, shapely.LineString(), piece, frame)
+    within = shapely.intersection(stock_um, square)
+    return FreeQuestion(box, within, shapely.intersection(square.exterior, stock_um), piece, frame)
+
+
+def parted(stock_um: Region, kerf_um: Region) -> list[shapely.Polygon]:
     """Parts of a stock, µm, that a kerf leaves, each a polygon; none where it leaves nothing."""
     parts: list[shapely.Polygon] = shapely.get_parts(difference(stock_um, kerf_um)).tolist()
     return parts
 
 
-def moment_of(
+def closing_of(
     question: FreeQuestion, swept: tuple[Swept, ...], contours: list[int], offset_um: float
-) -> FreeMoment | None:
+) -> Closing | None:
     """The first moment at which the kerfs of some contours, in the order they are cut, answer the question with yes."""
-    before: Region = shapely.Polygon()
+    before = _cut(question, _Cut(shapely.Polygon(), shapely.Polygon()), [shapely.Polygon()])
     for contour in contours:
-        kerf = union(before, swept[contour].region_um)
-        piece = question.free(kerf)
-        if piece is not None:
-            return _within(question, before, swept[contour], offset_um, FreeMoment(contour, -1, piece))
-        before = kerf
+        after = _cut(question, before, swept[contour].near(0, len(swept[contour].first), question.box))
+        if question.is_free(after.part_um):
+            return _within(question, before, swept[contour], offset_um, FreeMoment(contour, -1, after.part_um))
+        before = after
     return None
 
 
-def _within(question: FreeQuestion, before: Region, swept: Swept, offset_um: float, whole: FreeMoment) -> FreeMoment:
+class _Cut(NamedTuple):
+    """A kerf as far as it lies near the box, and what it leaves round the point of the piece."""
+
+    kerf_um: Region
+    part_um: shapely.Polygon
+
+
+def _cut(question: FreeQuestion, before: _Cut, more: list[Region]) -> _Cut:
+    if not more:
+        return before
+    kerf = union_all([before.kerf_um, *more])
+    return _Cut(kerf, question.part(kerf))
+
+
+def _within(question: FreeQuestion, before: _Cut, swept: Swept, offset_um: float, whole: FreeMoment) -> Closing:
     """The moment on the wire's way whose whole kerf frees the piece: halves the stretches, then the places of one."""
-    stretch = 0
-    for level in swept.levels[-2::-1]:
-        stretch *= 2
-        if stretch + 1 < len(level):
-            kerf = union(before, level[stretch])
-            if question.free(kerf) is None:
-                before, stretch = kerf, stretch + 1
+    low, high, piece = 0, len(swept.first), whole.piece_um
+    while high - low > 1:
+        middle = low + (1 << ((high - low - 1).bit_length() - 1))  # as the tree of the regions is halved
+        after = _cut(question, before, swept.near(low, middle, question.box))
+        if after is not before and question.is_free(after.part_um):
+            high, piece = middle, after.part_um
+        else:
+            low, before = middle, after
     way = swept.way
-    piece = question.free(union(before, swept.levels[0][stretch])) or whole.piece_um
-    middle = middles(way, swept.first)[stretch : stretch + 1]
-    first, past = np.append(swept.first, len(way.row))[stretch : stretch + 2].tolist()
-    low, high = first - 1, past - 1
+    about = middles(way, swept.first)[low : low + 1]
+    first, past = np.append(swept.first, len(way.row))[low : low + 2].tolist()
+    low, high, hung = first - 1, past - 1, before.part_um
     while high - low > 1:
         at = (low + high) // 2
-        star = stars(way.place_um[first : at + 1], np.zeros(1, dtype=np.int64), middle, offset_um)
-        found = question.free(union(before, star[0]))
-        low, high, piece = (at, high, piece) if found is None else (low, at, found)
-    return FreeMoment(whole.contour, high, piece)
+        star = stars(way.place_um[first : at + 1], np.zeros(1, dtype=np.int64), about, offset_um)
+        part = _cut(question, before, star.tolist()).part_um
+        if question.is_free(part):
+            high, piece = at, part
+        else:
+            low, hung = at, part
+    return Closing(FreeMoment(whole.contour, high, piece), hung)
 
 
 def cut_on_um(piece_um: shapely.Polygon, ways: Iterable[WireWay], offset_um: float) -> float:
@@ -99,8 +161,12 @@ def cut_on_um(piece_um: shapely.Polygon, ways: Iterable[WireWay], offset_um: flo
 
 
 def _inside(piece_um: shapely.Polygon, way: WireWay, offset_um: float) -> tuple[WireWay, NDArray[np.bool_]]:
-    cuts = shapely.dwithin(piece_um, shapely.points(way.place_um), (1.0 - _SPARED) * offset_um)
-    return way, np.asarray(cuts)
+    low_x, low_y, high_x, high_y = piece_um.bounds
+    x, y = way.place_um.T
+    reach = (1.0 - _SPARED) * offset_um
+    cuts = (x >= low_x - reach) & (x <= high_x + reach) & (y >= low_y - reach) & (y <= high_y + reach)
+    cuts[cuts] = shapely.dwithin(piece_um, shapely.points(way.place_um[cuts]), reach)
+    return way, cuts
 
 
 def _again(place_um: Floats, along_um: Floats, offset_um: float) -> NDArray[np.bool_]:

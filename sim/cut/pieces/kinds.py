@@ -14,7 +14,7 @@ from sim.cut.kerf.makers import share_made
 from sim.cut.kerf.swept import Swept
 from sim.cut.kerf.ways import WireWay
 from sim.cut.pieces.bridges import Older
-from sim.cut.pieces.frees import FreeMoment, FreeQuestion
+from sim.cut.pieces.frees import FreeMoment
 
 _ON_IT = 0.1  # offsets: a start this near to the loop lies on it, and is no lead-in
 _NOTCH = 1.5  # offsets that an outline grows and shrinks by, which closes notches two offsets wide
@@ -33,8 +33,8 @@ class Loose(NamedTuple):
     ----------
     outline_um
         What stays of it in the end.
-    question
-        Whether it is free of the frame.
+    stock_um
+        What it came free of.
     contours
         Indices of the contours whose kerfs have a share in its outer edge, in order.
     moment
@@ -44,7 +44,7 @@ class Loose(NamedTuple):
     """
 
     outline_um: shapely.Polygon
-    question: FreeQuestion
+    stock_um: shapely.Polygon
     contours: list[int]
     moment: FreeMoment
     older: Older | None

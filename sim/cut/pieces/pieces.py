@@ -10,8 +10,9 @@ from parser.toolpath import Point
 from sim.cut.kerf.region import Kerf
 from sim.cut.kerf.ways import WireWay, behind
 from sim.cut.pieces.bridges import Bridge, bridge_of, held_after, older_place
-from sim.cut.pieces.frees import FreeMoment, FreeQuestion, cut_on_um, moment_of, parted
+from sim.cut.pieces.frees import FreeMoment, cut_on_um, parted
 from sim.cut.pieces.kinds import Kind, Loose, kinds_of
+from sim.cut.pieces.moments import Cutting, moments_of
 from sim.setup.obstacles import Outline
 
 _CRUMB_MM2 = 0.001  # some 30 µm square, or cusps where the wire leaves its kerf: nothing that anyone picks up
@@ -107,11 +108,11 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material, pauses: S
     frame = _frame(parts, stock)
     others = [part for part in parts if part is not frame]
     whole = [part for part in others if part.area * 1e-6 >= _CRUMB_MM2]
-    held = shapely.point_on_surface(frame)
     kerfs = shapely.STRtree([one.region_um for one in kerf.swept])
-    questions = [FreeQuestion(stock, part.representative_point(), held) for part in whole]
-    told = [_loose(kerf, kerfs, part, question) for part, question in zip(whole, questions, strict=True)]
-    loose = [piece for piece in told if piece is not None]
+    rounds = [_round(kerfs, part) for part in whole]
+    moments = moments_of(Cutting(stock, frame, whole, rounds, kerf.swept, kerf.offset_um))
+    told = zip(whole, rounds, moments, strict=True)
+    loose = [_loose(kerf, stock, part, round_, moment) for part, round_, moment in told if moment is not None]
     kinds = kinds_of(loose, kerf.swept, kerf.offset_um)
     cuts = _Cuts(kerf, kerfs, pauses, material)
     found = [_piece(cuts, piece, kind) for piece, kind in zip(loose, kinds, strict=True)]
@@ -153,16 +154,12 @@ class _Cuts(NamedTuple):
     material: Material
 
 
-def _loose(kerf: Kerf, kerfs: shapely.STRtree, part: shapely.Polygon, question: FreeQuestion) -> Loose | None:
-    """A part as it comes free; None where the contours that have a share in its outer edge do not free it."""
-    contours = _round(kerfs, part)
-    moment = moment_of(question, kerf.swept, contours, kerf.offset_um)
-    if moment is None:
-        return None
+def _loose(kerf: Kerf, stock: shapely.Polygon, part: shapely.Polygon, contours: list[int], moment: FreeMoment) -> Loose:
+    """A part as it comes free."""
     ways = [one.way for one in kerf.swept]
     earlier = [index for index in contours if index < moment.contour]
     older = older_place(ways, earlier, moment.contour, moment.at, kerf.offset_um)
-    return Loose(part, question, contours, moment, older)
+    return Loose(part, stock, contours, moment, older)
 
 
 def _piece(cuts: _Cuts, loose: Loose, kind: Kind) -> Piece:
@@ -210,7 +207,7 @@ def _ways_after(cuts: _Cuts, loose: Loose, *, is_slug: bool) -> list[WireWay]:
     """
     swept, moment = cuts.kerf.swept, loose.moment
     rest = behind(swept[moment.contour].way, moment.at)
-    if is_slug or moment.piece_um.intersects(loose.question.stock_um.exterior):
+    if is_slug or moment.piece_um.intersects(loose.stock_um.exterior):
         return [rest]
     met = np.sort(cuts.kerfs.query(moment.piece_um, predicate="intersects"))
     return [rest, *(swept[at].way for at in met[met > moment.contour].tolist())]

@@ -12,14 +12,13 @@ from parser.geometry.curves import Floats
 from parser.toolpath import Point
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.cut.play.touching import Sides, shifted_until, sides_of, turned_until
-from sim.cut.play.walls import Walls, room_of, walls_of
+from sim.cut.play.walls import SIMPLER_UM, Walls, room_of, walls_of
 
 _DIRECTIONS = 16
-_COARSE_UM = 0.5  # outlines are simplified by this, then by twice as much, until few corners are left
-_CORNERS = 1000
+_CORNERS = 1000  # an outline with more is simplified by twice as much, and so on
 _COARSEST_UM = 8.0
 _NEAR_UM = 1000.0  # walls are looked at in a box so much larger than the piece, then farther
-_FARTHER = 8.0  # times
+_FARTHER = 4.0  # times
 
 
 class Shift(NamedTuple):
@@ -97,16 +96,21 @@ def _play(walls: Walls, piece: Piece, wire_radius_um: float) -> Play:
     while True:
         near, is_all = room.within(far_um)
         if is_all or not near.is_empty:
-            play = play_between(outline, near, wire, wire_radius_um)
+            play = play_between(outline, near, wire, wire_radius_um, walls_to_um=SIMPLER_UM)
             met_um = max(math.dist(wire, play.pinch.wall_um), *(shift.by_um for shift in play.shifts))
             if is_all or met_um + play.exact_to_um < far_um:
                 return play
         far_um *= _FARTHER
 
 
-def play_between(outline_um: shapely.Polygon, walls_um: BaseGeometry, wire_um: Point, wire_radius_um: float) -> Play:
-    """Play of an outline without holes between walls, which are lines, with a wire beside it."""
-    (edge, from_edge), (walls, from_walls) = _coarse(outline_um.exterior), _coarse(walls_um)
+def play_between(
+    outline_um: shapely.Polygon, walls_um: BaseGeometry, wire_um: Point, wire_radius_um: float, walls_to_um: float = 0.0
+) -> Play:
+    """Play of an outline without holes between walls, with a wire beside it.
+
+    The walls are lines, which lie within `walls_to_um` of the real ones.
+    """
+    (edge, from_edge), (walls, from_walls) = _coarse(outline_um.exterior), _coarse(walls_um, walls_to_um)
     center = np.array(outline_um.centroid.coords[0])
     scene = _Scene(edge, sides_of(edge), walls, sides_of(walls), center)
     shifts = tuple(_shift(scene, angle) for angle in np.arange(_DIRECTIONS) * (360.0 / _DIRECTIONS))
@@ -124,12 +128,12 @@ class _Scene(NamedTuple):
     about_um: Floats
 
 
-def _coarse(lines_um: BaseGeometry) -> tuple[BaseGeometry, float]:
+def _coarse(lines_um: BaseGeometry, exact_to_um: float = 0.0) -> tuple[BaseGeometry, float]:
     """Lines with fewer corners, and how far they are from the real ones."""
-    tolerance, lines = _COARSE_UM, _simplified(lines_um, _COARSE_UM)
+    tolerance, lines = SIMPLER_UM, _simplified(lines_um, SIMPLER_UM - exact_to_um)
     while shapely.get_num_coordinates(lines) > _CORNERS and tolerance < _COARSEST_UM:
         tolerance *= 2.0
-        lines = _simplified(lines_um, tolerance)
+        lines = _simplified(lines_um, tolerance - exact_to_um)
     return lines, tolerance
 
 

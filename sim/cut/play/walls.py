@@ -3,7 +3,7 @@
 Rings do not cross each other. So of two, the one with the larger area holds the other or not, and one point tells.
 """
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 import shapely
@@ -14,7 +14,10 @@ from parser.toolpath import Point
 from sim.cut.pieces.pieces import Pieces
 from sim.cut.regions import Regions
 
-_TOGETHER = 256  # sides of a ring that are looked for together
+SIMPLER_UM: Final = 0.5
+"""Outlines are simplified by so much, once, before anything is held against them."""
+
+_TOGETHER = 64  # sides of a ring that are looked for together
 
 
 class Walls(NamedTuple):
@@ -29,7 +32,7 @@ class Walls(NamedTuple):
     until_s
         (r,) float64, until when each stands.
     corner_um
-        (c, 2) float64, corners of all rings, the first of each again as its last.
+        (c, 2) float64, corners of all rings, simplified by `SIMPLER_UM`, the first of each again as its last.
     runs
         (q, 3) int64, ring, first and last corner of runs of sides, in the order of the corners.
     run_boxes
@@ -112,7 +115,8 @@ def walls_of(pieces: Pieces) -> Walls:
     rings: Regions = np.asarray(shapely.polygons(lines))
     shapely.prepare(rings)
     until = np.array([*(np.inf for _ in standing), *(piece.freed.t_s for piece in pieces.freed)])
-    corner, ring = shapely.get_coordinates(lines, return_index=True)
+    simple = shapely.simplify(lines, SIMPLER_UM, preserve_topology=False)
+    corner, ring = shapely.get_coordinates(simple, return_index=True)
     runs = _runs(np.bincount(ring, minlength=len(rings)))
     inside = shapely.get_coordinates(shapely.point_on_surface(rings))
     area = np.asarray(shapely.area(rings))

@@ -20,7 +20,7 @@ from sim.measure.compare.nearest import indexed, nearest
 
 _PART_LEFT, _PART_RIGHT = 1, -1
 _SIMPLER_UM = 0.05
-"""Outlines are as exact as 0.1 µm; with half the corners they are compared twice as fast."""
+"""Outlines are as exact as 0.1 µm; with half the corners they are compared twice as fast (docs/compare.md)."""
 _LONGEST_UM = 100.0  # of a side: two blocks may make one straight edge
 
 

@@ -21,7 +21,7 @@ import numpy as np
 
 from parser.geometry.along import along_um
 from parser.geometry.broad_phase_places import near_places
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import headings_at, to_left
 from parser.geometry.distance import distance_to_curves
 from parser.geometry.feet import feet
@@ -70,6 +70,11 @@ class WireTaken(NamedTuple):
         part = slice(*np.searchsorted(self.row, (one.first, one.last + 1)).tolist())
         return WireTaken(self.row[part], self.place_um[part], self.along_um[part], self.off_um[part], self.t_s[part])
 
+    def bounds_um(self, one: Pass) -> tuple[float, float]:
+        """The planned length of the path where the wire was first and last on a pass that it came to."""
+        along = self.on(one).along_um
+        return float(along[0]), float(along[-1])
+
 
 class _Cut(NamedTuple):
     """The path with the length before each row, the wire's way along it, and half the width of its kerf."""
@@ -88,7 +93,7 @@ class _Stations(NamedTuple):
 
 
 class _Beside(NamedTuple):
-    """How far an earlier wire is ahead of each station (k,) and to the left of it; NaN where it is far off."""
+    """How far p earlier wires are ahead of each station (p, k) and to the left of it; NaN where one is far off."""
 
     ahead_um: Floats
     left_um: Floats
@@ -115,38 +120,56 @@ def _stock(cut: _Cut, one: Pass, before: Sequence[Pass]) -> Stock | None:
         return None
     at = np.flatnonzero(np.diff(np.floor(taken.along_um / _SPACING_UM), prepend=-1.0) > 0.0)
     stations = _Stations(taken.place_um[at], headings_at(cut.toolpath, taken.row[at], taken.place_um[at]))
-    seen = [_beside(cut, other, stations) for other in before]
+    beside = _beside(cut, before, stations)
     sides = (one.part_side,) if one.part_side else (-1, 1)
-    thick = np.full(len(at), 2.0 * cut.reach_um)
-    for beside in seen:
-        thick = np.fmin(thick, np.max([_beyond(beside, side, cut.reach_um) for side in sides], axis=0))
+    reached = np.max([_beyond(beside, side, cut.reach_um) for side in sides], axis=0)
+    thick = np.fmin.reduce([np.full(len(at), 2.0 * cut.reach_um), *reached])
     return Stock(float(thick.min()), float(thick.max()), float(thick.mean()))
 
 
-def _beside(cut: _Cut, other: Pass, stations: _Stations) -> _Beside:
-    """Where the wire of another pass was that came nearest to each station, as far as their kerfs may meet."""
-    place, taken = stations.place_um, cut.way.on(other)
-    ahead, left = np.full((2, len(place)), np.nan)
-    curves = cut.toolpath.picked(slice(other.first, other.last + 1))
-    near = near_places(curves, place, 2.0 * cut.reach_um)
-    if not len(near.row) or not len(taken.row):
+def _beside(cut: _Cut, before: Sequence[Pass], stations: _Stations) -> _Beside:
+    """Where the wires of other passes were that came nearest to each station, as far as their kerfs may meet."""
+    place, others = stations.place_um, [other for other in before if len(cut.way.on(other).row)]
+    ahead, left = np.full((2, len(others), len(place)), np.nan)
+    if not others:
         return _Beside(ahead, left)
-    off, _ = distance_to_curves(curves, near.row, place[near.other, 0], place[near.other, 1])
-    order = np.lexsort((off, near.other))
-    at = order[np.flatnonzero(np.diff(near.other[order], prepend=-1))]
-    station, row = near.other[at], near.row[at]
-    foot = feet(curves, row, place[station]).place_um
-    along = cut.before_um[other.first + row] + along_um(curves, row, foot)
-    moved = np.interp(along, taken.along_um, taken.off_um)
-    by = foot + moved[:, None] * to_left(headings_at(curves, row, foot)) - place[station]
+    row = np.concatenate([np.arange(other.first, other.last + 1) for other in others])
+    of = np.repeat(np.arange(len(others)), [other.last - other.first + 1 for other in others])
+    station, at = _nearest(cut.toolpath.picked(row), of, place, 2.0 * cut.reach_um)
+    by = _wire(cut, row[at], np.array([cut.way.bounds_um(other) for other in others])[of[at]], place[station])
     heading = stations.heading[station]
-    ahead[station] = (by * heading).sum(axis=1)
-    left[station] = (by * to_left(heading)).sum(axis=1)
+    ahead[of[at], station] = (by * heading).sum(axis=1)
+    left[of[at], station] = (by * to_left(heading)).sum(axis=1)
     return _Beside(ahead, left)
 
 
+def _nearest(curves: Curves, of: Ints, place: Floats, within_um: float) -> tuple[Ints, Ints]:
+    """Pairs (m,) of a place and the curve nearest to it among those of one pass each, `of` (n,) which; within a limit.
+
+    Curves and places are told by their numbers.
+    """
+    near = near_places(curves, place, within_um)
+    off, _ = distance_to_curves(curves, near.row, place[near.other, 0], place[near.other, 1])
+    near, off = near.take(np.flatnonzero(off <= within_um)), off[off <= within_um]
+    group = of[near.row] * len(place) + near.other
+    order = np.lexsort((off, group))
+    at = order[np.flatnonzero(np.diff(group[order], prepend=-1))]
+    return near.other[at], near.row[at]
+
+
+def _wire(cut: _Cut, row: Ints, bounds_um: Floats, place: Floats) -> Floats:
+    """Ways (m, 2) from places (m, 2) to the wire on the rows (m,) nearest to them.
+
+    `bounds_um` (m, 2) is the length of the path from and to which the wire was on the pass of the row.
+    """
+    foot = feet(cut.toolpath, row, place).place_um
+    along = np.clip(cut.before_um[row] + along_um(cut.toolpath, row, foot), *bounds_um.T)
+    moved = np.interp(along, cut.way.along_um, cut.way.off_um)
+    return foot + moved[:, None] * to_left(headings_at(cut.toolpath, row, foot)) - place
+
+
 def _beyond(beside: _Beside, side: int, reach_um: float) -> Floats:
-    """How far the kerf reaches beyond an earlier one on a side (k,), at most its width; NaN where they do not meet."""
+    """How far the kerf reaches beyond earlier ones on a side (p, k), at most its width; NaN where they do not meet."""
     chord = reach_um**2 - beside.ahead_um**2
     half = np.sqrt(np.where(chord >= 0.0, chord, np.nan))
     thick: Floats = np.clip(reach_um - (side * beside.left_um + half), 0.0, 2.0 * reach_um)

@@ -14,6 +14,7 @@ from sim.cut.pieces.pieces import Frame, Piece
 from sim.cut.play.freedom import Play
 from sim.cut.remains import Remains
 from sim.cut.sizes.sizes import BoxSize, DistanceSize, RadiusSize, Sizes
+from sim.run.outlines import simpler
 from sim.run.report.rounded import column, known, moment, points, rounded, rows
 
 _OUTLINE_UM = 1.0  # one step, as exact as the cut is known anyway
@@ -142,7 +143,7 @@ def _distance(distance: DistanceSize) -> dict[str, Any]:
 
 def _ring(ring: shapely.LinearRing) -> list[list[float] | None]:
     """Corners of a closed outline, the first one once; of 100,000 some 1000 tell it to 1 µm."""
-    return points(np.asarray(shapely.simplify(ring, _OUTLINE_UM).coords)[:-1, :2])
+    return points(np.asarray(simpler(ring, _OUTLINE_UM).coords)[:-1, :2])
 
 
 def _place(place: Iterable[float]) -> list[float]:

@@ -2,7 +2,7 @@
 
 from importlib import resources
 from pathlib import Path
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from controller.host.entries import Interpolation
 from controller.motion.limits import Feeds
@@ -21,11 +21,15 @@ SECTIONS = (TOP, TABLE, MOTOR, CONTROLLER, CUTTING, ARM)
 """Sections of a machine file."""
 
 
+TableEngine = Literal["compiled", "pymunk"]
+"""What works out the motion of a table: a compiled loop, or the same in Python with bodies that pymunk moves."""
+
+
 class Machine(NamedTuple):
     """One machine as its file gives it; units as named.
 
     `arm_um` is the outline of the arm round the wire, if known. `assumed` are the keys of the values that nobody has
-    measured.
+    measured. `engine` is what its table is worked out with, which is no matter of the file.
     """
 
     name: str
@@ -34,6 +38,7 @@ class Machine(NamedTuple):
     area_rate_mm2_min: float
     arm_um: Outline | None = None
     assumed: tuple[str, ...] = ()
+    engine: TableEngine = "compiled"
 
     def stepping_by(self, interpolation: Interpolation) -> "Machine":
         """The machine with another interpolator."""

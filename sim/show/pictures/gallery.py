@@ -9,6 +9,7 @@ from sim.show.draw import style
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.of_path import Programmed, draw_path
 from sim.show.pictures.cut.of_run import draw_cut_of_run
+from sim.show.pictures.cut.shapes import Shapes
 from sim.show.pictures.deviation.along import draw_along
 from sim.show.pictures.deviation.histogram import draw_histogram
 from sim.show.pictures.deviation.polar import draw_polar
@@ -20,10 +21,14 @@ from sim.show.pictures.path import PATH
 
 
 class Subject(NamedTuple):
-    """What pictures show: a recorded run, and how far its samples lie from the ideal path (`pictures.shown.Shown`)."""
+    """What pictures show (`sim.show.pictures.shown.Shown`).
+
+    It is a recorded run, how far its samples lie from the ideal path, and what pictures of its cut have in common.
+    """
 
     recording: Recording
     samples: Samples
+    shapes: Shapes
 
     @property
     def title(self) -> str:
@@ -41,7 +46,7 @@ class Subject(NamedTuple):
 
 def subject_of(recording: Recording) -> Subject:
     """A recorded run as the subject of pictures."""
-    return Subject(recording, samples_of(recording.run))
+    return Subject(recording, samples_of(recording.run), Shapes())
 
 
 class Draw(Protocol):
@@ -91,7 +96,7 @@ def _path(sheet: Sheet[AnyCanvas], run: DryRun) -> AnyCanvas:
 
 
 def _cut(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:
-    return draw_cut_of_run(sheet, subject.recording.run, subject.recording.pieces)
+    return draw_cut_of_run(sheet, subject.recording.run, subject.recording.pieces, subject.shapes)
 
 
 def _worst(sheet: Sheet[AnyCanvas], subject: Subject) -> AnyCanvas:

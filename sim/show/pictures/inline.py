@@ -4,9 +4,8 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from parser.findings.catalogue import LANGUAGES, Language
-from sim.run.recording import Recording
 from sim.show.draw.sheet import drawing
-from sim.show.pictures.gallery import PICTURES, Subject, subject_of
+from sim.show.pictures.gallery import PICTURES, Subject
 from sim.show.pictures.path import PATH
 from sim.show.pictures.shown import label
 from sim.table.motion import Progress
@@ -21,9 +20,8 @@ class Inline(NamedTuple):
     svg: Mapping[Language, str]
 
 
-def inline_pictures(recording: Recording, progress: Progress) -> list[Inline]:
+def inline_pictures(subject: Subject, progress: Progress) -> list[Inline]:
     """All pictures that there are of what a run did."""
-    subject = subject_of(recording)
     names = [name for name in PICTURES if name != PATH]  # the cut shows it, and more
     found: list[Inline] = []
     for done, name in enumerate(names):

@@ -8,6 +8,7 @@ import shapely
 from sim.cut.pieces.pieces import Piece
 from sim.run.course import Happening
 from sim.run.dryrun import DryRun
+from sim.run.outlines import simpler
 from sim.run.report.rounded import rounded
 from sim.setup.obstacles import Outline
 from sim.table.follow import Setup
@@ -50,7 +51,7 @@ def piece_entry(happening: Happening[Piece]) -> dict[str, Any]:
 
 def _ring(ring: shapely.LinearRing) -> list[list[int]]:
     """Corners of a closed outline, the first one once."""
-    corners = np.asarray(shapely.simplify(ring, _OUTLINE_UM).coords)[:-1, :2]
+    corners = np.asarray(simpler(ring, _OUTLINE_UM).coords)[:-1, :2]
     whole: list[list[int]] = np.rint(corners).astype(np.int64).tolist()
     return whole
 

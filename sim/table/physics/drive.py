@@ -93,13 +93,17 @@ def _drive(model: TableModel, axis: int) -> Drive:
 @compiled("f8(f8, f8)")
 def _past(lag_um: float, slack_um: float) -> float:
     """How far a lag lies past the slack."""
-    return lag_um - min(max(lag_um, -slack_um), slack_um)
+    if lag_um > slack_um:
+        return lag_um - slack_um
+    return lag_um + slack_um if lag_um < -slack_um else 0.0
 
 
 @compiled("f8(f8, f8)")
 def _rubbed(velocity: float, most: float) -> float:
     """Velocity after Coulomb friction has taken `most` of it, and never more than all: then the slide sticks."""
-    return velocity - min(max(velocity, -most), most)
+    if velocity > most:
+        return velocity - most
+    return velocity + most if velocity < -most else 0.0
 
 
 @compiled("(f8, f8, f8)")
@@ -108,9 +112,13 @@ def _flank(slack_um: float, lag_um: float, half_um: float) -> tuple[float, float
 
     The means over the kick make the nut meet its flank at the right time, also in the middle of a tick.
     """
+    if slack_um == 0.0:
+        return lag_um, 1.0
     low, high = lag_um - abs(half_um), lag_um + abs(half_um)
-    if slack_um == 0.0 or low >= slack_um or high <= -slack_um:
-        return _past(lag_um, slack_um), 1.0
+    if low >= slack_um:
+        return lag_um - slack_um, 1.0
+    if high <= -slack_um:
+        return lag_um + slack_um, 1.0
     if low >= -slack_um and high <= slack_um:
         return 0.0, 0.0
     if high - low < _STILL_UM:
@@ -128,9 +136,12 @@ def kicked(drive: Drive, kick: Kick) -> Kicked:
     damper, stopped = touching * drive.damper, kick.length_s * drive.friction
     pull = drive.spring * flank + damper * (kick.motor_um_s - velocity / 2.0)
     coasting = velocity * (1.0 - half_s * drive.viscous)
-    new = _rubbed(coasting + kick.length_s * pull, stopped) / (1.0 + half_s * (damper + drive.viscous))
+    held = 1.0 / (1.0 + half_s * (damper + drive.viscous))
+    new = held * _rubbed(coasting + kick.length_s * pull, stopped)
     asked = pull - damper * new / 2.0
-    given = min(max(asked, -kick.limit), kick.limit)
+    given = asked
+    if abs(asked) > kick.limit:
+        given = math.copysign(kick.limit, asked)
     if drive.slack_um > 0.0 and flank * given < 0.0:  # a flank pushes, and never pulls
         given = 0.0
     if given != asked:

@@ -44,15 +44,23 @@ class Bins(NamedTuple):
     area: Floats
 
 
+@compiled("(Bins, i8, f8, f8)", Bins)
+def _widened(bins: Bins, at: int, value: float, length_s: float) -> None:
+    """Take a value into a cell of the bins, for as long as it lasted in it."""
+    bins.low[at] = min(bins.low[at], value)
+    bins.high[at] = max(bins.high[at], value)
+    bins.area[at] += value * length_s
+
+
 @compiled("(Bins, i8, f8, Values)", Bins, Values)
-def _widened(bins: Bins, number: int, length_s: float, values: Values) -> None:
-    """Take values into a bin, for as long as they lasted in it."""
+def _taken(bins: Bins, number: int, length_s: float, values: Values) -> None:
+    """Take values into a bin."""
     at = number * QUANTITIES
-    for value in values:
-        bins.low[at] = min(bins.low[at], value)
-        bins.high[at] = max(bins.high[at], value)
-        bins.area[at] += value * length_s
-        at += 1
+    _widened(bins, at, values.velocity, length_s)
+    _widened(bins, at + 1, values.acceleration, length_s)
+    _widened(bins, at + 2, values.lag_um, length_s)
+    _widened(bins, at + 3, values.error_um, length_s)
+    _widened(bins, at + 4, values.force, length_s)
 
 
 @compiled("i8(Bins, i8, f8, f8, Values)", Bins, Values)
@@ -62,8 +70,8 @@ def binned(bins: Bins, number: int, since_s: float, until_s: float, values: Valu
     while number < last and border_s[number + 1] <= since_s:
         number += 1
     while number < last and border_s[number + 1] < until_s:
-        _widened(bins, number, border_s[number + 1] - since_s, values)
+        _taken(bins, number, border_s[number + 1] - since_s, values)
         number += 1
         since_s = border_s[number]
-    _widened(bins, number, min(until_s, border_s[last + 1]) - since_s, values)
+    _taken(bins, number, min(until_s, border_s[last + 1]) - since_s, values)
     return number

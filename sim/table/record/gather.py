@@ -50,9 +50,9 @@ class Record(NamedTuple):
 def _held(record: Record, number: int, value: float, limit: float, slide: Slide) -> None:
     """Take a value for a peak, if it is the largest share of its limit; the largest of all where there is none."""
     at = number * PEAK_COLUMNS
-    share = value / limit if limit < math.inf else value
-    if share > record.peaks[at]:
-        record.peaks[at], record.peaks[at + 1], record.peaks[at + 2] = share, value, limit
+    of = limit if limit < math.inf else 1.0
+    if value > record.peaks[at] * of:
+        record.peaks[at], record.peaks[at + 1], record.peaks[at + 2] = value / of, value, limit
         record.peaks[at + 3], record.peaks[at + 4] = slide.t_s, slide.at_um
 
 

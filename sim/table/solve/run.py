@@ -2,7 +2,7 @@
 
 import copy
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from sim.table.record.losses import Slip
 from sim.table.solve.axis import Asked, Axis, Noted, State
 from sim.table.solve.tick import due_s, followed, recorded, waited
 from sim.table.when.ticks import Ticks
+
+Engine = Callable[[Axis, Asked, State, Record], State]
+"""What goes through the ticks of an axis."""
 
 _SLIPS = 1024
 """Slips that a record has room for, until they are told."""
@@ -44,11 +47,11 @@ def axis_of(model: TableModel, number: int, ticks: Ticks, room_um: Floats, speed
 
 
 class AxisRun:
-    """An axis that follows its pulses, from rest at a place on."""
+    """An axis that follows its pulses, from rest at a place on; `engine` goes through its ticks, as `followed` does."""
 
-    def __init__(self, axis: Axis, origin_um: int, ticks: Ticks) -> None:
+    def __init__(self, axis: Axis, origin_um: int, ticks: Ticks, engine: Engine = followed) -> None:
         place = float(origin_um)
-        self.axis, self.record = axis, _record_of(ticks, place)
+        self.axis, self.record, self._engine = axis, _record_of(ticks, place), engine
         self._train = Train(np.array([np.inf]), np.array([place]))
         self._state = State(
             slide=resting(place),
@@ -86,7 +89,7 @@ class AxisRun:
         """Follow the pulses up to a time, and brake from another on; yields the slips of the motor."""
         asked, record = Asked(self._train, braked_s, until_s), self.record
         while due_s(asked, self._state) < until_s and self._state.tripped_s >= braked_s:
-            state = followed(self.axis, asked, self._state, record)
+            state = self._engine(self.axis, asked, self._state, record)
             slips = state.noted.slip
             self._state = state._replace(noted=state.noted._replace(slip=0))
             columns = (column[:slips].tolist() for column in (record.slip_s, record.slip_um, record.slip_at_um))

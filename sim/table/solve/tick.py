@@ -153,7 +153,7 @@ def waited(state: State, until_s: float) -> State:
 
 @compiled("(Axis, Asked, State)", Axis, Asked, State)
 def ticked(axis: Axis, asked: Asked, state: State) -> State:
-    """An axis after a tick."""
+    """An axis after a tick; its slide goes no farther than the stops of the travel, which take its velocity."""
     slide, ahead = state.slide, ahead_of(axis, asked, state)
     now = driven(axis, asked, slide, ahead)
     at_um = slide.at_um + now.velocity * ahead.tick_s

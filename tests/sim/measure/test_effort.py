@@ -10,7 +10,9 @@ from places import ROOT
 from parser.findings.errors import DrawingError
 from parser.geometry.curves import Curves, curves_between
 from sim.measure.compare import nearest as near
+from sim.measure.compare.directed import directed
 from sim.measure.compare.nearest import indexed, nearest
+from sim.measure.compare.placement import Placement, placed
 
 
 def test_a_crowd_at_one_distance_is_counted_and_what_lies_apart_is_not() -> None:
@@ -31,6 +33,19 @@ def test_more_than_a_comparison_may_take_is_refused(monkeypatch: pytest.MonkeyPa
     nearest(lines, places[:2])
     with pytest.raises(DrawingError, match="cannot be compared: more than 100 pairs"):
         nearest(lines, places)
+
+
+def test_ten_times_as_many_curves_are_ten_times_the_work() -> None:
+    held = []
+    for number in (600, 6000):
+        turn = np.arange(number) * (2.0 * np.pi / number)
+        corner = (50_000.0 + 2000.0 * np.sin(40.0 * turn))[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        none = np.full_like(corner, np.nan)
+        ring = curves_between(corner, np.roll(corner, -1, axis=0), none, np.zeros(number))
+        index = indexed(ring)
+        directed(placed(ring, Placement(0.0, (3.0, 2.0), mirror=False)), index)
+        held.append(index.effort.held)
+    assert held[1] < 12 * held[0]
 
 
 def _row_of_lines(number: int) -> Curves:

@@ -21,6 +21,7 @@ NONE = Overrides(
     gap=None,
     wire_lag=None,
     interpolator=None,
+    engine=None,
     offset=None,
     side=None,
     kerf=False,

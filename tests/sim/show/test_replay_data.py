@@ -21,6 +21,7 @@ from replayed import ASSETS, document_of, empty_page, exports, recording_of, rep
 from runs import scenario_recording
 from strategies import program_text
 
+from controller.stepping.chunks import chunk_of
 from controller.stepping.pulses import Pulses
 from controller.stepping.words import interpolate
 from parser.geometry.curves import Floats
@@ -262,7 +263,7 @@ def test_every_decision_is_the_step_that_the_tape_makes(empty: "Page") -> None:
 def stepped_page(empty: "Page", program: list[PlainBlock]) -> Any:
     """A page with all steps of a program, one a second, and of its blocks what decisions need."""
     steps = interpolate(parse_program(program_text(program)).toolpath)
-    chunk = steps.chunk(0, len(steps))
+    chunk = chunk_of(steps, 0, len(steps))
     pulses = Pulses(np.arange(len(steps), dtype=np.float64), chunk.x_um, chunk.y_um, chunk.row)
     blocks = {
         "first_step": steps.before.tolist(),
@@ -564,7 +565,7 @@ def long_document() -> dict[str, Any]:
     program = [block for pair in zip(turns, slanted, strict=False) for block in pair]
     toolpath = parse_program(program_text(program)).toolpath
     steps = interpolate(toolpath)
-    chunk = steps.chunk(0, len(steps))
+    chunk = chunk_of(steps, 0, len(steps))
     times = LONG_STEPS // len(steps) + 1
     x, y = (np.diff(column, prepend=np.int32(0)) for column in (chunk.x_um, chunk.y_um))
     along = np.diff(chunk.along_um, prepend=0.0)

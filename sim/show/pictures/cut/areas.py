@@ -1,22 +1,25 @@
 """The pieces that a cut frees, as filled areas, and what is written on them."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Final
+from itertools import chain
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 import shapely
 
 from parser.geometry.curves import Floats
 from parser.toolpath import Toolpath
+from sim.run.outlines import simpler
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.layout import Box, Page, View, box_around
+from sim.show.draw.layout import Box, View, box_around
 from sim.show.draw.paints import Paint
 from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.cut.subject import Board
 from sim.show.words import Words
 
 if TYPE_CHECKING:  # of a path no pieces are known, and their rooms take long to load
+    from sim.cut.pieces.kinds import Kind
     from sim.cut.pieces.pieces import Piece, Pieces
 
 MOST_LABELS: Final = 40
@@ -25,20 +28,34 @@ _FILLS: Final = {"part": Paint.PART, "slug": Paint.SLUG}
 _EDGES: Final = {"part": Paint.PART_EDGE, "slug": Paint.SLUG_EDGE}
 
 
-def draw_pieces(canvas: Canvas, page: Page, pieces: "Pieces") -> None:
-    """Fill what comes free, and draw its edges and those of the openings that slugs leave in the frame."""
+class Areas(NamedTuple):
+    """Rings on the page, px, each (k, 2) and closed: of each piece with its kind, and of openings in the frame."""
+
+    pieces: list[tuple["Kind", list[Floats]]]
+    openings: list[list[Floats]]
+
+
+def areas_of(pieces: "Pieces", view: View) -> Areas:
+    """What comes free, and the openings that slugs leave in the frame, in a view."""
     from sim.cut.pieces.kept_shapes import kept_shapes  # noqa: PLC0415 - as above
 
-    width = style.EDGE_WIDTH * page.unit
-    for piece in pieces.freed:
-        rings = _rings_px(piece.outline_um, page.view)
+    openings = [shape.outline_um for shape in kept_shapes(pieces) if shape.what == "opening"]
+    return Areas(
+        [(piece.kind, _rings_px(piece.outline_um, view)) for piece in pieces.freed],
+        [_rings_px(opening, view) for opening in openings],
+    )
+
+
+def draw_areas(canvas: Canvas, unit: float, areas: Areas) -> None:
+    """Fill what comes free, and draw its edges and those of the openings."""
+    width = style.EDGE_WIDTH * unit
+    for kind, rings in areas.pieces:
         if rings:
-            canvas.region(rings, _FILLS[piece.kind])
+            canvas.region(rings, _FILLS[kind])
         for ring in rings:
-            canvas.polyline(ring, _EDGES[piece.kind], width)
-    for opening in (shape.outline_um for shape in kept_shapes(pieces) if shape.what == "opening"):
-        for ring in _rings_px(opening, page.view):
-            canvas.polyline(ring, Paint.PART_EDGE, width)
+            canvas.polyline(ring, _EDGES[kind], width)
+    for ring in chain.from_iterable(areas.openings):
+        canvas.polyline(ring, Paint.PART_EDGE, width)
 
 
 def _rings_px(polygon: shapely.Polygon, view: View) -> list[Floats]:
@@ -59,7 +76,7 @@ def _label(board: Board, choices: list[list[str]], outline_um: shapely.Polygon) 
     """Write the first of some texts that finds its place."""
     canvas, page = board.canvas, board.page
     size = style.SIZE * page.unit
-    polygon: shapely.Polygon = shapely.simplify(outline_um, 0.5 / page.view.px_per_um)
+    polygon = simpler(outline_um, 0.5 / page.view.px_per_um)
     places = _places(polygon, page.view)
     for lines in choices:
         wide = max(canvas.text_width(line, size) for line in lines) + size

@@ -4,15 +4,18 @@ from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.picture import draw_cut
+from sim.show.pictures.cut.shapes import Shapes
 from sim.show.pictures.cut.subject import Cut
 from sim.show.pictures.cut.surroundings import bodies_of, note_of, travel_um
 from sim.show.words import Words
 from sim.units import clock
 
 
-def draw_cut_of_run(sheet: Sheet[AnyCanvas], run: DryRun, pieces: Pieces | None) -> AnyCanvas:
-    """Draw the cut of a run, with the pieces that it frees where they are known."""
-    return draw_cut(sheet, cut_of_run(run, pieces, sheet.say))
+def draw_cut_of_run(
+    sheet: Sheet[AnyCanvas], run: DryRun, pieces: Pieces | None, shapes: Shapes | None = None
+) -> AnyCanvas:
+    """Draw the cut of a run, with the pieces that it frees where they are known; with `shapes` of earlier pictures."""
+    return draw_cut(sheet, cut_of_run(run, pieces, sheet.say), shapes)
 
 
 def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words) -> Cut:

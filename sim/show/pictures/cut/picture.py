@@ -10,13 +10,14 @@ from sim.show.draw.labels import Ink, Room
 from sim.show.draw.layout import BESIDE_PLOT, IN_PLOT, Box, Margins, Page, page_for
 from sim.show.draw.legend import Entry
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.pictures.cut.areas import draw_labels, draw_pieces
+from sim.show.pictures.cut.areas import Areas, draw_areas, draw_labels
 from sim.show.pictures.cut.flags import draw_flags, flag_reach, flags_of
 from sim.show.pictures.cut.legend import Seen, draw_legends, entries, finding_entries, rows_for
-from sim.show.pictures.cut.lines import Lines, draw_lines, lines_of, path_bounds_um, shown_bounds_um
+from sim.show.pictures.cut.lines import Lines, draw_lines, path_bounds_um, shown_bounds_um
 from sim.show.pictures.cut.marks import draw_arrows, draw_ends, draw_pauses
 from sim.show.pictures.cut.numbers import draw_numbers
 from sim.show.pictures.cut.outlines import clamps_on, draw_bodies, works_on
+from sim.show.pictures.cut.shapes import Shapes
 from sim.show.pictures.cut.size_lines import Extents, draw_extents, draw_rounds, extents_of
 from sim.show.pictures.cut.sizes import CutSizes, sizes_of_cut
 from sim.show.pictures.cut.subject import Board, Cut
@@ -38,8 +39,8 @@ class CutLayout(NamedTuple):
     codes: list[Entry]
 
 
-def draw_cut(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
-    """Draw a cut.
+def draw_cut(sheet: Sheet[AnyCanvas], cut: Cut, shapes: Shapes | None = None) -> AnyCanvas:
+    """Draw a cut; with the `shapes` of its earlier pictures, if there were any.
 
     Its height follows from the part, from half the width of the sheet to the whole. Narrower than `style.LEAST_WIDTH`
     it is a thumbnail: the path and what lies about it, without sizes, numbers, axes and legend.
@@ -57,25 +58,26 @@ def draw_cut(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
         raise ValueError("a picture of a cut needs at least one block, the toolpath has 0")
     if not cut.kerf_um >= 0:
         raise ValueError(f"kerf width is 0 µm or more, not {cut.kerf_um}")
-    return _thumbnail(sheet, cut) if sheet.width_px < style.LEAST_WIDTH else _full(sheet, cut)
+    draw = _thumbnail if sheet.width_px < style.LEAST_WIDTH else _full
+    return draw(sheet, cut, shapes or Shapes())
 
 
-def _thumbnail(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
+def _thumbnail(sheet: Sheet[AnyCanvas], cut: Cut, shapes: Shapes) -> AnyCanvas:
     page = page_for(shown_bounds_um(cut), sheet.width_px, _BARE, _THUMBNAIL)
-    canvas, lines = sheet.page(page.height_px), lines_of(cut, page.view)
-    _draw_below(canvas, page, cut)
+    canvas, lines = sheet.page(page.height_px), shapes.lines(cut, page.view)
+    _draw_below(canvas, page, cut, shapes.areas(cut, page.view))
     draw_lines(canvas, page.unit, lines, kerf_px(cut, page))
     _draw_marks(Board(canvas, page, _room(page, lines, [], []), sheet.say), cut, texts=False)
     return canvas
 
 
-def _full(sheet: Sheet[AnyCanvas], cut: Cut) -> AnyCanvas:
+def _full(sheet: Sheet[AnyCanvas], cut: Cut, shapes: Shapes) -> AnyCanvas:
     say, layout = sheet.say, layout_of(sheet, cut)
     page, seen = layout.page, layout.seen
-    canvas, lines = sheet.page(page.height_px), lines_of(cut, page.view)
+    canvas, lines = sheet.page(page.height_px), shapes.lines(cut, page.view)
     _draw_head(canvas, page, say, cut, lines)
     draw_frame(canvas, page)
-    _draw_below(canvas, page, cut)
+    _draw_below(canvas, page, cut, shapes.areas(cut, page.view))
     names = draw_axes(canvas, page)
     if seen.travel and cut.travel_um is not None:
         draw_border(canvas, page, cut.travel_um)
@@ -118,10 +120,9 @@ def _draw_head(canvas: Canvas, page: Page, say: Words, cut: Cut, lines: Lines) -
     draw_header(canvas, page.unit, cut.title, cut.note, beside_px=beside)
 
 
-def _draw_below(canvas: Canvas, page: Page, cut: Cut) -> None:
+def _draw_below(canvas: Canvas, page: Page, cut: Cut, areas: Areas) -> None:
     draw_bodies(canvas, page, cut.bodies)
-    if cut.pieces is not None:
-        draw_pieces(canvas, page, cut.pieces)
+    draw_areas(canvas, page.unit, areas)
 
 
 def _room(page: Page, lines: Lines, sized: list[Floats], taken: list[Box]) -> Room:

@@ -1,0 +1,132 @@
+"""When each of the parts of a cut comes free: each is asked in a box of its own, to take as long as it is large.
+
+A box tells when the kerf closes round a part, and what the part was one with just before. Was that the frame, or
+another part round which the kerf closed later, then that is when it comes free. Was it a part round which the kerf had
+closed before, then both came free together. Else it is asked again in a larger box, in the end in all of the stock.
+"""
+
+import heapq
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from sim.cut.kerf.swept import Box, Swept
+from sim.cut.pieces.frees import Closing, FreeMoment, FreeQuestion, closing_of, question_of
+
+_BESIDE = (
+    4.0  # offsets from a part to the border of its box: the kerf beside it, and something of what lies behind that
+)
+
+
+class Cutting(NamedTuple):
+    """What is cut.
+
+    Attributes
+    ----------
+    stock_um, frame_um
+        The stock, and what of it stays.
+    parts_um
+        What else is left of it, p parts.
+    contours
+        (p,) of each: indices of the contours whose kerfs have a share in its outer edge, in order.
+    swept
+        What the wire swept on each contour.
+    offset_um
+        Half the width that the wire cuts.
+    """
+
+    stock_um: shapely.Polygon
+    frame_um: shapely.Polygon
+    parts_um: list[shapely.Polygon]
+    contours: list[list[int]]
+    swept: tuple[Swept, ...]
+    offset_um: float
+
+
+class _Asked(NamedTuple):
+    """A part in a box, and when the kerf closes round it in there."""
+
+    part: int
+    question: FreeQuestion
+    closing: Closing
+
+    @property
+    def when(self) -> tuple[int, int]:
+        """Contour, and place on the wire's way through it."""
+        return self.closing.moment.contour, self.closing.moment.at
+
+
+def moments_of(cutting: Cutting) -> list[FreeMoment | None]:
+    """When each of the parts comes free; None where the contours with a share in its outer edge do not free it."""
+    shapely.prepare(cutting.frame_um)
+    tree, held = shapely.STRtree(cutting.parts_um), shapely.point_on_surface(cutting.frame_um)
+    asked = {one.part: one for part in range(len(cutting.parts_um)) if (one := _first_asked(cutting, part, held))}
+    freed_with: dict[int, int] = {}
+    # Those that close last come first: what they may have hung on is settled then.
+    todo = [_in_turn(one) for one in asked.values()]
+    heapq.heapify(todo)
+    while todo:
+        part = heapq.heappop(todo)[-1]
+        other = _came_free_with(cutting, tree, asked, freed_with, part)
+        if other is not None:
+            freed_with[part] = other
+        elif (again := _asked_again(cutting, part, asked[part].question)) is not None:
+            asked[part] = again
+            heapq.heappush(todo, _in_turn(again))
+    moments = {part: asked[_last(freed_with, part)].closing.moment for part in freed_with}
+    return [moments.get(part) for part in range(len(cutting.parts_um))]
+
+
+def _in_turn(one: _Asked) -> tuple[int, int, int]:
+    contour, at = one.when
+    return -contour, -at, one.part
+
+
+def _came_free_with(
+    cutting: Cutting, tree: shapely.STRtree, asked: dict[int, _Asked], freed_with: dict[int, int], part: int
+) -> int | None:
+    """The part that a part came free with, itself where that was when the kerf closed round it; None is not known."""
+    one = asked[part]
+    hung = one.closing.hung_um
+    if one.question.is_whole or cutting.frame_um.intersects(hung):
+        return part
+    for beside in tree.query(hung, predicate="intersects").tolist():
+        if beside not in asked or cutting.contours[beside] != cutting.contours[part]:
+            continue
+        other = _last(freed_with, beside)
+        if asked[other].when != one.when:
+            return part if asked[other].when > one.when else other
+    return None
+
+
+def _last(freed_with: dict[int, int], part: int) -> int:
+    """The part that a part came free with in the end."""
+    while freed_with.get(part, part) != part:
+        part = freed_with[part]
+    return part
+
+
+def _first_asked(cutting: Cutting, part: int, held: shapely.Point) -> _Asked | None:
+    outline = cutting.parts_um[part]
+    box = _grown(outline.bounds, _BESIDE * cutting.offset_um)
+    question = question_of(cutting.stock_um, box, outline.representative_point(), held)
+    return _asked(cutting, part, question)
+
+
+def _asked_again(cutting: Cutting, part: int, before: FreeQuestion) -> _Asked | None:
+    low_x, low_y, high_x, high_y = before.box
+    box = _grown(before.box, max(high_x - low_x, high_y - low_y))
+    return _asked(cutting, part, question_of(cutting.stock_um, box, before.piece, before.frame))
+
+
+def _asked(cutting: Cutting, part: int, question: FreeQuestion) -> _Asked | None:
+    closing = closing_of(question, cutting.swept, cutting.contours[part], cutting.offset_um)
+    if closing is not None:
+        return _Asked(part, question, closing)
+    return None if question.is_whole else _asked_again(cutting, part, question)
+
+
+def _grown(box: Box, by_um: float) -> Box:
+    low_x, low_y, high_x, high_y = np.array(box).tolist()
+    return low_x - by_um, low_y - by_um, high_x + by_um, high_y + by_um

@@ -1,0 +1,122 @@
+"""The compiled loop does what the same ticks do in pymunk; and both end where slow steps are known to leave a slide."""
+
+import numpy as np
+import pytest
+from table_runs import CENTRE, MODEL, Drawn, draw, even_ticks, motion, moved, pulses_of
+
+from controller.motion.limits import Feeds
+from controller.stepping.pulses import Pulses
+from sim.setup.machine.machine import load_machine
+from sim.setup.machine.table_model import Motor, TableModel
+from sim.table.motion import Moved
+from sim.table.record.history import QUANTITIES
+from sim.table.when.rhythm import SHAKEN_RAD, STEP_RAD, STEPS_RAD, rhythm
+from sim.table.when.ticks import Ticks
+
+WITHIN_UM = 0.01
+NEAR_A_STOP = (150.0, 250_000.0)
+
+
+def ticks_of(model: TableModel, until_s: float) -> Ticks:
+    """The ticks that a run would choose, with a shake in their midst, and a sample every 2 ms."""
+    beats = rhythm(model)
+    phases = {"step_tick_s": STEP_RAD, "steps_tick_s": STEPS_RAD, "shaken_tick_s": SHAKEN_RAD}
+    chosen = {name: beats.tick_s(phase) for name, phase in phases.items()}
+    return even_ticks(until_s, 2e-3)._replace(shaken_s=np.array([[0.05, 0.08]]), **chosen)
+
+
+def random_model(rng: np.random.Generator) -> TableModel:
+    """Any table: masses, stiffness, damping, friction and slack or none, steppers that slip and servos that trip."""
+    servo = rng.random() < 0.3
+    curve = ((0.0, 10.0 ** rng.uniform(1.7, 4.0)), (2000.0, 10.0 ** rng.uniform(1.5, 3.5)))
+    motor = Motor(
+        kind="servo" if servo else "stepper",
+        step_time_s=float(rng.choice([0.0, 5e-4, 2e-3, 5e-3])),
+        electrical_period_um=6.0,
+        following_error_limit_um=rng.uniform(5.0, 60.0) if servo else np.inf,
+        force_curve=curve,
+    )
+    pairs = {
+        "friction_n": [0.0, 5.0, 20.0, 60.0],
+        "viscous_n_s_mm": [0.0, 2.0, 8.0],
+        "backlash_um": [0.0, 0.5, 3.0],
+    }
+    return MODEL._replace(
+        saddle_mass_kg=rng.uniform(5.0, 300.0),
+        carriage_mass_kg=rng.uniform(5.0, 200.0),
+        drive_stiffness_n_um=10.0 ** rng.uniform(0.3, 2.0),
+        drive_damping_ratio=rng.uniform(0.05, 1.5),
+        motor=motor,
+        **{name: tuple(rng.choice(values, 2).tolist()) for name, values in pairs.items()},
+    )
+
+
+def random_waves(rng: np.random.Generator, until_s: float) -> Pulses:
+    sizes, rates = rng.uniform(10.0, 600.0, 2), rng.uniform(5.0, 40.0, 2)
+    ways = [lambda t, a=a, w=w: a * np.sin(w * t) for a, w in zip(sizes, rates, strict=True)]
+    return pulses_of(*ways, until_s, 1e-5)
+
+
+def assert_alike(compiled: Moved, reference: Moved) -> None:
+    assert compiled.trace.table_um == pytest.approx(reference.trace.table_um, abs=WITHIN_UM)
+    assert [loss[:3] for loss in compiled.losses] == [loss[:3] for loss in reference.losses]
+    for one, other in zip(compiled.losses, reference.losses, strict=True):
+        assert (one.t_s, one.amount_um) == pytest.approx((other.t_s, other.amount_um), abs=1e-6)
+    for name in QUANTITIES:
+        for ours, theirs in zip(getattr(compiled.history, name), getattr(reference.history, name), strict=True):
+            assert ours == pytest.approx(theirs, rel=1e-3, abs=1e-3), name
+
+
+def both(model: TableModel, pulses: Pulses, until_s: float, start_um: tuple[float, float]) -> list[Drawn]:
+    ticks = ticks_of(model, until_s)
+    return [draw(model, pulses, ticks, start_um, engine) for engine in ("compiled", "pymunk")]
+
+
+def test_random_tables_move_as_in_pymunk_and_lose_and_trip_in_the_same_tick() -> None:
+    kinds = set()
+    for seed in range(12):
+        rng = np.random.default_rng(seed)
+        model, pulses = random_model(rng), random_waves(rng, 0.1)
+        compiled, reference = both(model, pulses, 0.11, CENTRE if seed % 3 else NEAR_A_STOP)
+        assert_alike(compiled.moved, reference.moved)
+        kinds |= {loss.kind for loss in compiled.moved.losses}
+    assert kinds == {"lost-steps", "trip"}
+
+
+@pytest.mark.parametrize(
+    ("name", "feed_um_s"),
+    [("dk7732", 180.0), ("dk7740", 43.75), ("dk7750", 500.0), ("servo-400x500", 10_000.0)],
+)
+def test_shipped_machines_move_as_in_pymunk(name: str, feed_um_s: float) -> None:
+    text, machine = "B37B11B37GXL1 B23B44B44GYL2 B20B0B80GYNR1 DD", load_machine(name)
+    runs = [
+        moved(motion(text, machine._replace(engine=engine), Feeds(feed_um_s, feed_um_s)))
+        for engine in ("compiled", "pymunk")
+    ]
+    assert_alike(*runs)
+
+
+@pytest.mark.parametrize("engine", ["compiled", "pymunk"])
+def test_a_slow_step_leaves_a_slide_where_backlash_and_friction_hold_it(engine: str) -> None:
+    """Too slow for any mass to be felt, a slide stays behind by half the backlash and F/k: 1.5 + 1.5, 1.0 + 1.0 µm."""
+    even = MODEL.motor._replace(step_time_s=0.2)
+    held = MODEL._replace(friction_n=(30.0, 20.0), backlash_um=(3.0, 2.0), drive_damping_ratio=1.0, motor=even)
+    steps = np.arange(1, 9, dtype=np.int32)
+    pulses = Pulses(0.3 * steps, steps, steps, np.zeros_like(steps))
+    drawn = draw(held, pulses, even_ticks(3.0, 2e-3), engine=engine)
+    assert 8.0 - drawn.at_um[-1] == pytest.approx([3.0, 2.0], abs=0.05)  # µm
+    assert not drawn.at_um[drawn.t_s < 0.6].any()
+
+
+@pytest.mark.parametrize("engine", ["compiled", "pymunk"])
+def test_between_steps_a_slide_that_rests_needs_no_ticks(engine: str) -> None:
+    held = MODEL._replace(friction_n=(30.0, 20.0), drive_damping_ratio=0.7)
+    step = np.ones(1, dtype=np.int32)
+    short, long = (
+        draw(
+            held, Pulses(np.array([at_s]), step, step, np.zeros_like(step)), even_ticks(at_s + 0.5, 0.01), engine=engine
+        )
+        for at_s in (0.1, 3000.1)
+    )
+    assert long.at_um[-1] == pytest.approx(short.at_um[-1], abs=1e-6)
+    assert long.moved.history.t_s[-1] == pytest.approx(3000.6)
