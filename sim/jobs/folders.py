@@ -15,7 +15,7 @@ from typing import Final
 _UNSAFE: Final = re.compile(r'[<>:"/\\|?*\x00-\x1f\x7f-\x9f\ud800-\udfff]')
 _DEVICES: Final = re.compile(r"(con|prn|aux|nul|com[0-9¹²³]|lpt[0-9¹²³])(\..*)?", re.IGNORECASE)
 _HIDDEN: Final = ".drycut-"  # begins the names of our own hidden folders
-_MOST: Final = 80  # characters of one name; Windows takes 260 of a whole path
+MOST_CHARACTERS: Final = 80  # characters of one name; Windows takes 260 of a whole path
 
 
 def folder_names(programs: Sequence[Path], names: Iterable[str], taken: frozenset[str]) -> list[str]:
@@ -60,7 +60,7 @@ def _way(path: Path, root: str | None) -> tuple[str, ...]:
 def _safe(part: str, taken: frozenset[str]) -> str:
     """A name that every system takes, the same where it is one already."""
     plain = unicodedata.normalize("NFC", part)
-    clean = _UNSAFE.sub("_", plain).rstrip(". ")[:_MOST]
+    clean = _UNSAFE.sub("_", plain).rstrip(". ")[:MOST_CHARACTERS]
     ours = clean.startswith(_HIDDEN) or clean.lower() in taken
     if clean == plain and not ours and not _DEVICES.fullmatch(clean):
         return clean

@@ -1,13 +1,15 @@
 """Workers of other machines: those of a Dask scheduler (https://distributed.dask.org), the extra ``cluster``.
 
 Dask does a job again on another worker where one dies, and gives it up as `KilledWorker` when four died at it
-(``distributed.scheduler.allowed-failures``). Scheduler and workers import what they are handed, so drycut is installed
-where they run.
+(``distributed.scheduler.allowed-failures``). A worker dies as well where it cannot read what it is handed; so it gets
+bytes, and a function that makes a job of them and is sent as it stands: one without drycut then says so.
 """
 
 import logging
-from collections.abc import Iterator
-from concurrent.futures import CancelledError, Executor
+import pickle
+import re
+from collections.abc import Callable, Iterator
+from concurrent.futures import CancelledError, Executor, Future
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final
 
@@ -16,9 +18,9 @@ from parser.findings.errors import ClusterError
 if TYPE_CHECKING:
     from sim.workers.pool import Pool
 
-_WAIT_S: Final = 15
+MOST_WAIT_S: Final = 15
 _AHEAD_EACH: Final = 2  # one that a thread does, and one that is there when it is done
-_ANOTHER: Final = "has another drycut, or none: install the one that runs here"
+_ADDRESS: Final = re.compile(r"(tcp|tls|ws|wss)://[^/]+:\d+")
 
 
 @contextmanager
@@ -31,12 +33,12 @@ def cluster(address: str) -> Iterator["Pool"]:
     client = _client(address)
     try:
         try:
-            client.wait_for_workers(1, timeout=_WAIT_S)
+            client.wait_for_workers(1, timeout=MOST_WAIT_S)
         except TimeoutError:
-            raise ClusterError(f"{address}: the scheduler has had no workers for {_WAIT_S} s") from None
+            raise ClusterError(f"{address}: the scheduler has had no workers for {MOST_WAIT_S} s") from None
         yield _Cluster(client)
-    except (ModuleNotFoundError, AttributeError) as error:
-        raise ClusterError(f"{address}: a worker {_ANOTHER} ({error})") from None
+    except ImportError as error:
+        raise ClusterError(f"{address}: the worker on {error}") from None
     except CancelledError:
         raise ClusterError(
             f"{address}: the scheduler is lost; what is done is kept, and the next call goes on"
@@ -46,13 +48,15 @@ def cluster(address: str) -> Iterator["Pool"]:
 
 
 def _client(address: str) -> Any:
+    if not _ADDRESS.fullmatch(address):
+        raise ClusterError(f"{address}: is no address of a scheduler, such as tcp://host:8786")
     try:
         from distributed import Client  # noqa: PLC0415 - an extra, which takes half a second to load
     except ImportError:
         raise ClusterError("a scheduler needs the extra cluster: pip install 'drycut[cluster]'") from None
     logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what is lost is told here
     try:
-        return Client(address, timeout=_WAIT_S, set_as_default=False)
+        return Client(address, timeout=MOST_WAIT_S, set_as_default=False)
     except (OSError, ValueError) as error:
         raise ClusterError(f"{address}: no Dask scheduler answers there: {error}") from None
 
@@ -76,7 +80,35 @@ class _Cluster:
         """The workers; which of them does a job is the scheduler's to say, also where one job is handed over alone."""
         executor: Executor = self._client.get_executor(pure=False)
         try:
-            yield executor
+            yield _AsBytes(executor)
         except BaseException:
             executor.shutdown(wait=False)
             raise
+
+
+class _AsBytes(Executor):
+    """Hands jobs to another executor as bytes."""
+
+    def __init__(self, executor: Executor) -> None:
+        self._executor = executor
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Hand over a call of a function of a module. ImportError where the worker does not have it."""
+        return self._executor.submit(_caller(), pickle.dumps((fn, args, kwargs)))
+
+
+def _caller() -> Callable[[bytes], Any]:
+    """What makes a call of bytes: a function within one, which is sent by its code and not by its name."""
+
+    def called(data: bytes) -> Any:
+        import pickle  # noqa: PLC0415 - nothing of this module is there
+        import platform  # noqa: PLC0415
+
+        try:
+            function, args, kwargs = pickle.loads(data)  # noqa: S301 - Dask itself sends nothing else
+        except Exception as error:
+            found = f"{platform.node()} has another drycut, or none: install the one that runs here ({error})"
+            raise ImportError(found) from None
+        return function(*args, **kwargs)
+
+    return called

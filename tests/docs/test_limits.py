@@ -10,8 +10,10 @@ from parser.threeb import columns, reader
 from sim.check import too_large
 from sim.check.blame import settle
 from sim.check.shape import crossings
+from sim.jobs import folders
 from sim.measure.compare import nearest, rings
 from sim.setup.toml import reader as toml
+from sim.workers import cluster
 
 PAGE = (ROOT / "docs" / "limits.md").read_text("utf-8")
 VALUES = {
@@ -32,6 +34,8 @@ VALUES = {
     "pairs of places and curves looked at for one comparison": nearest.MOST_HELD,
     "characters of a file": toml.MOST_CHARACTERS,
     "parts of a key with dots": toml.MOST_PARTS,
+    "characters of one name in the way to a program's folder": folders.MOST_CHARACTERS,
+    "wait for a scheduler, or for its first worker, s": cluster.MOST_WAIT_S,
 }
 
 

@@ -135,7 +135,7 @@ def _huge(path: Path) -> None:
             lambda path: path.write_text("hello", "utf-8"),
             "part.3b: error[3B100]: no 3B program\n    = found:    no block",
         ),
-        (lambda path: path.mkdir(), "is a folder without scenario.toml"),
+        (lambda path: path.mkdir(), "part.3b: no program there; expected files that end in .3b"),
         (lambda path: None, "cannot be read: No such file"),
         (_huge, "part.3b:2:5: error[3B206]: number beyond any table\n  2 | N2: B0B0B1000000000000000GXL1\n"),
     ],

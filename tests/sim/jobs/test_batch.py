@@ -263,6 +263,7 @@ def test_a_program_that_kills_its_worker_is_told_and_the_others_are_run(
         (["shop/00.3b", "-o", "out", "--jobs", "2"], "this is one"),
         (["shop", "-o", "out", "--jobs", "0"], "--jobs"),
         (["shop", "-o", "out", "--jobs", "2", "--scheduler", "tcp://127.0.0.1:1"], "say two things"),
+        (["shop", "-o", "out", "--scheduler", "host"], "is no address of a scheduler, such as tcp://host:8786"),
         (["shop", "-o", "out", "--machine", "none"], "machine 'none' is not shipped"),
         (["shop", "-o", "shop/00.3b"], "is a file"),
     ],

@@ -2,6 +2,7 @@
 
 import filecmp
 import os
+import pickle
 import subprocess
 import sys
 import time
@@ -18,7 +19,7 @@ from parser.findings.errors import ClusterError
 from parser.program import read_program
 from sim.jobs.run_into import run_into
 from sim.setup.scenario import load_scenario
-from sim.workers.cluster import cluster
+from sim.workers.cluster import _caller, cluster
 from sim.workers.processes import Processes
 
 pytest.importorskip("distributed")
@@ -89,12 +90,26 @@ def test_a_worker_of_two_is_killed_and_then_the_scheduler(running: Running, tmp_
 
 @pytest.mark.filterwarnings("ignore")
 def test_a_scheduler_that_does_not_answer_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sim.workers.cluster._WAIT_S", 0.2)
+    monkeypatch.setattr("sim.workers.cluster.MOST_WAIT_S", 0.2)
     make_shop(tmp_path / "shop", 1)
     done = run_inside("run", "shop", "-o", "out", "--scheduler", "tcp://127.0.0.1:9", cwd=tmp_path)
     assert done.returncode == 2
     assert "tcp://127.0.0.1:9: no Dask scheduler answers there" in done.stderr.decode()
     assert not (tmp_path / "out").exists()
+
+
+def test_a_worker_without_drycut_says_so_and_does_not_die(tmp_path: Path) -> None:
+    cloudpickle = pytest.importorskip("cloudpickle")  # by which Dask sends functions
+    (tmp_path / "sim").mkdir()
+    (tmp_path / "sim" / "__init__.py").touch()
+    (tmp_path / "called").write_bytes(cloudpickle.dumps(_caller()))
+    (tmp_path / "job").write_bytes(pickle.dumps((run_into, (), {})))
+    code = "import cloudpickle, pathlib; path = pathlib.Path; "
+    code += "cloudpickle.loads(path('called').read_bytes())(path('job').read_bytes())"
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=environment, capture_output=True, check=False)
+    assert b"ImportError: " in done.stderr
+    assert b"has another drycut, or none" in done.stderr
 
 
 def test_where_dask_is_not_installed_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

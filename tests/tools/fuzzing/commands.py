@@ -1,6 +1,7 @@
 """Target `command`: command lines, their options as click tells them, over sound, damaged and hostile files.
 
-A film and a window take longer than all the rest: `replay` is tried up to the program that it cannot read.
+A film and a window take longer than all the rest: `replay` is tried up to the program that it cannot read, and `run`
+with one program or two.
 """
 
 import contextlib
@@ -30,8 +31,10 @@ _ARGUMENTS = {
     "ballbar": ("part.3b",),
 }
 _WEIGHTS = {"check": 50, "card": 12, "explain": 10, "compare": 3, "run": 6, "draw": 3, "replay": 4, "ballbar": 2}
-_NEVER = {"--watch"}
-"""Options that never come to an end."""
+_NEVER = {"--watch", "--scheduler"}
+"""Options that never come to an end, or ask a network."""
+_MANY = {".", "*.3b", "**/*.3b"}
+"""What leads to all programs there are."""
 _SLOW = {"--size": ("thumbnail", "320x240", "64"), "--radius": ("0.1mm", "-1mm", "0mm")}
 _USUAL = {
     "--machine": ("machine.toml", "dk7740", "fuzz.toml", "absent.toml"),
@@ -122,6 +125,8 @@ def make(rng: random.Random) -> Input:
     words += [_of_command(rng, name) for _ in range(rng.choice((0, 1, 1, 1, 1, 1, 2)))]
     if rng.random() < 0.05:
         words = edited(rng, words, lambda _: rng.choice(TEXTS))
+    if name == "run":
+        words = ["part.3b" if word in _MANY else word for word in words]
     return tuple(_safe(word) for word in _bounded(words))
 
 
