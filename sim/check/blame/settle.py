@@ -10,7 +10,7 @@ from parser.findings.findings import Finding, file_order
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.text.source import Field
-from sim.check.blame.cases import Proof, Word, cases_of, words_of
+from sim.check.blame.cases import Case, Proof, Word, cases_of, words_of
 from sim.check.blame.trial import Again, Verdict, told_of, tried
 from sim.check.closures import OpenContour, Suspected, suspect_finding
 from sim.check.count_axes import WrongAxis
@@ -44,7 +44,11 @@ def settled(
     if not cases:
         return findings
     found = list(findings)
-    for verdict in tried(program, program.mender, findings, cases, again):
+    if all(_is_beyond_doubt(case, findings) for case in cases):
+        verdicts = [Verdict(case, case.words, frozenset()) for case in cases]
+    else:
+        verdicts = tried(program, program.mender, findings, cases, again)
+    for verdict in verdicts:
         match verdict.case.proof:
             case Proof.PRINT:
                 found = list(_by_print(program, found, verdict))
@@ -53,6 +57,24 @@ def settled(
             case Proof.LABEL:
                 found = list(_by_label(found, verdict))
     return tuple(sorted(found, key=file_order))
+
+
+def _is_beyond_doubt(case: Case, findings: tuple[Finding, ...]) -> bool:
+    """Whether there is one word alone, and nothing else is found that it might explain: then no trial is needed."""
+    if len(case.words) > 1:
+        return False
+    block = case.words[0].block
+    if case.proof is Proof.PRINT:
+        return not any(
+            _is_side(finding, block) and not (isinstance(finding.fact, PrintedElsewhere) and finding.block == block)
+            for finding in findings
+        )
+    return not any(
+        finding.block == block
+        and isinstance(finding.fact, _ADVICE)
+        and not (isinstance(finding.fact, Suspected) and finding.fact.first == case.at)
+        for finding in findings
+    )
 
 
 def _by_print(program: Program, findings: list[Finding], verdict: Verdict) -> Iterator[Finding]:

@@ -1,13 +1,18 @@
 """One wrong word is named, by all that speaks for it, and nothing is told against it."""
 
 import random
+import re
 
 import pytest
+from bench_path import contour_text
 from cam_programs import sound_program
 from slips import contradiction, measured
 
 from parser.findings.findings import edited
+from parser.program import Program
+from sim.check import engine
 from sim.check.batch import Job, check_file
+from sim.check.engine import Checked, Demands
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 
@@ -150,3 +155,32 @@ def test_a_longer_program_keeps_all_that_its_checks_suspect(
     found = mended(WRONG_LABEL)
     assert (("3B304", 1, True) in found) == is_settled
     assert [one for one in found if one[2]] == ([("3B304", 1, True)] if is_settled else [])
+
+
+def checks_made(monkeypatch: pytest.MonkeyPatch, text: str) -> tuple[int, set[str]]:
+    """How often every check is run on a program, and the codes of what they find."""
+    made = []
+    every_check = engine._every_check
+
+    def counted(program: Program, demands: Demands) -> Checked:
+        made.append(program)
+        return every_check(program, demands)
+
+    monkeypatch.setattr(engine, "_every_check", counted)
+    result = check_file(Job("part.3b", text.encode(), CheckSettings()))
+    return len(made), {finding.code for finding in result.findings}
+
+
+def test_the_only_word_that_explains_an_open_contour_alone_is_not_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    text = contour_text(100, crosses=False)
+    assert checks_made(monkeypatch, text) == (1, set())
+    count = re.findall(r"B\d+ B\d+ B(\d+)", text)[50]
+    found = checks_made(monkeypatch, text.replace(f"B{count} G", f"B{count}{count[-1]} G", 1))
+    assert found == (1, {"3B301", "3B304"})
+
+
+def test_a_word_that_may_explain_more_is_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    text = (
+        "B1000B0B1000GXL1;1.0,0.0\nB0B1000B10000GYL2;1.0,1.0\nB1000B0B1000GXL3;0.0,1.0\nB0B1000B1000GYL4;0.0,0.0\nDD\n"
+    )
+    assert checks_made(monkeypatch, text) == (2, {"3B217", "3B301"})
