@@ -148,8 +148,10 @@ def firsts_of_arc(u0: Ints, v0: Ints, radius_sq: Ints, k: Ints) -> Ints:
 
 def firsts_among(strokes: Strokes, k: Ints) -> Ints:
     """First-axis steps among the first k (m,) ≥ 0 of each stroke, (m,) int64."""
-    of_lines = np.where(k > 0, firsts_of_line(strokes.a, np.maximum(strokes.a + strokes.b, 1), k), 0)
-    return np.where(strokes.is_arc, firsts_of_arc(strokes.a, strokes.b, strokes.radius_sq, k), of_lines)
+    on_first = np.where(k > 0, firsts_of_line(strokes.a, np.maximum(strokes.a + strokes.b, 1), k), 0)
+    arc = np.flatnonzero(strokes.is_arc)
+    on_first[arc] = firsts_of_arc(strokes.a[arc], strokes.b[arc], strokes.radius_sq[arc], k[arc])
+    return on_first
 
 
 def lengths_of_lines(strokes: Strokes) -> Floats:
@@ -176,6 +178,9 @@ def reached(strokes: Strokes, k: Ints) -> Reached:
     on_second = k - on_first
     place = strokes.origin + strokes.first * on_first[:, None] + strokes.second * on_second[:, None]
     by_first, by_step, before = lengths_of_lines(strokes).T
-    lead, radius = lengths_of_arcs(strokes)
-    on_arc = lead + radius * np.arctan2(strokes.b + on_second, strokes.a - on_first)
-    return Reached(place, np.where(strokes.is_arc, on_arc, by_first * on_first + by_step * k + before))
+    along = by_first * on_first + by_step * k + before
+    arc = np.flatnonzero(strokes.is_arc)
+    arcs = strokes.picked(arc)
+    lead, radius = lengths_of_arcs(arcs)
+    along[arc] = lead + radius * np.arctan2(arcs.b + on_second[arc], arcs.a - on_first[arc])
+    return Reached(place, along)
