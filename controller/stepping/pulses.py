@@ -1,13 +1,15 @@
 """Pulses: steps with the time of each, what a card hands to the drives."""
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from controller.motion.plan import Plan
-from controller.stepping.chunks import StepChunk
 from parser.geometry.curves import Floats
+
+if TYPE_CHECKING:  # a check knows pulses, and loads no compiled loops
+    from controller.stepping.chunks import StepChunk
 
 ROUNDING = 1e-13
 """Share of a path by which sums of its parts may differ: √p · 2⁻⁵³ for p parts up to a million."""
@@ -42,7 +44,7 @@ def no_pulses() -> Pulses:
     return Pulses(np.zeros(0), none, none, none)
 
 
-def time_steps(steps: StepChunk, plan: Plan, began_s: float = 0.0, from_um: float = 0.0) -> Pulses:
+def time_steps(steps: "StepChunk", plan: Plan, began_s: float = 0.0, from_um: float = 0.0) -> Pulses:
     """Pulses of some steps: each comes when the plan reaches the foot of the step on the path.
 
     The plan begins at the time `began_s`, where `from_um` of the steps' path are done.

@@ -56,7 +56,7 @@ def _pieces(codes: Codes) -> list[tuple[int, int]]:
     ends = np.flatnonzero(_KINDS[codes] == _LINE_END) + 1
     wanted = np.arange(_AT_ONCE, len(codes), _AT_ONCE)
     behind = np.append(ends, len(codes))[np.searchsorted(ends, wanted)]
-    borders = np.unique(np.concatenate([[0], behind, [len(codes)]])).tolist()
+    borders = sorted({0, *behind.tolist(), len(codes)})
     return list(pairwise(borders))
 
 
