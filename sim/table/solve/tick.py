@@ -121,7 +121,8 @@ def recorded(axis: Axis, asked: Asked, before: State, now: State, record: Record
     number, slip = noted.bin, noted.slip
     if since.t_s < asked.braked_s:
         error_um = asked.train.place_um[now.noted.commanded] - slide.at_um
-        acceleration = (velocity - since.velocity) / length_s
+        # Where ticks become shorter, the kick is longer than the tick that it begins.
+        acceleration = (velocity - since.velocity) / max(length_s, (since.tick_s + length_s) / 2.0)
         values = Values(velocity, acceleration, slide.lag_um, error_um, slide.force)
         number = binned(record.bins, number, since.t_s, min(slide.t_s, asked.braked_s), values)
         limits = Limits(now.rating.limit, axis.speed_limit_um_s, min(now.rating.pull_out_um, axis.trip_um))
