@@ -1,10 +1,10 @@
 """Fewer points for the same line: a trace has one for each pulse, a picture only so many pixels."""
 
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Floats
 
 CHORD_PX: Final = 0.15
 """How far a drawn line may leave the true one."""
@@ -28,10 +28,12 @@ def simplify(points: Floats, tolerance: float) -> Floats:
     (k, 2) float64, 1 ≤ k ≤ n, with the first and the last point.
     """
     points = _thin(points, tolerance * 2 / 3)
+    x, y = np.ascontiguousarray(points.T)
     keep = np.ones(len(points), dtype=np.bool_)
     size = 2
     while size < len(points):
-        keep[_flat_interior(points, size, tolerance / 3)] = False
+        flat = (_distance(_stretches(x, size), _stretches(y, size)) <= tolerance / 3).all(axis=0)
+        keep[: size * len(flat)].reshape(-1, size)[flat, 1:] = False
         size *= 2
     return points[keep]
 
@@ -45,19 +47,22 @@ def _thin(points: Floats, step: float) -> Floats:
     return np.asarray(points[keep], dtype=np.float64)
 
 
-def _flat_interior(points: Floats, size: int, tolerance: float) -> Ints:
-    """Index the inner points of those stretches of `size` chords that are flat."""
-    stretches = (len(points) - 1) // size
-    index = np.arange(stretches)[:, None] * size + np.arange(size + 1)
-    flat = (_distance(points[index]) <= tolerance).all(axis=1)
-    return index[flat, 1:-1].ravel()
+class _Stretches(NamedTuple):
+    """One coordinate of m stretches, from their first points on: to the last (m,), and to the inner ones (k, m)."""
+
+    chord: Floats
+    inner: Floats
 
 
-def _distance(stretch: Floats) -> Floats:
-    """Distance of each inner point from the chord, (m, k + 1, 2) to (m, k − 1)."""
-    first, chord = stretch[:, :1], stretch[:, -1:] - stretch[:, :1]
-    offset = stretch[:, 1:-1] - first
-    square = np.maximum((chord**2).sum(axis=2), np.finfo(np.float64).tiny)
-    share = np.clip((offset * chord).sum(axis=2) / square, 0.0, 1.0)
-    gap = offset - share[..., None] * chord
-    return np.asarray(np.hypot(gap[..., 0], gap[..., 1]), dtype=np.float64)
+def _stretches(values: Floats, size: int) -> _Stretches:
+    """Stretches of `size` chords of a line (n,); what is left at its end makes none."""
+    whole = (len(values) - 1) // size * size
+    points = np.ascontiguousarray(values[:whole].reshape(-1, size).T)
+    return _Stretches(values[size : whole + 1 : size] - points[0], points[1:] - points[0])
+
+
+def _distance(x: _Stretches, y: _Stretches) -> Floats:
+    """Distance (k, m) of each inner point from its chord."""
+    square = np.maximum(x.chord**2 + y.chord**2, np.finfo(np.float64).tiny)
+    share = np.clip((x.inner * x.chord + y.inner * y.chord) / square, 0.0, 1.0)
+    return np.asarray(np.hypot(x.inner - share * x.chord, y.inner - share * y.chord), dtype=np.float64)

@@ -15,7 +15,7 @@ from sim.show.words import said
 from sim.show.words.words import texts
 
 _SHARED = Path(__file__).with_name("assets")
-_ESCAPED = {ord(character): f"\\u{ord(character):04x}" for character in "<>&\u2028\u2029"}
+_ESCAPED = {character: f"\\u{ord(character):04x}" for character in "<>&\u2028\u2029"}
 
 
 def rendered(assets: Path, template: str, **values: Any) -> str:
@@ -77,7 +77,9 @@ def script_json(value: Any) -> Markup:
     Raises ValueError on NaN and infinities, which JSON has not.
     """
     text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    return Markup(text.translate(_ESCAPED))  # noqa: S704 - escaped just above
+    for character, escaped in _ESCAPED.items():  # ten times as fast as `str.translate`, over megabytes
+        text = text.replace(character, escaped)
+    return Markup(text)  # noqa: S704 - escaped just above
 
 
 def theme_css() -> Markup:
