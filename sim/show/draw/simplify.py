@@ -32,7 +32,7 @@ def simplify(points: Floats, tolerance: float) -> Floats:
     keep = np.ones(len(points), dtype=np.bool_)
     size = 2
     while size < len(points):
-        flat = (_distance(_stretches(x, size), _stretches(y, size)) <= tolerance / 3).all(axis=0)
+        flat = _distance(_stretches(x, size), _stretches(y, size)).max(axis=0) <= tolerance / 3
         keep[: size * len(flat)].reshape(-1, size)[flat, 1:] = False
         size *= 2
     return points[keep]

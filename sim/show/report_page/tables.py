@@ -95,12 +95,17 @@ def named(head: str, values: Sequence[str | None]) -> Column:
 
 def column_of(entries: Iterable[Mapping[str, Any]], path: str) -> list[Any]:
     """What entries have under keys joined with dots; None where there is nothing on the way."""
-    return [reached(entry, path) for entry in entries]
+    keys = path.split(".")
+    return [_under(keys, entry) for entry in entries]
 
 
 def reached(entry: Any, path: str) -> Any:
     """What lies under keys and list indices joined with dots; None where there is nothing on the way."""
-    for key in path.split("."):
+    return _under(path.split("."), entry)
+
+
+def _under(keys: Iterable[str], entry: Any) -> Any:
+    for key in keys:
         if entry is None:
             return None
         entry = entry[int(key)] if isinstance(entry, list) else entry[key]

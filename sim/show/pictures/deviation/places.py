@@ -40,11 +40,13 @@ def worst_places(samples: Samples) -> Ints:
 
 
 def worst_of(samples: Samples, chosen: Ints, group: Ints) -> Ints:
-    """Of samples (m,) in groups (m,) the worst of each group, the worst first."""
-    off = -np.abs(samples.wire_um[chosen])
-    order = np.lexsort((off, group))
-    best = order[np.flatnonzero(np.diff(group[order], prepend=-1))]
-    return chosen[best[np.argsort(off[best], kind="stable")]]
+    """Of samples (m,) in groups (m,), which never fall, the worst of each group: its first one; the worst first."""
+    off = np.abs(samples.wire_um[chosen])
+    first = np.flatnonzero(np.diff(group, prepend=-1))
+    worst = np.maximum.reduceat(off, first) if len(first) else off
+    among = np.flatnonzero(off == np.repeat(worst, np.diff(first, append=len(off))))
+    best = among[np.flatnonzero(np.diff(group[among], prepend=-1))]
+    return chosen[best[np.argsort(-off[best], kind="stable")]]
 
 
 def _clear(samples: Samples, taken: list[int], at: int, apart_um: float) -> bool:
