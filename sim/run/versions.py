@@ -7,7 +7,7 @@ from typing import Final
 
 from parser import __version__
 
-_PACKAGES: Final = ("numpy", "shapely", "pymunk", "ezdxf", "pygame-ce", "pillow", "jinja2", "click", "rich")
+_PACKAGES: Final = ("numpy", "numba", "shapely", "pymunk", "ezdxf", "pygame-ce", "pillow", "jinja2", "click", "rich")
 
 
 @cache
