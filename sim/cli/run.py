@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from parser.findings.errors import ProgramError
-from sim.cli.batch import Spread, is_shop, run_shop, spread_options
+from sim.cli.batch import is_shop, run_shop
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
+from sim.cli.spread import Spread, spread_options
 
 if TYPE_CHECKING:
     from sim.run.dryrun import DryRun

@@ -17,12 +17,13 @@ from parser.findings.catalogue import Said
 from sim.files import staged
 from sim.jobs.index import Row
 from sim.setup.scenario import Scenario
+from sim.workers.makers import Maker
 
 NAME: Final = "kept.json"
 _SCHEMA: Final = "drycut.kept/1"
 
 
-def digest_of(program: bytes, scenario: Scenario, drawing: bytes | None, made_by: tuple[tuple[str, str], ...]) -> str:
+def digest_of(program: bytes, scenario: Scenario, drawing: bytes | None, made_by: Maker) -> str:
     """Digest of all that the files of a run follow from: nothing of it is a path, so a shop may be moved."""
     settings = replace(
         scenario,

@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 from parser.text.encoding import encode_text
 from sim.run.dryrun import DryRun
-from sim.run.versions import versions
 from sim.setup.machine.machine import Machine, machine_sections
 from sim.setup.scenario import MACHINE_FILE, scenario_sections
 from sim.setup.toml.writer import toml_text
+from sim.workers.makers import Maker, versions
 
 
 class Reproduction(NamedTuple):
@@ -30,7 +30,7 @@ class Reproduction(NamedTuple):
     program: str
     sha256: str
     files: tuple[tuple[str, str], ...]
-    versions: tuple[tuple[str, str], ...]
+    versions: Maker
 
 
 def reproduction(run: DryRun) -> Reproduction:
