@@ -1,9 +1,13 @@
-"""Checks of many files over all cores. A fault of drycut at one of them is told of that one; the others are checked."""
+"""Checks of many files by workers. A fault of drycut at one of them is told of that one; the others are checked."""
 
 from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
 
+from parser.files.reading import read_bytes
+from parser.findings.errors import FileUnreadableError
 from sim.check.batch import Job, check_any, not_checked
 from sim.check.result import CheckResult
+from sim.workers.makers import Maker, made_by, refuse_other_makers
 from sim.workers.pool import Pool
 from sim.workers.rounds import DIED, Lost, in_order, results
 
@@ -11,8 +15,38 @@ _FILES_A_TASK = 32
 
 
 def check_files(jobs: Sequence[Job], pool: Pool, progress: Callable[[int, int], None]) -> Iterator[CheckResult]:
-    """Results in the order of the jobs, from a pool; `progress` is told how many of how many are done."""
-    found = in_order(results(check_any, enumerate(jobs), pool, _FILES_A_TASK))
-    for done, (job, result) in enumerate(zip(jobs, found, strict=True), start=1):
+    """Results in the order of the jobs, from a pool; `progress` is told how many of how many are done.
+
+    ClusterError where a worker of another machine would find other things than this one.
+    """
+    numbered = enumerate(jobs)
+    found = results(check_any, numbered, pool, _FILES_A_TASK) if pool.is_here else _elsewhere(jobs, pool)
+    for done, (job, result) in enumerate(zip(jobs, in_order(found), strict=True), start=1):
         progress(done, len(jobs))
         yield not_checked(job, DIED) if isinstance(result, Lost) else result
+
+
+def _elsewhere(jobs: Sequence[Job], pool: Pool) -> Iterator[tuple[int, CheckResult | Lost]]:
+    """Numbers and results of jobs whose bytes are sent; what cannot be read is told here."""
+    unreadable: list[int] = []
+    sent = _sent(jobs, unreadable)
+    yield from results(_check_sent, sent, pool, _FILES_A_TASK)
+    yield from ((number, check_any(jobs[number])) for number in unreadable)
+
+
+def _sent(jobs: Sequence[Job], unreadable: list[int]) -> Iterator[tuple[int, tuple[Maker, Job]]]:
+    """Numbers of the jobs, and each with the bytes of its file and who asks; fills in which cannot be read."""
+    asked = made_by()
+    for number, job in enumerate(jobs):
+        try:
+            data = read_bytes(job.source) if isinstance(job.source, Path) else job.source
+        except FileUnreadableError:
+            unreadable.append(number)
+        else:
+            yield number, (asked, job._replace(source=data))
+
+
+def _check_sent(task: tuple[Maker, Job]) -> CheckResult:
+    asked, job = task
+    refuse_other_makers(asked)
+    return check_any(job)

@@ -62,7 +62,7 @@ def main() -> None:
     """
     prepare_streams()
     _end_on_signals()
-    on_compiling(lambda: say("drycut: compiling its loops, which takes some seconds the first time", err=True))
+    on_compiling(lambda: say("drycut: compiling its loops, once: some 20 seconds", err=True))
     code = _run()
     try:
         sys.stdout.flush()

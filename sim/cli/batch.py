@@ -1,40 +1,13 @@
-"""``drycut run`` of many programs: what it is given, who does it, and what is said of it."""
+"""``drycut run`` of many programs: what it is given, and what is said of it."""
 
 import glob
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
 
 from sim.cli.overrides import Overrides, overridden
-
-if TYPE_CHECKING:
-    from sim.workers.pool import Pool
-
-Command = TypeVar("Command", bound=Callable[..., Any])
-
-_OPTIONS = (
-    click.option("--jobs", type=click.IntRange(1), metavar="N", help="Programs run at once [one a core]."),
-    click.option(
-        "--scheduler", metavar="ADDRESS", help="Run them on the workers of a Dask scheduler: tcp://host:8786."
-    ),
-)
-
-
-class Spread(NamedTuple):
-    """Who does the work: so many processes of this machine, or the workers of a scheduler; None where left out."""
-
-    jobs: int | None
-    scheduler: str | None
-
-
-def spread_options(command: Command) -> Command:
-    """Give a command the options of `Spread`."""
-    for option in reversed(_OPTIONS):
-        command = option(command)
-    return command
+from sim.cli.spread import Spread, pool_of
 
 
 def is_shop(names: Sequence[str]) -> bool:
@@ -77,19 +50,3 @@ def run_shop(names: Sequence[str], output: Path | None, spread: Spread, options:
         return tell_faults(done.faults, chosen(None))
     counts = done.document["counts"]
     return 0 if counts["pass"] == counts["programs"] else 1
-
-
-@contextmanager
-def pool_of(spread: Spread) -> Iterator["Pool"]:
-    """The workers that are asked for. UsageError where both kinds are, ClusterError where none can be reached."""
-    if spread.scheduler is None:
-        from sim.workers.processes import Processes
-
-        yield Processes(spread.jobs)
-        return
-    if spread.jobs is not None:
-        raise click.UsageError("--jobs and --scheduler say two things: the scheduler knows its workers")
-    from sim.workers.cluster import cluster
-
-    with cluster(spread.scheduler) as pool:
-        yield pool

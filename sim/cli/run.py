@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from parser.findings.errors import ProgramError
-from sim.cli.batch import Spread, is_shop, run_shop, spread_options
+from sim.cli.batch import is_shop, run_shop
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
+from sim.cli.spread import Spread, spread_options
 
 if TYPE_CHECKING:
     from sim.run.dryrun import DryRun
@@ -64,38 +65,14 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
     drycut run programs/ 'jigs/*.4b' -o out/ --jobs 4
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.run.findings import verdict
-    from sim.run.report import build_report, report_text
-    from sim.show.terminal.printer import say, write
-    from sim.show.terminal.run import print_summary
-
+    asked, spread, files = Overrides(**options), Spread(jobs, scheduler), _Files(output, card_log, trace)
     if is_shop(names):
-        if card_log is not None:
-            raise click.UsageError("--card-log takes the calls of one program")
-        if trace:
-            raise click.UsageError("--trace is for one program; of many, it would fill the disk")
-        raise click.exceptions.Exit(
-            run_shop(names, output, Spread(jobs, scheduler), Overrides(**options), as_json=as_json)
-        )
-    if jobs is not None or scheduler is not None:
-        raise click.UsageError("--jobs and --scheduler are for many programs; this is one")
-    if trace and output is None:
-        raise click.UsageError("--trace needs -o DIR, where trace.npz is to go")
-    scenario = overridden(Path(names[0]), Overrides(**options))
-    try:
-        done = _run(scenario, _Files(output, card_log, trace))
-    except ProgramError as error:
-        raise refused(scenario, error) from None
-    if as_json:
-        write(report_text(build_report(done)), "json")
+        _refuse_for_many(files)
+        code = run_shop(names, output, spread, asked, as_json=as_json)
     else:
-        print_summary(done, output)
-        if output is not None:
-            from sim.jobs.run_into import FILES
-            from sim.jobs.trace_file import TRACE
-
-            say(f"written: {output}/ {', '.join([*FILES, *([TRACE] if trace else [])])}")
-    raise click.exceptions.Exit(0 if verdict(done.findings) == "pass" else 1)
+        _refuse_for_one(files, spread)
+        code = _run_one(overridden(Path(names[0]), asked), files, as_json=as_json)
+    raise click.exceptions.Exit(code)
 
 
 class _Files(NamedTuple):
@@ -104,6 +81,45 @@ class _Files(NamedTuple):
     output: Path | None
     card_log: Path | None
     trace: bool
+
+
+def _refuse_for_many(files: _Files) -> None:
+    """UsageError for what only one program can have."""
+    if files.card_log is not None:
+        raise click.UsageError("--card-log takes the calls of one program")
+    if files.trace:
+        raise click.UsageError("--trace is for one program; of many, it would fill the disk")
+
+
+def _refuse_for_one(files: _Files, spread: Spread) -> None:
+    """UsageError for what only many programs can have, and for a trace that has no folder."""
+    if spread != Spread(None, None):
+        raise click.UsageError("--jobs and --scheduler are for many programs; this is one")
+    if files.trace and files.output is None:
+        raise click.UsageError("--trace needs -o DIR, where trace.npz is to go")
+
+
+def _run_one(scenario: "Scenario", files: _Files, *, as_json: bool) -> int:
+    """Run one program and print what came of it; the exit code."""
+    from sim.run.findings import verdict
+    from sim.run.report import build_report, report_text
+    from sim.show.terminal.printer import say, write
+    from sim.show.terminal.run import print_summary
+
+    try:
+        done = _run(scenario, files)
+    except ProgramError as error:
+        raise refused(scenario, error) from None
+    if as_json:
+        write(report_text(build_report(done)), "json")
+    else:
+        print_summary(done, files.output)
+        if files.output is not None:
+            from sim.jobs.run_into import FILES
+            from sim.jobs.trace_file import TRACE
+
+            say(f"written: {files.output}/ {', '.join([*FILES, *([TRACE] if files.trace else [])])}")
+    return 0 if verdict(done.findings) == "pass" else 1
 
 
 def _run(scenario: "Scenario", files: _Files) -> "DryRun":

@@ -10,11 +10,12 @@ from parser.text.encoding import printable
 from sim.files import staged
 from sim.jobs.index import Entry, Row, build_index, index_text
 from sim.jobs.kept import NAME, digest_of, drop, keep, kept
-from sim.jobs.one import Done, Task, fault_of, made_by, run_task
+from sim.jobs.one import Done, Task, fault_of, run_task
 from sim.jobs.run_into import NAMES
 from sim.jobs.shop import ShopProgram
 from sim.show.index_page import Beside, index_page
 from sim.show.words.phrases import same
+from sim.workers.makers import made_by
 from sim.workers.pool import Pool
 from sim.workers.rounds import DIED, Lost, results
 

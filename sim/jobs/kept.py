@@ -13,16 +13,19 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
+from parser.files.reading import read_bytes
 from parser.findings.catalogue import Said
+from parser.findings.errors import FileUnreadableError
 from sim.files import staged
 from sim.jobs.index import Row
 from sim.setup.scenario import Scenario
+from sim.workers.makers import Maker
 
 NAME: Final = "kept.json"
 _SCHEMA: Final = "drycut.kept/1"
 
 
-def digest_of(program: bytes, scenario: Scenario, drawing: bytes | None, made_by: tuple[tuple[str, str], ...]) -> str:
+def digest_of(program: bytes, scenario: Scenario, drawing: bytes | None, made_by: Maker) -> str:
     """Digest of all that the files of a run follow from: nothing of it is a path, so a shop may be moved."""
     settings = replace(
         scenario,
@@ -48,15 +51,15 @@ def keep(folder: Path, digest: str, row: Row, files: Mapping[str, bytes], names:
 def kept(folder: Path, digest: str) -> Row | None:
     """The row of the run whose files stand in a folder; None where they are not those of this digest, or not whole."""
     try:
-        record = json.loads((folder / NAME).read_bytes())
+        record = json.loads(read_bytes(folder / NAME))
         if record["made_of"] != digest or record != _sealed(record):
             return None
-        if any(_sum((folder / name).read_bytes()) != told for name, told in record["files"].items()):
+        if any(_sum_of(folder / name) != told for name, told in record["files"].items()):
             return None
         row = record["row"]
         findings = tuple((code, count) for code, count in row["findings"])
         return Row(**{**row, "findings": findings, "message": Said(*row["message"])})
-    except (OSError, ValueError, LookupError, TypeError, AttributeError):
+    except (FileUnreadableError, OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
         return None
 
 
@@ -77,3 +80,11 @@ def _sealed(record: Mapping[str, Any]) -> dict[str, Any]:
 
 def _sum(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
+
+
+def _sum_of(file: Path) -> str:
+    """Digest of a file of the set, however large; OSError for what is no file, of which reading might never end."""
+    if not file.is_file():
+        raise FileNotFoundError(file)
+    with file.open("rb") as data:
+        return hashlib.file_digest(data, "sha256").hexdigest()

@@ -1,6 +1,5 @@
 """One program of a shop, as a worker runs it: bytes come in and bytes go out, for the worker may be another machine."""
 
-import platform
 import threading
 import traceback
 from collections.abc import Mapping
@@ -9,7 +8,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from parser.findings.catalogue import LANGUAGES, Said, texts
-from parser.findings.errors import ClusterError, DrawingError, DrycutError, ProgramError
+from parser.findings.errors import DrawingError, DrycutError, ProgramError
 from parser.program import load_program
 from sim.files import scratch
 from sim.jobs.index import Row, counted
@@ -17,10 +16,10 @@ from sim.jobs.run_into import FILES, run_into
 from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
 from sim.run.report.rounded import rounded
-from sim.run.versions import versions
 from sim.setup.scenario import Scenario
 from sim.show.index_page.thumbnail import thumbnail
 from sim.show.words.phrases import same
+from sim.workers.makers import Maker, refuse_other_makers
 
 _BY_ITSELF: Final = threading.Lock()  # workers of a cluster may have several threads, and pygame knows one
 
@@ -44,7 +43,7 @@ class Task(NamedTuple):
     data: bytes
     scenario: Scenario
     drawing: bytes | None
-    made_by: tuple[tuple[str, str], ...]
+    made_by: Maker
 
 
 class Done(NamedTuple):
@@ -55,17 +54,12 @@ class Done(NamedTuple):
     fault: str = ""
 
 
-def made_by() -> tuple[tuple[str, str], ...]:
-    """What the bytes of a run come from here: the versions, and the system with its kind of processor."""
-    return (*versions(), ("system", f"{platform.system()} {platform.machine()}"))
-
-
 def run_task(task: Task) -> Done:
     """Run a program. Whatever is wrong with it is told in its row.
 
     ClusterError where this worker would make other bytes than the one who asks.
     """
-    _refuse_other_makers(task)
+    refuse_other_makers(task.made_by)
     try:
         with _BY_ITSELF, scratch() as folder:
             return _run(task, folder)
@@ -85,16 +79,6 @@ def fault_of(title: str, told: str) -> Done:
 
 def _message(error: ProgramError) -> Said:
     return Said(*(texts(error.finding, language).message for language in LANGUAGES))
-
-
-def _refuse_other_makers(task: Task) -> None:
-    asked = dict(task.made_by)
-    for name, here in made_by():
-        if here != asked.get(name):
-            raise ClusterError(
-                f"the worker on {platform.node()} has {name} {here}, not {asked.get(name)} as this machine; "
-                "its files would be others"
-            )
 
 
 def _run(task: Task, folder: Path) -> Done:

@@ -64,6 +64,8 @@ def _client(address: str) -> Any:
 class _Cluster:
     """A `Pool` of the workers that a scheduler has at any moment; they may come and go."""
 
+    is_here = False
+
     def __init__(self, client: Any) -> None:
         from distributed.scheduler import KilledWorker  # noqa: PLC0415 - as above
 

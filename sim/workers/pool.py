@@ -12,9 +12,12 @@ class Pool(Protocol):
     ----------
     died
         Errors of a future whose worker died. Of the jobs that were under way then nobody knows which one killed it.
+    is_here
+        Whether the workers run on this machine: then they see its files, and are made of the same.
     """
 
     died: tuple[type[BaseException], ...]
+    is_here: bool
 
     def ahead(self) -> int:
         """How many jobs may be under way at once, so that no worker waits and few results are held."""

@@ -22,6 +22,7 @@ class Processes:
     """A `Pool` of processes of this machine, as many as asked for, else as many as it has cores for us."""
 
     died: tuple[type[BaseException], ...] = (BrokenProcessPool,)
+    is_here = True
 
     def __init__(self, count: int | None = None) -> None:
         self._count = min(count or cores(), _MOST)

@@ -8,6 +8,7 @@ import click
 
 from sim.cli.check.options import check_options
 from sim.cli.scenario_options import chosen
+from sim.cli.spread import Spread, pool_of, spread_options
 
 if TYPE_CHECKING:
     from parser.findings.catalogue import Language
@@ -28,6 +29,7 @@ _OF_FILES = {
 @click.command()
 @click.argument("files", nargs=-1, required=True, metavar="FILE|DIR|GLOB|-...")
 @check_options
+@spread_options
 def check(  # noqa: PLR0913 - click hands over each option by its name
     *,
     files: tuple[str, ...],
@@ -40,6 +42,8 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     exit_zero: bool,
     diff: bool,
     watch: bool,
+    jobs: int | None,
+    scheduler: str | None,
     **asked: Any,
 ) -> None:
     """Find all that is wrong with 3B programs, before a wire is threaded.
@@ -61,27 +65,29 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
 
     _refuse_contradictions(files, formats, asked, {"--fix": fix, "--diff": diff, "--watch": watch})
     options, style = Asked(**asked), Options(chosen(lang), quiet=quiet, statistics=statistics)
-    work = _Work(files, options, outputs_of(formats, output_file, options.write_baseline), style)
+    outputs = outputs_of(formats, output_file, options.write_baseline)
+    work = _Work(files, options, outputs, style, Spread(jobs, scheduler))
     if watch:
         from sim.cli.check import watching
 
         watching.watch(files, lambda: _check(work, _jobs(work)), style.language)
-    jobs = _jobs(work)
+    to_check = _jobs(work)
     if diff:
         from sim.cli.check.mends import show_diffs
 
-        raise _exit(show_diffs(jobs, output_file, style.language), is_zero=exit_zero)
-    code = _fix(jobs, style.language) if fix else 0
-    raise _exit(max(code, _check(work, jobs)), is_zero=exit_zero)
+        raise _exit(show_diffs(to_check, output_file, style.language), is_zero=exit_zero)
+    code = _fix(to_check, style.language) if fix else 0
+    raise _exit(max(code, _check(work, to_check)), is_zero=exit_zero)
 
 
 class _Work(NamedTuple):
-    """What a check is asked for: the names, the options that settings give way to, where the results go, and how."""
+    """What a check is asked for: names, options that settings give way to, where results go and how, who does it."""
 
     names: Sequence[str]
     options: "Asked"
     outputs: Sequence["Output"]
     style: "Options"
+    spread: Spread
 
 
 def _exit(code: int, *, is_zero: bool) -> click.exceptions.Exit:
@@ -138,23 +144,23 @@ def _check(work: _Work, jobs: Sequence["Job"]) -> int:
     from sim.show.terminal import printer
 
     outcome, ledger, language = _Outcome(), _ledger(work.options), work.style.language
-    write(outcome.watched(ledger.watched(jobs, _results(jobs))), work.outputs, work.style)
+    write(outcome.watched(ledger.watched(jobs, _results(jobs, work.spread))), work.outputs, work.style)
     printer.write(ledger.closed(language), err=True)
     return outcome.told(language)
 
 
-def _results(jobs: Sequence["Job"]) -> Iterator["CheckResult"]:
+def _results(jobs: Sequence["Job"], spread: Spread) -> Iterator["CheckResult"]:
+    """Results of the jobs: from workers where they are many, or somebody asked for workers."""
     from sim.check.batch import PARALLEL_FROM, check_any
 
-    if len(jobs) < PARALLEL_FROM:
+    if len(jobs) < PARALLEL_FROM and spread == Spread(None, None):
         yield from map(check_any, jobs)
         return
     from sim.check.parallel import check_files
     from sim.cli.progress import StageProgress
-    from sim.workers.processes import Processes
 
-    with StageProgress() as progress:
-        yield from check_files(jobs, Processes(), lambda done, total: progress("check", done, total))
+    with StageProgress() as progress, pool_of(spread) as pool:
+        yield from check_files(jobs, pool, lambda done, total: progress("check", done, total))
 
 
 class _Outcome:

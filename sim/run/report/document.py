@@ -20,6 +20,7 @@ from sim.run.report.figures import deviation_entries, ended_entry, limit_entry, 
 from sim.run.report.passes import pass_entries
 from sim.run.report.remains import remains_entry
 from sim.run.report.rounded import column, rounded
+from sim.setup.scenario import Scenario
 
 SCHEMA = "drycut.report/1"
 
@@ -39,7 +40,7 @@ def build_report(run: DryRun) -> dict[str, Any]:
             "dialect": run.program.reading.dialect,
             "header": {key: _header_value(value) for key, value in run.program.header.items()},
         },
-        "machine": {"name": scenario.machine.name, "start_um": [rounded(place) for place in scenario.start_um]},
+        "machine": _machine(scenario),
         "assumptions": _assumptions(run),
         "wire": {
             "diameter_um": rounded(scenario.wire.diameter_um),
@@ -77,6 +78,14 @@ def report_text(report: dict[str, Any]) -> str:
     Compact lines keep to json's fast encoder; indenting a hundred thousand blocks takes ten times as long.
     """
     return "{\n" + ",\n".join(f"{_line(key)}: {_lines(value)}" for key, value in report.items()) + "\n}\n"
+
+
+def _machine(scenario: Scenario) -> dict[str, Any]:
+    return {
+        "name": scenario.machine.name,
+        "engine": scenario.machine.engine,
+        "start_um": [rounded(place) for place in scenario.start_um],
+    }
 
 
 def _assumptions(run: DryRun) -> dict[str, Any]:

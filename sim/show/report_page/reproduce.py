@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 from parser.text.encoding import encode_text
 from sim.run.dryrun import DryRun
-from sim.run.versions import versions
-from sim.setup.machine.machine import machine_sections
+from sim.setup.machine.machine import Machine, machine_sections
 from sim.setup.scenario import MACHINE_FILE, scenario_sections
 from sim.setup.toml.writer import toml_text
+from sim.workers.makers import Maker, versions
 
 
 class Reproduction(NamedTuple):
@@ -30,7 +30,7 @@ class Reproduction(NamedTuple):
     program: str
     sha256: str
     files: tuple[tuple[str, str], ...]
-    versions: tuple[tuple[str, str], ...]
+    versions: Maker
 
 
 def reproduction(run: DryRun) -> Reproduction:
@@ -38,7 +38,7 @@ def reproduction(run: DryRun) -> Reproduction:
     data = encode_text(run.program.text, run.program.encoding)
     scenario = run.scenario
     return Reproduction(
-        command="drycut run . -o out",
+        command="drycut run . -o out" + _engine(scenario.machine),
         program=run.program.name,
         sha256=hashlib.sha256(data).hexdigest(),
         files=(
@@ -47,3 +47,8 @@ def reproduction(run: DryRun) -> Reproduction:
         ),
         versions=versions(),
     )
+
+
+def _engine(machine: Machine) -> str:
+    """The option of another engine than the usual one, which no file asks for."""
+    return "" if machine.engine == Machine._field_defaults["engine"] else f" --engine {machine.engine}"

@@ -19,10 +19,12 @@ ROOT = Path(__file__).parents[3]
 SHIPPED = {
     *("parser/findings/catalogue.py", "sim/show/words/words.py", "sim/setup/key_words.py", "sim/setup/key_tables.py"),
     *("sim/show/html/bundle.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/documents.py"),
+    "controller/compiled/loops.py",  # its own modules
 }
 """Modules that read files which drycut brings along, or its own documents."""
 OWN = {
     *("sim/files/moves.py", "sim/files/replaced.py", "sim/files/steps.py", "sim/run/recording.py"),
+    *("sim/jobs/kept.py", "sim/jobs/one.py", "sim/jobs/trace_file.py"),
     "sim/show/terminal/streams.py",  # reopens closed streams on nothing
 }
 """Modules that read what drycut wrote, or look whether a file is still what the door read."""

@@ -19,6 +19,7 @@ from parser.program import read_program
 from sim.jobs.run_into import FILES, run_into
 from sim.setup.scenario import Scenario, load_scenario
 from sim.setup.wire import Wire
+from sim.workers.makers import made_by
 from sim.workers.processes import Processes
 
 
@@ -101,7 +102,7 @@ def test_settings_drawing_and_version_count_and_their_places_do_not(
         (lambda: monkeypatch.setattr("sim.jobs.batch.made_by", lambda: (("drycut", "9.9"),)), False),
     ):
         change()
-        monkeypatch.setattr("sim.jobs.one._refuse_other_makers", lambda task: None)
+        monkeypatch.setattr("sim.jobs.one.refuse_other_makers", lambda asked: None)
         run_folder(shop, out)
         assert rows(out)["00.3b"]["from_cache"] == is_kept
 
@@ -213,7 +214,7 @@ def test_files_that_a_run_does_not_make_any_more_go_and_others_stay(shop: Path, 
 
 
 def test_a_worker_of_another_version_is_told(shop: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    other = (*sim.jobs.one.made_by()[:-1], ("system", "Elsewhere"))
+    other = (*made_by()[:-1], ("system", "Elsewhere"))
     monkeypatch.setattr("sim.jobs.batch.made_by", lambda: other)
     with pytest.raises(ClusterError, match=r"has system .+, not Elsewhere as this machine"):
         run_folder(shop, tmp_path / "out")

@@ -17,6 +17,9 @@ from shops import TINY, make_shop, rows, run_folder
 
 from parser.findings.errors import ClusterError
 from parser.program import read_program
+from sim.check.batch import Job, check_any
+from sim.check.parallel import check_files
+from sim.check.settings import CheckSettings
 from sim.jobs.run_into import run_into
 from sim.setup.scenario import load_scenario
 from sim.workers.cluster import _caller, cluster
@@ -71,6 +74,8 @@ def test_a_worker_of_two_is_killed_and_then_the_scheduler(running: Running, tmp_
     with cluster(running.address) as pool:
         while pool.ahead() < 4:  # one of the two is not there yet
             time.sleep(0.02)
+        checks = [Job(path.name, path, CheckSettings()) for path in (*sorted(shop.iterdir()), tmp_path / "gone.3b")]
+        assert list(check_files(checks, pool, lambda done, total: None)) == [check_any(job) for job in checks]
         batch = run_folder(shop, out, pool, progress=kill_at_first)
     told = [(row["verdict"], row["folder"], row["from_cache"]) for row in batch.document["programs"]]
     assert told == [("pass", f"{number:02}.3b", False) for number in range(4)]

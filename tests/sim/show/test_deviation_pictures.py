@@ -315,8 +315,8 @@ def test_whiskers_stand_apart_and_the_worst_of_each_long_block_stays() -> None:
     ]
     worst = [float(np.abs(of.wire_um[of.trace.row == row]).max()) for row in range(4)]
     longest = sorted(lengths)[-1]
-    for off in worst[1:]:
-        assert min(abs(length - longest * off / max(worst)) for length in lengths) < 0.01
+    for off in worst[1:]:  # px: at a corner one whisker stands for the worst of both blocks
+        assert min(abs(length - longest * off / max(worst)) for length in lengths) < 0.02
     frame = frame_of(canvas)
     path_px = 4000.0 / 1000.0 * abs(scale(canvas, frame, 0)(1.0) - scale(canvas, frame, 0)(0.0))
     assert len(lengths) < path_px / APART + 12

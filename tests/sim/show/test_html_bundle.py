@@ -130,9 +130,19 @@ def test_the_same_modules_give_the_same_text_and_are_joined_once(written: Writte
     assert str(tmp_path) not in first
 
 
-@pytest.mark.parametrize("page", ["replay", "report_page"])
+PAGES = ("index_page", "replay", "report_page")
+
+
+@pytest.mark.parametrize("page", PAGES)
 def test_every_module_of_a_page_is_in_its_script(page: str) -> None:
     folder = ASSETS / page / "assets"
     script = joined(folder / "main.js")
-    for module in [*folder.glob("*.js"), *(ASSETS / "html" / "assets").glob("*.js")]:
+    for module in folder.glob("*.js"):
         assert module.read_text("utf-8").partition("\n")[0] in script, module
+
+
+def test_every_module_for_all_pages_is_in_the_scripts_of_two_or_more() -> None:
+    scripts = [joined(ASSETS / page / "assets" / "main.js") for page in PAGES]
+    for module in (ASSETS / "html" / "assets").glob("*.js"):
+        first = module.read_text("utf-8").partition("\n")[0]
+        assert sum(first in script for script in scripts) > 1, module

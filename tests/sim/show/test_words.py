@@ -79,12 +79,12 @@ def sentences(source: str) -> list[tuple[int, str]]:
 
 
 def for_no_one(node: ast.AST) -> bool:
-    """Whether no text in this part of a program is for people, or it is that of an error."""
+    """Whether no text in this part of a program is for people, as of a loop's signature, or it is that of an error."""
     if isinstance(node, ast.Expr):
         return isinstance(node.value, ast.Constant)
     if isinstance(node, ast.Call):
         called = ast.unparse(node.func)
-        return called.endswith("Error") or called.startswith("re.")
+        return called.endswith("Error") or called.startswith("re.") or called == "compiled"
     return isinstance(node, ast.Raise | ast.Assert)
 
 

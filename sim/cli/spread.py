@@ -1,0 +1,49 @@
+"""Who does the work of a command on many files: processes of this machine, or the workers of a scheduler."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+import click
+
+if TYPE_CHECKING:
+    from sim.workers.pool import Pool
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+_OPTIONS = (
+    click.option("--jobs", type=click.IntRange(1), metavar="N", help="Programs done at once [one a core]."),
+    click.option(
+        "--scheduler", metavar="ADDRESS", help="Let the workers of a Dask scheduler do them: tcp://host:8786."
+    ),
+)
+
+
+class Spread(NamedTuple):
+    """So many processes of this machine, or the workers of a scheduler; None where left out."""
+
+    jobs: int | None
+    scheduler: str | None
+
+
+def spread_options(command: Command) -> Command:
+    """Give a command the options of `Spread`."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+@contextmanager
+def pool_of(spread: Spread) -> Iterator["Pool"]:
+    """The workers that are asked for. UsageError where both kinds are, ClusterError where none can be reached."""
+    if spread.scheduler is None:
+        from sim.workers.processes import Processes
+
+        yield Processes(spread.jobs)
+        return
+    if spread.jobs is not None:
+        raise click.UsageError("--jobs and --scheduler say two things: the scheduler knows its workers")
+    from sim.workers.cluster import cluster
+
+    with cluster(spread.scheduler) as pool:
+        yield pool
