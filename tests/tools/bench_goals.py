@@ -13,7 +13,7 @@ from bench_cpu import DRYCUT, cpu_of, in_turns, used_by
 from bench_motion import read_plan_step
 from bench_path import contour_text, write_path
 from bench_peers import KLIPPER_MISSING, RS274_MISSING, klipper, klipper_cpu_s, rs274, rs274_used
-from bench_table import cutting, fine, timed
+from bench_table import cutting, followed
 from places import SCENARIOS
 
 from sim.check.batch import Job, check_file
@@ -50,11 +50,8 @@ def goal_lines(folder: Path, blocks: int, rounds: int) -> Iterator[str]:
 
 
 def _table(folder: Path, blocks: int, rounds: int) -> Iterator[Goal]:
-    """In ticks of 0.1 ms there is a step to some hundred ticks, so that the card's share is small."""
-    run = fine(cutting(TABLE_PART_MM))
-    ticks = int(run.ticks.parts.sum())
-    (taken,) = in_turns(rounds, partial(cpu_of, partial(timed, run)))
-    yield Goal("table", "ns per tick", "2071", 60.0, taken / ticks * 1e9)
+    table = followed(cutting(TABLE_PART_MM), rounds)
+    yield Goal("table", "ns per tick", "2071", 60.0, table.cpu_s / table.ticks * 1e9)
 
 
 def _keyhole(folder: Path, blocks: int, rounds: int) -> Iterator[Goal]:
