@@ -32,7 +32,7 @@ from sim.show.pictures.deviation import inset
 from sim.show.pictures.deviation.along import draw_along
 from sim.show.pictures.deviation.histogram import bins_of, draw_histogram, path_of_each, shares
 from sim.show.pictures.deviation.inset import STEPS, inset_of
-from sim.show.pictures.deviation.places import APART_UM, worst_places
+from sim.show.pictures.deviation.places import APART_UM, worst_of, worst_places
 from sim.show.pictures.deviation.polar import circles_of, draw_polar
 from sim.show.pictures.deviation.samples import Samples, samples_of
 from sim.show.pictures.deviation.whiskers import APART, draw_whiskers
@@ -320,6 +320,15 @@ def test_whiskers_stand_apart_and_the_worst_of_each_long_block_stays() -> None:
     frame = frame_of(canvas)
     path_px = 4000.0 / 1000.0 * abs(scale(canvas, frame, 0)(1.0) - scale(canvas, frame, 0)(0.0))
     assert len(lengths) < path_px / APART + 12
+
+
+def test_the_worst_of_each_group_is_the_first_of_its_worst_and_the_worst_group_leads() -> None:
+    of = samples(SLOT)
+    off = np.array([1.0, -3.0, 3.0, 0.5, 2.0, -2.0, 9.0, 3.0])
+    of = replace(of, wire_um=off)
+    chosen, group = np.array([0, 1, 2, 3, 4, 5, 7]), np.array([0, 0, 0, 2, 3, 3, 7])
+    assert worst_of(of, chosen, group).tolist() == [1, 7, 4, 3]
+    assert worst_of(of, chosen[:0], group[:0]).tolist() == []
 
 
 def test_whiskers_that_cover_each_other_are_drawn_once() -> None:
