@@ -18,9 +18,7 @@ from sim.cut.regions import Region, Regions, unions
 
 _STRETCH = 1.9  # offsets, at most; at 2 the discs at its ends would only just reach its middle
 _TURN_RAD = 0.5  # of a stretch, at most
-_KEPT = (
-    3  # times that neighbours are joined from one level that is kept to the next: all levels would take twice as much
-)
+_KEPT = 3  # of as many levels one is kept: all of them take twice the memory
 
 
 Box = tuple[float, float, float, float]
