@@ -18,6 +18,7 @@ from sim.cut.regions import Region, Regions, unions
 
 _STRETCH = 1.9  # offsets, at most; at 2 the discs at its ends would only just reach its middle
 _TURN_RAD = 0.5  # of a stretch, at most
+_KEPT = 3  # of as many levels one is kept: all of them take twice the memory
 
 
 Box = tuple[float, float, float, float]
@@ -34,7 +35,7 @@ class Swept(NamedTuple):
     first
         (s,) int64, first place of each stretch.
     levels
-        Regions of the stretches, then of pairs of these, and so on up to the whole.
+        Regions of the stretches, then of up to eight of these, and so on up to the whole.
     boxes
         (…, 4) float64 of each level: lowest x and y, highest x and y of its regions.
     """
@@ -53,19 +54,20 @@ class Swept(NamedTuple):
     def near(self, first: int, past: int, box: Box) -> list[Region]:
         """Regions that are swept on some stretches, as far as they come near a box: together, all within the box.
 
-        Of the pairs, those that lie in a box of three times the size are given as one.
+        Of the eights, those that lie in a box of three times the size are given as one.
         """
         larger, found = _larger(box), list[Region]()
         todo = [(len(self.levels) - 1, 0)]
         while todo:
             level, at = todo.pop()
-            low, high = at << level, min((at + 1) << level, len(self.first))
+            low, high = at << _KEPT * level, min((at + 1) << _KEPT * level, len(self.first))
             if low >= past or high <= first or not _meet(own := tuple(self.boxes[level][at].tolist()), box):
                 continue
             if level == 0 or (low >= first and high <= past and _holds(larger, own)):
                 found.append(self.levels[level][at])
             else:
-                todo += [(level - 1, one) for one in (2 * at + 1, 2 * at) if one < len(self.levels[level - 1])]
+                past_it = min((at + 1) << _KEPT, len(self.levels[level - 1]))
+                todo += [(level - 1, one) for one in reversed(range(at << _KEPT, past_it))]
         return found
 
 
@@ -120,9 +122,10 @@ def middles(way: WireWay, first: Ints) -> Floats:
 
 
 def _levels(regions: Regions) -> tuple[Regions, ...]:
-    levels = [regions]
-    while len(levels[-1]) > 1:
-        last = levels[-1]
+    levels, last, joined = [regions], regions, 0
+    while len(last) > 1:
         pairs = unions(last[:-1:2], last[1::2])
-        levels.append(np.append(pairs, last[-1:]) if len(last) % 2 else pairs)
+        last, joined = np.append(pairs, last[-1:]) if len(last) % 2 else pairs, joined + 1
+        if joined % _KEPT == 0 or len(last) == 1:
+            levels.append(last)
     return tuple(levels)

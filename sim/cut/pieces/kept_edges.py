@@ -4,7 +4,6 @@ They come from the region that the wire left. A pass whose edge another pass cut
 it beside a tab has one. Of several on the same way it is the last.
 """
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +13,6 @@ from parser.geometry.curves import Bools, Floats, Ints
 from sim.cut.kerf.makers import rows_that_made
 from sim.cut.kerf.region import Kerf
 from sim.cut.pieces.kept_shapes import KeptShape
-from sim.cut.regions import Region
 
 _ON_UM = 0.2  # a region is exact to 0.1 µm, and so is the edge of a block
 _NONE = -1
@@ -56,19 +54,18 @@ class KeptEdges(NamedTuple):
         )
 
 
-def kept_edges(kerf: Kerf, shapes: tuple[KeptShape, ...], nominal: Sequence[Region]) -> KeptEdges:
-    """Edges that are kept, and would be if the wire were on the ideal path, which leaves the `nominal` parts."""
+def kept_edges(kerf: Kerf, shapes: tuple[KeptShape, ...]) -> KeptEdges:
+    """Edges of shapes that are kept."""
     edges, offset_um = kerf.edges, kerf.offset_um
     inner = np.flatnonzero(edges.inner & ~np.isnan(edges.left_um))
     station, side = np.tile(inner, 2), np.repeat(np.array([1, -1]), len(inner))
     out = side[:, None] * edges.left[station]
     reach = np.where(side > 0, edges.left_um[station], edges.right_um[station])
     cut, ideal = edges.place_um[station] + reach[:, None] * out, edges.place_um[station] + offset_um * out
-    shape = _lying_on([one.outline_um.exterior for one in shapes], cut)
+    shape = _rings_at([one.outline_um.exterior for one in shapes], cut)
     kept = KeptEdges(station, edges.row[station], side, shape, cut, ideal).picked(shape != _NONE)
     made = rows_that_made((one.way for one in kerf.swept), kept.cut_um, offset_um)
     kept = kept.picked(made == kept.row)
-    kept = kept.picked(_lying_on(shapely.get_rings(nominal).tolist(), kept.nominal_um) != _NONE)
     return kept.picked(np.lexsort((kept.station, -kept.side, kept.row)))
 
 
@@ -80,7 +77,13 @@ def runs_of(*columns: Ints) -> Ints:
     return np.append(0, np.flatnonzero(np.any(changes, axis=0)) + 1)
 
 
-def _lying_on(rings: list[shapely.LinearRing], place_um: Floats) -> Ints:
+def lie_on(rings: list[shapely.LinearRing], place_um: Floats) -> Bools:
+    """Whether places (m, 2) lie on some of the rings."""
+    on: Bools = _rings_at(rings, place_um) != _NONE
+    return on
+
+
+def _rings_at(rings: list[shapely.LinearRing], place_um: Floats) -> Ints:
     """Indices (m,) of the rings that places (m, 2) lie on; −1 on none."""
     found = np.full(len(place_um), _NONE)
     # The places are in the tree and the rings query it: shapely prepares what queries, here few long rings.

@@ -9,12 +9,11 @@ import shapely
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.toolpath import Point, Toolpath
 from sim.cut.kerf.edges import Edges
-from sim.cut.kerf.nominal import nominal_region
 from sim.cut.kerf.region import Kerf
-from sim.cut.pieces.frees import parted
-from sim.cut.pieces.kept_edges import KeptEdges, kept_edges, runs_of
+from sim.cut.pieces.kept_edges import KeptEdges, kept_edges, lie_on, runs_of
 from sim.cut.pieces.kept_shapes import KeptShape, kept_shapes
 from sim.cut.pieces.pieces import Pieces, stock_of
+from sim.cut.sizes.nominal_parts import NominalParts, nominal_parts
 from sim.cut.sizes.parallels import KeptLines, facing_pairs, kept_lines
 from sim.setup.obstacles import Outline
 
@@ -71,26 +70,25 @@ class Sizes(NamedTuple):
 def sizes_of(toolpath: Toolpath, kerf: Kerf, pieces: Pieces, work_um: Outline | None) -> Sizes:
     """Sizes of parts and openings; what the ideal path would not leave has no nominal size and is left out."""
     shapes = kept_shapes(pieces)
-    parts = parted(stock_of(kerf, work_um), nominal_region(toolpath, ~toolpath.is_jump, kerf.offset_um))
-    kept = kept_edges(kerf, shapes, parts)
+    if not shapes:
+        return Sizes((), (), ())
+    kept = kept_edges(kerf, shapes)
+    nominal = nominal_parts(toolpath, stock_of(kerf, work_um), shapes, kept, kerf.offset_um)
+    kept = kept.picked(lie_on(shapely.get_rings(nominal.parts_um).tolist(), kept.nominal_um))
     return Sizes(
-        tuple(_boxes(shapes, parts)),
+        tuple(_boxes(shapes, nominal)),
         tuple(_radii(toolpath, kerf, kept)),
         tuple(_distances(kept, kept_lines(toolpath, kerf.edges, kept))),
     )
 
 
-def _boxes(shapes: tuple[KeptShape, ...], nominal_parts: list[shapely.Polygon]) -> Iterator[BoxSize]:
-    """Boxes of shapes with a nominal partner: of a part among the parts, of a hole or an opening among their holes."""
-    holes = [shapely.Polygon(ring) for part in nominal_parts for ring in part.interiors]
-    trees = shapely.STRtree(nominal_parts), shapely.STRtree(holes)
-    for what, piece, outline in shapes:
-        tree = trees[0] if what == "part" else trees[1]
-        found = tree.geometries[tree.query(outline.representative_point(), predicate="within")]
-        if len(found):
-            nominal = min(found.tolist(), key=lambda one: one.area)
-            center, cut = _box(outline)
-            yield BoxSize(what, piece, center, cut, _box(nominal)[1])
+def _boxes(shapes: tuple[KeptShape, ...], nominal: NominalParts) -> Iterator[BoxSize]:
+    """Boxes of shapes with a nominal partner."""
+    for shape in shapes:
+        partner = nominal.partner(shape)
+        if partner is not None:
+            center, cut = _box(shape.outline_um)
+            yield BoxSize(shape.what, shape.piece, center, cut, _box(partner)[1])
 
 
 def _box(outline: shapely.Polygon) -> tuple[Point, Point]:

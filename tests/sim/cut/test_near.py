@@ -6,15 +6,18 @@ import numpy as np
 import pytest
 import shapely
 from paths import Pen
-from traced import STEEL, F, kerf_along, pieces_along
+from traced import STEEL, F, kerf_along, pieces_along, trace_of
 
 from parser.toolpath import Toolpath
 from sim.cut.kerf.makers import rows_that_made
+from sim.cut.kerf.nominal import nominal_region
 from sim.cut.kerf.stars import SIMPLER_UM, rays, stars
 from sim.cut.pieces import moments
 from sim.cut.pieces.pieces import pieces_of
 from sim.cut.play import freedom
 from sim.cut.play.freedom import plays_of
+from sim.cut.sizes import nominal_parts
+from sim.cut.sizes.sizes import sizes_of
 
 
 def lattice(lines: int) -> Toolpath:
@@ -67,6 +70,38 @@ def test_pieces_touch_the_walls_near_them_as_among_all_walls(path, monkeypatch):
         grazing = sum(abs(a - b) > 10.0 * within for a, b in zip(*shifts, strict=True) if a != b)
         assert grazing <= 1
         assert one.pinch.width_um == pytest.approx(other.pinch.width_um, abs=within)
+
+
+@pytest.mark.parametrize("path", [lattice(4), flower()], ids=["lattice", "flower"])
+def test_what_is_kept_has_the_sizes_near_it_that_it_has_in_all_of_the_stock(path, monkeypatch):
+    kerf = kerf_along(path, trace_of(path, stray=lambda place, row: place * 1.001))
+    pieces = pieces_of(kerf, None, STEEL)
+    near = sizes_of(path, kerf, pieces, None)
+    monkeypatch.setattr(nominal_parts, "_BESIDE", 1e6)
+    whole = sizes_of(path, kerf, pieces, None)
+    assert len(near.boxes) > 3
+    assert near.radii == whole.radii
+    assert near.distances == whole.distances
+    for one, other in zip(near.boxes, whole.boxes, strict=True):
+        assert one.nominal_um == pytest.approx(other.nominal_um, abs=1e-6)
+
+
+def test_a_part_that_the_ideal_path_leaves_hanging_is_asked_for_in_all_of_the_stock():
+    path = Pen(-1000, 0).to(0, 0).to(2000, 0).to(2000, 2000).to(0, 2000).to(0, 300).path()
+    kerf = kerf_along(path, trace_of(path, stray=lambda place, row: place - (0.0, 150.0) * (row == 4)[:, None]))
+    (box,) = sizes_of(path, kerf, pieces_of(kerf, None, STEEL), None).boxes
+    assert max(box.cut_um) < 1820.0
+    assert min(box.nominal_um) > 2000.0
+
+
+def test_a_slight_turn_leaves_no_notch_in_the_nominal_kerf():
+    for turn in (0.0, 1e-12, 1e-6, -1e-6, 1e-3, 0.05, -0.3):
+        path = Pen(0, 0).to(500, 0).to(500 + 500 * math.cos(turn), 500 * math.sin(turn)).path()
+        kerf = nominal_region(path, ~path.is_jump, F)
+        outer = 2.0 * F * 1000.0 + math.pi * F * F + abs(turn) / 2.0 * F * F - math.tan(abs(turn) / 2.0) * F * F
+        assert kerf.is_valid
+        assert kerf.area == pytest.approx(outer, abs=5.0)
+        assert kerf.length == pytest.approx(2000.0 + 2.0 * math.pi * F, abs=8.0)
 
 
 def test_a_star_reaches_to_the_farthest_disc_along_each_ray():
