@@ -1,14 +1,18 @@
 """Curves in a grid: pieces of them, the box of each, and the cells that it touches."""
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from parser.geometry.cells import cell_keys
 from parser.geometry.curves import Curves, Floats, Ints
 
+Bytes = NDArray[np.uint8]
+
 _WIDEST_RAD = np.pi / 2.0  # of a piece of an arc: its sagitta is 0.29 R, so that its box is not much larger than it
+CORNER: Final = 3
 _CHUNK = 1 << 18  # pairs looked at in one go: some 20 MB
 
 
@@ -26,6 +30,17 @@ class Boxes(NamedTuple):
         """The pieces at the indices `at`, one after the other in memory."""
         floats = (column[at] for column in (self.low_x, self.low_y, self.high_x, self.high_y))
         return Boxes(self.row[at], self.contour[at], *floats)
+
+
+class Entries(NamedTuple):
+    """Pieces (m,) in the cells that they touch: the piece, the key of the cell, and where the cell lies in its box.
+
+    `corner` is 1 in the leftmost cells of the box, 2 in its lowest ones, and `CORNER` in the one that is both.
+    """
+
+    piece: Ints
+    key: Ints
+    corner: Bytes
 
 
 def turn_rad(curves: Curves) -> Floats:
@@ -76,8 +91,8 @@ def _places(curves: Curves, row: Ints, fraction: Floats) -> tuple[Floats, Floats
     return x, y
 
 
-def entered(boxes: Boxes) -> tuple[Ints, Ints]:
-    """Pieces by the cells that they touch, cell after cell, and the key of each entry's cell."""
+def entered(boxes: Boxes) -> Entries:
+    """Pieces by the cells that they touch, cell after cell."""
     left, low = np.floor(boxes.low_x).astype(np.int64), np.floor(boxes.low_y).astype(np.int64)
     wide = np.floor(boxes.high_x).astype(np.int64) - left + 1
     cells = wide * (np.floor(boxes.high_y).astype(np.int64) - low + 1)
@@ -87,7 +102,8 @@ def entered(boxes: Boxes) -> tuple[Ints, Ints]:
     # Two cells of one hash cost time, not truth: the boxes are compared.
     key = cell_keys(left[piece] + right, low[piece] + up, boxes.contour[piece])
     order = np.argsort(key)
-    return piece[order], key[order]
+    corner = (right == 0).astype(np.uint8) | ((up == 0).astype(np.uint8) << 1)
+    return Entries(piece[order], key[order], corner[order])
 
 
 def chunks(total: Ints) -> Iterator[tuple[int, int]]:

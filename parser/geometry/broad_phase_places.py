@@ -57,8 +57,8 @@ def _whole(curves: Curves, cell: float, margin_um: float) -> Boxes:
 
 def _near(curves: Curves, others: Boxes, cell: float, margin_um: float) -> Near:
     boxes = _whole(curves, cell, margin_um)
-    entry, key = entered(boxes)
-    piece, wanted = entered(others)
+    entry, key, _ = entered(boxes)
+    piece, wanted, _ = entered(others)
     first = np.searchsorted(key, wanted, side="left")
     number = np.searchsorted(key, wanted, side="right") - first
     boxes, others, base = boxes.take(entry), others.take(piece), len(curves)

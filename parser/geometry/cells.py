@@ -8,7 +8,7 @@ _FACTORS: Final = (-7046029254386353131, 7809847782465536322, -44172767068125318
 """Mixed bits, signed: 2⁶⁴ over the golden ratio, the upper half of the basis of FNV for 128 bits, a prime of xxHash."""
 
 
-def cell_keys(column: Ints, row: Ints, layer: Ints | int = 0) -> Ints:
+def cell_keys(column: Ints, row: Ints | int, layer: Ints | int = 0) -> Ints:
     """One key (n,) a cell from its column, row and layer (n,) int64; sums wrap round.
 
     Keys of two cells may be the same, if seldom. That costs time, not truth, where what shares a key is compared.

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import CurveKind, Curves, Floats, Ints
+from parser.geometry.curves import Curves, Floats, Ints
 
 
 class Directions(NamedTuple):
@@ -16,19 +16,29 @@ class Directions(NamedTuple):
 
 def directions(curves: Curves) -> Directions:
     """Directions at the ends of all n blocks."""
-    rows = np.arange(len(curves))
-    return Directions(*(headings(curves, rows, np.full(len(rows), share)) for share in (0.0, 1.0)))
+    leaving = _along_chords(curves.end_um - curves.start_um)
+    arriving = leaving.copy()
+    arc = np.flatnonzero(curves.is_arc)
+    leaving[arc] = _across_radii(curves, arc, curves.start_angle_rad[arc])
+    arriving[arc] = _across_radii(curves, arc, curves.start_angle_rad[arc] + curves.sweep_rad[arc])
+    return Directions(leaving, arriving)
 
 
 def headings(curves: Curves, row: Ints, fraction: Floats) -> Floats:
     """Directions (m, 2) in the blocks `row` (m,) at `fraction` (m,) of their length, 0 at the start, 1 at the end."""
-    return _headings(curves, row, curves.start_angle_rad[row] + fraction * curves.sweep_rad[row])
+    heading, arc = _along_lines(curves, row)
+    on = row[arc]
+    heading[arc] = _across_radii(curves, on, curves.start_angle_rad[on] + fraction[arc] * curves.sweep_rad[on])
+    return heading
 
 
 def headings_at(curves: Curves, row: Ints, place_um: Floats) -> Floats:
     """Directions (m, 2) of the blocks `row` (m,) where they pass places (m, 2) that lie on them."""
-    radial = place_um - curves.center_um[row]
-    return _headings(curves, row, np.arctan2(radial[:, 1], radial[:, 0]))
+    heading, arc = _along_lines(curves, row)
+    on = row[arc]
+    radial = place_um[arc] - curves.center_um[on]
+    heading[arc] = _across_radii(curves, on, np.arctan2(radial[:, 1], radial[:, 0]))
+    return heading
 
 
 def to_left(way: Floats) -> Floats:
@@ -36,13 +46,20 @@ def to_left(way: Floats) -> Floats:
     return np.stack([-way[:, 1], way[:, 0]], axis=1)
 
 
-def _headings(curves: Curves, row: Ints, angle_rad: Floats) -> Floats:
-    """Directions of lines along their chord, of arcs across the radius at an angle from the centre."""
+def _along_lines(curves: Curves, row: Ints) -> tuple[Floats, Ints]:
+    """Directions (m, 2) along the chords of rows (m,), and which of these are arcs, which run across their radii."""
     by = curves.end_um.take(row, axis=0) - curves.start_um.take(row, axis=0)
-    length = np.hypot(by[:, 0], by[:, 1])
-    heading: Floats = by / np.where(length > 0.0, length, 1.0)[:, None]
-    arc = np.flatnonzero(curves.kind[row] == CurveKind.ARC)
-    if len(arc):
-        angle, turn = angle_rad[arc], np.sign(curves.sweep_rad[row[arc]])
-        heading[arc] = np.stack([-np.sin(angle) * turn, np.cos(angle) * turn], axis=1)
+    return _along_chords(by), np.flatnonzero(curves.is_arc[row])
+
+
+def _along_chords(by_um: Floats) -> Floats:
+    """Directions (m, 2) along ways (m, 2)."""
+    length = np.hypot(by_um[:, 0], by_um[:, 1])
+    heading: Floats = by_um / np.where(length > 0.0, length, 1.0)[:, None]
     return heading
+
+
+def _across_radii(curves: Curves, arc: Ints, angle_rad: Floats) -> Floats:
+    """Directions (m, 2) in which the arcs `arc` (m,) pass places at angles (m,) from their centres."""
+    turn = np.sign(curves.sweep_rad[arc])
+    return np.stack([-np.sin(angle_rad) * turn, np.cos(angle_rad) * turn], axis=1)

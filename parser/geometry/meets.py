@@ -5,7 +5,6 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.geometry.directions import to_left
 
 
 class Prolonged(NamedTuple):
@@ -44,7 +43,7 @@ class Meets(NamedTuple):
 
     def take(self, at: Ints) -> "Meets":
         """Those at the indices `at`."""
-        return Meets(self.early[at], self.late[at], self.place_um[at])
+        return Meets(self.early[at], self.late[at], self.place_um.take(at, axis=0))
 
 
 def curves_meet(curves: Curves, early: Ints, late: Ints, clear_um: float) -> Meets:
@@ -91,31 +90,40 @@ def _lines(curves: Curves, early: Ints, late: Ints) -> tuple[Floats, Floats]:
 def _line_and_arc(curves: Curves, early: Ints, late: Ints) -> tuple[Floats, Floats]:
     early_is_arc = curves.is_arc[early]
     line, arc = np.where(early_is_arc, late, early), np.where(early_is_arc, early, late)
-    by = np.stack(by_xy(curves, line), axis=1)
-    length = np.hypot(by[:, 0], by[:, 1])
-    way = by / np.where(length > 0.0, length, np.nan)[:, None]
-    to_center = curves.center_um[arc] - curves.start_um[line]
+    by_x, by_y = by_xy(curves, line)
+    length = np.hypot(by_x, by_y)
+    length[length == 0.0] = np.nan
+    way_x, way_y = by_x / length, by_y / length
+    x, y = curves.start_um[:, 0][line], curves.start_um[:, 1][line]
+    to_x, to_y = curves.center_um[:, 0][arc] - x, curves.center_um[:, 1][arc] - y
     radius = curves.radius_um[arc]
-    off = np.abs(way[:, 0] * to_center[:, 1] - way[:, 1] * to_center[:, 0])
-    foot = curves.start_um[line] + way * (way * to_center).sum(axis=1)[:, None]
-    return _both(foot, way, (radius - off) * (radius + off)), radius - off
+    off = np.abs(way_x * to_y - way_y * to_x)
+    along = way_x * to_x + way_y * to_y
+    foot = x + way_x * along, y + way_y * along
+    return _both(foot, (way_x, way_y), (radius - off) * (radius + off)), radius - off
 
 
 def _arcs(curves: Curves, early: Ints, late: Ints) -> tuple[Floats, Floats]:
     # Seen from the centre of the smaller circle, rounding moves the places least.
     early_is_small = curves.radius_um[early] <= curves.radius_um[late]
     small, large = np.where(early_is_small, early, late), np.where(early_is_small, late, early)
-    by = curves.center_um[large] - curves.center_um[small]
-    between = np.hypot(by[:, 0], by[:, 1])
+    x, y = curves.center_um[:, 0][small], curves.center_um[:, 1][small]
+    by_x, by_y = curves.center_um[:, 0][large] - x, curves.center_um[:, 1][large] - y
+    between = np.hypot(by_x, by_y)
     a, b = curves.radius_um[small], curves.radius_um[large]
     apart = np.where(between > 0.0, between, np.nan)
-    way = by / apart[:, None]
+    way_x, way_y = by_x / apart, by_y / apart
     along = 0.5 * (between + (a - b) * (a + b) / apart)
-    place = _both(curves.center_um[small] + way * along[:, None], to_left(way), (a - along) * (a + along))
+    middle = x + way_x * along, y + way_y * along
+    place = _both(middle, (-way_y, way_x), (a - along) * (a + along))
     return place, np.minimum(a + b - between, between - np.abs(a - b))
 
 
-def _both(middle: Floats, way: Floats, square: Floats) -> Floats:
+def _both(middle: tuple[Floats, Floats], way: tuple[Floats, Floats], square: Floats) -> Floats:
     """Places (k, 2, 2) on both sides of a middle, √square along a way; NaN where the square is negative."""
-    half = way * np.sqrt(np.where(square >= 0.0, square, np.nan))[:, None]
-    return np.stack([middle - half, middle + half], axis=1)
+    half = np.sqrt(np.where(square >= 0.0, square, np.nan))
+    places = np.empty((len(half), 2, 2))
+    for axis in (0, 1):
+        by = way[axis] * half
+        places[:, 0, axis], places[:, 1, axis] = middle[axis] - by, middle[axis] + by
+    return places

@@ -112,7 +112,8 @@ def _returns(toolpath: Toolpath, before: Ints, last: int, arriving: Floats, tole
     if not len(before):
         return False
     off, _ = distance_to_curves(toolpath, before, np.full(len(before), end[0]), np.full(len(before), end[1]))
-    along = headings_at(toolpath, before[off <= tolerance_um], end)
+    before = before[off <= tolerance_um]
+    along = headings_at(toolpath, before, np.broadcast_to(end, (len(before), 2)))
     return bool((along @ arriving > _SAME_WAY).any())
 
 

@@ -111,9 +111,11 @@ def _may_pass(toolpath: Toolpath, row: Ints, place_um: Floats, within_um: Floats
 
 def is_circle(curves: Curves) -> NDArray[np.bool_]:
     """(n,) True on arcs of a full turn or more, and on those that J leaves a few µm short of it."""
-    chord = np.hypot(*(curves.end_um - curves.start_um).T)
     turn = np.abs(curves.sweep_rad)
-    circle: NDArray[np.bool_] = (turn >= 2.0 * np.pi) | ((turn > np.pi) & (chord <= CLOSED_WITHIN_UM))
+    circle: NDArray[np.bool_] = turn >= 2.0 * np.pi
+    large = np.flatnonzero(turn > np.pi)
+    chord = np.hypot(*(curves.end_um[large] - curves.start_um[large]).T)
+    circle[large] |= chord <= CLOSED_WITHIN_UM
     return circle
 
 

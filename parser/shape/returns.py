@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from parser.geometry.cells import cell_keys
 from parser.geometry.curves import Ints
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
@@ -39,7 +40,8 @@ def latest_return(toolpath: Toolpath, contour: Ints) -> Ints:
     for shift in np.ndindex(2, 2):
         cells = np.floor(corner / (2.0 * CLOSED_WITHIN_UM) + np.array(shift) / 2.0).astype(np.int64)
         key = cells[:, 0] * _CELLS + cells[:, 1]
-        order = np.argsort(key, kind="stable")
+        shared = _may_share(key)
+        order = shared[np.argsort(key[shared], kind="stable")]
         before = np.append(-1, order[:-1])
         # The corner before one in its cell may be the start of the same row; then it is the one before that.
         before = np.where(before == order - 1, np.append([-1, -1], order[:-2])[: len(order)], before)
@@ -50,3 +52,10 @@ def latest_return(toolpath: Toolpath, contour: Ints) -> Ints:
         hit &= np.hypot(gap[:, 0], gap[:, 1]) <= CLOSED_WITHIN_UM
         back[row[hit]] = np.maximum(back[row[hit]], earlier[hit])
     return back
+
+
+def _may_share(key: Ints) -> Ints:
+    """Which of the keys (m,) may occur more than once, in order: the others need not be sorted."""
+    bits = len(key).bit_length() + 1
+    tally = cell_keys(key, 0) >> (63 - bits) & ((1 << bits) - 1)  # the upper bits are mixed best
+    return np.flatnonzero(np.bincount(tally)[tally] > 1)

@@ -19,6 +19,7 @@ _CUSP_RAD = np.radians(178.0)
 _LEAST_CUSP_RAD = np.radians(172.0)
 _ROUNDING_UM = 3.0  # by which ends and centres in whole µm tilt the tangents of short blocks
 _NO_WORSE_RAD = np.radians(85.0)
+_LEAST_FORWARD = 0.09  # cosine of a break that is smaller than that: of these the angle is not worked out
 _SAME_CIRCLE_UM = 10.0
 # Of circles cut there and back, at most: whole µm may miss as much where the counted axis stands still.
 _SLACK_UM, _SLACK_RAD = 20.0, 0.1
@@ -57,7 +58,15 @@ class _Chain(NamedTuple):
 
 
 class _Joints(NamedTuple):
-    """Joints (m,) of blocks: the break rad; whether it is a cusp; whether the path runs back there the way it came."""
+    """Joints (m,) of blocks.
+
+    Attributes
+    ----------
+    break_rad
+        By how much the direction breaks; 0 where it breaks less than `_NO_WORSE_RAD`, which nobody asks for.
+    is_cusp, retraces
+        Whether it is a cusp, and whether the path runs back there the way it came.
+    """
 
     break_rad: Floats
     is_cusp: Bools
@@ -155,15 +164,24 @@ def _suspects(toolpath: Toolpath, chain: _Chain, ways: Directions) -> Ints:
 
 def _joints(toolpath: Toolpath, one: Ints, other: Ints, ways: Directions) -> _Joints:
     """Joints from the rows `one` (m,) to the rows `other` (m,)."""
-    arriving, leaving = ways.arriving[one], ways.leaving[other]
-    cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
-    break_rad = np.arctan2(np.abs(cross), (arriving * leaving).sum(axis=1))
-    # A circle's tangent is as uncertain as its centre; that of a line as its ends.
-    scale = np.fmin(toolpath.radius_um, toolpath.length_um)
-    tilt = _ROUNDING_UM / np.minimum(scale[one], scale[other])
-    is_cusp = break_rad >= np.maximum(_CUSP_RAD - tilt, _LEAST_CUSP_RAD)
+    arriving, leaving = ways.arriving.take(one, axis=0), ways.leaving.take(other, axis=0)
+    forward = arriving[:, 0] * leaving[:, 0] + arriving[:, 1] * leaving[:, 1]
+    break_rad = np.zeros(len(one))
+    wide = np.flatnonzero(forward < _LEAST_FORWARD)
+    cross = arriving[wide, 0] * leaving[wide, 1] - arriving[wide, 1] * leaving[wide, 0]
+    break_rad[wide] = np.arctan2(np.abs(cross), forward[wide])
+    is_cusp, retraces = np.zeros(len(one), dtype=np.bool_), np.zeros(len(one), dtype=np.bool_)
+    back = np.flatnonzero(break_rad >= _LEAST_CUSP_RAD)
+    one, other = one[back], other[back]
+    is_cusp[back] = break_rad[back] >= _CUSP_RAD - _tilt_rad(toolpath, one, other)
     off = toolpath.center_um[one] - toolpath.center_um[other]
     larger = np.abs(toolpath.radius_um[one] - toolpath.radius_um[other])
     same_circle = (np.hypot(off[:, 0], off[:, 1]) <= _SAME_CIRCLE_UM) & (larger <= _SAME_CIRCLE_UM)
-    lines = ~toolpath.is_arc[one] & ~toolpath.is_arc[other]
-    return _Joints(break_rad, is_cusp, (break_rad >= _LEAST_CUSP_RAD) & (same_circle | lines))
+    retraces[back] = same_circle | (~toolpath.is_arc[one] & ~toolpath.is_arc[other])
+    return _Joints(break_rad, is_cusp, retraces)
+
+
+def _tilt_rad(toolpath: Toolpath, one: Ints, other: Ints) -> Floats:
+    """Tilt of joints (m,) by rounding. A circle's tangent is as uncertain as its centre; a line's as its ends."""
+    scale = (np.fmin(toolpath.radius_um[row], toolpath.length_um[row]) for row in (one, other))
+    return _ROUNDING_UM / np.minimum(*scale)
