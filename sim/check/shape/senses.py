@@ -81,7 +81,8 @@ def reversed_arcs(toolpath: Toolpath, contour_of_row: Ints) -> ReversedArcs:
         row = _suspects(toolpath, chain, ways)
         if len(row):
             # A loop's last block goes over into its first one, not into the lead-out.
-            chain = _with_loops(toolpath, chain, contour_of_row, np.unique(contour_of_row[row]))
+            wanted = np.flatnonzero(np.bincount(contour_of_row[row]))
+            chain = _with_loops(toolpath, chain, contour_of_row, wanted)
             row = _suspects(toolpath, chain, ways)
     sweep = toolpath.sweep_rad[row]
     return ReversedArcs(row, toolpath.is_major[row], sweep, sweep - 2.0 * np.pi * np.sign(sweep))
