@@ -94,7 +94,7 @@ def _directives(program: Program) -> Iterator[Asked | Finding]:
         return
     named = np.array([match.start() for match in _NAMED.finditer(text)], dtype=np.int64)
     at = np.searchsorted(remarks[:, 0], named, side="right") - 1
-    rows = np.unique(at[(at >= 0) & (named < remarks[at, 1])])
+    rows = np.flatnonzero(np.bincount(at[(at >= 0) & (named < remarks[at, 1])]))
     inked = program.lines.inked_lines(remarks)
     for first, past in remarks[rows].tolist():
         begin = _BEGIN.match(text, first, past)
