@@ -65,7 +65,8 @@ class LineIndex:
         np.add.at(covers, without[:, 0], 1)
         np.add.at(covers, without[:, 1], -1)
         bare = np.cumsum(covers[:-1]) == 0
-        return np.unique(self.lines(np.flatnonzero(bare & (np.diff(self._ink) > 0))))
+        line = self.lines(np.flatnonzero(bare & (np.diff(self._ink) > 0)))
+        return line[np.diff(line, prepend=-1) > 0]
 
     def finding(self, code: str, span: tuple[int, int], block: int = 0, **values: Value) -> Finding:
         """Finding at a span of characters, in a block (from 1; 0 in none)."""

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from checking import SOUND, WRONG_AXIS, drycut
+from places import SCENARIOS
 
 from parser.findings.catalogue import page
 from parser.findings.codes import CODES
@@ -221,10 +222,10 @@ def test_check_needs_no_engine_and_no_pictures(part: Path) -> None:
     script = (
         "import sys; from sim.cli import cli\n"
         "heavy = {'pymunk', 'numba', 'pygame', 'PIL', 'rich', 'numpy.ma', 'multiprocessing'}\n"
-        "try: cli.main(['check', sys.argv[1]], standalone_mode=False)\n"
+        "try: cli.main(['check', *sys.argv[1:]], standalone_mode=False)\n"
         "finally: print(sorted(heavy & set(sys.modules)))"
     )
-    command = [sys.executable, "-c", script, str(part)]
+    command = [sys.executable, "-c", script, str(part), str(SCENARIOS / "keyhole")]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
     assert done.stdout.splitlines()[-1] == "[]"
 
