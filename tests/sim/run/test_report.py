@@ -36,7 +36,8 @@ def report() -> dict:
 
 def test_head_of_the_report(report: dict) -> None:
     assert report["schema"] == "drycut.report/1"
-    assert report["machine"] == {"name": "DK7740 class, stepper drives", "start_um": [100_100.0, 64_100.0]}
+    machine = {"name": "DK7740 class, stepper drives", "engine": "compiled", "start_um": [100_100.0, 64_100.0]}
+    assert report["machine"] == machine
     assert report["wire"] == {"diameter_um": 180.0, "spark_gap_um": 10.0, "kerf_um": 200.0, "lag_um": 0.0}
     assert report["work"] == {"thickness_mm": 40.0, "density_g_cm3": 7.85}
     half_turn = math.pi * 2000.0
