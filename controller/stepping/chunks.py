@@ -3,7 +3,6 @@
 Where a stroke is entered in its middle, its closed form tells how far it is; from there on F leads, in a compiled loop.
 """
 
-from collections.abc import Iterator
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -71,11 +70,6 @@ def chunk_of(steps: Steps, since: int, until: int) -> StepChunk:
         lead, radius = (np.repeat(column, taken[strokes.is_arc]) for column in lengths_of_arcs(turned))
         along[arc] = lead + radius * np.arctan2(along[arc], toward[arc])
     return StepChunk(x, y, row, along)
-
-
-def chunks_of(steps: Steps, size: int = CHUNK_STEPS) -> Iterator[StepChunk]:
-    """All steps in stretches of `size`; the last may be shorter."""
-    return (chunk_of(steps, since, min(since + size, len(steps))) for since in range(0, len(steps), size))
 
 
 def _begun(strokes: Strokes, made: Ints, taken: Ints) -> Ints:

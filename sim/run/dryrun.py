@@ -31,7 +31,7 @@ from sim.run.prepare import prepare
 from sim.setup.expectations import Missed
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
-from sim.table.motion import Motion, Progress, silent, simulate
+from sim.table.motion import Motion, Moved, Progress, silent, simulate
 from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
@@ -181,10 +181,9 @@ def dry_run(
     cut = _cut(trace, ended)
     passes, border_s = find_passes(toolpath), _borders(plan, ready.steps.along_um)
     time_s = _times_within(border_s, ended.t_s if ended else plan.duration_s)
-    way, reach_um = wire_taken(toolpath, plan, cut), scenario.wire.reach_um
+    way = wire_taken(toolpath, plan, cut)
     left = left_of(program, cut, contours, scenario, drawing, progress)
-    lost = loss_findings(program, moved.losses, scenario.machine.table.motor)
-    met = [*obstacle_findings(program, trace, contours, scenario), *missed_work_findings(program, trace, scenario)]
+    met = _met(program, scenario, moved, trace, contours)
     return DryRun(
         program=program,
         scenario=scenario,
@@ -200,14 +199,25 @@ def dry_run(
         deviations=meters.deviations(cut),
         contours=contours,
         passes=passes,
-        pass_figures=figures_of_passes(toolpath, passes, time_s, way, reach_um),
+        pass_figures=figures_of_passes(toolpath, passes, time_s, way, scenario.wire.reach_um),
         border_s=border_s,
         remains=left.remains,
         comparison=left.comparison,
-        findings=tuple(sorted([*ready.findings, *met, *lost, *left.findings], key=file_order)),
+        findings=tuple(sorted([*ready.findings, *met, *left.findings], key=file_order)),
         checked=ready.findings,
         coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
+
+
+def _met(
+    program: Program, scenario: Scenario, moved: Moved, trace: Trace, contours: tuple[Contour, ...]
+) -> list[Finding]:
+    """Findings on what table and wire met on their way, and on what the drives lost."""
+    return [
+        *obstacle_findings(program, trace, contours, scenario),
+        *missed_work_findings(program, trace, scenario),
+        *loss_findings(program, moved.losses, scenario.machine.table.motor),
+    ]
 
 
 def _handed_to(meters: Meters, sink: PulseSink | None, motion: Motion) -> Callable[[Pulses], None]:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapely
 import sound_offset
+from chunked import chunks_of
 from drawings import Line
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -19,7 +20,6 @@ from controller.offset.compensate import compensate
 from controller.offset.passes import PassedPath, in_passes
 from controller.offset.path import Made, OffsetPath, offset_toolpath
 from controller.offset.sections import OffsetSection, Side
-from controller.stepping.chunks import chunks_of
 from controller.stepping.words import interpolate
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.distance import distance_to_curves

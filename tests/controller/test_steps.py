@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from chunked import chunks_of
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from long_steps import SEED, run
@@ -9,7 +10,7 @@ from places import SCENARIOS
 from plain import PlainBlock, plain_steps
 from strategies import arcs, blocks, lines, program_text, programs
 
-from controller.stepping.chunks import chunk_of, chunks_of
+from controller.stepping.chunks import chunk_of
 from controller.stepping.quadrants import ceil_sqrt
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate

@@ -12,12 +12,12 @@ import numpy as np
 import page_checks
 import pytest
 from browser import OpenPage
+from chunked import chunks_of
 from golden_pictures import assert_golden_screen
 from PIL import Image
 from replayed import exports, recording_of
 from runs import plain_scenario, scenario_recording
 
-from controller.stepping.chunks import chunks_of
 from controller.stepping.pulses import Pulses, time_steps
 from parser.findings.catalogue import Said
 from parser.program import parse_program

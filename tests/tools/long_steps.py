@@ -10,10 +10,10 @@ import sys
 import time
 
 import numpy as np
+from chunked import chunks_of
 from plain import PlainBlock, plain_steps
 from strategies import program_text
 
-from controller.stepping.chunks import chunks_of
 from controller.stepping.words import interpolate
 from parser.program import parse_program
 

@@ -14,9 +14,7 @@ import shapely
 from sim.cut.kerf.swept import Box, Swept
 from sim.cut.pieces.frees import Closing, FreeMoment, FreeQuestion, closing_of, question_of
 
-_BESIDE = (
-    4.0  # offsets from a part to the border of its box: the kerf beside it, and something of what lies behind that
-)
+_BESIDE = 4.0  # offsets from a part to the border of its box: the kerf beside it, and something of what lies behind
 
 
 class Cutting(NamedTuple):

@@ -24,7 +24,8 @@ class Values(NamedTuple):
     force: float
 
 
-QUANTITIES = len(Values._fields)
+VALUES = len(Values._fields)
+"""Quantities in each bin."""
 
 
 class Bins(NamedTuple):
@@ -35,7 +36,7 @@ class Bins(NamedTuple):
     border_s
         (b + 1,), their borders.
     low, high, area
-        (b * QUANTITIES,), lowest and highest of each quantity in each bin, and its integral over time.
+        (b * VALUES,), lowest and highest of each quantity in each bin, and its integral over time.
     """
 
     border_s: Floats
@@ -55,7 +56,7 @@ def _widened(bins: Bins, at: int, value: float, length_s: float) -> None:
 @compiled("(Bins, i8, f8, Values)", Bins, Values)
 def _taken(bins: Bins, number: int, length_s: float, values: Values) -> None:
     """Take values into a bin."""
-    at = number * QUANTITIES
+    at = number * VALUES
     _widened(bins, at, values.velocity, length_s)
     _widened(bins, at + 1, values.acceleration, length_s)
     _widened(bins, at + 2, values.lag_um, length_s)

@@ -11,7 +11,7 @@ import numpy as np
 
 from parser.geometry.curves import Floats
 from sim.table.physics.drive import Drive
-from sim.table.record.bins import Envelope, Values
+from sim.table.record.bins import VALUES, Envelope
 from sim.table.record.gather import Record
 from sim.table.when.ticks import Ticks
 from sim.units import newtons
@@ -22,7 +22,7 @@ LEAST_BINS: Final = 100
 SAMPLES_A_BIN: Final = 2
 """Samples of the trace in a bin, where a run has too few for `BINS`: between two samples the slide may only creep."""
 QUANTITIES: Final = ("velocity_um_s", "acceleration_um_s2", "lag_um", "following_error_um", "force_n")
-"""What is kept, in the order of `Values`."""
+"""What is kept, in the order of `sim.table.record.bins.Values`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,7 +65,7 @@ def history_of(records: tuple[Record, Record], drives: tuple[Drive, Drive], unti
     envelopes = {}
     for number, name in enumerate(QUANTITIES):
         low, high, area = (
-            np.stack([column.reshape(-1, len(Values._fields))[:bins, number] for column in columns], axis=1)
+            np.stack([column.reshape(-1, VALUES)[:bins, number] for column in columns], axis=1)
             for columns in zip(*(one.bins[1:] for one in records), strict=True)
         )
         envelope = Envelope(low, high, area / np.diff(t_s)[:, None])

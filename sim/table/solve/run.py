@@ -12,7 +12,7 @@ from sim.table.physics.drive import drives_of
 from sim.table.physics.rating import RATE_WINDOW_S, Rating, rated, strength_of
 from sim.table.physics.state import resting
 from sim.table.physics.turning import Train, Turn
-from sim.table.record.bins import QUANTITIES, Bins
+from sim.table.record.bins import VALUES, Bins
 from sim.table.record.gather import PEAKS, Record
 from sim.table.record.history import borders_s
 from sim.table.record.losses import Slip
@@ -102,16 +102,19 @@ class AxisRun:
             self._state = recorded(self.axis, asked, self._state, waited(self._state, until_s), self.record)
 
     def copy(self) -> "AxisRun":
-        """The same, to go on by itself."""
-        other = copy.copy(self)
-        other.record = Record(Bins(*map(np.copy, self.record.bins)), *map(np.copy, self.record[1:]))
+        """The same, to go on from here by itself later on.
+
+        Both write their samples and slips into one place: who goes on later writes over what the other one wrote.
+        """
+        other, record = copy.copy(self), self.record
+        other.record = record._replace(bins=Bins(*map(np.copy, record.bins)), peaks=record.peaks.copy())
         return other
 
 
 def _record_of(ticks: Ticks, place_um: float) -> Record:
     """The record of a run that has not begun, from a place on."""
     border_s = borders_s(ticks)
-    cells, peak = (len(border_s) - 1) * QUANTITIES, [-1.0, 0.0, 0.0, 0.0, place_um]
+    cells, peak = (len(border_s) - 1) * VALUES, [-1.0, 0.0, 0.0, 0.0, place_um]
     return Record(
         bins=Bins(border_s, np.full(cells, np.inf), np.full(cells, -np.inf), np.zeros(cells)),
         peaks=np.array(PEAKS * peak),
