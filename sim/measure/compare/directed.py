@@ -10,8 +10,8 @@ import numpy as np
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints
 from sim.measure.compare.nearest import Index, nearest
-from sim.measure.compare.shape_rows import shape_rows
 from sim.measure.compare.stretch_loop import bounds
+from sim.measure.curve_rows import curve_rows
 
 _RIGHT_TO_UM = 0.01
 _ROUNDING_DIGITS = 6  # of µm: what lies below is rounding
@@ -78,7 +78,7 @@ def directed(curves: Curves, index: Index) -> Directed:
         *(found.distance_um[at], found.distance_um[at + 1]),
         *(found.row[at], found.row[at + 1]),
     )
-    own, squares = shape_rows(curves), 0.0
+    own, squares = curve_rows(curves), 0.0
     while len(open_.row):
         bound = np.empty(len(open_.row))
         bounds(own, index.shape, (*open_,), bound)

@@ -9,7 +9,7 @@ from parser.findings.errors import DrawingError
 from parser.geometry.curves import Curves, Floats, Ints
 from sim.measure.compare.box_tree import BoxTree, box_tree
 from sim.measure.compare.nearest_loop import TOO_MANY, search
-from sim.measure.compare.shape_rows import shape_rows
+from sim.measure.curve_rows import curve_rows
 
 MOST_HELD = 300_000_000
 """Curves, or pieces of long ones, that all places asked of one index are held against: some seconds. 50,000 curves laid
@@ -53,7 +53,7 @@ class Nearest(NamedTuple):
 
 def indexed(curves: Curves) -> Index:
     """The curves, one or more, with the tree over them."""
-    return Index(curves, box_tree(curves), shape_rows(curves), Effort())
+    return Index(curves, box_tree(curves), curve_rows(curves), Effort())
 
 
 def nearest(index: Index, place_um: Floats) -> Nearest:

@@ -7,7 +7,7 @@ import numpy as np
 from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats, Ints
 from sim.measure.compare.box_tree import PIECES_OF_LEAF
-from sim.measure.compare.shape_rows import distance_from
+from sim.measure.curve_rows import distance_from
 
 TOO_MANY: Final = -1
 """In place of how many curves were looked at: more than may be."""

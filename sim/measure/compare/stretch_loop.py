@@ -10,7 +10,7 @@ import math
 
 from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats, Ints
-from sim.measure.compare.shape_rows import IS_ARC, LENGTH, RADIUS, angle_at, distance_from, foot_angle, place_at
+from sim.measure.curve_rows import IS_ARC, LENGTH, RADIUS, angle_at, distance_from, foot_angle, place_at
 
 _FULL_TURN_RAD = 2.0 * math.pi
 

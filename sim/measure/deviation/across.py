@@ -18,7 +18,7 @@ from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats, Ints
 from parser.geometry.feet import feet
 from parser.toolpath import Toolpath
-from sim.measure.deviation.away import away_from_block, blocks_of, side_of_block
+from sim.measure.curve_rows import away_from, curve_rows, side_of
 from sim.measure.deviation.deviation import Deviation, Where
 from sim.table.trace import Trace
 
@@ -66,7 +66,7 @@ def _nearer(  # noqa: PLR0913, PLR0917 - a compiled loop hands over numbers one 
 ) -> tuple[int, float]:
     """Another block and its distance from a place, where it is nearer than the best so far; else that one."""
     if 0 <= row < len(blocks):
-        there, _ = away_from_block(blocks, row, x, y)
+        there, _ = away_from(blocks[row], x, y)
         if there < away - _NEARER_UM:
             return row, there
     return best, away
@@ -78,12 +78,12 @@ def _nearest(blocks: Floats, row: Ints, earliest: Ints, x: Floats, y: Floats) ->
     nearest, off = np.empty_like(row), np.empty_like(x)
     for i in range(len(row)):
         best = row[i]
-        away, beyond = away_from_block(blocks, best, x[i], y[i])
+        away, beyond = away_from(blocks[best], x[i], y[i])
         if beyond != 0:
             best, away = _nearer(blocks, row[i] + beyond, x[i], y[i], best, away)
         for trailing in range(row[i] - 1, earliest[i] - 1, -1):
             best, away = _nearer(blocks, trailing, x[i], y[i], best, away)
-        nearest[i], off[i] = best, away * side_of_block(blocks, best, x[i], y[i])
+        nearest[i], off[i] = best, away * side_of(blocks[best], x[i], y[i])
     return nearest, off
 
 
@@ -91,7 +91,7 @@ def _measured(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floa
     """Rows (m,) that places are measured from, and the distances (m,), left positive."""
     row = trace.row.astype(np.int64)
     x, y = (place_um[:, axis].astype(np.float64) for axis in (0, 1))
-    return _nearest(blocks_of(toolpath), row, _earliest(toolpath, trace, place_um, along_um), x, y)
+    return _nearest(curve_rows(toolpath), row, _earliest(toolpath, trace, place_um, along_um), x, y)
 
 
 def _earliest(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floats) -> Ints:

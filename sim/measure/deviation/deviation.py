@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Toolpath
-from sim.measure.deviation.away import away_from_path, blocks_of
+from sim.measure.curve_rows import away_from, curve_rows
 
 _BINS_PER_E = 1000.0
 _SMALLEST_UM = 1e-6
@@ -52,6 +52,16 @@ class Deviation(NamedTuple):
     p95_um: float
     where: Where | None
     by_row_um: Floats
+
+
+@compiled("f8(f8[:, ::1], i8, f8, f8)")
+def away_from_path(blocks: Floats, row: int, x: float, y: float) -> float:
+    """Distance µm of a place that belongs to a block; past an end the neighbour there counts where it is nearer."""
+    away, beyond = away_from(blocks[row], x, y)
+    neighbour = row + beyond
+    if beyond != 0 and 0 <= neighbour < len(blocks):
+        return min(away, away_from(blocks[neighbour], x, y)[0])
+    return away
 
 
 @compiled("Tuple((f8, i8, f8, i8))(f8[:, ::1], f8[:, ::1], f8[::1], i4[::1], f8[::1], f8[::1], f8[::1], i8[::1])")
@@ -98,7 +108,7 @@ class DeviationMeter:
     """
 
     def __init__(self, toolpath: Toolpath, drift_um: Floats | float = 0.0) -> None:
-        self._blocks, self._drift = blocks_of(toolpath), np.empty((len(toolpath), 2))
+        self._blocks, self._drift = curve_rows(toolpath), np.empty((len(toolpath), 2))
         self._drift[:] = drift_um
         self._by_row = np.full(len(toolpath), np.nan)
         self._square, self._number, self._max = 0.0, 0, -1.0

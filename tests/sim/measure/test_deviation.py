@@ -12,8 +12,8 @@ from strategies import program_text, programs
 from parser.geometry.curves import CurveKind
 from parser.program import parse_program
 from parser.toolpath import Block, Toolpath
-from sim.measure.deviation.away import away_from_path, blocks_of
-from sim.measure.deviation.deviation import DeviationMeter
+from sim.measure.curve_rows import curve_rows
+from sim.measure.deviation.deviation import DeviationMeter, away_from_path
 
 SPOTS = 4001
 
@@ -39,7 +39,7 @@ def test_distance_lies_between_nearest_neighbour_and_own_block(program: list, da
     row = data.draw(st.integers(0, len(toolpath) - 1))
     x, y = data.draw(st.floats(-600, 600)), data.draw(st.floats(-600, 600))
     x, y = x + toolpath.start_um[row, 0], y + toolpath.start_um[row, 1]
-    found = away_from_path(blocks_of(toolpath), row, x, y)
+    found = away_from_path(curve_rows(toolpath), row, x, y)
     spacing = float(toolpath.length_um.max()) / SPOTS
     assert found >= nearest(toolpath, {row - 1, row, row + 1}, (x, y)) - spacing
     assert found <= nearest(toolpath, {row}, (x, y)) + 1e-6
@@ -64,7 +64,7 @@ HALF = parse_program("B0B50B100GXSR1 DD").toolpath  # from (0, 50) of its centre
     ],
 )
 def test_distance_in_plain_cases(toolpath: Toolpath, row: int, place: tuple[float, float], expected: float) -> None:
-    assert away_from_path(blocks_of(toolpath), row, *place) == pytest.approx(expected)
+    assert away_from_path(curve_rows(toolpath), row, *place) == pytest.approx(expected)
 
 
 @settings(max_examples=50)
@@ -95,7 +95,7 @@ def test_past_the_end_of_an_arc_the_next_block_counts() -> None:
     # A quarter turn from (0, 0) to (100, 100), then straight up.
     toolpath = parse_program("B0B100B100GYNR4 B0B50B50GYL2 DD").toolpath
     assert toolpath.end_um[0] == pytest.approx([100.0, 100.0])
-    blocks = blocks_of(toolpath)
+    blocks = curve_rows(toolpath)
     assert away_from_path(blocks, 0, 103.0, 120.0) == pytest.approx(3.0)
     assert away_from_path(blocks, 1, 98.0, 99.0) == pytest.approx(abs(math.hypot(98.0, 1.0) - 100.0))
 
