@@ -12,7 +12,6 @@ from sim.setup.machine.machine import TableEngine
 from sim.setup.machine.table_model import TableModel
 from sim.table.physics.bodies import Bodies
 from sim.table.physics.drive import drives_of
-from sim.table.physics.motor import GRACE_S
 from sim.table.record.history import History, history_of
 from sim.table.record.losses import Loss, Slip, SlipTally, in_order, trip_loss
 from sim.table.record.peaks import Peak, peaks_of
@@ -21,6 +20,9 @@ from sim.table.solve.run import AxisRun, Engine, axis_of
 from sim.table.solve.tick import followed
 from sim.table.trace import Trace
 from sim.table.when.ticks import Ticks
+
+_GRACE_S = 1e-9
+"""A pulse due at a time counts as out at that time, whichever way its time was rounded."""
 
 
 class Setup(NamedTuple):
@@ -145,8 +147,8 @@ class Following:
     def _sample(self, t_s: Floats, places_um: Ints) -> None:
         """Note what is commanded at the samples before the last of some pulses, whose places are (n + 1, 2)."""
         sample_s = self._ticks.t_s
-        until = int(np.searchsorted(sample_s, t_s[-1] - GRACE_S))
-        pulse = np.searchsorted(t_s, sample_s[self._commanded : until] + GRACE_S, side="right")
+        until = int(np.searchsorted(sample_s, t_s[-1] - _GRACE_S))
+        pulse = np.searchsorted(t_s, sample_s[self._commanded : until] + _GRACE_S, side="right")
         self._commanded_um[self._commanded : until] = places_um[pulse]
         self._commanded = max(until, self._commanded)
 

@@ -17,7 +17,7 @@ from sim.run.ballbar.turn import NAMES, SENSES, MeasuredTurn, Sense
 from sim.setup.machine.machine import Machine
 from sim.setup.toml.reader import Bound, number
 from sim.table.motion import Motion, Progress, motion_of, simulate
-from sim.table.physics.motor import Motors
+from sim.table.physics.turning import motors_um
 from sim.table.record.losses import Loss
 
 FEED_MM_MIN: Final = Bound(0.1, 100_000.0)
@@ -134,47 +134,52 @@ def _run(test: CircleTest, sense: Sense, progress: Progress) -> _Run:
     motion = _motion(test, sense)
     plan = motion.drive.plan
     start_s, middle_s, end_s = plan.time_at(np.array([1.0, 2.0, 3.0]) * np.pi * test.radius_um).tolist()
-    steps = _Steps(start_s, end_s)
-    motors = Motors(motion.table.model.motor.step_time_s, motion.drive.origin_um)
-
-    def take(pulses: Pulses) -> None:
-        steps.take(pulses)
-        motors.take(pulses, start_s)
+    step_time_s = motion.table.model.motor.step_time_s
+    window = _Window(start_s - step_time_s, end_s, motion.drive.origin_um)  # steps that begin before are still made
 
     def told(stage: str, done: int, total: int) -> None:
         progress(f"{stage}-{NAMES[sense]}", done, total)
 
-    trace, losses, *_ = simulate(motion, take, told)
+    trace, losses, *_ = simulate(motion, window.take, told)
     measured = (trace.t_s >= start_s) & (trace.t_s <= end_s)
     center_um = trace.commanded_um[0] - (test.radius_um, 0.0)
+    pulses = window.pulses()
+    motors = motors_um(pulses, window.before_um, step_time_s, trace.t_s[measured])
     return _Run(
         table=MeasuredTurn(sense, trace.table_um[measured] - center_um),
-        motors=MeasuredTurn(sense, motors.at_um(trace.t_s[measured]) - center_um),
-        steps=MeasuredTurn(sense, steps.places_um() - center_um),
+        motors=MeasuredTurn(sense, motors - center_um),
+        steps=MeasuredTurn(sense, _stepped_um(pulses, start_s) - center_um),
         feed_um_s=float(plan.at(middle_s).speed_um_s),
         losses=losses,
     )
 
 
-class _Steps:
-    """Places that were commanded from `since_s` to `until_s`, gathered as the pulses stream in."""
+class _Window:
+    """Pulses from `since_s` to `until_s`, gathered as they stream in; `before_um` (2,) is the place before them."""
 
-    def __init__(self, since_s: float, until_s: float) -> None:
+    def __init__(self, since_s: float, until_s: float, origin_um: tuple[int, int]) -> None:
         self._since_s = since_s
         self._until_s = until_s
-        self._times: list[Floats] = []
-        self._places: list[Floats] = []
+        self._parts: list[Pulses] = []
+        self.before_um = np.array(origin_um, dtype=np.float64)
 
     def take(self, pulses: Pulses) -> None:
         """Keep those pulses that fall into the time."""
-        inside = (pulses.t_s >= self._since_s) & (pulses.t_s <= self._until_s)
-        self._times.append(pulses.t_s[inside])
-        self._places.append(np.stack([pulses.x_um[inside], pulses.y_um[inside]], axis=1).astype(np.float64))
+        first = int(np.searchsorted(pulses.t_s, self._since_s))
+        past = int(np.searchsorted(pulses.t_s, self._until_s, side="right"))
+        if first:
+            self.before_um[:] = pulses.x_um[first - 1], pulses.y_um[first - 1]
+        self._parts.append(pulses.part(first, past))
 
-    def places_um(self) -> Floats:
-        """Places (n, 2) after which some time passes: of two axes that step at once, that where both have stepped."""
-        last = np.diff(np.concatenate(self._times), append=np.inf) > 0.0
-        return np.asarray(np.concatenate(self._places)[last], dtype=np.float64)
+    def pulses(self) -> Pulses:
+        """All of them, one after the other."""
+        return Pulses(*(np.concatenate(columns) for columns in zip(*self._parts, strict=True)))
+
+
+def _stepped_um(pulses: Pulses, since_s: float) -> Floats:
+    """Places (n, 2) from a time on after which some time passes: of two axes that step at once, after both steps."""
+    kept = (pulses.t_s >= since_s) & (np.diff(pulses.t_s, append=np.inf) > 0.0)
+    return np.stack([pulses.x_um[kept], pulses.y_um[kept]], axis=1).astype(np.float64)
 
 
 def _motion(test: CircleTest, sense: Sense) -> Motion:

@@ -3,7 +3,10 @@
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from controller.compiled.loops import compiled
+from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 
 
@@ -66,3 +69,23 @@ def turned(train: Train, step_time_s: float, turn: Turn, t_s: float) -> Turn:
     if rising != 0.0:
         place += rising * (t_s - since) / step_time_s
     return Turn(place, t_s, rising, begun, done)
+
+
+@compiled("void(Train, f8, f8[::1], f8[::1])", Train)
+def _turned_to(train: Train, step_time_s: float, t_s: Floats, place_um: Floats) -> None:
+    """Fill in the places (n,) of the motor at rising times (n,)."""
+    turn = Turn(train.place_um[0], 0.0, 0.0, 0, 0)
+    for at in range(len(t_s)):
+        turn = turned(train, step_time_s, turn, t_s[at])
+        place_um[at] = turn.place_um
+
+
+def motors_um(pulses: Pulses, before_um: Floats, step_time_s: float, t_s: Floats) -> Floats:
+    """Places (n, 2) of both motors at rising times (n,) s; `before_um` (2,) is the place before the first pulse."""
+    place_um = np.empty((2, len(t_s)))
+    for before, column, into in zip(before_um, (pulses.x_um, pulses.y_um), place_um, strict=True):
+        commanded = np.append(before, column.astype(np.float64))
+        steps = np.flatnonzero(np.diff(commanded))
+        train = Train(np.append(pulses.t_s[steps], np.inf), np.append(before, commanded[steps + 1]))
+        _turned_to(train, step_time_s, np.ascontiguousarray(t_s), into)
+    return place_um.T

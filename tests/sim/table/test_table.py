@@ -10,7 +10,7 @@ from table_runs import MODEL, MOVED_KG, STEPPER, TICK_S, draw, even_ticks, pulse
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from sim.table.physics.drive import Kick, drives_of, kicked
-from sim.table.physics.motor import Motors
+from sim.table.physics.turning import motors_um as turned_um
 
 FRICTION_N, VISCOUS_N_S_MM, BACKLASH_UM = (30.0, 20.0), (2.0, 1.5), (3.0, 2.0)
 RESISTING = MODEL._replace(friction_n=FRICTION_N, viscous_n_s_mm=VISCOUS_N_S_MM, drive_damping_ratio=0.7)
@@ -30,9 +30,9 @@ def motors_um(pulses: Pulses, t_s: Floats, step_time_s: float = STEPPER.step_tim
 
 def test_motors_go_evenly_from_step_to_step_and_fast_steps_add_up() -> None:
     pulses = pulses_of(lambda t: 3000.0 * t, lambda t: 500.0 * np.sin(40.0 * t), 0.2)
-    motors, t_s = Motors(STEPPER.step_time_s, (0, 0)), np.linspace(0.0, 0.21, 3000)
-    motors.take(pulses, 0.0)
-    assert motors.at_um(t_s) == pytest.approx(motors_um(pulses, t_s), abs=1e-4)  # µm; 1 ns of grace at 20 mm/s is 2e-5
+    t_s = np.linspace(0.0, 0.21, 3000)
+    found = turned_um(pulses, np.zeros(2), STEPPER.step_time_s, t_s)
+    assert found == pytest.approx(motors_um(pulses, t_s), abs=1e-6)  # µm
 
 
 @pytest.mark.parametrize("axis", [0, 1])
