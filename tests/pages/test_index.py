@@ -62,6 +62,16 @@ def test_links_lead_to_the_files_of_each_program(open_page: OpenPage) -> None:
     assert shown.locator("tr.refused a").count() == 0
 
 
+def test_the_replay_stands_below_the_name_also_where_a_program_has_no_title(open_page: OpenPage) -> None:
+    alone = entry(0)._replace(row=Row("pass", "part-0000.3b", time_s=60.0, max_um=0.5, picture=SQUARE))
+    shown = open_page(index_page(build_index([alone]), [Beside(SQUARE, alone.row.message)])).page
+    assert shown.locator("tbody .title").count() == 0
+    name, replay = (shown.locator(f"tbody a.{each}").bounding_box() for each in ("file", "replay"))
+    assert name is not None
+    assert replay is not None
+    assert replay["y"] >= name["y"] + name["height"]
+
+
 def test_a_change_of_language_keeps_what_was_asked(open_page: OpenPage) -> None:
     shown = open_page(page(8)).page
     shown.select_option("#verdict", "refused")
