@@ -5,17 +5,18 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from parser.dialect.mender import Mender
-from parser.dialect.reader import STANDARD_MARKS, HeaderValue, Marks, Reader, Reading
+from parser.dialect.reader import STANDARD_CHOICES, Choices, HeaderValue, Marks, Reader, Reading
 from parser.files.kinds import A_PROGRAM, kind_of
 from parser.files.reading import read_bytes
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
+from parser.iso.dialect import ISO
 from parser.text.encoding import decode_text, no_program, printable
 from parser.text.lines import LineIndex
 from parser.threeb.dialect import THREE_B
 from parser.toolpath import Toolpath
 
-READERS: tuple[Reader, ...] = (THREE_B,)
+READERS: tuple[Reader, ...] = (THREE_B, ISO)
 """Readers in the order in which they are asked. The first one also tells what is wrong with a text that none knows."""
 
 
@@ -33,8 +34,8 @@ class Program:
         The whole text, and the places in it.
     reading, header, toolpath, findings, mender
         What its reader made of it; see `parser.dialect.reader.ReadText`.
-    marks
-        Further marks that it was read with.
+    choices
+        What it was read with.
     """
 
     name: str
@@ -46,31 +47,31 @@ class Program:
     toolpath: Toolpath
     findings: tuple[Finding, ...]
     mender: Mender | None
-    marks: Marks = STANDARD_MARKS
+    choices: Choices = STANDARD_CHOICES
 
     def excerpt(self, line: int) -> str:
         """Text of a line, from 1, as written, without its end."""
         return self.text[slice(*self.lines.bounds(line))]
 
 
-def read_program(path: Path | str) -> Program:
+def read_program(path: Path | str, choices: Choices = STANDARD_CHOICES) -> Program:
     """Read a file.
 
     Raises FileUnreadableError where there is no readable file, ProgramError (3B100) where it is no text or holds no
     block.
     """
     path = Path(path)
-    return load_program(read_bytes(path), name=printable(path.name))
+    return load_program(read_bytes(path), name=printable(path.name), choices=choices)
 
 
-def load_program(data: bytes, name: str, marks: Marks = STANDARD_MARKS) -> Program:
+def load_program(data: bytes, name: str, choices: Choices = STANDARD_CHOICES) -> Program:
     """Program of the bytes of a file.
 
     Raises ProgramError (3B100) where they are no text or hold no block; it says what they are where that is certain.
     """
     try:
         text, encoding = decode_text(data)
-        return parse_program(text, name=name, encoding=encoding, marks=marks)
+        return parse_program(text, name=name, encoding=encoding, choices=choices)
     except ProgramError as error:
         kind = kind_of(data) if error.finding.values.get("what") in {"not-text", "no-block"} else ""
         if kind not in {"", A_PROGRAM}:  # blocks that all stand in remarks are a program without blocks
@@ -78,10 +79,15 @@ def load_program(data: bytes, name: str, marks: Marks = STANDARD_MARKS) -> Progr
         raise
 
 
-def parse_program(text: str, name: str = "program", encoding: str = "utf-8", marks: Marks = STANDARD_MARKS) -> Program:
+def parse_program(
+    text: str, name: str = "program", encoding: str = "utf-8", choices: Choices = STANDARD_CHOICES
+) -> Program:
     """Program of a text. Raises ProgramError (3B100) where it holds no block."""
-    reader = next((reader for reader in READERS if reader.recognises(text)), READERS[0])
-    return Program(name, encoding, text, **reader.read(text, marks)._asdict(), marks=marks)
+    if choices.dialect:  # the profiles are those of ISO
+        reader: Reader = ISO
+    else:
+        reader = next((reader for reader in READERS if reader.recognises(text)), READERS[0])
+    return Program(name, encoding, text, **reader.read(text, choices)._asdict(), choices=choices)
 
 
 def suffixes() -> tuple[str, ...]:

@@ -17,6 +17,9 @@ from parser.text.source import Source
 _SIGNS = np.array([[0, 0], [1, 1], [-1, 1], [-1, -1], [1, -1]], dtype=np.int64)
 
 
+_NO_COLUMNS = ("words", "source", "stops", "compensation")
+
+
 class Axis(IntEnum):
     """A table axis."""
 
@@ -122,6 +125,66 @@ class StepWords:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Compensation:
+    """What a controller that compensates is told, one row a block: the path is the drawing's contour.
+
+    The block with which compensation begins, the set-up, is the first one with a side behind one without; the block
+    with which it ends, the cancel, is the first without a side behind one with.
+
+    Attributes
+    ----------
+    side
+        (n,) int64, +1 left (G41), −1 right (G42), 0 none (G40): what is in force while the block runs.
+    by_um
+        (n,) float64, value of the register in force; a negative one swaps the side; 0 without a side, NaN where it is
+        not known.
+    register
+        n names of registers without leading zeros, such as ``D1``; empty where there is none.
+    rules
+        How the controller joins, begins and ends.
+    """
+
+    side: Ints
+    by_um: Floats
+    register: tuple[str, ...]
+    rules: "CompensationRules"
+
+    def __post_init__(self) -> None:
+        """Freeze the columns."""
+        self.side.setflags(write=False)
+        self.by_um.setflags(write=False)
+
+    @property
+    def left_um(self) -> Floats:
+        """(n,) how far the wire runs to the left of each block, negative to the right; NaN where it is not known."""
+        return self.side * self.by_um
+
+
+class CompensationRules(NamedTuple):
+    """How a controller compensates: families differ (docs/iso.md has the table).
+
+    Attributes
+    ----------
+    outer
+        At an outer corner: ``arc`` always goes round it; ``lengthen`` and ``chamfer`` prolong both blocks to where they
+        meet, up to 90°, and go round a sharper one by an arc, or by a line between points an offset beyond both ends.
+    startup
+        The set-up ends on the normal of the block behind it (``next-normal``), or on its own, and goes on from there
+        as at any corner (``own-normal``).
+    too_small
+        An inner arc no larger than the offset vanishes, or stops the machine with an alarm.
+    change_on
+        A new offset while compensation is on: the block begins at the old one and ends at the new (``wedge``), or
+        stops the machine with an alarm.
+    """
+
+    outer: Literal["lengthen", "arc", "chamfer"] = "chamfer"
+    startup: Literal["next-normal", "own-normal"] = "next-normal"
+    too_small: Literal["vanish", "alarm"] = "vanish"
+    change_on: Literal["wedge", "alarm"] = "wedge"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Toolpath(Curves):
     """Geometry of a program: n curves, `start_um[i]` equal to `end_um[i - 1]`.
 
@@ -132,18 +195,25 @@ class Toolpath(Curves):
     words, source, stops
         What the program tells a controller that counts steps, None where its dialect has no such words; where it is
         written; pauses and the end, in order.
+    compensation
+        What the program tells a controller that compensates; None where it tells nothing of it.
     """
 
     printed_end_um: Floats
     words: StepWords | None
     source: Source
     stops: tuple[Stop, ...]
+    compensation: Compensation | None = None
 
     def __post_init__(self) -> None:
         """Freeze the columns, and raise ValueError with their lengths where they are not all the same."""
-        columns = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("words", "source", "stops")}
+        columns = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in _NO_COLUMNS}
         if self.words is not None:
             columns |= {f"words.{f.name}": getattr(self.words, f.name) for f in fields(self.words)}
+        if self.compensation is not None:
+            columns |= {
+                f"compensation.{name}": getattr(self.compensation, name) for name in ("side", "by_um", "register")
+            }
         columns |= {f"source.{name}": getattr(self.source, name) for name in ("block", "span", "line", "label")}
         rows = {name: len(column) for name, column in columns.items()}
         if len(set(rows.values())) > 1:

@@ -1,6 +1,7 @@
 """A reader: what it makes of the text of a program, and what it says of it, whatever the dialect."""
 
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -34,6 +35,49 @@ class Marks(NamedTuple):
 
 
 STANDARD_MARKS = Marks()
+
+
+class Choices(NamedTuple):
+    """What is told of a program besides its text, by options, settings and machine files.
+
+    Attributes
+    ----------
+    marks
+        Further marks.
+    dialect
+        Name of the profile of its dialect, such as ``fanuc``; empty where the text is to tell it.
+    unit
+        Of its numbers: ``um``, ``mm`` or ``inch``; empty where text and dialect tell it.
+    registers
+        Values of offset registers, µm, by their names without leading zeros: ``("D0", 100.0)``. What the program says
+        itself counts before them.
+    """
+
+    marks: Marks = STANDARD_MARKS
+    dialect: str = ""
+    unit: str = ""
+    registers: tuple[tuple[str, float], ...] = ()
+
+
+STANDARD_CHOICES = Choices()
+
+
+class Assumption(NamedTuple):
+    """What a text leaves open, and what was taken; all of it for people.
+
+    Attributes
+    ----------
+    what
+        Term of the catalogue: ``assumed-dialect``, ``assumed-unit``, ``assumed-distance``, ``assumed-centres`` …
+    taken
+        What it was taken for, such as ``fast-wire``, ``0.001 mm``, ``G91``.
+    why
+        Term of the catalogue that says what speaks for it.
+    """
+
+    what: str
+    taken: str
+    why: str
 
 
 class Damage(NamedTuple):
@@ -90,6 +134,11 @@ class Reading(NamedTuple):
         Where the header gives an offset; None where it gives none.
     remarks
         (m, 2) int64, first character and one past the last of each remark, in order, with what begins and ends it.
+    assumptions
+        What the text leaves open and was taken, in the order in which it is told.
+    codes
+        Codes of this dialect for findings of the path and the machine that have other ones in 3B: ``3B301`` is
+        ``ISO300``. Findings without one keep their code, which holds for every dialect.
     """
 
     dialect: str
@@ -100,6 +149,8 @@ class Reading(NamedTuple):
     not_asked: Mapping[Check, str]
     offset_span: Span | None = None
     remarks: Ints = NO_REMARKS
+    assumptions: tuple[Assumption, ...] = ()
+    codes: Mapping[str, str] = MappingProxyType({})
 
 
 class ReadText(NamedTuple):
@@ -149,5 +200,5 @@ class Reader(Protocol):
     def recognises(self, text: str) -> bool:
         """Whether a text holds a block of the family, or what was meant for one."""
 
-    def read(self, text: str, marks: Marks) -> ReadText:
+    def read(self, text: str, choices: Choices) -> ReadText:
         """What a text says. ProgramError (3B100) where it holds no block."""

@@ -1,7 +1,8 @@
 """Every code there is: how severe its findings are, which check gives them, and whether they name their own place.
 
 The hundreds digit of a code names the layer: ``3B1xx`` grammar, ``3B2xx`` block, ``3B3xx`` contour, ``3B4xx`` machine,
-``3B5xx`` wire offset, ``3B6xx`` drawing. A code is stable, and never used twice.
+``3B5xx`` wire offset, ``3B6xx`` drawing. ``ISO1xx`` to ``ISO5xx`` are the same layers of ISO, with the program's own
+compensation as the fifth. A code is stable, and never used twice.
 """
 
 from collections.abc import Mapping
@@ -33,6 +34,7 @@ class Check(StrEnum):
     PASSES = "check-passes"
     CORNERS = "check-corners"
     TRAVEL = "check-travel"
+    COMPENSATION = "check-compensation"
 
 
 class FindingCode(NamedTuple):
@@ -125,6 +127,71 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B603": FindingCode(Severity.NOTE, check=None, placed=True),
         "3B604": FindingCode(Severity.ERROR, check=None),
         "3B605": FindingCode(Severity.ERROR, check=None),
+        "ISO100": FindingCode(Severity.ERROR, Check.GRAMMAR),
+        "ISO101": FindingCode(Severity.ERROR, Check.GRAMMAR),
+        "ISO102": FindingCode(Severity.ERROR, Check.GRAMMAR),
+        "ISO103": FindingCode(Severity.ERROR, Check.GRAMMAR),
+        "ISO104": FindingCode(Severity.WARNING, Check.GRAMMAR),
+        "ISO105": FindingCode(Severity.ERROR, Check.GRAMMAR),
+        "ISO106": FindingCode(Severity.NOTE, Check.GRAMMAR),
+        "ISO107": FindingCode(Severity.NOTE, Check.GRAMMAR),
+        "ISO108": FindingCode(Severity.WARNING, Check.ORDER),
+        "ISO109": FindingCode(Severity.WARNING, Check.ORDER),
+        "ISO110": FindingCode(Severity.ERROR, Check.GRAMMAR),
+        "ISO111": FindingCode(Severity.NOTE, Check.GRAMMAR),
+        "ISO112": FindingCode(Severity.NOTE, Check.GRAMMAR),
+        "ISO120": FindingCode(Severity.WARNING, Check.ORDER),
+        "ISO121": FindingCode(Severity.ERROR, Check.ORDER),
+        "ISO130": FindingCode(Severity.NOTE, Check.ORDER),
+        "ISO200": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "ISO201": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "ISO202": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "ISO203": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "ISO204": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "ISO205": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "ISO206": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "ISO207": FindingCode(Severity.WARNING, Check.BLOCKS),
+        "ISO208": FindingCode(Severity.ERROR, Check.ORDER),
+        "ISO209": FindingCode(Severity.NOTE, Check.BLOCKS),
+        "ISO210": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "ISO211": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "ISO212": FindingCode(Severity.WARNING, Check.BLOCKS),
+        "ISO213": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "ISO214": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "ISO215": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "ISO216": FindingCode(Severity.WARNING, Check.BLOCKS),
+        "ISO217": FindingCode(Severity.NOTE, Check.BLOCKS),
+        "ISO218": FindingCode(Severity.WARNING, Check.BLOCKS),
+        "ISO219": FindingCode(Severity.WARNING, Check.SENSES),
+        "ISO300": FindingCode(Severity.ERROR, Check.CONTOURS),
+        "ISO301": FindingCode(Severity.WARNING, Check.CONTOURS),
+        "ISO302": FindingCode(Severity.WARNING, Check.CONTOURS),
+        "ISO303": FindingCode(Severity.NOTE, Check.ORDER),
+        "ISO304": FindingCode(Severity.ERROR, Check.TRAVEL),
+        "ISO305": FindingCode(Severity.WARNING, Check.CROSSINGS),
+        "ISO306": FindingCode(Severity.WARNING, Check.PASSES),
+        "ISO307": FindingCode(Severity.WARNING, Check.PASSES),
+        "ISO308": FindingCode(Severity.WARNING, Check.PASSES),
+        "ISO309": FindingCode(Severity.NOTE, Check.PASSES),
+        "ISO400": FindingCode(Severity.ERROR, Check.ORDER),
+        "ISO401": FindingCode(Severity.NOTE, Check.ORDER),
+        "ISO402": FindingCode(Severity.ERROR, Check.ORDER),
+        "ISO500": FindingCode(Severity.ERROR, Check.COMPENSATION),
+        "ISO501": FindingCode(Severity.WARNING, Check.COMPENSATION),
+        "ISO502": FindingCode(Severity.ERROR, Check.COMPENSATION),
+        "ISO503": FindingCode(Severity.WARNING, Check.COMPENSATION),
+        "ISO504": FindingCode(Severity.ERROR, Check.COMPENSATION, placed=True),
+        "ISO505": FindingCode(Severity.ERROR, Check.COMPENSATION, placed=True),
+        "ISO506": FindingCode(Severity.ERROR, Check.COMPENSATION, placed=True),
+        "ISO507": FindingCode(Severity.ERROR, Check.COMPENSATION),
+        "ISO508": FindingCode(Severity.WARNING, Check.COMPENSATION),
+        "ISO509": FindingCode(Severity.NOTE, Check.COMPENSATION),
+        "ISO510": FindingCode(Severity.WARNING, Check.COMPENSATION),
+        "ISO511": FindingCode(Severity.ERROR, Check.COMPENSATION),
+        "ISO512": FindingCode(Severity.WARNING, Check.COMPENSATION),
+        "ISO513": FindingCode(Severity.NOTE, Check.COMPENSATION),
+        "ISO514": FindingCode(Severity.WARNING, Check.COMPENSATION),
+        "ISO600": FindingCode(Severity.WARNING, Check.BLOCKS),
     }
 )
 """All codes, in their order."""

@@ -42,6 +42,8 @@ class Finding(NamedTuple):
         What certainly mends it, all together; empty where nothing is certain.
     fact
         What later checks and mends take from it; None where none asks.
+    graver
+        Severity of this one, where it is graver than that of its code.
     """
 
     code: str
@@ -52,11 +54,12 @@ class Finding(NamedTuple):
     block: int = 0
     edits: tuple[Edit, ...] = ()
     fact: Fact | None = None
+    graver: Severity | None = None
 
     @property
     def severity(self) -> Severity:
-        """Severity that the table gives this code."""
-        return CODES[self.code].severity
+        """Severity that the table gives this code, or a graver one of its own."""
+        return self.graver or CODES[self.code].severity
 
     @property
     def place_mm(self) -> tuple[float, float] | None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from parser.dialect.reader import BlockCounts, Damage, Marks, Reading, ReadText, Spelling
+from parser.dialect.reader import BlockCounts, Choices, Damage, Reading, ReadText, Spelling
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.facts import TooLarge, telling
@@ -34,8 +34,9 @@ class ThreeB:
         """Whether a text holds a block, or what was meant for one."""
         return bool(LIKE_A_BLOCK.search(text) or (not text.isascii() and LIKE_A_BLOCK.search(narrow(text))))
 
-    def read(self, text: str, marks: Marks) -> ReadText:
+    def read(self, text: str, choices: Choices) -> ReadText:
         """What a text says. ProgramError (3B100) where it holds no block."""
+        marks = choices.marks
         records = read_records(text, marks)
         whole = len(records.blocks.line)
         if not whole:

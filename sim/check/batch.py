@@ -66,7 +66,7 @@ def check_file(job: Job) -> CheckResult:
     except FileUnreadableError as error:
         return _unreadable(job, b"", no_program(error.what, error.detail), ())
     try:
-        program = load_program(data, job.name, job.settings.marks)
+        program = load_program(data, job.name, job.settings.choices)
     except ProgramError as error:
         return _unreadable(job, data, error.finding, error.others)
     return without_known(check_program(program, job.settings), job.known)

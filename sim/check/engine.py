@@ -84,7 +84,7 @@ def run_checks(program: Program, demands: Demands) -> Checked:
     from sim.check.blame.settle import settled  # noqa: PLC0415 - a sound program has nobody to blame, and starts sooner
 
     def again(text: str) -> tuple[Finding, ...]:
-        return _every_check(parse_program(text, program.name, program.encoding, program.marks), demands).findings
+        return _every_check(parse_program(text, program.name, program.encoding, program.choices), demands).findings
 
     return checked._replace(findings=settled(program, checked.findings, checked.judged, again))
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from parser.dialect.reader import BlockCounts, Damage, Marks, Reading, ReadText, Spelling
+from parser.dialect.reader import BlockCounts, Choices, Damage, Marks, Reading, ReadText, Spelling
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import file_order
@@ -38,7 +38,7 @@ class TinyReader:
     def recognises(self, text: str) -> bool:
         return re.search(r"^(?:\d+: )?(?:go|arc)\b", text, re.MULTILINE) is not None
 
-    def read(self, text: str, marks: Marks) -> ReadText:
+    def read(self, text: str, choices: Choices) -> ReadText:
         lines = LineIndex(text)
         blocks: list[re.Match[str]] = []
         labels: list[str] = []

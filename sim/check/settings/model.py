@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, Self
 
-from parser.dialect.reader import Marks
+from parser.dialect.reader import Choices, Marks
 from parser.findings.codes import Severity
 from parser.units import from_mm
 from sim.check.engine import Demands
@@ -52,6 +52,11 @@ class CheckSettings:
     marks: Marks = Marks()  # noqa: RUF009 - frozen
     file: str = ""
     by_options: frozenset[str] = frozenset()
+
+    @property
+    def choices(self) -> Choices:
+        """What the program is read with."""
+        return Choices(marks=self.marks)
 
     @property
     def demands(self) -> Demands:

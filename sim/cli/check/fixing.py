@@ -62,14 +62,14 @@ def mended(path: Path, name: str, settings: CheckSettings, known: frozenset[str]
     ProgramError or FileUnreadableError for a file that cannot be read.
     """
     before = read_bytes(path)
-    program = load_program(before, name, settings.marks)
+    program = load_program(before, name, settings.choices)
     checked = run_checks(program, settings.demands)
     findings = with_edits(program, checked)
     shown = without_known(result_of(program, checked._replace(findings=findings), settings), known).findings
     unmended = tuple(Unmended(f, possible) for f in shown if len(possible := choices(program, f, findings)) > 1)
     text = edited(program.text, [edit for finding in shown for edit in finding.edits])
     after = encode_text(text, program.encoding)
-    if text == program.text or _brings_errors(load_program(after, name, settings.marks), settings, checked):
+    if text == program.text or _brings_errors(load_program(after, name, settings.choices), settings, checked):
         return Mended(program, before, program.text, before, unmended)
     return Mended(program, before, text, after, unmended)
 

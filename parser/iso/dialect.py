@@ -1,0 +1,61 @@
+"""The reader of ISO, as the door of the parser asks for it."""
+
+import re
+
+from parser.dialect.reader import BlockCounts, Choices, Damage, Marks, Reading, ReadText, Spelling
+from parser.findings.codes import Check
+from parser.findings.errors import ProgramError
+from parser.findings.findings import file_order
+from parser.iso.lexer import read_listing
+from parser.iso.motion import moved
+from parser.iso.telling import told
+from parser.text.encoding import no_program
+
+_LIKE_A_BLOCK = re.compile(r"(?im)^[ \t/]*(?:N[ \t]*\d+[ \t]*)?(?:[A-Z][ \t]*[-+]?[\d.]+[ \t]*)*?G[ \t]*\d")
+_CODES = {
+    "3B301": "ISO300",
+    "3B307": "ISO305",
+    "3B401": "ISO304",
+    "3B501": "ISO504",
+    "3B502": "ISO505",
+    "3B503": "ISO506",
+    "3B504": "ISO507",
+}
+
+
+class Iso:
+    """G-code as wire-cut machines are told it, in the dialects that have a profile (docs/iso.md)."""
+
+    name = "ISO"
+    suffixes = (".iso", ".nc", ".cnc")
+    own_marks = Marks()
+    block_words = ()
+
+    def recognises(self, text: str) -> bool:
+        """Whether a text holds a line with a G word, or what was meant for one."""
+        return bool(_LIKE_A_BLOCK.search(text))
+
+    def read(self, text: str, choices: Choices) -> ReadText:
+        """What a text says. ProgramError (ISO100) where it holds no block."""
+        listing = read_listing(text)
+        if not len(listing.blocks.line):
+            raise ProgramError(no_program("no-block"))
+        family = told(listing, choices)
+        path = moved(listing, family.profile, choices)
+        n = len(path.toolpath)
+        reading = Reading(
+            dialect=f"ISO {family.profile.name}",
+            counts=BlockCounts(n + len(listing.unread), n, n),
+            damages=tuple(Damage(one.span, 0) for one in listing.unread),
+            spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02"),
+            is_drawing=path.toolpath.compensation is not None,
+            not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
+            remarks=listing.remarks,
+            assumptions=family.assumptions,
+            codes=_CODES,
+        )
+        findings = tuple(sorted([*listing.findings, *path.findings], key=file_order))
+        return ReadText(listing.lines, reading, {}, path.toolpath, findings)
+
+
+ISO = Iso()

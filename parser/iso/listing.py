@@ -1,0 +1,123 @@
+"""The listing: words of a text as columns, gathered in blocks, one a line; what `lexer` makes and all others read."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.findings.findings import Finding
+from parser.geometry.curves import Bools, Floats, Ints
+from parser.text.lines import LineIndex
+
+
+class Words(NamedTuple):
+    """m words, such as ``X-1.5``, in file order; each column has shape (m,).
+
+    Attributes
+    ----------
+    letter
+        int64, the code of its letter as a capital: ``ord("X")``.
+    value
+        float64, its number as written, without a unit.
+    decimals
+        int64, digits behind the point; 0 with a point and none behind it, −1 without a point.
+    first, past
+        int64, its first character and one past its last.
+    block
+        int64, the block that it stands in, from 0.
+    """
+
+    letter: Ints
+    value: Floats
+    decimals: Ints
+    first: Ints
+    past: Ints
+    block: Ints
+
+
+class Blocks(NamedTuple):
+    """b blocks: lines with words or an assignment, in file order; each column has shape (b,) but for the last.
+
+    Attributes
+    ----------
+    line
+        int64, its line, from 1.
+    first, past
+        int64, its first character, and one past its last, without blanks, remarks and a closing ``;`` at its ends.
+    is_skipped
+        bool, whether it begins with ``/``: an operator may switch it off.
+    is_damaged
+        bool, whether something in it could not be read: its motion is not known.
+    word
+        (b + 1,) int64, the first word of each block, and one past the last.
+    """
+
+    line: Ints
+    first: Ints
+    past: Ints
+    is_skipped: Bools
+    is_damaged: Bools
+    word: Ints
+
+
+class Assignment(NamedTuple):
+    """A register that the program sets, such as ``H001=110`` or ``H1 =.0085 + H175``.
+
+    Attributes
+    ----------
+    block
+        Block that it stands in, from 0.
+    register
+        Its name without leading zeros: ``H1``.
+    terms
+        What is summed: numbers as written, each with its decimals as in `Words`, and names of registers.
+    span
+        First character, and one past the last.
+    """
+
+    block: int
+    register: str
+    terms: tuple[tuple[float, int] | str, ...]
+    span: tuple[int, int]
+
+
+class Unread(NamedTuple):
+    """A piece of text that is no word: its span, and the block it stands in, from 0; −1 where it stands in none."""
+
+    span: tuple[int, int]
+    block: int
+
+
+class Listing(NamedTuple):
+    """All that stands in one text.
+
+    Attributes
+    ----------
+    text, lines
+        The text as written, and places in it folded to narrow characters.
+    words, blocks
+        Words, in blocks.
+    assignments
+        Of offset registers, in file order; other assignments, such as ``C001 = 012 014``, have no place here.
+    remarks
+        (k, 2) int64, first character and one past the last of each remark.
+    unread
+        What is no word.
+    tape_end
+        One past the last character before the ``%`` that ends the tape; the length of the text where none does.
+    findings
+        ISO1xx of the text itself.
+    """
+
+    text: str
+    lines: LineIndex
+    words: Words
+    blocks: Blocks
+    assignments: tuple[Assignment, ...]
+    remarks: Ints
+    unread: tuple[Unread, ...]
+    tape_end: int
+    findings: tuple[Finding, ...]
+
+    def of(self, letter: str) -> Ints:
+        """(k,) words with a letter, in file order."""
+        return np.flatnonzero(self.words.letter == ord(letter))
