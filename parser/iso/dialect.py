@@ -2,14 +2,19 @@
 
 import re
 
+import numpy as np
+
 from parser.dialect.reader import BlockCounts, Choices, Damage, Marks, Reading, ReadText, Spelling
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import file_order
 from parser.iso.lexer import read_listing
+from parser.iso.listing import Listing
 from parser.iso.motion import moved
 from parser.iso.telling import told
-from parser.text.encoding import no_program
+from parser.iso.text_checks import checked
+from parser.text.encoding import narrow, no_program
+from parser.toolpath import Toolpath
 
 _LIKE_A_BLOCK = re.compile(r"(?im)^[ \t/]*(?:N[ \t]*\d+[ \t]*)?(?:[A-Z][ \t]*[-+]?[\d.]+[ \t]*)*?G[ \t]*\d")
 _CODES = {
@@ -33,7 +38,7 @@ class Iso:
 
     def recognises(self, text: str) -> bool:
         """Whether a text holds a line with a G word, or what was meant for one."""
-        return bool(_LIKE_A_BLOCK.search(text))
+        return bool(_LIKE_A_BLOCK.search(narrow(text)))
 
     def read(self, text: str, choices: Choices) -> ReadText:
         """What a text says. ProgramError (ISO100) where it holds no block."""
@@ -41,12 +46,13 @@ class Iso:
         if not len(listing.blocks.line):
             raise ProgramError(no_program("no-block"))
         family = told(listing, choices)
+        listing = checked(listing, family.profile)
         path = moved(listing, family.profile, choices)
         n = len(path.toolpath)
         reading = Reading(
             dialect=f"ISO {family.profile.name}",
-            counts=BlockCounts(n + len(listing.unread), n, n),
-            damages=tuple(Damage(one.span, 0) for one in listing.unread),
+            counts=BlockCounts(n + len({one.block for one in listing.unread}), n, n),
+            damages=_damages(listing, path.toolpath),
             spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02"),
             is_drawing=path.toolpath.compensation is not None,
             not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
@@ -56,6 +62,13 @@ class Iso:
         )
         findings = tuple(sorted([*listing.findings, *path.findings], key=file_order))
         return ReadText(listing.lines, reading, {}, path.toolpath, findings)
+
+
+def _damages(listing: Listing, toolpath: Toolpath) -> tuple[Damage, ...]:
+    """What could not be read, each behind the rows that run before anything that stands behind it."""
+    reached = np.maximum.accumulate(toolpath.source.span[:, 0])
+    after = reached.searchsorted([one.span[0] for one in listing.unread]).tolist()
+    return tuple(Damage(one.span, rows) for one, rows in zip(listing.unread, after, strict=True))
 
 
 ISO = Iso()

@@ -25,9 +25,10 @@ def called(listing: Listing) -> Floats:
 def stands_alone(listing: Listing) -> Bools:
     """(b,) bool, whether a block is one N word and nothing else, which makes it a label."""
     words, blocks = listing.words, listing.blocks
-    alone = (np.diff(blocks.word) == 1) & ~blocks.is_damaged
+    alone: Bools = (np.diff(blocks.word) == 1) & ~blocks.is_damaged
     alone[alone] = words.letter[blocks.word[:-1][alone]] == ord("N")
-    alone[[one.block for one in (*listing.assignments, *listing.statements)]] = False
+    alone[[one.block for one in listing.assignments]] = False
+    alone[[one.block for one in listing.statements]] = False
     return alone
 
 
@@ -92,9 +93,8 @@ def _twice(listing: Listing) -> list[Finding]:
     is_label = np.isin(words.value[n], called(listing)) | stands_alone(listing)[words.block[n]]
     found = []
     for label in (n[is_label], o):
-        value, first, inverse = np.unique(words.value[label], return_index=True, return_inverse=True)
-        again = np.flatnonzero(first[inverse] != np.arange(len(label))) if len(value) < len(label) else []
-        for at in map(int, again):
+        _, first, inverse = np.unique(words.value[label], return_index=True, return_inverse=True)
+        for at in np.flatnonzero(first[inverse] != np.arange(len(label))).tolist():
             before, here = int(label[first[inverse[at]]]), int(label[at])
             where = f"{_line(listing, before)}, {_line(listing, here)}"
             found.append(_label(listing, here, "label-twice", where))
