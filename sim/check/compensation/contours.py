@@ -49,18 +49,18 @@ def contour_findings(
     """What the path makes of the contours, under the codes of an offset, 3B501 to 3B504, and ISO512 and ISO514."""
     stops = {one.row for one in alarms if one.stops and one.kind in (AlarmKind.TOO_SMALL, AlarmKind.VANISHED)}
     for one in stretches:
-        run = one.run
         yield from _uncut(program, path, one, stops)
         if one.beside.loops not in (None, 1):
-            yield loop_finding(program, run.round.section.first, int(one.beside.loops or 0), run.by_um)
-        if run.part_side == run.side:
-            yield at_block(program.toolpath, program.lines, "ISO512", run.round.begin, **_side_words(run))
+            yield loop_finding(program, one.run.round.section.first, int(one.beside.loops or 0), one.run.by_um)
+        if one.run.part_side == one.run.side:
+            yield at_block(program.toolpath, program.lines, "ISO512", one.run.round.begin, **_side_words(one.run))
     for one in stretches:
         if one.run.is_nearest and one.run.round.section.closed:
             yield from _stub(program, path, one, [other.run for other in stretches])
-    for told, gouge in _told_gouges(stretches):
-        rows = int(path.source_row[gouge.path_row]), gouge.row
-        yield gouge_finding(program, rows, gouge, told.kerf_um)
+    for run, gouge in _told_gouges(stretches):
+        row = int(path.source_row[gouge.path_row])
+        if row != run.wedge:  # ISO509 tells of it
+            yield gouge_finding(program, (row, gouge.row), gouge, run.kerf_um)
 
 
 def _uncut(program: Program, path: OffsetPath, one: Held, stops: set[int]) -> Iterator[Finding]:
