@@ -9,7 +9,7 @@ from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
 from parser.iso.lexer import read_listing
 from parser.iso.motion import moved
-from parser.iso.telling import told
+from parser.iso.telling import assumption_findings, told
 from parser.iso.text_checks import checked
 from parser.text.encoding import narrow, no_program
 
@@ -58,7 +58,7 @@ class Iso:
             codes=_CODES,
         )
         of_text = (_by_row(finding, path.first_row) for finding in listing.findings)
-        findings = tuple(sorted([*of_text, *path.findings], key=file_order))
+        findings = tuple(sorted([*of_text, *assumption_findings(family), *path.findings], key=file_order))
         return ReadText(listing.lines, reading, {}, path.toolpath, findings)
 
 

@@ -148,13 +148,13 @@ def _first_rows(given: Given, run: _Run) -> Ints:
 def _assumptions(given: Given, run: _Run) -> tuple[Assumption, ...]:
     told = []
     if given.listing.blocks.is_skipped[run.flow.block].any():
-        told.append(Assumption("assumed-skips", "/", "why-skips-run"))
+        told.append(Assumption("assumed-skips", "/", "because-skips-run"))
     if run.offsets.assumed:
-        told.append(Assumption("assumed-register", run.offsets.assumed, "why-only-register"))
+        told.append(Assumption("assumed-register", run.offsets.assumed, "because-only-register"))
     if run.place.is_threaded.any():
-        told.append(Assumption("assumed-threading", "G92", "why-behind-stop"))
+        told.append(Assumption("assumed-threading", "G92", "because-behind-stop"))
     if _starts_unnamed(run):
-        told.append(Assumption("assumed-start", "X0 Y0", "why-no-start"))
+        told.append(Assumption("assumed-start", "X0 Y0", "because-no-start"))
     return tuple(told)
 
 
