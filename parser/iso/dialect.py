@@ -2,19 +2,16 @@
 
 import re
 
-import numpy as np
-
-from parser.dialect.reader import BlockCounts, Choices, Damage, Marks, Reading, ReadText, Spelling
+from parser.dialect.reader import BlockCounts, Choices, Marks, Reading, ReadText, Spelling
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
-from parser.findings.findings import file_order
+from parser.findings.findings import Finding, file_order
+from parser.geometry.curves import Ints
 from parser.iso.lexer import read_listing
-from parser.iso.listing import Listing
 from parser.iso.motion import moved
-from parser.iso.telling import told
+from parser.iso.telling import assumption_findings, told
 from parser.iso.text_checks import checked
 from parser.text.encoding import narrow, no_program
-from parser.toolpath import Toolpath
 
 _LIKE_A_BLOCK = re.compile(r"(?im)^[ \t/]*(?:N[ \t]*\d+[ \t]*)?(?:[A-Z][ \t]*[-+]?[\d.]+[ \t]*)*?G[ \t]*\d")
 _CODES = {
@@ -52,23 +49,22 @@ class Iso:
         reading = Reading(
             dialect=f"ISO {family.profile.name}",
             counts=BlockCounts(n + len({one.block for one in listing.unread}), n, n),
-            damages=_damages(listing, path.toolpath),
+            damages=path.damages,
             spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02"),
             is_drawing=path.toolpath.compensation is not None,
             not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
             remarks=listing.remarks,
-            assumptions=family.assumptions,
+            assumptions=(*family.assumptions, *path.assumptions),
             codes=_CODES,
         )
-        findings = tuple(sorted([*listing.findings, *path.findings], key=file_order))
+        of_text = (_by_row(finding, path.first_row) for finding in (*listing.findings, *assumption_findings(family)))
+        findings = tuple(sorted([*of_text, *path.findings], key=file_order))
         return ReadText(listing.lines, reading, {}, path.toolpath, findings)
 
 
-def _damages(listing: Listing, toolpath: Toolpath) -> tuple[Damage, ...]:
-    """What could not be read, each behind the rows that run before anything that stands behind it."""
-    reached = np.maximum.accumulate(toolpath.source.span[:, 0])
-    after = reached.searchsorted([one.span[0] for one in listing.unread]).tolist()
-    return tuple(Damage(one.span, rows) for one, rows in zip(listing.unread, after, strict=True))
+def _by_row(finding: Finding, first_row: Ints) -> Finding:
+    """A finding at a block of the text as one at the row that the block makes when it first runs, if it makes one."""
+    return finding._replace(block=int(first_row[finding.block - 1]) + 1 if finding.block else 0)
 
 
 ISO = Iso()
