@@ -206,7 +206,7 @@ def test_an_open_remark_alone_stands_in_no_block() -> None:
         ("(1. CUT)", False),
     ],
 )
-def test_a_block_in_a_remark_is_noted(remark: str, is_hidden: bool) -> None:  # noqa: FBT001
+def test_a_block_in_a_remark_is_noted(remark: str, is_hidden: bool) -> None:
     listing = read_listing(f"G01 X0 {remark}\nM02 {remark}\n")
     assert [(found.code, found.values["more"]) for found in listing.findings] == [("ISO106", 1)] * is_hidden
 
@@ -252,7 +252,7 @@ def plain_remarks(text: str) -> list[tuple[int, int]]:
     """Remarks of a text by a loop over its characters; without the signs that close blocks, and functions."""
     found, at = [], 0
     while at < len(text):
-        line = text[at:].split("\n")[0]
+        line = text[at:].split("\n", maxsplit=1)[0]
         if text[at] == ";" and line.strip(" \t") != ";":
             found.append((at, at + len(line)))
             at += len(line)
