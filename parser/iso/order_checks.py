@@ -100,4 +100,4 @@ def _first_runs(run: Flow, at: Ints) -> Ints:
 
 def _at(listing: Listing, code: str, block: int, /, **values: Value) -> Finding:
     span = (int(listing.blocks.first[block]), int(listing.blocks.past[block]))
-    return listing.lines.finding(code, span, 0, **values)
+    return listing.lines.finding(code, span, 0, text=listing.text[slice(*span)], **values)
