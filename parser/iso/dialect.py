@@ -57,8 +57,8 @@ class Iso:
             assumptions=(*family.assumptions, *path.assumptions),
             codes=_CODES,
         )
-        of_text = (_by_row(finding, path.first_row) for finding in listing.findings)
-        findings = tuple(sorted([*of_text, *assumption_findings(family), *path.findings], key=file_order))
+        of_text = (_by_row(finding, path.first_row) for finding in (*listing.findings, *assumption_findings(family)))
+        findings = tuple(sorted([*of_text, *path.findings], key=file_order))
         return ReadText(listing.lines, reading, {}, path.toolpath, findings)
 
 
