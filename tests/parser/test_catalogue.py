@@ -89,6 +89,21 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B603": {"number": 4, "depth": 41.4, "reach": 100.0, "angle_deg": 90.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B604": {"what": "contour-offset-missing", "first": 7, "last": 9, "inside_mm": 0.1},
     "3B605": {"first": 7, "last": 9, "shift_x_mm": 0.05, "shift_y_mm": 0.0, "tolerance": 5.0},
+    "ISO108": {"text": "G01 X0 Y9000"},
+    "ISO109": {"text": "G01 X0 Y5000"},
+    "ISO207": {"text": "Y5.0005", "um": 5000.5, "step": 1.0, "more": 3},
+    "ISO208": {"text": "M02"},
+    "ISO210": {"what": "arc-no-center"},
+    "ISO211": {},
+    "ISO212": {"start": 5020.0, "end": 4980.0, "off": 40.0, "limit": 2.828},
+    "ISO213": {"chord": 10000.0, "reach": 8000.0},
+    "ISO214": {"radius": 5000.0},
+    "ISO217": {"what": "tiny-for-circle", "chord": 1.0, "full": 31415.93},
+    "ISO218": {},
+    "ISO303": {"text": "G92 X0 Y0", "x": 0.0, "y": 5000.0},
+    "ISO400": {"text": "M98 P2", "what": "call-without-label"},
+    "ISO401": {"text": "N2"},
+    "ISO511": {"text": "G92 X5000 Y5000"},
 }
 
 
