@@ -89,6 +89,17 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B603": {"number": 4, "depth": 41.4, "reach": 100.0, "angle_deg": 90.0, "x_mm": 12.5, "y_mm": 0.0},
     "3B604": {"what": "contour-offset-missing", "first": 7, "last": 9, "inside_mm": 0.1},
     "3B605": {"first": 7, "last": 9, "shift_x_mm": 0.05, "shift_y_mm": 0.0, "tolerance": 5.0},
+    "ISO101": {"text": ",5"},
+    "ISO102": {"text": "X1..2"},
+    "ISO103": {"text": "W3", "letter": "W", "more": 2},
+    "ISO104": {"text": "g01", "more": 7},
+    "ISO105": {"text": "(open"},
+    "ISO106": {"text": "; G01 X10", "more": 0},
+    "ISO107": {"text": "SQUARE PROGRAM", "more": 0},
+    "ISO110": {"text": "N30", "what": "nothing-but-n", "more": 0},
+    "ISO120": {"number": "N15", "before": "N20"},
+    "ISO121": {"label": "N1", "what": "label-twice", "lines": "3, 9"},
+    "ISO130": {"word": "G01", "before": "D11", "more": 0},
 }
 
 
