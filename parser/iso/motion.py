@@ -53,14 +53,14 @@ class Moved(NamedTuple):
 
 
 class _Run(NamedTuple):
-    """All columns of the running blocks."""
+    """All columns of the running blocks; `offsets` are None where nothing compensates."""
 
     flow: Flow
     mode: Modes
     numbers: Coordinates
     place: Places
     rows: Rows
-    offsets: Offsets
+    offsets: Offsets | None
 
 
 def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
@@ -88,7 +88,8 @@ def _run(given: Given, choices: Choices) -> _Run:
     numbers = coordinates(given, order.block, mode)
     place = places(numbers, mode.is_absolute, given.m(*STOPS)[order.block])
     path = rows(mode, numbers, place, given.profile.resolution_um)
-    return _Run(order, mode, numbers, place, path, offsets(given, order.block, mode, choices))
+    compensates = mode.side[path.at].any()
+    return _Run(order, mode, numbers, place, path, offsets(given, order.block, mode, choices) if compensates else None)
 
 
 def _toolpath(given: Given, run: _Run) -> Toolpath:
@@ -104,12 +105,12 @@ def _toolpath(given: Given, run: _Run) -> Toolpath:
 
 
 def _compensation(run: _Run, rules: CompensationRules) -> Compensation | None:
+    if run.offsets is None:
+        return None
     at = run.rows.at
     side = run.mode.side[at]
-    if not side.any():
-        return None
     by_um = np.where(side != 0, run.offsets.by_um[at], 0.0)
-    return Compensation(side, by_um, tuple(run.offsets.register[one] for one in at.tolist()), rules)
+    return Compensation(side, by_um, tuple(map(run.offsets.names.__getitem__, run.offsets.name[at].tolist())), rules)
 
 
 def _stops(given: Given, runs: Ints, at: Ints) -> tuple[Stop, ...]:
@@ -157,13 +158,13 @@ def _first_rows(given: Given, run: _Run) -> Ints:
 def _assumptions(given: Given, run: _Run) -> tuple[Assumption, ...]:
     told = []
     if given.listing.blocks.is_skipped[run.flow.block].any():
-        told.append(Assumption("assumed-skips", "/", "why-skips-run"))
-    if run.offsets.assumed:
-        told.append(Assumption("assumed-register", run.offsets.assumed, "why-only-register"))
+        told.append(Assumption("assumed-skips", "/", "because-skips-run"))
+    if run.offsets and run.offsets.assumed:
+        told.append(Assumption("assumed-register", run.offsets.assumed, "because-only-register"))
     if run.place.is_threaded.any():
-        told.append(Assumption("assumed-threading", "G92", "why-behind-stop"))
+        told.append(Assumption("assumed-threading", "G92", "because-behind-stop"))
     if _starts_unnamed(run):
-        told.append(Assumption("assumed-start", "X0 Y0", "why-no-start"))
+        told.append(Assumption("assumed-start", "X0 Y0", "because-no-start"))
     return tuple(told)
 
 
