@@ -67,10 +67,12 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
     """The toolpath of a listing."""
     given = Given(listing, profile)
     run = _run(given, choices)
+    arcs = agreement(run.mode, run.numbers, run.place, run.rows)
+    centred = () if arcs.is_otherwise else arc_findings(given, run.flow.block, run.mode, run.numbers, run.rows)
     findings = (
         *order_findings(given, run.flow, run.mode.side, run.place, run.rows.at),
         *move_findings(given, run.flow.block, run.mode, run.rows),
-        *arc_findings(given, run.flow.block, run.mode, run.numbers, run.rows),
+        *centred,  # of arcs that are read the wrong way nothing is said but that
     )
     return Moved(
         toolpath=_toolpath(given, run),
@@ -78,7 +80,7 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
         damages=_damages(given, run),
         assumptions=_assumptions(given, run),
         first_row=_first_rows(given, run),
-        agreement=agreement(run.mode, run.numbers, run.place, run.rows),
+        agreement=arcs,
     )
 
 

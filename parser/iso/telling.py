@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.dialect.reader import Assumption, Choices
-from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
 from parser.iso.centers import Agreement
 from parser.iso.listing import Listing
@@ -46,6 +45,11 @@ class Told(NamedTuple):
         """Whether the family was named, not told by marks."""
         return all(assumption.what != "assumed-dialect" for assumption in self.assumptions)
 
+    @property
+    def is_settled(self) -> bool:
+        """Whether all of it was written or chosen."""
+        return all(assumption.why == _CHOSEN for assumption in self.assumptions)
+
 
 def told(listing: Listing, choices: Choices) -> Told:
     """The profile of a listing: as chosen, or by its marks; ``common`` where nothing tells."""
@@ -83,15 +87,6 @@ def reread(family: Told, arcs: Agreement) -> Told:
         for one in family.assumptions
     )
     return family._replace(profile=of, assumptions=assumptions)
-
-
-def assumption_findings(family: Told) -> list[Finding]:
-    """Finding ISO112: how the text was read, where something of it was neither written nor chosen."""
-    if all(assumption.why == _CHOSEN for assumption in family.assumptions):
-        return []
-    of = family.profile
-    values = {"integer": amount(of.integer_um), "point": amount(of.point_um), "centers": f"centres-{of.centers}"}
-    return [Finding("ISO112", {"dialect": of.name, "distance": family.distance, **values})]
 
 
 def _unit(seen: Seen, of: Profile) -> str:
