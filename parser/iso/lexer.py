@@ -75,7 +75,7 @@ def _line(folded: str, bare: Bare, first: int, past: int) -> str:
 
 def _gathered(lines: LineIndex, plain: PlainWords, odd: list[OddLine]) -> tuple[Words, Blocks]:
     """The words of plain and odd lines, and their blocks, in file order."""
-    ends = np.append(plain.opens[1:], len(plain.letter)) - 1
+    ends = np.append(plain.opens, len(plain.letter))[1:] - 1
     first = np.concatenate([plain.first[plain.opens], np.array([line.span[0] for line in odd], dtype=np.int64)])
     past = np.concatenate([plain.past[ends], np.array([line.span[1] for line in odd], dtype=np.int64)])
     is_plain = np.zeros(len(plain.opens), dtype=np.bool_)
@@ -110,8 +110,7 @@ def _with_open_remarks(lines: LineIndex, bare: Bare, blocks: Blocks) -> tuple[Bl
     if not len(spans):
         return blocks, []
     line = lines.lines(spans[:, 0])
-    at = blocks.line.searchsorted(line)
-    is_in = (at < len(blocks.line)) & (blocks.line[np.minimum(at, len(blocks.line) - 1)] == line)
+    at, is_in = blocks.line.searchsorted(line), np.isin(line, blocks.line)
     is_damaged = blocks.is_damaged.copy()
     is_damaged[at[is_in]] = True
     block = np.where(is_in, at, -1).tolist()
