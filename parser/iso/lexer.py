@@ -136,11 +136,11 @@ def _small_letters(lines: LineIndex, words: Words) -> list[Finding]:
     small = np.flatnonzero(lines.codes[words.first] >= ord("a"))
     if not len(small):
         return []
-    first = words.first[small].tolist()
-    edits = tuple(Edit(at, at + 1, lines.text[at].upper()) for at in first)
-    span = first[0], int(words.past[small[0]])
-    found = lines.finding("ISO104", span, text=lines.text[slice(*span)], more=len(small) - 1)
-    return [found._replace(edits=edits)]
+    edits = tuple(Edit(at, at + 1, lines.text[at].upper()) for at in words.first[small].tolist())
+    word = int(small[0])
+    span = int(words.first[word]), int(words.past[word])
+    values = {"text": lines.text[slice(*span)], "more": len(small) - 1}
+    return [lines.finding("ISO104", span, int(words.block[word]) + 1, **values)._replace(edits=edits)]
 
 
 def _shown(text: str) -> str:
