@@ -182,7 +182,7 @@ class _PathChecks:
             self._done(Check.TRAVEL, "reason-damaged" if program.reading.damages else _stopped(program))
 
     def _done(self, name: Check, reason: str = "") -> None:
-        self.states.append(_state_of(self._program, name, reason))
+        self.states.append(_state_of(self._program, name, reason or self._program.reading.not_simulated))
 
 
 def _closed(rows: Ints, closures: list[Finding]) -> Ints:
