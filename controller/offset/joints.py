@@ -94,8 +94,7 @@ def joints(blocks: Blocks, early: Ints, late: Ints, outer: Outer) -> Joints:
     is_inner = turn * left > 0.0
     met = _met(blocks, early, late, corner, is_apart)
     lengthens = (np.abs(turn) <= _SHARPEST_RAD) & (met.off_um <= farthest) & (met.beyond_um >= -NOTHING_UM)
-    if outer == "arc":
-        lengthens[:] = False
+    lengthens &= outer != "arc"
     middle, wide = 0.5 * (end + start), _length(end - start)
     is_far = met.is_met & (_length(met.place_um - middle) > _FAR_PER_GAP * wide)
     is_smooth = (wide <= _SMOOTH_UM) | (is_far & is_inner & ~is_apart & (wide <= _TANGENT_UM))
@@ -105,12 +104,10 @@ def joints(blocks: Blocks, early: Ints, late: Ints, outer: Outer) -> Joints:
     place = np.where(is_middle[:, None], middle, met.place_um)
     misses = ~is_one & is_inner & np.isnan(met.place_um[:, 0]) & (early != late)
     early_vanishes, late_vanishes = _too_small(blocks, early, late, misses)
-    is_round = ~is_one & ~is_apart & ~is_inner
-    round_by = Joining.CHAMFER if outer == "chamfer" else Joining.ARC
     made = Joints(
         end_um=np.where(is_one[:, None], place, end),
         start_um=np.where(is_one[:, None], place, start),
-        bridge=np.select([is_one, is_round], [Joining.NONE, round_by], Joining.LINE).astype(np.int64),
+        bridge=_bridge(is_one, ~is_apart & ~is_inner, turn, outer),
         corner_um=corner,
         turn_rad=turn,
         is_apart=is_apart,
@@ -120,6 +117,13 @@ def joints(blocks: Blocks, early: Ints, late: Ints, outer: Outer) -> Joints:
     _jump_between(blocks, early, late, made)
     _prolong(blocks, early, late, made)
     return made
+
+
+def _bridge(is_one: Bools, is_outer: Bools, turn: Floats, outer: Outer) -> Ints:
+    """(k,) what lies between blocks that turn by angles; arcs that do not meet up to 90° are never chamfered."""
+    is_chamfer = is_outer & (np.abs(turn) > _SHARPEST_RAD) & (outer == "chamfer")
+    bridge = np.select([is_one, is_chamfer, is_outer], [Joining.NONE, Joining.CHAMFER, Joining.ARC], Joining.LINE)
+    return bridge.astype(np.int64)
 
 
 def _spared(blocks: Blocks, early: Ints, late: Ints, met: _Met) -> Bools:
