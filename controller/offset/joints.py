@@ -6,7 +6,7 @@ nothing is inserted: it runs straight between the ends of its neighbours (docs/i
 """
 
 from enum import IntEnum
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from controller.offset.shifted import NOTHING_UM, Blocks, turned_rad
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
 from parser.geometry.directions import headings_at
 from parser.geometry.meets import prolonged_meet
+from parser.toolpath import Outer
 
 _SHARPEST_RAD = 0.5 * np.pi + 0.01
 """Turn of the sharpest corner that is lengthened: 90°, and what whole µm make of it between lines of 0.1 mm."""
@@ -29,9 +30,6 @@ the gap away: arcs of one circle of 1 mm that miss each other by 1 µm may meet 
 _FLAT_RAD = 1e-6  # of curves that meet; rounding of 1e-10 µm then moves the place by 1e-4 µm
 APART_UM = 1e-3
 """Blocks whose ends are farther apart than this have no corner: others between them have vanished."""
-
-Outer = Literal["lengthen", "arc", "chamfer"]
-"""What is done at outer corners, as in `CompensationRules`."""
 
 
 class Joining(IntEnum):
@@ -135,10 +133,12 @@ def _spared(blocks: Blocks, early: Ints, late: Ints, met: _Met) -> Bools:
 
 def _prolong(blocks: Blocks, early: Ints, late: Ints, made: Joints) -> None:
     """Let lines reach the places of their chamfers."""
-    by_um = np.abs(blocks.left_um[early])[:, None]
-    is_arc, chamfer = blocks.shifted.is_arc, made.bridge == Joining.CHAMFER
-    made.end_um[:] += np.where((chamfer & ~is_arc[early])[:, None], by_um * blocks.arriving[early], 0.0)
-    made.start_um[:] -= np.where((chamfer & ~is_arc[late])[:, None], by_um * blocks.leaving[late], 0.0)
+    chamfer = np.flatnonzero(made.bridge == Joining.CHAMFER)
+    before, behind = early[chamfer], late[chamfer]
+    by_um = np.abs(blocks.left_um[before])[:, None]
+    is_line = ~blocks.shifted.is_arc[:, None]
+    made.end_um[chamfer] += np.where(is_line[before], by_um * blocks.arriving[before], 0.0)
+    made.start_um[chamfer] -= np.where(is_line[behind], by_um * blocks.leaving[behind], 0.0)
 
 
 def _jump_between(blocks: Blocks, early: Ints, late: Ints, made: Joints) -> None:
