@@ -43,6 +43,7 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
         words=None,
         source=_source(given, runs[row]),
         stops=_stops(given, runs, row),
+        told_center_um=_told_centers(mode, numbers, place, row),
     )
     return Moved(toolpath, ())
 
@@ -75,6 +76,13 @@ def _curves(mode: Modes, numbers: Coordinates, place: Places, row: Ints, resolut
     angle[turning] = np.arctan2(out[:, 1], out[:, 0])
     length[turning] = radius[turning] * np.abs(sweep[turning])
     return Curves(kind, start, end, center, radius, angle, sweep, length)
+
+
+def _told_centers(mode: Modes, numbers: Coordinates, place: Places, row: Ints) -> Floats:
+    """Centres (k, 2) of the arcs among the blocks `row` (k,) as their I J name them; NaN on others, and of those by R."""
+    named = (mode.motion[row] >= 2) & place.moves[row] & np.isnan(numbers.radius[row])
+    origin = np.where(mode.has_absolute_centers[row, None], place.shift_um[row], place.start_um[row])
+    return np.where(named[:, None], origin + np.nan_to_num(numbers.center[row]), np.nan)
 
 
 def _arcs(mode: Modes, numbers: Coordinates, place: Places, row: Ints, resolution_um: float) -> Arcs:
