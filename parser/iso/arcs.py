@@ -57,7 +57,7 @@ def arcs_about(start: Floats, end: Floats, center: Floats, turn: Floats) -> Arcs
     radius = np.where(stays, (at_start + at_end) / 2, _length(start - moved))
     sweep = np.where(stays, written, sweep)
     sweep = np.where((at_start > 0) & (at_end > 0), sweep, 0.0)
-    return Arcs(np.where(stays[:, None], center, moved), sweep * turn, radius, at_start, differ, chord)
+    return Arcs(np.where(stays[:, None], center, moved), sweep * turn, radius, at_start, differ, chord, center)
 
 
 def arcs_of_radius(start: Floats, end: Floats, radius: Floats, turn: Floats, slack_um: float) -> Arcs:
