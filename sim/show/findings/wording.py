@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from parser.dialect.reader import Assumption
 from parser.findings.catalogue import Language, term
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
@@ -40,6 +41,16 @@ def reach(result: CheckResult, language: Language) -> str:
         settings(result.silenced, (result.settings_file,), language),
     )
     return say("findings.stop").join(filter(None, parts))
+
+
+def assumed(assumptions: Iterable[Assumption], language: Language) -> str:
+    """``assumed: unit 0.001 mm (whole numbers), …``: what the text leaves open; empty where it leaves nothing."""
+    say = Words(language)
+    parts = [
+        say("findings.taken", what=term(one.what, language), taken=one.taken, why=term(one.why, language))
+        for one in assumptions
+    ]
+    return say("findings.assumed", parts=say("findings.stop").join(parts)) if parts else ""
 
 
 def summary(totals: Totals, language: Language) -> str:
