@@ -1,8 +1,11 @@
 """Options that say what an ISO program is read with: dialect, unit, values of offset registers."""
 
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple, TypeVar
 
 import click
+
+Command = TypeVar("Command", bound=Callable[..., Any])
 
 _DIALECTS = "fast-wire, classroom, skd2, robofil, sodick, mitsubishi, fanuc, common"
 
@@ -40,6 +43,37 @@ class RegisterValue(click.ParamType):  # type: ignore[type-arg]  # generic in ne
         return register_set(value)
 
 
+class OrRegister(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """Values of another type, or ``D0=0.1mm``."""
+
+    def __init__(self, other: click.ParamType) -> None:  # type: ignore[type-arg]  # as above
+        self._other = other
+        self.name = f"{other.name}|D0=length"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The register where there is ``=``, else what the other type makes of it."""
+        if isinstance(value, str) and "=" in value:
+            return register_set(value)
+        return self._other.convert(value, param, ctx)
+
+
+class Offsets(NamedTuple):
+    """What ``--offset`` says: values of registers, and the one of another type; None where there is none."""
+
+    registers: tuple[RegisterSet, ...]
+    plain: Any
+
+
+def offsets_of(values: Iterable[Any]) -> Offsets:
+    """The values of an option that may be given again for registers. UsageError where two are of the other type."""
+    given = tuple(values)
+    registers = tuple(one for one in given if isinstance(one, RegisterSet))
+    others = [one for one in given if not isinstance(one, RegisterSet)]
+    if len(others) > 1:
+        raise click.UsageError("--offset is given again for registers alone, such as D1=0.1mm; it has two plain values")
+    return Offsets(registers, others[0] if others else None)
+
+
 def register_set(text: str) -> RegisterSet:
     """The register that a text such as ``D0=0.1mm`` sets. SettingsError where it is none, or out of its bounds."""
     from parser.dialect.reader import register_name
@@ -69,3 +103,10 @@ READ_WITH = (
     ),
 )
 """Of every command that reads programs."""
+
+
+def with_dialect(command: Command) -> Command:
+    """Give a command the options `READ_WITH`."""
+    for option in reversed(READ_WITH):
+        command = option(command)
+    return command
