@@ -5,10 +5,9 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from parser import __version__
-from parser.dialect.reader import Assumption
 from parser.findings.catalogue import Language, term, texts
 from parser.findings.findings import Edit, Finding
-from sim.check.result import CheckResult, CheckState, Coverage
+from sim.check.result import CheckResult, CheckState, Coverage, assumption_entry
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import joined, spot, tidy
 from sim.show.findings.totals import BLOCKS, Totals
@@ -31,7 +30,7 @@ def _file(result: CheckResult, language: Language) -> dict[str, Any]:
         "name": result.name,
         "encoding": result.encoding or None,
         "dialect": result.dialect or None,
-        "assumptions": [_assumption(assumption, language) for assumption in result.assumptions],
+        "assumptions": [assumption_entry(assumption, language) for assumption in result.assumptions],
         "verdict": result.verdict,
         "settings_file": result.settings_file or None,
         "silenced": result.silenced._asdict(),
@@ -40,14 +39,6 @@ def _file(result: CheckResult, language: Language) -> dict[str, Any]:
         "steps": result.steps,
         "programmed": result.programmed and result.programmed._asdict(),
         "findings": [_finding(result, finding, language) for finding in result.findings],
-    }
-
-
-def _assumption(assumption: Assumption, language: Language) -> dict[str, str]:
-    return {
-        "what": assumption.what.removeprefix("assumed-"),
-        "taken": assumption.taken,
-        "why": term(assumption.why, language),
     }
 
 

@@ -10,6 +10,7 @@ from sim.check.result import CheckResult, CheckState, Coverage, Silenced, State
 from sim.show.findings.totals import Totals
 from sim.show.terminal.finding import hint, message
 from sim.show.words import Words
+from sim.show.words.phrases import as_read
 
 _STATES: tuple[State, ...] = ("complete", "incomplete", "not asked")
 _MOST_FILES = 3  # settings files that one line names
@@ -43,14 +44,9 @@ def reach(result: CheckResult, language: Language) -> str:
     return say("findings.stop").join(filter(None, parts))
 
 
-def assumed(assumptions: Iterable[Assumption], language: Language) -> str:
-    """``assumed: unit 0.001 mm (whole numbers), …``: what the text leaves open; empty where it leaves nothing."""
-    say = Words(language)
-    parts = [
-        say("findings.taken", what=term(one.what, language), taken=one.taken, why=term(one.why, language))
-        for one in assumptions
-    ]
-    return say("findings.assumed", parts=say("findings.stop").join(parts)) if parts else ""
+def assumed(assumptions: Sequence[Assumption], language: Language) -> str:
+    """``read as: unit 0.001 mm (whole numbers), …``: what the text leaves open; empty where it leaves nothing."""
+    return Words(language)("findings.assumed", parts=as_read(assumptions)) if assumptions else ""
 
 
 def summary(totals: Totals, language: Language) -> str:
