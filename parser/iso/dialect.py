@@ -2,7 +2,7 @@
 
 import re
 
-from parser.dialect.reader import BlockCounts, Choices, Damage, Marks, Reading, ReadText, Spelling
+from parser.dialect.reader import BlockCounts, Choices, Marks, Reading, ReadText, Spelling
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import file_order
@@ -46,12 +46,12 @@ class Iso:
         reading = Reading(
             dialect=f"ISO {family.profile.name}",
             counts=BlockCounts(n + len(listing.unread), n, n),
-            damages=tuple(Damage(one.span, 0) for one in listing.unread),
+            damages=path.damages,
             spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02"),
             is_drawing=path.toolpath.compensation is not None,
             not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
             remarks=listing.remarks,
-            assumptions=family.assumptions,
+            assumptions=(*family.assumptions, *path.assumptions),
             codes=_CODES,
         )
         findings = tuple(sorted([*listing.findings, *path.findings], key=file_order))
