@@ -8,7 +8,7 @@ from parser.findings.errors import ProgramError
 from parser.findings.findings import file_order
 from parser.iso.lexer import read_listing
 from parser.iso.motion import moved
-from parser.iso.telling import told
+from parser.iso.telling import assumption_findings, told
 from parser.text.encoding import no_program
 
 _LIKE_A_BLOCK = re.compile(r"(?im)^[ \t/]*(?:N[ \t]*\d+[ \t]*)?(?:[A-Z][ \t]*[-+]?[\d.]+[ \t]*)*?G[ \t]*\d")
@@ -54,7 +54,7 @@ class Iso:
             assumptions=(*family.assumptions, *path.assumptions),
             codes=_CODES,
         )
-        findings = tuple(sorted([*listing.findings, *path.findings], key=file_order))
+        findings = tuple(sorted([*listing.findings, *assumption_findings(family), *path.findings], key=file_order))
         return ReadText(listing.lines, reading, {}, path.toolpath, findings)
 
 
