@@ -47,7 +47,7 @@ class Iso:
         path = moved(listing, family.profile, choices)
         n = len(path.toolpath)
         reading = Reading(
-            dialect=f"ISO {family.profile.name}",
+            dialect=family.profile.name,
             counts=BlockCounts(n + len({one.block for one in listing.unread}), n, n),
             damages=path.damages,
             spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02"),

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.dialect.reader import Assumption, Choices
+from parser.findings.facts import ReadAs
 from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
 from parser.iso.listing import Listing
@@ -66,7 +67,7 @@ def assumption_findings(family: Told) -> list[Finding]:
         return []
     of = family.profile
     values = {"integer": amount(of.integer_um), "point": amount(of.point_um), "centers": f"centres-{of.centers}"}
-    return [Finding("ISO112", {"dialect": of.name, "distance": _G[of.distance], **values})]
+    return [Finding("ISO112", {"dialect": of.name, "distance": _G[of.distance], **values}, fact=ReadAs())]
 
 
 def _unit(seen: Seen, of: Profile) -> str:
