@@ -45,9 +45,9 @@ class Draft:
     def __len__(self) -> int:
         return len(self.curves)
 
-    def pauses_before(self, row: int) -> bool:
-        """Whether the program pauses between the row before a row (from 0) and this one."""
-        return any(stop.after == row and stop.kind == "pause" for stop in self.stops)
+    def without_compensation(self) -> "Draft":
+        """The same path, with nothing said of the controller's offset."""
+        return replace(self, compensation=None)
 
 
 class Written(NamedTuple):

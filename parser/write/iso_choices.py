@@ -62,6 +62,12 @@ class IsoChoices(NamedTuple):
         """Least step that its numbers are written in."""
         return round(_UM[self.unit] / 10.0**self.decimals, 9)
 
+    @property
+    def reading_unit(self) -> Unit | Literal[""]:
+        """The unit that its text is to be read with: none where the text says it, or it is that of the dialect."""
+        says = self.unit == "inch" or self.habits.says_unit
+        return "" if says else self.unit
+
     def number(self, steps: int) -> str:
         """A number of steps as text."""
         return f"{steps}" if not self.decimals else f"{steps / 10**self.decimals:.{self.decimals}f}"

@@ -50,6 +50,12 @@ def sides_of(compensation: Compensation | None, choices: IsoChoices) -> Sides:
     return sides
 
 
+def registers_of(compensation: Compensation | None, choices: IsoChoices) -> tuple[tuple[str, float], ...]:
+    """Names without leading zeros, and values in µm, of the registers that a text leaves to the controller's table."""
+    outside = sides_of(compensation, choices).outside
+    return tuple((f"{name[0]}{int(name[1:])}", by_um) for name, by_um in outside.items())
+
+
 def _set_value(sides: Sides, row: int, name: str, by_um: float, choices: IsoChoices) -> None:
     if choices.habits.sets_offsets:
         sides.before.setdefault(row, []).append(f"{name}={_value(by_um, choices)}")
