@@ -6,6 +6,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
 from parser.findings.codes import Check
 from parser.findings.findings import Finding
@@ -168,6 +169,8 @@ class ReadText(NamedTuple):
         What is wrong with the text and its single blocks, in file order.
     mender
         What the dialect knows of writing blocks otherwise; None where it knows nothing of it.
+    decoder
+        Shows how the words of a block are decoded; None where the dialect has no such thing to show.
     """
 
     lines: LineIndex
@@ -176,6 +179,7 @@ class ReadText(NamedTuple):
     toolpath: Toolpath
     findings: tuple[Finding, ...]
     mender: Mender | None = None
+    decoder: Decoder | None = None
 
 
 class Reader(Protocol):

@@ -9,6 +9,7 @@ from parser.findings.findings import file_order
 from parser.iso.lexer import read_listing
 from parser.iso.motion import moved
 from parser.iso.telling import told
+from parser.iso.trace import Trace
 from parser.text.encoding import no_program
 
 _LIKE_A_BLOCK = re.compile(r"(?im)^[ \t/]*(?:N[ \t]*\d+[ \t]*)?(?:[A-Z][ \t]*[-+]?[\d.]+[ \t]*)*?G[ \t]*\d")
@@ -55,7 +56,8 @@ class Iso:
             codes=_CODES,
         )
         findings = tuple(sorted([*listing.findings, *path.findings], key=file_order))
-        return ReadText(listing.lines, reading, {}, path.toolpath, findings)
+        decoder = Trace(listing, family.profile)
+        return ReadText(listing.lines, reading, {}, path.toolpath, findings, decoder=decoder)
 
 
 ISO = Iso()

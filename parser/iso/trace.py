@@ -1,0 +1,156 @@
+"""The way of a block through the decoder: each word and the field that it sets (docs/iso.md §8).
+
+A word that is not repeated leaves its field alone: what is in force from earlier blocks is not in the buffer.
+"""
+
+import math
+import re
+from collections.abc import Iterable
+from typing import Final, NamedTuple
+
+from parser.dialect.decoding import DecodedBlock, DecodeStep
+from parser.iso.listing import Assignment, Listing
+from parser.iso.profile import Profile
+
+_COOR: Final = {letter: at for at, letter in enumerate("XYZUVWIJKR", start=1)}
+"""Places of dimension words in COOR: the course has X and Y; the others are put behind them here."""
+_FLAGS: Final = {0.0: 0, 1.0: 1, 2.0: 2, 3.0: 3, 6.0: 4}
+_DISTANCES: Final = {90.0: 0, 91.0: 1}
+_SIDES: Final = {40.0: 0, 41.0: 1, 42.0: 2}
+_DISTANCE_BIT, _SIDE_BIT = 5, 6
+_OWN: Final = "FSTDH"
+_DIGITS: Final = 6  # of a µm, that a length in inches has no tail of noughts and ones
+_END_SIGN: Final = re.compile(r"[ \t]*(?:\([^()\r\n]*\)[ \t]*)*;")
+_SPACES: Final = re.compile(r"\s+")
+
+
+class _Word(NamedTuple):
+    """One word: as written without blanks, its column, letter, value, and that in µm."""
+
+    text: str
+    column: int
+    letter: str
+    value: float
+    um: float
+
+
+class Trace:
+    """Decodes the blocks of a listing, read by a profile."""
+
+    def __init__(self, listing: Listing, profile: Profile) -> None:
+        self._listing, self._profile = listing, profile
+
+    def blocks(self) -> tuple[DecodedBlock, ...]:
+        """All blocks of the listing, in file order."""
+        assigned: dict[int, list[Assignment]] = {}
+        for one in self._listing.assignments:
+            assigned.setdefault(one.block, []).append(one)
+        return tuple(self._block(at, assigned.get(at, [])) for at in range(len(self._listing.blocks.line)))
+
+    def _block(self, at: int, assigned: list[Assignment]) -> DecodedBlock:
+        blocks = self._listing.blocks
+        words = [self._word(word) for word in range(int(blocks.word[at]), int(blocks.word[at + 1]))]
+        last = {word.letter: word.value for word in words}
+        g_words = tuple(word.value for word in words if word.letter == "G")
+        count = _whole(last.get("N"))
+        steps = [*map(_set_by, words), *map(self._assigned, assigned), self._closing(int(blocks.past[at]))]
+        return DecodedBlock(
+            line=int(blocks.line[at]),
+            span=(int(blocks.first[at]), int(blocks.past[at])),
+            number=count,
+            number_bcd=None if count is None else binary_coded(count),
+            coor_um={word.letter: word.um for word in words if word.letter in _COOR},
+            f=last.get("F"),
+            s=last.get("S"),
+            t=last.get("T"),
+            d=last.get("D"),
+            h=last.get("H"),
+            g0=flags(g_words),
+            g=g_words,
+            m=tuple(word.value for word in words if word.letter == "M"),
+            others={letter: value for letter, value in last.items() if letter not in {*_COOR, *_OWN, *"NGM"}},
+            steps=tuple(step._replace(order=order) for order, step in enumerate(steps, start=1)),
+        )
+
+    def _word(self, at: int) -> _Word:
+        words = self._listing.words
+        first, value = int(words.first[at]), float(words.value[at])
+        scale = self._profile.integer_um if words.decimals[at] < 0 else self._profile.point_um
+        letter = chr(int(words.letter[at]))
+        return _Word(
+            self._text(first, int(words.past[at])), self._column(first), letter, value, _rounded(value * scale)
+        )
+
+    def _assigned(self, one: Assignment) -> DecodeStep:
+        """The step of a register that is set: its value where it is a number, else none: a sum is worked out later."""
+        profile = self._profile
+        scales = [
+            profile.register_integer_um if term[1] < 0 else profile.register_point_um
+            for term in one.terms
+            if not isinstance(term, str)
+        ]
+        values = [term[0] for term in one.terms if not isinstance(term, str)]
+        is_known = len(values) == len(one.terms)
+        um = _rounded(sum(value * scale for value, scale in zip(values, scales, strict=True))) if is_known else None
+        return DecodeStep(0, self._text(*one.span), self._column(one.span[0]), one.register, um)
+
+    def _closing(self, past: int) -> DecodeStep:
+        """The step that tells the next stage that the block is whole: a closing ``;``, or the end of the line."""
+        sign = _END_SIGN.match(self._listing.text, past)
+        column = self._column(sign.end() - 1) if sign else self._column(past - 1) + 1
+        return DecodeStep(0, ";" if sign else "", column, "buf_state", 1)
+
+    def _text(self, first: int, past: int) -> str:
+        return _SPACES.sub("", self._listing.text[first:past])
+
+    def _column(self, at: int) -> int:
+        return self._listing.lines.column(at)
+
+
+def flags(g_words: Iterable[float]) -> int:
+    """The byte G0 of the G words of a block; those that have no bit change nothing."""
+    byte = 0
+    for word in g_words:
+        if word in _FLAGS:
+            byte |= 1 << _FLAGS[word]
+        elif word in _DISTANCES:
+            byte = byte & ~(1 << _DISTANCE_BIT) | _DISTANCES[word] << _DISTANCE_BIT
+        elif word in _SIDES:
+            byte = byte & ~(3 << _SIDE_BIT) | _SIDES[word] << _SIDE_BIT
+    return byte
+
+
+def binary_coded(number: int) -> int:
+    """A whole number with one decimal digit in every four bits: 12 is 0x12."""
+    return int(str(abs(number)), 16)
+
+
+def _set_by(word: _Word) -> DecodeStep:
+    """The step of a word."""
+    field, value = _field(word)
+    return DecodeStep(0, word.text, word.column, field, value)
+
+
+def _field(word: _Word) -> tuple[str, float]:
+    """The field that a word sets, and what it becomes."""
+    if word.letter in _COOR:
+        return f"COOR[{_COOR[word.letter]}]", word.um
+    if word.letter == "G":
+        return _g_field(word.value)
+    return {"N": "block_num", "M": "M0"}.get(word.letter, word.letter), word.value
+
+
+def _g_field(value: float) -> tuple[str, float]:
+    if value in _FLAGS:
+        return f"G0.D{_FLAGS[value]}", 1
+    if value in _DISTANCES:
+        return f"G0.D{_DISTANCE_BIT}", _DISTANCES[value]
+    return ("G0.D7D6", _SIDES[value]) if value in _SIDES else ("G1", value)
+
+
+def _whole(number: float | None) -> int | None:
+    return int(number) if number is not None and math.isfinite(number) else None
+
+
+def _rounded(um: float) -> float:
+    return round(um, _DIGITS)
