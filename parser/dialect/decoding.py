@@ -33,6 +33,23 @@ class DecodeStep(NamedTuple):
     value: float | None
 
 
+class InForce(NamedTuple):
+    """What holds while a block runs, given by itself or by one before it.
+
+    Attributes
+    ----------
+    motion, distance, side
+        As words: ``G01``, ``G90``, ``G41``; the motion is empty before the first one, the side ``G40`` without one.
+    f
+        Feed as written; None before the first one.
+    """
+
+    motion: str
+    distance: str
+    side: str
+    f: float | None
+
+
 class DecodedBlock(NamedTuple):
     """The buffer of one block once it is read: what the block gives itself, and nothing that it takes over.
 
@@ -54,6 +71,8 @@ class DecodedBlock(NamedTuple):
         All other words by their letters.
     steps
         In order; the last one closes the block.
+    in_force
+        As the block runs for the first time; None where it never runs.
     """
 
     line: int
@@ -71,6 +90,7 @@ class DecodedBlock(NamedTuple):
     m: tuple[float, ...]
     others: Mapping[str, float]
     steps: tuple[DecodeStep, ...]
+    in_force: InForce | None
 
 
 class Decoder(Protocol):

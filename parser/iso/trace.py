@@ -6,10 +6,16 @@ A word that is not repeated leaves its field alone: what is in force from earlie
 import math
 import re
 from collections.abc import Iterable
+from functools import cached_property
 from typing import Final, NamedTuple
 
-from parser.dialect.decoding import DecodedBlock, DecodeStep
+import numpy as np
+
+from parser.dialect.decoding import DecodedBlock, DecodeStep, InForce
+from parser.iso.flow import run_order
+from parser.iso.given import Given
 from parser.iso.listing import Assignment, Listing
+from parser.iso.modes import NO_MOTION, carried, modes
 from parser.iso.profile import Profile
 
 _COOR: Final = {letter: at for at, letter in enumerate("XYZUVWIJKR", start=1)}
@@ -20,6 +26,9 @@ _SIDES: Final = {40.0: 0, 41.0: 1, 42.0: 2}
 _DISTANCE_BIT, _SIDE_BIT = 5, 6
 _OWN: Final = "FSTDH"
 _DIGITS: Final = 6  # of a µm, that a length in inches has no tail of noughts and ones
+_MOTIONS: Final = {NO_MOTION: "", **{motion: f"G0{motion}" for motion in range(4)}}
+_DISTANCE_WORDS: Final = {True: "G90", False: "G91"}
+_SIDE_WORDS: Final = {0: "G40", 1: "G41", -1: "G42"}
 _END_SIGN: Final = re.compile(r"[ \t]*(?:\([^()\r\n]*\)[ \t]*)*;")
 _SPACES: Final = re.compile(r"\s+")
 
@@ -34,6 +43,14 @@ class _Word(NamedTuple):
     um: float
 
 
+class _Mode(NamedTuple):
+    """What is in force in a block, and µm of a coordinate of 1 there, without a point and with one."""
+
+    in_force: InForce
+    integer_um: float
+    point_um: float
+
+
 class Trace:
     """Decodes the blocks of a listing, read by a profile."""
 
@@ -42,18 +59,46 @@ class Trace:
 
     def blocks(self) -> tuple[DecodedBlock, ...]:
         """All blocks of the listing, in file order."""
-        assigned: dict[int, list[Assignment]] = {}
-        for one in self._listing.assignments:
-            assigned.setdefault(one.block, []).append(one)
-        return tuple(self._block(at, assigned.get(at, [])) for at in range(len(self._listing.blocks.line)))
+        return tuple(self._block(at, self._modes.get(at)) for at in range(len(self._listing.blocks.line)))
 
-    def _block(self, at: int, assigned: list[Assignment]) -> DecodedBlock:
+    @cached_property
+    def _modes(self) -> dict[int, _Mode]:
+        """What is in force in each block, as it runs for the first time; none for blocks that never run."""
+        given = Given(self._listing, self._profile)
+        runs = run_order(given)
+        mode = modes(given, runs)
+        feed = carried(given.word("F")[runs], -1)
+        block, first = np.unique(runs, return_index=True)
+        feeds = [None if word < 0 else float(self._listing.words.value[word]) for word in feed[first].tolist()]
+        columns = [column[first].tolist() for column in (mode.motion, mode.is_absolute, mode.side)]
+        scales = [column[first].tolist() for column in (mode.integer_um, mode.point_um)]
+        return {
+            at: _Mode(InForce(_MOTIONS[motion], _DISTANCE_WORDS[is_absolute], _SIDE_WORDS[side], feed), *scale)
+            for at, motion, is_absolute, side, feed, *scale in zip(
+                block.tolist(), *columns, feeds, *scales, strict=True
+            )
+        }
+
+    @cached_property
+    def _assignments(self) -> dict[int, list[Assignment]]:
+        """Registers that are set, by their blocks."""
+        by_block: dict[int, list[Assignment]] = {}
+        for one in self._listing.assignments:
+            by_block.setdefault(one.block, []).append(one)
+        return by_block
+
+    def _block(self, at: int, mode: _Mode | None) -> DecodedBlock:
         blocks = self._listing.blocks
-        words = [self._word(word) for word in range(int(blocks.word[at]), int(blocks.word[at + 1]))]
+        scale = (self._profile.integer_um, self._profile.point_um) if mode is None else mode[1:]
+        words = [self._word(word, *scale) for word in range(int(blocks.word[at]), int(blocks.word[at + 1]))]
         last = {word.letter: word.value for word in words}
         g_words = tuple(word.value for word in words if word.letter == "G")
         count = _whole(last.get("N"))
-        steps = [*map(_set_by, words), *map(self._assigned, assigned), self._closing(int(blocks.past[at]))]
+        steps = [
+            *map(_set_by, words),
+            *map(self._assigned, self._assignments.get(at, ())),
+            self._closing(int(blocks.past[at])),
+        ]
         return DecodedBlock(
             line=int(blocks.line[at]),
             span=(int(blocks.first[at]), int(blocks.past[at])),
@@ -70,12 +115,13 @@ class Trace:
             m=tuple(word.value for word in words if word.letter == "M"),
             others={letter: value for letter, value in last.items() if letter not in {*_COOR, *_OWN, *"NGM"}},
             steps=tuple(step._replace(order=order) for order, step in enumerate(steps, start=1)),
+            in_force=mode and mode.in_force,
         )
 
-    def _word(self, at: int) -> _Word:
+    def _word(self, at: int, integer_um: float, point_um: float) -> _Word:
         words = self._listing.words
         first, value = int(words.first[at]), float(words.value[at])
-        scale = self._profile.integer_um if words.decimals[at] < 0 else self._profile.point_um
+        scale = integer_um if words.decimals[at] < 0 else point_um
         letter = chr(int(words.letter[at]))
         return _Word(
             self._text(first, int(words.past[at])), self._column(first), letter, value, _rounded(value * scale)

@@ -60,6 +60,7 @@ def test_what_is_in_force_from_earlier_blocks_is_not_in_the_buffer() -> None:
 
     assert (block.g0, block.d, block.f, block.g) == (0, None, None, ())
     assert block.coor_um == {"X": 10000.0}
+    assert block.in_force == ("G01", "G90", "G41", 200.0)
 
 
 def test_the_end_of_a_line_closes_a_block_that_has_no_sign_of_its_own() -> None:
@@ -113,3 +114,16 @@ def test_a_register_that_is_set_to_a_number_tells_it_and_a_sum_does_not() -> Non
 @pytest.mark.parametrize("number", [0, 6, 12, 99, 1420, 9999])
 def test_binary_coded_digits_read_as_written(number: int) -> None:
     assert f"{binary_coded(number):x}" == str(number)
+
+
+def test_a_unit_word_scales_the_words_behind_it() -> None:
+    *_, block = decoded("G20\nG01 X.5 Y5", "common")
+
+    assert block.coor_um == {"X": 12700.0, "Y": 12.7}
+
+
+def test_nothing_is_in_force_in_a_block_that_never_runs() -> None:
+    *_, dead = decoded("G01 X1\nM02\nX2")
+
+    assert dead.in_force is None
+    assert dead.coor_um == {"X": 2000.0}
