@@ -14,9 +14,9 @@ from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.geometry.directions import headings_at
 from parser.geometry.meets import prolonged_meet
 
-_SHARPEST_RAD = 0.5 * np.pi + 0.01
+SHARPEST_RAD = 0.5 * np.pi + 0.01
 """Turn of the sharpest corner that is lengthened: 90°, and what whole µm make of it between lines of 0.1 mm."""
-_FARTHEST = 1.0 / np.cos(0.5 * _SHARPEST_RAD) + 1e-9
+_FARTHEST = 1.0 / np.cos(0.5 * SHARPEST_RAD) + 1e-9
 """How far from its corner lengthened lines meet at most, per offset: √2 at 90°."""
 _BACK_RAD = np.pi - 1e-6
 """A block that turns more runs back along the one before it: rounding decides the side, the wire goes round the end."""
@@ -84,7 +84,7 @@ def joints(blocks: Blocks, early: Ints, late: Ints) -> Joints:
     turn = _turn(blocks, early, late)
     is_inner = turn * left > 0.0
     met = _met(blocks, early, late, corner, is_apart)
-    lengthens = (np.abs(turn) <= _SHARPEST_RAD) & (met.off_um <= farthest) & (met.beyond_um >= -NOTHING_UM)
+    lengthens = (np.abs(turn) <= SHARPEST_RAD) & (met.off_um <= farthest) & (met.beyond_um >= -NOTHING_UM)
     middle, wide = 0.5 * (end + start), _length(end - start)
     is_far = met.is_met & (_length(met.place_um - middle) > _FAR_PER_GAP * wide)
     is_smooth = (wide <= _SMOOTH_UM) | (is_far & is_inner & ~is_apart & (wide <= _TANGENT_UM))
