@@ -41,23 +41,23 @@ def block_entry(one: Decoded) -> dict[str, Any]:
         "number_bcd": block.number_bcd,
         "coor_um": dict(block.coor_um),
         **_registers(block),
-        "others": {letter: _plain(value) for letter, value in block.others.items()},
-        "steps": [{**step._asdict(), "value": _plain(step.value)} for step in block.steps],
-        "in_force": None if block.in_force is None else {**block.in_force._asdict(), "f": _plain(block.in_force.f)},
+        "others": {letter: plain(value) for letter, value in block.others.items()},
+        "steps": [{**step._asdict(), "value": plain(step.value)} for step in block.steps],
+        "in_force": None if block.in_force is None else {**block.in_force._asdict(), "f": plain(block.in_force.f)},
         "way": None if one.way is None else _way(one.way),
     }
 
 
 def _registers(block: DecodedBlock) -> dict[str, Any]:
     return {
-        "f": _plain(block.f),
-        "s": _plain(block.s),
+        "f": plain(block.f),
+        "s": plain(block.s),
         "g0": block.g0,
-        "g": [_plain(value) for value in block.g],
-        "m": [_plain(value) for value in block.m],
-        "t": _plain(block.t),
-        "d": _plain(block.d),
-        "h": _plain(block.h),
+        "g": [plain(value) for value in block.g],
+        "m": [plain(value) for value in block.m],
+        "t": plain(block.t),
+        "d": plain(block.d),
+        "h": plain(block.h),
     }
 
 
@@ -76,7 +76,7 @@ def _way(way: Way) -> dict[str, Any]:
     }
 
 
-def _plain(value: float | None) -> float | None:
+def plain(value: float | None) -> float | None:
     """A number as people write it: whole ones without a point; None where there is none, or none that JSON has."""
     if value is None or not abs(value) < float("inf"):
         return None
