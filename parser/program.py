@@ -12,6 +12,7 @@ from parser.files.reading import read_bytes
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
 from parser.iso.dialect import ISO
+from parser.iso.profile import PROFILES
 from parser.text.encoding import decode_text, no_program, printable
 from parser.text.lines import LineIndex
 from parser.threeb.dialect import THREE_B
@@ -85,10 +86,8 @@ def parse_program(
     text: str, name: str = "program", encoding: str = "utf-8", choices: Choices = STANDARD_CHOICES
 ) -> Program:
     """Program of a text. Raises ProgramError (3B100) where it holds no block."""
-    if choices.dialect:  # the profiles are those of ISO
-        reader: Reader = ISO
-    else:
-        reader = next((reader for reader in READERS if reader.recognises(text)), READERS[0])
+    of_none: Reader = ISO if choices.dialect else READERS[0]  # the dialects that can be chosen are those of ISO
+    reader = next((reader for reader in READERS if reader.recognises(text)), of_none)
     return Program(name, encoding, text, **reader.read(text, choices)._asdict(), choices=choices)
 
 
@@ -104,6 +103,11 @@ def own_marks() -> Marks:
         end=tuple(word for marks in own for word in marks.end),
         pause=tuple(word for marks in own for word in marks.pause),
     )
+
+
+def dialects() -> tuple[str, ...]:
+    """Names of dialects that may be chosen for a program: the profiles of ISO."""
+    return PROFILES
 
 
 def block_words() -> tuple[str, ...]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from parser.geometry.curves import Floats
 
-ROUNDING = 2.0 * np.sqrt(2.0)
+ROUNDING = 8.0**0.5
 """How far radii at start and end differ at most, in steps of the file, where places and centre are rounded to them."""
 
 
@@ -21,8 +21,10 @@ class Arcs(NamedTuple):
         (k,) signed; 0 where nothing makes an arc of it: such a block goes straight to its end.
     radius_um
         (k,) of the arc; the mean of both ends where the centre stays as written.
+    written_um
+        (k,) radius as written: at the start, or R without its sign.
     differ_um
-        (k,) radius at the end less that at the start, about the centre as written; 0 by R.
+        (k,) how much more it is at the end about the centre as written; 0 by R.
     chord_um
         (k,) from start to end.
     """
@@ -30,6 +32,7 @@ class Arcs(NamedTuple):
     center_um: Floats
     sweep_rad: Floats
     radius_um: Floats
+    written_um: Floats
     differ_um: Floats
     chord_um: Floats
 
@@ -51,7 +54,7 @@ def arcs_about(start: Floats, end: Floats, center: Floats, turn: Floats) -> Arcs
     radius = np.where(stays, (at_start + at_end) / 2, _length(start - moved))
     sweep = np.where(stays, written, sweep)
     sweep = np.where((at_start > 0) & (at_end > 0), sweep, 0.0)
-    return Arcs(np.where(stays[:, None], center, moved), sweep * turn, radius, differ, chord)
+    return Arcs(np.where(stays[:, None], center, moved), sweep * turn, radius, at_start, differ, chord)
 
 
 def arcs_of_radius(start: Floats, end: Floats, radius: Floats, turn: Floats, slack_um: float) -> Arcs:
@@ -63,13 +66,13 @@ def arcs_of_radius(start: Floats, end: Floats, radius: Floats, turn: Floats, sla
     chord = _length(by)
     size = np.abs(radius)
     half = chord / 2
-    fits = (chord > 0) & (half <= size + slack_um) & (size > 0)
+    fits = (chord > 0) & (half <= size + slack_um / 2) & (size > 0)
     height = np.sqrt(np.maximum(size**2 - half**2, 0.0))
     normal = np.column_stack([-by[:, 1], by[:, 0]]) / np.where(chord > 0, chord, 1.0)[:, None]
     center = (start + end) / 2 + (turn * np.where(radius > 0, 1.0, -1.0) * height)[:, None] * normal
     minor = 2 * np.arcsin(np.minimum(half / np.where(size > 0, size, 1.0), 1.0))
     sweep = np.where(fits, np.where(radius > 0, minor, 2 * np.pi - minor), 0.0)
-    return Arcs(center, sweep * turn, _length(start - center), np.zeros_like(size), chord)
+    return Arcs(center, sweep * turn, _length(start - center), size, np.zeros_like(size), chord)
 
 
 def _sweep(out: Floats, back: Floats, turn: Floats) -> Floats:

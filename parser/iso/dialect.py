@@ -2,13 +2,13 @@
 
 import re
 
-from parser.dialect.reader import BlockCounts, Choices, Damage, Marks, Reading, ReadText, Spelling
+from parser.dialect.reader import BlockCounts, Choices, Marks, Reading, ReadText, Spelling
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import file_order
 from parser.iso.lexer import read_listing
 from parser.iso.motion import moved
-from parser.iso.telling import told
+from parser.iso.telling import assumption_findings, told
 from parser.iso.trace import Trace
 from parser.text.encoding import no_program
 
@@ -47,15 +47,15 @@ class Iso:
         reading = Reading(
             dialect=f"ISO {family.profile.name}",
             counts=BlockCounts(n + len(listing.unread), n, n),
-            damages=tuple(Damage(one.span, 0) for one in listing.unread),
+            damages=path.damages,
             spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02"),
             is_drawing=path.toolpath.compensation is not None,
             not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
             remarks=listing.remarks,
-            assumptions=family.assumptions,
+            assumptions=(*family.assumptions, *path.assumptions),
             codes=_CODES,
         )
-        findings = tuple(sorted([*listing.findings, *path.findings], key=file_order))
+        findings = tuple(sorted([*listing.findings, *assumption_findings(family), *path.findings], key=file_order))
         decoder = Trace(listing, family.profile)
         return ReadText(listing.lines, reading, {}, path.toolpath, findings, decoder=decoder)
 

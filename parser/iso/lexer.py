@@ -60,6 +60,7 @@ def read_listing(text: str) -> Listing:
         Words(letter, value, decimals_, word_first, word_past, block),
         Blocks(*columns[:3], columns[3].astype(bool), columns[4].astype(bool), np.array(starts)),
         tuple(assignments),
+        (),
         np.array(remarks, dtype=np.int64).reshape(-1, 2),
         tuple(unread),
         len(folded),

@@ -1,5 +1,6 @@
 """The listing: words of a text as columns, gathered in blocks, one a line; what `lexer` makes and all others read."""
 
+from enum import StrEnum
 from typing import NamedTuple
 
 import numpy as np
@@ -35,7 +36,9 @@ class Words(NamedTuple):
 
 
 class Blocks(NamedTuple):
-    """b blocks: lines with words or an assignment, in file order; each column has shape (b,) but for the last.
+    """b blocks: lines that hold more than remarks, titles and tape marks, in file order.
+
+    Each column has shape (b,) but for the last.
 
     Attributes
     ----------
@@ -80,8 +83,39 @@ class Assignment(NamedTuple):
     span: tuple[int, int]
 
 
+class Form(StrEnum):
+    """What a line says that is neither words nor an offset register (docs/iso.md §1)."""
+
+    SETTING = "setting"
+    """Other values that are set, such as ``C001 = 012 014``: cutting conditions."""
+    FUNCTION = "function"
+    """A function of the controller, such as ``QAIC(2,1,0.1250)``."""
+    MACRO = "macro"
+    """Variables, sums in brackets, jumps and loops, such as ``#100 = #101 + 1`` or ``IF [#1 GT 0] GOTO 10``."""
+    TWO_PLANES = "two-planes"
+    """Upper contour, ``:``, lower contour; the words of the block are those of the lower one."""
+
+
+class Statement(NamedTuple):
+    """A line, or of two planes the upper contour, in another form than words.
+
+    Attributes
+    ----------
+    form
+        Which one.
+    block
+        Block that it stands in, from 0; the block of a macro is damaged, as its motion is not known.
+    span
+        First character, and one past the last.
+    """
+
+    form: Form
+    block: int
+    span: tuple[int, int]
+
+
 class Unread(NamedTuple):
-    """A piece of text that is no word: its span, and the block it stands in, from 0; −1 where it stands in none."""
+    """A piece of text that is no word: its span, and the block it stands in, from 0."""
 
     span: tuple[int, int]
     block: int
@@ -97,7 +131,9 @@ class Listing(NamedTuple):
     words, blocks
         Words, in blocks.
     assignments
-        Of offset registers, in file order; other assignments, such as ``C001 = 012 014``, have no place here.
+        Of offset registers, in file order.
+    statements
+        Lines in other forms than words, in file order.
     remarks
         (k, 2) int64, first character and one past the last of each remark.
     unread
@@ -113,6 +149,7 @@ class Listing(NamedTuple):
     words: Words
     blocks: Blocks
     assignments: tuple[Assignment, ...]
+    statements: tuple[Statement, ...]
     remarks: Ints
     unread: tuple[Unread, ...]
     tape_end: int

@@ -4,120 +4,151 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.reader import Choices
+from parser.dialect.reader import Assumption, Choices, Damage
 from parser.findings.findings import Finding
-from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
-from parser.iso.arcs import ROUNDING, Arcs, arcs_about, arcs_of_radius
-from parser.iso.flow import run_order
+from parser.geometry.curves import Curves, Ints
+from parser.iso.arc_checks import arc_findings
+from parser.iso.flow import Flow, flow
 from parser.iso.given import Given
 from parser.iso.listing import Listing
 from parser.iso.modes import Modes, modes
+from parser.iso.move_checks import move_findings
+from parser.iso.order_checks import order_findings
 from parser.iso.places import Coordinates, Places, coordinates, places
 from parser.iso.profile import Profile
-from parser.text.source import Source
-from parser.toolpath import Stop, Toolpath
+from parser.iso.registers import Offsets, offsets
+from parser.iso.rows import Rows, rows, source
+from parser.toolpath import Compensation, CompensationRules, Stop, Toolpath
 
-_STOPS = ("stop", "thread", "cut")
+STOPS = ("stop", "thread", "cut")
+"""What M words do behind which the wire may be threaded elsewhere."""
 
 
 class Moved(NamedTuple):
-    """What the blocks of a listing move: the toolpath, and what is wrong with it."""
+    """What the blocks of a listing move.
+
+    Attributes
+    ----------
+    toolpath
+        The path, in the order in which blocks run.
+    findings
+        What is wrong with it.
+    damages
+        Blocks whose motion is not known, and calls that cannot be followed.
+    assumptions
+        What the text leaves open of where the wire goes.
+    """
 
     toolpath: Toolpath
     findings: tuple[Finding, ...]
+    damages: tuple[Damage, ...]
+    assumptions: tuple[Assumption, ...]
+
+
+class _Run(NamedTuple):
+    """All columns of the running blocks."""
+
+    flow: Flow
+    mode: Modes
+    numbers: Coordinates
+    place: Places
+    rows: Rows
+    offsets: Offsets
 
 
 def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
     """The toolpath of a listing."""
     given = Given(listing, profile)
-    runs = run_order(given)
-    mode = modes(given, runs)
-    numbers = coordinates(given, runs, mode)
-    stops = given.m(*_STOPS)[runs]
-    place = places(given, runs, mode, numbers, _is_threaded(given, runs, mode, numbers, stops))
-    row = np.flatnonzero(place.moves | (place.is_named & (place.start_um != place.end_um).any(axis=1)))
-    curves = _curves(mode, numbers, place, row, profile.resolution_um)
-    toolpath = Toolpath(
+    run = _run(given, choices)
+    findings = (
+        *order_findings(given, run.flow, run.mode.side, run.place, run.rows.at),
+        *move_findings(given, run.flow.block, run.mode, run.rows),
+        *arc_findings(given, run.flow.block, run.mode, run.numbers, run.rows),
+    )
+    return Moved(_toolpath(given, run), findings, _damages(given, run), _assumptions(given, run))
+
+
+def _run(given: Given, choices: Choices) -> _Run:
+    order = flow(given)
+    mode = modes(given, order.block)
+    numbers = coordinates(given, order.block, mode)
+    place = places(numbers, mode.is_absolute, given.m(*STOPS)[order.block])
+    path = rows(mode, numbers, place, given.profile.resolution_um)
+    return _Run(order, mode, numbers, place, path, offsets(given, order.block, mode, choices))
+
+
+def _toolpath(given: Given, run: _Run) -> Toolpath:
+    curves = run.rows.curves
+    return Toolpath(
         **{name: getattr(curves, name) for name in Curves.__slots__},
-        printed_end_um=np.full((len(row), 2), np.nan),
+        printed_end_um=np.full((len(curves), 2), np.nan),
         words=None,
-        source=_source(given, runs[row]),
-        stops=_stops(given, runs, row),
-    )
-    return Moved(toolpath, ())
-
-
-def _is_threaded(given: Given, runs: Ints, mode: Modes, numbers: Coordinates, stops: Bools) -> Bools:
-    """(e,) whether a stop stands between a block and the last one with coordinates before it."""
-    moves = ~np.isnan(numbers.end).all(axis=1)
-    at = np.arange(len(runs))
-    last_stop = np.maximum.accumulate(np.where(stops, at, -1))
-    last_move = np.maximum.accumulate(np.where(moves, at, -1))
-    before = np.concatenate([[-1], last_move[:-1]])
-    return (last_stop >= 0) & (last_stop >= before)
-
-
-def _curves(mode: Modes, numbers: Coordinates, place: Places, row: Ints, resolution_um: float) -> Curves:
-    start, end = place.start_um[row], place.end_um[row]
-    motion = np.where(place.moves[row], mode.motion[row], 0)
-    kind = np.where(motion == 0, CurveKind.JUMP, CurveKind.LINE).astype(np.int64)
-    length = np.hypot(*(end - start).T)
-    center, radius, angle = np.full((len(row), 2), np.nan), np.full(len(row), np.nan), np.full(len(row), np.nan)
-    sweep = np.zeros(len(row))
-    turning = np.flatnonzero(motion >= 2)
-    arcs = _arcs(mode, numbers, place, row[turning], resolution_um)
-    round_ = arcs.sweep_rad != 0
-    turning = turning[round_]
-    kind[turning] = CurveKind.ARC
-    center[turning], radius[turning] = arcs.center_um[round_], arcs.radius_um[round_]
-    sweep[turning] = arcs.sweep_rad[round_]
-    out = start[turning] - center[turning]
-    angle[turning] = np.arctan2(out[:, 1], out[:, 0])
-    length[turning] = radius[turning] * np.abs(sweep[turning])
-    return Curves(kind, start, end, center, radius, angle, sweep, length)
-
-
-def _arcs(mode: Modes, numbers: Coordinates, place: Places, row: Ints, resolution_um: float) -> Arcs:
-    start, end = place.start_um[row], place.end_um[row]
-    turn = np.where(mode.motion[row] == 3, 1.0, -1.0)
-    origin = np.where(mode.has_absolute_centers[row, None], place.shift_um[row], start)
-    about = arcs_about(start, end, origin + np.nan_to_num(numbers.center[row]), turn)
-    radius = numbers.radius[row]
-    by_radius = ~np.isnan(radius)
-    if not by_radius.any():
-        return about
-    of_radius = arcs_of_radius(start, end, np.nan_to_num(radius), turn, ROUNDING * resolution_um)
-    return Arcs(*(_chosen(by_radius, one, other) for one, other in zip(of_radius, about, strict=True)))
-
-
-def _chosen(choice: Bools, one: Floats, other: Floats) -> Floats:
-    return np.where(choice if one.ndim == 1 else choice[:, None], one, other)
-
-
-def _source(given: Given, block: Ints) -> Source:
-    blocks = given.listing.blocks
-    number = given.word("N")[block]
-    label = tuple(f"N{int(value)}" if has else "" for value, has in _numbers(given, number))
-    return Source(
-        given.listing.text,
-        np.arange(1, len(block) + 1),
-        np.column_stack([blocks.first[block], blocks.past[block]]),
-        blocks.line[block],
-        label,
+        source=source(given, run.flow.block[run.rows.at]),
+        stops=_stops(given, run.flow.block, run.rows.at),
+        compensation=_compensation(run, given.profile.rules),
     )
 
 
-def _numbers(given: Given, word: Ints) -> list[tuple[float, bool]]:
-    value = given.listing.words.value[word] if len(given.listing.words.value) else np.zeros(len(word))
-    return list(zip(value.tolist(), (word >= 0).tolist(), strict=True))
+def _compensation(run: _Run, rules: CompensationRules) -> Compensation | None:
+    at = run.rows.at
+    side = run.mode.side[at]
+    if not side.any():
+        return None
+    by_um = np.where(side != 0, run.offsets.by_um[at], 0.0)
+    return Compensation(side, by_um, tuple(run.offsets.register[one] for one in at.tolist()), rules)
 
 
-def _stops(given: Given, runs: Ints, row: Ints) -> tuple[Stop, ...]:
-    line = given.listing.blocks.line[runs]
-    ends = given.m("end")[runs]
-    at = np.flatnonzero(given.m(*_STOPS)[runs] | ends)
-    after = np.searchsorted(row, at, side="right")
+def _stops(given: Given, runs: Ints, at: Ints) -> tuple[Stop, ...]:
+    """Stops and ends; words that stop count behind the motion of their block."""
+    line = given.listing.blocks.line
+    ends = given.m("end")
+    stops = np.flatnonzero((given.m(*STOPS) | ends)[runs])
+    after = np.searchsorted(at, stops, side="right")
     return tuple(
-        Stop("end" if ends[one] else "pause", int(rows), int(line[one]))
-        for one, rows in zip(at.tolist(), after.tolist(), strict=True)
+        Stop("end" if ends[block] else "pause", rows_before, int(line[block]))
+        for block, rows_before in zip(runs[stops].tolist(), after.tolist(), strict=True)
     )
+
+
+def _damages(given: Given, run: _Run) -> tuple[Damage, ...]:
+    """Pieces that could not be read in blocks that run, calls and arcs that could not be made, in file order."""
+    blocks = given.listing.blocks
+    lost = [one.span for one in given.listing.unread]
+    lost += [(int(blocks.first[one.block]), int(blocks.past[one.block])) for one in run.flow.faults]
+    straight = run.flow.block[run.rows.at[run.rows.turning[run.rows.arcs.sweep_rad == 0]]]
+    lost += [(int(blocks.first[one]), int(blocks.past[one])) for one in np.unique(straight).tolist()]
+    if not lost:
+        return ()
+    before = _rows_before(run, len(blocks.line))
+    behind = np.searchsorted(blocks.past, [first for first, _ in lost], side="right")
+    after = before[behind]
+    return tuple(sorted(Damage(span, int(rows)) for span, rows in zip(lost, after, strict=True) if rows >= 0))
+
+
+def _rows_before(run: _Run, count: int) -> Ints:
+    """(count + 1,) rows before each block first runs; −1 where it never does, all rows behind the last block."""
+    before = np.full(count + 1, -1, dtype=np.int64)
+    backwards = run.flow.block[::-1]
+    before[backwards] = np.searchsorted(run.rows.at, np.arange(len(backwards))[::-1])
+    before[count] = len(run.rows.at)
+    return before
+
+
+def _assumptions(given: Given, run: _Run) -> tuple[Assumption, ...]:
+    told = []
+    if given.listing.blocks.is_skipped[run.flow.block].any():
+        told.append(Assumption("assumed-skips", "/", "why-skips-run"))
+    if run.offsets.assumed:
+        told.append(Assumption("assumed-register", run.offsets.assumed, "why-only-register"))
+    if run.place.is_threaded.any():
+        told.append(Assumption("assumed-threading", "G92", "why-behind-stop"))
+    if _starts_unnamed(run):
+        told.append(Assumption("assumed-start", "X0 Y0", "why-no-start"))
+    return tuple(told)
+
+
+def _starts_unnamed(run: _Run) -> bool:
+    """Whether the first motion goes to a place, cutting, from one that nothing names."""
+    first = run.rows.at[:1]
+    named = run.numbers.names[: first[0]].any() if len(first) else True
+    return bool(not named and run.mode.is_absolute[first].any() and run.mode.motion[first].any())

@@ -8,52 +8,58 @@ from parser.geometry.curves import Bools, Floats, Ints
 from parser.iso.given import Given
 from parser.iso.modes import NO_MOTION, Modes
 
-_DWELL, _SET_PLACE = 40, 920
+DWELL, SET_PLACE = 40, 920
+"""G04, whose X is a time, and G92, tenfold."""
+
 _DIGITS = 6  # coordinates in µm to a millionth: 1.013 mm are 1013 µm and no rounding beside it
 
 
 class Coordinates(NamedTuple):
-    """Numbers of the blocks as they run, µm, NaN where a word is missing; each (e, 2).
+    """Numbers of e blocks as they run, µm, NaN where a word is missing.
 
     Attributes
     ----------
-    end
-        X Y as given: places or ways.
-    center
-        I J as given.
+    end, center
+        (e, 2) X Y and I J, places or ways.
     radius
         (e,) R.
+    moves
+        (e,) whether a block is told to move, be it by nothing.
+    names
+        (e,) whether a block names its place by G92.
     """
 
     end: Floats
     center: Floats
     radius: Floats
+    moves: Bools
+    names: Bools
 
 
 class Places(NamedTuple):
-    """Where blocks begin and end, on the table: µm, where the first G92 names the place of the start.
+    """Where e blocks begin and end, on the table: µm, where the first G92 names the place of the start.
 
     Attributes
     ----------
     start_um, end_um
         (e, 2) of each block as it runs; the same where it does not move.
     shift_um
-        (e, 2) what is added to coordinates as programmed: a G92 without a stop before it re-bases them.
-    moves
-        (e,) whether a block is told to move, be it by nothing.
-    is_named
-        (e,) whether a block names its place by G92: the wire is there, however it came.
+        (e, 2) what is added to coordinates as programmed.
+    is_threaded
+        (e,) G92 behind a stop: the wire was threaded anew at the place that it names.
+    is_rebased
+        (e,) G92 elsewhere that names another place than the wire is at: from here on coordinates are others.
     """
 
     start_um: Floats
     end_um: Floats
     shift_um: Floats
-    moves: Bools
-    is_named: Bools
+    is_threaded: Bools
+    is_rebased: Bools
 
 
 def coordinates(given: Given, runs: Ints, mode: Modes) -> Coordinates:
-    """The numbers of the blocks `runs` (e,) at their scale."""
+    """The numbers of the blocks `runs` (e,) at their scale. A bare G92 names X0 Y0."""
     words = given.listing.words
 
     def um(letter: str) -> Floats:
@@ -63,35 +69,34 @@ def coordinates(given: Given, runs: Ints, mode: Modes) -> Coordinates:
 
     if not len(words.value):
         nothing = np.full((len(runs), 2), np.nan)
-        return Coordinates(nothing, nothing, nothing[:, 0])
-    return Coordinates(np.column_stack([um("X"), um("Y")]), np.column_stack([um("I"), um("J")]), um("R"))
+        return Coordinates(nothing, nothing, nothing[:, 0], *np.zeros((2, len(runs)), dtype=np.bool_))
+    end, center = np.column_stack([um("X"), um("Y")]), np.column_stack([um("I"), um("J")])
+    names = given.g(SET_PLACE)[runs]
+    is_told = _any(end) | ((mode.motion >= 2) & _any(center))
+    is_moving = is_told & ~names & ~given.g(DWELL)[runs] & (mode.motion != NO_MOTION)
+    end[names & bare_place(given)[runs]] = 0.0
+    return Coordinates(end, center, um("R"), is_moving & ~given.listing.blocks.is_damaged[runs], names)
 
 
-def places(given: Given, runs: Ints, mode: Modes, numbers: Coordinates, is_threaded: Bools) -> Places:
-    """Where the blocks `runs` (e,) begin and end.
+def bare_place(given: Given) -> Bools:
+    """(b,) blocks with G92 and no coordinate."""
+    return given.g(SET_PLACE) & (given.word("X") < 0) & (given.word("Y") < 0) & (given.word("Z") < 0)
 
-    `is_threaded` (e,) says where the wire may stand elsewhere than the block before it ended: a G92 there names the
-    place, any other one names only its coordinates.
-    """
-    names = given.g(_SET_PLACE)[runs]
-    told = ~np.isnan(numbers.end).all(axis=1) | ((mode.motion >= 2) & ~np.isnan(numbers.center).all(axis=1))
-    moves = told & ~names & ~given.g(_DWELL)[runs] & (mode.motion != NO_MOTION)
-    moves &= ~given.listing.blocks.is_damaged[runs]
-    is_bare = names & np.isnan(numbers.end).all(axis=1) & (given.word("Z")[runs] < 0)
-    end = np.where(is_bare[:, None], 0.0, numbers.end)
-    is_given = ~np.isnan(end)
-    sets = is_given & (names | (moves & mode.is_absolute))[:, None]
-    adds = is_given & (moves & ~mode.is_absolute)[:, None]
-    past = _programmed(np.where(sets, end, np.nan), np.where(adds, end, 0.0))
-    before = np.concatenate([np.zeros((1, 2)), past[:-1]])
+
+def places(numbers: Coordinates, is_absolute: Bools, stops: Bools) -> Places:
+    """Where blocks begin and end; `stops` (e,) are those behind which the wire may be threaded elsewhere."""
+    names, moves = numbers.names, numbers.moves
+    placed = np.where((names | (moves & is_absolute))[:, None], numbers.end, np.nan)
+    by = np.where((moves & ~is_absolute)[:, None], np.nan_to_num(numbers.end), 0.0)
+    past = _programmed(placed, by)
     first = names & (np.cumsum(names | moves) == 1)
+    before = np.concatenate([np.zeros((1, 2)), past[:-1]])
     before[first] = past[first]
-    rebased = names & ~is_threaded & ~first
-    shift = np.cumsum(np.where(rebased[:, None], before - past, 0.0), axis=0)
-    end_um = past + shift
-    start_um = np.concatenate([np.where(first[:1, None], end_um[:1], 0.0), end_um[:-1]])
-    start_um = np.where(first[:, None], end_um, start_um)
-    return Places(start_um, end_um, shift, moves, names & is_threaded & ~first)
+    is_threaded = names & ~first & _behind_stop(stops, moves)
+    is_rebased = names & ~is_threaded & ((before[:, 0] != past[:, 0]) | (before[:, 1] != past[:, 1]))
+    shift = np.cumsum(np.where(is_rebased[:, None], before - past, 0.0), axis=0)
+    start_um = before + np.concatenate([np.zeros((1, 2)), shift[:-1]])
+    return Places(start_um, past + shift, shift, is_threaded, is_rebased)
 
 
 def _programmed(placed: Floats, by: Floats) -> Floats:
@@ -99,5 +104,20 @@ def _programmed(placed: Floats, by: Floats) -> Floats:
     total = np.cumsum(by, axis=0)
     row = np.where(np.isnan(placed), -1, np.arange(len(placed))[:, None])
     last = np.maximum.accumulate(row, axis=0)
-    base = np.where(last >= 0, np.take_along_axis(placed - total, np.maximum(last, 0), axis=0), 0.0)
-    return base + total
+    base = np.take_along_axis(placed - total, np.maximum(last, 0), axis=0)
+    return np.where(last >= 0, base, 0.0) + total
+
+
+def _behind_stop(stops: Bools, moves: Bools) -> Bools:
+    """(e,) whether a stop stands before a block and no motion between."""
+    last_stop, last_move = _last(stops), _last(moves)
+    return np.concatenate([[False], last_stop[:-1] >= np.maximum(last_move[:-1], 0)])
+
+
+def _last(of: Bools) -> Ints:
+    """(e,) the last block so far that is one of them; −1 before the first."""
+    return np.maximum.accumulate(np.where(of, np.arange(len(of)), -1))
+
+
+def _any(pairs: Floats) -> Bools:
+    return ~np.isnan(pairs[:, 0]) | ~np.isnan(pairs[:, 1])

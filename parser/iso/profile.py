@@ -1,4 +1,7 @@
-"""Dialect profiles: what the same text means to one family of controllers, as data in ``parser/iso/profiles``."""
+"""Dialect profiles: what the same text means to one family of controllers, as data in ``parser/iso/profiles``.
+
+Values, their grades and sources: the files themselves, and docs/iso.md §6.
+"""
 
 import tomllib
 from collections.abc import Mapping
@@ -26,6 +29,8 @@ class Profile:
         µm of a number of 1 without a point, and with one.
     resolution_um
         Least step that coordinates are written in: the tolerance of arcs follows from it.
+    may_be_inch
+        Whether programs of the family are written in mm or in inches, and do not say in which.
     distance
         Mode at the start: ``absolute`` as after G90, ``incremental`` as after G91.
     centers
@@ -42,6 +47,14 @@ class Profile:
         Whether words in another order than the rule's are an error.
     letters
         Letters of words that it knows.
+    repeatable
+        Letters of words that may stand in a block more than once.
+    meant_twice
+        Numbers of M words that are written twice on purpose.
+    whole
+        Letters of words whose numbers are whole.
+    range
+        Least and greatest number of a word as written, by letters; lengths have one bound of their own.
     g, m
         What G and M words do, by their numbers as written without leading zeros (``"1"``, ``"90.1"``).
     rules
@@ -52,6 +65,7 @@ class Profile:
     integer_um: float
     point_um: float
     resolution_um: float
+    may_be_inch: bool
     distance: Literal["absolute", "incremental"]
     centers: Literal["from-start", "absolute"]
     register_integer_um: float
@@ -61,6 +75,10 @@ class Profile:
     zero_register_is_off: bool
     strict_order: bool
     letters: str
+    repeatable: str
+    meant_twice: tuple[int, ...]
+    whole: str
+    range: Mapping[str, tuple[float, float]]
     g: Mapping[str, str]
     m: Mapping[str, str]
     rules: CompensationRules
@@ -76,7 +94,9 @@ def profile(name: str) -> Profile:
         for key, value in _read(name).items():
             values[key] = {**values[key], **value} if isinstance(value, dict) else value
     rules = CompensationRules(**values.pop("rules"))
-    return Profile(name=name, rules=rules, **values)
+    limits = {letter: (float(low), float(high)) for letter, (low, high) in values.pop("range").items()}
+    twice = tuple(values.pop("meant_twice"))
+    return Profile(name=name, rules=rules, range=limits, meant_twice=twice, **values)
 
 
 def _read(name: str) -> dict[str, Any]:

@@ -7,6 +7,7 @@ import numpy as np
 
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
+from parser.dialect.reader import in_codes
 from parser.findings.codes import Check
 from parser.findings.facts import DoubtfulEnd, TooLarge, telling
 from parser.findings.findings import Finding, file_order
@@ -98,7 +99,7 @@ def _every_check(program: Program, demands: Demands) -> Checked:
         return _without_path(program, "reason-too-large", excess)
     contours = find_contours(program.toolpath, steps.corner_um)
     path = _PathChecks(program, steps, contours, demands)
-    findings = tuple(sorted([*program.findings, *path.findings()], key=file_order))
+    findings = tuple(sorted([*program.findings, *in_codes(program.reading, path.findings())], key=file_order))
     counts = program.reading.counts
     decoded = counts.run - int(program.toolpath.is_endless.sum())
     states = (*_parser_states(program), *path.states)

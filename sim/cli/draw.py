@@ -114,7 +114,7 @@ def _shown(asked: "PictureFiles", scenario: "Scenario") -> "Iterator[tuple[Shown
     from parser.program import read_program
     from sim.show.pictures.path import PATH, PathAlone
 
-    program = read_program(scenario.program)
+    program = read_program(scenario.program, scenario.choices)
     if set(asked.files) == {PATH}:
         from sim.show.pictures.cut.of_path import programmed
 

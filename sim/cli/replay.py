@@ -112,7 +112,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     scenario = overridden(path, Overrides(**options))
     try:
         stages = [*stages_of(scenario), *([] if output is None else ["film"])]
-        program = read_program(scenario.program)
+        program = read_program(scenario.program, scenario.choices)
         with StageProgress(*stages) as progress, recorded(program, scenario, progress) as recording:
             if output is None:
                 progress.finish()

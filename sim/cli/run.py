@@ -139,7 +139,7 @@ def _run(scenario: "Scenario", files: _Files) -> "DryRun":
         stages = stages_of_files(scenario, trace=files.trace)
     with StageProgress("read", *stages) as progress, logging_to(files.card_log, settings) as log:
         progress("read", 0, 1)
-        program = read_program(scenario.program)
+        program = read_program(scenario.program, scenario.choices)
         if files.output is None:
             return check_expectations(dry_run(program, scenario, progress, log=log))
         return run_into(files.output, program, scenario, progress, log, trace=files.trace)

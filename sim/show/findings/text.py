@@ -10,7 +10,7 @@ from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.statistics import table
 from sim.show.findings.totals import Totals
-from sim.show.findings.wording import reach, reasons, silenced, summary, verdict
+from sim.show.findings.wording import assumed, reach, reasons, silenced, summary, verdict
 from sim.show.terminal.colours import COLOURS, painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped
@@ -42,7 +42,7 @@ def _file(result: CheckResult, options: Options) -> Iterator[str]:
 
 
 def _outcome(result: CheckResult, options: Options) -> Iterator[str]:
-    """Verdict and how far the check of a file came; then why some checks did not end, and what silences findings.
+    """Verdict and how far the check came; then what was assumed, why checks did not end, what silences findings.
 
     Name and verdict are never parted, however long the name is.
     """
@@ -51,7 +51,8 @@ def _outcome(result: CheckResult, options: Options) -> Iterator[str]:
         yield _styled(line, COLOURS[result.verdict], options)
     told = [] if result.unreadable else reasons(result.coverage.checks, options.language)
     hidden = silenced(result.silenced, (result.settings_file,), options.language)
-    for text in filter(None, [*told, hidden]):
+    taken = assumed(result.assumptions, options.language)
+    for text in filter(None, [taken, *told, hidden]):
         yield from wrapped(printable(text), options.width, _INDENT, _INDENT * 2)
 
 

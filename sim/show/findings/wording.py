@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from parser.dialect.reader import Assumption
 from parser.findings.catalogue import Language, term
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
@@ -9,6 +10,7 @@ from sim.check.result import CheckResult, CheckState, Coverage, Silenced, State
 from sim.show.findings.totals import Totals
 from sim.show.terminal.finding import hint, message
 from sim.show.words import Words
+from sim.show.words.phrases import as_read
 
 _STATES: tuple[State, ...] = ("complete", "incomplete", "not asked")
 _MOST_FILES = 3  # settings files that one line names
@@ -40,6 +42,11 @@ def reach(result: CheckResult, language: Language) -> str:
         settings(result.silenced, (result.settings_file,), language),
     )
     return say("findings.stop").join(filter(None, parts))
+
+
+def assumed(assumptions: Sequence[Assumption], language: Language) -> str:
+    """``read as: unit 0.001 mm (whole numbers), …``: what the text leaves open; empty where it leaves nothing."""
+    return Words(language)("findings.assumed", parts=as_read(assumptions)) if assumptions else ""
 
 
 def summary(totals: Totals, language: Language) -> str:

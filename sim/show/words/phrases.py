@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 
+from parser.dialect.reader import Assumption
 from parser.findings.catalogue import LANGUAGES, Said, term
 from parser.shape.passes import Pass
 from sim.show.words.words import said
@@ -24,6 +25,14 @@ def listed(texts: Iterable[Said]) -> Said:
 def catalogued(key: str) -> Said:
     """A term of the catalogue, such as the name of a check; nothing for an empty key."""
     return Said(*(term(key, language) for language in LANGUAGES)) if key else same("")
+
+
+def as_read(assumptions: Iterable[Assumption]) -> Said:
+    """What the text of a program leaves open, and was taken: ``unit 0.001 mm (whole numbers), …``."""
+    return listed(
+        said("phrases.taken", what=catalogued(one.what), taken=one.taken, why=catalogued(one.why))
+        for one in assumptions
+    )
 
 
 def numbered(number: Mapping[str, int]) -> Said:

@@ -1,0 +1,53 @@
+"""Checks of coordinates: ways of no length, and numbers finer than the machine's steps (docs/iso.md §5)."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from parser.findings.findings import Finding
+from parser.geometry.curves import CurveKind, Ints
+from parser.iso.given import Given
+from parser.iso.modes import Modes
+from parser.iso.rows import Rows
+
+_HAIR = 1e-6  # of a step
+
+
+def move_findings(given: Given, runs: Ints, mode: Modes, path: Rows) -> Iterator[Finding]:
+    """What is wrong with the coordinates of the running blocks `runs` (e,); a block that runs often is told once."""
+    yield from _no_length(given, runs, mode, path)
+    yield from _finer_than_steps(given, runs, mode)
+
+
+def _no_length(given: Given, runs: Ints, mode: Modes, path: Rows) -> Iterator[Finding]:
+    """ISO218: lines told to cut that end where they start."""
+    still = (path.curves.kind == CurveKind.LINE) & (path.curves.length_um == 0) & (mode.motion[path.at] == 1)
+    row = np.flatnonzero(still)
+    _, first = np.unique(runs[path.at[row]], return_index=True)
+    blocks, lines = given.listing.blocks, given.listing.lines
+    for one in row[first].tolist():
+        block = int(runs[path.at[one]])
+        yield lines.finding("ISO218", (int(blocks.first[block]), int(blocks.past[block])), one + 1)
+
+
+def _finer_than_steps(given: Given, runs: Ints, mode: Modes) -> Iterator[Finding]:
+    """ISO207, at the first of these numbers: one that is no whole step of the machine."""
+    words = given.listing.words
+    scale = np.full(len(given.listing.blocks.line), np.nan)
+    scale[runs] = mode.point_um
+    coordinate = np.isin(words.letter, [ord(letter) for letter in "XYIJR"]) & (words.decimals > 0)
+    word = np.flatnonzero(coordinate)
+    um = words.value[word] * scale[words.block[word]]
+    steps = um / given.profile.resolution_um
+    between = np.flatnonzero(np.abs(steps - np.rint(steps)) > _HAIR * np.maximum(1.0, np.abs(steps) * _HAIR))
+    if len(between):
+        first = int(word[between[0]])
+        span = (int(words.first[first]), int(words.past[first]))
+        yield given.listing.lines.finding(
+            "ISO207",
+            span,
+            text=given.listing.text[slice(*span)],
+            um=float(um[between[0]]),
+            step=given.profile.resolution_um,
+            more=len(between) - 1,
+        )
