@@ -40,6 +40,9 @@ class InForce(NamedTuple):
     ----------
     motion, distance, side
         As words: ``G01``, ``G90``, ``G41``; the motion is empty before the first one, the side ``G40`` without one.
+    register, offset_um
+        Register of the offset without leading zeros, such as ``D1``, and its value; empty before the first one, and
+        None where it is not known.
     f
         Feed as written; None before the first one.
     """
@@ -47,6 +50,8 @@ class InForce(NamedTuple):
     motion: str
     distance: str
     side: str
+    register: str
+    offset_um: float | None
     f: float | None
 
 

@@ -1,75 +1,150 @@
 """Text to listing: words by their letters, remarks, tape marks, assignments, and what is none of them."""
 
-import re
+from itertools import chain
 
 import numpy as np
 
-from parser.iso.listing import Assignment, Blocks, Listing, Unread, Words
-from parser.text.encoding import narrow
+from parser.findings.errors import ProgramError
+from parser.findings.findings import Edit, Finding, file_order
+from parser.geometry.curves import Floats, Ints
+from parser.iso.listing import Blocks, Listing, Unread, Words
+from parser.iso.odd_lines import OddLine, odd_line
+from parser.iso.plain_words import PlainWords, plain_words
+from parser.iso.remarks import Bare, hidden_blocks, without_remarks
+from parser.text.encoding import narrow, no_program
 from parser.text.lines import LineIndex
 
-_REMARK = re.compile(r"\([^()\r\n]*\)?|;[^\r\n]*")
-_ASSIGNED = re.compile(r"([A-Z])[ \t]*(\d+)[ \t]*=([^\r\n;]*)", re.IGNORECASE)
-_WORD = re.compile(r"([A-Za-z])[ \t]*([-+]?[ \t]*(?:\d+\.?\d*|\.\d+))")
-_LINE = re.compile(r"[^\r\n]+")
+MOST_BLOCKS = 2_000_000
+"""Blocks that are read of one program, as of 3B."""
+
+_LONGEST_SHOWN = 40
 
 
 def read_listing(text: str) -> Listing:
-    """The words of a text."""
+    """The words of a text (docs/iso.md §1). Raises ProgramError for more than `MOST_BLOCKS`."""
     folded = narrow(text)
     lines = LineIndex(folded)
-    remarks = [match.span() for match in _REMARK.finditer(folded)]
-    bare = _REMARK.sub(lambda match: " " * len(match[0]), folded)
-    rows: list[tuple[int, float, int, int, int, int]] = []
-    blocks: list[tuple[int, int, int, bool, bool]] = []
-    starts = [0]
-    assignments: list[Assignment] = []
-    unread: list[Unread] = []
-    for line in _LINE.finditer(bare):
-        if not line[0].strip() or line[0].strip().startswith("%"):
-            continue
-        number = len(blocks)
-        assigned = _ASSIGNED.fullmatch(line[0].strip())
-        if assigned:
-            terms = tuple(_term(part) for part in assigned[3].split("+") if part.strip())
-            name = f"{assigned[1].upper()}{int(assigned[2])}"
-            assignments.append(Assignment(number, name, terms, line.span()))
-        else:
-            for word in _WORD.finditer(bare, *line.span()):
-                figure = re.sub(r"\s", "", word[2])
-                decimals = len(figure) - figure.index(".") - 1 if "." in figure else -1
-                rows.append((ord(word[1].upper()), float(figure), decimals, *word.span(), number))
-            rest = _WORD.sub(lambda match: " " * len(match[0]), line[0])
-            unread += [
-                Unread((line.start() + piece.start(), line.start() + piece.end()), number)
-                for piece in re.finditer(r"[^\s/]+", rest)
-            ]
-        first = line.start() + len(line[0]) - len(line[0].lstrip())
-        past = line.start() + len(line[0].rstrip())
-        damaged = bool(unread and unread[-1].block == number)
-        blocks.append((lines.line(line.start()), first, past, line[0].strip().startswith("/"), damaged))
-        starts.append(len(rows))
-    letter, value, decimals_, word_first, word_past, block = (
-        np.array(column, dtype=np.float64 if at == 1 else np.int64)
-        for at, column in enumerate(zip(*rows, strict=True) if rows else [[]] * 6)
-    )
-    columns = [np.array(column) for column in zip(*blocks, strict=True)] if blocks else [np.zeros(0, np.int64)] * 5
+    bare = without_remarks(lines)
+    plain = plain_words(bare.codes)
+    if len(plain.opens) + len(plain.odd) > MOST_BLOCKS:
+        raise ProgramError(no_program("too-many-blocks", f"{MOST_BLOCKS:,}"))
+    odd = _odd_lines(folded, bare, plain)
+    in_blocks = [line for line in odd if not line.is_title]
+    words, blocks = _gathered(lines, plain, in_blocks)
+    blocks, opened = _with_open_remarks(lines, bare, blocks)
+    at = blocks.first.searchsorted([line.span[0] for line in in_blocks]).tolist()
+    numbered = list(zip(at, in_blocks, strict=True))
+    unread = [(bad.code, Unread(bad.span, block)) for block, line in numbered for bad in line.bad]
+    unread += [("ISO105", remark) for remark in opened]
+    titles = [line.span for line in odd if line.is_title]
     return Listing(
         text,
         lines,
-        Words(letter, value, decimals_, word_first, word_past, block),
-        Blocks(*columns[:3], columns[3].astype(bool), columns[4].astype(bool), np.array(starts)),
-        tuple(assignments),
-        (),
-        np.array(remarks, dtype=np.int64).reshape(-1, 2),
-        tuple(unread),
-        len(folded),
-        (),
+        words,
+        blocks,
+        tuple(one._replace(block=block) for block, line in numbered for one in line.assignments),
+        tuple(one._replace(block=block) for block, line in numbered for one in line.statements),
+        bare.remarks,
+        tuple(sorted(one for _, one in unread)),
+        bare.tape_end,
+        _findings(lines, bare, words, unread, titles),
     )
 
 
-def _term(part: str) -> tuple[float, int] | str:
-    part = part.strip().upper()
-    if part[:1].isalpha():
-        return f"{part[0]}{int(part[1:])}"
-    return float(part), len(part) - part.index(".") - 1 if "." in part else -1
+def _odd_lines(folded: str, bare: Bare, plain: PlainWords) -> list[OddLine]:
+    """All lines that are not plain, in order; text stands for a title up to the first G word."""
+    g_words = plain.first[plain.letter == ord("G")]
+    until = int(g_words[0]) if len(g_words) else len(folded)
+    read: list[OddLine] = []
+    for first, past in plain.odd.tolist():
+        line = odd_line(_line(folded, bare, first, past), first, may_be_title=first < until)
+        read.append(line)
+        if any(word.letter == ord("G") for word in line.words):
+            until = min(until, first)
+    return read
+
+
+def _line(folded: str, bare: Bare, first: int, past: int) -> str:
+    """The characters of a line: blanks for remarks and control characters, and what is not ASCII as written."""
+    written = bare.codes[first:past]
+    line = np.where(written < ord(" "), np.uint8(ord(" ")), written).tobytes().decode("ascii")
+    if folded.isascii():
+        return line
+    return "".join(char if code == "?" else code for char, code in zip(folded[first:past], line, strict=True))
+
+
+def _gathered(lines: LineIndex, plain: PlainWords, odd: list[OddLine]) -> tuple[Words, Blocks]:
+    """The words of plain and odd lines, and their blocks, in file order."""
+    ends = np.append(plain.opens[1:], len(plain.letter))[: len(plain.opens)] - 1
+    first = np.concatenate([plain.first[plain.opens], np.array([line.span[0] for line in odd], dtype=np.int64)])
+    past = np.concatenate([plain.past[ends], np.array([line.span[1] for line in odd], dtype=np.int64)])
+    is_plain = np.zeros(len(plain.opens), dtype=np.bool_)
+    is_skipped = np.concatenate([is_plain, np.array([line.is_skipped for line in odd], dtype=np.bool_)])
+    is_damaged = np.concatenate([is_plain, np.array([line.is_damaged for line in odd], dtype=np.bool_)])
+    order = np.argsort(first, kind="stable") if odd else slice(None)
+    first = first[order]
+    letter, value, decimals, word_first, word_past = _all_words(plain, odd)
+    opens = np.append(word_first.searchsorted(first), len(word_first))
+    block = np.repeat(np.arange(len(first)), np.diff(opens))
+    words = Words(letter, value, decimals, word_first, word_past, block)
+    return words, Blocks(lines.lines(first), first, past[order], is_skipped[order], is_damaged[order], opens)
+
+
+def _all_words(plain: PlainWords, odd: list[OddLine]) -> tuple[Ints, Floats, Ints, Ints, Ints]:
+    """Letter, value, decimals, first and past of all words, in file order."""
+    columns = plain.letter, plain.value, plain.decimals, plain.first, plain.past
+    rows = list(chain.from_iterable(line.words for line in odd))
+    if not rows:
+        return columns
+    letter, value, decimals, first, past = (
+        np.concatenate([column, np.array(more, dtype=column.dtype)])
+        for column, more in zip(columns, zip(*rows, strict=True), strict=True)
+    )
+    order = np.argsort(first, kind="stable")
+    return letter[order], value[order], decimals[order], first[order], past[order]
+
+
+def _with_open_remarks(lines: LineIndex, bare: Bare, blocks: Blocks) -> tuple[Blocks, list[Unread]]:
+    """The blocks, damaged where a remark is not closed, and these remarks: they may hold what was meant to run."""
+    spans = bare.remarks[bare.is_open & (bare.remarks[:, 0] < bare.tape_end)]
+    if not len(spans):
+        return blocks, []
+    line = lines.lines(spans[:, 0])
+    at = blocks.line.searchsorted(line)
+    is_in = (at < len(blocks.line)) & (blocks.line[np.minimum(at, len(blocks.line) - 1)] == line)
+    is_damaged = blocks.is_damaged.copy()
+    is_damaged[at[is_in]] = True
+    block = np.where(is_in, at, -1).tolist()
+    unread = [Unread((first, past), number) for (first, past), number in zip(spans.tolist(), block, strict=True)]
+    return blocks._replace(is_damaged=is_damaged), unread
+
+
+def _findings(
+    lines: LineIndex, bare: Bare, words: Words, unread: list[tuple[str, Unread]], titles: list[tuple[int, int]]
+) -> tuple[Finding, ...]:
+    """ISO1xx of the text itself, in file order."""
+    found = [
+        lines.finding(code, one.span, one.block + 1, text=_shown(lines.text[slice(*one.span)])) for code, one in unread
+    ]
+    hidden = [span for span in hidden_blocks(lines.text, bare.remarks) if span[0] < bare.tape_end]
+    for code, spans in (("ISO106", hidden), ("ISO107", titles)):
+        if spans:
+            shown = _shown(lines.text[slice(*spans[0])])
+            found.append(lines.finding(code, spans[0], text=shown, more=len(spans) - 1))
+    return tuple(sorted([*found, *_small_letters(lines, words)], key=file_order))
+
+
+def _small_letters(lines: LineIndex, words: Words) -> list[Finding]:
+    """ISO104 at the first word with a small letter, with the capitals of all of them."""
+    small = np.flatnonzero(lines.codes[words.first] >= ord("a"))
+    if not len(small):
+        return []
+    first, block = words.first[small].tolist(), int(words.block[small[0]])
+    edits = tuple(Edit(at, at + 1, lines.text[at].upper()) for at in first)
+    span = first[0], int(words.past[small[0]])
+    found = lines.finding("ISO104", span, block + 1, text=lines.text[slice(*span)], more=len(small) - 1)
+    return [found._replace(edits=edits)]
+
+
+def _shown(text: str) -> str:
+    return text if len(text) <= _LONGEST_SHOWN else text[:_LONGEST_SHOWN] + "…"

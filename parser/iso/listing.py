@@ -115,7 +115,7 @@ class Statement(NamedTuple):
 
 
 class Unread(NamedTuple):
-    """A piece of text that is no word: its span, and the block it stands in, from 0."""
+    """A piece of text that is no word: its span, and the block it stands in, from 0; −1 where it stands in none."""
 
     span: tuple[int, int]
     block: int

@@ -37,12 +37,15 @@ class Moved(NamedTuple):
         Blocks whose motion is not known, and calls that cannot be followed.
     assumptions
         What the text leaves open of where the wire goes.
+    first_row
+        (b,) int64, the row that each block of the text makes when it first runs; −1 where it makes none.
     """
 
     toolpath: Toolpath
     findings: tuple[Finding, ...]
     damages: tuple[Damage, ...]
     assumptions: tuple[Assumption, ...]
+    first_row: Ints
 
 
 class _Run(NamedTuple):
@@ -65,7 +68,9 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
         *move_findings(given, run.flow.block, run.mode, run.rows),
         *arc_findings(given, run.flow.block, run.mode, run.numbers, run.rows),
     )
-    return Moved(_toolpath(given, run), findings, _damages(given, run), _assumptions(given, run))
+    return Moved(
+        _toolpath(given, run), findings, _damages(given, run), _assumptions(given, run), _first_rows(given, run)
+    )
 
 
 def _run(given: Given, choices: Choices) -> _Run:
@@ -134,16 +139,22 @@ def _rows_before(run: _Run, count: int) -> Ints:
     return before
 
 
+def _first_rows(given: Given, run: _Run) -> Ints:
+    first = np.full(len(given.listing.blocks.line), -1, dtype=np.int64)
+    first[run.flow.block[run.rows.at[::-1]]] = np.arange(len(run.rows.at))[::-1]
+    return first
+
+
 def _assumptions(given: Given, run: _Run) -> tuple[Assumption, ...]:
     told = []
     if given.listing.blocks.is_skipped[run.flow.block].any():
-        told.append(Assumption("assumed-skips", "/", "why-skips-run"))
+        told.append(Assumption("assumed-skips", "/", "because-skips-run"))
     if run.offsets.assumed:
-        told.append(Assumption("assumed-register", run.offsets.assumed, "why-only-register"))
+        told.append(Assumption("assumed-register", run.offsets.assumed, "because-only-register"))
     if run.place.is_threaded.any():
-        told.append(Assumption("assumed-threading", "G92", "why-behind-stop"))
+        told.append(Assumption("assumed-threading", "G92", "because-behind-stop"))
     if _starts_unnamed(run):
-        told.append(Assumption("assumed-start", "X0 Y0", "why-no-start"))
+        told.append(Assumption("assumed-start", "X0 Y0", "because-no-start"))
     return tuple(told)
 
 

@@ -12,11 +12,13 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.dialect.decoding import DecodedBlock, DecodeStep, InForce
-from parser.iso.flow import run_order
+from parser.dialect.reader import Choices
+from parser.iso.flow import flow
 from parser.iso.given import Given
 from parser.iso.listing import Assignment, Listing
 from parser.iso.modes import NO_MOTION, carried, modes
 from parser.iso.profile import Profile
+from parser.iso.registers import offsets
 
 _COOR: Final = {letter: at for at, letter in enumerate("XYZUVWIJKR", start=1)}
 """Places of dimension words in COOR: the course has X and Y; the others are put behind them here."""
@@ -52,10 +54,10 @@ class _Mode(NamedTuple):
 
 
 class Trace:
-    """Decodes the blocks of a listing, read by a profile."""
+    """Decodes the blocks of a listing, read by a profile and by choices."""
 
-    def __init__(self, listing: Listing, profile: Profile) -> None:
-        self._listing, self._profile = listing, profile
+    def __init__(self, listing: Listing, profile: Profile, choices: Choices) -> None:
+        self._listing, self._profile, self._choices = listing, profile, choices
 
     def blocks(self) -> tuple[DecodedBlock, ...]:
         """All blocks of the listing, in file order."""
@@ -65,18 +67,25 @@ class Trace:
     def _modes(self) -> dict[int, _Mode]:
         """What is in force in each block, as it runs for the first time; none for blocks that never run."""
         given = Given(self._listing, self._profile)
-        runs = run_order(given)
+        runs = flow(given).block
         mode = modes(given, runs)
+        offset = offsets(given, runs, mode, self._choices)
         feed = carried(given.word("F")[runs], -1)
         block, first = np.unique(runs, return_index=True)
-        feeds = [None if word < 0 else float(self._listing.words.value[word]) for word in feed[first].tolist()]
-        columns = [column[first].tolist() for column in (mode.motion, mode.is_absolute, mode.side)]
-        scales = [column[first].tolist() for column in (mode.integer_um, mode.point_um)]
         return {
-            at: _Mode(InForce(_MOTIONS[motion], _DISTANCE_WORDS[is_absolute], _SIDE_WORDS[side], feed), *scale)
-            for at, motion, is_absolute, side, feed, *scale in zip(
-                block.tolist(), *columns, feeds, *scales, strict=True
+            number: _Mode(
+                InForce(
+                    motion=_MOTIONS[int(mode.motion[at])],
+                    distance=_DISTANCE_WORDS[bool(mode.is_absolute[at])],
+                    side=_SIDE_WORDS[int(mode.side[at])],
+                    register=offset.register[at],
+                    offset_um=None if np.isnan(offset.by_um[at]) else float(offset.by_um[at]),
+                    f=None if feed[at] < 0 else float(self._listing.words.value[feed[at]]),
+                ),
+                float(mode.integer_um[at]),
+                float(mode.point_um[at]),
             )
+            for number, at in zip(block.tolist(), first.tolist(), strict=True)
         }
 
     @cached_property
@@ -96,7 +105,7 @@ class Trace:
         count = _whole(last.get("N"))
         steps = [
             *map(_set_by, words),
-            *map(self._assigned, self._assignments.get(at, ())),
+            *(self._assigned(one, *scale) for one in self._assignments.get(at, ())),
             self._closing(int(blocks.past[at])),
         ]
         return DecodedBlock(
@@ -127,17 +136,14 @@ class Trace:
             self._text(first, int(words.past[at])), self._column(first), letter, value, _rounded(value * scale)
         )
 
-    def _assigned(self, one: Assignment) -> DecodeStep:
-        """The step of a register that is set: its value where it is a number, else none: a sum is worked out later."""
+    def _assigned(self, one: Assignment, integer_um: float, point_um: float) -> DecodeStep:
+        """The step of a register that is set: its value where numbers tell it, else none: it depends on other ones."""
         profile = self._profile
-        scales = [
-            profile.register_integer_um if term[1] < 0 else profile.register_point_um
-            for term in one.terms
-            if not isinstance(term, str)
-        ]
-        values = [term[0] for term in one.terms if not isinstance(term, str)]
-        is_known = len(values) == len(one.terms)
-        um = _rounded(sum(value * scale for value, scale in zip(values, scales, strict=True))) if is_known else None
+        integer_um *= profile.register_integer_um / profile.integer_um
+        point_um *= profile.register_point_um / profile.point_um
+        parts = [None if isinstance(term, str) else _scaled(*term, integer_um, point_um) for term in one.terms]
+        known = [part for part in parts if part is not None]
+        um = _rounded(sum(known)) if len(known) == len(parts) else None
         return DecodeStep(0, self._text(*one.span), self._column(one.span[0]), one.register, um)
 
     def _closing(self, past: int) -> DecodeStep:
@@ -192,6 +198,10 @@ def _g_field(value: float) -> tuple[str, float]:
     if value in _DISTANCES:
         return f"G0.D{_DISTANCE_BIT}", _DISTANCES[value]
     return ("G0.D7D6", _SIDES[value]) if value in _SIDES else ("G1", value)
+
+
+def _scaled(value: float, decimals: int, integer_um: float, point_um: float) -> float:
+    return value * (integer_um if decimals < 0 else point_um)
 
 
 def _whole(number: float | None) -> int | None:

@@ -201,8 +201,7 @@ def _undoubted(senses: list[Finding], known: tuple[Finding, ...]) -> list[Findin
 def _broken_contours(program: Program, rows: Ints) -> set[int]:
     """Contours with a block missing in or beside them, or with one that never ends."""
     toolpath = program.toolpath
-    places = [damage.span[0] for damage in program.reading.damages]
-    before = np.searchsorted(toolpath.source.span[:, 0], places)
+    before = np.array([damage.after for damage in program.reading.damages], dtype=np.int64)
     near = np.concatenate([before - 1, before, np.flatnonzero(toolpath.is_endless)]).astype(np.int64)
     near = near[(near >= 0) & (near < len(toolpath))]
     return set(rows[near].tolist()) - {-1}

@@ -23,8 +23,6 @@ class Way(NamedTuple):
         ``line``, ``arc`` or ``jump``.
     start_um, end_um, length_um
         Of the contour, as programmed.
-    register, offset_um
-        The register in force and its value; empty and None without compensation, None also where it is not known.
     left_um, right_um
         Its end moved aside to the left, P′, and to the right, P″; None without offset.
     joint
@@ -37,8 +35,6 @@ class Way(NamedTuple):
     start_um: Point
     end_um: Point
     length_um: float
-    register: str
-    offset_um: float | None
     left_um: Point | None
     right_um: Point | None
     joint: JointKind
@@ -86,8 +82,6 @@ def _way(toolpath: Toolpath, row: int, runs: int, stage: _Stage | None) -> Way:
         start_um=block.start_um,
         end_um=block.end_um,
         length_um=block.length_um,
-        register="",
-        offset_um=None,
         left_um=None,
         right_um=None,
         joint=JointKind.NONE,
@@ -95,19 +89,12 @@ def _way(toolpath: Toolpath, row: int, runs: int, stage: _Stage | None) -> Way:
     )
     if stage is None:
         return alone
-    has_side = bool(stage.told.side[row])
     return alone._replace(
-        register=stage.told.register[row] if has_side else "",
-        offset_um=_known(float(stage.told.by_um[row])) if has_side else None,
         left_um=_place(stage.ends.left_um[row].tolist()),
         right_um=_place(stage.ends.right_um[row].tolist()),
         joint=stage.joints[row],
         before_line=int(toolpath.source.line[row - 1]) if row and stage.joints[row] != JointKind.NONE else 0,
     )
-
-
-def _known(value: float) -> float | None:
-    return None if np.isnan(value) else value
 
 
 def _place(pair: list[float]) -> Point | None:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Any, Final
 
 from parser import __version__
-from parser.dialect.decoding import DecodedBlock
+from parser.dialect.decoding import DecodedBlock, InForce
 from parser.program import Program
 from parser.toolpath import Point
 from sim.decode.blocks import Decoded, Way
@@ -43,7 +43,7 @@ def block_entry(one: Decoded) -> dict[str, Any]:
         **_registers(block),
         "others": {letter: plain(value) for letter, value in block.others.items()},
         "steps": [{**step._asdict(), "value": plain(step.value)} for step in block.steps],
-        "in_force": None if block.in_force is None else {**block.in_force._asdict(), "f": plain(block.in_force.f)},
+        "in_force": None if block.in_force is None else _in_force(block.in_force),
         "way": None if one.way is None else _way(one.way),
     }
 
@@ -61,6 +61,10 @@ def _registers(block: DecodedBlock) -> dict[str, Any]:
     }
 
 
+def _in_force(force: InForce) -> dict[str, Any]:
+    return {**force._asdict(), "offset_um": plain(force.offset_um), "f": plain(force.f)}
+
+
 def _way(way: Way) -> dict[str, Any]:
     places = {name: _place(getattr(way, name)) for name in ("start_um", "end_um", "left_um", "right_um")}
     return {
@@ -69,8 +73,6 @@ def _way(way: Way) -> dict[str, Any]:
         "kind": way.kind,
         **places,
         "length_um": _rounded(way.length_um),
-        "register": way.register,
-        "offset_um": None if way.offset_um is None else _rounded(way.offset_um),
         "joint": way.joint.value,
         "before_line": way.before_line or None,
     }

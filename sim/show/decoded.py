@@ -85,17 +85,16 @@ def _way_texts(one: Decoded) -> Iterator[tuple[str, Said]]:
         yield "force", said("decode.never")
         return
     feed = [] if force.f is None else [f"F{plain(force.f)}"]
-    register = [way.register] if way is not None and way.register else []
-    yield "force", same(" ".join(filter(None, [force.motion, force.distance, force.side, *register, *feed])))
+    yield "force", same(" ".join(filter(None, [force.motion, force.distance, force.side, force.register, *feed])))
     if way is None:
         return
     runs = said("decode.runs", times=way.runs) if way.runs > 1 else same("")
     yield "contour", _joined(_contour(way), runs)
     if way.left_um is not None and way.right_um is not None:
         ends = {"left": _place(way.left_um, 4), "right": _place(way.right_um, 4)}
-        yield "aside", said("decode.ends", **ends, register=way.register or "D", offset=f"{mm(way.offset_um or 0):g}")
-    elif way.register:
-        yield "aside", said("decode.unknown", register=way.register)
+        yield "aside", said("decode.ends", **ends, register=force.register, offset=f"{mm(force.offset_um or 0.0):g}")
+    elif force.side != "G40":
+        yield "aside", said("decode.unknown", register=force.register or "D0")
     if way.joint != "none":
         yield "joint", said(f"decode.joint-{way.joint}", line=way.before_line)
 

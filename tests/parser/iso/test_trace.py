@@ -3,6 +3,7 @@
 import pytest
 
 from parser.dialect.decoding import DecodedBlock
+from parser.dialect.reader import Choices
 from parser.iso.lexer import read_listing
 from parser.iso.profile import profile
 from parser.iso.trace import Trace, binary_coded, flags
@@ -11,7 +12,7 @@ COURSE = "N06 G90 G41 D11 G01 X200 Y300 F200 ;"
 
 
 def decoded(text: str, dialect: str = "classroom") -> tuple[DecodedBlock, ...]:
-    return Trace(read_listing(text), profile(dialect)).blocks()
+    return Trace(read_listing(text), profile(dialect), Choices(registers=(("D11", 100.0),))).blocks()
 
 
 def test_the_example_of_the_course_comes_out_with_its_figures() -> None:
@@ -60,7 +61,7 @@ def test_what_is_in_force_from_earlier_blocks_is_not_in_the_buffer() -> None:
 
     assert (block.g0, block.d, block.f, block.g) == (0, None, None, ())
     assert block.coor_um == {"X": 10000.0}
-    assert block.in_force == ("G01", "G90", "G41", 200.0)
+    assert block.in_force == ("G01", "G90", "G41", "D11", 100.0, 200.0)
 
 
 def test_the_end_of_a_line_closes_a_block_that_has_no_sign_of_its_own() -> None:

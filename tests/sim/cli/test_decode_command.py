@@ -65,7 +65,14 @@ def test_json_has_the_buffer_of_the_course(part: Path) -> None:
     }
     assert block["coor_um"] == {"X": 200000.0, "Y": 300000.0}
     assert block["steps"][5] == {"order": 6, "word": "X200", "column": 21, "field": "COOR[1]", "value": 200000}
-    assert block["in_force"] == {"motion": "G01", "distance": "G90", "side": "G41", "f": 200}
+    assert block["in_force"] == {
+        "motion": "G01",
+        "distance": "G90",
+        "side": "G41",
+        "register": "D11",
+        "offset_um": None,
+        "f": 200,
+    }
 
 
 def test_all_blocks_are_shown_without_a_number(part: Path) -> None:

@@ -1,0 +1,61 @@
+"""Blocks as commands: letters that a family knows, and something that is commanded."""
+
+import numpy as np
+
+from parser.findings.findings import Finding
+from parser.geometry.curves import Bools, Ints
+from parser.iso.listing import Listing
+from parser.iso.numbering import called, stands_alone
+
+_MOTION = (0, 1, 2, 3)
+_PLACES = [ord(letter) for letter in "XYIJR"]
+_ENDS = (2, 30, 99, 199)
+
+
+def unknown_letters(listing: Listing, letters: str) -> tuple[list[Finding], Ints]:
+    """ISO103 at the first word of each letter that is none of `letters`; and the blocks of all these words."""
+    words = listing.words
+    unknown = np.flatnonzero(~np.isin(words.letter, [ord(letter) for letter in letters]))
+    letter, first, times = np.unique(words.letter[unknown], return_index=True, return_counts=True)
+    found = [
+        _at(listing, "ISO103", int(unknown[at]), letter=chr(one), more=count - 1)
+        for one, at, count in zip(letter.tolist(), first.tolist(), times.tolist(), strict=True)
+    ]
+    return found, np.unique(words.block[unknown])
+
+
+def without_command(listing: Listing) -> tuple[list[Finding], Ints]:
+    """ISO110 at numbers of nothing, and at the first places before any motion word; and the blocks of the latter."""
+    words, blocks = listing.words, listing.blocks
+    labels = np.flatnonzero(_empty(listing))
+    found = [_at(listing, "ISO110", int(blocks.word[block]), what="nothing-but-n", more=0) for block in labels.tolist()]
+    is_g = words.letter == ord("G")
+    motion = np.flatnonzero(is_g & np.isin(words.value, _MOTION))
+    until = int(words.block[motion[0]]) if len(motion) else len(blocks.line)
+    head = np.arange(blocks.word[until])
+    places = head[np.isin(words.letter[head], _PLACES) & ~np.isin(words.block[head], words.block[head[is_g[head]]])]
+    lost = np.unique(words.block[places])
+    if len(lost):
+        found.append(_at(listing, "ISO110", int(places[0]), what="no-motion-yet", more=len(lost) - 1))
+    return found, lost
+
+
+def _empty(listing: Listing) -> Bools:
+    """(b,) bool, whether a line holds a block number alone, no label that is called or ends a program, no remark."""
+    words, blocks = listing.words, listing.blocks
+    empty = stands_alone(listing)
+    if not empty.any():
+        return empty
+    number = words.value[np.minimum(blocks.word[:-1], len(words.value) - 1)]
+    ends = words.block[(words.letter == ord("M")) & np.isin(words.value, _ENDS)]
+    empty &= ~np.isin(number, called(listing))
+    empty[int(ends[0]) + 1 if len(ends) else len(empty) :] = False
+    empty &= ~np.isin(blocks.line, listing.lines.lines(listing.remarks[:, 0]))
+    return empty
+
+
+def _at(listing: Listing, code: str, word: int, **values: str | int) -> Finding:
+    words = listing.words
+    span = int(words.first[word]), int(words.past[word])
+    text = listing.lines.text[slice(*span)]
+    return listing.lines.finding(code, span, int(words.block[word]) + 1, text=text, **values)

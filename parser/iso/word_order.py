@@ -1,0 +1,35 @@
+"""The order of the words in a block: N G X Y Z I J K R H D F S T M, as courses teach it."""
+
+import numpy as np
+
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
+from parser.iso.listing import Listing
+
+ORDER = ("N", "G", "X", "Y", "Z", "IJKR", "H", "D", "F", "S", "T", "M")
+"""Letters in their order; those that are told together may stand in any, and all other letters anywhere."""
+
+_RANK = np.zeros(256, dtype=np.int64)  # 0: anywhere
+for _rank, _letters in enumerate(ORDER, 1):
+    _RANK[[ord(letter) for letter in _letters]] = _rank
+
+
+def order_finding(listing: Listing, *, strict: bool) -> list[Finding]:
+    """ISO130 at the first word that stands behind one that it comes before, an error where the order is strict."""
+    words = listing.words
+    ranked = np.flatnonzero(_RANK[words.letter])
+    rank, block = _RANK[words.letter[ranked]], words.block[ranked]
+    behind = np.flatnonzero((np.diff(rank) < 0) & (np.diff(block) == 0))
+    if not len(behind):
+        return []
+    before, word = ranked[behind[0]], ranked[behind[0] + 1]
+    span = int(words.first[word]), int(words.past[word])
+    found = listing.lines.finding(
+        "ISO130",
+        span,
+        int(words.block[word]) + 1,
+        word=listing.lines.text[slice(*span)],
+        before=listing.lines.text[int(words.first[before]) : int(words.past[before])],
+        more=len(np.unique(block[behind])) - 1,
+    )
+    return [found._replace(graver=Severity.ERROR if strict else None)]
