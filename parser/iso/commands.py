@@ -18,7 +18,9 @@ def unknown_letters(listing: Listing, letters: str) -> tuple[list[Finding], Ints
     unknown = np.flatnonzero(~np.isin(words.letter, [ord(letter) for letter in letters]))
     letter, first, times = np.unique(words.letter[unknown], return_index=True, return_counts=True)
     found = [
-        _at(listing, "ISO103", int(unknown[at]), letter=chr(one), more=count - 1)
+        listing.at_word(
+            "ISO103", int(unknown[at]), letter=chr(one), text=listing.written(int(unknown[at])), more=count - 1
+        )
         for one, at, count in zip(letter.tolist(), first.tolist(), times.tolist(), strict=True)
     ]
     return found, np.unique(words.block[unknown])
@@ -28,7 +30,10 @@ def without_command(listing: Listing) -> tuple[list[Finding], Ints]:
     """ISO110 at numbers of nothing, and at the first places before any motion word; and the blocks of the latter."""
     words, blocks = listing.words, listing.blocks
     labels = np.flatnonzero(_empty(listing))
-    found = [_at(listing, "ISO110", int(blocks.word[block]), what="nothing-but-n", more=0) for block in labels.tolist()]
+    found = [
+        listing.at_word("ISO110", word, what="nothing-but-n", text=listing.written(word), more=0)
+        for word in blocks.word[labels].tolist()
+    ]
     is_g = words.letter == ord("G")
     motion = np.flatnonzero(is_g & np.isin(words.value, _MOTION))
     until = int(words.block[motion[0]]) if len(motion) else len(blocks.line)
@@ -36,7 +41,10 @@ def without_command(listing: Listing) -> tuple[list[Finding], Ints]:
     places = head[np.isin(words.letter[head], _PLACES) & ~np.isin(words.block[head], words.block[head[is_g[head]]])]
     lost = np.unique(words.block[places])
     if len(lost):
-        found.append(_at(listing, "ISO110", int(places[0]), what="no-motion-yet", more=len(lost) - 1))
+        first = int(places[0])
+        found.append(
+            listing.at_word("ISO110", first, what="no-motion-yet", text=listing.written(first), more=len(lost) - 1)
+        )
     return found, lost
 
 
@@ -52,10 +60,3 @@ def _empty(listing: Listing) -> Bools:
     empty[int(ends[0]) + 1 if len(ends) else len(empty) :] = False
     empty &= ~np.isin(blocks.line, listing.lines.lines(listing.remarks[:, 0]))
     return empty
-
-
-def _at(listing: Listing, code: str, word: int, **values: str | int) -> Finding:
-    words = listing.words
-    span = int(words.first[word]), int(words.past[word])
-    text = listing.lines.text[slice(*span)]
-    return listing.lines.finding(code, span, int(words.block[word]) + 1, text=text, **values)

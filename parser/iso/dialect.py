@@ -58,8 +58,8 @@ class Iso:
             assumptions=(*family.assumptions, *path.assumptions),
             codes=_CODES,
         )
-        of_text = (_by_row(finding, path.first_row) for finding in listing.findings)
-        findings = tuple(sorted([*of_text, *assumption_findings(family), *path.findings], key=file_order))
+        of_text = (_by_row(finding, path.first_row) for finding in (*listing.findings, *assumption_findings(family)))
+        findings = tuple(sorted([*of_text, *path.findings], key=file_order))
         decoder = Trace(listing, family.profile, choices)
         return ReadText(listing.lines, reading, {}, path.toolpath, findings, decoder=decoder)
 

@@ -123,9 +123,7 @@ def _findings(
     lines: LineIndex, bare: Bare, words: Words, unread: list[tuple[str, Unread]], titles: list[tuple[int, int]]
 ) -> tuple[Finding, ...]:
     """ISO1xx of the text itself, in file order."""
-    found = [
-        lines.finding(code, one.span, one.block + 1, text=_shown(lines.text[slice(*one.span)])) for code, one in unread
-    ]
+    found = [lines.finding(code, one.span, text=_shown(lines.text[slice(*one.span)])) for code, one in unread]
     hidden = [span for span in hidden_blocks(lines.text, bare.remarks) if span[0] < bare.tape_end]
     for code, spans in (("ISO106", hidden), ("ISO107", titles)):
         if spans:
@@ -139,10 +137,10 @@ def _small_letters(lines: LineIndex, words: Words) -> list[Finding]:
     small = np.flatnonzero(lines.codes[words.first] >= ord("a"))
     if not len(small):
         return []
-    first, block = words.first[small].tolist(), int(words.block[small[0]])
+    first = words.first[small].tolist()
     edits = tuple(Edit(at, at + 1, lines.text[at].upper()) for at in first)
     span = first[0], int(words.past[small[0]])
-    found = lines.finding("ISO104", span, block + 1, text=lines.text[slice(*span)], more=len(small) - 1)
+    found = lines.finding("ISO104", span, text=lines.text[slice(*span)], more=len(small) - 1)
     return [found._replace(edits=edits)]
 
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.text.lines import LineIndex
 
@@ -158,3 +158,12 @@ class Listing(NamedTuple):
     def of(self, letter: str) -> Ints:
         """(k,) words with a letter, in file order."""
         return np.flatnonzero(self.words.letter == ord(letter))
+
+    def written(self, word: int) -> str:
+        """A word as written."""
+        return self.lines.text[int(self.words.first[word]) : int(self.words.past[word])]
+
+    def at_word(self, code: str, word: int, /, **values: Value) -> Finding:
+        """Finding at a word as text: in no row of the toolpath."""
+        span = int(self.words.first[word]), int(self.words.past[word])
+        return self.lines.finding(code, span, 0, **values)

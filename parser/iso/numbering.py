@@ -47,10 +47,8 @@ def _falls(listing: Listing) -> list[Finding]:
     label = stands_alone(listing)[words.block[number]] & np.isin(value, called(listing))
     is_fall &= ~label & ~np.append(False, label[:-1])
     found = [
-        _at(
-            listing, "ISO120", int(number[at]), number=_text(listing, number[at]), before=_text(listing, number[at - 1])
-        )
-        for at in np.flatnonzero(is_fall).tolist()
+        listing.at_word("ISO120", word, number=listing.written(word), before=listing.written(before))
+        for before, word in zip(number[np.flatnonzero(is_fall) - 1].tolist(), number[is_fall].tolist(), strict=True)
     ]
     return [found[0]._replace(edits=_renumbered(listing, number, step)), *found[1:]] if found else []
 
@@ -102,18 +100,7 @@ def _twice(listing: Listing) -> list[Finding]:
 
 
 def _label(listing: Listing, word: int, what: str, where: str) -> Finding:
-    return _at(listing, "ISO121", word, label=_text(listing, word), what=what, lines=where)
-
-
-def _at(listing: Listing, code: str, word: int, **values: str) -> Finding:
-    words = listing.words
-    span = int(words.first[word]), int(words.past[word])
-    return listing.lines.finding(code, span, int(words.block[word]) + 1, **values)
-
-
-def _text(listing: Listing, word: int) -> str:
-    """A word as written."""
-    return listing.lines.text[int(listing.words.first[word]) : int(listing.words.past[word])]
+    return listing.at_word("ISO121", word, label=listing.written(word), what=what, lines=where)
 
 
 def _line(listing: Listing, word: int) -> int:

@@ -22,14 +22,7 @@ def order_finding(listing: Listing, *, strict: bool) -> list[Finding]:
     behind = np.flatnonzero((np.diff(rank) < 0) & (np.diff(block) == 0))
     if not len(behind):
         return []
-    before, word = ranked[behind[0]], ranked[behind[0] + 1]
-    span = int(words.first[word]), int(words.past[word])
-    found = listing.lines.finding(
-        "ISO130",
-        span,
-        int(words.block[word]) + 1,
-        word=listing.lines.text[slice(*span)],
-        before=listing.lines.text[int(words.first[before]) : int(words.past[before])],
-        more=len(np.unique(block[behind])) - 1,
-    )
+    before, word = ranked[behind[:1]].item(), ranked[behind[:1] + 1].item()
+    more = len(np.unique(block[behind])) - 1
+    found = listing.at_word("ISO130", word, word=listing.written(word), before=listing.written(before), more=more)
     return [found._replace(graver=Severity.ERROR if strict else None)]
