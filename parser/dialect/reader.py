@@ -126,11 +126,22 @@ class BlockCounts(NamedTuple):
 
 
 class Spelling(NamedTuple):
-    """How a dialect writes what findings speak of: arcs clockwise and counter-clockwise, and the end code."""
+    """How a dialect writes what findings speak of.
+
+    Attributes
+    ----------
+    clockwise, counter_clockwise
+        Arcs.
+    end
+        The end code.
+    rapid
+        A rapid; empty where the machine jumps behind a pause alone.
+    """
 
     clockwise: str
     counter_clockwise: str
     end: str
+    rapid: str = ""
 
 
 class Reading(NamedTuple):

@@ -16,8 +16,12 @@ from parser.text.encoding import narrow, no_program
 
 _LIKE_A_BLOCK = re.compile(r"(?im)^[ \t/]*(?:N[ \t]*\d+[ \t]*)?(?:[A-Z][ \t]*[-+]?[\d.]+[ \t]*)*?G[ \t]*\d")
 _CODES = {
+    "3B211": "ISO219",
     "3B301": "ISO300",
+    "3B306": "ISO219",
     "3B307": "ISO305",
+    "3B312": "ISO307",
+    "3B316": "ISO308",
     "3B401": "ISO304",
     "3B501": "ISO504",
     "3B502": "ISO505",
@@ -51,7 +55,7 @@ class Iso:
             dialect=f"ISO {family.profile.name}",
             counts=BlockCounts(n + len({one.block for one in listing.unread}), n, n),
             damages=path.damages,
-            spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02"),
+            spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02", rapid="G00"),
             is_drawing=path.toolpath.compensation is not None,
             not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
             remarks=listing.remarks,
