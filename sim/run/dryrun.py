@@ -17,6 +17,7 @@ from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.shape.passes import Passes, find_passes
 from parser.toolpath import Toolpath
+from sim.check.beside import Offsetting
 from sim.check.result import Coverage
 from sim.cut.obstacles.findings import missed_work_findings, obstacle_findings
 from sim.cut.remains import Remains
@@ -27,7 +28,6 @@ from sim.measure.deviation.meters import BlockSteps
 from sim.measure.passes.figures import PassFigures, figures_of_passes, wire_taken
 from sim.run.ending import Ending, motion_to_end, trip_of
 from sim.run.left import drawing_of, left_of
-from sim.run.offsetting import Offsetting
 from sim.run.prepare import prepare
 from sim.setup.expectations import Missed
 from sim.setup.scenario import Scenario
@@ -121,6 +121,15 @@ class DryRun:
     def has_trims(self) -> bool:
         """Whether any edge is cut in more than one pass; those who show a run speak of passes only then."""
         return any(one.number > 1 for one in self.passes.passes)
+
+    @property
+    def pass_feed_um_s(self) -> tuple[float, ...]:
+        """Feed of each pass of the offset; where the program compensates itself, that of the machine for all."""
+        asked = self.scenario.offset
+        if asked is not None:
+            return tuple(self.scenario.pass_feed_um_s(one) for one in asked.passes)
+        feeds = self.scenario.machine.feeds(self.scenario.thickness_mm)
+        return (float(feeds.cut_um_s),) * (len(self.offset.passes) if self.offset else 0)
 
     @property
     def ran_s(self) -> float:
