@@ -25,7 +25,7 @@ def unknown_letters(listing: Listing, letters: str) -> tuple[list[Finding], Ints
         )
         for one, at, count in zip(letter.tolist(), first.tolist(), times.tolist(), strict=True)
     ]
-    return found, np.unique(words.block[unknown])
+    return found, np.flatnonzero(listing.blocks_of(unknown))
 
 
 def without_command(listing: Listing) -> tuple[list[Finding], Ints]:
@@ -40,9 +40,9 @@ def without_command(listing: Listing) -> tuple[list[Finding], Ints]:
     motion = np.flatnonzero(is_g & np.isin(words.value, _MOTION))
     until = int(words.block[motion[0]]) if len(motion) else len(blocks.line)
     head = np.arange(blocks.word[until])
-    taken = words.block[head[is_g[head] & ~np.isin(words.value[head], _PASSED)]]
-    places = head[np.isin(words.letter[head], _PLACES) & ~np.isin(words.block[head], taken)]
-    lost = np.unique(words.block[places])
+    taken = listing.blocks_of(head[is_g[head] & ~np.isin(words.value[head], _PASSED)])
+    places = head[np.isin(words.letter[head], _PLACES) & ~taken[words.block[head]]]
+    lost = np.flatnonzero(listing.blocks_of(places))
     if len(lost):
         first = int(places[0])
         found.append(

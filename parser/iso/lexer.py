@@ -5,7 +5,7 @@ from itertools import chain
 import numpy as np
 
 from parser.findings.errors import ProgramError
-from parser.findings.findings import Edit, Finding, file_order
+from parser.findings.findings import Edit, Finding, Value, file_order
 from parser.geometry.curves import Floats, Ints
 from parser.iso.listing import Blocks, Listing, Unread, Words
 from parser.iso.odd_lines import OddLine, odd_line
@@ -136,11 +136,11 @@ def _small_letters(lines: LineIndex, words: Words) -> list[Finding]:
     small = np.flatnonzero(lines.codes[words.first] >= ord("a"))
     if not len(small):
         return []
-    first = words.first[small].tolist()
-    edits = tuple(Edit(at, at + 1, lines.text[at].upper()) for at in first)
-    span = first[0], int(words.past[small[0]])
-    found = lines.finding("ISO104", span, text=lines.text[slice(*span)], more=len(small) - 1)
-    return [found._replace(edits=edits)]
+    edits = tuple(Edit(at, at + 1, lines.text[at].upper()) for at in words.first[small].tolist())
+    word = int(small[0])
+    span = int(words.first[word]), int(words.past[word])
+    values: dict[str, Value] = {"text": lines.text[slice(*span)], "more": len(small) - 1}
+    return [lines.finding("ISO104", span, int(words.block[word]) + 1, **values)._replace(edits=edits)]
 
 
 def _shown(text: str) -> str:

@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.dialect.reader import Assumption, Choices
-from parser.geometry.curves import Ints
 from parser.iso.centers import Agreement
 from parser.iso.listing import Listing
 from parser.iso.marks import Seen, mark_of
@@ -109,12 +108,8 @@ def _said(listing: Listing, numbers: tuple[float, ...], block: int) -> str:
 
 def _first_move(listing: Listing) -> int:
     """The first block with X or Y that is no G92; behind all blocks where there is none."""
-    word = listing.words
-    places = _blocks(listing, np.flatnonzero((word.letter == ord("X")) | (word.letter == ord("Y"))))
-    named = _blocks(listing, np.flatnonzero((word.letter == ord("G")) & (word.value == 92.0)))
-    moving = np.setdiff1d(places, named)
+    letter, value = listing.words.letter, listing.words.value
+    places = listing.blocks_of(np.flatnonzero((letter == ord("X")) | (letter == ord("Y"))))
+    named = listing.blocks_of(np.flatnonzero((letter == ord("G")) & (value == 92.0)))
+    moving = np.flatnonzero(places & ~named)
     return int(moving[0]) if len(moving) else len(listing.blocks.line)
-
-
-def _blocks(listing: Listing, word: Ints) -> Ints:
-    return np.unique(listing.words.block[word])
