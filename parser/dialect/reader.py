@@ -1,11 +1,13 @@
 """A reader: what it makes of the text of a program, and what it says of it, whatever the dialect."""
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
 from parser.findings.codes import Check
 from parser.findings.findings import Finding
@@ -36,6 +38,13 @@ class Marks(NamedTuple):
 
 STANDARD_MARKS = Marks()
 
+UNITS = ("um", "mm", "inch")
+"""Units in which the numbers of a program may be told to stand (docs/iso.md §4)."""
+_REGISTER = re.compile(r"([DH])0*(\d{1,4})", re.ASCII | re.IGNORECASE)
+
+Registers = tuple[tuple[str, float], ...]
+"""Values of offset registers, µm, by their names."""
+
 
 class Choices(NamedTuple):
     """What is told of a program besides its text, by options, settings and machine files.
@@ -56,10 +65,21 @@ class Choices(NamedTuple):
     marks: Marks = STANDARD_MARKS
     dialect: str = ""
     unit: str = ""
-    registers: tuple[tuple[str, float], ...] = ()
+    registers: Registers = ()
 
 
 STANDARD_CHOICES = Choices()
+
+
+def register_name(text: str) -> str:
+    """Name of an offset register in capitals and without leading zeros, ``D1`` of ``d01``; empty where it is none."""
+    match = _REGISTER.fullmatch(text.strip())
+    return f"{match[1].upper()}{match[2]}" if match else ""
+
+
+def merged(tables: Iterable[Registers]) -> Registers:
+    """Registers of several tables, by their names; where two give one, the later counts."""
+    return tuple(sorted(dict(pair for table in tables for pair in table).items()))
 
 
 class Assumption(NamedTuple):
@@ -106,11 +126,22 @@ class BlockCounts(NamedTuple):
 
 
 class Spelling(NamedTuple):
-    """How a dialect writes what findings speak of: arcs clockwise and counter-clockwise, and the end code."""
+    """How a dialect writes what findings speak of.
+
+    Attributes
+    ----------
+    clockwise, counter_clockwise
+        Arcs.
+    end
+        The end code.
+    rapid
+        A rapid; empty where the machine jumps behind a pause alone.
+    """
 
     clockwise: str
     counter_clockwise: str
     end: str
+    rapid: str = ""
 
 
 class Reading(NamedTuple):
@@ -139,6 +170,8 @@ class Reading(NamedTuple):
     codes
         Codes of this dialect for findings of the path and the machine that have other ones in 3B: ``3B301`` is
         ``ISO300``. Findings without one keep their code, which holds for every dialect.
+    not_simulated
+        Term of the catalogue that says what the text asks for beside the path; empty where the path is all.
     """
 
     dialect: str
@@ -151,6 +184,12 @@ class Reading(NamedTuple):
     remarks: Ints = NO_REMARKS
     assumptions: tuple[Assumption, ...] = ()
     codes: Mapping[str, str] = MappingProxyType({})
+    not_simulated: str = ""
+
+
+def in_codes(reading: Reading, findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """Findings of path and machine under the codes that the program's dialect has for them."""
+    return tuple(found._replace(code=reading.codes.get(found.code, found.code)) for found in findings)
 
 
 class ReadText(NamedTuple):
@@ -168,6 +207,8 @@ class ReadText(NamedTuple):
         What is wrong with the text and its single blocks, in file order.
     mender
         What the dialect knows of writing blocks otherwise; None where it knows nothing of it.
+    decoder
+        Shows how the words of a block are decoded; None where the dialect has no such thing to show.
     """
 
     lines: LineIndex
@@ -176,6 +217,7 @@ class ReadText(NamedTuple):
     toolpath: Toolpath
     findings: tuple[Finding, ...]
     mender: Mender | None = None
+    decoder: Decoder | None = None
 
 
 class Reader(Protocol):

@@ -7,6 +7,7 @@ import numpy as np
 
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
+from parser.dialect.reader import in_codes
 from parser.findings.codes import Check
 from parser.findings.facts import DoubtfulEnd, TooLarge, telling
 from parser.findings.findings import Finding, file_order
@@ -17,11 +18,14 @@ from parser.shape.passes import find_passes
 from sim.check.closures import OpenContour, contour_findings
 from sim.check.compensation.asked import compensation_of, is_known
 from sim.check.count_axes import stepped_end_findings
+from sim.check.followed import followed_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
 from sim.check.header_offset import header_offset_findings
 from sim.check.passes import pass_findings, tab_findings
 from sim.check.radius_rule import radius_rule_findings, vanishing_findings
+from sim.check.rapids import rapid_findings
 from sim.check.result import CheckState, Coverage
+from sim.check.stops import tab_stop_findings
 from sim.check.too_large import too_many_steps
 from sim.check.travel import travel_findings
 from sim.check.uncut_jumps import uncut_jump_findings
@@ -104,7 +108,7 @@ def _every_check(program: Program, demands: Demands) -> Checked:
         return _without_path(program, "reason-too-large", excess)
     contours = find_contours(program.toolpath, steps.corner_um)
     path = _PathChecks(program, steps, contours, demands)
-    findings = tuple(sorted([*program.findings, *path.findings()], key=file_order))
+    findings = tuple(sorted([*program.findings, *in_codes(program.reading, path.findings())], key=file_order))
     counts = program.reading.counts
     decoded = counts.run - int(program.toolpath.is_endless.sum())
     states = (*_parser_states(program), *path.states)
@@ -134,6 +138,7 @@ class _PathChecks:
         uncut = uncut_jump_findings(program, self._rows, self._passes)
         yield from uncut
         known = (*program.findings, *stepped, *uncut)
+        yield from rapid_findings(program)
         closures = contour_findings(program, self.judged, self._rows, known, may_stay_open=demands.may_stay_open)
         yield from closures
         self._done(Check.CONTOURS, self._left_out)
@@ -171,8 +176,10 @@ class _PathChecks:
         return own_compensation(self._program, told, self._rows >= 0)
 
     def _over_edges(self) -> Iterator[Finding]:
-        """Findings about passes over one edge: how the wire's centre runs, and whether the program cuts all of it."""
+        """Findings about passes over one edge: as they are programmed, as the wire runs, and what they leave uncut."""
         program, rows, passes = self._program, self._rows, self._passes
+        yield from followed_findings(program, rows, passes)
+        yield from tab_stop_findings(program, rows)
         if not self._demands.may_stay_open:
             yield from tab_findings(program, rows, passes)
         made = self.compensation
@@ -221,7 +228,7 @@ class _PathChecks:
             self._done(Check.TRAVEL, "reason-damaged" if program.reading.damages else _stopped(program))
 
     def _done(self, name: Check, reason: str = "") -> None:
-        self.states.append(_state_of(self._program, name, reason))
+        self.states.append(_state_of(self._program, name, reason or self._program.reading.not_simulated))
 
 
 def _closed(rows: Ints, closures: list[Finding]) -> Ints:

@@ -10,6 +10,7 @@ from controller.card.log.writer import CardLog
 from controller.motion.limits import Feeds
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
+from parser.dialect.reader import in_codes
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Floats
 from parser.program import Program
@@ -213,7 +214,7 @@ def dry_run(
         border_s=border_s,
         remains=left.remains,
         comparison=left.comparison,
-        findings=tuple(sorted([*ready.findings, *met, *left.findings], key=file_order)),
+        findings=tuple(sorted([*ready.findings, *in_codes(program.reading, [*met, *left.findings])], key=file_order)),
         checked=ready.findings,
         coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )

@@ -8,6 +8,7 @@ import numpy as np
 from controller.motion.limits import Feeds
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
+from parser.dialect.reader import in_codes
 from parser.findings.codes import Check
 from parser.findings.facts import WithoutOffset
 from parser.findings.findings import Finding
@@ -74,7 +75,8 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     coverage = _looked_at(checked.coverage, (Check.CORNERS, Check.TRAVEL))
     by_pass = np.array([scenario.pass_feed_um_s(one) for one in scenario.offset.passes])
     feeds = feeds._replace(cut_um_s=by_pass[offset.pass_of_row])
-    findings = (*_under_offset(checked.findings), *offset.findings, *_between_passes(offset, scenario), *travel)
+    added = (*offset.findings, *_between_passes(offset, scenario), *travel)
+    findings = (*_under_offset(checked.findings), *in_codes(program.reading, added))
     return Prepared(offset.program, steps, offset, feeds, findings, coverage)
 
 
