@@ -38,6 +38,8 @@ class CompensatedRound(NamedTuple):
         from the waste.
     wedge
         Row of the contour that begins at another offset and ends at this one; −1 where there is none.
+    at_jump
+        Whether the contour begins or ends at a jump: controllers differ in how a jump and a block make a corner.
     along
         Which edge it runs along, and in which pass.
     kerf_um
@@ -51,6 +53,7 @@ class CompensatedRound(NamedTuple):
     by_um: float
     part_side: int
     wedge: int = -1
+    at_jump: bool = False
     along: Along = ALONE
     kerf_um: float = 0.0
     is_nearest: bool = True
@@ -74,6 +77,7 @@ def compensated_rounds(toolpath: Toolpath, left_um: Floats) -> tuple[Compensated
     moves but closes no loop, between the same set-up and cancel as one that does, leads to that one or away from it.
     """
     stretches = _stretches(left_um, toolpath.is_jump)
+    is_jump = np.concatenate([[False], toolpath.is_jump, [False]])  # of the block before each
     of_row = np.full(len(toolpath), -1, dtype=np.int64)
     for number, one in enumerate(stretches):
         of_row[one.begin : one.past] = number
@@ -93,7 +97,8 @@ def compensated_rounds(toolpath: Toolpath, left_um: Floats) -> tuple[Compensated
             begin = one.begin if section.closed else section.first
             wedge = one.begin if section.first == one.begin and one.is_led_in else -1
             whole = Round(begin, one.past + bool(led_out), section)
-            found.append(CompensatedRound(whole, side, by_um, part_side, wedge))
+            at_jump = is_jump[[section.first, section.last + 2]].any()
+            found.append(CompensatedRound(whole, side, by_um, part_side, wedge, bool(at_jump)))
     return _by_edge(toolpath, found)
 
 
