@@ -13,6 +13,7 @@ from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
 from parser.iso.dialect import ISO
 from parser.text.encoding import decode_text, narrow, no_program, printable
+from parser.iso.profile import PROFILES
 from parser.text.lines import LineIndex
 from parser.threeb.dialect import THREE_B
 from parser.toolpath import Toolpath
@@ -115,6 +116,11 @@ def own_marks() -> Marks:
         end=tuple(word for marks in own for word in marks.end),
         pause=tuple(word for marks in own for word in marks.pause),
     )
+
+
+def dialects() -> tuple[str, ...]:
+    """Names of dialects that may be chosen for a program: the profiles of ISO."""
+    return PROFILES
 
 
 def block_words() -> tuple[str, ...]:

@@ -1,6 +1,7 @@
 """A reader: what it makes of the text of a program, and what it says of it, whatever the dialect."""
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple, Protocol
 
@@ -36,6 +37,13 @@ class Marks(NamedTuple):
 
 STANDARD_MARKS = Marks()
 
+UNITS = ("um", "mm", "inch")
+"""Units in which the numbers of a program may be told to stand (docs/iso.md §4)."""
+_REGISTER = re.compile(r"([DH])0*(\d{1,4})", re.ASCII | re.IGNORECASE)
+
+Registers = tuple[tuple[str, float], ...]
+"""Values of offset registers, µm, by their names."""
+
 
 class Choices(NamedTuple):
     """What is told of a program besides its text, by options, settings and machine files.
@@ -56,10 +64,21 @@ class Choices(NamedTuple):
     marks: Marks = STANDARD_MARKS
     dialect: str = ""
     unit: str = ""
-    registers: tuple[tuple[str, float], ...] = ()
+    registers: Registers = ()
 
 
 STANDARD_CHOICES = Choices()
+
+
+def register_name(text: str) -> str:
+    """Name of an offset register in capitals and without leading zeros, ``D1`` of ``d01``; empty where it is none."""
+    match = _REGISTER.fullmatch(text.strip())
+    return f"{match[1].upper()}{match[2]}" if match else ""
+
+
+def merged(tables: Iterable[Registers]) -> Registers:
+    """Registers of several tables, by their names; where two give one, the later counts."""
+    return tuple(sorted(dict(pair for table in tables for pair in table).items()))
 
 
 class Assumption(NamedTuple):
@@ -154,6 +173,11 @@ class Reading(NamedTuple):
     assumptions: tuple[Assumption, ...] = ()
     codes: Mapping[str, str] = MappingProxyType({})
     not_simulated: str = ""
+
+
+def in_codes(reading: Reading, findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """Findings of path and machine under the codes that the program's dialect has for them."""
+    return tuple(found._replace(code=reading.codes.get(found.code, found.code)) for found in findings)
 
 
 class ReadText(NamedTuple):

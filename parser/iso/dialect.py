@@ -66,7 +66,7 @@ class Iso:
 def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
     n = len(path.toolpath)
     return Reading(
-        dialect=f"ISO {family.profile.name}",
+        dialect=family.profile.name,
         counts=BlockCounts(n + len({one.block for one in listing.unread}), n, n),
         damages=path.damages,
         spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02"),

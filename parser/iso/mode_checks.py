@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from parser.findings.facts import ReadAs
 from parser.findings.findings import Finding
 from parser.geometry.extents import extents
 from parser.iso.centers import Agreement
@@ -41,7 +42,7 @@ def _assumptions(family: Told) -> Iterator[Finding]:
         return
     of = family.profile
     values = {"integer": amount(of.integer_um), "point": amount(of.point_um), "centers": f"centres-{of.centers}"}
-    yield Finding("ISO112", {"dialect": of.name, "distance": family.distance, **values})
+    yield Finding("ISO112", {"dialect": of.name, "distance": family.distance, **values}, fact=ReadAs())
 
 
 def _mixed_numbers(seen: Seen, of: Profile) -> Iterator[Finding]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from parser.dialect.reader import Assumption, Choices, Damage
 from parser.findings.findings import Finding
-from parser.geometry.curves import Curves, Ints
+from parser.geometry.curves import Curves, Floats, Ints
 from parser.iso.arc_checks import arc_findings
 from parser.iso.centers import Agreement, agreement
 from parser.iso.flow import Flow, flow
@@ -103,7 +103,15 @@ def _toolpath(given: Given, run: _Run) -> Toolpath:
         source=source(given, run.flow.block[run.rows.at]),
         stops=_stops(given, run.flow.block, run.rows.at),
         compensation=_compensation(run, given.profile.rules),
+        told_center_um=_told_centers(run.rows),
     )
+
+
+def _told_centers(rows: Rows) -> Floats:
+    """(n, 2) centres of arcs as written, NaN where none is."""
+    told = np.full((len(rows.at), 2), np.nan)
+    told[rows.turning] = rows.arcs.told_um
+    return told
 
 
 def _compensation(run: _Run, rules: CompensationRules) -> Compensation | None:

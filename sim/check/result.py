@@ -4,8 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
+from parser.dialect.reader import Assumption
+from parser.findings.catalogue import Language, term
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
+from sim.check.programmed import Programmed
 
 Verdict = Literal["pass", "fail", "incomplete"]
 State = Literal["complete", "incomplete", "not asked"]
@@ -81,7 +84,12 @@ class CheckResult:
     name
         File as the user named it; ``<stdin>`` for the standard input.
     encoding, dialect
-        Of the file; empty where it could not be read. The dialect is named as its reader names it, such as ``3B+4B``.
+        Of the file; empty where it could not be read. The dialect is named as its reader names it, such as ``3B+4B``
+        or ``fast-wire``.
+    assumptions
+        What its text leaves open, and was taken.
+    programmed
+        What it says that is to be cut; None where no path was worked out.
     findings
         In file order, those that were selected.
     excerpts
@@ -118,6 +126,8 @@ class CheckResult:
     silenced: Silenced = Silenced()  # noqa: RUF009 - frozen
     fault: str = ""
     blocks: Mapping[int, str] = field(default_factory=dict)
+    assumptions: tuple[Assumption, ...] = ()
+    programmed: Programmed | None = None
 
     def count(self, severity: Severity) -> int:
         """How many findings are of a severity."""
@@ -139,3 +149,12 @@ class CheckResult:
         if any(self.fails(finding.severity) for finding in self.findings):
             return "fail"
         return "pass" if self.coverage.is_complete else "incomplete"
+
+
+def assumption_entry(assumption: Assumption, language: Language) -> dict[str, str]:
+    """An assumption as documents have it; why it was made is told in a language."""
+    return {
+        "what": assumption.what.removeprefix("assumed-"),
+        "taken": assumption.taken,
+        "why": term(assumption.why, language),
+    }

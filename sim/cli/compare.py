@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from sim.cli.dialect_options import OrRegister, offsets_of, with_dialect
 from sim.cli.scenario_options import SHARP_CORNERS, Length
 
 if TYPE_CHECKING:
@@ -17,16 +18,27 @@ if TYPE_CHECKING:
 @click.argument("drawing", type=click.Path(path_type=Path), metavar="[DRAWING.dxf]", required=False)
 @click.option(
     "--offset",
-    type=Length(),
-    help="How far the wire cuts past its path, such as 0.1mm; else that of the program's header, else of the wire.",
+    type=OrRegister(Length()),
+    multiple=True,
+    help="How far the wire cuts past its path, such as 0.1mm; else that of the program's header, else of the wire. Or "
+    "the value of a register that an ISO program names, such as D0=0.1mm; this may be given again.",
 )
+@with_dialect
 @click.option("--tolerance", type=Length(), help="Largest deviation that passes; 5um where left out.")
 @click.option("--layer", metavar="NAME", help="The drawing's layer to compare with; all of them where left out.")
 @click.option("--gap", type=Length(), help="Gap between curves that is bridged; 10um where left out.")
 @click.option("--no-fit", is_flag=True, help="Compare in place, without a fit of position and turn.")
 @click.option("--sharp-corners", type=click.Choice(["tell", "fail"]), help=SHARP_CORNERS)
 @click.option("--json", "as_json", is_flag=True, help="Print the comparison as JSON instead of the summary.")
-def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> None:
+def compare(
+    *,
+    path: Path,
+    offset: tuple[Any, ...],
+    dialect: str | None,
+    unit: str | None,
+    as_json: bool,
+    **options: Any,
+) -> None:
     """Compare the edge that a program cuts with a drawing (DXF).
 
     Measures how far the cut edge lies from the drawing and the drawing from the cut edge, after the drawing is turned
@@ -44,7 +56,7 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.drawing.read import read_drawing
     from parser.units import mm
-    from sim.cli.overrides import OfDrawing, drawing_target
+    from sim.cli.overrides import OfDrawing, drawing_target, read_with
     from sim.measure.compare.compared_program import compare_program
     from sim.measure.compare.result import Asked
     from sim.run.report.drawing import document_text
@@ -54,13 +66,14 @@ def compare(path: Path, offset: float | None, as_json: bool, **options: Any) -> 
     from sim.show.terminal.compare import print_comparison
     from sim.show.terminal.printer import write
 
-    number(mm(offset or 0.0), OFFSET_MM._replace(low=0.0), "--offset in mm")
-    scenario = load_scenario(path)
+    given = offsets_of(offset)
+    number(mm(given.plain or 0.0), OFFSET_MM._replace(low=0.0), "--offset in mm")
+    scenario = read_with(load_scenario(path), dialect, unit, given.registers)
     drawing = drawing_target(scenario.drawing, OfDrawing(**options))
     if drawing is None:
         raise click.MissingParameter(param_hint="DRAWING.dxf", param_type="argument")
     program = _program(scenario)
-    offset_um, source = _offset(offset, program, scenario)
+    offset_um, source = _offset(given.plain, program, scenario)
     shown = read_drawing(drawing.file, layer=drawing.layer, gap_um=drawing.gap_um)
     asked = Asked(drawing.tolerance_um, drawing.fit, drawing.sharp_corners)
     done = compare_program(program.toolpath, offset_um, shown, asked)
@@ -77,12 +90,12 @@ def _program(scenario: "Scenario") -> "Program":
     from parser.program import read_program
     from sim.check.too_large import refuse_too_large
     from sim.cli.scenario_options import refused
-    from sim.run.offsetting import offsetting
+    from sim.run.offsetting import as_run
 
     try:
-        program = read_program(scenario.program)
+        program = read_program(scenario.program, scenario.choices)
         refuse_too_large(program)
-        return program if scenario.offset is None else offsetting(program, scenario.offset).program
+        return as_run(program, scenario.offset)
     except ProgramError as error:
         raise refused(scenario, error) from None
 

@@ -76,7 +76,7 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     svg: bool,
     **options: Any,
 ) -> None:
-    """Draw a 3B program, or a scenario folder that holds one: its path, or pictures of a dry run of it.
+    """Draw a 3B or ISO program, or a scenario folder that holds one: its path, or pictures of a dry run of it.
 
     path: the path as it is programmed, with what the check finds; nothing runs for it. All others need a dry run.
     cut: the path as it will be cut, with kerf, parts and findings. along, whiskers, polar, histogram: how far wire
@@ -114,7 +114,7 @@ def _shown(asked: "PictureFiles", scenario: "Scenario") -> "Iterator[tuple[Shown
     from parser.program import read_program
     from sim.show.pictures.path import PATH, PathAlone
 
-    program = read_program(scenario.program)
+    program = read_program(scenario.program, scenario.choices)
     if set(asked.files) == {PATH}:
         from sim.show.pictures.cut.of_path import programmed
 

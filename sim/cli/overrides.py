@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from parser.findings.errors import SettingsError
 from parser.units import mm
+from sim.cli.dialect_options import offsets_of
 from sim.setup.toml.reader import number
 from sim.show.terminal.printer import say
 
 if TYPE_CHECKING:
+    from sim.cli.dialect_options import RegisterSet
     from sim.setup.machine.machine import TableEngine
     from sim.setup.part import DrawingTarget, Offset, SharpCorners
     from sim.setup.scenario import Scenario
@@ -17,8 +19,13 @@ if TYPE_CHECKING:
 
 
 class Overrides(NamedTuple):
-    """The options as given, lengths in µm; None where an option was left out."""
+    """The options as given, lengths in µm; None where an option was left out.
 
+    `offset` has the offset of the controller, and registers that ISO programs name.
+    """
+
+    dialect: str | None
+    unit: str | None
     machine: str | None
     thickness: float | None
     wire_diameter: float | None
@@ -26,7 +33,7 @@ class Overrides(NamedTuple):
     wire_lag: float | None
     interpolator: str | None
     engine: "TableEngine | None"
-    offset: tuple[float, ...] | None
+    offset: tuple["tuple[float, ...] | RegisterSet", ...]
     side: str | None
     past_stop: bool
     kerf: bool
@@ -42,7 +49,8 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
     from sim.setup import scenario as scenarios
     from sim.setup.machine.machine import load_machine
 
-    scenario = scenarios.load_scenario(path)
+    offsets = offsets_of(options.offset)
+    scenario = read_with(scenarios.load_scenario(path), options.dialect, options.unit, offsets.registers)
     if options.machine is not None:
         scenario = replace(scenario, machine=load_machine(options.machine), machine_by_default=False)
     if options.engine is not None:
@@ -54,12 +62,26 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
         scenario,
         thickness_mm=thickness_mm,
         wire=_wire(scenario.wire, options),
-        offset=_offset(scenario.offset, options),
+        offset=_offset(scenario.offset, offsets.plain, options.side),
         past_stop=scenario.past_stop or options.past_stop,
         kerf=scenario.kerf or options.kerf,
         drawing=_drawing(scenario.drawing, options),
     )
     return _stepping_by(scenario, options.interpolator)
+
+
+def read_with(
+    scenario: "Scenario", dialect: str | None, unit: str | None, registers: tuple["RegisterSet", ...]
+) -> "Scenario":
+    """The scenario with what the options say of its program in place of its own values; other registers stay."""
+    from parser.dialect.reader import merged
+
+    return replace(
+        scenario,
+        dialect=dialect or scenario.dialect,
+        unit=unit or scenario.unit,
+        registers=merged([scenario.registers, registers]),
+    )
 
 
 def _wire(wire: "Wire", options: Overrides) -> "Wire":
@@ -77,22 +99,22 @@ def _wire(wire: "Wire", options: Overrides) -> "Wire":
     return wire
 
 
-def _offset(offset: "Offset | None", options: Overrides) -> "Offset | None":
+def _offset(offset: "Offset | None", by_um: tuple[float, ...] | None, side_word: str | None) -> "Offset | None":
     """The offset with the options in place of its own values. SettingsError where only half of one is known.
 
     Lengths take the place of all passes: each makes one in the program's direction, at the machine's feed.
     """
     from sim.setup.part import OFFSET_MM, PASSES, SIDES, Offset, OffsetPass
 
-    if options.offset is None and options.side is None:
+    if by_um is None and side_word is None:
         return offset
     passes = offset and offset.passes
-    if options.offset is not None:
-        number(len(options.offset), PASSES, "--offset: the number of passes")
-        passes = tuple(OffsetPass(by_um) for by_um in options.offset)
+    if by_um is not None:
+        number(len(by_um), PASSES, "--offset: the number of passes")
+        passes = tuple(OffsetPass(one) for one in by_um)
         for one in passes:
             number(mm(one.by_um), OFFSET_MM, "--offset in mm")
-    side = SIDES[options.side] if options.side is not None else offset and offset.side
+    side = SIDES[side_word] if side_word is not None else offset and offset.side
     if side is None:
         raise SettingsError("--offset needs --side left or --side right: where the wire runs along the contour")
     if passes is None:

@@ -46,7 +46,7 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     scheduler: str | None,
     **options: Any,
 ) -> None:
-    """Dry-run a 3B program, or a scenario folder that holds one; or all of them in folders and globs.
+    """Dry-run a 3B or ISO program, or a scenario folder that holds one; or all of them in folders and globs.
 
     Plans and steps the program as its controller does, lets the table follow, and compares both with the ideal
     geometry.
@@ -62,6 +62,7 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     drycut run part.3b --interpolator card --card-log part.log
     drycut run contour.3b --offset 0.1mm --side right
     drycut run contour.3b --offset 0.18mm,0.12mm,0.1mm --side right
+    drycut run die.iso --dialect robofil --offset D0=0.11mm
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
     drycut run programs/ 'jigs/*.4b' -o out/ --jobs 4
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
@@ -139,7 +140,7 @@ def _run(scenario: "Scenario", files: _Files) -> "DryRun":
         stages = stages_of_files(scenario, trace=files.trace)
     with StageProgress("read", *stages) as progress, logging_to(files.card_log, settings) as log:
         progress("read", 0, 1)
-        program = read_program(scenario.program)
+        program = read_program(scenario.program, scenario.choices)
         if files.output is None:
             return check_expectations(dry_run(program, scenario, progress, log=log))
         return run_into(files.output, program, scenario, progress, log, trace=files.trace)

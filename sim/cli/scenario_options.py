@@ -9,6 +9,7 @@ import click
 
 from parser.findings.catalogue import LANGUAGES, Language
 from parser.findings.errors import ProgramError, SettingsError
+from sim.cli.dialect_options import READ_WITH, OrRegister
 from sim.show.terminal.colours import painted
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.printer import say
@@ -68,6 +69,7 @@ ENGINE_OPTION = click.option(
 )
 
 _OPTIONS = (
+    *READ_WITH,
     click.option("--machine", metavar="NAME|FILE", help="Shipped machine, such as dk7740, or a machine file (.toml)."),
     click.option("--thickness", type=Length(), help="Thickness of the work, such as 40mm."),
     click.option("--wire-diameter", type=Length(), help="Diameter of the wire, such as 0.18mm."),
@@ -80,9 +82,10 @@ _OPTIONS = (
     ),
     click.option(
         "--offset",
-        type=Lengths(),
+        type=OrRegister(Lengths()),
+        multiple=True,
         help="Offset that the controller is to add, such as 0.1mm, or one for each pass: 0.18mm,0.12mm,0.1mm; "
-        "with --side.",
+        "with --side. Or the value of a register that an ISO program names, such as D0=0.1mm; this may be given again.",
     ),
     click.option(
         "--side",

@@ -86,7 +86,7 @@ def _run(task: Task, folder: Path) -> Done:
     made = folder / "made"
     scenario = _with_drawing(task, folder)
     try:
-        run = run_into(made, load_program(task.data, task.name), scenario)
+        run = run_into(made, load_program(task.data, task.name, scenario.choices), scenario)
     except DrawingError as error:  # people know the drawing by where it stands
         raise DrawingError(str(error).replace(*_places_of_drawing(scenario, task.scenario))) from None
     return Done(_row(run), {name: (made / name).read_bytes() for name in FILES if (made / name).exists()})

@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from parser.dialect.reader import Assumption
 from sim.run.dryrun import DryRun
 
 
@@ -14,6 +15,8 @@ class Assumptions(NamedTuple):
         Name of the machine.
     by_default
         Whether nobody named one.
+    program
+        What the text of the program leaves open.
     values
         Keys of its values that nobody has measured, as its file says.
     compared
@@ -24,6 +27,7 @@ class Assumptions(NamedTuple):
 
     machine: str
     by_default: bool
+    program: tuple[Assumption, ...]
     values: tuple[str, ...]
     compared: bool
     wire_bows: bool
@@ -35,6 +39,7 @@ def assumptions_of(run: DryRun) -> Assumptions:
     return Assumptions(
         machine=scenario.machine.name,
         by_default=scenario.machine_by_default,
+        program=run.program.reading.assumptions,
         values=scenario.machine.assumed,
         compared=run.comparison is not None,
         wire_bows=scenario.wire_lag_um > 0.0,

@@ -6,10 +6,12 @@ A folder holds ``scenario.toml`` and the program it names; a program alone is a 
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from parser.dialect.reader import Choices, Registers, merged
 from parser.findings.errors import FileUnreadableError, SettingsError
 from parser.program import suffixes
 from parser.text.encoding import printable
 from parser.units import from_mm
+from sim.setup.dialect import READ_WITH
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
 from sim.setup.machine.controller_model import INTERPOLATOR
 from sim.setup.machine.machine import Machine, load_machine
@@ -59,6 +61,8 @@ class Scenario:
         Place of the program's start on the table, (x, y) from the corner of the travel; the centre where None.
     provenance
         Where the program comes from.
+    dialect, unit, registers
+        What is told of the program beside its text, as `Choices` has it; without the registers of the machine.
     may_stay_open
         Whether contours may end away from their own path; else that is a finding.
     past_stop
@@ -91,6 +95,9 @@ class Scenario:
     thickness_mm: float = DEFAULT_THICKNESS_MM
     start_mm: tuple[float, float] | None = None
     provenance: str = "not given"
+    dialect: str = ""
+    unit: str = ""
+    registers: Registers = ()
     may_stay_open: bool = False
     past_stop: bool = False
     trace_spacing_um: float = DEFAULT_TRACE_SPACING_UM
@@ -109,6 +116,11 @@ class Scenario:
         for name, bound in _BOUNDS.items():
             number(getattr(self, name), bound, name)
         self.wire.lag_um(self.thickness_mm)
+
+    @property
+    def choices(self) -> Choices:
+        """What the program is read with."""
+        return Choices(dialect=self.dialect, unit=self.unit, registers=merged([self.machine.registers, self.registers]))
 
     @property
     def wire_lag_um(self) -> float:
@@ -146,6 +158,7 @@ TOP = Section(
         Key("provenance", Text(), default="not given"),
         Key("program", FileName(), default=_usual_names()[0]),
         Key("machine", Text(), default=DEFAULT_MACHINE, get=lambda _: MACHINE_FILE),
+        *READ_WITH,
         Key("interpolator", INTERPOLATOR, default=None, get=lambda _: None),  # the machine file says it
         Key("start_mm", TablePlace(), default=None),
         Key("open", Truth(), "may_stay_open", default=False),

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, Self
 
-from parser.dialect.reader import Choices, Marks
+from parser.dialect.reader import Choices, Marks, Registers, merged
 from parser.findings.codes import Severity
 from parser.units import from_mm
 from sim.check.engine import Demands
@@ -34,6 +34,8 @@ class CheckSettings:
         Least severity that makes the exit code 1.
     marks
         Further end and pause marks.
+    dialect, unit, registers
+        What is told of the programs beside their text, as `Choices` has it; without the registers of the machine.
     file
         Settings file that they come from, as it is named to people; empty where they come from none.
     by_options
@@ -50,13 +52,17 @@ class CheckSettings:
     ignore_here: tuple[str, ...] = ()
     fail_on: Severity = Severity.ERROR
     marks: Marks = Marks()  # noqa: RUF009 - frozen
+    dialect: str = ""
+    unit: str = ""
+    registers: Registers = ()
     file: str = ""
     by_options: frozenset[str] = frozenset()
 
     @property
     def choices(self) -> Choices:
         """What the program is read with."""
-        return Choices(marks=self.marks)
+        of_machine = self.machine.registers if self.machine else ()
+        return Choices(self.marks, self.dialect, self.unit, merged([of_machine, self.registers]))
 
     @property
     def demands(self) -> Demands:
@@ -73,8 +79,9 @@ class CheckSettings:
         return replace(DEFAULT_WIRE, **known).reach_um if known else None
 
     def with_options(self, given: Mapping[str, Any]) -> Self:
-        """The settings with fields, by their names, as the command line gives them."""
-        return replace(self, **given, by_options=frozenset(given))
+        """The settings with fields, by their names, as the command line gives them; single registers it leaves stay."""
+        registers = merged([self.registers, given.get("registers", ())])
+        return replace(self, **{**given, "registers": registers}, by_options=frozenset(given))
 
     def silencer(self, code: str) -> Literal["", "options", "settings"]:
         """What keeps findings of a code from being shown: nothing, or options, or else settings."""

@@ -12,6 +12,7 @@ from parser.program import block_words, own_marks
 from parser.units import from_mm
 from sim.check.settings.model import CheckSettings
 from sim.check.settings.patterns import PathPattern, pattern_list
+from sim.setup.dialect import READ_WITH
 from sim.setup.toml.reader import load_toml, number, pair, refuse_unknown, section, text, truth
 from sim.setup.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
 
@@ -24,6 +25,7 @@ _PROJECT = NAMES[1]
 _KEYS = (
     *("root", "machine", "start_mm", "open", "select", "ignore", "fail_on", "exclude", "baseline"),
     *("end_marks", "pause_marks", "wire", "per_file_ignores"),
+    *(key.name for key in READ_WITH),
 )
 _WIRE = {"diameter_mm": WIRE_DIAMETER_MM, "spark_gap_mm": SPARK_GAP_MM}
 
@@ -97,6 +99,7 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
         ignore=code_list(content.get("ignore", []), f"{name}: ignore"),
         fail_on=severity(content.get("fail_on", Severity.ERROR), f"{name}: fail_on"),
         marks=_marks(content, name),
+        **{key.path: key.read(content, name) for key in READ_WITH},
         file=name,
     )
     return SettingsFile(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
+from parser.dialect.reader import merged
 from parser.files.reading import read_stdin
 from parser.units import mm
 from sim.check.batch import Job
@@ -18,6 +19,7 @@ from sim.setup.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
 
 if TYPE_CHECKING:
     from sim.check.silence.baseline import Baseline
+    from sim.cli.dialect_options import RegisterSet
 
 STDIN = "-"
 
@@ -35,6 +37,9 @@ class Asked(NamedTuple):
     machine: str | None
     wire_diameter: float | None
     gap: float | None
+    dialect: str | None
+    unit: str | None
+    offset: tuple["RegisterSet", ...]
     exclude: tuple[str, ...]
     config: Path | None
     no_config: bool
@@ -121,4 +126,5 @@ def _settings(asked: Asked) -> dict[str, Any]:
     if asked.gap is not None:
         number(mm(asked.gap), SPARK_GAP_MM, "--gap in mm")
         given["spark_gap_um"] = asked.gap
-    return given
+    read_with = {"dialect": asked.dialect, "unit": asked.unit, "registers": merged([asked.offset])}
+    return {**given, **{field: value for field, value in read_with.items() if value}}

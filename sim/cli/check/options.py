@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 import click
 
 from sim.cli.check.outputs import Output
+from sim.cli.dialect_options import READ_WITH, RegisterValue
 from sim.cli.scenario_options import Length
 from sim.show.findings import FORMATS
 
@@ -75,10 +76,19 @@ _DEMANDS = (
     click.option("--wire-diameter", type=Length(), help="Check corners for this wire, such as 0.18mm."),
     click.option("--gap", type=Length(), help="Spark gap on one side, such as 10um."),
 )
+_ISO = (
+    *READ_WITH,
+    click.option(
+        "--offset",
+        type=RegisterValue(),
+        multiple=True,
+        help="Value of an offset register that an ISO program names and does not set; may be given again.",
+    ),
+)
 
 
 def check_options(command: Command) -> Command:
     """Give a command the options of ``drycut check``."""
-    for option in reversed((*_OUTPUT, *_SELECTION, *_MENDS, *_WATCH, *_DEMANDS)):
+    for option in reversed((*_OUTPUT, *_SELECTION, *_MENDS, *_WATCH, *_DEMANDS, *_ISO)):
         command = option(command)
     return command

@@ -7,7 +7,7 @@ from typing import Any
 from parser import __version__
 from parser.findings.catalogue import Language, term, texts
 from parser.findings.findings import Edit, Finding
-from sim.check.result import CheckResult, CheckState, Coverage
+from sim.check.result import CheckResult, CheckState, Coverage, assumption_entry
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import joined, spot, tidy
 from sim.show.findings.totals import BLOCKS, Totals
@@ -30,12 +30,14 @@ def _file(result: CheckResult, language: Language) -> dict[str, Any]:
         "name": result.name,
         "encoding": result.encoding or None,
         "dialect": result.dialect or None,
+        "assumptions": [assumption_entry(assumption, language) for assumption in result.assumptions],
         "verdict": result.verdict,
         "settings_file": result.settings_file or None,
         "silenced": result.silenced._asdict(),
         "coverage": _coverage(result.coverage, language),
         "length_um": result.length_um,
         "steps": result.steps,
+        "programmed": result.programmed and result.programmed._asdict(),
         "findings": [_finding(result, finding, language) for finding in result.findings],
     }
 

@@ -5,6 +5,9 @@ from parser.findings.codes import CODES
 from sim.show.terminal.documents import documents, title
 from sim.show.words import Words
 
+_OF_LAYER = slice(None, -2)
+"""What the codes of a layer have in common: ``3B2`` of 3B204, ``ISO2`` of ISO204."""
+
 
 def page_text(code: str, language: Language, level: int = 1) -> str:
     """Page of a code as Markdown, its title a heading of this level. KeyError where there is no such code."""
@@ -35,10 +38,10 @@ def list_text(language: Language) -> str:
 
 def layers(language: Language) -> tuple[tuple[str, tuple[str, ...]], ...]:
     """Titles of the layers, each with its codes."""
-    digits = sorted({code[2] for code in CODES})
+    names = sorted({code[_OF_LAYER] for code in CODES})
     return tuple(
-        (Words(language)(f"findings.layer-{digit}"), tuple(code for code in sorted(CODES) if code[2] == digit))
-        for digit in digits
+        (Words(language)(f"findings.layer-{name}"), tuple(code for code in sorted(CODES) if code[_OF_LAYER] == name))
+        for name in names
     )
 
 

@@ -4,7 +4,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from typing import get_args
 
-from parser.findings.codes import CODES, Severity
+from parser.findings.codes import Severity
 from sim.check.result import CheckResult, Silenced, Verdict
 
 BLOCKS = ("found", "read", "decoded", "stepped")
@@ -20,6 +20,7 @@ class Totals:
     def __init__(self) -> None:
         self.files: Counter[str] = Counter()
         self.codes: Counter[str] = Counter()
+        self._severities: Counter[Severity] = Counter()
         self.blocks: Counter[str] = Counter()
         self.checks: defaultdict[str, Counter[str]] = defaultdict(Counter)
         self.silenced = Silenced()
@@ -40,10 +41,7 @@ class Totals:
 
     def by_severity(self) -> dict[Severity, int]:
         """Findings of each severity, the worst first."""
-        return {
-            severity: sum(count for code, count in self.codes.items() if CODES[code].severity is severity)
-            for severity in Severity
-        }
+        return {severity: self._severities[severity] for severity in Severity}
 
     @property
     def settings_files(self) -> tuple[str, ...]:
@@ -60,6 +58,7 @@ class Totals:
     def _add(self, result: CheckResult) -> None:
         self.files[result.verdict] += 1
         self.codes.update(finding.code for finding in result.findings)
+        self._severities.update(finding.severity for finding in result.findings)
         self.blocks.update({name: getattr(result.coverage, name) for name in BLOCKS})
         for check in result.coverage.checks:
             self.checks[check.state][check.name] += 1

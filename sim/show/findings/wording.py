@@ -4,11 +4,13 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from parser.findings.catalogue import Language, term
 from parser.findings.codes import Severity
+from parser.findings.facts import ReadAs, telling
 from parser.findings.findings import Finding
 from sim.check.result import CheckResult, CheckState, Coverage, Silenced, State
 from sim.show.findings.totals import Totals
 from sim.show.terminal.finding import hint, message
 from sim.show.words import Words
+from sim.show.words.phrases import as_read
 
 _STATES: tuple[State, ...] = ("complete", "incomplete", "not asked")
 _MOST_FILES = 3  # settings files that one line names
@@ -40,6 +42,15 @@ def reach(result: CheckResult, language: Language) -> str:
         settings(result.silenced, (result.settings_file,), language),
     )
     return say("findings.stop").join(filter(None, parts))
+
+
+def read_as(result: CheckResult, language: Language) -> str:
+    """``read as (ISO112): unit 0.001 mm (…), …``: what the text leaves open; empty where it leaves nothing."""
+    if not result.assumptions:
+        return ""
+    told = next((finding for finding, _ in telling(result.findings, ReadAs)), None)
+    key = "findings.read-as-finding" if told else "findings.read-as"
+    return Words(language)(key, code=told and told.code, parts=as_read(result.assumptions))
 
 
 def summary(totals: Totals, language: Language) -> str:

@@ -15,6 +15,8 @@ from sim.setup.toml.writer import toml_text
 LED = "[offset]\nside = 'left'\n[[pass]]\nby_mm = 0.18\n"
 """The first pass of some."""
 NONE = Overrides(
+    dialect=None,
+    unit=None,
     machine=None,
     thickness=None,
     wire_diameter=None,
@@ -22,7 +24,7 @@ NONE = Overrides(
     wire_lag=None,
     interpolator=None,
     engine=None,
-    offset=None,
+    offset=(),
     side=None,
     kerf=False,
     drawing=None,
@@ -155,23 +157,23 @@ def test_options_take_the_place_of_the_scenarios_values(tmp_path: Path) -> None:
     assert scenario.offset == Offset((OffsetPass(100.0),), Side.RIGHT)
     assert scenario.kerf
     assert scenario.drawing == DrawingTarget(Path("b.dxf"), "CUT", 2.0, fit=False)
-    assert overridden(folder, NONE._replace(offset=(50.0,))).offset == Offset((OffsetPass(50.0),), Side.LEFT)
+    assert overridden(folder, NONE._replace(offset=((50.0,),))).offset == Offset((OffsetPass(50.0),), Side.LEFT)
     folder = scenario_of(tmp_path, LED + "feed_mm_min = 3\n[[pass]]\nby_mm = 0.1\ndirection = 'back'")
     passes = (OffsetPass(180.0, feed_um_s=50.0), OffsetPass(100.0, "back"))
     assert overridden(folder, NONE._replace(side="right")).offset == Offset(passes, Side.RIGHT)
     plain = (OffsetPass(150.0), OffsetPass(120.0), OffsetPass(100.0))
-    assert overridden(folder, NONE._replace(offset=(150.0, 120.0, 100.0))).offset == Offset(plain, Side.LEFT)
+    assert overridden(folder, NONE._replace(offset=((150.0, 120.0, 100.0),))).offset == Offset(plain, Side.LEFT)
 
 
 @pytest.mark.parametrize(
     ("options", "complaint"),
     [
-        (NONE._replace(offset=(100.0,)), "--offset needs --side left or --side right"),
+        (NONE._replace(offset=((100.0,),)), "--offset needs --side left or --side right"),
         (NONE._replace(side="left"), "--side needs --offset"),
-        (NONE._replace(side="left", offset=(0.0,)), "--offset in mm is 0"),
-        (NONE._replace(side="left", offset=(180.0, 20_000.0)), "--offset in mm is 20"),
+        (NONE._replace(side="left", offset=((0.0,),)), "--offset in mm is 0"),
+        (NONE._replace(side="left", offset=((180.0, 20_000.0),)), "--offset in mm is 20"),
         (
-            NONE._replace(side="left", offset=(100.0,) * 21),
+            NONE._replace(side="left", offset=((100.0,) * 21,)),
             "--offset: the number of passes is 21; it must lie between 1",
         ),
         (NONE._replace(layer="CUT"), "--layer needs --drawing"),

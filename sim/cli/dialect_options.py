@@ -1,0 +1,112 @@
+"""Options that say what an ISO program is read with: dialect, unit, values of offset registers."""
+
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple, TypeVar
+
+import click
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+_DIALECTS = "fast-wire, classroom, skd2, robofil, sodick, mitsubishi, fanuc, common"
+
+
+class RegisterSet(NamedTuple):
+    """An offset register by its name, such as ``D1``, and what it is set to, µm."""
+
+    name: str
+    by_um: float
+
+
+class Dialect(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """The name of a dialect of ISO."""
+
+    name = "name"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """The name; any other than those that there are is bad use."""
+        from parser.program import dialects
+
+        if value not in dialects():
+            self.fail(f"{value!r} is not one of {', '.join(dialects())}", param, ctx)
+        return str(value)
+
+
+class RegisterValue(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """``D0=0.1mm``: an offset register and its value."""
+
+    name = "D0=length"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The register. A length without a register is bad use: it is an offset for ``drycut run``."""
+        if "=" not in value:
+            self.fail(f"{value!r} names no register; write it such as D0=0.1mm", param, ctx)
+        return register_set(value)
+
+
+class OrRegister(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """Values of another type, or ``D0=0.1mm``."""
+
+    def __init__(self, other: click.ParamType) -> None:  # type: ignore[type-arg]  # as above
+        self._other = other
+        self.name = f"{other.name}|D0=length"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The register where there is ``=``, else what the other type makes of it."""
+        if isinstance(value, str) and "=" in value:
+            return register_set(value)
+        return self._other.convert(value, param, ctx)
+
+
+class Offsets(NamedTuple):
+    """What ``--offset`` says: values of registers, and the one of another type; None where there is none."""
+
+    registers: tuple[RegisterSet, ...]
+    plain: Any
+
+
+def offsets_of(values: Iterable[Any]) -> Offsets:
+    """The values of an option that may be given again for registers. UsageError where two are of the other type."""
+    given = tuple(values)
+    registers = tuple(one for one in given if isinstance(one, RegisterSet))
+    others = [one for one in given if not isinstance(one, RegisterSet)]
+    if len(others) > 1:
+        raise click.UsageError("--offset is given again for registers alone, such as D1=0.1mm; it has two plain values")
+    return Offsets(registers, others[0] if others else None)
+
+
+def register_set(text: str) -> RegisterSet:
+    """The register that a text such as ``D0=0.1mm`` sets. SettingsError where it is none, or out of its bounds."""
+    from parser.dialect.reader import register_name
+    from parser.findings.errors import SettingsError
+    from parser.units import mm
+    from sim.setup.dialect import REGISTER_MM
+    from sim.setup.toml.reader import number
+    from sim.units import parse_length
+
+    before, _, length = text.partition("=")
+    name = register_name(before)
+    if not name:
+        raise SettingsError(
+            f"--offset: {before.strip()!r} is no offset register; write it such as D0=0.1mm or H1=0.1mm"
+        )
+    by_um = parse_length(length)
+    number(mm(by_um), REGISTER_MM, f"--offset {name} in mm")
+    return RegisterSet(name, by_um)
+
+
+READ_WITH = (
+    click.option("--dialect", type=Dialect(), help=f"Dialect of ISO programs, else told by their text: {_DIALECTS}."),
+    click.option(
+        "--unit",
+        type=click.Choice(["um", "mm", "inch"]),
+        help="Unit of ISO programs: um is whole numbers in µm and others in mm, inch whole numbers in 0.0001 inch.",
+    ),
+)
+"""Of every command that reads programs."""
+
+
+def with_dialect(command: Command) -> Command:
+    """Give a command the options `READ_WITH`."""
+    for option in reversed(READ_WITH):
+        command = option(command)
+    return command
