@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
 from parser.dialect.reader import STANDARD_CHOICES, Choices, HeaderValue, Marks, Reader, Reading
 from parser.files.kinds import PROGRAMS, kind_of
@@ -37,7 +38,7 @@ class Program:
         Encoding of the file.
     text, lines
         The whole text, and the places in it.
-    reading, header, toolpath, findings, mender
+    reading, header, toolpath, findings, mender, decoder
         What its reader made of it; see `parser.dialect.reader.ReadText`.
     choices
         What it was read with.
@@ -52,6 +53,7 @@ class Program:
     toolpath: Toolpath
     findings: tuple[Finding, ...]
     mender: Mender | None
+    decoder: Decoder | None = None
     choices: Choices = STANDARD_CHOICES
 
     def excerpt(self, line: int) -> str:

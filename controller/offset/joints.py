@@ -16,9 +16,9 @@ from parser.geometry.directions import headings_at
 from parser.geometry.meets import prolonged_meet
 from parser.toolpath import Outer
 
-_SHARPEST_RAD = 0.5 * np.pi + 0.01
+SHARPEST_RAD = 0.5 * np.pi + 0.01
 """Turn of the sharpest corner that is lengthened: 90°, and what whole µm make of it between lines of 0.1 mm."""
-_FARTHEST = 1.0 / np.cos(0.5 * _SHARPEST_RAD) + 1e-9
+_FARTHEST = 1.0 / np.cos(0.5 * SHARPEST_RAD) + 1e-9
 """How far from its corner lengthened lines meet at most, per offset: √2 at 90°."""
 _BACK_RAD = np.pi - 1e-6
 """A block that turns more runs back along the one before it: rounding decides the side, the wire goes round the end."""
@@ -91,7 +91,7 @@ def joints(blocks: Blocks, early: Ints, late: Ints, outer: Outer) -> Joints:
     turn = _turn(blocks, early, late)
     is_inner = turn * left > 0.0
     met = _met(blocks, early, late, corner, is_apart)
-    lengthens = (np.abs(turn) <= _SHARPEST_RAD) & (met.off_um <= farthest) & (met.beyond_um >= -NOTHING_UM)
+    lengthens = (np.abs(turn) <= SHARPEST_RAD) & (met.off_um <= farthest) & (met.beyond_um >= -NOTHING_UM)
     lengthens &= outer != "arc"
     middle, wide = 0.5 * (end + start), _length(end - start)
     is_far = met.is_met & (_length(met.place_um - middle) > _FAR_PER_GAP * wide)
@@ -119,7 +119,7 @@ def joints(blocks: Blocks, early: Ints, late: Ints, outer: Outer) -> Joints:
 
 def _bridge(is_one: Bools, is_outer: Bools, turn: Floats, outer: Outer) -> Ints:
     """(k,) what lies between blocks that turn by angles; arcs that do not meet up to 90° are never chamfered."""
-    is_chamfer = is_outer & (np.abs(turn) > _SHARPEST_RAD) & (outer == "chamfer")
+    is_chamfer = is_outer & (np.abs(turn) > SHARPEST_RAD) & (outer == "chamfer")
     bridge = np.select([is_one, is_chamfer, is_outer], [Joining.NONE, Joining.CHAMFER, Joining.ARC], Joining.LINE)
     return bridge.astype(np.int64)
 

@@ -15,13 +15,18 @@ from parser.iso.motion import Moved, moved
 from parser.iso.not_simulated import not_simulated
 from parser.iso.telling import Told, reread, told
 from parser.iso.text_checks import checked
+from parser.iso.trace import Trace
 from parser.text.encoding import narrow, no_program
 
 # A line of words with G and a number among the first ones; B begins the numbers of 3B.
 _LIKE_A_BLOCK = re.compile(r"(?im)^[ \t/]*+(?:[AC-FH-Z][ \t]*+[-+]?[\d.]++[ \t]*+)*+G[ \t]*+\d")
 _CODES = {
+    "3B211": "ISO219",
     "3B301": "ISO300",
+    "3B306": "ISO219",
     "3B307": "ISO305",
+    "3B312": "ISO307",
+    "3B316": "ISO308",
     "3B401": "ISO304",
     "3B501": "ISO504",
     "3B502": "ISO505",
@@ -60,7 +65,9 @@ class Iso:
         reading = _reading(listing, taken, path)._replace(not_simulated=besides.reason)
         of_text = (_by_row(finding, path.first_row) for finding in listing.findings)
         findings = (*of_text, *mode_findings(listing, taken, path), *besides.findings, *path.findings)
-        return ReadText(listing.lines, reading, {}, path.toolpath, tuple(sorted(findings, key=file_order)))
+        ordered = tuple(sorted(findings, key=file_order))
+        decoder = Trace(listing, taken.profile, choices)
+        return ReadText(listing.lines, reading, {}, path.toolpath, ordered, decoder=decoder)
 
 
 def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
@@ -69,7 +76,7 @@ def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
         dialect=family.profile.name,
         counts=BlockCounts(n + len({one.block for one in listing.unread}), n, n),
         damages=path.damages,
-        spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02"),
+        spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02", rapid="G00"),
         is_drawing=path.toolpath.compensation is not None,
         not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
         remarks=listing.remarks,

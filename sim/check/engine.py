@@ -18,11 +18,14 @@ from parser.shape.passes import find_passes
 from sim.check.closures import OpenContour, contour_findings
 from sim.check.compensation.asked import compensation_of, is_known
 from sim.check.count_axes import stepped_end_findings
+from sim.check.followed import followed_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
 from sim.check.header_offset import header_offset_findings
 from sim.check.passes import pass_findings, tab_findings
 from sim.check.radius_rule import radius_rule_findings, vanishing_findings
+from sim.check.rapids import rapid_findings
 from sim.check.result import CheckState, Coverage
+from sim.check.stops import tab_stop_findings
 from sim.check.too_large import too_many_steps
 from sim.check.travel import travel_findings
 from sim.check.uncut_jumps import uncut_jump_findings
@@ -135,6 +138,7 @@ class _PathChecks:
         uncut = uncut_jump_findings(program, self._rows, self._passes)
         yield from uncut
         known = (*program.findings, *stepped, *uncut)
+        yield from rapid_findings(program)
         closures = contour_findings(program, self.judged, self._rows, known, may_stay_open=demands.may_stay_open)
         yield from closures
         self._done(Check.CONTOURS, self._left_out)
@@ -172,8 +176,10 @@ class _PathChecks:
         return own_compensation(self._program, told, self._rows >= 0)
 
     def _over_edges(self) -> Iterator[Finding]:
-        """Findings about passes over one edge: how the wire's centre runs, and whether the program cuts all of it."""
+        """Findings about passes over one edge: as they are programmed, as the wire runs, and what they leave uncut."""
         program, rows, passes = self._program, self._rows, self._passes
+        yield from followed_findings(program, rows, passes)
+        yield from tab_stop_findings(program, rows)
         if not self._demands.may_stay_open:
             yield from tab_findings(program, rows, passes)
         made = self.compensation
