@@ -75,7 +75,9 @@ def arcs_of_radius(start: Floats, end: Floats, radius: Floats, turn: Floats, sla
     center = (start + end) / 2 + (turn * np.where(radius > 0, 1.0, -1.0) * height)[:, None] * normal
     minor = 2 * np.arcsin(np.minimum(half / np.where(size > 0, size, 1.0), 1.0))
     sweep = np.where(fits, np.where(radius > 0, minor, 2 * np.pi - minor), 0.0)
-    return Arcs(center, sweep * turn, _length(start - center), size, np.zeros_like(size), chord, np.full_like(start, np.nan))
+    return Arcs(
+        center, sweep * turn, _length(start - center), size, np.zeros_like(size), chord, np.full_like(start, np.nan)
+    )
 
 
 def _sweep(out: Floats, back: Floats, turn: Floats) -> Floats:

@@ -80,7 +80,8 @@ def _in_turns(draft: Draft) -> tuple[Draft, Ints]:
 def _is_full(curves: Curves) -> Bools:
     """(n,) arcs that turn once, and end where they start but for rounding."""
     off = np.hypot(*(curves.end_um - curves.start_um).T)
-    return curves.is_arc & (off <= _FULL_UM) & (np.abs(np.abs(curves.sweep_rad) - 2.0 * np.pi) < np.pi)
+    full: Bools = curves.is_arc & (off <= _FULL_UM) & (np.abs(np.abs(curves.sweep_rad) - 2.0 * np.pi) < np.pi)
+    return full
 
 
 def _places(curves: Curves, step_um: float, full: Bools) -> Ints:

@@ -144,7 +144,9 @@ def _refuse_misfits(asked: _Asked, language: "Language") -> None:
     }
     for name, value in ({"--form": asked.form} if language == "iso" else of_iso).items():
         if value is not None:
-            raise click.UsageError(f"{name} is for {'3B and 4B' if language == 'iso' else 'ISO'}, and not for {language}")
+            raise click.UsageError(
+                f"{name} is for {'3B and 4B' if language == 'iso' else 'ISO'}, and not for {language}"
+            )
     if language == "3b" and asked.compensation == "kept":
         raise click.UsageError("--compensation kept: 3B carries none; it can be worked in, or kept in ISO and 4B")
 
@@ -187,11 +189,11 @@ def _wanted(asked: _Asked, language: "Language", program: "Program", given: Offs
 
 def _iso(asked: _Asked, program: "Program") -> "IsoChoices":
     """Choices of ISO: of the dialect that is asked for, else of that which was read, else of fast wire."""
-    from parser.iso.profile import PROFILES, profile
+    from parser.program import dialects
     from parser.write.iso_choices import iso_choices
 
-    own = program.reading.dialect if program.reading.dialect in PROFILES else "fast-wire"
-    usual = iso_choices(profile(asked.dialect or own), asked.unit, asked.decimals)
+    own = program.reading.dialect if program.reading.dialect in dialects() else "fast-wire"
+    usual = iso_choices(asked.dialect or own, asked.unit, asked.decimals)
     return usual._replace(
         distance=asked.distance or usual.distance,
         centers=asked.centers or usual.centers,

@@ -51,7 +51,7 @@ def refused_lines(refused: Refused, name: str, language: Language, width: int) -
 
 
 def _lost(loss: Loss) -> Said:
-    return said(f"convert.lost-{loss.what}", of=printable(loss.of), count=f"{loss.count:,}")
+    return said(f"convert.lost-{loss.what}", of=printable(loss.of), number=f"{loss.number:,}")
 
 
 def _counts(done: Converted) -> Said:
@@ -69,5 +69,3 @@ def _options(wanted: Wanted) -> str:
         return ""
     unit = wanted.iso.reading_unit
     return f"--dialect {wanted.iso.profile.name}" + (f" --unit {unit}" if unit else "")
-
-
