@@ -17,6 +17,9 @@ from parser.text.source import Source
 _SIGNS = np.array([[0, 0], [1, 1], [-1, 1], [-1, -1], [1, -1]], dtype=np.int64)
 
 
+Outer = Literal["lengthen", "arc", "chamfer"]
+"""What is done at outer corners: see `CompensationRules`."""
+
 _NO_COLUMNS = ("words", "source", "stops", "compensation", "told_center_um")
 
 
@@ -178,7 +181,7 @@ class CompensationRules(NamedTuple):
         stops the machine with an alarm.
     """
 
-    outer: Literal["lengthen", "arc", "chamfer"] = "chamfer"
+    outer: Outer = "chamfer"
     startup: Literal["next-normal", "own-normal"] = "next-normal"
     too_small: Literal["vanish", "alarm"] = "vanish"
     change_on: Literal["wedge", "alarm"] = "wedge"

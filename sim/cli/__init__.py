@@ -20,6 +20,7 @@ _COMMANDS = {
     "check": "sim.cli.check.command",
     "compare": "sim.cli.compare",
     "convert": "sim.cli.convert",
+    "decode": "sim.cli.decode",
     "draw": "sim.cli.draw",
     "explain": "sim.cli.explain",
     "replay": "sim.cli.replay",
