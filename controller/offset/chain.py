@@ -11,6 +11,7 @@ from controller.offset.sections import OffsetSection
 from controller.offset.shifted import NOTHING_UM, Blocks, turned_rad
 from parser.geometry.boxes import distinct
 from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Outer
 
 _NONE = -1
 _LESS_SHORT = 0.5
@@ -45,8 +46,8 @@ class Chain:
     turn_rad: Floats
 
 
-def joined_blocks(blocks: Blocks, sections: Sequence[OffsetSection]) -> Chain:
-    """Blocks joined; those that would run backwards vanish, until none does."""
+def joined_blocks(blocks: Blocks, sections: Sequence[OffsetSection], outer: Outer) -> Chain:
+    """Blocks joined, at outer corners as `outer` says; those that would run backwards vanish, until none does."""
     m = len(blocks.row)
     early, late = _neighbours(sections)
     chain = Chain(
@@ -63,7 +64,7 @@ def joined_blocks(blocks: Blocks, sections: Sequence[OffsetSection]) -> Chain:
     touched = np.flatnonzero(chain.is_left)
     lack, is_apart = np.full(m, -np.inf), np.zeros(m, dtype=np.bool_)
     while len(touched):
-        small = _join(chain, blocks, touched, is_apart)
+        small = _join(chain, blocks, touched, is_apart, outer)
         behind = chain.late[touched]
         looked_at = distinct(np.concatenate([touched, behind[behind != _NONE], np.flatnonzero(lack > -np.inf)]))
         lack[looked_at] = _lack(chain, blocks, looked_at)
@@ -108,11 +109,11 @@ def _loosen(chain: Chain, blocks: Blocks, touched: Ints) -> None:
     chain.end_um[tail], chain.bridge[tail] = blocks.shifted.end_um[tail], Joining.NONE
 
 
-def _join(chain: Chain, blocks: Blocks, touched: Ints, is_apart: NDArray[np.bool_]) -> Ints:
+def _join(chain: Chain, blocks: Blocks, touched: Ints, is_apart: NDArray[np.bool_], outer: Outer) -> Ints:
     """Join blocks with those behind them; returns arcs too small to be joined."""
     early = touched[chain.late[touched] != _NONE]
     late = chain.late[early]
-    made = joints(blocks, early, late)
+    made = joints(blocks, early, late, outer)
     chain.end_um[early], chain.start_um[late], chain.bridge[early] = made.end_um, made.start_um, made.bridge
     chain.corner_um[early], chain.turn_rad[early] = made.corner_um, made.turn_rad
     is_apart[early] = made.is_apart

@@ -1,7 +1,8 @@
 """How the offset of one block goes on into that of the next, by the three types of C-type compensation.
 
 Shortened (suōduǎn) on the inner side of a corner, lengthened (shēncháng) on the outer side up to 90°, and beyond that
-with a bridge inserted (chārù): an arc round the corner. Tangent blocks need none of them.
+with a bridge inserted (chārù): an arc round the corner, or a chamfer. Tangent blocks need none of them. Beside a jump
+nothing is inserted: it runs straight between the ends of its neighbours (docs/iso.md §9).
 """
 
 from enum import IntEnum
@@ -10,13 +11,14 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.offset.shifted import NOTHING_UM, Blocks, turned_rad
-from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
 from parser.geometry.directions import headings_at
 from parser.geometry.meets import prolonged_meet
+from parser.toolpath import Outer
 
-_SHARPEST_RAD = 0.5 * np.pi + 0.01
+SHARPEST_RAD = 0.5 * np.pi + 0.01
 """Turn of the sharpest corner that is lengthened: 90°, and what whole µm make of it between lines of 0.1 mm."""
-_FARTHEST = 1.0 / np.cos(0.5 * _SHARPEST_RAD) + 1e-9
+_FARTHEST = 1.0 / np.cos(0.5 * SHARPEST_RAD) + 1e-9
 """How far from its corner lengthened lines meet at most, per offset: √2 at 90°."""
 _BACK_RAD = np.pi - 1e-6
 """A block that turns more runs back along the one before it: rounding decides the side, the wire goes round the end."""
@@ -31,11 +33,16 @@ APART_UM = 1e-3
 
 
 class Joining(IntEnum):
-    """What lies between two blocks."""
+    """What lies between two blocks: an arc round their corner, a line between their ends, or a chamfer.
+
+    A chamfer is a line between places that lie an offset beyond the corner, straight on behind the early block and
+    straight back before the late one. Lines reach these places themselves.
+    """
 
     NONE = 0
     ARC = 1
     LINE = 2
+    CHAMFER = 3
 
 
 class Joints(NamedTuple):
@@ -74,8 +81,8 @@ class _Met(NamedTuple):
     is_met: Bools
 
 
-def joints(blocks: Blocks, early: Ints, late: Ints) -> Joints:
-    """Joints of the blocks `early` (k,) with the blocks `late` (k,)."""
+def joints(blocks: Blocks, early: Ints, late: Ints, outer: Outer) -> Joints:
+    """Joints of the blocks `early` (k,) with the blocks `late` (k,); `outer` says what is done at outer corners."""
     left = blocks.left_um[early]
     farthest = _FARTHEST * np.abs(left)
     end, start = blocks.shifted.end_um[early], blocks.shifted.start_um[late]
@@ -84,27 +91,65 @@ def joints(blocks: Blocks, early: Ints, late: Ints) -> Joints:
     turn = _turn(blocks, early, late)
     is_inner = turn * left > 0.0
     met = _met(blocks, early, late, corner, is_apart)
-    lengthens = (np.abs(turn) <= _SHARPEST_RAD) & (met.off_um <= farthest) & (met.beyond_um >= -NOTHING_UM)
+    lengthens = (np.abs(turn) <= SHARPEST_RAD) & (met.off_um <= farthest) & (met.beyond_um >= -NOTHING_UM)
+    lengthens &= outer != "arc"
     middle, wide = 0.5 * (end + start), _length(end - start)
     is_far = met.is_met & (_length(met.place_um - middle) > _FAR_PER_GAP * wide)
     is_smooth = (wide <= _SMOOTH_UM) | (is_far & is_inner & ~is_apart & (wide <= _TANGENT_UM))
-    is_one = is_smooth | (met.is_met & (is_apart | is_inner | lengthens))
+    is_one = is_smooth | (met.is_met & (is_apart | is_inner | lengthens) & ~_spared(blocks, early, late, met))
     # The place where nearly tangent curves meet is ill-conditioned, but it lies between their ends.
     is_middle = is_smooth & ~(_length(met.place_um - middle) <= wide)
     place = np.where(is_middle[:, None], middle, met.place_um)
     misses = ~is_one & is_inner & np.isnan(met.place_um[:, 0]) & (early != late)
     early_vanishes, late_vanishes = _too_small(blocks, early, late, misses)
-    is_arc = ~is_one & ~is_apart & ~is_inner
-    return Joints(
+    made = Joints(
         end_um=np.where(is_one[:, None], place, end),
         start_um=np.where(is_one[:, None], place, start),
-        bridge=np.select([is_one, is_arc], [Joining.NONE, Joining.ARC], Joining.LINE).astype(np.int64),
+        bridge=_bridge(is_one, ~is_apart & ~is_inner, turn, outer),
         corner_um=corner,
         turn_rad=turn,
         is_apart=is_apart,
         early_vanishes=early_vanishes,
         late_vanishes=late_vanishes,
     )
+    _jump_between(blocks, early, late, made)
+    _prolong(blocks, early, late, made)
+    return made
+
+
+def _bridge(is_one: Bools, is_outer: Bools, turn: Floats, outer: Outer) -> Ints:
+    """(k,) what lies between blocks that turn by angles; arcs that do not meet up to 90° are never chamfered."""
+    is_chamfer = is_outer & (np.abs(turn) > SHARPEST_RAD) & (outer == "chamfer")
+    bridge = np.select([is_one, is_chamfer, is_outer], [Joining.NONE, Joining.CHAMFER, Joining.ARC], Joining.LINE)
+    return bridge.astype(np.int64)
+
+
+def _spared(blocks: Blocks, early: Ints, late: Ints, met: _Met) -> Bools:
+    """(k,) True beside a jump if one of the two would vanish: no jump takes a cut away."""
+    is_jump, length = blocks.shifted.kind == CurveKind.JUMP, blocks.drawn.length_um
+    spared: Bools = (is_jump[early] | is_jump[late]) & (met.beyond_um < -np.minimum(length[early], length[late]))
+    return spared
+
+
+def _prolong(blocks: Blocks, early: Ints, late: Ints, made: Joints) -> None:
+    """Let lines reach the places of their chamfers."""
+    chamfer = np.flatnonzero(made.bridge == Joining.CHAMFER)
+    before, behind = early[chamfer], late[chamfer]
+    by_um = np.abs(blocks.left_um[before])[:, None]
+    is_line = ~blocks.shifted.is_arc[:, None]
+    made.end_um[chamfer] += np.where(is_line[before], by_um * blocks.arriving[before], 0.0)
+    made.start_um[chamfer] -= np.where(is_line[behind], by_um * blocks.leaving[behind], 0.0)
+
+
+def _jump_between(blocks: Blocks, early: Ints, late: Ints, made: Joints) -> None:
+    """Let jumps begin and end where their neighbours do, instead of a bridge."""
+    is_jump = blocks.shifted.kind == CurveKind.JUMP
+    if not is_jump.any():
+        return
+    bridged = made.bridge != Joining.NONE
+    before, behind = bridged & is_jump[early], bridged & is_jump[late] & ~is_jump[early]
+    made.end_um[before], made.start_um[behind] = made.start_um[before], made.end_um[behind]
+    made.bridge[before | behind] = Joining.NONE
 
 
 def _turn(blocks: Blocks, early: Ints, late: Ints) -> Floats:

@@ -7,6 +7,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
 from parser.findings.codes import Check
 from parser.findings.findings import Finding
@@ -125,11 +126,22 @@ class BlockCounts(NamedTuple):
 
 
 class Spelling(NamedTuple):
-    """How a dialect writes what findings speak of: arcs clockwise and counter-clockwise, and the end code."""
+    """How a dialect writes what findings speak of.
+
+    Attributes
+    ----------
+    clockwise, counter_clockwise
+        Arcs.
+    end
+        The end code.
+    rapid
+        A rapid; empty where the machine jumps behind a pause alone.
+    """
 
     clockwise: str
     counter_clockwise: str
     end: str
+    rapid: str = ""
 
 
 class Reading(NamedTuple):
@@ -158,6 +170,8 @@ class Reading(NamedTuple):
     codes
         Codes of this dialect for findings of the path and the machine that have other ones in 3B: ``3B301`` is
         ``ISO300``. Findings without one keep their code, which holds for every dialect.
+    not_simulated
+        Term of the catalogue that says what the text asks for beside the path; empty where the path is all.
     """
 
     dialect: str
@@ -170,6 +184,7 @@ class Reading(NamedTuple):
     remarks: Ints = NO_REMARKS
     assumptions: tuple[Assumption, ...] = ()
     codes: Mapping[str, str] = MappingProxyType({})
+    not_simulated: str = ""
 
 
 def in_codes(reading: Reading, findings: Iterable[Finding]) -> tuple[Finding, ...]:
@@ -192,6 +207,8 @@ class ReadText(NamedTuple):
         What is wrong with the text and its single blocks, in file order.
     mender
         What the dialect knows of writing blocks otherwise; None where it knows nothing of it.
+    decoder
+        Shows how the words of a block are decoded; None where the dialect has no such thing to show.
     """
 
     lines: LineIndex
@@ -200,6 +217,7 @@ class ReadText(NamedTuple):
     toolpath: Toolpath
     findings: tuple[Finding, ...]
     mender: Mender | None = None
+    decoder: Decoder | None = None
 
 
 class Reader(Protocol):

@@ -16,17 +16,23 @@ from parser.program import Program, parse_program
 from parser.shape.contours import Contour, contour_rows, find_contours
 from parser.shape.passes import find_passes
 from sim.check.closures import OpenContour, contour_findings
+from sim.check.compensation.asked import compensation_of, is_known
 from sim.check.count_axes import stepped_end_findings
+from sim.check.followed import followed_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
 from sim.check.header_offset import header_offset_findings
-from sim.check.passes import pass_findings
+from sim.check.passes import pass_findings, tab_findings
 from sim.check.radius_rule import radius_rule_findings, vanishing_findings
+from sim.check.rapids import rapid_findings
 from sim.check.result import CheckState, Coverage
+from sim.check.stops import tab_stop_findings
 from sim.check.too_large import too_many_steps
 from sim.check.travel import travel_findings
 from sim.check.uncut_jumps import uncut_jump_findings
 
-if TYPE_CHECKING:  # most checks know no machine
+if TYPE_CHECKING:  # most checks know no machine, and most programs do not compensate
+    from sim.check.beside import Offsetting
+    from sim.check.compensation.check import OwnCompensation
     from sim.setup.machine.table_model import TableModel
 
 PARSER_CHECKS = (Check.GRAMMAR, Check.ORDER, Check.BLOCKS, Check.PRINTED_ENDS, Check.HEADER)
@@ -68,6 +74,8 @@ class Checked(NamedTuple):
         Of the program; None where they were not worked out.
     contours, judged
         All contours, and those with no damaged block in or beside them and no block that never ends.
+    compensation
+        What the program's own compensation makes of it; None where it asks for none, or where it was not worked out.
     """
 
     findings: tuple[Finding, ...]
@@ -75,6 +83,7 @@ class Checked(NamedTuple):
     steps: Steps | None
     contours: tuple[Contour, ...]
     judged: tuple[Contour, ...]
+    compensation: "Offsetting | None" = None
 
 
 def run_checks(program: Program, demands: Demands) -> Checked:
@@ -104,7 +113,7 @@ def _every_check(program: Program, demands: Demands) -> Checked:
     decoded = counts.run - int(program.toolpath.is_endless.sum())
     states = (*_parser_states(program), *path.states)
     coverage = Coverage(counts.found, counts.whole, decoded, decoded, states)
-    return Checked(findings, coverage, steps, contours, path.judged)
+    return Checked(findings, coverage, steps, contours, path.judged, path.compensation)
 
 
 class _PathChecks:
@@ -116,7 +125,9 @@ class _PathChecks:
         self._broken = _broken_contours(program, rows)
         self.judged = tuple(contour for number, contour in enumerate(contours) if number not in self._broken)
         self._rows = np.where(np.isin(rows, list(self._broken)), -1, rows)
-        self._passes = find_passes(program.toolpath)
+        own = self._own_compensation()
+        self.compensation = own.made if own else None
+        self._passes = own.drawn_passes if own else find_passes(program.toolpath)
         self.states: list[CheckState] = []
 
     def findings(self) -> Iterator[Finding]:
@@ -127,6 +138,7 @@ class _PathChecks:
         uncut = uncut_jump_findings(program, self._rows, self._passes)
         yield from uncut
         known = (*program.findings, *stepped, *uncut)
+        yield from rapid_findings(program)
         closures = contour_findings(program, self.judged, self._rows, known, may_stay_open=demands.may_stay_open)
         yield from closures
         self._done(Check.CONTOURS, self._left_out)
@@ -138,13 +150,14 @@ class _PathChecks:
         crossings, all_pairs = crossing_findings(program, rows, self._passes)
         yield from crossings
         self._done(Check.CROSSINGS, self._left_out or open_ones if all_pairs else "reason-many")
-        yield from pass_findings(
-            program, self._rows, self._passes, demands.offset_um, may_stay_open=demands.may_stay_open
-        )
+        yield from self._over_edges()
         self._done(Check.PASSES, self._left_out)
         yield from self._asked_for()
         reach_um = demands.offset_um if demands.table is not None else None
         yield from header_offset_findings(program, self._passes, reach_um, demands.added_um)
+        if self.compensation is not None:
+            yield from self.compensation.findings
+            self._done(Check.COMPENSATION, self._left_out or self._without_value)
 
     def _stepped(self) -> list[Finding]:
         """Findings about the words that steps are counted by, where the program has such."""
@@ -153,6 +166,32 @@ class _PathChecks:
             return []
         self._done(Check.STEPS, _stopped(self._program))
         return stepped_end_findings(self._program, self._steps)
+
+    def _own_compensation(self) -> "OwnCompensation | None":
+        told = compensation_of(self._program.toolpath)
+        if told is None:
+            return None
+        from sim.check.compensation.check import own_compensation  # noqa: PLC0415 - other programs start sooner without
+
+        return own_compensation(self._program, told, self._rows >= 0)
+
+    def _over_edges(self) -> Iterator[Finding]:
+        """Findings about passes over one edge: as they are programmed, as the wire runs, and what they leave uncut."""
+        program, rows, passes = self._program, self._rows, self._passes
+        yield from followed_findings(program, rows, passes)
+        yield from tab_stop_findings(program, rows)
+        if not self._demands.may_stay_open:
+            yield from tab_findings(program, rows, passes)
+        made = self.compensation
+        if made is not None:
+            program, rows, passes = made.program, rows[made.path.source_row], made.edge_passes
+        yield from pass_findings(program, rows, passes, self._demands.offset_um)
+
+    @property
+    def _without_value(self) -> str:
+        """Why the compensation is not all worked out; empty where it is."""
+        told = compensation_of(self._program.toolpath)
+        return "" if told is None or is_known(told) else "reason-no-register"
 
     @property
     def _left_out(self) -> str:
@@ -170,7 +209,9 @@ class _PathChecks:
     def _asked_for(self) -> Iterator[Finding]:
         """Checks that need to know the wire or the machine."""
         program, demands = self._program, self._demands
-        if demands.offset_um is None:
+        if self.compensation is not None:
+            self._done(Check.CORNERS, self._left_out or self._without_value)  # ISO504 tells of the offset that is known
+        elif demands.offset_um is None:
             self.states.append(CheckState(Check.CORNERS, "not asked", "reason-no-wire"))
         else:
             yield from corner_findings(program, self._rows, self._passes, demands.offset_um)
@@ -179,11 +220,15 @@ class _PathChecks:
         if demands.table is None or demands.start_um is None:
             self.states.append(CheckState(Check.TRAVEL, "not asked", "reason-no-machine"))
         else:
-            yield from travel_findings(program, self._steps, demands.table, demands.start_um)
+            run, steps = program, self._steps
+            if self.compensation is not None:
+                run = self.compensation.program
+                steps = interpolate(run.toolpath)
+            yield from travel_findings(run, steps, demands.table, demands.start_um)
             self._done(Check.TRAVEL, "reason-damaged" if program.reading.damages else _stopped(program))
 
     def _done(self, name: Check, reason: str = "") -> None:
-        self.states.append(_state_of(self._program, name, reason))
+        self.states.append(_state_of(self._program, name, reason or self._program.reading.not_simulated))
 
 
 def _closed(rows: Ints, closures: list[Finding]) -> Ints:
@@ -229,7 +274,8 @@ def _state_of(program: Program, name: Check, reason: str) -> CheckState:
 
 def _without_path(program: Program, reason: str, more: list[Finding] | None = None) -> Checked:
     """Findings of a program whose geometry is not worth working out."""
-    states = (*_parser_states(program), *(CheckState(name, "incomplete", reason) for name in PATH_CHECKS))
+    names = (*PATH_CHECKS, *((Check.COMPENSATION,) if compensation_of(program.toolpath) else ()))
+    states = (*_parser_states(program), *(CheckState(name, "incomplete", reason) for name in names))
     counts = program.reading.counts
     coverage = Coverage(counts.found, counts.whole, 0, 0, states)
     return Checked(tuple(sorted([*program.findings, *(more or [])], key=file_order)), coverage, None, (), ())

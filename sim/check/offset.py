@@ -10,11 +10,12 @@ from controller.offset.passes import NoWayBack, PassedPath
 from controller.offset.path import OffsetPath
 from controller.offset.sections import OffsetSection
 from parser.dialect.at_block import at_block
-from parser.findings.findings import Fact, Finding
+from parser.findings.findings import Fact, Finding, Value
 from parser.geometry.along import places
 from parser.geometry.curves import Floats, Ints
 from parser.program import Program
 from parser.units import mm
+from sim.check.beside import Distances
 from sim.setup.part import Offset
 
 
@@ -41,7 +42,7 @@ def uncut_findings(
     3B501 at an inner arc no larger than the offset, 3B502 where some material stays along another block. Only what all
     passes at the least offset leave stays on the part.
     """
-    drawn, side = program.toolpath, offset.side
+    run = Distances(offset.by_um, offset.by_um, offset.side)
     nearest = [number for number, one in enumerate(offset.passes) if one.by_um == offset.by_um]
     last = np.isin(passed.number[gone], nearest)
     rows, of, times = np.unique(passed.row[gone[last]], return_inverse=True, return_counts=True)
@@ -49,15 +50,27 @@ def uncut_findings(
     np.minimum.at(least, of, left_um[last])
     stays = times == len(nearest)
     rows, least = rows[stays], least[stays]
-    middle_mm = mm(places(drawn, rows, np.full(len(rows), 0.5)))
-    for row, left, (x_mm, y_mm) in zip(rows.tolist(), least.tolist(), middle_mm.tolist(), strict=True):
-        values = {"offset": offset.by_um, "left": left, "x_mm": x_mm, "y_mm": y_mm}
-        radius_um = float(drawn.radius_um[row])
-        fact = InPass(nearest[0])
-        if drawn.is_arc[row] and radius_um <= offset.by_um and drawn.sweep_rad[row] * side > 0.0:
-            yield at_block(drawn, program.lines, "3B501", row, radius=radius_um, **values).with_fact(fact)
-        elif left > TOLERANCE_UM:
-            yield at_block(drawn, program.lines, "3B502", row, **values).with_fact(fact)
+    fact = InPass(nearest[0])
+    for row, left in zip(rows.tolist(), least.tolist(), strict=True):
+        found = uncut_finding(program, row, left, run)
+        if found is not None:
+            yield found.with_fact(fact)
+
+
+def uncut_finding(program: Program, row: int, left_um: float, run: Distances, *, stops: bool = False) -> Finding | None:
+    """Finding 3B501 or 3B502 at a row that vanished in a pass.
+
+    None where nothing stays, unless the controller `stops` there.
+    """
+    drawn, by_um = program.toolpath, run.by_um
+    (x_mm, y_mm), radius_um = mm(places(drawn, np.array([row]), np.full(1, 0.5)))[0].tolist(), drawn.radius_um[row]
+    values: dict[str, Value] = {"offset": by_um, "left": left_um, "x_mm": x_mm, "y_mm": y_mm}
+    values["act"] = "compensation-stops" if stops else "compensation-leaves-out"
+    if drawn.is_arc[row] and radius_um <= by_um and drawn.sweep_rad[row] * run.side > 0.0:
+        return at_block(drawn, program.lines, "3B501", row, radius=float(radius_um), **values)
+    if stops or left_um > TOLERANCE_UM:
+        return at_block(drawn, program.lines, "3B502", row, **values)
+    return None
 
 
 def gouge_findings(
@@ -67,7 +80,6 @@ def gouge_findings(
 
     Where several passes cut into one block beside the same other, only the pass that cuts deepest is told.
     """
-    drawn = program.toolpath
     told: dict[tuple[int, int], dict[int, list[Gouge]]] = {}
     for gouge in gouges:
         row, number = path.source_row[gouge.path_row], int(passed.number[gouge.row])
@@ -76,15 +88,25 @@ def gouge_findings(
     for (row, into), by_pass in told.items():
         deepest = max(by_pass, key=lambda number: max(gouge.depth_um for gouge in by_pass[number]))
         for gouge in by_pass[deepest]:
-            values = {
-                "other": int(drawn.source.block[into]),
-                "pass": deepest + 1 if len(offset.passes) > 1 else 0,
-                "depth": gouge.depth_um,
-                "offset": offset.by_um,
-                "x_mm": mm(gouge.place_um.x),
-                "y_mm": mm(gouge.place_um.y),
-            }
-            yield at_block(drawn, program.lines, "3B503", row, **values).with_fact(InPass(deepest))
+            number = deepest + 1 if len(offset.passes) > 1 else 0
+            yield gouge_finding(program, (row, into), gouge, offset.by_um, number).with_fact(InPass(deepest))
+
+
+def gouge_finding(program: Program, rows: tuple[int, int], gouge: Gouge, by_um: float, number: int = 0) -> Finding:
+    """Finding 3B503 where the wire cuts beside the first of two rows into the other.
+
+    `number` is that of its pass, 0 of the only one.
+    """
+    drawn, (row, into) = program.toolpath, rows
+    values = {
+        "other": int(drawn.source.block[into]),
+        "pass": number,
+        "depth": gouge.depth_um,
+        "offset": by_um,
+        "x_mm": mm(gouge.place_um.x),
+        "y_mm": mm(gouge.place_um.y),
+    }
+    return at_block(drawn, program.lines, "3B503", row, **values)
 
 
 def loop_findings(
@@ -97,4 +119,9 @@ def loop_findings(
     for section, count in loops.items():
         if count != 1:
             first = int(passed.row[[section.first, section.last]].min())
-            yield at_block(program.toolpath, program.lines, "3B504", first, loops=count, offset=offset.by_um)
+            yield loop_finding(program, first, count, offset.by_um)
+
+
+def loop_finding(program: Program, first: int, loops: int, by_um: float) -> Finding:
+    """Finding 3B504 at the first row of a contour that allows so many closed paths without a gouge."""
+    return at_block(program.toolpath, program.lines, "3B504", first, loops=loops, offset=by_um)

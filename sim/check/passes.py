@@ -29,22 +29,24 @@ _WIDEST_TAB = 0.25  # of the length of a pass
 _MIDDLE, _STEP_UM = 0.25, 100.0  # a tab comes so near the middle between its ends; leads leave from the ends
 
 
-def pass_findings(
-    program: Program, contour: Ints, passes: Passes, offset_um: float | None, *, may_stay_open: bool
-) -> list[Finding]:
-    """Findings 3B312 to 3B316 of the edges that are cut by several passes.
+def pass_findings(program: Program, contour: Ints, passes: Passes, offset_um: float | None) -> list[Finding]:
+    """Findings 3B312 to 3B314 and 3B316 of the edges that are cut by several passes.
 
     `contour` (n,) is each row's, −1 where it is not judged; `offset_um` is the distance of the wire's centre from the
     edge. Where no wire is known it is None, and no band between two passes is told (3B313).
     """
-    judged = [several for several in _by_edge(passes) if contour[several[0].first] >= 0]
+    judged = _judged(contour, passes)
     found: list[Finding] = []
     for several in judged:
-        main, tab = ([one for one in several if one.is_tab == is_tab] for is_tab in (False, True))
-        found += [*_offsets(program, main, offset_um), *_offsets(program, tab, offset_um)]
-        if not tab and not may_stay_open:
-            found += _uncut_tab(program, main)
+        for of in _main_and_tab(several):
+            found += _offsets(program, of, offset_um)
     return [*found, *(_deeper(program, passes, judged) if judged else ())]
+
+
+def tab_findings(program: Program, contour: Ints, passes: Passes) -> list[Finding]:
+    """Finding 3B315 of each edge that is cut by several passes, and whose tab nothing cuts."""
+    edges = (_main_and_tab(several) for several in _judged(contour, passes))
+    return [found for main, tab in edges if not tab for found in _uncut_tab(program, main)]
 
 
 def asked_pass_findings(program: Program, passes: Passes, offset_um: float) -> list[Finding]:
@@ -54,6 +56,17 @@ def asked_pass_findings(program: Program, passes: Passes, offset_um: float) -> l
     """
     several = _by_edge(Passes(tuple(one._replace(part_side=0) for one in passes.passes), passes.of_row))
     return [found for of in several for found in _offsets(program, of, offset_um)]
+
+
+def _judged(contour: Ints, passes: Passes) -> list[list[Pass]]:
+    """Passes over each edge that is cut by several, and that is judged."""
+    return [several for several in _by_edge(passes) if contour[several[0].first] >= 0]
+
+
+def _main_and_tab(passes: list[Pass]) -> tuple[list[Pass], list[Pass]]:
+    """Passes along an edge, and those over its tab."""
+    main, tab = ([one for one in passes if one.is_tab == is_tab] for is_tab in (False, True))
+    return main, tab
 
 
 def _by_edge(passes: Passes) -> list[list[Pass]]:

@@ -90,12 +90,12 @@ def _program(scenario: "Scenario") -> "Program":
     from parser.program import read_program
     from sim.check.too_large import refuse_too_large
     from sim.cli.scenario_options import refused
-    from sim.run.offsetting import offsetting
+    from sim.run.offsetting import as_run
 
     try:
         program = read_program(scenario.program, scenario.choices)
         refuse_too_large(program)
-        return program if scenario.offset is None else offsetting(program, scenario.offset).program
+        return as_run(program, scenario.offset)
     except ProgramError as error:
         raise refused(scenario, error) from None
 

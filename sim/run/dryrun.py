@@ -17,6 +17,7 @@ from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.shape.passes import Passes, find_passes
 from parser.toolpath import Toolpath
+from sim.check.beside import Offsetting
 from sim.check.result import Coverage
 from sim.cut.obstacles.findings import missed_work_findings, obstacle_findings
 from sim.cut.remains import Remains
@@ -27,7 +28,6 @@ from sim.measure.deviation.meters import BlockSteps
 from sim.measure.passes.figures import PassFigures, figures_of_passes, wire_taken
 from sim.run.ending import Ending, motion_to_end, trip_of
 from sim.run.left import drawing_of, left_of
-from sim.run.offsetting import Offsetting
 from sim.run.prepare import prepare
 from sim.setup.expectations import Missed
 from sim.setup.scenario import Scenario
@@ -123,6 +123,15 @@ class DryRun:
         return any(one.number > 1 for one in self.passes.passes)
 
     @property
+    def pass_feed_um_s(self) -> tuple[float, ...]:
+        """Feed of each pass of the offset; where the program compensates itself, that of the machine for all."""
+        asked = self.scenario.offset
+        if asked is not None:
+            return tuple(self.scenario.pass_feed_um_s(one) for one in asked.passes)
+        feeds = self.scenario.machine.feeds(self.scenario.thickness_mm)
+        return (float(feeds.cut_um_s),) * (len(self.offset.passes) if self.offset else 0)
+
+    @property
     def ran_s(self) -> float:
         """How long the machine ran: until it stopped early, else as planned."""
         return self.plan.duration_s if self.ended is None else self.ended.t_s
@@ -180,7 +189,8 @@ def dry_run(
     contours = find_contours(toolpath, stepped.corner_um)
     ended = trip_of(moved.losses) or ended
     cut = _cut(trace, ended)
-    passes, border_s = find_passes(toolpath), _borders(plan, ready.steps.along_um)
+    passes = find_passes(toolpath) if ready.offset is None else ready.offset.edge_passes
+    border_s = _borders(plan, ready.steps.along_um)
     time_s = _times_within(border_s, ended.t_s if ended else plan.duration_s)
     way = wire_taken(toolpath, plan, cut)
     left = left_of(program, cut, contours, scenario, drawing, progress)

@@ -1,4 +1,4 @@
-"""Before anything moves: a program checked, and the offset added where the controller is to add one."""
+"""Before anything moves: a program checked, and its offset: the one that it compensates by, or one that is added."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -13,13 +13,13 @@ from parser.findings.codes import Check
 from parser.findings.facts import WithoutOffset
 from parser.findings.findings import Finding
 from parser.program import Program
-from parser.shape.passes import find_passes
-from sim.check.engine import Demands, run_checks
+from sim.check.beside import Offsetting
+from sim.check.engine import Checked, Demands, run_checks
 from sim.check.passes import asked_pass_findings
 from sim.check.result import CheckState, Coverage
 from sim.check.too_large import refusal, too_many_steps
 from sim.check.travel import travel_findings
-from sim.run.offsetting import Offsetting, offsetting
+from sim.run.offsetting import offsetting, refuse_twice, refuse_unknown
 from sim.setup.quiz import refuse_unanswerable
 from sim.setup.scenario import Scenario
 
@@ -56,10 +56,14 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     program does not have.
     """
     refuse_unanswerable(scenario.quiz, program.toolpath)
+    refuse_twice(program, scenario.offset)
     checked = run_checks(program, _demands(scenario))
     if checked.steps is None:
         raise refusal(program, checked.findings)
     feeds = scenario.machine.feeds(scenario.thickness_mm)
+    if checked.compensation is not None:
+        refuse_unknown(program, checked.findings)
+        return _compensated(checked, checked.compensation, feeds)
     if scenario.offset is None:
         return Prepared(program, checked.steps, None, feeds, checked.findings, checked.coverage)
     offset = offsetting(program, scenario.offset)
@@ -74,6 +78,15 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     added = (*offset.findings, *_between_passes(offset, scenario), *travel)
     findings = (*_under_offset(checked.findings), *in_codes(program.reading, added))
     return Prepared(offset.program, steps, offset, feeds, findings, coverage)
+
+
+def _compensated(checked: Checked, made: Offsetting, feeds: Feeds) -> Prepared:
+    """A program that compensates itself: its checks were of the path that runs."""
+    steps = interpolate(made.program.toolpath)
+    beyond = too_many_steps(made.program, steps)
+    if beyond:
+        raise refusal(made.program, beyond)
+    return Prepared(made.program, steps, made, feeds, checked.findings, checked.coverage)
 
 
 def _demands(scenario: Scenario) -> Demands:
@@ -99,7 +112,7 @@ def _between_passes(offset: Offsetting, scenario: Scenario) -> list[Finding]:
     """
     if scenario.offset is None or len(scenario.offset.passes) == 1:
         return []
-    return asked_pass_findings(offset.program, find_passes(offset.program.toolpath), scenario.wire.reach_um)
+    return asked_pass_findings(offset.program, offset.edge_passes, scenario.wire.reach_um)
 
 
 def _looked_at(coverage: Coverage, names: Sequence[Check]) -> Coverage:

@@ -7,12 +7,12 @@ import numpy as np
 
 from controller.offset.path import Made
 from parser.geometry.curves import CurveKind, Ints
+from sim.check.beside import Offsetting
 from sim.measure.deviation.causes import Part
 from sim.measure.deviation.deviation import Deviation, Where
 from sim.measure.deviation.measured import Deviations
 from sim.run.dryrun import DryRun
 from sim.run.ending import Ending
-from sim.run.offsetting import Offsetting
 from sim.run.report.rounded import DEG_DIGITS, column, moment, points, rounded, rows
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
@@ -77,20 +77,20 @@ def _met(event: Peak | Loss | Ending, ran_s: float) -> dict[str, Any]:
 
 def offset_entry(run: DryRun) -> dict[str, Any] | None:
     """``offset``; None where the program ran as written."""
-    asked, made = run.scenario.offset, run.offset
-    if asked is None or made is None:
+    made = run.offset
+    if made is None:
         return None
     of_row, of_drawn = run.toolpath.source.block, made.passed.drawn.source.block
     return {
-        "by_um": rounded(asked.by_um),
-        "side": asked.side.name.lower(),
+        "by_um": rounded(made.by_um),
+        "side": made.side.name.lower(),
         "passes": [
             {
                 "by_um": rounded(one.by_um),
-                "direction": "back" if is_back else "forward",
-                "feed_um_s": rounded(run.scenario.pass_feed_um_s(one)),
+                "direction": "back" if one.is_back else "forward",
+                "feed_um_s": rounded(feed_um_s),
             }
-            for one, is_back in zip(asked.passes, asked.back, strict=True)
+            for one, feed_um_s in zip(made.passes, run.pass_feed_um_s, strict=True)
         ],
         "blocks": _blocks(made, of_row),
         "vanished": [

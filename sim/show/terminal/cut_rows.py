@@ -43,15 +43,15 @@ def _pass(figures: PassFigures, reach_um: float) -> str:
 
 def offset_rows(run: DryRun) -> list[Row]:
     """What the controller adds, and what became of the program's blocks."""
-    asked, made = run.scenario.offset, run.offset
-    if asked is None or made is None:
+    made = run.offset
+    if made is None:
         return []
     bridges = int((made.path.made == Made.BRIDGE).sum())
     parts = [(bridges, "bridge", "added"), (len(made.path.vanished), "block", "left out")]
     told = [f"{number} {name}{'s' * (number > 1)} {what}" for number, name, what in parts if number]
-    by = ", ".join(f"{mm(one.by_um):g}" for one in asked.passes)
-    rows = [("offset", ", ".join([f"{by} mm to the {asked.side.name.lower()}", *told]))]
-    feeds = [run.scenario.pass_feed_um_s(one) for one in asked.passes]
+    by = ", ".join(f"{mm(one.by_um):g}" for one in made.passes)
+    rows = [("offset", ", ".join([f"{by} mm to the {made.side.name.lower()}", *told]))]
+    feeds = run.pass_feed_um_s
     if len(set(feeds)) == 1:
         return rows
     return [*rows, ("  feed", f"{', '.join(in_figures(mm(feed) * 60.0) for feed in feeds)} mm/min")]

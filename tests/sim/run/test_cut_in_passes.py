@@ -27,8 +27,9 @@ from parser.geometry.along import places_at
 from parser.geometry.curves import CurveKind, Curves, Floats
 from parser.program import parse_program
 from parser.shape.passes import find_passes
+from sim.check.beside import Offsetting
 from sim.run.course import findings_of
-from sim.run.offsetting import Offsetting, offsetting
+from sim.run.offsetting import offsetting
 from sim.run.prepare import Prepared, prepare
 from sim.run.report import build_report
 from sim.setup.part import Direction, Offset, OffsetPass

@@ -5,7 +5,7 @@ from typing import NamedTuple
 from parser.findings.findings import Finding
 from parser.program import Program
 from parser.shape.passes import find_passes
-from sim.run.offsetting import Offsetting
+from sim.check.beside import Offsetting
 from sim.run.prepare import prepare
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import AnyCanvas, Sheet
@@ -50,12 +50,12 @@ def draw_path(sheet: Sheet[AnyCanvas], shown: Programmed) -> AnyCanvas:
 def cut_of_path(shown: Programmed, say: Words) -> Cut:
     """A cut of which no more is known than its program, machine and wire."""
     toolpath, scenario = shown.program.toolpath, shown.scenario
-    passes = find_passes(toolpath)
+    passes = find_passes(toolpath) if shown.offset is None else shown.offset.edge_passes
     return Cut(
         toolpath=toolpath,
         kerf_um=scenario.wire.kerf_um,
         title=scenario.title,
-        note=note_of(toolpath, scenario, shown.findings, say("cut.not_run"), say),
+        note=note_of(toolpath, shown.offset, shown.findings, say("cut.not_run"), say),
         passes=passes if any(one.number > 1 for one in passes.passes) else None,
         leads=(passes.of_row < 0) & ~toolpath.is_jump,
         contour=None if shown.offset is None else shown.offset.passed.drawn,

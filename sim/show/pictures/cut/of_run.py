@@ -25,7 +25,7 @@ def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words) -> Cut:
         toolpath=run.toolpath,
         kerf_um=scenario.wire.kerf_um,
         title=scenario.title,
-        note=note_of(run.toolpath, scenario, run.findings, clock(run.ran_s), say),
+        note=note_of(run.toolpath, run.offset, run.findings, clock(run.ran_s), say),
         trace=run.cut,
         passes=run.passes if run.has_trims else None,
         contour=None if run.offset is None else run.offset.passed.drawn,

@@ -8,6 +8,7 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.toolpath import Toolpath
 from parser.units import from_mm, mm
+from sim.check.beside import Offsetting
 from sim.run.findings import verdict
 from sim.setup.scenario import Scenario
 from sim.show.pictures.cut.outlines import Bodies
@@ -28,9 +29,9 @@ def travel_um(toolpath: Toolpath, scenario: Scenario) -> Floats:
     return np.asarray(np.stack([corner, corner + travel]), dtype=np.float64)
 
 
-def note_of(toolpath: Toolpath, scenario: Scenario, findings: Sequence[Finding], ran: str, say: Words) -> str:
+def note_of(toolpath: Toolpath, offset: Offsetting | None, findings: Sequence[Finding], ran: str, say: Words) -> str:
     """Verdict, blocks, length of the path, how long it `ran`, and its offset, in one line."""
-    count, offset = len(toolpath), scenario.offset
+    count = len(toolpath)
     parts = [
         say(f"findings.{verdict(findings)}"),
         say("cut.blocks_1" if count == 1 else "cut.blocks", count=count),

@@ -1,0 +1,125 @@
+"""What a program's own compensation makes of its blocks: stretches, from set-up to cancel, in runs of one offset."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from controller.offset.sections import OffsetSection
+from controller.offset.shifted import NOTHING_UM
+from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.toolpath import Compensation, CompensationRules, Toolpath
+
+
+class Stretch(NamedTuple):
+    """Blocks from a set-up to its cancel (docs/iso.md §9).
+
+    Attributes
+    ----------
+    setup
+        Row of the toolpath with which compensation begins.
+    past
+        One past the last row under compensation.
+    cancel
+        Row that leads back to the contour, −1 where the program ends compensated.
+    """
+
+    setup: int
+    past: int
+    cancel: int
+
+
+class Runs(NamedTuple):
+    """k runs of blocks that have one offset, in order; a stretch has more than one where its offset changes.
+
+    Attributes
+    ----------
+    first, past
+        (k,) its first block, and one past its last.
+    left_um
+        (k,) how far the wire runs to the left of them.
+    is_setup
+        (k,) True where the first block is a set-up.
+    is_wedge
+        (k,) True where the first block begins at the offset of the run before it and ends at that of its own: a line
+        whose offset changes, but not its side. Any other block is at its own offset from the start.
+    is_handed_on
+        (k,) True where the next run begins with a wedge.
+    is_skipped
+        (k,) True where the first block does not take part in the run: a set-up that ends on the normal of the next.
+    cancel
+        (k,) the block behind it that leads back to the contour, −1 for none.
+    """
+
+    first: Ints
+    past: Ints
+    left_um: Floats
+    is_setup: Bools
+    is_wedge: Bools
+    is_handed_on: Bools
+    is_skipped: Bools
+    cancel: Ints
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the program ends compensated."""
+        return len(self.cancel) > 0 and bool(self.cancel[-1] < 0)
+
+    @property
+    def sections(self) -> tuple[OffsetSection, ...]:
+        """The blocks that are joined with each other in each run, a wedge in both of its runs."""
+        first, last = self.first + self.is_skipped, self.past - 1 + self.is_handed_on
+        return tuple(OffsetSection(a, b, closed=False) for a, b in zip(first.tolist(), last.tolist(), strict=True))
+
+
+def idle_rows(toolpath: Toolpath, side: Ints) -> Bools:
+    """(n,) True on blocks without length that the compensation passes over: those under a side, or before a cancel."""
+    moves, is_on = toolpath.length_um > NOTHING_UM, side != 0
+    last = np.maximum.accumulate(np.where(moves, np.arange(len(side)), -1))
+    idle: Bools = ~moves & (is_on | ((last >= 0) & is_on[last]))
+    return idle
+
+
+def known_sides(told: Compensation) -> Ints:
+    """(n,) the sides, but 0 all along a stretch in which the value of a register is not known."""
+    is_on = told.side != 0
+    number = np.cumsum(is_on & ~_before(is_on))
+    unknown = np.unique(number[is_on & np.isnan(told.by_um)])
+    return np.where(np.isin(number, unknown), 0, told.side)
+
+
+def runs_of(blocks: Curves, side: Ints, left_um: Floats, rules: CompensationRules) -> Runs:
+    """The runs of n blocks with length; side (n,) and offset (n,) as in `Compensation`, all known."""
+    is_on = side != 0
+    was_on, was_left = _before(is_on), np.append(np.nan, left_um[:-1])
+    is_first = is_on & ~(was_on & (left_um == was_left))
+    first = np.flatnonzero(is_first)
+    bounds = np.append(np.flatnonzero(is_first | (was_on & ~is_on)), len(side))
+    past = bounds[np.searchsorted(bounds, first, side="right")]
+    is_setup = ~was_on[first]
+    is_wedge = ~is_setup & (was_left[first] * left_um[first] >= 0.0) & ~blocks.is_arc[first]
+    is_handed_on = np.append(is_wedge[1:], False)[: len(first)]
+    is_alone = (past - first == 1) & ~is_handed_on
+    return Runs(
+        first=first,
+        past=past,
+        left_um=left_um[first],
+        is_setup=is_setup,
+        is_wedge=is_wedge,
+        is_handed_on=is_handed_on,
+        is_skipped=is_setup & ~is_alone & (rules.startup == "next-normal"),
+        cancel=np.where(np.append(~is_on, False)[past], past, -1),
+    )
+
+
+def stretches_of(runs: Runs, row: Ints) -> tuple[Stretch, ...]:
+    """The stretches that runs of blocks make; `row` has the row of the toolpath of each block."""
+    begin = np.flatnonzero(runs.is_setup)
+    end = np.append(begin[1:], len(runs.first)) - 1 if len(begin) else begin
+    cancel = runs.cancel[end]
+    columns = row[runs.first[begin]], row[runs.past[end] - 1] + 1, np.where(cancel < 0, -1, row[cancel])
+    return tuple(Stretch(*one) for one in zip(*(column.tolist() for column in columns), strict=True))
+
+
+def _before(is_on: Bools) -> Bools:
+    """(n,) the value of the block before each; False for the first."""
+    return np.append(False, is_on[:-1])[: len(is_on)]

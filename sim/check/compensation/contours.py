@@ -1,0 +1,136 @@
+"""The compensated path beside the contours that it runs along: what stays, what is gouged, what falls apart."""
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from controller.offset.alarms import Alarm, AlarmKind
+from controller.offset.gouges import Gouge
+from controller.offset.path import Made, OffsetPath
+from controller.offset.reach import reach
+from controller.offset.sections import Side
+from controller.offset.shifted import NOTHING_UM
+from controller.offset.uncut import uncut_um
+from parser.dialect.at_block import at_block
+from parser.findings.findings import Finding
+from parser.geometry.along import along_um
+from parser.geometry.curves import Curves, Ints, joined
+from parser.program import Program
+from sim.check.beside import Beside, beside_round, rows_beside
+from sim.check.compensation.rounds import CompensatedRound, contour_of, parts_of
+from sim.check.offset import gouge_finding, loop_finding, uncut_finding
+
+SEEN_UM = 1.0
+"""What stays by less is not seen on the part: a step."""
+
+
+class Held(NamedTuple):
+    """A stretch held against its contour: what it is, the contour, and what became of it."""
+
+    run: CompensatedRound
+    contour: Curves
+    beside: Beside
+
+
+def held(curves: Curves, path: OffsetPath, rounds: Sequence[CompensatedRound]) -> tuple[Held, ...]:
+    """The stretches of a program's `curves` held against their contours."""
+    found = []
+    for one in rounds:
+        contour = contour_of(curves, one.round.section)
+        counted = one.is_nearest and one.round.section.closed
+        found.append(Held(one, contour, beside_round(contour, path, one.round, one.distances, counted=counted)))
+    return tuple(found)
+
+
+def contour_findings(
+    program: Program, path: OffsetPath, stretches: Sequence[Held], alarms: Sequence[Alarm]
+) -> Iterator[Finding]:
+    """What the path makes of the contours, under the codes of an offset, 3B501 to 3B504, and ISO512 and ISO514."""
+    stops = {one.row for one in alarms if one.stops and one.kind in (AlarmKind.TOO_SMALL, AlarmKind.VANISHED)}
+    for one in stretches:
+        run = one.run
+        yield from _uncut(program, path, one, stops)
+        if one.beside.loops not in (None, 1):
+            yield loop_finding(program, run.round.section.first, int(one.beside.loops or 0), run.by_um)
+        if run.part_side == run.side:
+            yield at_block(program.toolpath, program.lines, "ISO512", run.round.begin, **_side_words(run))
+    for one in stretches:
+        if one.run.is_nearest and one.run.round.section.closed:
+            yield from _stub(program, path, one, [other.run for other in stretches])
+    for told, gouge in _told_gouges(stretches):
+        rows = int(path.source_row[gouge.path_row]), gouge.row
+        yield gouge_finding(program, rows, gouge, told.kerf_um)
+
+
+def _uncut(program: Program, path: OffsetPath, one: Held, stops: set[int]) -> Iterator[Finding]:
+    """Blocks that the wire does not come to: where the controller stops, and those that the nearest pass leaves."""
+    section, run = one.run.round.section, one.run
+    vanished = path.vanished[(path.vanished >= section.first) & (path.vanished <= section.last)]
+    missed = np.setdiff1d(_missed(path, one), vanished) if run.is_nearest else vanished[:0]
+    beside = path.curves.picked(rows_beside(path, run.round))
+    left_um = [*one.beside.left_um, *uncut_um(one.contour, beside, run.by_um, missed - section.first)]
+    for row, left in zip([*vanished.tolist(), *missed.tolist()], left_um, strict=True):
+        if program.toolpath.length_um[row] > NOTHING_UM and (row in stops or (run.is_nearest and left > SEEN_UM)):
+            found = uncut_finding(program, row, float(left), run.distances, stops=row in stops)
+            if found is not None:
+                yield found
+
+
+def _missed(path: OffsetPath, one: Held) -> Ints:
+    """Rows beside which the path runs nowhere, though it has a block for them: corners before and behind take it all.
+
+    Where a step is lower than the offset, the wire turns about its foot before it comes to the step itself.
+    """
+    section = one.run.round.section
+    moved = np.flatnonzero(
+        (path.made == Made.SHIFTED) & (path.source_row >= section.first) & (path.source_row <= section.last)
+    )
+    row = path.source_row[moved] - section.first
+    low, high = (along_um(one.contour, row, end[moved]) for end in (path.curves.start_um, path.curves.end_um))
+    missed: Ints = section.first + row[high - low <= NOTHING_UM]
+    return missed
+
+
+def _side_words(run: CompensatedRound) -> dict[str, str]:
+    words = {Side.LEFT: "G41", Side.RIGHT: "G42"}
+    return {"side": words[run.side], "other": words[Side(-run.side)]}
+
+
+def _stub(program: Program, path: OffsetPath, one: Held, runs: Sequence[CompensatedRound]) -> Iterator[Finding]:
+    """Material that stays where a loop begins and ends (ISO514), though a wire could cut it."""
+    run = one.run
+    ends = _beside_joint(one.contour, run.by_um)
+    near = [each.round for each in runs if each.along.edge == run.along.edge and each.by_um == run.kerf_um]
+    cut = path.curves.picked(np.concatenate([rows_beside(path, each) for each in near]))
+    left_um = uncut_um(ends, cut, run.by_um, np.arange(len(ends)))
+    if left_um.max() <= SEEN_UM:
+        return
+    reached = [loop.curves for loop in reach(one.contour, run.by_um, run.side).loops]
+    if reached:
+        stays_um = float((left_um - uncut_um(ends, joined(reached), run.by_um, np.arange(len(ends)))).max())
+        if stays_um > SEEN_UM:
+            row = run.round.section.first
+            yield at_block(program.toolpath, program.lines, "ISO514", row, left=stays_um, offset=run.by_um)
+
+
+def _beside_joint(contour: Curves, by_um: float) -> Curves:
+    """A closed contour within an offset of where it begins and ends: beyond that, corners leave material too."""
+    row = np.array([0, len(contour) - 1])
+    length_um = contour.length_um[row]
+    reach_um = np.minimum(length_um, by_um)
+    first_um = np.array([0.0, length_um[1] - reach_um[1]])
+    return parts_of(contour, row, first_um, first_um + reach_um)
+
+
+def _told_gouges(stretches: Sequence[Held]) -> Iterator[tuple[CompensatedRound, Gouge]]:
+    """Gouges, each place of an edge once: of the pass that comes nearest, the first one of several."""
+    told: list[tuple[CompensatedRound, Gouge]] = []
+    for one in sorted(stretches, key=lambda one: one.run.by_um):
+        others = [gouge.place_um for run, gouge in told if run.along.edge == one.run.along.edge]
+        told += [
+            (one.run, gouge)
+            for gouge in one.beside.gouges
+            if all(np.hypot(gouge.place_um.x - x, gouge.place_um.y - y) > 2.0 * one.run.by_um for x, y in others)
+        ]
+    yield from told

@@ -1,0 +1,163 @@
+"""What a program compensates: stretches of cut blocks between set-up and cancel, and the contour that each runs along.
+
+A program says itself where compensation begins and ends. Blocks within that lead to the contour and away from it: the
+wire keeps to their side as well, but the contour is the loop that the stretch closes.
+"""
+
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from controller.offset.sections import OffsetSection, Round, Side
+from controller.offset.shifted import closed_contour
+from controller.offset.stretches import known_sides
+from parser.geometry.along import along_um, places_at
+from parser.geometry.curves import Bools, Curves, Floats, Ints, joined
+from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.loops import find_loops
+from parser.toolpath import Compensation, Toolpath
+from sim.check.beside import Distances
+from sim.check.compensation.edges import ALONE, Along, edges_of_contours
+
+
+class CompensatedRound(NamedTuple):
+    """One stretch of compensated blocks.
+
+    Attributes
+    ----------
+    round
+        Its blocks, the set-up and the line that cancels included, and those along the contour.
+    side
+        On which the wire runs along the contour, in its direction.
+    by_um
+        Least distance of the wire's centre from the contour.
+    part_side
+        +1 with the part on the left of the path, −1 on the right, 0 where nothing tells: the wire comes to the contour
+        from the waste.
+    along
+        Which edge it runs along, and in which pass.
+    kerf_um
+        Least distance of all stretches along the same edge, or along its tab: what lies nearer is cut from the part.
+    is_nearest
+        Whether it is the first of them at that distance, which makes the edge.
+    """
+
+    round: Round
+    side: Side
+    by_um: float
+    part_side: int
+    along: Along = ALONE
+    kerf_um: float = 0.0
+    is_nearest: bool = True
+
+    @property
+    def distances(self) -> Distances:
+        """How it keeps beside its contour."""
+        return Distances(self.by_um, self.kerf_um, self.side)
+
+
+def moved_um(told: Compensation) -> Floats:
+    """(n,) how far to the left each block is moved; 0 along a stretch of which an offset is not known."""
+    moved: Floats = np.where(known_sides(told) == 0, 0.0, told.left_um)
+    return moved
+
+
+def compensated_rounds(toolpath: Toolpath, left_um: Floats) -> tuple[CompensatedRound, ...]:
+    """The stretches of a toolpath in order; `left_um` (n,) is how far to the left each block is moved.
+
+    Neither jumps nor blocks that are not moved belong to one, and where the offset changes another one begins. What
+    moves but closes no loop, between the same set-up and cancel as one that does, leads to that one or away from it.
+    """
+    stretches = _stretches(left_um, toolpath.is_jump)
+    of_row = np.full(len(toolpath), -1, dtype=np.int64)
+    for number, one in enumerate(stretches):
+        of_row[one.begin : one.past] = number
+    loops = find_loops(toolpath, of_row, np.arange(len(stretches)))
+    loop_of = {of: number for number, of in enumerate(loops.contour.tolist())}
+    with_loop = {stretches[of].together for of in loop_of}
+    found = []
+    for number, one in enumerate(stretches):
+        at, part_side = loop_of.get(number), 0
+        section = OffsetSection(one.begin + int(one.is_led_in), one.past - 1, closed=False)
+        if at is not None:
+            section = OffsetSection(int(loops.first[at]), int(loops.last[at]), closed=True)
+            part_side = int(loops.part_side[at])
+        if section.first <= section.last and (at is not None or one.together not in with_loop):
+            led_out = one.past < len(toolpath) and left_um[one.past] == 0.0 and not toolpath.is_jump[one.past]
+            side, by_um = Side(int(np.sign(left_um[one.begin]))), abs(float(left_um[one.begin]))
+            begin = one.begin if section.closed else section.first
+            found.append(CompensatedRound(Round(begin, one.past + bool(led_out), section), side, by_um, part_side))
+    return _by_edge(toolpath, found)
+
+
+class _Stretch(NamedTuple):
+    """Blocks from `begin` up to but without `past` at one offset.
+
+    Whether the first one comes from another offset to the same side, or from none; and a number that the stretch shares
+    with those that no jump and no cancel parts from it.
+    """
+
+    begin: int
+    past: int
+    is_led_in: bool
+    together: int
+
+
+def _stretches(left_um: Floats, is_jump: Bools) -> list[_Stretch]:
+    """Stretches of rows (n,) that are moved."""
+    way = np.concatenate([[0.0], np.where(is_jump, 0.0, left_um), [0.0]])
+    before = np.append(0.0, left_um)
+    found: list[_Stretch] = []
+    for low, high in pairwise(np.flatnonzero(np.diff(way)).tolist()):
+        if way[low + 1]:
+            was = float(before[low])
+            together = found[-1].together if found and way[low] else len(found)
+            is_led_in = bool(was * left_um[low] >= 0.0 and was != left_um[low])
+            found.append(_Stretch(low, high, is_led_in, together))
+    return found
+
+
+def contour_of(curves: Curves, section: OffsetSection) -> Curves:
+    """The contour of a section; the last block of a loop is cut off where the loop is closed, if it runs on past it."""
+    contour = curves.picked(slice(section.first, section.last + 1))
+    if not section.closed:
+        return contour
+    gap_um = float(np.hypot(*(contour.end_um[-1] - contour.start_um[0])))
+    return contour if gap_um == 0.0 else closed_contour(contour if gap_um <= CLOSED_WITHIN_UM else _cut_off(contour))
+
+
+def _cut_off(contour: Curves) -> Curves:
+    """The contour with its last block up to the place nearest to where it begins."""
+    last = np.array([len(contour) - 1])
+    until_um = along_um(contour, last, contour.start_um[:1])
+    return joined([contour.picked(slice(-1)), parts_of(contour, last, np.zeros(1), until_um)])
+
+
+def parts_of(curves: Curves, row: Ints, first_um: Floats, last_um: Floats) -> Curves:
+    """Parts of the curves `row` (k,), from a length (k,) along each to another."""
+    whole = curves.picked(row)
+    at = np.arange(len(row))
+    share = 1.0 / np.where(whole.length_um > 0.0, whole.length_um, 1.0)
+    return replace(
+        whole,
+        start_um=places_at(whole, at, first_um),
+        end_um=places_at(whole, at, last_um),
+        start_angle_rad=whole.start_angle_rad + first_um * share * whole.sweep_rad,
+        sweep_rad=(last_um - first_um) * share * whole.sweep_rad,
+        length_um=last_um - first_um,
+    )
+
+
+def _by_edge(toolpath: Toolpath, rounds: list[CompensatedRound]) -> tuple[CompensatedRound, ...]:
+    """The stretches, each with its edge and what those along it come to."""
+    along = edges_of_contours([contour_of(toolpath, one.round.section) for one in rounds])
+    nearest: dict[tuple[int, bool], int] = {}
+    for at in sorted(range(len(rounds)), key=lambda at: rounds[at].by_um):
+        nearest.setdefault((along[at].edge, along[at].is_tab), at)
+    found = []
+    for at, one in enumerate(rounds):
+        first = nearest[along[at].edge, along[at].is_tab]
+        found.append(one._replace(along=along[at], kerf_um=rounds[first].by_um, is_nearest=first == at))
+    return tuple(found)

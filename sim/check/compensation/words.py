@@ -1,0 +1,76 @@
+"""What the words of compensation say: registers without a value, sides and offsets that change, where it begins, ends.
+
+The controller's alarms tell most of it; no path is looked at.
+"""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from controller.offset.alarms import Alarm, AlarmKind
+from parser.dialect.at_block import at_block
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding, Value
+from parser.program import Program
+from parser.toolpath import Compensation
+from sim.check.compensation.asked import WithoutValue
+
+_ON_ARCS = {AlarmKind.SETUP_ARC: "set-up", AlarmKind.CANCEL_ARC: "cancel"}
+
+
+def word_findings(program: Program, told: Compensation, alarms: Sequence[Alarm]) -> Iterator[Finding]:
+    """Findings ISO500 to ISO503, ISO508 to ISO510 and ISO513.
+
+    A register, and a change that a program makes again and again, is told where it first occurs.
+    """
+    yield from _without_value(program, told, alarms)
+    for alarm in alarms:
+        if alarm.kind in _ON_ARCS:
+            yield _at(program, told, "ISO502", alarm.row, what=_ON_ARCS[alarm.kind])
+        elif alarm.kind is AlarmKind.SETUP_SHORT and told.by_um[alarm.row] != 0.0:
+            length_um = float(program.toolpath.length_um[alarm.row])
+            yield _graver(_at(program, told, "ISO503", alarm.row, length=length_um), alarm)
+        elif alarm.kind is AlarmKind.NO_CANCEL:
+            yield _at(program, told, "ISO510", alarm.row)
+    yield from _changes(program, told, alarms, AlarmKind.SIDE_CHANGED, "ISO508")
+    yield from _changes(program, told, alarms, AlarmKind.OFFSET_CHANGED, "ISO509")
+
+
+def _without_value(program: Program, told: Compensation, alarms: Sequence[Alarm]) -> Iterator[Finding]:
+    """Registers without a value (ISO500), no register at all (ISO501), and registers that hold nothing (ISO513)."""
+    unknown = {told.register[one.row]: one.row for one in reversed(alarms) if one.kind is AlarmKind.UNKNOWN}
+    for register, row in unknown.items():
+        yield _at(program, told, "ISO500" if register else "ISO501", row).with_fact(WithoutValue())
+    nothing = np.flatnonzero((told.side != 0) & (told.by_um == 0.0)).tolist()
+    for row in {told.register[row]: row for row in reversed(nothing)}.values():
+        yield _at(program, told, "ISO513", row)
+
+
+def _changes(
+    program: Program, told: Compensation, alarms: Sequence[Alarm], kind: AlarmKind, code: str
+) -> Iterator[Finding]:
+    """The first change of a kind while compensation is on, with the number of those behind it."""
+    found = [alarm for alarm in alarms if alarm.kind is kind]
+    if found:
+        row = found[0].row
+        was_um = abs(float(told.by_um[row - 1]))
+        finding = _at(program, told, code, row, before=_side(told, row - 1), was=was_um, more=len(found) - 1)
+        yield _graver(finding, found[0])
+
+
+def _graver(finding: Finding, alarm: Alarm) -> Finding:
+    """The finding, an error where the controller stops."""
+    return finding._replace(graver=Severity.ERROR) if alarm.stops else finding
+
+
+def _at(program: Program, told: Compensation, code: str, row: int, **values: Value) -> Finding:
+    """Finding at a row, with the side, the register and the offset that are in force there."""
+    in_force: dict[str, Value] = {"side": _side(told, row), "register": told.register[row]}
+    if not np.isnan(told.by_um[row]):
+        in_force["offset"] = abs(float(told.by_um[row]))
+    return at_block(program.toolpath, program.lines, code, row, **in_force, **values)
+
+
+def _side(told: Compensation, row: int) -> str:
+    """The word of the side in force at a row; a block that cancels has that of the one before it."""
+    return "G41" if told.side[row] > 0 else "G42"

@@ -1,0 +1,59 @@
+"""``drycut decode``."""
+
+from pathlib import Path
+
+import click
+
+from sim.cli.dialect_options import RegisterSet, RegisterValue, with_dialect
+from sim.cli.scenario_options import chosen
+
+
+@click.command(short_help="Show how each block of an ISO program is decoded and compensated.")
+@click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM")
+@click.option("--block", "number", type=int, help="Only the blocks with this number behind N.")
+@click.option("--json", "as_json", is_flag=True, help="Print the blocks as JSON.")
+@with_dialect
+@click.option(
+    "--offset", "registers", type=RegisterValue(), multiple=True, help="Value of a register; may be repeated."
+)
+@click.option("--lang", type=click.Choice(["en", "zh"]), help="Language; that of the locale where left out.")
+def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
+    path: Path,
+    number: int | None,
+    as_json: bool,
+    dialect: str | None,
+    unit: str | None,
+    registers: tuple[RegisterSet, ...],
+    lang: str | None,
+) -> None:
+    """Show how a controller decodes an ISO program, block by block, and what it then does to each block.
+
+    Each word sets a field of the block's buffer, in the order of the words. Then come the end of the contour, its place
+    moved aside by the offset to either side, and how the block is joined to the one before.
+
+    \b
+    Exit code: 0 good, 2 bad use or unreadable input, 3 a fault of drycut itself.
+
+    \b
+    drycut decode part.iso
+    drycut decode part.iso --block 6 --offset D11=0.1mm
+    """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from parser.dialect.reader import Choices
+    from parser.program import read_program
+    from sim.decode.blocks import decoded
+    from sim.decode.document import document_text
+    from sim.show.terminal.decode import print_decoded
+    from sim.show.terminal.printer import write
+    from sim.show.words import Words
+
+    language = chosen(lang)
+    program = read_program(path, Choices(dialect=dialect or "", unit=unit or "", registers=registers))
+    if program.decoder is None:
+        raise click.UsageError(Words(language)("decode.not-iso", name=program.name, dialect=program.reading.dialect))
+    blocks = [one for one in decoded(program) if number is None or one.block.number == number]
+    if not blocks:
+        raise click.UsageError(Words(language)("decode.none", name=program.name, block=number))
+    if as_json:
+        write(document_text(program, blocks), "json")
+    else:
+        print_decoded(program, blocks, language)

@@ -1,0 +1,101 @@
+"""Each block of a program decoded, and the way that it then takes through compensation (docs/iso.md §8)."""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from controller.offset.block_ends import AsideEnds, JointKind, aside_ends, joint_kinds
+from parser.dialect.decoding import DecodedBlock
+from parser.geometry.curves import CurveKind
+from parser.program import Program
+from parser.toolpath import Compensation, Point, Toolpath
+
+
+class Way(NamedTuple):
+    """What a block moves, as it runs for the first time.
+
+    Attributes
+    ----------
+    row, runs
+        Its row of the toolpath from 0, and how often it runs.
+    kind
+        ``line``, ``arc`` or ``jump``.
+    start_um, end_um, length_um
+        Of the contour, as programmed.
+    left_um, right_um
+        Its end moved aside to the left, P′, and to the right, P″; None without offset.
+    joint
+        How it goes on from the block before it, and the line of that block; None and 0 without compensation.
+    """
+
+    row: int
+    runs: int
+    kind: str
+    start_um: Point
+    end_um: Point
+    length_um: float
+    left_um: Point | None
+    right_um: Point | None
+    joint: JointKind
+    before_line: int
+
+
+class Decoded(NamedTuple):
+    """A block decoded, and its way; None where it moves nothing."""
+
+    block: DecodedBlock
+    way: Way | None
+
+
+def decoded(program: Program) -> tuple[Decoded, ...]:
+    """The blocks of a program in file order; none where its dialect has no decoder."""
+    if program.decoder is None:
+        return ()
+    ways = _ways(program.toolpath)
+    return tuple(Decoded(block, ways.get(block.span[0])) for block in program.decoder.blocks())
+
+
+def _ways(toolpath: Toolpath) -> Mapping[int, Way]:
+    """Ways of the blocks, by their first characters in the text."""
+    first, row, runs = np.unique(toolpath.source.span[:, 0], return_index=True, return_counts=True)
+    told = toolpath.compensation
+    stage = None if told is None else _Stage(told, aside_ends(toolpath, told), joint_kinds(toolpath, told))
+    found = zip(first.tolist(), row.tolist(), runs.tolist(), strict=True)
+    return {first: _way(toolpath, row, runs, stage) for first, row, runs in found}
+
+
+class _Stage(NamedTuple):
+    """Compensation of a toolpath: what is told of it, ends moved aside, and joints."""
+
+    told: Compensation
+    ends: AsideEnds
+    joints: tuple[JointKind, ...]
+
+
+def _way(toolpath: Toolpath, row: int, runs: int, stage: _Stage | None) -> Way:
+    block = toolpath.block(row)
+    alone = Way(
+        row=row,
+        runs=runs,
+        kind=CurveKind(block.kind).name.lower(),
+        start_um=block.start_um,
+        end_um=block.end_um,
+        length_um=block.length_um,
+        left_um=None,
+        right_um=None,
+        joint=JointKind.NONE,
+        before_line=0,
+    )
+    if stage is None:
+        return alone
+    return alone._replace(
+        left_um=_place(stage.ends.left_um[row].tolist()),
+        right_um=_place(stage.ends.right_um[row].tolist()),
+        joint=stage.joints[row],
+        before_line=int(toolpath.source.line[row - 1]) if row and stage.joints[row] != JointKind.NONE else 0,
+    )
+
+
+def _place(pair: list[float]) -> Point | None:
+    return None if np.isnan(pair).any() else Point(*pair)

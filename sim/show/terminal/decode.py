@@ -1,0 +1,52 @@
+"""Decoded blocks on the terminal: each block's text, a line for each word, the buffer, and the way of the block."""
+
+from collections.abc import Sequence
+
+from parser.dialect.decoding import DecodeStep
+from parser.findings.catalogue import Language
+from parser.program import Program
+from parser.text.encoding import printable
+from parser.text.excerpt import cells
+from sim.decode.blocks import Decoded
+from sim.show.decoded import buffer_text, order_text, value_text, way_texts, word_text
+from sim.show.terminal.colours import styled
+from sim.show.terminal.layout import paragraph
+from sim.show.terminal.printer import say
+from sim.show.terminal.streams import outlet
+from sim.show.terminal.wrap import width_of, wrapped
+from sim.show.words import Words
+from sim.show.words.phrases import catalogued
+
+_INDENT = _GAP = "  "
+
+
+def print_decoded(program: Program, blocks: Sequence[Decoded], language: Language) -> None:
+    """Print blocks of a program to stdout, after what was assumed to read it."""
+    words = Words(language)
+    assumptions = program.reading.assumptions
+    for taken in assumptions:
+        what, why = catalogued(taken.what), catalogued(taken.why)
+        paragraph(words("decode.assumed", what=what, taken=taken.taken, why=why))
+    for number, one in enumerate(blocks):
+        if number or assumptions:
+            say("")
+        head = f"{words('decode.line', line=one.block.line)}: "
+        for line in wrapped(printable(program.text[slice(*one.block.span)]), width_of(outlet()), head):
+            say(styled(line, "bold"))
+        _print_table([_step_row(step, language) for step in one.block.steps])
+        named = [(getattr(name, language), getattr(text, language)) for name, text in way_texts(one)]
+        _print_table([(words("decode.buffer"), buffer_text(one.block)), *named])
+
+
+def _step_row(step: DecodeStep, language: Language) -> tuple[str, ...]:
+    word, value = getattr(word_text(step), language), getattr(value_text(step), language)
+    return f"{order_text(step.order)} {printable(word)}", step.field, value
+
+
+def _print_table(rows: Sequence[tuple[str, ...]]) -> None:
+    """Rows of texts under each other; the last text of a row may run on over several lines."""
+    wide = [max(map(cells, column)) for column in list(zip(*rows, strict=True))[:-1]]
+    for *heads, text in rows:
+        filled = (one + " " * (room - cells(one)) for one, room in zip(heads, wide, strict=True))
+        for line in wrapped(text, width_of(outlet()), _INDENT + "".join(one + _GAP for one in filled)):
+            say(line)

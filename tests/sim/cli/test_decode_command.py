@@ -1,0 +1,109 @@
+"""``drycut decode`` as a user meets it: the course's example, the way of a block, JSON, bad use."""
+
+import json
+from pathlib import Path
+
+import pytest
+from command import run_inside
+
+from parser.text.excerpt import cells
+
+COURSE = "N06 G90 G41 D11 G01 X200 Y300 F200 ;\n"
+PART = f"G92 X72 Y48\n{COURSE}N07 X250\nN08 X250 Y350\nG40 G01 X0 Y0\nM02\n"
+
+
+@pytest.fixture
+def part(tmp_path: Path) -> Path:
+    path = tmp_path / "part.iso"
+    path.write_text(PART, encoding="utf-8")
+    return path
+
+
+def printed(path: Path, *options: str) -> str:
+    done = run_inside("decode", path, "--dialect", "classroom", *options)
+    assert (done.returncode, done.stderr) == (0, b"")
+    return done.stdout.decode()
+
+
+def test_the_example_of_the_course_is_shown_word_by_word(part: Path) -> None:
+    lines = printed(part, "--block", "6", "--lang", "en").splitlines()
+    first = lines.index("line 2: N06 G90 G41 D11 G01 X200 Y300 F200")
+
+    assert [line.split(maxsplit=3)[:3] for line in lines[first + 1 : first + 10]] == [
+        ["①", "N06", "block_num"],
+        ["②", "G90", "G0.D5"],
+        ["③", "G41", "G0.D7D6"],
+        ["④", "D11", "D"],
+        ["⑤", "G01", "G0.D1"],
+        ["⑥", "X200", "COOR[1]"],
+        ["⑦", "Y300", "COOR[2]"],
+        ["⑧", "F200", "F"],
+        ["⑨", ";", "buf_state"],
+    ]
+    assert "block_num=0x06  COOR[1]=200000  COOR[2]=300000  F=200  G0=0x42" in lines[first + 10]
+
+
+def test_json_has_the_buffer_of_the_course(part: Path) -> None:
+    document = json.loads(printed(part, "--block", "6", "--json"))
+    (block,) = document["blocks"]
+
+    assert document["schema"] == "drycut.decode/1"
+    assert document["dialect"] == "classroom"
+    assert {
+        key: block[key] for key in ("line", "buf_state", "number", "number_bcd", "f", "s", "g0", "m", "t", "d")
+    } == {
+        "line": 2,
+        "buf_state": 1,
+        "number": 6,
+        "number_bcd": 0x06,
+        "f": 200,
+        "s": None,
+        "g0": 0x42,
+        "m": [],
+        "t": None,
+        "d": 11,
+    }
+    assert block["coor_um"] == {"X": 200000.0, "Y": 300000.0}
+    assert block["steps"][5] == {"order": 6, "word": "X200", "column": 21, "field": "COOR[1]", "value": 200000}
+    assert block["in_force"] == {
+        "motion": "G01",
+        "distance": "G90",
+        "side": "G41",
+        "register": "D11",
+        "offset_um": None,
+        "f": 200,
+    }
+
+
+def test_all_blocks_are_shown_without_a_number(part: Path) -> None:
+    assert [block["line"] for block in json.loads(printed(part, "--json"))["blocks"]] == [1, 2, 3, 4, 5, 6]
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_lines_fit_a_terminal_of_80_columns(part: Path, language: str) -> None:
+    assert max(map(cells, printed(part, "--lang", language).splitlines())) <= 80
+
+
+def test_a_block_that_is_not_there_is_bad_use(part: Path) -> None:
+    done = run_inside("decode", part, "--block", "99")
+
+    assert done.returncode == 2
+    assert done.stderr.decode() == "drycut: error: part.iso: no block has the number 99\n"
+
+
+def test_a_program_in_3b_is_bad_use(tmp_path: Path) -> None:
+    path = tmp_path / "part.3b"
+    path.write_text("B1000 B0 B1000 GX L1\nDD\n", encoding="utf-8")
+
+    done = run_inside("decode", path)
+
+    assert done.returncode == 2
+    assert b"part.3b is a 3B program" in done.stderr
+
+
+@pytest.mark.parametrize("value", ["D0", "D=0.1mm", "X1=0.1mm", "D0=long"])
+def test_a_register_that_cannot_be_read_is_bad_use(part: Path, value: str) -> None:
+    done = run_inside("decode", part, "--offset", value)
+
+    assert done.returncode == 2
+    assert done.stderr.startswith(b"drycut: error: ")
