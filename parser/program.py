@@ -1,5 +1,6 @@
 """Entry to the parser: a file or a text in, a program with its toolpath and findings out, whichever its dialect."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,16 +8,19 @@ from pathlib import Path
 from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
 from parser.dialect.reader import STANDARD_CHOICES, Choices, HeaderValue, Marks, Reader, Reading
-from parser.files.kinds import A_PROGRAM, kind_of
+from parser.files.kinds import PROGRAMS, kind_of
 from parser.files.reading import read_bytes
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
 from parser.iso.dialect import ISO
+from parser.text.encoding import decode_text, narrow, no_program, printable
 from parser.iso.profile import PROFILES
-from parser.text.encoding import decode_text, no_program, printable
 from parser.text.lines import LineIndex
 from parser.threeb.dialect import THREE_B
 from parser.toolpath import Toolpath
+
+_REMARK = re.compile(r"//[^\r\n]*|;[^\r\n]*|\([^()\r\n]*\)")
+_LOOKED_AT = 1 << 15  # characters: whatever a program is, it says so by then
 
 READERS: tuple[Reader, ...] = (THREE_B, ISO)
 """Readers in the order in which they are asked. The first one also tells what is wrong with a text that none knows."""
@@ -77,18 +81,29 @@ def load_program(data: bytes, name: str, choices: Choices = STANDARD_CHOICES) ->
         return parse_program(text, name=name, encoding=encoding, choices=choices)
     except ProgramError as error:
         kind = kind_of(data) if error.finding.values.get("what") in {"not-text", "no-block"} else ""
-        if kind not in {"", A_PROGRAM}:  # blocks that all stand in remarks are a program without blocks
-            raise ProgramError(no_program(kind)) from None
-        raise
+        if kind in {"", *PROGRAMS}:  # blocks that all stand in remarks are a program without blocks
+            raise
+        raise ProgramError(no_program(kind, code=error.finding.code)) from None
 
 
 def parse_program(
     text: str, name: str = "program", encoding: str = "utf-8", choices: Choices = STANDARD_CHOICES
 ) -> Program:
-    """Program of a text. Raises ProgramError (3B100) where it holds no block."""
-    of_none: Reader = ISO if choices.dialect else READERS[0]  # the dialects that can be chosen are those of ISO
-    reader = next((reader for reader in READERS if reader.recognises(text)), of_none)
+    """Program of a text. Raises ProgramError (3B100, ISO100) where it holds no block, or those of two languages."""
+    reader = _reader(text, of_none=ISO if choices.dialect or name.lower().endswith(ISO.suffixes) else READERS[0])
     return Program(name, encoding, text, **reader.read(text, choices)._asdict(), choices=choices)
+
+
+def _reader(text: str, *, of_none: Reader) -> Reader:
+    """The reader that knows a text: what stands first in it decides, without remarks if possible.
+
+    Raises ProgramError (ISO100) where two know it there: no machine runs both.
+    """
+    first = _REMARK.sub("", narrow(text[:_LOOKED_AT]))
+    known = [reader for reader in READERS if reader.recognises(first)]
+    if len(known) > 1:
+        raise ProgramError(no_program("two-languages", code="ISO100"))
+    return known[0] if known else next((reader for reader in READERS if reader.recognises(text)), of_none)
 
 
 def suffixes() -> tuple[str, ...]:

@@ -17,7 +17,10 @@ from parser.text.source import Source
 _SIGNS = np.array([[0, 0], [1, 1], [-1, 1], [-1, -1], [1, -1]], dtype=np.int64)
 
 
-_NO_COLUMNS = ("words", "source", "stops", "compensation")
+Outer = Literal["lengthen", "arc", "chamfer"]
+"""What is done at outer corners: see `CompensationRules`."""
+
+_NO_COLUMNS = ("words", "source", "stops", "compensation", "told_center_um")
 
 
 class Axis(IntEnum):
@@ -178,7 +181,7 @@ class CompensationRules(NamedTuple):
         stops the machine with an alarm.
     """
 
-    outer: Literal["lengthen", "arc", "chamfer"] = "chamfer"
+    outer: Outer = "chamfer"
     startup: Literal["next-normal", "own-normal"] = "next-normal"
     too_small: Literal["vanish", "alarm"] = "vanish"
     change_on: Literal["wedge", "alarm"] = "wedge"
@@ -197,6 +200,9 @@ class Toolpath(Curves):
         written; pauses and the end, in order.
     compensation
         What the program tells a controller that compensates; None where it tells nothing of it.
+    told_center_um
+        (n, 2) float64, centres as the program names them, NaN where it names none; None where it cannot. The exact
+        ones are moved until start and end are equally far.
     """
 
     printed_end_um: Floats
@@ -204,6 +210,7 @@ class Toolpath(Curves):
     source: Source
     stops: tuple[Stop, ...]
     compensation: Compensation | None = None
+    told_center_um: Floats | None = None
 
     def __post_init__(self) -> None:
         """Freeze the columns, and raise ValueError with their lengths where they are not all the same."""
@@ -214,6 +221,8 @@ class Toolpath(Curves):
             columns |= {
                 f"compensation.{name}": getattr(self.compensation, name) for name in ("side", "by_um", "register")
             }
+        if self.told_center_um is not None:
+            columns["told_center_um"] = self.told_center_um
         columns |= {f"source.{name}": getattr(self.source, name) for name in ("block", "span", "line", "label")}
         rows = {name: len(column) for name, column in columns.items()}
         if len(set(rows.values())) > 1:

@@ -1,4 +1,4 @@
-"""The factor between the inside, µm, and the millimetres that programs, settings and people use."""
+"""The factor between the inside, µm, and the millimetres that programs and people use; the largest length taken."""
 
 from typing import TYPE_CHECKING, TypeVar
 
@@ -6,6 +6,8 @@ if TYPE_CHECKING:  # the command line must start without numpy
     from parser.geometry.curves import Floats
 
 UM_PER_MM = 1000.0
+MAX_WORD_UM = 999_999_999
+"""Largest length in a program, µm: a kilometre, a thousand times the travel of the largest table (DK7780, 1 m)."""
 _Length = TypeVar("_Length", float, "Floats")
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from parser import __version__ as __version__
 
 if TYPE_CHECKING:
+    from parser.dialect.reader import Choices
     from parser.drawing.read import read_drawing
     from parser.findings.catalogue import texts
     from parser.findings.errors import DrycutError
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 __all__ = [
     "CheckResult",
     "CheckSettings",
+    "Choices",
     "DrawingTarget",
     "DryRun",
     "DrycutError",
@@ -62,6 +64,7 @@ __all__ = [
 _HOMES = {
     "CheckResult": "sim.check.result",
     "CheckSettings": "sim.check.settings",
+    "Choices": "parser.dialect.reader",
     "DrawingTarget": "sim.setup.part",
     "DryRun": "sim.run.dryrun",
     "DrycutError": "parser.findings.errors",

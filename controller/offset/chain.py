@@ -6,11 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.offset.joints import Joining, Outer, joints
+from controller.offset.joints import Joining, joints
 from controller.offset.sections import OffsetSection
 from controller.offset.shifted import NOTHING_UM, Blocks, turned_rad
 from parser.geometry.boxes import distinct
 from parser.geometry.curves import Floats, Ints
+from parser.toolpath import Outer
 
 _NONE = -1
 _LESS_SHORT = 0.5

@@ -6,7 +6,7 @@ nothing is inserted: it runs straight between the ends of its neighbours (docs/i
 """
 
 from enum import IntEnum
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from controller.offset.shifted import NOTHING_UM, Blocks, turned_rad
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
 from parser.geometry.directions import headings_at
 from parser.geometry.meets import prolonged_meet
+from parser.toolpath import Outer
 
 SHARPEST_RAD = 0.5 * np.pi + 0.01
 """Turn of the sharpest corner that is lengthened: 90°, and what whole µm make of it between lines of 0.1 mm."""
@@ -29,9 +30,6 @@ the gap away: arcs of one circle of 1 mm that miss each other by 1 µm may meet 
 _FLAT_RAD = 1e-6  # of curves that meet; rounding of 1e-10 µm then moves the place by 1e-4 µm
 APART_UM = 1e-3
 """Blocks whose ends are farther apart than this have no corner: others between them have vanished."""
-
-Outer = Literal["lengthen", "arc", "chamfer"]
-"""What is done at outer corners, as in `CompensationRules`."""
 
 
 class Joining(IntEnum):
@@ -94,8 +92,7 @@ def joints(blocks: Blocks, early: Ints, late: Ints, outer: Outer) -> Joints:
     is_inner = turn * left > 0.0
     met = _met(blocks, early, late, corner, is_apart)
     lengthens = (np.abs(turn) <= SHARPEST_RAD) & (met.off_um <= farthest) & (met.beyond_um >= -NOTHING_UM)
-    if outer == "arc":
-        lengthens[:] = False
+    lengthens &= outer != "arc"
     middle, wide = 0.5 * (end + start), _length(end - start)
     is_far = met.is_met & (_length(met.place_um - middle) > _FAR_PER_GAP * wide)
     is_smooth = (wide <= _SMOOTH_UM) | (is_far & is_inner & ~is_apart & (wide <= _TANGENT_UM))
@@ -105,12 +102,10 @@ def joints(blocks: Blocks, early: Ints, late: Ints, outer: Outer) -> Joints:
     place = np.where(is_middle[:, None], middle, met.place_um)
     misses = ~is_one & is_inner & np.isnan(met.place_um[:, 0]) & (early != late)
     early_vanishes, late_vanishes = _too_small(blocks, early, late, misses)
-    is_round = ~is_one & ~is_apart & ~is_inner
-    round_by = Joining.CHAMFER if outer == "chamfer" else Joining.ARC
     made = Joints(
         end_um=np.where(is_one[:, None], place, end),
         start_um=np.where(is_one[:, None], place, start),
-        bridge=np.select([is_one, is_round], [Joining.NONE, round_by], Joining.LINE).astype(np.int64),
+        bridge=_bridge(is_one, ~is_apart & ~is_inner, turn, outer),
         corner_um=corner,
         turn_rad=turn,
         is_apart=is_apart,
@@ -122,6 +117,13 @@ def joints(blocks: Blocks, early: Ints, late: Ints, outer: Outer) -> Joints:
     return made
 
 
+def _bridge(is_one: Bools, is_outer: Bools, turn: Floats, outer: Outer) -> Ints:
+    """(k,) what lies between blocks that turn by angles; arcs that do not meet up to 90° are never chamfered."""
+    is_chamfer = is_outer & (np.abs(turn) > SHARPEST_RAD) & (outer == "chamfer")
+    bridge = np.select([is_one, is_chamfer, is_outer], [Joining.NONE, Joining.CHAMFER, Joining.ARC], Joining.LINE)
+    return bridge.astype(np.int64)
+
+
 def _spared(blocks: Blocks, early: Ints, late: Ints, met: _Met) -> Bools:
     """(k,) True beside a jump if one of the two would vanish: no jump takes a cut away."""
     is_jump, length = blocks.shifted.kind == CurveKind.JUMP, blocks.drawn.length_um
@@ -131,10 +133,12 @@ def _spared(blocks: Blocks, early: Ints, late: Ints, met: _Met) -> Bools:
 
 def _prolong(blocks: Blocks, early: Ints, late: Ints, made: Joints) -> None:
     """Let lines reach the places of their chamfers."""
-    by_um = np.abs(blocks.left_um[early])[:, None]
-    is_arc, chamfer = blocks.shifted.is_arc, made.bridge == Joining.CHAMFER
-    made.end_um[:] += np.where((chamfer & ~is_arc[early])[:, None], by_um * blocks.arriving[early], 0.0)
-    made.start_um[:] -= np.where((chamfer & ~is_arc[late])[:, None], by_um * blocks.leaving[late], 0.0)
+    chamfer = np.flatnonzero(made.bridge == Joining.CHAMFER)
+    before, behind = early[chamfer], late[chamfer]
+    by_um = np.abs(blocks.left_um[before])[:, None]
+    is_line = ~blocks.shifted.is_arc[:, None]
+    made.end_um[chamfer] += np.where(is_line[before], by_um * blocks.arriving[before], 0.0)
+    made.start_um[chamfer] -= np.where(is_line[behind], by_um * blocks.leaving[behind], 0.0)
 
 
 def _jump_between(blocks: Blocks, early: Ints, late: Ints, made: Joints) -> None:

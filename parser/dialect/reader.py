@@ -170,6 +170,8 @@ class Reading(NamedTuple):
     codes
         Codes of this dialect for findings of the path and the machine that have other ones in 3B: ``3B301`` is
         ``ISO300``. Findings without one keep their code, which holds for every dialect.
+    not_simulated
+        Term of the catalogue that says what the text asks for beside the path; empty where the path is all.
     """
 
     dialect: str
@@ -182,6 +184,7 @@ class Reading(NamedTuple):
     remarks: Ints = NO_REMARKS
     assumptions: tuple[Assumption, ...] = ()
     codes: Mapping[str, str] = MappingProxyType({})
+    not_simulated: str = ""
 
 
 def in_codes(reading: Reading, findings: Iterable[Finding]) -> tuple[Finding, ...]:

@@ -5,11 +5,10 @@ import tomllib
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
-A_PROGRAM = "kind-program"
-"""Term of a text with a block of 3B or 4B somewhere: what a drawing is not."""
+PROGRAMS = ("kind-program", "kind-iso")
+"""Terms of texts with blocks of 3B or 4B somewhere, and with lines of ISO: what a drawing is not."""
 HINTS: Mapping[str, str] = MappingProxyType(
     {
-        "kind-iso": "hint-post",
         "kind-dxf": "hint-compare",
         "kind-dwg": "hint-save-dxf",
         "kind-step": "hint-save-dxf",
@@ -106,8 +105,8 @@ def _is_toml(head: bytes) -> bool:
 
 _STRUCTURES: tuple[tuple[str, Callable[[bytes], bool]], ...] = (
     ("kind-utf16", _is_utf16),
-    (A_PROGRAM, _is_program),
-    ("kind-iso", _is_iso),
+    (PROGRAMS[0], _is_program),
+    (PROGRAMS[1], _is_iso),
     ("kind-hpgl", _is_hpgl),
     ("kind-toml", _is_toml),
 )

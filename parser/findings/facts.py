@@ -27,6 +27,11 @@ class DamagedBlock(Fact):
 
 
 @dataclass(frozen=True, slots=True)
+class ReadAs(Fact):
+    """It says how the text was read where that was open: people are told so in one line, with what speaks for it."""
+
+
+@dataclass(frozen=True, slots=True)
 class TooLarge(Fact):
     """The program asks for more than any table can do: its path is not worked out."""
 

@@ -134,9 +134,9 @@ def _at(told: _Told, code: str, one: int, letters: str, /, **values: Value) -> F
     """Finding at the first word of the letters in a block, or at the whole block where it has none of them."""
     listing, block = told.given.listing, int(told.block[one])
     first, past = int(listing.blocks.word[block]), int(listing.blocks.word[block + 1])
-    named = np.flatnonzero(np.isin(listing.words.letter[first:past], [ord(letter) for letter in letters]))
     span = (int(listing.blocks.first[block]), int(listing.blocks.past[block]))
-    if len(named):
-        word = first + int(named[0])
-        span = (int(listing.words.first[word]), int(listing.words.past[word]))
+    for word, letter in enumerate(listing.words.letter[first:past].tolist(), first):
+        if chr(letter) in letters:
+            span = (int(listing.words.first[word]), int(listing.words.past[word]))
+            break
     return listing.lines.finding(code, span, int(told.row[one]) + 1, **values)

@@ -27,6 +27,8 @@ class Arcs(NamedTuple):
         (k,) how much more it is at the end about the centre as written; 0 by R.
     chord_um
         (k,) from start to end.
+    told_um
+        (k, 2) centre as written; NaN by R.
     """
 
     center_um: Floats
@@ -35,6 +37,7 @@ class Arcs(NamedTuple):
     written_um: Floats
     differ_um: Floats
     chord_um: Floats
+    told_um: Floats
 
 
 def arcs_about(start: Floats, end: Floats, center: Floats, turn: Floats) -> Arcs:
@@ -54,7 +57,7 @@ def arcs_about(start: Floats, end: Floats, center: Floats, turn: Floats) -> Arcs
     radius = np.where(stays, (at_start + at_end) / 2, _length(start - moved))
     sweep = np.where(stays, written, sweep)
     sweep = np.where((at_start > 0) & (at_end > 0), sweep, 0.0)
-    return Arcs(np.where(stays[:, None], center, moved), sweep * turn, radius, at_start, differ, chord)
+    return Arcs(np.where(stays[:, None], center, moved), sweep * turn, radius, at_start, differ, chord, center)
 
 
 def arcs_of_radius(start: Floats, end: Floats, radius: Floats, turn: Floats, slack_um: float) -> Arcs:
@@ -72,7 +75,9 @@ def arcs_of_radius(start: Floats, end: Floats, radius: Floats, turn: Floats, sla
     center = (start + end) / 2 + (turn * np.where(radius > 0, 1.0, -1.0) * height)[:, None] * normal
     minor = 2 * np.arcsin(np.minimum(half / np.where(size > 0, size, 1.0), 1.0))
     sweep = np.where(fits, np.where(radius > 0, minor, 2 * np.pi - minor), 0.0)
-    return Arcs(center, sweep * turn, _length(start - center), size, np.zeros_like(size), chord)
+    return Arcs(
+        center, sweep * turn, _length(start - center), size, np.zeros_like(size), chord, np.full_like(start, np.nan)
+    )
 
 
 def _sweep(out: Floats, back: Floats, turn: Floats) -> Floats:

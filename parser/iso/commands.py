@@ -8,6 +8,8 @@ from parser.iso.listing import Listing
 from parser.iso.numbering import called, stands_alone
 
 _MOTION = (0, 1, 2, 3)
+_PASSED = (17, 20, 21, 40, 41, 42, *range(54, 60), 70, 71, 90, 91, 90.1, 91.1)
+"""G words that take no X and Y of their block for themselves."""
 _PLACES = [ord(letter) for letter in "XYIJR"]
 _ENDS = (2, 30, 99, 199)
 
@@ -23,7 +25,7 @@ def unknown_letters(listing: Listing, letters: str) -> tuple[list[Finding], Ints
         )
         for one, at, count in zip(letter.tolist(), first.tolist(), times.tolist(), strict=True)
     ]
-    return found, np.unique(words.block[unknown])
+    return found, np.flatnonzero(listing.blocks_of(unknown))
 
 
 def without_command(listing: Listing) -> tuple[list[Finding], Ints]:
@@ -38,8 +40,9 @@ def without_command(listing: Listing) -> tuple[list[Finding], Ints]:
     motion = np.flatnonzero(is_g & np.isin(words.value, _MOTION))
     until = int(words.block[motion[0]]) if len(motion) else len(blocks.line)
     head = np.arange(blocks.word[until])
-    places = head[np.isin(words.letter[head], _PLACES) & ~np.isin(words.block[head], words.block[head[is_g[head]]])]
-    lost = np.unique(words.block[places])
+    taken = listing.blocks_of(head[is_g[head] & ~np.isin(words.value[head], _PASSED)])
+    places = head[np.isin(words.letter[head], _PLACES) & ~taken[words.block[head]]]
+    lost = np.flatnonzero(listing.blocks_of(places))
     if len(lost):
         first = int(places[0])
         found.append(

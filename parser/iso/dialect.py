@@ -8,13 +8,18 @@ from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
 from parser.iso.lexer import read_listing
-from parser.iso.motion import moved
-from parser.iso.telling import assumption_findings, told
+from parser.iso.listing import Listing
+from parser.iso.mill_code import mill_code
+from parser.iso.mode_checks import mode_findings
+from parser.iso.motion import Moved, moved
+from parser.iso.not_simulated import not_simulated
+from parser.iso.telling import Told, reread, told
 from parser.iso.text_checks import checked
 from parser.iso.trace import Trace
 from parser.text.encoding import narrow, no_program
 
-_LIKE_A_BLOCK = re.compile(r"(?im)^[ \t/]*(?:N[ \t]*\d+[ \t]*)?(?:[A-Z][ \t]*[-+]?[\d.]+[ \t]*)*?G[ \t]*\d")
+# A line of words with G and a number among the first ones; B begins the numbers of 3B.
+_LIKE_A_BLOCK = re.compile(r"(?im)^[ \t/]*+(?:[AC-FH-Z][ \t]*+[-+]?[\d.]++[ \t]*+)*+G[ \t]*+\d")
 _CODES = {
     "3B211": "ISO219",
     "3B301": "ISO300",
@@ -43,29 +48,41 @@ class Iso:
         return bool(_LIKE_A_BLOCK.search(narrow(text)))
 
     def read(self, text: str, choices: Choices) -> ReadText:
-        """What a text says. ProgramError (ISO100) where it holds no block."""
+        """What a text says. ProgramError (ISO100) where it holds no block, or those of a mill."""
         listing = read_listing(text)
         if not len(listing.blocks.line):
-            raise ProgramError(no_program("no-block"))
+            raise ProgramError(no_program("no-block", code="ISO100"))
+        mill = mill_code(listing)
+        if mill:
+            raise ProgramError(mill, excerpt=text[slice(*listing.lines.bounds(mill.line))])
         family = told(listing, choices)
         listing = checked(listing, family.profile)
         path = moved(listing, family.profile, choices)
-        n = len(path.toolpath)
-        reading = Reading(
-            dialect=f"ISO {family.profile.name}",
-            counts=BlockCounts(n + len({one.block for one in listing.unread}), n, n),
-            damages=path.damages,
-            spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02", rapid="G00"),
-            is_drawing=path.toolpath.compensation is not None,
-            not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
-            remarks=listing.remarks,
-            assumptions=(*family.assumptions, *path.assumptions),
-            codes=_CODES,
-        )
-        of_text = (_by_row(finding, path.first_row) for finding in (*listing.findings, *assumption_findings(family)))
-        findings = tuple(sorted([*of_text, *path.findings], key=file_order))
-        decoder = Trace(listing, family.profile, choices)
-        return ReadText(listing.lines, reading, {}, path.toolpath, findings, decoder=decoder)
+        taken = reread(family, path.agreement)
+        if taken.profile != family.profile:
+            path = moved(listing, taken.profile, choices)
+        besides = not_simulated(listing, taken.profile)
+        reading = _reading(listing, taken, path)._replace(not_simulated=besides.reason)
+        of_text = (_by_row(finding, path.first_row) for finding in listing.findings)
+        findings = (*of_text, *mode_findings(listing, taken, path), *besides.findings, *path.findings)
+        in_order = tuple(sorted(findings, key=file_order))
+        decoder = Trace(listing, taken.profile, choices)
+        return ReadText(listing.lines, reading, {}, path.toolpath, in_order, decoder=decoder)
+
+
+def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
+    n = len(path.toolpath)
+    return Reading(
+        dialect=family.profile.name,
+        counts=BlockCounts(n + len({one.block for one in listing.unread}), n, n),
+        damages=path.damages,
+        spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02", rapid="G00"),
+        is_drawing=path.toolpath.compensation is not None,
+        not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
+        remarks=listing.remarks,
+        assumptions=(*family.assumptions, *path.assumptions),
+        codes=_CODES,
+    )
 
 
 def _by_row(finding: Finding, first_row: Ints) -> Finding:

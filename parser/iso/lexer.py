@@ -5,7 +5,7 @@ from itertools import chain
 import numpy as np
 
 from parser.findings.errors import ProgramError
-from parser.findings.findings import Edit, Finding, file_order
+from parser.findings.findings import Edit, Finding, Value, file_order
 from parser.geometry.curves import Floats, Ints
 from parser.iso.listing import Blocks, Listing, Unread, Words
 from parser.iso.odd_lines import OddLine, odd_line
@@ -75,7 +75,7 @@ def _line(folded: str, bare: Bare, first: int, past: int) -> str:
 
 def _gathered(lines: LineIndex, plain: PlainWords, odd: list[OddLine]) -> tuple[Words, Blocks]:
     """The words of plain and odd lines, and their blocks, in file order."""
-    ends = np.append(plain.opens[1:], len(plain.letter))[: len(plain.opens)] - 1
+    ends = np.append(plain.opens, len(plain.letter))[1:] - 1
     first = np.concatenate([plain.first[plain.opens], np.array([line.span[0] for line in odd], dtype=np.int64)])
     past = np.concatenate([plain.past[ends], np.array([line.span[1] for line in odd], dtype=np.int64)])
     is_plain = np.zeros(len(plain.opens), dtype=np.bool_)
@@ -110,8 +110,7 @@ def _with_open_remarks(lines: LineIndex, bare: Bare, blocks: Blocks) -> tuple[Bl
     if not len(spans):
         return blocks, []
     line = lines.lines(spans[:, 0])
-    at = blocks.line.searchsorted(line)
-    is_in = (at < len(blocks.line)) & (blocks.line[np.minimum(at, len(blocks.line) - 1)] == line)
+    at, is_in = blocks.line.searchsorted(line), np.isin(line, blocks.line)
     is_damaged = blocks.is_damaged.copy()
     is_damaged[at[is_in]] = True
     block = np.where(is_in, at, -1).tolist()
@@ -137,11 +136,11 @@ def _small_letters(lines: LineIndex, words: Words) -> list[Finding]:
     small = np.flatnonzero(lines.codes[words.first] >= ord("a"))
     if not len(small):
         return []
-    first = words.first[small].tolist()
-    edits = tuple(Edit(at, at + 1, lines.text[at].upper()) for at in first)
-    span = first[0], int(words.past[small[0]])
-    found = lines.finding("ISO104", span, text=lines.text[slice(*span)], more=len(small) - 1)
-    return [found._replace(edits=edits)]
+    edits = tuple(Edit(at, at + 1, lines.text[at].upper()) for at in words.first[small].tolist())
+    word = int(small[0])
+    span = int(words.first[word]), int(words.past[word])
+    values: dict[str, Value] = {"text": lines.text[slice(*span)], "more": len(small) - 1}
+    return [lines.finding("ISO104", span, int(words.block[word]) + 1, **values)._replace(edits=edits)]
 
 
 def _shown(text: str) -> str:

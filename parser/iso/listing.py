@@ -159,11 +159,17 @@ class Listing(NamedTuple):
         """(k,) words with a letter, in file order."""
         return np.flatnonzero(self.words.letter == ord(letter))
 
+    def blocks_of(self, word: Ints) -> Bools:
+        """(b,) bool, which blocks hold any of some words."""
+        holds = np.zeros(len(self.blocks.line), dtype=np.bool_)
+        holds[self.words.block[word]] = True
+        return holds
+
     def written(self, word: int) -> str:
         """A word as written."""
         return self.lines.text[int(self.words.first[word]) : int(self.words.past[word])]
 
     def at_word(self, code: str, word: int, /, **values: Value) -> Finding:
-        """Finding at a word as text: in no row of the toolpath."""
+        """Finding at a word, in its block of the text."""
         span = int(self.words.first[word]), int(self.words.past[word])
-        return self.lines.finding(code, span, 0, **values)
+        return self.lines.finding(code, span, int(self.words.block[word]) + 1, **values)

@@ -6,8 +6,9 @@ import numpy as np
 
 from parser.dialect.reader import Assumption, Choices, Damage
 from parser.findings.findings import Finding
-from parser.geometry.curves import Curves, Ints
+from parser.geometry.curves import Curves, Floats, Ints
 from parser.iso.arc_checks import arc_findings
+from parser.iso.centers import Agreement, agreement
 from parser.iso.flow import Flow, flow
 from parser.iso.given import Given
 from parser.iso.listing import Listing
@@ -39,6 +40,8 @@ class Moved(NamedTuple):
         What the text leaves open of where the wire goes.
     first_row
         (b,) int64, the row that each block of the text makes when it first runs; −1 where it makes none.
+    agreement
+        What the arcs say of I J.
     """
 
     toolpath: Toolpath
@@ -46,30 +49,38 @@ class Moved(NamedTuple):
     damages: tuple[Damage, ...]
     assumptions: tuple[Assumption, ...]
     first_row: Ints
+    agreement: Agreement
 
 
 class _Run(NamedTuple):
-    """All columns of the running blocks."""
+    """All columns of the running blocks; `offsets` are None where nothing compensates."""
 
     flow: Flow
     mode: Modes
     numbers: Coordinates
     place: Places
     rows: Rows
-    offsets: Offsets
+    offsets: Offsets | None
 
 
 def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
     """The toolpath of a listing."""
     given = Given(listing, profile)
     run = _run(given, choices)
+    arcs = agreement(run.mode, run.numbers, run.place, run.rows)
+    centred = () if arcs.is_otherwise else arc_findings(given, run.flow.block, run.mode, run.numbers, run.rows)
     findings = (
         *order_findings(given, run.flow, run.mode.side, run.place, run.rows.at),
         *move_findings(given, run.flow.block, run.mode, run.rows),
-        *arc_findings(given, run.flow.block, run.mode, run.numbers, run.rows),
+        *centred,  # of arcs that are read the wrong way nothing is said but that
     )
     return Moved(
-        _toolpath(given, run), findings, _damages(given, run), _assumptions(given, run), _first_rows(given, run)
+        toolpath=_toolpath(given, run),
+        findings=findings,
+        damages=_damages(given, run),
+        assumptions=_assumptions(given, run),
+        first_row=_first_rows(given, run),
+        agreement=arcs,
     )
 
 
@@ -79,7 +90,8 @@ def _run(given: Given, choices: Choices) -> _Run:
     numbers = coordinates(given, order.block, mode)
     place = places(numbers, mode.is_absolute, given.m(*STOPS)[order.block])
     path = rows(mode, numbers, place, given.profile.resolution_um)
-    return _Run(order, mode, numbers, place, path, offsets(given, order.block, mode, choices))
+    compensates = mode.side[path.at].any()
+    return _Run(order, mode, numbers, place, path, offsets(given, order.block, mode, choices) if compensates else None)
 
 
 def _toolpath(given: Given, run: _Run) -> Toolpath:
@@ -91,16 +103,24 @@ def _toolpath(given: Given, run: _Run) -> Toolpath:
         source=source(given, run.flow.block[run.rows.at]),
         stops=_stops(given, run.flow.block, run.rows.at),
         compensation=_compensation(run, given.profile.rules),
+        told_center_um=_told_centers(run.rows),
     )
 
 
+def _told_centers(rows: Rows) -> Floats:
+    """(n, 2) centres of arcs as written, NaN where none is."""
+    told = np.full((len(rows.at), 2), np.nan)
+    told[rows.turning] = rows.arcs.told_um
+    return told
+
+
 def _compensation(run: _Run, rules: CompensationRules) -> Compensation | None:
+    if run.offsets is None:
+        return None
     at = run.rows.at
     side = run.mode.side[at]
-    if not side.any():
-        return None
     by_um = np.where(side != 0, run.offsets.by_um[at], 0.0)
-    return Compensation(side, by_um, tuple(run.offsets.register[one] for one in at.tolist()), rules)
+    return Compensation(side, by_um, tuple(map(run.offsets.names.__getitem__, run.offsets.name[at].tolist())), rules)
 
 
 def _stops(given: Given, runs: Ints, at: Ints) -> tuple[Stop, ...]:
@@ -149,7 +169,7 @@ def _assumptions(given: Given, run: _Run) -> tuple[Assumption, ...]:
     told = []
     if given.listing.blocks.is_skipped[run.flow.block].any():
         told.append(Assumption("assumed-skips", "/", "because-skips-run"))
-    if run.offsets.assumed:
+    if run.offsets and run.offsets.assumed:
         told.append(Assumption("assumed-register", run.offsets.assumed, "because-only-register"))
     if run.place.is_threaded.any():
         told.append(Assumption("assumed-threading", "G92", "because-behind-stop"))

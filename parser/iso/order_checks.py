@@ -10,6 +10,7 @@ from parser.iso.flow import Flow, idle
 from parser.iso.given import Given
 from parser.iso.listing import Listing
 from parser.iso.places import SET_PLACE, Places
+from parser.text.source import Span
 
 _MOTION_LETTERS = [ord(letter) for letter in "XYIJR"]
 
@@ -50,8 +51,7 @@ def _crowded_ends(given: Given) -> Iterator[Finding]:
     wrong = np.sort(np.concatenate([later, behind]))
     _, first = np.unique(words.block[wrong], return_index=True)
     for word in wrong[first].tolist():
-        span = (int(words.first[word]), int(words.past[word]))
-        yield given.listing.lines.finding("ISO208", span, text=given.listing.text[slice(*span)])
+        yield _of_span(given.listing, "ISO208", (int(words.first[word]), int(words.past[word])))
 
 
 def _calls(listing: Listing, run: Flow) -> Iterator[Finding]:
@@ -63,13 +63,17 @@ def _calls(listing: Listing, run: Flow) -> Iterator[Finding]:
 def _never_run(given: Given, run: Flow) -> Iterator[Finding]:
     """ISO401 at subprograms that nothing calls, ISO108 at other blocks that nothing reaches: once a stretch."""
     never = idle(given, run)
-    labelled = (given.word("N") >= 0) | (given.word("O") >= 0)
+    label = np.maximum(given.word("N"), given.word("O"))
     returns = given.m("return")
     starts = np.flatnonzero(never & ~np.concatenate([[False], never[:-1] & ~returns[:-1]]))
     pasts = np.append(starts, len(never))[1:]
     for first, past in zip(starts.tolist(), pasts.tolist(), strict=True):
-        is_subprogram = labelled[first] and returns[first:past][never[first:past]].any()
-        yield _at(given.listing, "ISO401" if is_subprogram else "ISO108", first)
+        is_subprogram = label[first] >= 0 and returns[first:past][never[first:past]].any()
+        if is_subprogram:
+            words = given.listing.words
+            yield _of_span(given.listing, "ISO401", (int(words.first[label[first]]), int(words.past[label[first]])))
+        else:
+            yield _at(given.listing, "ISO108", first)
 
 
 def _named_places(given: Given, run: Flow, place: Places) -> Iterator[Finding]:
@@ -99,5 +103,8 @@ def _first_runs(run: Flow, at: Ints) -> Ints:
 
 
 def _at(listing: Listing, code: str, block: int, /, **values: Value) -> Finding:
-    span = (int(listing.blocks.first[block]), int(listing.blocks.past[block]))
-    return listing.lines.finding(code, span, 0, **values)
+    return _of_span(listing, code, (int(listing.blocks.first[block]), int(listing.blocks.past[block])), **values)
+
+
+def _of_span(listing: Listing, code: str, span: Span, /, **values: Value) -> Finding:
+    return listing.lines.finding(code, span, 0, text=listing.text[slice(*span)], **values)

@@ -142,7 +142,7 @@ def _second_points(kind: Codes) -> Ints:
 def _too_long(signs: _Signs) -> Ints:
     """Words of more characters than a number of `MOST_DIGITS` can have."""
     stops = np.flatnonzero(signs.kind >= _LETTER)
-    long: Ints = stops[:-1][np.diff(stops) > MOST_DIGITS + 1]
+    long: Ints = stops[:-1][(np.diff(stops) > MOST_DIGITS + 1) & (signs.kind[stops[:-1]] == _LETTER)]
     return long
 
 

@@ -51,6 +51,8 @@ class Profile:
         Letters of words that may stand in a block more than once.
     meant_twice
         Numbers of M words that are written twice on purpose.
+    angle
+        Letter of the angle by which the wire leans.
     whole
         Letters of words whose numbers are whole.
     range
@@ -77,6 +79,7 @@ class Profile:
     letters: str
     repeatable: str
     meant_twice: tuple[int, ...]
+    angle: str
     whole: str
     range: Mapping[str, tuple[float, float]]
     g: Mapping[str, str]

@@ -21,15 +21,18 @@ class Offsets(NamedTuple):
 
     Attributes
     ----------
-    register
-        e names without leading zeros, such as ``H1``; empty where none is selected.
+    names
+        Of all that are ever in force, without leading zeros, such as ``H1``; empty for none.
+    name
+        (e,) int64, which of them it is.
     by_um
         (e,) their values, NaN where they are not known.
     assumed
         The register that was taken where nothing selects one: the only one with a value; empty where it was not needed.
     """
 
-    register: tuple[str, ...]
+    names: tuple[str, ...]
+    name: Ints
     by_um: Floats
     assumed: str
 
@@ -46,7 +49,7 @@ def offsets(given: Given, runs: Ints, mode: Modes, choices: Choices) -> Offsets:
     order = np.argsort(at, kind="stable")
     for name, rows in zip(names, np.split(order, np.cumsum(np.bincount(at))[:-1]), strict=True):
         by[rows] = _value(given, name, values, rows)
-    return Offsets(tuple(names[one] for one in at.tolist()), by, assumed)
+    return Offsets(tuple(names), at, by, assumed)
 
 
 def _selected(given: Given, runs: Ints) -> Ints:

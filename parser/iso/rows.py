@@ -105,5 +105,7 @@ def _labels(given: Given, block: Ints) -> tuple[str, ...]:
     has = word >= 0
     if not has.any():
         return ("",) * len(block)
-    number = given.listing.words.value[word].astype(np.int64)
-    return tuple(f"N{one}" if some else "" for one, some in zip(number.tolist(), has.tolist(), strict=True))
+    labels = [f"N{number}" for number in given.listing.words.value[word].astype(np.int64).tolist()]
+    for row in np.flatnonzero(~has).tolist():
+        labels[row] = ""
+    return tuple(labels)

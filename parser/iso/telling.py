@@ -1,18 +1,19 @@
 """Which family a listing was written for, and all that had to be assumed of scale and modes (docs/iso.md §4, §6)."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from parser.dialect.reader import Assumption, Choices
-from parser.findings.findings import Finding
-from parser.geometry.curves import Ints
+from parser.iso.centers import Agreement
 from parser.iso.listing import Listing
 from parser.iso.marks import Seen, mark_of
 from parser.iso.profile import Profile, profile
 from parser.iso.scale import amount, scaled
 
 _G = {"absolute": "G90", "incremental": "G91"}
+_ASSUMED_CENTERS = "assumed-centres"
 _CHOSEN = "because-chosen"
 _DISTANCE, _CENTERS, _UNIT = (90.0, 91.0), (90.1, 91.1), (20.0, 21.0, 70.0, 71.0)
 
@@ -26,18 +27,27 @@ class Told(NamedTuple):
         Of the family.
     assumptions
         What the text leaves open, in the order in which it is told; also what was chosen in its place.
-    says_centers
-        Whether the text itself says what I and J are.
+    distance
+        ``G90`` or ``G91``, in force at the first motion.
+    says_centers, says_unit
+        Whether the text itself says what I and J are, and its unit; or the unit was named for it.
     """
 
     profile: Profile
     assumptions: tuple[Assumption, ...]
-    says_centers: bool = False
+    distance: str
+    says_centers: bool
+    says_unit: bool
 
     @property
     def is_chosen(self) -> bool:
         """Whether the family was named, not told by marks."""
         return all(assumption.what != "assumed-dialect" for assumption in self.assumptions)
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether all of it was written or chosen."""
+        return all(assumption.why == _CHOSEN for assumption in self.assumptions)
 
 
 def told(listing: Listing, choices: Choices) -> Told:
@@ -47,26 +57,35 @@ def told(listing: Listing, choices: Choices) -> Told:
     base = profile(choices.dialect or (mark.dialect if mark else "common"))
     of, inches = scaled(seen, base, choices.unit)
     habit = _CHOSEN if choices.dialect else "because-profile"
-    first, says_centers = _first_move(listing), _says(listing, _CENTERS, len(listing.blocks.line))
+    first = _first_move(listing)
+    distance = _said(listing, _DISTANCE, first)
+    says_centers = bool(_said(listing, _CENTERS, len(listing.blocks.line)))
+    says_unit = bool(choices.unit or _said(listing, _UNIT, first))
     assumed = []
     if not choices.dialect:
         assumed.append(Assumption("assumed-dialect", of.name, mark.why if mark else "because-none"))
-    if len(seen.coordinates) and not choices.unit and not _says(listing, _UNIT, first):
+    if len(seen.coordinates) and not says_unit:
         assumed.append(Assumption("assumed-unit", _unit(seen, of), inches or habit))
-    if not _says(listing, _DISTANCE, first):
+    if not distance:
         assumed.append(Assumption("assumed-distance", _G[of.distance], habit))
     if not says_centers and (seen.has("I") or seen.has("J")):
-        assumed.append(Assumption("assumed-centres", of.centers, habit))
-    return Told(of, tuple(assumed), says_centers)
+        assumed.append(Assumption(_ASSUMED_CENTERS, of.centers, habit))
+    return Told(of, tuple(assumed), distance or _G[of.distance], says_centers, says_unit)
 
 
-def assumption_findings(family: Told) -> list[Finding]:
-    """Finding ISO112: how the text was read, where something of it was neither written nor chosen."""
-    if all(assumption.why == _CHOSEN for assumption in family.assumptions):
-        return []
-    of = family.profile
-    values = {"integer": amount(of.integer_um), "point": amount(of.point_um), "centers": f"centres-{of.centers}"}
-    return [Finding("ISO112", {"dialect": of.name, "distance": _G[of.distance], **values})]
+def reread(family: Told, arcs: Agreement) -> Told:
+    """The family with the reading of I J in which the arcs agree, where it was neither written nor chosen."""
+    of, why = family.profile, arcs.why
+    if arcs.is_otherwise:
+        if family.is_chosen or family.says_centers:
+            return family
+        of = replace(of, centers="from-start" if of.centers == "absolute" else "absolute")
+        why = "because-arcs"
+    assumptions = tuple(
+        Assumption(one.what, of.centers, why) if one.what == _ASSUMED_CENTERS and why else one
+        for one in family.assumptions
+    )
+    return family._replace(profile=of, assumptions=assumptions)
 
 
 def _unit(seen: Seen, of: Profile) -> str:
@@ -79,21 +98,18 @@ def _unit(seen: Seen, of: Profile) -> str:
     return ", ".join(taken)
 
 
-def _says(listing: Listing, numbers: tuple[float, ...], block: int) -> bool:
-    """Whether one of some G words stands in or before a block."""
+def _said(listing: Listing, numbers: tuple[float, ...], block: int) -> str:
+    """The last of some G words that stands in or before a block, ``G90``; empty where there is none."""
     word = listing.of("G")
-    is_one = np.isin(listing.words.value[word], numbers)
-    return bool((is_one & (listing.words.block[word] <= block)).any())
+    value = listing.words.value[word]
+    said = value[np.isin(value, numbers) & (listing.words.block[word] <= block)]
+    return f"G{said[-1]:g}" if len(said) else ""
 
 
 def _first_move(listing: Listing) -> int:
     """The first block with X or Y that is no G92; behind all blocks where there is none."""
-    word = listing.words
-    places = _blocks(listing, np.flatnonzero((word.letter == ord("X")) | (word.letter == ord("Y"))))
-    named = _blocks(listing, np.flatnonzero((word.letter == ord("G")) & (word.value == 92.0)))
-    moving = np.setdiff1d(places, named)
+    letter, value = listing.words.letter, listing.words.value
+    places = listing.blocks_of(np.flatnonzero((letter == ord("X")) | (letter == ord("Y"))))
+    named = listing.blocks_of(np.flatnonzero((letter == ord("G")) & (value == 92.0)))
+    moving = np.flatnonzero(places & ~named)
     return int(moving[0]) if len(moving) else len(listing.blocks.line)
-
-
-def _blocks(listing: Listing, word: Ints) -> Ints:
-    return np.unique(listing.words.block[word])

@@ -7,6 +7,7 @@ from parser.iso.commands import unknown_letters, without_command
 from parser.iso.listing import Listing, Unread
 from parser.iso.numbering import numbering_findings
 from parser.iso.profile import Profile
+from parser.iso.word_checks import word_findings
 from parser.iso.word_order import order_finding
 
 
@@ -17,6 +18,7 @@ def checked(listing: Listing, profile: Profile) -> Listing:
     found = [
         *(*listing.findings, *letters, *commands, *numbering_findings(listing)),
         *order_finding(listing, strict=profile.strict_order),
+        *word_findings(listing, profile),
     ]
     damaged = np.concatenate([unknown, lost])
     is_damaged = listing.blocks.is_damaged.copy()

@@ -9,10 +9,7 @@ from parser.geometry.curves import Ints
 from parser.text.lines import LineIndex
 from parser.threeb.grammar import BLOCK_FIELDS, GROUP_AT, GROUPS
 from parser.threeb.plain_lines import PlainLines
-from parser.units import from_mm
-
-MAX_WORD_UM = 999_999_999
-"""Largest X, Y, J or R taken, in µm: a kilometre, a thousand times the travel of the largest table (DK7780, 1 m)."""
+from parser.units import MAX_WORD_UM, from_mm
 
 _OVER_UM = MAX_WORD_UM + 1
 

@@ -20,7 +20,7 @@ from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
 from parser.text.encoding import narrow, no_program
 from parser.text.lines import LineIndex
-from parser.threeb.columns import MAX_WORD_UM, RawBlocks, all_rows, columns_of, columns_of_plain, read_mm
+from parser.threeb.columns import RawBlocks, all_rows, columns_of, columns_of_plain, read_mm
 from parser.threeb.damage import Unread, unread
 from parser.threeb.grammar import (
     FOREIGN_ENDS,
@@ -34,6 +34,7 @@ from parser.threeb.grammar import (
 from parser.threeb.header import Header, HeaderLength, read_header, read_length
 from parser.threeb.plain_lines import plain_lines
 from parser.threeb.stolen_numbers import left_out, misfits, without_stolen_numbers
+from parser.units import MAX_WORD_UM
 
 _MARK, _PASSED = GROUP_AT["mark"], GROUP_AT["passed"]
 

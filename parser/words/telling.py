@@ -39,22 +39,35 @@ def words_of_arcs(start_um: Floats, end_um: Floats, sweep_rad: Floats) -> StepWo
     """
     by = end_um - start_um
     shift = _to_bisector(start_um, end_um, sweep_rad)
-    start = np.rint(start_um - shift)
-    end = start + by
-    turn, radius = np.sign(sweep_rad), np.hypot(start[:, 0], start[:, 1])
-    low = np.arctan2(start[:, 1], start[:, 0])
+    is_astray = np.hypot(shift[:, 0], shift[:, 1]) > _MOST_SHIFT * np.hypot(start_um[:, 0], start_um[:, 1])
+    return chosen(is_astray, words_of_lines(by), words_of_told_arcs(np.rint(start_um - shift), by, sweep_rad))
+
+
+def words_of_told_arcs(start_um: Floats, by_um: Floats, sweep_rad: Floats) -> StepWords:
+    """Words of n arcs whose starts from the centre are told in whole µm and stay; of a line where that is no arc.
+
+    Parameters
+    ----------
+    start_um
+        (n, 2) where the arc begins, relative to the centre.
+    by_um
+        (n, 2) how far it is to go; J ends it abreast of there.
+    sweep_rad
+        (n,) signed, positive counter-clockwise.
+    """
+    end = start_um + by_um
+    turn, radius = np.sign(sweep_rad), np.hypot(start_um[:, 0], start_um[:, 1])
+    low = np.arctan2(start_um[:, 1], start_um[:, 0])
     turned = turn * (np.arctan2(end[:, 1], end[:, 0]) - low)
     turned += 2.0 * np.pi * np.rint((np.abs(sweep_rad) - turned) / (2.0 * np.pi))
     on_y = np.abs(end[:, 0]) > np.abs(end[:, 1])
     count = np.rint(_counted(radius, low, turn * turned, np.where(on_y, end[:, 1], end[:, 0]), on_y)).astype(np.int64)
-    place = start.astype(np.int64)
+    place = start_um.astype(np.int64)
     x, y = place.T
     quadrant = np.where(turn > 0.0, _quadrant(x, y), 5 - _quadrant(x, -y))
     axis = np.where(on_y, np.int64(Axis.Y), np.int64(Axis.X))
     arcs = _words(place, count, axis, quadrant, turn.astype(np.int64))
-    is_astray = np.hypot(shift[:, 0], shift[:, 1]) > _MOST_SHIFT * np.hypot(start_um[:, 0], start_um[:, 1])
-    is_arc = (x * x + y * y > 1) & (turned > 0.0) & (count > 0) & ~is_astray
-    return chosen(is_arc, arcs, words_of_lines(by))
+    return chosen((x * x + y * y > 1) & (turned > 0.0) & (count > 0), arcs, words_of_lines(by_um))
 
 
 def _to_bisector(start_um: Floats, end_um: Floats, sweep_rad: Floats) -> Floats:

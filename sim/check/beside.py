@@ -14,6 +14,7 @@ from controller.offset.uncut import uncut_um
 from parser.findings.findings import Finding
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.program import Program
+from parser.shape.passes import Passes
 
 
 class PassBeside(NamedTuple):
@@ -39,6 +40,8 @@ class Offsetting:
         Side of the contour in the first pass, along its cutting direction.
     passes
         The passes over each contour; where contours differ, as far as the one with the most.
+    edge_passes
+        Which rows of the path make each pass over an edge.
     left_um
         (v,) float64, material beyond that of its pass that stays at each row that vanished.
     gouges
@@ -54,6 +57,7 @@ class Offsetting:
     path: OffsetPath
     side: Side
     passes: tuple[PassBeside, ...]
+    edge_passes: Passes
     left_um: Floats
     gouges: tuple[Gouge, ...]
     loops: tuple[int, ...]
@@ -61,8 +65,8 @@ class Offsetting:
 
     @property
     def by_um(self) -> float:
-        """Least offset: of the pass that makes the edge."""
-        return min(one.by_um for one in self.passes)
+        """Least offset: of the pass that makes the edge; 0 where no contour is run along."""
+        return min((one.by_um for one in self.passes), default=0.0)
 
     @property
     def pass_of_row(self) -> Ints:

@@ -32,6 +32,7 @@ from sim.check.uncut_jumps import uncut_jump_findings
 
 if TYPE_CHECKING:  # most checks know no machine, and most programs do not compensate
     from sim.check.beside import Offsetting
+    from sim.check.compensation.check import OwnCompensation
     from sim.setup.machine.table_model import TableModel
 
 PARSER_CHECKS = (Check.GRAMMAR, Check.ORDER, Check.BLOCKS, Check.PRINTED_ENDS, Check.HEADER)
@@ -124,9 +125,10 @@ class _PathChecks:
         self._broken = _broken_contours(program, rows)
         self.judged = tuple(contour for number, contour in enumerate(contours) if number not in self._broken)
         self._rows = np.where(np.isin(rows, list(self._broken)), -1, rows)
-        self._passes = find_passes(program.toolpath)
+        own = self._own_compensation()
+        self.compensation = own.made if own else None
+        self._passes = own.drawn_passes if own else find_passes(program.toolpath)
         self.states: list[CheckState] = []
-        self.compensation = self._compensated()
 
     def findings(self) -> Iterator[Finding]:
         """Findings of all path checks; afterwards `states` tells how far they came."""
@@ -165,13 +167,13 @@ class _PathChecks:
         self._done(Check.STEPS, _stopped(self._program))
         return stepped_end_findings(self._program, self._steps)
 
-    def _compensated(self) -> "Offsetting | None":
+    def _own_compensation(self) -> "OwnCompensation | None":
         told = compensation_of(self._program.toolpath)
         if told is None:
             return None
-        from sim.check.compensation.check import own_offsetting  # noqa: PLC0415 - other programs start sooner without
+        from sim.check.compensation.check import own_compensation  # noqa: PLC0415 - other programs start sooner without
 
-        return own_offsetting(self._program, told, self._passes, self._rows >= 0)
+        return own_compensation(self._program, told, self._rows >= 0)
 
     def _over_edges(self) -> Iterator[Finding]:
         """Findings about passes over one edge: as they are programmed, as the wire runs, and what they leave uncut."""
@@ -182,8 +184,7 @@ class _PathChecks:
             yield from tab_findings(program, rows, passes)
         made = self.compensation
         if made is not None:
-            program, rows = made.program, rows[made.path.source_row]
-            passes = find_passes(program.toolpath)
+            program, rows, passes = made.program, rows[made.path.source_row], made.edge_passes
         yield from pass_findings(program, rows, passes, self._demands.offset_um)
 
     @property
@@ -227,7 +228,7 @@ class _PathChecks:
             self._done(Check.TRAVEL, "reason-damaged" if program.reading.damages else _stopped(program))
 
     def _done(self, name: Check, reason: str = "") -> None:
-        self.states.append(_state_of(self._program, name, reason))
+        self.states.append(_state_of(self._program, name, reason or self._program.reading.not_simulated))
 
 
 def _closed(rows: Ints, closures: list[Finding]) -> Ints:

@@ -76,7 +76,7 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     svg: bool,
     **options: Any,
 ) -> None:
-    """Draw a 3B program, or a scenario folder that holds one: its path, or pictures of a dry run of it.
+    """Draw a 3B or ISO program, or a scenario folder that holds one: its path, or pictures of a dry run of it.
 
     path: the path as it is programmed, with what the check finds; nothing runs for it. All others need a dry run.
     cut: the path as it will be cut, with kerf, parts and findings. along, whiskers, polar, histogram: how far wire

@@ -85,7 +85,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     lang: "Language",
     **options: Any,
 ) -> None:
-    """Dry-run a 3B program, or a scenario folder that holds one, and watch it being cut.
+    """Dry-run a 3B or ISO program, or a scenario folder that holds one, and watch it being cut.
 
     Without -o a window opens and plays the run; h shows its keys. With -o a film of it is written, whose last second
     shows the end. An .mp4 needs an encoder: pip install 'drycut[film]'.

@@ -46,7 +46,7 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     scheduler: str | None,
     **options: Any,
 ) -> None:
-    """Dry-run a 3B program, or a scenario folder that holds one; or all of them in folders and globs.
+    """Dry-run a 3B or ISO program, or a scenario folder that holds one; or all of them in folders and globs.
 
     Plans and steps the program as its controller does, lets the table follow, and compares both with the ideal
     geometry.
@@ -62,6 +62,7 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     drycut run part.3b --interpolator card --card-log part.log
     drycut run contour.3b --offset 0.1mm --side right
     drycut run contour.3b --offset 0.18mm,0.12mm,0.1mm --side right
+    drycut run die.iso --dialect robofil --offset D0=0.11mm
     drycut run part.3b --kerf --drawing part.dxf --tolerance 5um
     drycut run programs/ 'jigs/*.4b' -o out/ --jobs 4
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace

@@ -189,7 +189,8 @@ def dry_run(
     contours = find_contours(toolpath, stepped.corner_um)
     ended = trip_of(moved.losses) or ended
     cut = _cut(trace, ended)
-    passes, border_s = find_passes(toolpath), _borders(plan, ready.steps.along_um)
+    passes = find_passes(toolpath) if ready.offset is None else ready.offset.edge_passes
+    border_s = _borders(plan, ready.steps.along_um)
     time_s = _times_within(border_s, ended.t_s if ended else plan.duration_s)
     way = wire_taken(toolpath, plan, cut)
     left = left_of(program, cut, contours, scenario, drawing, progress)

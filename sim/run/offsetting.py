@@ -14,6 +14,7 @@ from parser.findings.errors import ProgramError, SettingsError
 from parser.findings.facts import telling
 from parser.findings.findings import Finding, file_order
 from parser.program import Program
+from parser.shape.passes import find_passes
 from sim.check.beside import Beside, Distances, Offsetting, PassBeside, beside_round
 from sim.check.compensation.asked import WithoutValue, compensation_of, is_known
 from sim.check.engine import Demands, run_checks
@@ -50,12 +51,14 @@ def offsetting(program: Program, offset: Offset) -> Offsetting:
         *gouge_findings(program, offset, passed, path, met),
         *loop_findings(program, offset, passed, closed),
     ]
+    run = replace(program, toolpath=offset_toolpath(passed, path))
     return Offsetting(
         passed=passed,
-        program=replace(program, toolpath=offset_toolpath(passed, path)),
+        program=run,
         path=path,
         side=offset.side,
         passes=tuple(PassBeside(one.by_um, back) for one, back in zip(offset.passes, offset.back, strict=True)),
+        edge_passes=find_passes(run.toolpath),
         left_um=left_um,
         gouges=met,
         loops=tuple(closed.values()),

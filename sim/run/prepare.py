@@ -13,7 +13,6 @@ from parser.findings.codes import Check
 from parser.findings.facts import WithoutOffset
 from parser.findings.findings import Finding
 from parser.program import Program
-from parser.shape.passes import find_passes
 from sim.check.beside import Offsetting
 from sim.check.engine import Checked, Demands, run_checks
 from sim.check.passes import asked_pass_findings
@@ -113,7 +112,7 @@ def _between_passes(offset: Offsetting, scenario: Scenario) -> list[Finding]:
     """
     if scenario.offset is None or len(scenario.offset.passes) == 1:
         return []
-    return asked_pass_findings(offset.program, find_passes(offset.program.toolpath), scenario.wire.reach_um)
+    return asked_pass_findings(offset.program, offset.edge_passes, scenario.wire.reach_um)
 
 
 def _looked_at(coverage: Coverage, names: Sequence[Check]) -> Coverage:

@@ -10,11 +10,10 @@ from sim.show.words.phrases import as_read, listed
 
 
 def taken_for_granted(run: DryRun) -> list[Said]:
-    """A sentence for the machine, and one for each thing that nobody has told, measured or looked at."""
+    """A sentence for each: how the program was read, the machine, and what nobody has measured or looked at."""
     found = assumptions_of(run)
-    told = [said("assumptions.by-default" if found.by_default else "assumptions.chosen", machine=found.machine)]
-    if found.program:
-        told.append(said("assumptions.program", parts=as_read(found.program)))
+    told = [said("assumptions.program", parts=as_read(found.program))] if found.program else []
+    told.append(said("assumptions.by-default" if found.by_default else "assumptions.chosen", machine=found.machine))
     if found.values:
         names = {key.name: words_of(section, key).name for section in SECTIONS for key in section.keys}
         told.append(

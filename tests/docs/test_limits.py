@@ -4,9 +4,10 @@ import re
 
 from places import ROOT
 
+from parser import units
 from parser.drawing import blocks, document, flat, splines
 from parser.files import reading
-from parser.threeb import columns, reader
+from parser.threeb import reader
 from sim.check import too_large
 from sim.check.blame import settle
 from sim.check.shape import crossings
@@ -19,7 +20,7 @@ PAGE = (ROOT / "docs" / "limits.md").read_text("utf-8")
 VALUES = {
     "size of a file, or of the standard input": f"{reading.MOST_MB} MB",
     "blocks of a program": reader.MOST_BLOCKS,
-    "a number of a block, µm": columns.MAX_WORD_UM,
+    "a number of a block, µm": units.MAX_WORD_UM,
     "steps of 1 µm": too_large.MAX_STEPS,
     "pairs of pieces of blocks compared for crossings": crossings.MOST_PAIRS,
     "blocks of a program in which one wrong word is looked for": settle.MOST_BLOCKS,

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
-from parser.threeb.columns import MAX_WORD_UM
 from parser.toolpath import Axis, StepWords
+from parser.units import MAX_WORD_UM
 from parser.words.arcs import ArcEnds, arc_ends
 
 X, Y, COUNT = range(3)

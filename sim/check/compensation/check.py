@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,13 +15,21 @@ from parser.geometry.curves import Bools, Floats
 from parser.program import Program
 from parser.shape.passes import Passes
 from parser.toolpath import Compensation, Toolpath
-from sim.check.beside import Offsetting, PassBeside
+from sim.check.beside import Offsetting
 from sim.check.compensation.contours import Held, contour_findings, held
+from sim.check.compensation.passes import drawn_passes, passes_beside, path_passes
 from sim.check.compensation.rounds import CompensatedRound, compensated_rounds, moved_um
 from sim.check.compensation.words import word_findings
 
 
-def own_offsetting(program: Program, told: Compensation, passes: Passes, is_judged: Bools) -> Offsetting:
+class OwnCompensation(NamedTuple):
+    """What a program's own compensation makes of it, and the passes of its own toolpath, as drawn."""
+
+    made: Offsetting
+    drawn_passes: Passes
+
+
+def own_compensation(program: Program, told: Compensation, is_judged: Bools) -> OwnCompensation:
     """What the compensation of a program, as `told`, makes of it.
 
     Stretches whose offset is not known run on the contour. `is_judged` (n,) is False on blocks of contours that are not
@@ -28,24 +37,28 @@ def own_offsetting(program: Program, told: Compensation, passes: Passes, is_judg
     """
     drawn = program.toolpath
     made = compensated(drawn)
-    stretches = held(drawn, made.path, compensated_rounds(drawn, moved_um(told), passes))
+    stretches = held(drawn, made.path, compensated_rounds(drawn, moved_um(told)))
+    runs = [one.run for one in stretches]
     judged = [one for one in stretches if is_judged[slice(*one.run.round[:2])].all()]
     found = [
         *word_findings(program, told, made.alarms),
         *contour_findings(program, made.path, judged, made.alarms),
     ]
-    passed = _as_written(drawn, [one.run for one in stretches], passes)
-    return Offsetting(
+    passes = drawn_passes(runs, len(drawn))
+    passed = _as_written(drawn, runs, passes)
+    offset = Offsetting(
         passed=passed,
         program=replace(program, toolpath=offset_toolpath(passed, made.path)),
         path=made.path,
         side=Side(int(told.side[np.flatnonzero(told.side)[0]])),
-        passes=_passes([one.run for one in stretches], passed, passes),
+        passes=passes_beside(runs),
+        edge_passes=path_passes(runs, made.path),
         left_um=_left_um(made.path, stretches),
         gouges=tuple(gouge for one in stretches for gouge in one.beside.gouges),
         loops=tuple(one.beside.loops for one in stretches if one.beside.loops is not None),
         findings=tuple(sorted((_coded(program, finding) for finding in found), key=file_order)),
     )
+    return OwnCompensation(offset, passes)
 
 
 def _coded(program: Program, finding: Finding) -> Finding:
@@ -55,22 +68,10 @@ def _coded(program: Program, finding: Finding) -> Finding:
 
 def _as_written(drawn: Toolpath, runs: Sequence[CompensatedRound], passes: Passes) -> PassedPath:
     """The toolpath as passes that the program writes out itself."""
-    n = len(drawn)
-    number_of_pass = np.array([one.number - 1 for one in passes.passes] + [-1], dtype=np.int64)
-    number = number_of_pass[passes.of_row]
-    rounds = tuple(PassedRound(one.round, max(int(number[one.round.section.first]), 0)) for one in runs)
-    rows, forward = np.arange(n), np.zeros(n, dtype=np.bool_)
-    return PassedPath(drawn, drawn.picked(slice(None)), rows, number, forward, rounds, drawn.stops)
-
-
-def _passes(runs: Sequence[CompensatedRound], passed: PassedPath, passes: Passes) -> tuple[PassBeside, ...]:
-    """What the passes of each number are: the least offset of all, and the direction of the first."""
-    count = max([one.number for one in passes.passes], default=0)
-    back = {one.number - 1: one.is_back for one in reversed(passes.passes)}
-    by_um: dict[int, float] = {}
-    for run, one in zip(runs, passed.rounds, strict=True):
-        by_um[one.number] = min(run.by_um, by_um.get(one.number, np.inf))
-    return tuple(PassBeside(by_um.get(number, 0.0), back.get(number, False)) for number in range(count))
+    number = np.array([*(one.number - 1 for one in passes.passes), -1], dtype=np.int64)[passes.of_row]
+    rounds = tuple(PassedRound(one.round, one.along.number - 1) for one in runs)
+    forward = np.zeros(len(drawn), dtype=np.bool_)
+    return PassedPath(drawn, drawn.picked(slice(None)), np.arange(len(drawn)), number, forward, rounds, drawn.stops)
 
 
 def _left_um(path: OffsetPath, stretches: Sequence[Held]) -> Floats:

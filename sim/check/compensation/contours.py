@@ -83,7 +83,7 @@ def _stub(program: Program, path: OffsetPath, one: Held, runs: Sequence[Compensa
     """Material that stays where a loop begins and ends (ISO514), though a wire could cut it."""
     run, contour = one.run, one.contour
     ends = np.unique([0, len(contour) - 1])
-    near = [other.round for other in runs if other.edge == run.edge and other.by_um == run.kerf_um]
+    near = [other.round for other in runs if other.along.edge == run.along.edge and other.by_um == run.kerf_um]
     cut = path.curves.picked(np.concatenate([rows_beside(path, each) for each in near]))
     left_um = uncut_um(contour, cut, run.by_um, ends)
     if left_um.max() <= STUB_UM or np.isin(run.round.section.first + ends, path.vanished).any():
@@ -100,7 +100,7 @@ def _told_gouges(stretches: Sequence[Held]) -> Iterator[tuple[CompensatedRound, 
     """Gouges, each place of an edge once: of the pass that comes nearest, the first one of several."""
     told: list[tuple[CompensatedRound, Gouge]] = []
     for one in sorted(stretches, key=lambda one: one.run.by_um):
-        others = [gouge.place_um for run, gouge in told if run.edge == one.run.edge]
+        others = [gouge.place_um for run, gouge in told if run.along.edge == one.run.along.edge]
         told += [
             (one.run, gouge)
             for gouge in one.beside.gouges

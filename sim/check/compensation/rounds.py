@@ -5,6 +5,7 @@ wire keeps to their side as well, but the contour is the loop that the stretch c
 """
 
 from dataclasses import replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -16,9 +17,9 @@ from parser.geometry.along import along_um
 from parser.geometry.curves import Bools, Curves, Floats
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.loops import find_loops
-from parser.shape.passes import Passes
 from parser.toolpath import Compensation, Toolpath
 from sim.check.beside import Distances
+from sim.check.compensation.edges import ALONE, Along, edges_of_contours
 
 
 class CompensatedRound(NamedTuple):
@@ -35,10 +36,10 @@ class CompensatedRound(NamedTuple):
     part_side
         +1 with the part on the left of the path, −1 on the right, 0 where nothing tells: the wire comes to the contour
         from the waste.
-    edge
-        Number of the edge that it runs along: passes over one edge share it.
+    along
+        Which edge it runs along, and in which pass.
     kerf_um
-        Least distance of all stretches along the same edge: what lies nearer is cut from the part.
+        Least distance of all stretches along the same edge, or along its tab: what lies nearer is cut from the part.
     is_nearest
         Whether it is the first of them at that distance, which makes the edge.
     """
@@ -47,7 +48,7 @@ class CompensatedRound(NamedTuple):
     side: Side
     by_um: float
     part_side: int
-    edge: int = -1
+    along: Along = ALONE
     kerf_um: float = 0.0
     is_nearest: bool = True
 
@@ -63,40 +64,59 @@ def moved_um(told: Compensation) -> Floats:
     return moved
 
 
-def compensated_rounds(toolpath: Toolpath, left_um: Floats, passes: Passes) -> tuple[CompensatedRound, ...]:
+def compensated_rounds(toolpath: Toolpath, left_um: Floats) -> tuple[CompensatedRound, ...]:
     """The stretches of a toolpath in order; `left_um` (n,) is how far to the left each block is moved.
 
-    Neither jumps nor blocks that are not moved belong to one. One in which nothing but its set-up moves has no contour,
-    and is left out.
+    Neither jumps nor blocks that are not moved belong to one, and where the offset changes another one begins. What
+    moves but closes no loop, between the same set-up and cancel as one that does, leads to that one or away from it.
     """
-    stretches = _stretches(left_um, ~toolpath.is_jump)
+    stretches = _stretches(left_um, toolpath.is_jump)
     of_row = np.full(len(toolpath), -1, dtype=np.int64)
-    for number, (begin, past) in enumerate(stretches):
-        of_row[begin:past] = number
+    for number, one in enumerate(stretches):
+        of_row[one.begin : one.past] = number
     loops = find_loops(toolpath, of_row, np.arange(len(stretches)))
     loop_of = {of: number for number, of in enumerate(loops.contour.tolist())}
-    was_left_um = np.append(0.0, left_um[:-1])
+    with_loop = {stretches[of].together for of in loop_of}
     found = []
-    for number, (begin, past) in enumerate(stretches):
+    for number, one in enumerate(stretches):
         at, part_side = loop_of.get(number), 0
-        section = OffsetSection(begin + bool(was_left_um[begin] == 0.0), past - 1, closed=False)
+        section = OffsetSection(one.begin + int(one.is_led_in), one.past - 1, closed=False)
         if at is not None:
             section = OffsetSection(int(loops.first[at]), int(loops.last[at]), closed=True)
             part_side = int(loops.part_side[at])
-        if section.first <= section.last:
-            led_out = past < len(toolpath) and left_um[past] == 0.0 and not toolpath.is_jump[past]
-            along = left_um[section.first : section.last + 1]
-            by_um = float(np.abs(along).min())
-            whole = Round(begin, past + bool(led_out), section)
-            found.append(CompensatedRound(whole, Side(int(np.sign(along[0]))), by_um, part_side))
-    return _by_edge(found, passes)
+        if section.first <= section.last and (at is not None or one.together not in with_loop):
+            led_out = one.past < len(toolpath) and left_um[one.past] == 0.0 and not toolpath.is_jump[one.past]
+            side, by_um = Side(int(np.sign(left_um[one.begin]))), abs(float(left_um[one.begin]))
+            begin = one.begin if section.closed else section.first
+            found.append(CompensatedRound(Round(begin, one.past + bool(led_out), section), side, by_um, part_side))
+    return _by_edge(toolpath, found)
 
 
-def _stretches(left_um: Floats, is_cut: Bools) -> list[tuple[int, int]]:
-    """First row of each run of cut blocks that are moved to one side, and one past its last."""
-    way = np.concatenate([[0.0], np.sign(left_um) * is_cut, [0.0]])
-    borders = np.flatnonzero(np.diff(way))
-    return [(low, high) for low, high in zip(borders[:-1].tolist(), borders[1:].tolist(), strict=True) if way[low + 1]]
+class _Stretch(NamedTuple):
+    """Blocks from `begin` up to but without `past` at one offset.
+
+    Whether the first one comes from another offset to the same side, or from none; and a number that the stretch shares
+    with those that no jump and no cancel parts from it.
+    """
+
+    begin: int
+    past: int
+    is_led_in: bool
+    together: int
+
+
+def _stretches(left_um: Floats, is_jump: Bools) -> list[_Stretch]:
+    """Stretches of rows (n,) that are moved."""
+    way = np.concatenate([[0.0], np.where(is_jump, 0.0, left_um), [0.0]])
+    before = np.append(0.0, left_um)
+    found: list[_Stretch] = []
+    for low, high in pairwise(np.flatnonzero(np.diff(way)).tolist()):
+        if way[low + 1]:
+            was = float(before[low])
+            together = found[-1].together if found and way[low] else len(found)
+            is_led_in = bool(was * left_um[low] >= 0.0 and was != left_um[low])
+            found.append(_Stretch(low, high, is_led_in, together))
+    return found
 
 
 def contour_of(curves: Curves, section: OffsetSection) -> Curves:
@@ -119,15 +139,14 @@ def _cut_off(contour: Curves) -> Curves:
     return replace(contour, end_um=end_um, sweep_rad=sweep_rad, length_um=length_um)
 
 
-def _by_edge(rounds: list[CompensatedRound], passes: Passes) -> tuple[CompensatedRound, ...]:
+def _by_edge(toolpath: Toolpath, rounds: list[CompensatedRound]) -> tuple[CompensatedRound, ...]:
     """The stretches, each with its edge and what those along it come to."""
-    middle = [(one.round.section.first + one.round.section.last) // 2 for one in rounds]
-    number = [int(passes.of_row[row]) for row in middle]
-    edge = [passes.passes[of].edge if of >= 0 else -1 - at for at, of in enumerate(number)]
-    nearest: dict[int, int] = {}
+    along = edges_of_contours([contour_of(toolpath, one.round.section) for one in rounds])
+    nearest: dict[tuple[int, bool], int] = {}
     for at in sorted(range(len(rounds)), key=lambda at: rounds[at].by_um):
-        nearest.setdefault(edge[at], at)
-    return tuple(
-        one._replace(edge=of, kerf_um=rounds[nearest[of]].by_um, is_nearest=nearest[of] == at)
-        for at, (of, one) in enumerate(zip(edge, rounds, strict=True))
-    )
+        nearest.setdefault((along[at].edge, along[at].is_tab), at)
+    found = []
+    for at, one in enumerate(rounds):
+        first = nearest[along[at].edge, along[at].is_tab]
+        found.append(one._replace(along=along[at], kerf_um=rounds[first].by_um, is_nearest=first == at))
+    return tuple(found)

@@ -46,10 +46,11 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     scheduler: str | None,
     **asked: Any,
 ) -> None:
-    """Find all that is wrong with 3B programs, before a wire is threaded.
+    """Find all that is wrong with 3B and ISO programs, before a wire is threaded.
 
-    Reads files, all .3b and .4b files of folders, globs, and - for the standard input. Settings stand in drycut.toml,
-    or in [tool.drycut] of pyproject.toml, in the folder of the file or above it in its project; options come first.
+    Reads files, all .3b, .4b, .iso, .nc and .cnc files of folders, globs, and - for the standard input. Settings stand
+    in drycut.toml, or in [tool.drycut] of pyproject.toml, in the folder of the file or above it in its project; options
+    come first.
 
     Exit code: 0 nothing as severe as --fail-on, 1 a finding that is, or a check that could not look at everything,
     2 bad use or unreadable input, 3 a fault of drycut itself.
@@ -58,6 +59,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     drycut check part.3b
     drycut check programs/ --format text --format sarif=drycut.sarif
     drycut check part.3b --fix
+    drycut check die.iso --dialect robofil --offset D0=0.11mm
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from sim.cli.check.jobs import Asked
     from sim.cli.check.outputs import outputs_of

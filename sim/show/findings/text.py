@@ -5,12 +5,13 @@ What is not shown is said: findings that something silences, checks that did not
 
 from collections.abc import Iterable, Iterator
 
+from parser.findings.facts import ReadAs
 from parser.text.encoding import printable
 from sim.check.result import CheckResult
 from sim.show.findings.options import Options
 from sim.show.findings.statistics import table
 from sim.show.findings.totals import Totals
-from sim.show.findings.wording import assumed, reach, reasons, silenced, summary, verdict
+from sim.show.findings.wording import reach, read_as, reasons, silenced, summary, verdict
 from sim.show.terminal.colours import COLOURS, painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped
@@ -34,6 +35,8 @@ def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:
 
 def _file(result: CheckResult, options: Options) -> Iterator[str]:
     for finding in result.findings:
+        if isinstance(finding.fact, ReadAs):
+            continue  # told behind the verdict
         excerpt = result.excerpts.get(finding.line)
         for line in finding_lines(result.name, finding, excerpt, options.language, options.width):
             yield painted(line, finding.severity) if options.colour else "".join(part.text for part in line)
@@ -42,7 +45,7 @@ def _file(result: CheckResult, options: Options) -> Iterator[str]:
 
 
 def _outcome(result: CheckResult, options: Options) -> Iterator[str]:
-    """Verdict and how far the check came; then what was assumed, why checks did not end, what silences findings.
+    """Verdict and how far the check came; then how its text was read, why checks did not end, what silences findings.
 
     Name and verdict are never parted, however long the name is.
     """
@@ -51,8 +54,7 @@ def _outcome(result: CheckResult, options: Options) -> Iterator[str]:
         yield _styled(line, COLOURS[result.verdict], options)
     told = [] if result.unreadable else reasons(result.coverage.checks, options.language)
     hidden = silenced(result.silenced, (result.settings_file,), options.language)
-    taken = assumed(result.assumptions, options.language)
-    for text in filter(None, [taken, *told, hidden]):
+    for text in filter(None, [read_as(result, options.language), *told, hidden]):
         yield from wrapped(printable(text), options.width, _INDENT, _INDENT * 2)
 
 

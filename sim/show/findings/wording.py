@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from parser.dialect.reader import Assumption
 from parser.findings.catalogue import Language, term
 from parser.findings.codes import Severity
+from parser.findings.facts import ReadAs, telling
 from parser.findings.findings import Finding
 from sim.check.result import CheckResult, CheckState, Coverage, Silenced, State
 from sim.show.findings.totals import Totals
@@ -44,9 +44,13 @@ def reach(result: CheckResult, language: Language) -> str:
     return say("findings.stop").join(filter(None, parts))
 
 
-def assumed(assumptions: Sequence[Assumption], language: Language) -> str:
-    """``read as: unit 0.001 mm (whole numbers), …``: what the text leaves open; empty where it leaves nothing."""
-    return Words(language)("findings.assumed", parts=as_read(assumptions)) if assumptions else ""
+def read_as(result: CheckResult, language: Language) -> str:
+    """``read as (ISO112): unit 0.001 mm (…), …``: what the text leaves open; empty where it leaves nothing."""
+    if not result.assumptions:
+        return ""
+    told = next((finding for finding, _ in telling(result.findings, ReadAs)), None)
+    key = "findings.read-as-finding" if told else "findings.read-as"
+    return Words(language)(key, code=told and told.code, parts=as_read(result.assumptions))
 
 
 def summary(totals: Totals, language: Language) -> str:

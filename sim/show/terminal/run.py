@@ -3,6 +3,7 @@
 import math
 from pathlib import Path
 
+from parser.findings.facts import ReadAs
 from parser.units import mm
 from sim.measure.deviation.deviation import Where
 from sim.run.dryrun import DryRun
@@ -47,13 +48,14 @@ def print_summary(run: DryRun, output: Path | None) -> None:
 
 def _print_findings(run: DryRun, output: Path | None) -> None:
     name, width = str(run.scenario.program), width_of(outlet())
-    for finding in run.findings[:_MOST_FINDINGS]:
+    findings = [found for found in run.findings if not isinstance(found.fact, ReadAs)]  # told with what was assumed
+    for finding in findings[:_MOST_FINDINGS]:
         excerpt = run.program.excerpt(finding.line) if finding.column else None
         for line in finding_lines(name, finding, excerpt, "en", width):
             say(painted(line, finding.severity))
-    if len(run.findings) > _MOST_FINDINGS:
+    if len(findings) > _MOST_FINDINGS:
         there = "in report.json" if output else "in the report; -o DIR or --json shows them"
-        say(f"… and {len(run.findings) - _MOST_FINDINGS} findings more, {there}")
+        say(f"… and {len(findings) - _MOST_FINDINGS} findings more, {there}")
 
 
 def summary_rows(run: DryRun) -> list[Row]:

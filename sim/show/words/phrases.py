@@ -1,6 +1,7 @@
 """Texts put together in both languages: names and numbers, lists, counts, durations."""
 
 from collections.abc import Iterable, Mapping
+from itertools import groupby
 
 from parser.dialect.reader import Assumption
 from parser.findings.catalogue import LANGUAGES, Said, term
@@ -28,11 +29,21 @@ def catalogued(key: str) -> Said:
 
 
 def as_read(assumptions: Iterable[Assumption]) -> Said:
-    """What the text of a program leaves open, and was taken: ``unit 0.001 mm (whole numbers), …``."""
+    """What the text of a program leaves open, and was taken; those with one reason together.
+
+    ``dialect fast-wire (it ends with M02), unit 1 = 0.001 mm, I J from the start (the dialect begins so)``.
+    """
     return listed(
-        said("phrases.taken", what=catalogued(one.what), taken=one.taken, why=catalogued(one.why))
-        for one in assumptions
+        said("phrases.for-a-reason", taken=listed(map(_taken, group)), why=catalogued(why))
+        for why, group in groupby(assumptions, key=lambda one: one.why)
     )
+
+
+def _taken(one: Assumption) -> Said:
+    """What was taken, by its term of the catalogue where it is a word and no figure."""
+    words = catalogued(f"{one.what.removeprefix('assumed-')}-{one.taken}")
+    is_term = not words.en.startswith("`")
+    return said("phrases.taken", what=catalogued(one.what), taken=words if is_term else one.taken)
 
 
 def numbered(number: Mapping[str, int]) -> Said:

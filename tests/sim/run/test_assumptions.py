@@ -33,6 +33,7 @@ def test_a_program_alone_runs_on_the_default_machine_and_says_so(
 ) -> None:
     run = dry_run(read_program(program), replace(load_scenario(program), may_stay_open=True))
     assert build_report(run)["assumptions"] == {
+        "program": [],
         "machine_by_default": True,
         "machine_values": list(load_machine("dk7740").assumed),
         "drawing_compared": False,

@@ -50,7 +50,7 @@ def draw_path(sheet: Sheet[AnyCanvas], shown: Programmed) -> AnyCanvas:
 def cut_of_path(shown: Programmed, say: Words) -> Cut:
     """A cut of which no more is known than its program, machine and wire."""
     toolpath, scenario = shown.program.toolpath, shown.scenario
-    passes = find_passes(toolpath)
+    passes = find_passes(toolpath) if shown.offset is None else shown.offset.edge_passes
     return Cut(
         toolpath=toolpath,
         kerf_um=scenario.wire.kerf_um,

@@ -1,0 +1,62 @@
+"""What another language has no words for: told of a text before it is written otherwise."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Bools
+from parser.iso.lexer import read_listing
+from parser.iso.listing import Listing
+
+_MOST_NAMED = 8
+_SWITCHES = "ABCEFQSTUVWZ"
+_STOPS = (1, 20, 21, 50, 60)
+_OF_THE_PATH = (0, 2, 30, 98, 99, 199, *_STOPS)
+
+
+class Loss(NamedTuple):
+    """Something that is not in the written text any more, or is there otherwise.
+
+    Attributes
+    ----------
+    what
+        Name of its text for people, ``convert.lost-…``.
+    of
+        The words themselves, for people; empty where they are only counted.
+    count
+        How many there are.
+    """
+
+    what: str
+    of: str
+    count: int
+
+
+def lost_words(text: str) -> tuple[Loss, ...]:
+    """Words of an ISO text that switch something, stop or call: none of them moves the wire."""
+    listing = read_listing(text)
+    words = listing.words
+    is_m = words.letter == ord("M")
+    switches = np.isin(words.letter, [ord(letter) for letter in _SWITCHES])
+    switches |= is_m & ~np.isin(words.value, _OF_THE_PATH)
+    losses = [
+        _named("switches", listing, switches),
+        _named("stops", listing, is_m & np.isin(words.value, _STOPS)),
+        _named("calls", listing, is_m & (words.value == 98)),  # noqa: PLR2004 - M98
+        Loss("remarks", "", len(listing.remarks)),
+        Loss("skips", "", int(listing.blocks.is_skipped.sum())),
+    ]
+    return tuple(loss for loss in losses if loss.count)
+
+
+def _named(what: str, listing: Listing, chosen: Bools) -> Loss:
+    at = np.flatnonzero(chosen)
+    spans = zip(listing.words.first[at].tolist(), listing.words.past[at].tolist(), strict=True)
+    return Loss(what, some(listing.text[slice(*span)] for span in spans), len(at))
+
+
+def some(names: Iterable[str]) -> str:
+    """Names without those that are there already, the first few of them."""
+    each = list(dict.fromkeys(names))
+    return ", ".join(each[:_MOST_NAMED]) + (" …" if len(each) > _MOST_NAMED else "")

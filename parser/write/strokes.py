@@ -1,0 +1,105 @@
+"""Strokes: a draft in whole steps of what ISO is written in, one for each block: places, centres, motion words."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
+from parser.write.draft import Draft, picked
+
+_FULL_UM = 1.5
+"""A turn that ends no farther from its start is written as a full circle."""
+_SHORT_STEPS = 3.0
+"""An arc of a longer chord keeps its sense, however its places are rounded; a shorter one is a line within a step."""
+
+
+class Strokes(NamedTuple):
+    """Blocks to be written, (m,) rows; places are in steps of the text.
+
+    Attributes
+    ----------
+    row
+        Of the draft.
+    motion
+        0 in the air, 1 straight, 2 clockwise, 3 counter-clockwise.
+    start, end
+        (m, 2) int64 places.
+    to_center
+        (m, 2) int64, from the start to the centre; 0 without one.
+    """
+
+    row: Ints
+    motion: Ints
+    start: Ints
+    end: Ints
+    to_center: Ints
+
+
+def strokes_of(draft: Draft, step_um: float) -> Strokes:
+    """The strokes of a draft: places rounded from where it begins, so that rounding does not add up.
+
+    Turns beyond a full one are strokes of their own. Rows that a step leaves no length are none, so that stops, sides
+    and what follows have to be written by the rows of the draft.
+    """
+    turned, row = _in_turns(draft)
+    curves = turned.curves
+    full = _is_full(curves)
+    places = _places(curves, step_um, full)
+    start, end = places[:-1], places[1:]
+    chord = np.hypot(*(end - start).T)
+    short = curves.is_arc & ~full & (chord <= _SHORT_STEPS) & (np.abs(curves.sweep_rad) < np.pi)
+    motion = np.select(
+        [curves.kind == CurveKind.JUMP, ~curves.is_arc | short, curves.sweep_rad < 0.0], [0, 1, 2], 3
+    ).astype(np.int64)
+    center = np.where((motion >= 2)[:, None], _to_center(turned, start, places, step_um), 0)
+    kept = np.flatnonzero((chord > 0.0) | full | turned.is_placed)
+    return Strokes(row[kept], motion[kept], start[kept], end[kept], center[kept])
+
+
+def _in_turns(draft: Draft) -> tuple[Draft, Ints]:
+    """A draft whose arcs turn once at most, and (m,) the row that each of its rows is of."""
+    curves = draft.curves
+    whole = np.maximum(np.floor((np.abs(curves.sweep_rad) - 1e-9) / (2.0 * np.pi)), 0.0).astype(np.int64)
+    whole[_is_full(curves)] = 0
+    row = np.repeat(np.arange(len(draft)), whole + 1)
+    if len(row) == len(draft):
+        return draft, row
+    is_whole = np.append(row[1:] == row[:-1], False)
+    turned = picked(draft, row)
+    arcs = turned.curves
+    turn = np.copysign(2.0 * np.pi, arcs.sweep_rad)
+    sweep = np.where(is_whole, turn, arcs.sweep_rad - turn * whole[row])
+    end = np.where(is_whole[:, None], arcs.start_um, arcs.end_um)
+    return replace(turned, curves=replace(arcs, end_um=end, sweep_rad=np.where(arcs.is_arc, sweep, 0.0))), row
+
+
+def _is_full(curves: Curves) -> Bools:
+    """(n,) arcs that turn once, and end where they start but for rounding."""
+    off = np.hypot(*(curves.end_um - curves.start_um).T)
+    return curves.is_arc & (off <= _FULL_UM) & (np.abs(np.abs(curves.sweep_rad) - 2.0 * np.pi) < np.pi)
+
+
+def _places(curves: Curves, step_um: float, full: Bools) -> Ints:
+    """(n + 1, 2) places between the rows; a full circle ends where it starts."""
+    begin = curves.start_um[:1]
+    ends = np.rint((curves.end_um - begin) / step_um) + np.rint(begin / step_um)
+    places = np.concatenate([np.rint(begin / step_um), ends]).astype(np.int64)
+    at = np.arange(len(places))
+    at[1:][full] = 0
+    held: Ints = places[np.maximum.accumulate(at)]
+    return held
+
+
+def _to_center(draft: Draft, start: Ints, places: Ints, step_um: float) -> Ints:
+    """(n, 2) from the written start to the centre: as it is told, else to where the centre is.
+
+    Told in finer steps than are written, a centre lies nearer to where it is than to what its block says.
+    """
+    if not len(draft):
+        return np.zeros((0, 2), dtype=np.int64)
+    shift = places[0] * step_um - draft.curves.start_um[0]
+    exact = draft.curves.center_um + shift - start * step_um
+    told = np.isnan(draft.told_um) | (step_um > 1.0)
+    by: Floats = np.where(told, exact, draft.told_um)
+    return np.nan_to_num(np.rint(by / step_um)).astype(np.int64)

@@ -1,0 +1,117 @@
+"""Which contours that a program compensates are one edge: a program writes each pass over it along the same places."""
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.along import along_um, headings_along, places
+from parser.geometry.broad_phase_places import nearest_um
+from parser.geometry.curves import Curves, Floats
+from parser.geometry.distance import distance_to_curves
+from parser.geometry.extents import extents
+from parser.shape.closing import CLOSED_WITHIN_UM
+
+_ON_UM = CLOSED_WITHIN_UM  # whole µm, and arcs that were drawn anew for a later pass
+_MOST = 0.5  # of a contour that runs along another
+
+
+class Along(NamedTuple):
+    """A contour among all of a program.
+
+    Attributes
+    ----------
+    edge
+        Number of its edge, from 0 in the order first cut.
+    number
+        Of its pass over this edge, from 1.
+    is_back
+        Whether it runs against the first pass over this edge.
+    is_tab
+        Whether it cuts what the first pass leaves between its ends.
+    """
+
+    edge: int
+    number: int
+    is_back: bool
+    is_tab: bool
+
+
+ALONE = Along(0, 1, is_back=False, is_tab=False)
+"""The only contour."""
+
+
+class _Edge(NamedTuple):
+    """The first contour along an edge: its curves, its box (2, 2), its length, and whether it closes."""
+
+    curves: Curves
+    box_um: Floats
+    length_um: float
+    is_closed: bool
+
+
+def edges_of_contours(contours: Sequence[Curves]) -> tuple[Along, ...]:
+    """Edges of the contours, each of them in the order in which it is cut."""
+    edges: list[_Edge] = []
+    counts: list[int] = []
+    found = []
+    for curves in contours:
+        one = _edge(curves)
+        of, is_tab = next(_matches(one, edges), (len(edges), False))
+        if of == len(edges):
+            edges.append(one)
+            counts.append(0)
+        counts[of] += 1
+        is_back = counts[of] > 1 and _is_back(one, edges[of], is_tab)
+        found.append(Along(of, counts[of], is_back, is_tab))
+    return tuple(found)
+
+
+def _edge(curves: Curves) -> _Edge:
+    low, high = extents(curves)
+    gap_um = float(np.hypot(*(curves.end_um[-1] - curves.start_um[0])))
+    box = np.stack([low.min(axis=0), high.max(axis=0)])
+    return _Edge(curves, box, float(curves.length_um.sum()), gap_um <= CLOSED_WITHIN_UM)
+
+
+def _matches(one: _Edge, edges: Sequence[_Edge]) -> Iterator[tuple[int, bool]]:
+    """The edges that a contour runs along, or whose tab it cuts."""
+    for number, other in enumerate(edges):
+        low, high = np.maximum(one.box_um[0], other.box_um[0]), np.minimum(one.box_um[1], other.box_um[1])
+        if (low > high + _ON_UM).any():
+            continue
+        shorter, longer = sorted((one, other), key=lambda edge: edge.length_um)
+        if _share_on(shorter.curves, longer.curves) >= _MOST and shorter.length_um >= _MOST * longer.length_um:
+            yield number, False
+        elif _is_tab(one, other):
+            yield number, True
+
+
+def _share_on(curves: Curves, other: Curves) -> float:
+    """Share of the length of curves that runs along others, by the middles of the curves."""
+    middle = places(curves, np.arange(len(curves)), np.full(len(curves), 0.5))
+    on = nearest_um(other, middle, _ON_UM) <= _ON_UM
+    return float(curves.length_um[on].sum() / max(float(curves.length_um.sum()), 1e-9))
+
+
+def _is_tab(one: _Edge, other: _Edge) -> bool:
+    """Whether a contour goes from one end of an open one to the other, at most a little way along it."""
+    if other.is_closed or one.is_closed or one.length_um > _MOST * other.length_um:
+        return False
+    ends = np.stack([other.curves.start_um[0], other.curves.end_um[-1]])
+    return bool((nearest_um(one.curves, ends, _ON_UM) <= _ON_UM).all())
+
+
+def _is_back(one: _Edge, first: _Edge, is_tab: bool) -> bool:
+    """Whether a contour runs against the first one along its edge, or its tab from the start of that one to its end."""
+    if is_tab:
+        from_end = np.hypot(*(one.curves.start_um[0] - first.curves.end_um[-1]))
+        return bool(np.hypot(*(one.curves.start_um[0] - first.curves.start_um[0])) < from_end)
+    row = np.array([int(np.argmax(one.curves.length_um))])
+    place = places(one.curves, row, np.array([0.5]))
+    rows = np.arange(len(first.curves))
+    off, _ = distance_to_curves(first.curves, rows, *np.broadcast_to(place, (len(rows), 2)).T)
+    near = np.array([int(np.argmin(off))])
+    way = headings_along(first.curves, near, along_um(first.curves, near, place))
+    own = headings_along(one.curves, row, 0.5 * one.curves.length_um[row])
+    return float((way * own).sum()) < 0.0

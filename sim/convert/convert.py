@@ -1,0 +1,115 @@
+"""A program checked, written in another language, read back, checked again and held against what it was written of."""
+
+from typing import NamedTuple
+
+from parser.dialect.reader import Choices
+from parser.findings.codes import Severity
+from parser.findings.errors import ProgramError
+from parser.findings.findings import Finding
+from parser.program import Program, load_program
+from parser.toolpath import Toolpath
+from parser.write.draft import Draft, Written
+from parser.write.losses import Loss
+from sim.check.engine import Checked, Demands, run_checks
+from sim.convert.losses import losses
+from sim.convert.proof import Proof, proof
+from sim.convert.wanted import Wanted, draft_for, read_with, written
+
+
+class Converted(NamedTuple):
+    """A program that was written and proved.
+
+    Attributes
+    ----------
+    data
+        Bytes of its text.
+    program, checked
+        What reading them gives, and what its check finds.
+    off_um, bound_um
+        How far it is from what it was written of, at most, and how far it may be.
+    lost
+        What it has not got of the program that it was converted of.
+    told_by_itself
+        Whether it is read the same without being told its dialect and unit.
+    """
+
+    data: bytes
+    program: Program
+    checked: Checked
+    off_um: float
+    bound_um: float
+    lost: tuple[Loss, ...]
+    told_by_itself: bool
+
+
+class Refused(NamedTuple):
+    """Why there is no conversion.
+
+    Attributes
+    ----------
+    why
+        Name of a text for people, ``convert.refused-…``.
+    program
+        The one that its findings are of: that to be converted, or the one that was written.
+    findings
+        What speaks against it.
+    values
+        What fills the text.
+    """
+
+    why: str
+    program: Program
+    findings: tuple[Finding, ...] = ()
+    values: tuple[tuple[str, str], ...] = ()
+
+
+def converted(program: Program, wanted: Wanted) -> Converted | Refused:
+    """Convert a program; what has errors, or could not be read as a whole, is not converted.
+
+    SettingsError where the dialect cannot say what the program needs.
+    """
+    checked = run_checks(program, Demands())
+    if _errors(checked):
+        return Refused("source", program, _errors(checked))
+    if not checked.coverage.is_complete:
+        return Refused("incomplete", program)
+    draft = draft_for(_path(program, checked, wanted), wanted)
+    if not len(draft):
+        return Refused("nothing", program)
+    return _proved(program, draft, written(draft, wanted), wanted)
+
+
+def _path(program: Program, checked: Checked, wanted: Wanted) -> Toolpath:
+    """The path as programmed where compensation is kept, else with what the controller makes of it."""
+    if wanted.keeps or checked.compensation is None:
+        return program.toolpath
+    return checked.compensation.program.toolpath
+
+
+def _proved(program: Program, draft: Draft, made: Written, wanted: Wanted) -> Converted | Refused:
+    data = made.text.encode()
+    choices = read_with(draft, wanted)
+    try:
+        back = load_program(data, f"{program.name} → {wanted.language}", choices)
+    except ProgramError as error:
+        return Refused("result", program, (error.finding,))
+    checked = run_checks(back, Demands())
+    if _errors(checked):
+        return Refused("result", back, _errors(checked))
+    held = proof(draft, made, back.toolpath)
+    if held.differs:
+        return Refused("differs", back, values=(("what", f"convert.differs-{held.differs}"),))
+    if held.off_um > wanted.bound_um:
+        return Refused("off", back, values=(("off", f"{held.off_um:.3f}"), ("bound", f"{wanted.bound_um:g}")))
+    told = wanted.iso is None or _is_told_by_itself(data, draft, made, wanted, choices)
+    return Converted(data, back, checked, held.off_um, wanted.bound_um, losses(program, draft, made, wanted), told)
+
+
+def _is_told_by_itself(data: bytes, draft: Draft, made: Written, wanted: Wanted, choices: Choices) -> bool:
+    """Whether the text alone tells how it is to be read."""
+    alone = proof(draft, made, load_program(data, "alone", Choices(registers=choices.registers)).toolpath)
+    return alone == Proof(alone.off_um) and alone.off_um <= wanted.bound_um
+
+
+def _errors(checked: Checked) -> tuple[Finding, ...]:
+    return tuple(finding for finding in checked.findings if finding.severity is Severity.ERROR)

@@ -1,0 +1,55 @@
+"""What a conversion loses, or writes otherwise, told before anybody misses it."""
+
+import numpy as np
+
+from parser.geometry.curves import CurveKind
+from parser.program import Program
+from parser.toolpath import StepWords, Toolpath
+from parser.write.draft import Draft, Written
+from parser.write.losses import Loss, lost_words, some
+from sim.convert.wanted import Wanted
+
+
+def losses(program: Program, draft: Draft, made: Written, wanted: Wanted) -> tuple[Loss, ...]:
+    """What the written text does not have of a program, in the order in which it is told."""
+    words = program.toolpath.words
+    of_text = lost_words(program.text) if words is None else _lost_fields(program, words, wanted)
+    found = (*of_text, *_lost_offsets(program.toolpath, wanted), *_changed_rows(draft, made, wanted))
+    return tuple(loss for loss in found if loss.count)
+
+
+def _lost_fields(program: Program, words: StepWords, wanted: Wanted) -> tuple[Loss, ...]:
+    """What stands in 3B and 4B beside their blocks, and what their words say otherwise than they would be told."""
+    longer = np.maximum(words.x_um, words.y_um)
+    reduced = (words.turn == 0) & (longer != words.count_um) & (program.toolpath.kind != CurveKind.JUMP)
+    header = any(bool(value) for value in program.header.values())
+    prints = not bool(np.isnan(program.toolpath.printed_end_um).all())
+    return (
+        Loss("header", "", int(header and wanted.form != "detailed")),
+        Loss("remarks", "", len(program.reading.remarks)),
+        Loss("prints", "", int(prints and wanted.form != "detailed")),
+        Loss("reduced", "", int(reduced.sum()) if wanted.iso is not None else 0),
+        Loss("radii", "", int((words.radius_um > 0).sum()) if wanted.language != "4b" else 0),
+    )
+
+
+def _lost_offsets(toolpath: Toolpath, wanted: Wanted) -> tuple[Loss, ...]:
+    told = toolpath.compensation
+    if told is None or not told.side.any():
+        return ()
+    names = [name for name, side in zip(told.register, told.side.tolist(), strict=True) if side]
+    if wanted.keeps and wanted.iso is not None:
+        return ()
+    return (Loss("offsets-left" if wanted.keeps else "offsets-worked-in", some(filter(None, names)), len(set(names))),)
+
+
+def _changed_rows(draft: Draft, made: Written, wanted: Wanted) -> tuple[Loss, ...]:
+    """Rows that became no block, more than one, or one of another kind."""
+    blocks = np.bincount(made.row, minlength=len(draft))
+    is_jump = draft.curves.kind == CurveKind.JUMP
+    rapids = is_jump & ~draft.is_placed & (wanted.iso is None) & (draft.words is None)
+    return (
+        Loss("rapids", "", int((rapids & (blocks > 0)).sum())),
+        Loss("nothing", "", int((blocks == 0).sum())),
+        Loss("split", "", int((blocks > 1).sum())),
+    )

@@ -1,0 +1,94 @@
+"""A written program held against what it was written of, block by block."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import CurveKind, Curves, Floats, Ints
+from parser.toolpath import Compensation, Toolpath
+from parser.write.draft import Draft, Written
+
+_SHARES = (0.25, 0.5, 0.75)
+_OFFSET_UM = 0.1
+
+
+class Proof(NamedTuple):
+    """How far the written path is from the drafted one, µm; and what else is not the same, empty where all is.
+
+    `differs` names a text for people, ``convert.differs-…``.
+    """
+
+    off_um: float
+    differs: str = ""
+
+
+def proof(draft: Draft, made: Written, read: Toolpath) -> Proof:
+    """What reading a written text gives, beside what it was written of.
+
+    Both begin at the same place: where that is rounded, the whole path lies as much aside.
+    """
+    if len(read) != len(made.row):
+        return Proof(np.inf, "blocks")
+    if not len(read):
+        return Proof(0.0)
+    is_jump = draft.curves.kind == CurveKind.JUMP
+    if ((read.kind == CurveKind.JUMP) != is_jump[made.row]).any():
+        return Proof(np.inf, "jumps")
+    if not _stops_alike(draft, made.row, read):
+        return Proof(np.inf, "stops")
+    if not _sides_alike(draft.compensation, made.row, read.compensation):
+        return Proof(np.inf, "offsets")
+    return Proof(_off_um(draft.curves, made.row, read), "" if _turns_alike(draft.curves, made.row, read) else "turns")
+
+
+def _off_um(curves: Curves, row: Ints, read: Toolpath) -> float:
+    """The largest distance: of ends, and of places on each curve from the one that it was written of."""
+    shift = curves.start_um[0] - read.start_um[0]
+    last = np.searchsorted(row, np.arange(len(curves)), side="right") - 1
+    ends = np.where((last >= 0)[:, None], read.end_um[np.maximum(last, 0)], read.start_um[0]) + shift
+    off = [np.hypot(*(ends - curves.end_um).T)]
+    source = curves.picked(row)
+    for share in _SHARES:
+        off.append(_beside(source, _at(read, share) + shift))
+    return float(np.max(np.concatenate(off)))
+
+
+def _at(path: Curves, share: float) -> Floats:
+    """(m, 2) places at a share of each curve."""
+    angle = path.start_angle_rad + share * path.sweep_rad
+    round_ = path.center_um + path.radius_um[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    return np.where(path.is_arc[:, None], round_, path.start_um + share * (path.end_um - path.start_um))
+
+
+def _beside(curves: Curves, place: Floats) -> Floats:
+    """(m,) how far places lie from the circles and the lines of curves."""
+    by = curves.end_um - curves.start_um
+    length = np.hypot(by[:, 0], by[:, 1])
+    out = place - curves.start_um
+    across = np.abs(by[:, 0] * out[:, 1] - by[:, 1] * out[:, 0]) / np.where(length > 0.0, length, 1.0)
+    from_center = place - np.where(curves.is_arc[:, None], curves.center_um, 0.0)
+    round_ = np.abs(np.hypot(from_center[:, 0], from_center[:, 1]) - curves.radius_um)
+    return np.where(curves.is_arc, round_, np.where(length > 0.0, across, np.hypot(out[:, 0], out[:, 1])))
+
+
+def _turns_alike(curves: Curves, row: Ints, read: Toolpath) -> bool:
+    """Whether what is written of each arc turns as far as it does: ends and distances do not know a turn from none."""
+    turned = np.bincount(row, read.sweep_rad, minlength=len(curves))
+    return bool((np.abs(turned - curves.sweep_rad) < np.pi).all())
+
+
+def _stops_alike(draft: Draft, row: Ints, read: Toolpath) -> bool:
+    """Whether every pause is there, at its place, and the end; other languages pause where the wire is threaded too."""
+    there = {stop.after for stop in read.stops if stop.kind == "pause"}
+    wanted = {int(np.searchsorted(row, stop.after)) for stop in draft.stops if stop.kind == "pause"}
+    return wanted <= there | {0, len(row)} and any(stop.kind == "end" for stop in read.stops)
+
+
+def _sides_alike(drafted: Compensation | None, row: Ints, read: Compensation | None) -> bool:
+    if drafted is None or not drafted.side.any():
+        return read is None or not read.side.any()
+    if read is None:
+        return False
+    by_um = np.where(drafted.side != 0, drafted.by_um, 0.0)[row]
+    near = np.isclose(read.by_um, by_um, rtol=0.0, atol=_OFFSET_UM, equal_nan=True)
+    return bool((read.side == drafted.side[row]).all() and near.all())

@@ -1,0 +1,75 @@
+"""What a program is to be converted to, and the text that is written of a toolpath."""
+
+from typing import Literal, NamedTuple
+
+from parser.dialect.reader import STANDARD_CHOICES, Choices
+from parser.toolpath import Toolpath
+from parser.write.curve_marks import curve_marks
+from parser.write.draft import Draft, Written, draft_of
+from parser.write.iso import written_iso
+from parser.write.iso_choices import IsoChoices
+from parser.write.sides import registers_of
+from parser.write.threeb import Form, ThreeBChoices, written_3b
+
+Language = Literal["3b", "4b", "iso"]
+_BOUND_3B_UM = 3.0  # a radius of whole µm and a count of whole µm from where the last block ended: docs/iso.md §10
+_BOUND_ISO_UM = 1.0
+
+
+class Wanted(NamedTuple):
+    """How a program is to be written.
+
+    Attributes
+    ----------
+    language
+        Its own.
+    iso
+        Choices of ISO; None for 3B and 4B.
+    form
+        Of 3B and 4B.
+    keeps
+        Whether compensation of its own stays with the controller.
+    newline
+        What ends a line.
+    name
+        Of the program, for headers.
+    offset_um
+        Offset that is worked in, for headers; None where none is known.
+    """
+
+    language: Language
+    iso: IsoChoices | None = None
+    form: Form = "compact"
+    keeps: bool = False
+    newline: str = "\n"
+    name: str = ""
+    offset_um: float | None = None
+
+    @property
+    def bound_um(self) -> float:
+        """How far off the written path may be."""
+        return _BOUND_3B_UM if self.iso is None else max(_BOUND_ISO_UM, self.iso.step_um)
+
+
+def draft_for(toolpath: Toolpath, wanted: Wanted) -> Draft:
+    """What is to be written of a toolpath: 4B leaves its offset to the controller, and does not say it."""
+    draft = draft_of(toolpath)
+    return draft if wanted.iso is not None else draft.without_compensation()
+
+
+def written(draft: Draft, wanted: Wanted) -> Written:
+    """The text of a draft, its lines ended as wanted. SettingsError where the dialect cannot say what it needs."""
+    if wanted.iso is not None:
+        made = written_iso(draft, wanted.iso)
+    else:
+        marks = curve_marks(draft.curves) if wanted.language == "4b" else None
+        made = written_3b(draft, ThreeBChoices(wanted.form, wanted.name, wanted.offset_um, marks))
+    return made._replace(text=made.text.replace("\n", wanted.newline))
+
+
+def read_with(draft: Draft, wanted: Wanted) -> Choices:
+    """What the written text is read with: its own dialect and unit, and the registers that it leaves to the table."""
+    if wanted.iso is None:
+        return STANDARD_CHOICES
+    registers = registers_of(draft.compensation, wanted.iso)
+    return Choices(dialect=wanted.iso.profile.name, unit=wanted.iso.reading_unit, registers=registers)
