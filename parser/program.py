@@ -23,7 +23,7 @@ _REMARK = re.compile(r"//[^\r\n]*|;[^\r\n]*|\([^()\r\n]*\)")
 _LOOKED_AT = 1 << 15  # characters: whatever a program is, it says so by then
 
 READERS: tuple[Reader, ...] = (THREE_B, ISO)
-"""Readers in the order in which they are asked. The first one also tells what is wrong with a text that none knows."""
+"""Readers in the order in which they are asked."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,24 +74,33 @@ def read_program(path: Path | str, choices: Choices = STANDARD_CHOICES) -> Progr
 def load_program(data: bytes, name: str, choices: Choices = STANDARD_CHOICES) -> Program:
     """Program of the bytes of a file.
 
-    Raises ProgramError (3B100) where they are no text or hold no block; it says what they are where that is certain.
+    Raises ProgramError (3B100, ISO100) where they are no text or hold no block; it says what they are where that is
+    certain.
     """
     try:
         text, encoding = decode_text(data)
         return parse_program(text, name=name, encoding=encoding, choices=choices)
     except ProgramError as error:
-        kind = kind_of(data) if error.finding.values.get("what") in {"not-text", "no-block"} else ""
-        if kind in {"", *PROGRAMS}:  # blocks that all stand in remarks are a program without blocks
+        what = str(error.finding.values.get("what", ""))
+        if what not in {"empty", "not-text", "no-block"}:
             raise
-        raise ProgramError(no_program(kind, code=error.finding.code)) from None
+        kind = kind_of(data)
+        known = kind not in {"", *PROGRAMS}  # blocks that all stand in remarks are a program without blocks
+        code = f"{_meant(name, choices).name}100"
+        raise ProgramError(no_program(kind if known else what, code=code), others=error.others) from None
 
 
 def parse_program(
     text: str, name: str = "program", encoding: str = "utf-8", choices: Choices = STANDARD_CHOICES
 ) -> Program:
     """Program of a text. Raises ProgramError (3B100, ISO100) where it holds no block, or those of two languages."""
-    reader = _reader(text, of_none=ISO if choices.dialect or name.lower().endswith(ISO.suffixes) else READERS[0])
+    reader = _reader(text, of_none=_meant(name, choices))
     return Program(name, encoding, text, **reader.read(text, choices)._asdict(), choices=choices)
+
+
+def _meant(name: str, choices: Choices) -> Reader:
+    """The reader that tells what is wrong with a text that none knows: the dialects that can be chosen are of ISO."""
+    return ISO if choices.dialect or name.lower().endswith(ISO.suffixes) else READERS[0]
 
 
 def _reader(text: str, *, of_none: Reader) -> Reader:
@@ -101,7 +110,7 @@ def _reader(text: str, *, of_none: Reader) -> Reader:
     """
     first = _REMARK.sub("", narrow(text[:_LOOKED_AT]))
     known = [reader for reader in READERS if reader.recognises(first)]
-    if len(known) > 1:
+    if len({reader.name for reader in known}) > 1:
         raise ProgramError(no_program("two-languages", code="ISO100"))
     return known[0] if known else next((reader for reader in READERS if reader.recognises(text)), of_none)
 

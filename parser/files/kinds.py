@@ -9,6 +9,7 @@ PROGRAMS = ("kind-program", "kind-iso")
 """Terms of texts with blocks of 3B or 4B somewhere, and with lines of ISO: what a drawing is not."""
 HINTS: Mapping[str, str] = MappingProxyType(
     {
+        "two-languages": "hint-one-language",
         "kind-dxf": "hint-compare",
         "kind-dwg": "hint-save-dxf",
         "kind-step": "hint-save-dxf",

@@ -65,9 +65,9 @@ class Iso:
         reading = _reading(listing, taken, path)._replace(not_simulated=besides.reason)
         of_text = (_by_row(finding, path.first_row) for finding in listing.findings)
         findings = (*of_text, *mode_findings(listing, taken, path), *besides.findings, *path.findings)
-        in_order = tuple(sorted(findings, key=file_order))
+        ordered = tuple(sorted(findings, key=file_order))
         decoder = Trace(listing, taken.profile, choices)
-        return ReadText(listing.lines, reading, {}, path.toolpath, in_order, decoder=decoder)
+        return ReadText(listing.lines, reading, {}, path.toolpath, ordered, decoder=decoder)
 
 
 def _reading(listing: Listing, family: Told, path: Moved) -> Reading:

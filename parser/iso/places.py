@@ -11,7 +11,7 @@ from parser.iso.modes import NO_MOTION, Modes
 DWELL, SET_PLACE = 40, 920
 """G04, whose X is a time, and G92, tenfold."""
 
-_DIGITS = 6  # coordinates in µm to a millionth: 1.013 mm are 1013 µm and no rounding beside it
+_DIGITS = 6
 
 
 class Coordinates(NamedTuple):
@@ -65,7 +65,7 @@ def coordinates(given: Given, runs: Ints, mode: Modes) -> Coordinates:
     def um(letter: str) -> Floats:
         word = given.word(letter)[runs]
         scale = np.where(words.decimals[word] < 0, mode.integer_um, mode.point_um)
-        return np.where(word >= 0, np.round(words.value[word] * scale, _DIGITS), np.nan)
+        return np.where(word >= 0, exact(words.value[word] * scale), np.nan)
 
     if not len(words.value):
         nothing = np.full((len(runs), 2), np.nan)
@@ -88,15 +88,20 @@ def places(numbers: Coordinates, is_absolute: Bools, stops: Bools) -> Places:
     names, moves = numbers.names, numbers.moves
     placed = np.where((names | (moves & is_absolute))[:, None], numbers.end, np.nan)
     by = np.where((moves & ~is_absolute)[:, None], np.nan_to_num(numbers.end), 0.0)
-    past = _programmed(placed, by)
+    past = exact(_programmed(placed, by))
     first = names & (np.cumsum(names | moves) == 1)
     before = np.concatenate([np.zeros((1, 2)), past[:-1]])
     before[first] = past[first]
     is_threaded = names & ~first & _behind_stop(stops, moves)
     is_rebased = names & ~is_threaded & ((before[:, 0] != past[:, 0]) | (before[:, 1] != past[:, 1]))
-    shift = np.cumsum(np.where(is_rebased[:, None], before - past, 0.0), axis=0)
-    start_um = before + np.concatenate([np.zeros((1, 2)), shift[:-1]])
-    return Places(start_um, past + shift, shift, is_threaded, is_rebased)
+    shift = exact(np.cumsum(np.where(is_rebased[:, None], before - past, 0.0), axis=0))
+    start_um = exact(before + np.concatenate([np.zeros((1, 2)), shift[:-1]]))
+    return Places(start_um, exact(past + shift), shift, is_threaded, is_rebased)
+
+
+def exact(um: Floats) -> Floats:
+    """Lengths to a millionth of a µm, as sums of written numbers are: 1.013 mm are 1013 µm, and no bit beside it."""
+    return np.round(um, _DIGITS)
 
 
 def _programmed(placed: Floats, by: Floats) -> Floats:

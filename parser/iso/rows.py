@@ -8,7 +8,7 @@ from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
 from parser.iso.arcs import ROUNDING, Arcs, arcs_about, arcs_of_radius
 from parser.iso.given import Given
 from parser.iso.modes import Modes
-from parser.iso.places import Coordinates, Places
+from parser.iso.places import Coordinates, Places, exact
 from parser.text.source import Source
 
 _CLOCKWISE = 2
@@ -49,7 +49,7 @@ def rows(mode: Modes, numbers: Coordinates, place: Places, resolution_um: float)
         start[turning],
         end[turning],
         np.where(mode.motion[here] == _CLOCKWISE, -1.0, 1.0),
-        (origin + np.nan_to_num(numbers.center[here]), numbers.radius[here]),
+        (exact(origin + np.nan_to_num(numbers.center[here])), numbers.radius[here]),
         ROUNDING * resolution_um,
     )
     return Rows(at, _curves(start, end, motion, turning, arcs), turning, arcs)

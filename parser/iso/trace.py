@@ -78,7 +78,7 @@ class Trace:
                     motion=_MOTIONS[int(mode.motion[at])],
                     distance=_DISTANCE_WORDS[bool(mode.is_absolute[at])],
                     side=_SIDE_WORDS[int(mode.side[at])],
-                    register=offset.names[int(offset.name[at])],
+                    register=offset.names[offset.name[at]],
                     offset_um=None if np.isnan(offset.by_um[at]) else float(offset.by_um[at]),
                     f=None if feed[at] < 0 else float(self._listing.words.value[feed[at]]),
                 ),

@@ -80,9 +80,7 @@ def _repeated_letters(listing: Listing, profile: Profile) -> Iterator[Finding]:
     """ISO201: at the later word."""
     word = np.flatnonzero(~_letters(profile.repeatable)[listing.words.letter])
     for later, before in _repeats(listing, word, listing.words.letter[word]):
-        letter = chr(int(listing.words.letter[later]))
-        written, other = listing.written(later), listing.written(before)
-        yield listing.at_word("ISO201", later, letter=letter, word=written, other=other)
+        yield listing.at_word("ISO201", later, word=listing.written(later), other=listing.written(before))
 
 
 def _centers_and_radius(listing: Listing) -> Iterator[Finding]:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from bench_cpu import DRYCUT, cpu_of, in_turns, used_by
 from bench_path import contour_text
+from bench_peers import in_iso
 from places import SCENARIOS
 
 from sim.check.batch import Job, check_file
@@ -29,7 +30,12 @@ def check_lines(path: Path, blocks: int) -> Iterator[str]:
         lambda: used_by((*DRYCUT, "check", str(KEYHOLE))).cpu_s,
         lambda: used_by((sys.executable, "-c", "import numpy")).cpu_s,
     )
+    contour = path.with_name("contour.3b")
+    contour.write_text(contour_text(blocks, crosses=False), encoding="ascii")
+    iso = in_iso(contour)
+    (closed,) = in_turns(_ROUNDS, partial(_cpu_s, Job(iso.name, iso, CheckSettings()), 1))
     yield f"check               {check:.3f} s   {blocks / check:,.0f} blocks/s, every rule"
+    yield f"check of ISO        {closed:.3f} s   {blocks / closed:,.0f} blocks/s, a closed contour"
     yield f"check a small file  {many / _SMALL_TIMES * 1e3:.1f} ms, {start * 1e3:.0f} ms with its start"
     yield f"start of a check    {start / numpy:.2f} times a Python that imports numpy"
 

@@ -12,7 +12,7 @@ from bench_check import sound_and_unsound
 from bench_cpu import DRYCUT, cpu_of, in_turns, used_by
 from bench_motion import read_plan_step
 from bench_path import contour_text, write_path
-from bench_peers import KLIPPER_MISSING, RS274_MISSING, klipper, klipper_cpu_s, rs274, rs274_used
+from bench_peers import KLIPPER_MISSING, RS274_MISSING, in_iso, klipper, klipper_cpu_s, rs274, rs274_used
 from bench_table import cutting, followed
 from places import SCENARIOS
 
@@ -95,11 +95,12 @@ def beside_klipper(folder: Path, blocks: int, rounds: int) -> Iterator[Goal]:
 
 
 def beside_rs274(folder: Path, blocks: int, rounds: int) -> Iterator[Goal]:
-    """A check of the path that rs274 reads and writes."""
+    """A check of the path that rs274 reads and writes; and of a closed contour in ISO, of the very same file."""
     path = _path(folder, blocks)
     name, program = f"check of {blocks:,} blocks / rs274", rs274()
-    started = f"drycut check of {blocks:,} blocks / rs274"
+    started, in_words = f"drycut check of {blocks:,} blocks / rs274", f"check of {blocks:,} blocks of ISO / rs274"
     if program is None:
+        yield Goal(in_words, "times", "", 1.5, None, RS274_MISSING)
         yield Goal(name, "times", "2.5", 1.5, None, RS274_MISSING)
         return
     command = (*DRYCUT, "check", "--quiet", str(path))
@@ -112,6 +113,13 @@ def beside_rs274(folder: Path, blocks: int, rounds: int) -> Iterator[Goal]:
     )
     yield Goal(name, f"times {theirs:.2f} s", "2.5", 1.5, check / theirs)
     yield Goal(started, f"times {theirs:.2f} s, its start and its report included", "", 1.5, process / theirs)
+    contour = folder / "closed.3b"
+    contour.write_text(contour_text(blocks, crosses=False), encoding="ascii")
+    iso = Job("closed.iso", in_iso(contour), CheckSettings())
+    check, theirs = in_turns(
+        rounds, lambda: cpu_of(partial(check_file, iso)), lambda: rs274_used(program, contour).cpu_s
+    )
+    yield Goal(in_words, f"times {theirs:.2f} s", "", 1.5, check / theirs)
 
 
 def _mends(folder: Path, blocks: int, rounds: int) -> Iterator[Goal]:

@@ -68,14 +68,19 @@ def klipper() -> Path | None:
     return folder if (folder / "out" / "klipper.dict").is_file() else None
 
 
-def rs274_used(program: str, path: Path) -> Used:
-    """What rs274 takes for a path, arcs as arcs, into a file; the folder of the path takes what it needs."""
-    folder = path.parent
-    words = folder / "path.ngc"
+def in_iso(path: Path) -> Path:
+    """A path in words that rs274 and drycut both read, arcs as arcs: a file beside it, written once."""
+    words = path.with_suffix(".ngc")
     if not words.exists():
         words.write_text(_arcs(read_program(path).toolpath), encoding="ascii")
-        (folder / "tools.tbl").touch()
-        (folder / "numbers.var").touch()
+    return words
+
+
+def rs274_used(program: str, path: Path) -> Used:
+    """What rs274 takes for a path in ISO, into a file; the folder of the path takes what it needs."""
+    folder, words = path.parent, in_iso(path)
+    (folder / "tools.tbl").touch()
+    (folder / "numbers.var").touch()
     named = ["-t", str(folder / "tools.tbl"), "-v", str(folder / "numbers.var")]
     return used_by([program, *named, "-g", str(words), str(folder / "path.canon")])
 

@@ -7,21 +7,22 @@ import numpy as np
 
 from controller.offset.alarms import Alarm, AlarmKind
 from controller.offset.gouges import Gouge
-from controller.offset.path import OffsetPath
+from controller.offset.path import Made, OffsetPath
 from controller.offset.reach import reach
 from controller.offset.sections import Side
 from controller.offset.shifted import NOTHING_UM
 from controller.offset.uncut import uncut_um
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
-from parser.geometry.curves import Curves, joined
+from parser.geometry.along import along_um
+from parser.geometry.curves import Curves, Ints, joined
 from parser.program import Program
 from sim.check.beside import Beside, beside_round, rows_beside
-from sim.check.compensation.rounds import CompensatedRound, contour_of
+from sim.check.compensation.rounds import CompensatedRound, contour_of, parts_of
 from sim.check.offset import gouge_finding, loop_finding, uncut_finding
 
-STUB_UM = 1.0
-"""Less is not seen on the part: a step."""
+SEEN_UM = 1.0
+"""What stays by less is not seen on the part: a step."""
 
 
 class Held(NamedTuple):
@@ -63,15 +64,32 @@ def contour_findings(
 
 
 def _uncut(program: Program, path: OffsetPath, one: Held, stops: set[int]) -> Iterator[Finding]:
-    """Blocks without a place on the path: where the controller stops, and those that the nearest pass leaves uncut."""
-    section = one.run.round.section
-    gone = path.vanished[(path.vanished >= section.first) & (path.vanished <= section.last)]
-    for row, left_um in zip(gone.tolist(), one.beside.left_um.tolist(), strict=True):
-        has_length = program.toolpath.length_um[row] > NOTHING_UM
-        if has_length and (row in stops or one.run.is_nearest):
-            found = uncut_finding(program, row, left_um, one.run.distances, stops=row in stops)
+    """Blocks that the wire does not come to: where the controller stops, and those that the nearest pass leaves."""
+    section, run = one.run.round.section, one.run
+    vanished = path.vanished[(path.vanished >= section.first) & (path.vanished <= section.last)]
+    missed = np.setdiff1d(_missed(path, one), vanished) if run.is_nearest else vanished[:0]
+    beside = path.curves.picked(rows_beside(path, run.round))
+    left_um = [*one.beside.left_um, *uncut_um(one.contour, beside, run.by_um, missed - section.first)]
+    for row, left in zip([*vanished.tolist(), *missed.tolist()], left_um, strict=True):
+        if program.toolpath.length_um[row] > NOTHING_UM and (row in stops or (run.is_nearest and left > SEEN_UM)):
+            found = uncut_finding(program, row, float(left), run.distances, stops=row in stops)
             if found is not None:
                 yield found
+
+
+def _missed(path: OffsetPath, one: Held) -> Ints:
+    """Rows beside which the path runs nowhere, though it has a block for them: corners before and behind take it all.
+
+    Where a step is lower than the offset, the wire turns about its foot before it comes to the step itself.
+    """
+    section = one.run.round.section
+    moved = np.flatnonzero(
+        (path.made == Made.SHIFTED) & (path.source_row >= section.first) & (path.source_row <= section.last)
+    )
+    row = path.source_row[moved] - section.first
+    low, high = (along_um(one.contour, row, end[moved]) for end in (path.curves.start_um, path.curves.end_um))
+    missed: Ints = section.first + row[high - low <= NOTHING_UM]
+    return missed
 
 
 def _side_words(run: CompensatedRound) -> dict[str, str]:
@@ -81,19 +99,28 @@ def _side_words(run: CompensatedRound) -> dict[str, str]:
 
 def _stub(program: Program, path: OffsetPath, one: Held, runs: Sequence[CompensatedRound]) -> Iterator[Finding]:
     """Material that stays where a loop begins and ends (ISO514), though a wire could cut it."""
-    run, contour = one.run, one.contour
-    ends = np.unique([0, len(contour) - 1])
-    near = [other.round for other in runs if other.along.edge == run.along.edge and other.by_um == run.kerf_um]
+    run = one.run
+    ends = _beside_joint(one.contour, run.by_um)
+    near = [each.round for each in runs if each.along.edge == run.along.edge and each.by_um == run.kerf_um]
     cut = path.curves.picked(np.concatenate([rows_beside(path, each) for each in near]))
-    left_um = uncut_um(contour, cut, run.by_um, ends)
-    if left_um.max() <= STUB_UM or np.isin(run.round.section.first + ends, path.vanished).any():
+    left_um = uncut_um(ends, cut, run.by_um, np.arange(len(ends)))
+    if left_um.max() <= SEEN_UM:
         return
-    reached = [loop.curves for loop in reach(contour, run.by_um, run.side).loops]
+    reached = [loop.curves for loop in reach(one.contour, run.by_um, run.side).loops]
     if reached:
-        stays_um = float((left_um - uncut_um(contour, joined(reached), run.by_um, ends)).max())
-        if stays_um > STUB_UM:
+        stays_um = float((left_um - uncut_um(ends, joined(reached), run.by_um, np.arange(len(ends)))).max())
+        if stays_um > SEEN_UM:
             row = run.round.section.first
             yield at_block(program.toolpath, program.lines, "ISO514", row, left=stays_um, offset=run.by_um)
+
+
+def _beside_joint(contour: Curves, by_um: float) -> Curves:
+    """A closed contour within an offset of where it begins and ends: beyond that, corners leave material too."""
+    row = np.array([0, len(contour) - 1])
+    length_um = contour.length_um[row]
+    reach_um = np.minimum(length_um, by_um)
+    first_um = np.array([0.0, length_um[1] - reach_um[1]])
+    return parts_of(contour, row, first_um, first_um + reach_um)
 
 
 def _told_gouges(stretches: Sequence[Held]) -> Iterator[tuple[CompensatedRound, Gouge]]:

@@ -13,8 +13,8 @@ import numpy as np
 from controller.offset.sections import OffsetSection, Round, Side
 from controller.offset.shifted import closed_contour
 from controller.offset.stretches import known_sides
-from parser.geometry.along import along_um
-from parser.geometry.curves import Bools, Curves, Floats
+from parser.geometry.along import along_um, places_at
+from parser.geometry.curves import Bools, Curves, Floats, Ints, joined
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.loops import find_loops
 from parser.toolpath import Compensation, Toolpath
@@ -131,12 +131,23 @@ def contour_of(curves: Curves, section: OffsetSection) -> Curves:
 def _cut_off(contour: Curves) -> Curves:
     """The contour with its last block up to the place nearest to where it begins."""
     last = np.array([len(contour) - 1])
-    length_um = contour.length_um.copy()
-    length_um[last] = along_um(contour, last, contour.start_um[:1])
-    end_um, sweep_rad = contour.end_um.copy(), contour.sweep_rad.copy()
-    end_um[last] = contour.start_um[:1]
-    sweep_rad[last] *= length_um[last] / contour.length_um[last]
-    return replace(contour, end_um=end_um, sweep_rad=sweep_rad, length_um=length_um)
+    until_um = along_um(contour, last, contour.start_um[:1])
+    return joined([contour.picked(slice(-1)), parts_of(contour, last, np.zeros(1), until_um)])
+
+
+def parts_of(curves: Curves, row: Ints, first_um: Floats, last_um: Floats) -> Curves:
+    """Parts of the curves `row` (k,), from a length (k,) along each to another."""
+    whole = curves.picked(row)
+    at = np.arange(len(row))
+    share = 1.0 / np.where(whole.length_um > 0.0, whole.length_um, 1.0)
+    return replace(
+        whole,
+        start_um=places_at(whole, at, first_um),
+        end_um=places_at(whole, at, last_um),
+        start_angle_rad=whole.start_angle_rad + first_um * share * whole.sweep_rad,
+        sweep_rad=(last_um - first_um) * share * whole.sweep_rad,
+        length_um=last_um - first_um,
+    )
 
 
 def _by_edge(toolpath: Toolpath, rounds: list[CompensatedRound]) -> tuple[CompensatedRound, ...]:

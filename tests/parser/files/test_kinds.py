@@ -69,7 +69,7 @@ KINDS: dict[str, dict[str, bytes]] = {
 CASES = [(kind, name) for kind, several in KINDS.items() for name in several]
 
 
-@pytest.mark.parametrize(("kind", "name"), CASES)
+@pytest.mark.parametrize(("kind", "name"), [case for case in CASES if case[0] != "kind-iso"])
 def test_what_is_no_program_is_said_in_both_languages_with_what_to_do(kind: str, name: str) -> None:
     data = KINDS[kind][name]
     with pytest.raises(ProgramError) as caught:
@@ -100,7 +100,7 @@ def test_a_program_is_no_drawing(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "before",
     [
-        *(several for kinds in KINDS.values() for several in kinds.values() if b"\0" not in several),
+        *(one for kind, name in CASES if kind != "kind-iso" and b"\0" not in (one := KINDS[kind][name])),
         b"(G01 X10 Y10)\n",
         b"; G01 X10 Y10\n%\n",
         b"%PDF-1.4 ist keins\n",
@@ -110,6 +110,21 @@ def test_a_program_is_no_drawing(tmp_path: Path) -> None:
 def test_a_program_behind_anything_at_all_is_a_program(before: bytes) -> None:
     program = load_program(before + b"\n" + SQUARE.encode(), "part.3b")
     assert program.reading.counts.whole == 4
+
+
+@pytest.mark.parametrize("before", KINDS["kind-iso"].values(), ids=KINDS["kind-iso"])
+def test_programs_of_two_languages_in_one_file_are_none(before: bytes) -> None:
+    with pytest.raises(ProgramError) as caught:
+        load_program(before + SQUARE.encode(), "part.3b")
+    assert (caught.value.finding.code, caught.value.finding.values["what"]) == ("ISO100", "two-languages")
+
+
+@pytest.mark.parametrize("name", ["part.iso", "PART.NC", "part.cnc"])
+def test_a_file_that_is_named_as_iso_is_told_that_it_is_no_iso_program(name: str) -> None:
+    for data, what in ((b"", "empty"), (b"hello\n", "no-block"), (DXF, "kind-dxf"), (b"\0\1\2", "not-text")):
+        with pytest.raises(ProgramError) as caught:
+            load_program(data, name)
+        assert (caught.value.finding.code, caught.value.finding.values["what"]) == ("ISO100", what)
 
 
 @pytest.mark.parametrize(
