@@ -17,7 +17,7 @@ from parser.text.encoding import no_program
 PAGES = resources.files("parser.findings") / "pages"
 TEMPLATES = ("found", "expected", "machine", "hint")
 LINE = 110
-NO_EXAMPLE = {"3B100", "3B303"} | {code for code, of in CODES.items() if of.check is None}
+NO_EXAMPLE = {"3B100", "3B303", "ISO100"} | {code for code, of in CODES.items() if of.check is None}
 
 VALUES: dict[str, dict[str, Value]] = {
     "3B100": {"what": "unreadable-file", "detail": "Permission denied", "hint": "hint-program"},
