@@ -85,7 +85,7 @@ def _placed(place: Ints, choices: IsoChoices) -> str:
 
 def _block(motion: int, to: Ints, center: Ints, choices: IsoChoices) -> str:
     words = [f"G0{motion}", *_words("XY", to, choices)]
-    return " ".join([*words, *_words("IJ", center, choices)] if motion >= 2 else words)  # noqa: PLR2004 - G02, G03
+    return " ".join([*words, *_words("IJ", center, choices)] if motion >= 2 else words)
 
 
 def _words(letters: str, steps: Ints, choices: IsoChoices) -> list[str]:

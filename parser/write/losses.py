@@ -43,7 +43,7 @@ def lost_words(text: str) -> tuple[Loss, ...]:
     losses = [
         _named("switches", listing, switches),
         _named("stops", listing, is_m & np.isin(words.value, _STOPS)),
-        _named("calls", listing, is_m & (words.value == 98)),  # noqa: PLR2004 - M98
+        _named("calls", listing, is_m & (words.value == 98)),
         Loss("remarks", "", len(listing.remarks)),
         Loss("skips", "", int(listing.blocks.is_skipped.sum())),
     ]
