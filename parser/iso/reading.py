@@ -34,7 +34,7 @@ _CODES = {
 def read_iso(text: str, choices: Choices) -> ReadText:
     """What a text says. ProgramError (ISO100) where it holds no block, or those of a mill."""
     listing = read_listing(text)
-    if not len(listing.blocks.line):
+    if not (len(listing.words.letter) or listing.assignments or listing.statements):
         raise ProgramError(no_program("no-block", code="ISO100"))
     mill = mill_code(listing)
     if mill:

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from parser.geometry.curves import Ints
+from parser.units import mm
 from parser.write.draft import Draft, Written
 from parser.write.iso_choices import IsoChoices
 from parser.write.sides import Sides, sides_of
@@ -33,7 +34,7 @@ def _remarks(choices: IsoChoices, sides: Sides) -> Iterator[str]:
     unit = _UNITS[choices.unit]
     yield f"({choices.profile.name}, {unit}, {choices.distance}, centres {choices.centers.replace('-', ' ')})"
     for name, by_um in sides.outside.items():
-        yield f"(offset of register {int(name[1:])}: {choices.length(by_um)} {_UNITS['mm' if choices.unit == 'um' else choices.unit]})"
+        yield f"(offset of register {int(name[1:])}: {mm(by_um):.4f} mm)"
 
 
 def _head(draft: Draft, choices: IsoChoices) -> Iterator[str]:
