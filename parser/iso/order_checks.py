@@ -71,7 +71,8 @@ def _never_run(given: Given, run: Flow) -> Iterator[Finding]:
     words, never = given.listing.words, idle(given, run)
     label, returns = np.maximum(given.word("N"), given.word("O")), given.m("return")
     starts = np.flatnonzero(never & ~np.concatenate([[False], never[:-1] & ~returns[:-1]]))
-    known = set(words.value[label[~never & (label >= 0)]].tolist()) if len(starts) else set()
+    called = run.main_end + np.flatnonzero(~never[run.main_end :])
+    known = set(words.value[label[called][label[called] >= 0]].tolist())
     for first, past in zip(starts.tolist(), np.append(starts, len(never))[1:].tolist(), strict=True):
         word = int(label[first])
         if word < 0 or not (returns & never)[first:past].any():
