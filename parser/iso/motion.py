@@ -37,6 +37,8 @@ class Moved(NamedTuple):
         (b,) int64, the row that each block of the text makes when it first runs; −1 where it makes none.
     agreement
         What the arcs say of I J.
+    threadings
+        How many rows are jumps to where the wire was threaded anew, which no block says.
     """
 
     toolpath: Toolpath
@@ -45,6 +47,7 @@ class Moved(NamedTuple):
     assumptions: tuple[Assumption, ...]
     first_row: Ints
     agreement: Agreement
+    threadings: int
 
 
 def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
@@ -65,6 +68,7 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
         assumptions=assumptions(given, run),
         first_row=_first_rows(given, run),
         agreement=arcs,
+        threadings=int((~run.numbers.moves[run.rows.at]).sum()),
     )
 
 
