@@ -17,6 +17,7 @@ from plain_compensation import Leg, plain_path
 from sound_shapes import SHAPES, Shape
 
 from controller.offset.alarms import AlarmKind
+from controller.offset.block_ends import JointKind, joint_kinds
 from controller.offset.compensate import compensate
 from controller.offset.path import Made, OffsetPath
 from controller.offset.programmed import Compensated, compensated
@@ -364,6 +365,25 @@ def test_one_stretch_is_what_an_offset_of_the_user_makes() -> None:
         for name in ("start_um", "end_um", "center_um", "radius_um", "sweep_rad", "length_um", "kind"):
             one, other = getattr(made.curves, name), getattr(wanted.curves, name)[:-1]
             assert np.array_equal(one, other, equal_nan=True), (seed, name)
+
+
+@pytest.mark.parametrize("rules", [TEXTBOOK, ROUND])
+def test_what_is_told_of_a_corner_is_what_the_path_does(rules: CompensationRules) -> None:
+    inserted = 0
+    for seed in range(100):
+        rng = random.Random(seed)
+        shape = SHAPES[seed % len(SHAPES)](rng, rng.uniform(5000.0, 50_000.0))
+        side = rng.choice(list(Side))
+        path = told(lead_in(shape, side), side, rng.uniform(20.0, 200.0), rules)
+        made = compensated(path).path
+        if len(made.vanished):
+            continue
+        kinds = joint_kinds(path, path.compensation)
+        wanted = [row for row, kind in enumerate(kinds) if kind == JointKind.INSERTED]
+        bridged = 1 + np.unique(made.source_row[made.made == Made.BRIDGE])
+        assert wanted == bridged.tolist(), seed
+        inserted += len(wanted)
+    assert inserted > 2
 
 
 # Anything
