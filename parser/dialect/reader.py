@@ -170,6 +170,8 @@ class Reading(NamedTuple):
     codes
         Codes of this dialect for findings of the path and the machine that have other ones in 3B: ``3B301`` is
         ``ISO300``. Findings without one keep their code, which holds for every dialect.
+    threadings
+        How many jumps of the toolpath no block moves along: the wire is threaded elsewhere.
     not_simulated
         Term of the catalogue that says what the text asks for beside the path; empty where the path is all.
     """
@@ -185,6 +187,7 @@ class Reading(NamedTuple):
     assumptions: tuple[Assumption, ...] = ()
     codes: Mapping[str, str] = MappingProxyType({})
     not_simulated: str = ""
+    threadings: int = 0
 
 
 def in_codes(reading: Reading, findings: Iterable[Finding]) -> tuple[Finding, ...]:

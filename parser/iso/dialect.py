@@ -82,6 +82,7 @@ def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
         remarks=listing.remarks,
         assumptions=(*family.assumptions, *path.assumptions),
         codes=_CODES,
+        threadings=path.threadings,
     )
 
 

@@ -33,6 +33,8 @@ class Moved(NamedTuple):
         Blocks whose motion is not known, and calls that cannot be followed.
     assumptions
         What the text leaves open of where the wire goes.
+    threadings
+        How many jumps of the path are no motion: the wire is threaded elsewhere.
     first_row
         (b,) int64, the row that each block of the text makes when it first runs; −1 where it makes none.
     agreement
@@ -43,6 +45,7 @@ class Moved(NamedTuple):
     findings: tuple[Finding, ...]
     damages: tuple[Damage, ...]
     assumptions: tuple[Assumption, ...]
+    threadings: int
     first_row: Ints
     agreement: Agreement
 
@@ -63,6 +66,7 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
         findings=findings,
         damages=damages(given, run),
         assumptions=assumptions(given, run),
+        threadings=int((~run.numbers.moves[run.rows.at]).sum()),
         first_row=_first_rows(given, run),
         agreement=arcs,
     )

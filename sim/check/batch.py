@@ -96,7 +96,7 @@ def result_of(program: Program, checked: Checked, settings: CheckSettings) -> Ch
         silenced=silenced,
         blocks=_blocks(program.toolpath.source, shown),
         assumptions=program.reading.assumptions,
-        programmed=programmed_of(program.toolpath) if checked.steps is not None else None,
+        programmed=programmed_of(program.toolpath, program.reading.threadings) if checked.steps is not None else None,
     )
 
 

@@ -33,15 +33,15 @@ class Programmed(NamedTuple):
     last_um: Point | None = None
 
 
-def programmed_of(toolpath: Toolpath) -> Programmed:
-    """What a toolpath runs."""
+def programmed_of(toolpath: Toolpath, threadings: int = 0) -> Programmed:
+    """What a toolpath runs; `threadings` of its jumps are no rapids, but places where the wire is threaded anew."""
     if not len(toolpath):
         return Programmed()
     cut = ~toolpath.is_jump
     return Programmed(
         lines=int((toolpath.kind == CurveKind.LINE).sum()),
         arcs=int((toolpath.kind == CurveKind.ARC).sum()),
-        rapids=int(toolpath.is_jump.sum()),
+        rapids=int(toolpath.is_jump.sum()) - threadings,
         cut_length_um=float(toolpath.length_um[cut].sum()),
         box_um=_box(toolpath) if cut.any() else None,
         first_um=Point(*toolpath.start_um[0].tolist()),
