@@ -58,7 +58,7 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
     centred = () if arcs.is_otherwise else arc_findings(given, run.flow.block, run.numbers, run.rows)
     findings = (
         *order_findings(given, run.flow, run.mode.side, run.place, run.rows.at),
-        *move_findings(given, run.flow.block, run.mode, run.rows),
+        *move_findings(given, run.flow.block, run.mode, run.numbers.lacks_motion, run.rows),
         *centred,  # of arcs that are read the wrong way nothing is said but that
     )
     return Moved(
