@@ -20,6 +20,8 @@ ALSO = {
     "3B304": {"3B301"},  # the contour that it is a suspect of
     "3B314": {"3B307"},  # the rough cut runs through the trim that it comes past
     "3B109": {"3B110"},  # a 4B block is in both
+    "ISO507": {"ISO506"},  # it runs through the neck all the same
+    "ISO512": {"ISO506"},  # the lead-in crosses the contour
     **{code: {"3B110"} for code in ("3B212", "3B214", "3B215", "3B216")},
 }
 ASSUMED = {"ISO112"}
