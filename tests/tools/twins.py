@@ -1,4 +1,4 @@
-"""One part in 3B and in ISO, as a CAM wrote both: the page "3b加工代码文件" of duolatom answers a question with them."""
+"""One part in 3B and in ISO, as a CAM wrote both: they answer a question on the page "3b加工代码文件" of duolatom."""
 
 BLOCKS_3B = """\
 B 9900 B 0 B 9900 GX L3

@@ -169,7 +169,7 @@ def compensated(registers: tuple[str, ...], by_um: tuple[float, ...]) -> Draft:
     n = len(registers)
     start = np.column_stack([1000.0 * np.arange(n), np.zeros(n)])
     nothing = np.full((n, 2), np.nan)
-    lines = curves_between(start, start + (1000.0, 0.0), nothing, np.zeros(n))
+    lines = curves_between(start, start + np.array([1000.0, 0.0]), nothing, np.zeros(n))
     side = np.array([0, *[1] * (n - 2), 0])
     told = Compensation(side, np.array(by_um), registers, CompensationRules())
     return Draft(lines, (Stop("end", n, 0),), np.zeros(n, dtype=np.bool_), nothing, compensation=told)

@@ -42,9 +42,7 @@ def turned_round(path: Toolpath) -> Toolpath:
 
 def with_side(path: Toolpath) -> Toolpath:
     side = np.ones(len(path), dtype=np.int64)
-    return replace(
-        path, compensation=Compensation(side, 100.0 * side, ("D1",) * len(path), CompensationRules())
-    )
+    return replace(path, compensation=Compensation(side, 100.0 * side, ("D1",) * len(path), CompensationRules()))
 
 
 def test_what_is_read_as_it_was_written_is_as_far_off_as_its_ends() -> None:

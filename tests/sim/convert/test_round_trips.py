@@ -55,11 +55,10 @@ def compared(before: Toolpath, after: Toolpath) -> Compared:
     return Compared(tie, ~tie & ~way & (counts == 1) & (ways == 0), way, (sense & ~tie) | ~near | ~reduced & (ways > 2))
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_3b_comes_back_from_iso_word_for_word_but_for_rounding(seed: int) -> None:
-    rng = random.Random(seed)
+def test_3b_comes_back_from_iso_word_for_word_but_for_rounding() -> None:
+    rng = random.Random(1)
     rows: Counter[str] = Counter()
-    for number in range(12):
+    for number in range(40):
         program = load_program(sound.sound_program(rng).data, "part.3b")
         iso = in_dialect(program, dialects()[number % len(dialects())])
         back = conversion(iso.program, Wanted("3b")).program
@@ -68,6 +67,7 @@ def test_3b_comes_back_from_iso_word_for_word_but_for_rounding(seed: int) -> Non
         rows["all"] += len(program.toolpath)
         for name, which in found._asdict().items():
             rows[name] += int(which.sum())
+    assert rows["all"] >= 1000
     assert rows["other"] <= 0.002 * rows["all"]  # arcs of two or three µm
     assert rows["count"] + rows["way"] <= _MOST_OTHER * rows["all"]
     assert rows["tie"] <= _MOST_OTHER * rows["all"]
