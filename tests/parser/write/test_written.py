@@ -1,4 +1,4 @@
-"""Programs written: word for word where a CAM wrote both, and read back as they were meant in every form and dialect."""
+"""Programs written: word for word where a CAM wrote both, and read back as meant in every form and dialect."""
 
 import numpy as np
 import pytest
