@@ -65,7 +65,7 @@ def lost(made: Converted) -> dict[str, int]:
 def test_a_sound_program_is_written_within_its_bound(text: str, wanted: Wanted) -> None:
     made = done(text, wanted)
     assert made.off_um <= 0.6
-    assert made.bound_um == (2.0 if wanted.iso else 3.0)
+    assert made.bound_um == 3.0
     assert made.told_by_itself
     assert load_program(made.data, "again").toolpath.kind.tolist() == program(text).toolpath.kind.tolist()
 
