@@ -172,6 +172,8 @@ class Reading(NamedTuple):
         ``ISO300``. Findings without one keep their code, which holds for every dialect.
     not_simulated
         Term of the catalogue that says what the text asks for beside the path; empty where the path is all.
+    threadings
+        How many rows are jumps to where the wire was threaded anew, which no block says.
     """
 
     dialect: str
@@ -184,6 +186,7 @@ class Reading(NamedTuple):
     remarks: Ints = NO_REMARKS
     assumptions: tuple[Assumption, ...] = ()
     codes: Mapping[str, str] = MappingProxyType({})
+    threadings: int = 0
     not_simulated: str = ""
 
 

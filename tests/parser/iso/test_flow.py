@@ -116,6 +116,12 @@ def test_subprograms_that_nothing_calls_are_told_apart_from_it() -> None:
     assert [one.line for one in findings(text, "ISO108")] == [10]
 
 
+def test_a_label_used_twice_is_no_subprogram_without_a_call() -> None:
+    text = "G91 G01\nM98 P1\nM02\nN1 X2\nM99\nN1 X3\nM99"
+    assert [one.code for one in read(text).findings if one.code in {"ISO121", "ISO401"}] == ["ISO121"]
+    assert findings("G91 G01\nN1 X1\nM02\nN1 X3\nM99", "ISO401")
+
+
 def test_a_program_without_end_code_gets_one_where_its_text_ends() -> None:
     (found,) = findings("G91 G01 X1\n(last)", "ISO109")
     assert [edit.text for edit in found.edits] == ["\nM02"]
