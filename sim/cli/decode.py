@@ -50,7 +50,7 @@ def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     program = read_program(path, Choices(dialect=dialect or "", unit=unit or "", registers=registers))
     if program.decoder is None:
         raise click.UsageError(Words(language)("decode.not-iso", name=program.name, dialect=program.reading.dialect))
-    blocks = [one for one in decoded(program) if number is None or one.block.number == number]
+    blocks = [one for one in decoded(program, program.toolpath) if number is None or one.block.number == number]
     if not blocks:
         raise click.UsageError(Words(language)("decode.none", name=program.name, block=number))
     if as_json:

@@ -48,11 +48,11 @@ class Decoded(NamedTuple):
     way: Way | None
 
 
-def decoded(program: Program) -> tuple[Decoded, ...]:
-    """The blocks of a program in file order; none where its dialect has no decoder."""
+def decoded(program: Program, contour: Toolpath) -> tuple[Decoded, ...]:
+    """The blocks of a program in file order, along its contour; none where its dialect has no decoder."""
     if program.decoder is None:
         return ()
-    ways = _ways(program.toolpath)
+    ways = _ways(contour)
     return tuple(Decoded(block, ways.get(block.span[0])) for block in program.decoder.blocks())
 
 

@@ -20,7 +20,7 @@ def document(program: Program, blocks: Sequence[Decoded]) -> dict[str, Any]:
         "schema": SCHEMA,
         "drycut": __version__,
         "file": program.name,
-        "dialect": program.reading.dialect.removeprefix("ISO "),
+        "dialect": program.reading.dialect,
         "assumptions": [one._asdict() for one in program.reading.assumptions],
         "blocks": [block_entry(one) for one in blocks],
     }

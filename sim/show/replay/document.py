@@ -12,6 +12,7 @@ from sim.run.recording import Recording
 from sim.show.draw.tones import tones_of
 from sim.show.html.environment import rendered
 from sim.show.replay.block_columns import block_columns, plan_columns
+from sim.show.replay.decoding import decoding
 from sim.show.replay.happenings import (
     contour_entries,
     ending_entry,
@@ -52,6 +53,7 @@ def replay_document(recording: Recording) -> dict[str, Any]:
         "program": _program(run.program),
         **scene(run),
         "blocks": block_columns(run),
+        "decoding": decoding(run),
         "plan": plan_columns(run.plan),
         "stops": [stop_entry(one.what) for one in course.stops],
         "contours": contour_entries(run.whole_contours),

@@ -24,6 +24,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {Place[] | null} work_um
  * @property {Clamp[]} clamps
  * @property {Blocks} blocks
+ * @property {Decoding | null} decoding null where the dialect decodes no words, and of long programs
  * @property {Plan} plan
  * @property {Stop[]} stops
  * @property {Contour[]} contours
@@ -76,6 +77,31 @@ import { element } from "../../html/assets/elements.js";
  * @property {number[]} first_step
  * @property {number[]} border_s
  */
+
+/**
+ * How the blocks are decoded; `of_row` has for each row of the blocks the index of its decoded block, or −1.
+ * @typedef {object} Decoding
+ * @property {number[]} of_row
+ * @property {DecodedBlock[]} blocks
+ */
+
+/**
+ * @typedef {object} DecodedBlock
+ * @property {string} text
+ * @property {DecodeStep[]} steps
+ * @property {string} buffer
+ * @property {NamedText[]} ways
+ */
+
+/**
+ * @typedef {object} DecodeStep
+ * @property {string} order
+ * @property {Said} word
+ * @property {string} field
+ * @property {Said} value
+ */
+
+/** @typedef {{ name: Said, text: Said }} NamedText */
 
 /** @typedef {"jump" | "line" | "arc"} Kind */
 /** @typedef {"X" | "Y"} Axis */

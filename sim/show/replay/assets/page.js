@@ -2,6 +2,7 @@
 import { element, elements } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import { actionsOf, showPlayer, wireButtons, wireSpeed, wireTabs } from "./controls.js";
+import { decodingIn } from "./decoding.js";
 import { findingsIn } from "./findings.js";
 import { wireKeys } from "./keys.js";
 import { modelOf } from "./model.js";
@@ -97,6 +98,7 @@ export function buildPage(replay) {
       else tip.show(words.block(doc.blocks, row), words.geometry(doc.blocks, row), event.clientX, event.clientY);
     },
   });
+  const decoding = decodingIn(elements("#decoding"), doc);
   const announce = announcer(found("live"), doc);
 
   /**
@@ -132,6 +134,7 @@ export function buildPage(replay) {
     stage.draw(shown, page.times, falls, now);
     outs.show(shown);
     text.run(shown.block);
+    decoding.run(shown.block);
     showTime(shown.t);
     announce(shown);
     last = player.playing || stage.isFalling ? now : null;
