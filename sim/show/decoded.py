@@ -88,7 +88,7 @@ def _way_texts(one: Decoded) -> Iterator[tuple[str, Said]]:
     yield "force", same(" ".join(filter(None, [force.motion, force.distance, force.side, force.register, *feed])))
     if way is None:
         return
-    runs = said("decode.runs", times=way.runs) if way.runs > 1 else same("")
+    runs = said("decode.runs", runs=way.runs) if way.runs > 1 else same("")
     yield "contour", _joined(_contour(way), runs)
     if way.left_um is not None and way.right_um is not None:
         ends = {"left": _place(way.left_um, 4), "right": _place(way.right_um, 4)}
