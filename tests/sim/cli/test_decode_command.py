@@ -5,9 +5,12 @@ from pathlib import Path
 
 import pytest
 from command import run_inside
+from jsonschema import Draft202012Validator
+from places import ROOT
 
 from parser.text.excerpt import cells
 
+SCHEMA = json.loads((ROOT / "docs" / "decode.schema.json").read_text(encoding="utf-8"))
 COURSE = "N06 G90 G41 D11 G01 X200 Y300 F200 ;\n"
 PART = f"G92 X72 Y48\n{COURSE}N07 X250\nN08 X250 Y350\nG40 G01 X0 Y0\nM02\n"
 
@@ -107,3 +110,9 @@ def test_a_register_that_cannot_be_read_is_bad_use(part: Path, value: str) -> No
 
     assert done.returncode == 2
     assert done.stderr.startswith(b"drycut: error: ")
+
+
+@pytest.mark.parametrize("options", [(), ("--offset", "D11=0.1mm"), ("--block", "8")])
+def test_json_is_as_its_schema_says(part: Path, options: tuple[str, ...]) -> None:
+    Draft202012Validator.check_schema(SCHEMA)
+    Draft202012Validator(SCHEMA).validate(json.loads(printed(part, "--json", *options)))
