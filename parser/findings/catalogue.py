@@ -113,8 +113,8 @@ class _Filler(string.Formatter):
     """Fills templates; besides Python's own formats it knows ``um``, ``mm``, ``instant``, ``term`` and those of texts.
 
     ``aside`` is a text in parentheses, ``or`` another choice, both nothing where there is none; ``pass`` the number of
-    a pass, nothing for 0. ``known`` is a value, or the word for none; ``span`` is a range, two ends with `TO` between
-    of which one may be missing, or a value that is no range.
+    a pass, ``more`` how many others there are, both nothing for 0. ``known`` is a value, or the word for none;
+    ``span`` is a range, two ends with `TO` between of which one may be missing, or a value that is no range.
     """
 
     def __init__(self, language: Language) -> None:
@@ -131,6 +131,7 @@ class _Filler(string.Formatter):
             "aside": lambda text: self._joined("aside", text) if text else "",
             "or": lambda text: self._joined("or", text) if text else "",
             "pass": lambda number: self._joined("pass", str(number)) if number else "",
+            "more": lambda number: self._joined("more", str(number)) if number else "",
         }
         return own[format_spec](value) if format_spec in own else str(super().format_field(value, format_spec))
 

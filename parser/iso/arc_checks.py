@@ -10,7 +10,6 @@ from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.iso.arcs import ROUNDING, Arcs
 from parser.iso.given import Given
-from parser.iso.modes import Modes
 from parser.iso.places import Coordinates
 from parser.iso.rows import Rows
 
@@ -25,8 +24,8 @@ _TINY_STEPS = 2.0
 class _Told(NamedTuple):
     """Blocks told to be arcs, k of them, each the first time it runs; (k,) but for the last.
 
-    `row` is that of the toolpath, `missing` how many of I J are not given; `is_led` those whose neighbours are a way
-    there and the same way back. `slack_um` is what the rounding of the file explains.
+    `row` is that of the toolpath, `missing` how many of I J are not given. `slack_um` is what the rounding of the file
+    explains.
     """
 
     given: Given
@@ -36,26 +35,25 @@ class _Told(NamedTuple):
     arcs: Arcs
     by_radius: Bools
     missing: Ints
-    is_absolute: Bools
+    lacks_center: Bools
     has_end: Bools
     slack_um: float
 
 
-def arc_findings(given: Given, runs: Ints, mode: Modes, numbers: Coordinates, path: Rows) -> Iterator[Finding]:
+def arc_findings(given: Given, runs: Ints, numbers: Coordinates, path: Rows) -> Iterator[Finding]:
     """What is wrong with the arcs of the running blocks `runs` (e,); a block that runs often is told once."""
     if not len(path.turning):
         return
-    told = _told(given, runs, mode, numbers, path)
-    lacks_center = ~told.by_radius & (told.missing > np.where(told.is_absolute, 0, 1))
-    centred = ~told.by_radius & ~lacks_center
-    yield from _without_center(told, lacks_center)
+    told = _told(given, runs, numbers, path)
+    centred = ~told.by_radius & ~told.lacks_center
+    yield from _without_center(told)
     yield from _without_radius(told, centred)
     yield from _beside_circle(told, centred & (told.arcs.written_um > 0))
     yield from _by_radius(told)
     yield from _too_full(told, centred)
 
 
-def _told(given: Given, runs: Ints, mode: Modes, numbers: Coordinates, path: Rows) -> _Told:
+def _told(given: Given, runs: Ints, numbers: Coordinates, path: Rows) -> _Told:
     _, first = np.unique(runs[path.at[path.turning]], return_index=True)
     row = path.turning[first]
     at = path.at[row]
@@ -67,15 +65,15 @@ def _told(given: Given, runs: Ints, mode: Modes, numbers: Coordinates, path: Row
         arcs=Arcs(*(column[first] for column in path.arcs)),
         by_radius=~np.isnan(numbers.radius[at]),
         missing=np.isnan(numbers.center[at]).sum(axis=1),
-        is_absolute=mode.has_absolute_centers[at],
+        lacks_center=path.lacks_center[first],
         has_end=np.isnan(numbers.end[at]).sum(axis=1) < len(_AXES),
         slack_um=ROUNDING * given.profile.resolution_um + _HAIR_UM,
     )
 
 
-def _without_center(told: _Told, lacks: Bools) -> Iterator[Finding]:
+def _without_center(told: _Told) -> Iterator[Finding]:
     """ISO210."""
-    for one in np.flatnonzero(lacks).tolist():
+    for one in np.flatnonzero(told.lacks_center).tolist():
         what = "arc-one-center" if told.missing[one] == 1 else "arc-no-center"
         yield _at(told, "ISO210", one, "", what=what)
 

@@ -50,7 +50,7 @@ class Iso:
     def read(self, text: str, choices: Choices) -> ReadText:
         """What a text says. ProgramError (ISO100) where it holds no block, or those of a mill."""
         listing = read_listing(text)
-        if not len(listing.blocks.line):
+        if not (len(listing.words.letter) or listing.assignments or listing.statements):
             raise ProgramError(no_program("no-block", code="ISO100"))
         mill = mill_code(listing)
         if mill:
@@ -63,8 +63,8 @@ class Iso:
             path = moved(listing, taken.profile, choices)
         besides = not_simulated(listing, taken.profile)
         reading = _reading(listing, taken, path)._replace(not_simulated=besides.reason)
-        of_text = (_by_row(finding, path.first_row) for finding in listing.findings)
-        findings = (*of_text, *mode_findings(listing, taken, path), *besides.findings, *path.findings)
+        of_text = (*listing.findings, *mode_findings(listing, taken, path), *besides.findings)
+        findings = (*(_by_row(finding, path.first_row) for finding in of_text), *path.findings)
         ordered = tuple(sorted(findings, key=file_order))
         decoder = Trace(listing, taken.profile, choices)
         return ReadText(listing.lines, reading, {}, path.toolpath, ordered, decoder=decoder)

@@ -58,16 +58,15 @@ class _Stretch(NamedTuple):
 class _Walk:
     def __init__(self, given: Given) -> None:
         self._given = given
-        blocks = given.listing.blocks
-        self._past = int(np.searchsorted(blocks.first, given.listing.tape_end))
+        self._past = len(given.listing.blocks.line)
         self._ends, self._returns, self._calls = (given.m(effect) for effect in ("end", "return", "call"))
-        self._turns = np.flatnonzero((self._ends | self._returns | self._calls)[: self._past])
+        self._turns = np.flatnonzero(self._ends | self._returns | self._calls)
         self._known: dict[int, _Stretch] = {}
         self._open: list[int] = []
         self._faults: dict[int, str] = {}
 
     def flow(self) -> Flow:
-        ends = np.flatnonzero(self._ends[: self._past])
+        ends = np.flatnonzero(self._ends)
         self._main_end = int(ends[0]) if len(ends) else self._past
         whole = self._stretch(0)
         faults = tuple(Fault(*one) for one in sorted(self._faults.items()))
@@ -126,7 +125,7 @@ class _Walk:
         for letter, first in (("N", self._main_end), ("O", 0), ("N", 0)):
             named = self._given.listing.of(letter)
             blocks = words.block[named[words.value[named] == label]]
-            blocks = blocks[(blocks >= first) & (blocks < self._past)]
+            blocks = blocks[blocks >= first]
             if len(blocks):
                 return int(blocks[0])
         return -1

@@ -68,7 +68,7 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
     given = Given(listing, profile)
     run = _run(given, choices)
     arcs = agreement(run.mode, run.numbers, run.place, run.rows)
-    centred = () if arcs.is_otherwise else arc_findings(given, run.flow.block, run.mode, run.numbers, run.rows)
+    centred = () if arcs.is_otherwise else arc_findings(given, run.flow.block, run.numbers, run.rows)
     findings = (
         *order_findings(given, run.flow, run.mode.side, run.place, run.rows.at),
         *move_findings(given, run.flow.block, run.mode, run.rows),

@@ -1,5 +1,6 @@
 """Checks of the order of blocks: ends, calls, what never runs, coordinates named in the middle (docs/iso.md §7)."""
 
+import re
 from collections.abc import Iterator
 
 import numpy as np
@@ -12,6 +13,7 @@ from parser.iso.listing import Listing
 from parser.iso.places import SET_PLACE, Places
 from parser.text.source import Span
 
+_INK = re.compile(r"[^\s%\x00-\x1f][^\r\n]*")
 _MOTION_LETTERS = [ord(letter) for letter in "XYIJR"]
 
 
@@ -21,6 +23,7 @@ def order_findings(given: Given, run: Flow, side: Ints, place: Places, at: Ints)
     yield from _crowded_ends(given)
     yield from _calls(given.listing, run)
     yield from _never_run(given, run)
+    yield from _behind_tape(given.listing)
     yield from _named_places(given, run, place)
     yield from _while_compensated(given, run, side, at)
 
@@ -46,7 +49,7 @@ def _crowded_ends(given: Given) -> Iterator[Finding]:
     later = np.delete(stops, first)
     moving = np.flatnonzero(np.isin(words.letter, _MOTION_LETTERS))
     end_of = np.full(len(given.listing.blocks.line), len(words.letter), dtype=np.int64)
-    end_of[words.block[ends]] = ends
+    end_of[words.block[ends[::-1]]] = ends[::-1]
     behind = moving[moving > end_of[words.block[moving]]]
     wrong = np.sort(np.concatenate([later, behind]))
     _, first = np.unique(words.block[wrong], return_index=True)
@@ -76,10 +79,17 @@ def _never_run(given: Given, run: Flow) -> Iterator[Finding]:
             yield _at(given.listing, "ISO108", first)
 
 
+def _behind_tape(listing: Listing) -> Iterator[Finding]:
+    """ISO108 at the first text behind the ``%`` that ends the tape."""
+    text = _INK.search(listing.text, listing.tape_end)
+    if text:
+        yield _of_span(listing, "ISO108", text.span())
+
+
 def _named_places(given: Given, run: Flow, place: Places) -> Iterator[Finding]:
     """ISO303: a G92 that names another place than the wire is at, with no stop to thread it there."""
     for at in _first_runs(run, np.flatnonzero(place.is_rebased)).tolist():
-        by_x, by_y = (place.shift_um[at] - place.shift_um[at - 1]).tolist()
+        by_x, by_y = (place.shift_um[at - 1] - place.shift_um[at]).tolist()
         yield _at(given.listing, "ISO303", int(run.block[at]), x=by_x, y=by_y)
 
 

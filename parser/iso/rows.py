@@ -25,6 +25,8 @@ class Rows(NamedTuple):
         (n,) lines, arcs and jumps; an arc that nothing makes one is a line to its end.
     turning
         (k,) rows that are told to be arcs.
+    lacks_center
+        (k,) bool, whether they have neither R nor both of I J; from the start of an arc one of I J is enough.
     arcs
         (k,) what was made of them.
     """
@@ -32,6 +34,7 @@ class Rows(NamedTuple):
     at: Ints
     curves: Curves
     turning: Ints
+    lacks_center: Bools
     arcs: Arcs
 
 
@@ -44,15 +47,18 @@ def rows(mode: Modes, numbers: Coordinates, place: Places, resolution_um: float)
     motion = np.where(numbers.moves[at], mode.motion[at], 0)
     turning = np.flatnonzero(motion >= _CLOCKWISE)
     here = at[turning]
-    origin = np.where(mode.has_absolute_centers[here, None], place.shift_um[here], start[turning])
+    is_place = mode.has_absolute_centers[here]
+    missing = np.isnan(numbers.center[here]).sum(axis=1)
+    lacks_center = np.isnan(numbers.radius[here]) & (missing > np.where(is_place, 0, 1))
+    center = np.where(is_place[:, None], place.shift_um[here], start[turning]) + np.nan_to_num(numbers.center[here])
     arcs = _arcs(
         start[turning],
         end[turning],
         np.where(mode.motion[here] == _CLOCKWISE, -1.0, 1.0),
-        (exact(origin + np.nan_to_num(numbers.center[here])), numbers.radius[here]),
+        (np.where(lacks_center[:, None], start[turning], exact(center)), numbers.radius[here]),
         ROUNDING * resolution_um,
     )
-    return Rows(at, _curves(start, end, motion, turning, arcs), turning, arcs)
+    return Rows(at, _curves(start, end, motion, turning, arcs), turning, lacks_center, arcs)
 
 
 def _arcs(start: Floats, end: Floats, turn: Floats, told: tuple[Floats, Floats], slack_um: float) -> Arcs:

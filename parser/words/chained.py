@@ -5,6 +5,7 @@ So do the CAMs (docs/3b.md §1). The controller's own chain, from stepped end to
 """
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -68,7 +69,7 @@ def _stretches(alone: Bools) -> Iterator[slice]:
     """Rows, in order: each one that stands alone, and the runs of others between them."""
     at = np.flatnonzero(alone)
     edges = np.unique(np.concatenate([[0], at, at + 1, [len(alone)]])).tolist()
-    return (slice(first, past) for first, past in zip(edges, edges[1:], strict=False))
+    return (slice(first, past) for first, past in pairwise(edges))
 
 
 def _arc_from(curves: Curves, told_um: Floats, row: slice, at: Floats) -> StepWords:

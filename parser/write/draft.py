@@ -11,7 +11,7 @@ from parser.toolpath import Compensation, StepWords, Stop, Toolpath
 
 _PLACED = re.compile(r"\s*(?:N\s*\d+\s*)?(?:Start|.*G\s*92(?!\d))", re.IGNORECASE)
 _STAYS_UM = 1.5
-"""Radii at start and end of an arc that differ by no more, as rounding of both to whole µm makes it: its centre stays."""
+"""An arc whose radii at start and end differ by no more, as rounding both to whole µm makes it, keeps its centre."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from parser.geometry.curves import Ints
+from parser.units import mm
 from parser.write.draft import Draft, Written
 from parser.write.iso_choices import IsoChoices
 from parser.write.sides import Sides, sides_of
@@ -33,7 +34,7 @@ def _remarks(choices: IsoChoices, sides: Sides) -> Iterator[str]:
     unit = _UNITS[choices.unit]
     yield f"({choices.profile.name}, {unit}, {choices.distance}, centres {choices.centers.replace('-', ' ')})"
     for name, by_um in sides.outside.items():
-        yield f"(offset of register {int(name[1:])}: {choices.length(by_um)} {_UNITS['mm' if choices.unit == 'um' else choices.unit]})"
+        yield f"(offset of register {int(name[1:])}: {mm(by_um):.4f} mm)"
 
 
 def _head(draft: Draft, choices: IsoChoices) -> Iterator[str]:
@@ -85,7 +86,7 @@ def _placed(place: Ints, choices: IsoChoices) -> str:
 
 def _block(motion: int, to: Ints, center: Ints, choices: IsoChoices) -> str:
     words = [f"G0{motion}", *_words("XY", to, choices)]
-    return " ".join([*words, *_words("IJ", center, choices)] if motion >= 2 else words)  # noqa: PLR2004 - G02, G03
+    return " ".join([*words, *_words("IJ", center, choices)] if motion >= 2 else words)
 
 
 def _words(letters: str, steps: Ints, choices: IsoChoices) -> list[str]:

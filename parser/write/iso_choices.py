@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 from parser.findings.errors import SettingsError
-from parser.iso.profile import Profile
+from parser.iso.profile import Profile, profile
+from parser.units import UM_PER_MM
 
 Unit = Literal["um", "mm", "inch"]
-_UM: dict[Unit, float] = {"um": 1.0, "mm": 1000.0, "inch": 25_400.0}
+UM_PER_INCH = 25_400.0
+_UM: dict[Unit, float] = {"um": 1.0, "mm": UM_PER_MM, "inch": UM_PER_INCH}
 _DECIMALS: dict[Unit, int] = {"um": 0, "mm": 3, "inch": 5}
-MOST_DECIMALS = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +28,7 @@ class Habits:
     offset: str
     digits: int
     sets_offsets: bool
+    offset_on: str
     side_alone: bool
     says_unit: bool
 
@@ -72,23 +74,18 @@ class IsoChoices(NamedTuple):
         """A number of steps as text."""
         return f"{steps}" if not self.decimals else f"{steps / 10**self.decimals:.{self.decimals}f}"
 
-    def length(self, length_um: float) -> str:
-        """A length as text, as fine as its unit is usually written."""
-        decimals = max(self.decimals, _DECIMALS[self.unit])
-        return f"{length_um / _UM[self.unit]:.{decimals}f}"
 
-
-def iso_choices(profile: Profile, unit: Unit | None = None, decimals: int | None = None) -> IsoChoices:
-    """The usual choices of a dialect; with another unit, and other decimals, where they are given.
+def iso_choices(dialect: str, unit: Unit | None = None, decimals: int | None = None) -> IsoChoices:
+    """The usual choices of a dialect by its name; with another unit, and other decimals, where they are given.
 
     SettingsError where the dialect has no such numbers.
     """
-    habits = _habits(profile.name)
+    of, habits = profile(dialect), _habits(dialect)
     unit = unit or habits.unit
-    if unit == "um" and profile.integer_um != _UM["um"]:
-        raise SettingsError(f"--unit um: whole numbers of {profile.name} are no µm; --unit mm has a point")
+    if unit == "um" and of.integer_um != _UM["um"]:
+        raise SettingsError(f"--unit um: whole numbers of {of.name} are no µm; --unit mm has a point")
     fine = _DECIMALS[unit] if decimals is None or unit == "um" else decimals
-    return IsoChoices(profile, habits, unit, fine, profile.distance, profile.centers, habits.number_step, habits.tape)
+    return IsoChoices(of, habits, unit, fine, of.distance, of.centers, habits.number_step, habits.tape)
 
 
 @cache

@@ -24,13 +24,13 @@ class Loss(NamedTuple):
         Name of its text for people, ``convert.lost-…``.
     of
         The words themselves, for people; empty where they are only counted.
-    count
+    number
         How many there are.
     """
 
     what: str
     of: str
-    count: int
+    number: int
 
 
 def lost_words(text: str) -> tuple[Loss, ...]:
@@ -42,18 +42,23 @@ def lost_words(text: str) -> tuple[Loss, ...]:
     switches |= is_m & ~np.isin(words.value, _OF_THE_PATH)
     losses = [
         _named("switches", listing, switches),
+        _of("settings", listing.text, [one.span for one in listing.statements]),
         _named("stops", listing, is_m & np.isin(words.value, _STOPS)),
-        _named("calls", listing, is_m & (words.value == 98)),  # noqa: PLR2004 - M98
+        _named("calls", listing, is_m & (words.value == 98)),
         Loss("remarks", "", len(listing.remarks)),
         Loss("skips", "", int(listing.blocks.is_skipped.sum())),
     ]
-    return tuple(loss for loss in losses if loss.count)
+    return tuple(loss for loss in losses if loss.number)
 
 
 def _named(what: str, listing: Listing, chosen: Bools) -> Loss:
     at = np.flatnonzero(chosen)
-    spans = zip(listing.words.first[at].tolist(), listing.words.past[at].tolist(), strict=True)
-    return Loss(what, some(listing.text[slice(*span)] for span in spans), len(at))
+    first, past = listing.words.first[at].tolist(), listing.words.past[at].tolist()
+    return _of(what, listing.text, list(zip(first, past, strict=True)))
+
+
+def _of(what: str, text: str, spans: list[tuple[int, int]]) -> Loss:
+    return Loss(what, some(text[slice(*span)] for span in spans), len(spans))
 
 
 def some(names: Iterable[str]) -> str:

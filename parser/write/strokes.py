@@ -13,6 +13,9 @@ _FULL_UM = 1.5
 _SHORT_STEPS = 3.0
 """An arc of a longer chord keeps its sense, however its places are rounded; a shorter one is a line within a step."""
 
+_LET_BE_STEPS = 0.6
+"""As in `parser.words.chained`: what a CAM leaves off on an axis before it writes a step more or less."""
+
 
 class Strokes(NamedTuple):
     """Blocks to be written, (m,) rows; places are in steps of the text.
@@ -77,18 +80,27 @@ def _in_turns(draft: Draft) -> tuple[Draft, Ints]:
 def _is_full(curves: Curves) -> Bools:
     """(n,) arcs that turn once, and end where they start but for rounding."""
     off = np.hypot(*(curves.end_um - curves.start_um).T)
-    return curves.is_arc & (off <= _FULL_UM) & (np.abs(np.abs(curves.sweep_rad) - 2.0 * np.pi) < np.pi)
+    full: Bools = curves.is_arc & (off <= _FULL_UM) & (np.abs(np.abs(curves.sweep_rad) - 2.0 * np.pi) < np.pi)
+    return full
 
 
 def _places(curves: Curves, step_um: float, full: Bools) -> Ints:
     """(n + 1, 2) places between the rows; a full circle ends where it starts."""
-    begin = curves.start_um[:1]
-    ends = np.rint((curves.end_um - begin) / step_um) + np.rint(begin / step_um)
-    places = np.concatenate([np.rint(begin / step_um), ends]).astype(np.int64)
-    at = np.arange(len(places))
-    at[1:][full] = 0
-    held: Ints = places[np.maximum.accumulate(at)]
-    return held
+    by = np.where(full[:, None], 0.0, curves.end_um - curves.start_um) / step_um
+    start = curves.start_um[:1] / step_um
+    first = np.rint(start)
+    ends = curves.end_um / step_um - start + first
+    columns = [_rounded(first[:, axis], by[:, axis], ends[:, axis], full) for axis in (0, 1)]
+    return np.array(columns, dtype=np.int64).reshape(2, -1).T
+
+
+def _rounded(start: Floats, by: Floats, ends: Floats, full: Bools) -> list[int]:
+    """Places on an axis: each way rounded by itself while that stays near enough to its end, else the end itself."""
+    places = [int(at) for at in start.tolist()]
+    for way, end, stays in zip(np.rint(by).tolist(), ends.tolist(), full.tolist(), strict=True):
+        at = places[-1] + int(way)
+        places.append(at if stays or abs(at - end) <= _LET_BE_STEPS else round(end))
+    return places
 
 
 def _to_center(draft: Draft, start: Ints, places: Ints, step_um: float) -> Ints:

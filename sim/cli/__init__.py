@@ -19,6 +19,7 @@ _COMMANDS = {
     "card": "sim.cli.card",
     "check": "sim.cli.check.command",
     "compare": "sim.cli.compare",
+    "convert": "sim.cli.convert",
     "decode": "sim.cli.decode",
     "draw": "sim.cli.draw",
     "explain": "sim.cli.explain",

@@ -2,14 +2,17 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from parser.dialect.reader import Choices
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
 from parser.program import Program, load_program
 from parser.toolpath import Toolpath
+from parser.units import mm
 from parser.write.draft import Draft, Written
-from parser.write.losses import Loss
+from parser.write.losses import Loss, some
 from sim.check.engine import Checked, Demands, run_checks
 from sim.convert.losses import losses
 from sim.convert.proof import Proof, proof
@@ -73,6 +76,9 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
         return Refused("source", program, _errors(checked))
     if not checked.coverage.is_complete:
         return Refused("incomplete", program)
+    several = _several_offsets(program.toolpath, wanted)
+    if several:
+        return Refused("several-offsets", program, values=(("of", several),))
     draft = draft_for(_path(program, checked, wanted), wanted)
     if not len(draft):
         return Refused("nothing", program)
@@ -84,6 +90,15 @@ def _path(program: Program, checked: Checked, wanted: Wanted) -> Toolpath:
     if wanted.keeps or checked.compensation is None:
         return program.toolpath
     return checked.compensation.program.toolpath
+
+
+def _several_offsets(toolpath: Toolpath, wanted: Wanted) -> str:
+    """The offsets of a program for people, mm, where there are more than the one that 4B leaves to the controller."""
+    told = toolpath.compensation
+    if told is None or wanted.language != "4b" or not wanted.keeps:
+        return ""
+    left = np.unique(told.left_um[told.side != 0])
+    return some(f"{mm(one):+.3f} mm" for one in left.tolist()) if len(left) > 1 else ""
 
 
 def _proved(program: Program, draft: Draft, made: Written, wanted: Wanted) -> Converted | Refused:

@@ -15,7 +15,7 @@ def losses(program: Program, draft: Draft, made: Written, wanted: Wanted) -> tup
     words = program.toolpath.words
     of_text = lost_words(program.text) if words is None else _lost_fields(program, words, wanted)
     found = (*of_text, *_lost_offsets(program.toolpath, wanted), *_changed_rows(draft, made, wanted))
-    return tuple(loss for loss in found if loss.count)
+    return tuple(loss for loss in found if loss.number)
 
 
 def _lost_fields(program: Program, words: StepWords, wanted: Wanted) -> tuple[Loss, ...]:

@@ -46,11 +46,9 @@ def _off_um(curves: Curves, row: Ints, read: Toolpath) -> float:
     shift = curves.start_um[0] - read.start_um[0]
     last = np.searchsorted(row, np.arange(len(curves)), side="right") - 1
     ends = np.where((last >= 0)[:, None], read.end_um[np.maximum(last, 0)], read.start_um[0]) + shift
-    off = [np.hypot(*(ends - curves.end_um).T)]
     source = curves.picked(row)
-    for share in _SHARES:
-        off.append(_beside(source, _at(read, share) + shift))
-    return float(np.max(np.concatenate(off)))
+    beside = [_beside(source, _at(read, share) + shift) for share in _SHARES]
+    return float(np.max(np.concatenate([np.hypot(*(ends - curves.end_um).T), *beside])))
 
 
 def _at(path: Curves, share: float) -> Floats:

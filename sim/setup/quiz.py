@@ -16,7 +16,7 @@ from sim.setup.toml.reader import Bound, number, refuse_unknown, tables
 About = Literal["quadrant", "count_axis", "turn", "count_length", "next_step", "end"]
 """What drycut asks about a block and answers from the program."""
 
-_OF_WORDS: tuple[About, ...] = ("quadrant", "count_axis", "turn", "count_length", "next_step")
+_OF_WORDS: tuple[About, ...] = ("quadrant", "count_axis", "count_length", "next_step")
 """What is asked in the words by which a controller counts steps."""
 
 BLOCK = Bound(1, 1e6)
@@ -141,7 +141,9 @@ def refuse_unanswerable(questions: Iterable[Question], toolpath: Toolpath) -> No
             raise SettingsError(f"{question.where}: block {question.block} is not in the program, which ends at {last}")
         row = int(rows[0])
         if question.what in _OF_WORDS and toolpath.words is None:
-            raise SettingsError(f"{question.where}: the program has no words to ask about, but places alone (end)")
+            raise SettingsError(
+                f"{question.where}: the program has no words to ask about, but senses (turn) and ends (end)"
+            )
         if question.what == "turn" and not toolpath.is_arc[row]:
             raise SettingsError(f"{question.where}: block {question.block} is a line, and does not turn")
         if not isinstance(question.what, WrittenQuestion) and not toolpath.length_um[row] > 0.0:

@@ -3,6 +3,7 @@
 import cmath
 import math
 import random
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -187,6 +188,21 @@ def test_a_stretch_without_a_value_stays_as_it_is_and_says_so() -> None:
     assert ends_mm(made) == [(10, 0), (20, 0), (20, 5), (30, 4.8), (40, 4.8), (40, 10)]
     assert alarms(made) == [(AlarmKind.UNKNOWN, 1, False)]
     assert made.stretches == ((3, 5, 5),)
+
+
+def test_each_register_without_a_value_is_told() -> None:
+    path = told(line((0, 0), (10, 0), (20, 0), (20, 5), (30, 5)), 1, math.nan)
+    named = replace(path.compensation, register=("D1", "D1", "D2", "D1"))
+    made = compensated(replace(path, compensation=named))
+    assert alarms(made) == [(AlarmKind.UNKNOWN, row, False) for row in (0, 2, 3)]
+
+
+def test_an_arc_larger_than_the_offset_may_vanish_between_its_neighbours() -> None:
+    """Of radius 2 mm at an offset of 1 mm, but shorter than what its two corners take of it."""
+    moves = [To(0, 0), To(10, 0), To(10.4, 0.4, 8.8, 1.6, 1), To(10.4, 10)]
+    made = compensated(told(drawn_mm((-5, 0), moves).path(), 1, 1000.0))
+    assert ends_mm(made) == [(0, 1), (9.4, 1), (9.4, 10)]
+    assert alarms(made)[0] == (AlarmKind.VANISHED, 2, False)
 
 
 # Whole contours

@@ -17,7 +17,7 @@ from parser.text.encoding import no_program
 PAGES = resources.files("parser.findings") / "pages"
 TEMPLATES = ("found", "expected", "machine", "hint")
 LINE = 110
-NO_EXAMPLE = {"3B100", "3B303"} | {code for code, of in CODES.items() if of.check is None}
+NO_EXAMPLE = {"3B100", "3B303", "ISO100"} | {code for code, of in CODES.items() if of.check is None}
 
 VALUES: dict[str, dict[str, Value]] = {
     "3B100": {"what": "unreadable-file", "detail": "Permission denied", "hint": "hint-program"},
@@ -131,6 +131,23 @@ VALUES: dict[str, dict[str, Value]] = {
     "ISO400": {"text": "M98 P2", "what": "call-without-label"},
     "ISO401": {"text": "N2"},
     "ISO402": {"text": "#100 = 5", "more": 0},
+    "ISO500": {"side": "G41", "register": "D0"},
+    "ISO501": {"side": "G41", "register": ""},
+    "ISO502": {"what": "set-up", "side": "G41", "register": "D0", "offset": 100.0},
+    "ISO503": {"length": 50.0, "offset": 100.0},
+    "ISO504": {
+        **{"radius": 50.0, "offset": 100.0, "left": 20.7, "x_mm": 12.5, "y_mm": 0.0},
+        **{"act": "compensation-leaves-out"},
+    },
+    "ISO505": {"offset": 100.0, "left": 3.2, "x_mm": 12.5, "y_mm": 0.0, "act": "compensation-stops"},
+    "ISO506": {"other": 9, "pass": 2, "depth": 110.0, "offset": 100.0, "x_mm": 12.5, "y_mm": 0.0},
+    "ISO507": {"loops": 2, "offset": 100.0},
+    "ISO508": {"before": "G41", "side": "G42", "more": 0},
+    "ISO509": {"was": 10.0, "offset": 213.0, "more": 0},
+    "ISO510": {"side": "G41", "offset": 100.0},
+    "ISO512": {"side": "G42", "other": "G41"},
+    "ISO513": {"side": "G41", "register": "D0"},
+    "ISO514": {"left": 11.8, "offset": 100.0},
     "ISO511": {"text": "G92 X5000 Y5000"},
     "ISO219": {"written": "G02", "other": "G03", "word": "G03"},
     "ISO300": {"first": 1, "last": 4, "gap": 10000.0},

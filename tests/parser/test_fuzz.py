@@ -23,6 +23,8 @@ INPUTS = {
     **{
         "program": 200,
         "fix": 25,
+        "iso": 200,
+        "iso-fix": 15,
         "scenario": 200,
         "machine": 200,
         "settings": 60,

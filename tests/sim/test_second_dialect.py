@@ -226,7 +226,10 @@ def test_the_replay_has_its_blocks_and_lines() -> None:
 def test_a_quiz_asks_for_places_and_not_for_words_that_are_not_there() -> None:
     (asked,) = document_of(SLOT, quiz=(Question(2, "end", "here"),))["quiz"]
     assert asked["answers"][asked["right"]]["en"] == "X 4.000 mm, Y 4.000 mm"
-    for about in ("quadrant", "count_axis", "turn", "count_length", "next_step"):
+    (asked,) = document_of(SLOT, quiz=(Question(2, "turn", "here"),))["quiz"]
+    assert [answer["en"] for answer in asked["answers"]] == ["clockwise (right)", "counter-clockwise (left)"]
+    assert asked["why"]["en"].startswith("It is written left: right turns clockwise")
+    for about in ("quadrant", "count_axis", "count_length", "next_step"):
         with pytest.raises(SettingsError, match="no words"):
             document_of(SLOT, quiz=(Question(2, about, "here"),))
 

@@ -138,6 +138,8 @@ class PlainIso:
         end = self._here
         if "R" in words:
             return self._arc_of_radius(start, end, self._um(words["R"]) or 0.0)
+        if not {"I", "J"} & set(words) or (self.absolute_centers and not {"I", "J"} <= set(words)):
+            return None, 0.0
         by = complex(self._um(words.get("I")) or 0.0, self._um(words.get("J")) or 0.0)
         center = _exact(by + (self.shift if self.absolute_centers else start))
         if center in (start, end):

@@ -41,7 +41,7 @@ def own_compensation(program: Program, told: Compensation, is_judged: Bools) -> 
     runs = [one.run for one in stretches]
     judged = [one for one in stretches if is_judged[slice(*one.run.round[:2])].all()]
     found = [
-        *word_findings(program, told, made.alarms),
+        *word_findings(program, told, made.alarms, [run.wedge for run in runs]),
         *contour_findings(program, made.path, judged, made.alarms),
     ]
     passes = drawn_passes(runs, len(drawn))

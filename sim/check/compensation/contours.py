@@ -22,7 +22,8 @@ from sim.check.compensation.rounds import CompensatedRound, contour_of, parts_of
 from sim.check.offset import gouge_finding, loop_finding, uncut_finding
 
 SEEN_UM = 1.0
-"""What stays by less is not seen on the part: a step."""
+"""What stays, or is cut, by less is not seen on the part: a step."""
+_LEFT_UM = 5.0  # along a block that the wire does not come to: less, of a contour in many small blocks, is no fault
 
 
 class Held(NamedTuple):
@@ -49,18 +50,18 @@ def contour_findings(
     """What the path makes of the contours, under the codes of an offset, 3B501 to 3B504, and ISO512 and ISO514."""
     stops = {one.row for one in alarms if one.stops and one.kind in (AlarmKind.TOO_SMALL, AlarmKind.VANISHED)}
     for one in stretches:
-        run = one.run
         yield from _uncut(program, path, one, stops)
         if one.beside.loops not in (None, 1):
-            yield loop_finding(program, run.round.section.first, int(one.beside.loops or 0), run.by_um)
-        if run.part_side == run.side:
-            yield at_block(program.toolpath, program.lines, "ISO512", run.round.begin, **_side_words(run))
+            yield loop_finding(program, one.run.round.section.first, int(one.beside.loops or 0), one.run.by_um)
+        if one.run.part_side == one.run.side:
+            yield at_block(program.toolpath, program.lines, "ISO512", one.run.round.begin, **_side_words(one.run))
     for one in stretches:
-        if one.run.is_nearest and one.run.round.section.closed:
+        if one.run.is_nearest and one.run.round.section.closed and not one.run.at_jump:
             yield from _stub(program, path, one, [other.run for other in stretches])
-    for told, gouge in _told_gouges(stretches):
-        rows = int(path.source_row[gouge.path_row]), gouge.row
-        yield gouge_finding(program, rows, gouge, told.kerf_um)
+    for run, gouge in _told_gouges(stretches):
+        row = int(path.source_row[gouge.path_row])
+        if row != run.wedge and not _is_mark(program, run, gouge):  # ISO509 tells of a wedge
+            yield gouge_finding(program, (row, gouge.row), gouge, run.kerf_um)
 
 
 def _uncut(program: Program, path: OffsetPath, one: Held, stops: set[int]) -> Iterator[Finding]:
@@ -71,7 +72,7 @@ def _uncut(program: Program, path: OffsetPath, one: Held, stops: set[int]) -> It
     beside = path.curves.picked(rows_beside(path, run.round))
     left_um = [*one.beside.left_um, *uncut_um(one.contour, beside, run.by_um, missed - section.first)]
     for row, left in zip([*vanished.tolist(), *missed.tolist()], left_um, strict=True):
-        if program.toolpath.length_um[row] > NOTHING_UM and (row in stops or (run.is_nearest and left > SEEN_UM)):
+        if program.toolpath.length_um[row] > NOTHING_UM and (row in stops or (run.is_nearest and left > _LEFT_UM)):
             found = uncut_finding(program, row, float(left), run.distances, stops=row in stops)
             if found is not None:
                 yield found
@@ -121,6 +122,18 @@ def _beside_joint(contour: Curves, by_um: float) -> Curves:
     reach_um = np.minimum(length_um, by_um)
     first_um = np.array([0.0, length_um[1] - reach_um[1]])
     return parts_of(contour, row, first_um, first_um + reach_um)
+
+
+def _is_mark(program: Program, run: CompensatedRound, gouge: Gouge) -> bool:
+    """Whether a gouge is no more than the mark that stays where a contour begins and ends.
+
+    Where a jump leads to it under compensation, controllers differ in the corner that jump and contour make: ISO302.
+    """
+    section = run.round.section
+    if run.at_jump:
+        x, y = program.toolpath.start_um[section.first]
+        return bool(np.hypot(gouge.place_um.x - x, gouge.place_um.y - y) <= 2.0 * run.by_um)
+    return section.closed and gouge.row in (section.first, section.last) and gouge.depth_um <= SEEN_UM
 
 
 def _told_gouges(stretches: Sequence[Held]) -> Iterator[tuple[CompensatedRound, Gouge]]:

@@ -36,6 +36,10 @@ class CompensatedRound(NamedTuple):
     part_side
         +1 with the part on the left of the path, −1 on the right, 0 where nothing tells: the wire comes to the contour
         from the waste.
+    wedge
+        Row of the contour that begins at another offset and ends at this one; −1 where there is none.
+    at_jump
+        Whether the contour begins or ends at a jump: controllers differ in how a jump and a block make a corner.
     along
         Which edge it runs along, and in which pass.
     kerf_um
@@ -48,6 +52,8 @@ class CompensatedRound(NamedTuple):
     side: Side
     by_um: float
     part_side: int
+    wedge: int = -1
+    at_jump: bool = False
     along: Along = ALONE
     kerf_um: float = 0.0
     is_nearest: bool = True
@@ -71,6 +77,7 @@ def compensated_rounds(toolpath: Toolpath, left_um: Floats) -> tuple[Compensated
     moves but closes no loop, between the same set-up and cancel as one that does, leads to that one or away from it.
     """
     stretches = _stretches(left_um, toolpath.is_jump)
+    is_jump = np.concatenate([[False], toolpath.is_jump, [False]])  # of the block before each
     of_row = np.full(len(toolpath), -1, dtype=np.int64)
     for number, one in enumerate(stretches):
         of_row[one.begin : one.past] = number
@@ -88,7 +95,10 @@ def compensated_rounds(toolpath: Toolpath, left_um: Floats) -> tuple[Compensated
             led_out = one.past < len(toolpath) and left_um[one.past] == 0.0 and not toolpath.is_jump[one.past]
             side, by_um = Side(int(np.sign(left_um[one.begin]))), abs(float(left_um[one.begin]))
             begin = one.begin if section.closed else section.first
-            found.append(CompensatedRound(Round(begin, one.past + bool(led_out), section), side, by_um, part_side))
+            wedge = one.begin if section.first == one.begin and one.is_led_in else -1
+            whole = Round(begin, one.past + bool(led_out), section)
+            at_jump = is_jump[[section.first, section.last + 2]].any()
+            found.append(CompensatedRound(whole, side, by_um, part_side, wedge, bool(at_jump)))
     return _by_edge(toolpath, found)
 
 

@@ -3,7 +3,7 @@
 The controller's alarms tell most of it; no path is looked at.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 import numpy as np
 
@@ -18,10 +18,13 @@ from sim.check.compensation.asked import WithoutValue
 _ON_ARCS = {AlarmKind.SETUP_ARC: "set-up", AlarmKind.CANCEL_ARC: "cancel"}
 
 
-def word_findings(program: Program, told: Compensation, alarms: Sequence[Alarm]) -> Iterator[Finding]:
+def word_findings(
+    program: Program, told: Compensation, alarms: Sequence[Alarm], wedges: Collection[int]
+) -> Iterator[Finding]:
     """Findings ISO500 to ISO503, ISO508 to ISO510 and ISO513.
 
-    A register, and a change that a program makes again and again, is told where it first occurs.
+    A register, and a change that a program makes again and again, is told where it first occurs; `wedges` are rows of
+    contours that begin at one offset and end at another, of which the first is told.
     """
     yield from _without_value(program, told, alarms)
     for alarm in alarms:
@@ -32,8 +35,15 @@ def word_findings(program: Program, told: Compensation, alarms: Sequence[Alarm])
             yield _graver(_at(program, told, "ISO503", alarm.row, length=length_um), alarm)
         elif alarm.kind is AlarmKind.NO_CANCEL:
             yield _at(program, told, "ISO510", alarm.row)
-    yield from _changes(program, told, alarms, AlarmKind.SIDE_CHANGED, "ISO508")
-    yield from _changes(program, told, alarms, AlarmKind.OFFSET_CHANGED, "ISO509")
+    sides, offsets = (
+        [alarm for alarm in alarms if alarm.kind is kind] for kind in (AlarmKind.SIDE_CHANGED, AlarmKind.OFFSET_CHANGED)
+    )
+    if sides:
+        yield _graver(_change(program, told, "ISO508", sides[0].row, len(sides)), sides[0])
+    if offsets:
+        first = next((alarm for alarm in offsets if alarm.row in wedges), offsets[0])
+        found = _change(program, told, "ISO509", first.row, len(offsets))
+        yield _graver(found._replace(graver=Severity.WARNING if first.row in wedges else None), first)
 
 
 def _without_value(program: Program, told: Compensation, alarms: Sequence[Alarm]) -> Iterator[Finding]:
@@ -46,16 +56,10 @@ def _without_value(program: Program, told: Compensation, alarms: Sequence[Alarm]
         yield _at(program, told, "ISO513", row)
 
 
-def _changes(
-    program: Program, told: Compensation, alarms: Sequence[Alarm], kind: AlarmKind, code: str
-) -> Iterator[Finding]:
-    """The first change of a kind while compensation is on, with the number of those behind it."""
-    found = [alarm for alarm in alarms if alarm.kind is kind]
-    if found:
-        row = found[0].row
-        was_um = abs(float(told.by_um[row - 1]))
-        finding = _at(program, told, code, row, before=_side(told, row - 1), was=was_um, more=len(found) - 1)
-        yield _graver(finding, found[0])
+def _change(program: Program, told: Compensation, code: str, row: int, number: int) -> Finding:
+    """Finding at a change in a row while compensation is on, one of a number of such."""
+    was_um = abs(float(told.by_um[row - 1]))
+    return _at(program, told, code, row, before=_side(told, row - 1), was=was_um, more=number - 1)
 
 
 def _graver(finding: Finding, alarm: Alarm) -> Finding:

@@ -7,7 +7,7 @@ import numpy as np
 
 from parser.findings.catalogue import Said
 from parser.geometry.curves import Floats
-from parser.words.labels import SENSES, label
+from parser.words.labels import label
 from sim.setup.quiz import About, WrittenQuestion
 from sim.show.replay.asked_block import AskedBlock, in_mm, plain, signed, way
 from sim.show.words import said
@@ -70,12 +70,11 @@ def _axis_of_arc(to_x: int, to_y: int, written: str) -> tuple[str, str]:
 
 
 def _turning(block: AskedBlock) -> WrittenQuestion:
-    answers = [said("quiz.turn_answer", turn=said(f"quiz.{key}"), word=word) for key, word in _SENSES]
-    why = said("quiz.turn_why", label=block.label)
+    clockwise, counter_clockwise = block.senses
+    words = {"clockwise": clockwise, "counter_clockwise": counter_clockwise}
+    answers = [said("quiz.turn_answer", turn=said(f"quiz.{key}"), word=word) for key, word in words.items()]
+    why = said("quiz.turn_why", written=block.sense, **words)
     return WrittenQuestion(_ask("quiz.turn", block), tuple(answers), int(block.turn > 0), why)
-
-
-_SENSES = (("clockwise", SENSES[-1]), ("counter_clockwise", SENSES[1]))
 
 
 def _count_length(block: AskedBlock) -> WrittenQuestion:

@@ -9,7 +9,7 @@ from controller.stepping.words import words_of
 from parser.geometry.curves import Floats
 from parser.toolpath import Axis
 from parser.units import mm
-from parser.words.labels import SENSES, label
+from parser.words.labels import label
 from sim.run.dryrun import DryRun
 
 
@@ -34,6 +34,8 @@ class AskedBlock(NamedTuple):
         How many it makes.
     is_worded
         Whether its words stand in the program; else they are the controller's own.
+    senses
+        How the program writes arcs clockwise and counter-clockwise, such as ``SR`` and ``NR``.
     """
 
     number: int
@@ -50,6 +52,7 @@ class AskedBlock(NamedTuple):
     first_step: tuple[int, int]
     steps: int
     is_worded: bool
+    senses: tuple[str, str]
 
     @property
     def by_um(self) -> Floats:
@@ -63,13 +66,8 @@ class AskedBlock(NamedTuple):
 
     @property
     def sense(self) -> str:
-        """Letters before the digit of its direction."""
-        return SENSES[self.turn]
-
-    @property
-    def label(self) -> str:
-        """Direction as it is written."""
-        return label(self.turn, self.quadrant)
+        """What tells the sense of an arc, as it is written: with the digit of its quadrant where it has one."""
+        return label(self.turn, self.quadrant) if self.is_worded else self.senses[self.turn > 0]
 
     @property
     def motion(self) -> int:
@@ -103,6 +101,7 @@ def asked_block(run: DryRun, row: int, first_um: tuple[int, int] | None) -> Aske
         first_step=(to_x - from_x, to_y - from_y),
         steps=int(run.stepped.count[row]),
         is_worded=toolpath.words is not None,
+        senses=run.program.reading.spelling[:2],
     )
 
 

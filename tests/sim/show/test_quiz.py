@@ -158,8 +158,9 @@ def asked_about(block: PlainBlock) -> dict[About, dict[str, Any]]:
     places = np.array(plain_steps(block), dtype=np.int32)
     steps = Pulses(np.zeros(len(places)), *places.T, np.zeros(len(places), dtype=np.int32))
     stepped = BlockSteps(np.array([len(places)]), np.array([[0, 0], places[-1]]))
-    toolpath = parse_program(program_text([block])).toolpath
-    run = SimpleNamespace(toolpath=toolpath, stepped=stepped, scenario=plain_scenario(quiz=EVERYTHING))
+    program = parse_program(program_text([block]))
+    asked = plain_scenario(quiz=EVERYTHING)
+    run = SimpleNamespace(program=program, toolpath=program.toolpath, stepped=stepped, scenario=asked)
     return {entry["about"]: entry for entry in question_entries(run, steps)}
 
 
@@ -226,7 +227,21 @@ def test_why_an_axis_counts_is_the_rule_or_its_breach(block: PlainBlock, why: st
 
 def test_wrong_ends_are_no_place_where_steps_might_end() -> None:
     block = AskedBlock(
-        1, False, np.zeros(2), np.array([9.0, 0.0]), np.full(2, np.nan), 9.0, (9, 0), 9, "X", 1, 0, (1, 0), 9, True
+        1,
+        False,
+        np.zeros(2),
+        np.array([9.0, 0.0]),
+        np.full(2, np.nan),
+        9.0,
+        (9, 0),
+        9,
+        "X",
+        1,
+        0,
+        (1, 0),
+        9,
+        True,
+        ("SR", "NR"),
     )
     assert written_out("end", block) is None
     far = written_out("end", block._replace(end_um=np.array([9.0, 300.0])))

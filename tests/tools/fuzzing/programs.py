@@ -1,4 +1,4 @@
-"""Target `program`: 3B and 4B text, checked. Target `fix`: the same, mended in its file."""
+"""Targets `program` and `iso`: 3B and 4B text, and ISO, checked. Targets `fix`, `iso-fix`: mended in their files."""
 
 import random
 from collections.abc import Iterator
@@ -6,6 +6,7 @@ from itertools import chain
 from pathlib import Path
 from subprocess import CompletedProcess
 
+from fuzzing.iso_text import fuzzed_iso
 from fuzzing.program_text import fuzzed_program
 from fuzzing.promises import of_document, unclean
 from fuzzing.ran import answer_of, broken_by, ran
@@ -30,6 +31,11 @@ _RENDERED = 20  # one in so many inputs is written in all formats
 def make(rng: random.Random) -> Input:
     """A program."""
     return fuzzed_program(rng)
+
+
+def make_iso(rng: random.Random) -> Input:
+    """A program of ISO."""
+    return fuzzed_iso(rng)
 
 
 def judge(data: Input, number: int, _: Path) -> Judged:

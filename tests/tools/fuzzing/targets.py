@@ -8,6 +8,8 @@ TARGETS = {
     for target in (
         Target("program", programs.make, programs.judge, 12.0),
         Target("fix", programs.make, programs.judge_fix, 5.0),
+        Target("iso", programs.make_iso, programs.judge, 12.0),
+        Target("iso-fix", programs.make_iso, programs.judge_fix, 5.0),
         Target("scenario", setups.make_scenario, setups.judge_scenario, 20.0),
         Target("machine", setups.make_machine, setups.judge_machine, 20.0),
         Target("settings", setups.make_settings, setups.judge_settings, 5.0),

@@ -1,0 +1,211 @@
+"""``drycut convert``."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import click
+
+from sim.cli.dialect_options import Dialect, Offsets, OrRegister, offsets_of
+from sim.cli.scenario_options import Length, chosen
+
+if TYPE_CHECKING:
+    from parser.dialect.reader import Choices
+    from parser.findings.catalogue import Language as Tongue
+    from parser.program import Program
+    from parser.write.iso_choices import IsoChoices, Unit
+    from sim.convert.wanted import Language, Wanted
+
+_SUFFIXES: "dict[str, Language]" = {".3b": "3b", ".4b": "4b", ".iso": "iso", ".nc": "iso", ".cnc": "iso"}
+_UNITS = click.Choice(["um", "mm", "inch"])
+
+
+class _Asked(NamedTuple):
+    """The options, by their names; None and False where they are left out."""
+
+    to: "Language | None"
+    dialect: str | None
+    unit: "Unit | None"
+    from_dialect: str | None
+    from_unit: "Unit | None"
+    offset: tuple[Any, ...]
+    side: str | None
+    compensation: str | None
+    form: Any
+    distance: Any
+    centers: Any
+    decimals: int | None
+    number_step: int | None
+    tape: bool | None
+    crlf: bool
+
+
+@click.command(short_help="Convert a program between 3B, 4B and the dialects of ISO.")
+@click.argument("path", type=click.Path(path_type=Path, dir_okay=False), metavar="PROGRAM")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, dir_okay=False),
+    required=True,
+    metavar="FILE",
+    help="The program that is written; its suffix says its language: .3b, .4b, .iso, .nc or .cnc.",
+)
+@click.option("--to", type=click.Choice(["3b", "4b", "iso"]), help="Its language, whatever its suffix.")
+@click.option("--dialect", type=Dialect(), help="Dialect of ISO: of what is written, else of what is read.")
+@click.option("--unit", type=_UNITS, help="Unit of ISO: of what is written, else of what is read.")
+@click.option("--from-dialect", type=Dialect(), help="Dialect that is read, from ISO to ISO; else told by its text.")
+@click.option("--from-unit", type=_UNITS, help="Unit that is read, from ISO to ISO.")
+@click.option(
+    "--offset",
+    type=OrRegister(Length()),
+    multiple=True,
+    help="Value of a register that the program names, such as D0=0.1mm; may be given again. Or an offset to work in, "
+    "such as 0.1mm, with --side.",
+)
+@click.option("--side", type=click.Choice(["left", "right"]), help="Side of the contour on which the wire runs.")
+@click.option(
+    "--compensation",
+    type=click.Choice(["kept", "worked-in"]),
+    help="Leave G41 and G42 to the controller, or work them into the path. 3B carries none: worked in; else kept.",
+)
+@click.option("--form", type=click.Choice(["compact", "aligned", "detailed"]), help="Form of 3B; compact.")
+@click.option("--distance", type=click.Choice(["absolute", "incremental"]), help="G90 or G91; as the dialect begins.")
+@click.option("--centers", type=click.Choice(["from-start", "absolute"]), help="I J; as the dialect has them.")
+@click.option("--decimals", type=click.IntRange(1, 6), help="Digits behind the point of mm (3) and inch (5).")
+@click.option("--number-step", type=click.IntRange(0, 1000), help="N of blocks, such as 10; 0 for none.")
+@click.option("--tape/--no-tape", default=None, help="Begin and end with %; as the dialect does.")
+@click.option("--crlf", is_flag=True, help="End lines as Windows does.")
+@click.option("--lang", type=click.Choice(["en", "zh"]), help="Language of messages; else that of the locale.")
+def convert(path: Path, output: Path, lang: str | None, **options: Any) -> None:
+    """Convert a program from 3B, 4B or ISO to 3B, 4B or any dialect of ISO.
+
+    The program is checked first; one with errors is not converted. What is written is read back, checked, and held
+    against the path that it was written of, block by block: no more than 1 µm off in ISO, 3 µm in 3B and 4B. Then it is
+    given, with a list of what it could not take over.
+
+    \b
+    Exit code: 0 written and proved, 1 not, and nothing is written, 2 bad use or
+    unreadable input, 3 a fault of drycut itself.
+
+    \b
+    drycut convert part.iso -o part.3b
+    drycut convert part.3b -o part.iso --dialect robofil
+    drycut convert part.iso -o part.3b --offset D0=0.1mm
+    drycut convert part.3b -o part-caxa.3b --form detailed
+    """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from parser.findings.errors import ProgramError
+    from parser.program import read_program
+    from sim.cli.scenario_options import describe
+    from sim.convert.convert import Converted, converted
+    from sim.show.terminal.convert import converted_lines, refused_lines
+    from sim.show.terminal.printer import say
+    from sim.show.terminal.streams import outlet
+    from sim.show.terminal.wrap import width_of
+
+    asked = _Asked(**options)
+    language = asked.to or _language(output)
+    _refuse_misfits(asked, language)
+    given = offsets_of(asked.offset)
+    tongue: Tongue = chosen(lang)
+    try:
+        program = _with_offset(read_program(path, _choices(asked, language, given)), given, asked.side)
+        wanted = _wanted(asked, language, program, given)
+        done = converted(program, wanted)
+    except ProgramError as error:
+        for line in describe(str(path), error):
+            say(line, err=True)
+        raise click.exceptions.Exit(2) from None
+    if isinstance(done, Converted):
+        _write(path, output, done.data)
+        lines = converted_lines(done, output, wanted, tongue, width_of(outlet()))
+    else:
+        lines = refused_lines(done, str(path), tongue, width_of(outlet()))
+    for line in lines:
+        say(line)
+    raise click.exceptions.Exit(0 if isinstance(done, Converted) else 1)
+
+
+def _language(output: Path) -> "Language":
+    language = _SUFFIXES.get(output.suffix.lower())
+    if language is None:
+        raise click.BadParameter(f"{output} does not say its language by its suffix; give --to", param_hint="-o")
+    return language
+
+
+def _refuse_misfits(asked: _Asked, language: "Language") -> None:
+    """UsageError for options that the written language has nothing for."""
+    of_iso = {
+        "--from-dialect": asked.from_dialect,
+        "--from-unit": asked.from_unit,
+        "--distance": asked.distance,
+        "--centers": asked.centers,
+        "--decimals": asked.decimals,
+        "--number-step": asked.number_step,
+        "--tape": asked.tape,
+    }
+    for name, value in ({"--form": asked.form} if language == "iso" else of_iso).items():
+        if value is not None:
+            raise click.UsageError(
+                f"{name} is for {'3B and 4B' if language == 'iso' else 'ISO'}, and not for {language}"
+            )
+    if language == "3b" and asked.compensation == "kept":
+        raise click.UsageError("--compensation kept: 3B carries none; it can be worked in, or kept in ISO and 4B")
+
+
+def _choices(asked: _Asked, language: "Language", given: Offsets) -> "Choices":
+    """What the program is read with: --dialect and --unit say it where nothing of ISO is written."""
+    from parser.dialect.reader import Choices, merged
+
+    is_written = language == "iso"
+    dialect, unit = (asked.from_dialect, asked.from_unit) if is_written else (asked.dialect, asked.unit)
+    return Choices(dialect=dialect or "", unit=unit or "", registers=merged([given.registers]))
+
+
+def _with_offset(program: "Program", given: Offsets, side: str | None) -> "Program":
+    """The program with an offset worked in where one is asked for. UsageError where only half of one is."""
+    if (given.plain is None) != (side is None):
+        raise click.UsageError("--offset 0.1mm and --side belong together; D0=0.1mm is the value of a register")
+    if given.plain is None or side is None:
+        return program
+    from sim.run.offsetting import as_run
+    from sim.setup.part import SIDES, Offset, OffsetPass
+
+    return as_run(program, Offset((OffsetPass(given.plain),), SIDES[side]))
+
+
+def _wanted(asked: _Asked, language: "Language", program: "Program", given: Offsets) -> "Wanted":
+    from sim.convert.wanted import Wanted
+
+    keeps = asked.compensation != "worked-in" and language != "3b"
+    return Wanted(
+        language=language,
+        iso=_iso(asked, program) if language == "iso" else None,
+        form=asked.form or "compact",
+        keeps=keeps,
+        newline="\r\n" if asked.crlf else "\n",
+        name=program.name,
+        offset_um=given.plain,
+    )
+
+
+def _iso(asked: _Asked, program: "Program") -> "IsoChoices":
+    """Choices of ISO: of the dialect that is asked for, else of that which was read, else of fast wire."""
+    from parser.program import dialects
+    from parser.write.iso_choices import iso_choices
+
+    own = program.reading.dialect if program.reading.dialect in dialects() else "fast-wire"
+    usual = iso_choices(asked.dialect or own, asked.unit, asked.decimals)
+    return usual._replace(
+        distance=asked.distance or usual.distance,
+        centers=asked.centers or usual.centers,
+        number_step=usual.number_step if asked.number_step is None else asked.number_step,
+        tape=usual.tape if asked.tape is None else asked.tape,
+    )
+
+
+def _write(path: Path, output: Path, data: bytes) -> None:
+    from sim.files import staged
+
+    if output.exists() and output.samefile(path):
+        raise click.BadParameter(f"{output} is the program itself", param_hint="-o")
+    with staged(output.parent, [output.name]) as stage:
+        (stage / output.name).write_bytes(data)

@@ -1,0 +1,71 @@
+"""A conversion on the terminal: what was written, how far it is off and what it lost; or why there is none."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from parser.findings.catalogue import Language, Said
+from parser.findings.codes import Severity
+from parser.geometry.curves import CurveKind
+from parser.text.encoding import printable
+from parser.toolpath import Toolpath
+from parser.write.losses import Loss
+from sim.convert.convert import Converted, Refused
+from sim.convert.wanted import Wanted
+from sim.show.terminal.colours import painted, styled
+from sim.show.terminal.finding import finding_lines
+from sim.show.terminal.wrap import wrapped
+from sim.show.words import Words
+from sim.show.words.phrases import listed, numbered, same
+from sim.show.words.words import said
+
+_INDENT = "    "
+
+
+def converted_lines(done: Converted, out: Path, wanted: Wanted, language: Language, width: int) -> Iterator[str]:
+    """What was written, in lines of `width` cells."""
+    words = Words(language)
+    texts = [
+        words("convert.off", off=f"{done.off_um:.3f}", bound=f"{done.bound_um:g}"),
+        words("convert.finds", counts=_counts(done)) if done.checked.findings else "",
+        words("convert.lost", parts=listed(map(_lost, done.lost))) if done.lost else "",
+        "" if done.told_by_itself else words("convert.say-dialect", options=_options(wanted)),
+    ]
+    head = words("convert.written", out=printable(str(out)), rows=_rows(done.program.toolpath))
+    yield from wrapped(head, width, "", _INDENT)
+    for text in filter(None, texts):
+        yield from wrapped(text, width, _INDENT, _INDENT * 2)
+
+
+def refused_lines(refused: Refused, name: str, language: Language, width: int) -> Iterator[str]:
+    """Why nothing was written: the findings that speak against it, and what is to be done."""
+    for finding in refused.findings:
+        excerpt = refused.program.excerpt(finding.line) if finding.line else None
+        for line in finding_lines(printable(refused.program.name), finding, excerpt, language, width):
+            yield painted(line, finding.severity)
+    values = {key: said(value) if value.startswith("convert.") else same(value) for key, value in refused.values}
+    why = said(f"convert.refused-{refused.why}", **values)
+    text = Words(language)("convert.not-written", name=printable(name), why=why)
+    yield from (styled(line, "red") for line in wrapped(text, width, "", _INDENT))
+
+
+def _lost(loss: Loss) -> Said:
+    return said(f"convert.lost-{loss.what}", of=printable(loss.of), number=f"{loss.number:,}")
+
+
+def _counts(done: Converted) -> Said:
+    of = [finding.severity for finding in done.checked.findings]
+    return numbered({str(severity): of.count(severity) for severity in Severity})
+
+
+def _rows(toolpath: Toolpath) -> Said:
+    names = {"line": CurveKind.LINE, "arc": CurveKind.ARC, "jump": CurveKind.JUMP}
+    return numbered({name: int(np.count_nonzero(toolpath.kind == kind)) for name, kind in names.items()})
+
+
+def _options(wanted: Wanted) -> str:
+    if wanted.iso is None:
+        return ""
+    unit = wanted.iso.reading_unit
+    return f"--dialect {wanted.iso.profile.name}" + (f" --unit {unit}" if unit else "")
