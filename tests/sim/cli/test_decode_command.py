@@ -94,6 +94,24 @@ def test_a_block_that_is_not_there_is_bad_use(part: Path) -> None:
     assert done.stderr.decode() == "drycut: error: part.iso: no block has the number 99\n"
 
 
+def test_a_block_of_a_program_without_numbers_is_named_by_its_place(tmp_path: Path) -> None:
+    path = tmp_path / "plain.iso"
+    path.write_text("G92 X0 Y0\nG91\nG01 X1000\nM02\n", encoding="utf-8")
+
+    assert [block["line"] for block in json.loads(printed(path, "--json", "--block", "3"))["blocks"]] == [3]
+    assert run_inside("decode", path, "--block", "0").returncode == 2
+    assert run_inside("decode", path, "--block", "5").returncode == 2
+
+
+def test_a_file_without_blocks_is_bad_use_and_named(tmp_path: Path) -> None:
+    path = tmp_path / "empty.iso"
+    path.write_text("", encoding="utf-8")
+    done = run_inside("decode", path)
+
+    assert done.returncode == 2
+    assert done.stderr.decode().startswith(f"{path}: error[")
+
+
 def test_a_program_in_3b_is_bad_use(tmp_path: Path) -> None:
     path = tmp_path / "part.3b"
     path.write_text("B1000 B0 B1000 GX L1\nDD\n", encoding="utf-8")
