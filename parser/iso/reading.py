@@ -47,7 +47,7 @@ def read_iso(text: str, choices: Choices) -> ReadText:
         path = moved(listing, taken.profile, choices)
     besides = not_simulated(listing, taken.profile)
     reading = _reading(listing, taken, path)._replace(not_simulated=besides.reason)
-    of_text = (*listing.findings, *mode_findings(listing, taken, path), *besides.findings)
+    of_text = (*listing.findings, *mode_findings(taken, path), *besides.findings)
     findings = (*(_by_row(finding, path.first_row) for finding in of_text), *path.findings)
     ordered = tuple(sorted(findings, key=file_order))
     decoder = Trace(listing, taken.profile, choices)
