@@ -16,6 +16,7 @@ from parser.findings.findings import Finding
 from parser.geometry.along import along_um
 from parser.geometry.curves import Curves, Ints, joined
 from parser.program import Program
+from parser.text.source import Field
 from sim.check.beside import rows_beside
 from sim.check.compensation.held import Held
 from sim.check.compensation.rounds import CompensatedRound, parts_of
@@ -36,7 +37,8 @@ def contour_findings(
         if one.beside.loops not in (None, 1):
             yield loop_finding(program, one.run.round.section.first, int(one.beside.loops or 0), one.run.by_um)
         if one.run.part_side == one.run.side:
-            yield at_block(program.toolpath, program.lines, "ISO512", one.run.round.begin, **_side_words(one.run))
+            row, words = one.run.round.begin, _side_words(one.run)
+            yield at_block(program.toolpath, program.lines, "ISO512", row, Field.SIDE, **words)
     for one in stretches:
         if one.run.is_nearest and one.run.round.section.closed and not one.run.at_jump:
             yield from _stub(program, path, one, [other.run for other in stretches])
