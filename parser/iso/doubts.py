@@ -15,7 +15,7 @@ def damages(given: Given, run: Run) -> tuple[Damage, ...]:
     lost = [one.span for one in given.listing.unread]
     lost += [(int(blocks.first[one.block]), int(blocks.past[one.block])) for one in run.flow.faults]
     straight = run.flow.block[run.rows.at[run.rows.turning[run.rows.arcs.sweep_rad == 0]]]
-    lost += [(int(blocks.first[one]), int(blocks.past[one])) for one in np.unique(straight).tolist()]
+    lost += [(int(blocks.first[one]), int(blocks.past[one])) for one in sorted(set(straight.tolist()))]
     if not lost:
         return ()
     before = _rows_before(run, len(blocks.line))

@@ -24,7 +24,7 @@ class Seen:
     def has(self, letter: str, *numbers: float) -> bool:
         """Whether there is a word with a letter, and with one of the numbers where some are named."""
         values = self.listing.words.value[self.listing.of(letter)]
-        return bool(np.isin(values, numbers).any() if numbers else len(values))
+        return bool((values[:, None] == np.array(numbers)).any() if numbers else len(values))
 
     def has_long(self, letter: str) -> bool:
         """Whether there is a word with a letter and a number of four digits or more."""
@@ -56,7 +56,7 @@ class Seen:
         """Whether M98 P calls a number that stands behind an N, and no program has one behind an O."""
         called = self.listing.words.value[self.listing.of("P")]
         labels = self.listing.words.value[self.listing.of("N")]
-        return self.has("M", 98) and not self.has("O") and bool(np.isin(called, labels).any())
+        return self.has("M", 98) and not self.has("O") and not set(called.tolist()).isdisjoint(labels.tolist())
 
     def sets(self, letter: str, *, pointed: bool) -> bool:
         """Whether a register with a letter is set to a number with a point, or to one without."""

@@ -21,7 +21,7 @@ def tab_stop_findings(program: Program, contour: Ints) -> Iterator[Finding]:
     after = after[(contour[after] >= 0) & (contour[after - 1] == contour[after])]
     if not program.reading.spelling.rapid or not len(after):
         return
-    loops = find_loops(toolpath, contour, np.unique(contour[after]))
+    loops = find_loops(toolpath, contour, np.array(sorted(set(contour[after].tolist()))))
     run_um = total_before(toolpath.length_um)
     for number, first, last, _ in zip(*(column.tolist() for column in loops), strict=True):
         for row in after[contour[after] == number].tolist():
