@@ -47,7 +47,7 @@ def read_iso(text: str, choices: Choices) -> ReadText:
         path = moved(listing, taken.profile, choices)
     besides = not_simulated(listing, taken.profile)
     reading = _reading(listing, taken, path)._replace(not_simulated=besides.reason)
-    of_text = (*listing.findings, *mode_findings(listing, taken, path), *besides.findings)
+    of_text = (*listing.findings, *mode_findings(taken, path), *besides.findings)
     findings = (*(_by_row(finding, path.first_row) for finding in of_text), *path.findings)
     ordered = tuple(sorted(findings, key=file_order))
     decoder = Trace(listing, taken.profile, choices)
@@ -60,7 +60,7 @@ def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
         dialect=family.profile.name,
         counts=BlockCounts(n + len({one.block for one in listing.unread}), n, n),
         damages=path.damages,
-        spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02", rapid="G00"),
+        spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02", pause="M00", rapid="G00"),
         is_drawing=path.toolpath.compensation is not None,
         not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
         remarks=listing.remarks,
