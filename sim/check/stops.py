@@ -22,10 +22,6 @@ def tab_stop_findings(program: Program, contour: Ints, passes: Passes) -> Iterat
     after = np.array([stop.after for stop in program.toolpath.stops if stop.kind == "pause"], dtype=np.int64)
     if not program.reading.spelling.rapid or not len(after):
         return
-<<<<<<< HEAD
-    loops = find_loops(toolpath, contour, np.array(sorted(set(contour[after].tolist()))))
-    run_um = total_before(toolpath.length_um)
-=======
     run_um = total_before(program.toolpath.length_um)
     tabs = {**_in_loops(program, contour, after), **_before_passes(passes, after)}
     for row, past in sorted(tabs.items()):
@@ -39,9 +35,8 @@ def _in_loops(program: Program, contour: Ints, after: Ints) -> dict[int, int]:
     run_um = total_before(program.toolpath.length_um)
     after = after[(after > 0) & (after < len(contour))]
     after = after[(contour[after] >= 0) & (contour[after - 1] == contour[after])]
-    loops = find_loops(program.toolpath, contour, np.unique(contour[after]))
+    loops = find_loops(program.toolpath, contour, np.array(sorted(set(contour[after].tolist())), dtype=np.int64))
     found = {}
->>>>>>> main
     for number, first, last, _ in zip(*(column.tolist() for column in loops), strict=True):
         for row in after[contour[after] == number].tolist():
             left_um, whole_um = float(run_um[last + 1] - run_um[row]), float(run_um[last + 1] - run_um[first])
