@@ -8,6 +8,7 @@ from parser.dialect.reader import Assumption, Choices, Damage
 from parser.findings.findings import Finding
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.iso.arc_checks import arc_findings
+from parser.iso.arcs import ROUNDING
 from parser.iso.centers import Agreement, agreement
 from parser.iso.doubts import assumptions, damages
 from parser.iso.given import STOPS, Given
@@ -54,7 +55,7 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
     """The toolpath of a listing."""
     given = Given(listing, profile)
     run = run_of(given, choices)
-    arcs = agreement(run.mode, run.numbers, run.place, run.rows)
+    arcs = agreement(run.mode, run.numbers, run.place, run.rows, ROUNDING * given.profile.resolution_um)
     centred = () if arcs.is_otherwise else arc_findings(given, run.flow.block, run.numbers, run.rows)
     findings = (
         *order_findings(given, run.flow, run.mode.side, run.place, run.rows.at),

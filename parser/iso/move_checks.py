@@ -61,7 +61,7 @@ def _finer_than_steps(given: Given, runs: Ints, mode: Modes) -> Iterator[Finding
     coordinate = np.isin(words.letter, [ord(letter) for letter in "XYIJR"]) & (words.decimals > 0)
     word = np.flatnonzero(coordinate)
     um = words.value[word] * scale[words.block[word]]
-    steps = um / given.profile.resolution_um
+    steps = um / given.profile.step_um
     between = np.flatnonzero(np.abs(steps - np.rint(steps)) > _HAIR * np.maximum(1.0, np.abs(steps) * _HAIR))
     if len(between):
         first = int(word[between[0]])
@@ -71,6 +71,6 @@ def _finer_than_steps(given: Given, runs: Ints, mode: Modes) -> Iterator[Finding
             span,
             text=given.listing.text[slice(*span)],
             um=float(um[between[0]]),
-            step=given.profile.resolution_um,
+            step=given.profile.step_um,
             more=len(between) - 1,
         )

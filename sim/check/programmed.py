@@ -15,7 +15,7 @@ class Programmed(NamedTuple):
     Attributes
     ----------
     lines, arcs, rapids
-        Blocks of each kind.
+        Blocks of each kind; a new place of the wire, threaded by hand, is no rapid.
     cut_length_um
         Length of lines and arcs, leads included, rapids not.
     box_um
@@ -34,7 +34,7 @@ class Programmed(NamedTuple):
 
 
 def programmed_of(toolpath: Toolpath, threadings: int = 0) -> Programmed:
-    """What a toolpath runs; `threadings` of its jumps are no rapids, but places where the wire is threaded anew."""
+    """What a toolpath runs, of which some jumps are threadings."""
     if not len(toolpath):
         return Programmed()
     cut = ~toolpath.is_jump
