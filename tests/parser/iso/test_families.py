@@ -11,7 +11,7 @@ from parser.dialect.reader import Choices
 from parser.program import Program, parse_program
 from sim.check.programmed import programmed_of
 
-PROGRAMS = [(family, number) for family in FAMILIES for number in range(12)]
+PROGRAMS = [(family, number) for family in FAMILIES for number in range(6)]
 
 
 def read(made: IsoProgram, choices: Choices) -> Program:
