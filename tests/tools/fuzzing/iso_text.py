@@ -47,10 +47,10 @@ def fuzzed_iso(rng: random.Random) -> bytes:
         return damaged(rng, _encoded(rng, _recombined(rng)), others)
     if kind < 0.5:
         return damaged(rng, rng.choice(others), others)
-    return _encoded(rng, _changed(rng, rng.choice(SEEDS)))
+    return _encoded(rng, changed(rng, rng.choice(SEEDS)))
 
 
-def _changed(rng: random.Random, text: str) -> str:
+def changed(rng: random.Random, text: str) -> str:
     """Lines, words, letters or numbers changed, moved, doubled or left out."""
     for _ in range(rng.choice((1, 1, 2, 4))):
         kind = rng.random()
