@@ -11,6 +11,8 @@ from parser.iso.listing import Form, Listing
 
 COORDINATES = "XYIJR"
 """Letters of lengths in the plane of the program."""
+DIGITS_IN_MM = 3
+"""Behind the point, in programs in mm: those in inches need more."""
 _LONG = 1000.0  # an integer of four digits
 _EXACT = 1e-6
 
@@ -42,6 +44,11 @@ class Seen:
         """(k,) whether each of these is written with a point."""
         pointed: Bools = self.listing.words.decimals[self.coordinates] >= 0
         return pointed
+
+    @property
+    def first_length(self) -> int:
+        """The first block with such a word; −1 where there is none."""
+        return int(self.listing.words.block[self.coordinates[0]]) if len(self.coordinates) else -1
 
     @property
     def are_integers(self) -> bool:
@@ -117,6 +124,7 @@ MARKS = (
     Mark("sodick", "because-registers-mm", lambda seen: seen.has("H") and seen.sets("H", pointed=True)),
     Mark("skd2", "because-called-labels", lambda seen: seen.calls_labels and seen.are_integers),
     Mark("fanuc", "because-o-number", lambda seen: seen.has("O") and seen.has("D") and seen.has("S")),
+    Mark("fanuc", "because-o-inches", lambda seen: seen.has("O") and seen.decimals > DIGITS_IN_MM),
     Mark("robofil", "because-g60", lambda seen: seen.has("G", 60)),
     Mark("fast-wire", "because-long-integers", lambda seen: seen.are_long_integers and seen.has("M", 2)),
 )
