@@ -13,6 +13,7 @@ COORDINATES = "XYIJR"
 """Letters of lengths in the plane of the program."""
 DIGITS_IN_MM = 3
 """Behind the point, in programs in mm: those in inches need more."""
+_DWELL = 4.0  # G04, whose X is a time
 _LONG = 1000.0  # an integer of four digits
 _EXACT = 1e-6
 
@@ -35,9 +36,10 @@ class Seen:
     @cached_property
     def coordinates(self) -> Ints:
         """(k,) words of lengths in the plane, in file order; not those of 0, which is the same at any scale."""
-        word = self.listing.of_any(COORDINATES)
-        nonzero: Ints = word[self.listing.words.value[word] != 0.0]
-        return nonzero
+        words, word = self.listing.words, self.listing.of_any(COORDINATES)
+        dwells = words.block[self.listing.of("G")[words.value[self.listing.of("G")] == _DWELL]]
+        lengths: Ints = word[(words.value[word] != 0.0) & ~np.isin(words.block[word], dwells)]
+        return lengths
 
     @cached_property
     def is_pointed(self) -> Bools:
