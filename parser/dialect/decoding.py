@@ -8,6 +8,9 @@ from typing import NamedTuple, Protocol
 
 from parser.text.source import Span
 
+UNREAD = "unread"
+"""In place of a field: what stands there is no word, and the motion of its block is not known."""
+
 
 class DecodeStep(NamedTuple):
     """One word decoded.
@@ -21,9 +24,11 @@ class DecodeStep(NamedTuple):
     column
         Of its first character in its line, from 1.
     field
-        The field that it sets, such as ``COOR[1]``, ``G0.D5`` or ``F``.
+        The field that it sets, such as ``COOR[1]``, ``G0.D5`` or ``F``; a register, such as ``H1``. Of what sets none,
+        the name of its form, such as ``function``, or `UNREAD`.
     value
-        What the field becomes; lengths in µm. None for a register that is set to a sum of others.
+        What the field becomes; lengths in µm. None for a register that is set to a sum of others, and for what sets no
+        field.
     """
 
     order: int

@@ -132,8 +132,8 @@ class Spelling(NamedTuple):
     ----------
     clockwise, counter_clockwise
         Arcs.
-    end
-        The end code.
+    end, pause
+        The end code, and a stop at which the operator goes on.
     rapid
         A rapid; empty where the machine jumps behind a pause alone.
     """
@@ -141,7 +141,13 @@ class Spelling(NamedTuple):
     clockwise: str
     counter_clockwise: str
     end: str
+    pause: str
     rapid: str = ""
+
+    @property
+    def jump(self) -> str:
+        """How a jump is written: as a rapid, or between two pauses."""
+        return self.rapid or f"{self.pause} … {self.pause}"
 
 
 class Reading(NamedTuple):
@@ -170,10 +176,10 @@ class Reading(NamedTuple):
     codes
         Codes of this dialect for findings of the path and the machine that have other ones in 3B: ``3B301`` is
         ``ISO300``. Findings without one keep their code, which holds for every dialect.
+    threadings
+        How many jumps of the toolpath no block moves along: the wire is threaded elsewhere.
     not_simulated
         Term of the catalogue that says what the text asks for beside the path; empty where the path is all.
-    threadings
-        How many rows are jumps to where the wire was threaded anew, which no block says.
     """
 
     dialect: str

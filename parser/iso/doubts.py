@@ -10,12 +10,13 @@ from parser.iso.runs import Run
 
 
 def damages(given: Given, run: Run) -> tuple[Damage, ...]:
-    """Pieces that could not be read in blocks that run, calls and arcs that could not be made, in file order."""
+    """Pieces that could not be read in blocks that run, calls and moves that could not be made, in file order."""
     blocks = given.listing.blocks
     lost = [one.span for one in given.listing.unread]
     lost += [(int(blocks.first[one.block]), int(blocks.past[one.block])) for one in run.flow.faults]
-    straight = run.flow.block[run.rows.at[run.rows.turning[run.rows.arcs.sweep_rad == 0]]]
-    lost += [(int(blocks.first[one]), int(blocks.past[one])) for one in np.unique(straight).tolist()]
+    straight = run.rows.at[run.rows.turning[run.rows.arcs.sweep_rad == 0]]
+    unmoved = run.flow.block[np.concatenate([straight, np.flatnonzero(run.numbers.lacks_motion)])]
+    lost += [(int(blocks.first[one]), int(blocks.past[one])) for one in np.unique(unmoved).tolist()]
     if not lost:
         return ()
     before = _rows_before(run, len(blocks.line))

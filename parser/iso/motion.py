@@ -34,21 +34,21 @@ class Moved(NamedTuple):
         Blocks whose motion is not known, and calls that cannot be followed.
     assumptions
         What the text leaves open of where the wire goes.
+    threadings
+        How many jumps of the path are no motion: the wire is threaded elsewhere.
     first_row
         (b,) int64, the row that each block of the text makes when it first runs; −1 where it makes none.
     agreement
         What the arcs say of I J.
-    threadings
-        How many rows are jumps to where the wire was threaded anew, which no block says.
     """
 
     toolpath: Toolpath
     findings: tuple[Finding, ...]
     damages: tuple[Damage, ...]
     assumptions: tuple[Assumption, ...]
+    threadings: int
     first_row: Ints
     agreement: Agreement
-    threadings: int
 
 
 def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
@@ -59,7 +59,7 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
     centred = () if arcs.is_otherwise else arc_findings(given, run.flow.block, run.numbers, run.rows)
     findings = (
         *order_findings(given, run.flow, run.mode.side, run.place, run.rows.at),
-        *move_findings(given, run.flow.block, run.mode, run.rows),
+        *move_findings(given, run.flow.block, run.mode, run.numbers.lacks_motion, run.rows),
         *centred,  # of arcs that are read the wrong way nothing is said but that
     )
     return Moved(
@@ -67,9 +67,9 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
         findings=findings,
         damages=damages(given, run),
         assumptions=assumptions(given, run),
+        threadings=int((~run.numbers.moves[run.rows.at]).sum()),
         first_row=_first_rows(given, run),
         agreement=arcs,
-        threadings=int((~run.numbers.moves[run.rows.at]).sum()),
     )
 
 

@@ -11,7 +11,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.dialect.decoding import DecodedBlock, DecodeStep, InForce
+from parser.dialect.decoding import UNREAD, DecodedBlock, DecodeStep, InForce
 from parser.dialect.reader import Choices
 from parser.iso.flow import flow
 from parser.iso.given import Given
@@ -96,6 +96,17 @@ class Trace:
             by_block.setdefault(one.block, []).append(one)
         return by_block
 
+    @cached_property
+    def _left_out(self) -> dict[int, list[DecodeStep]]:
+        """Steps that set no field, by their blocks: lines in other forms than words, and pieces that are no words."""
+        by_block: dict[int, list[DecodeStep]] = {}
+        statements = ((one.block, one.span, one.form.value) for one in self._listing.statements)
+        unread = ((one.block, one.span, UNREAD) for one in self._listing.unread)
+        for block, span, field in (*statements, *unread):
+            text = " ".join(self._listing.text[slice(*span)].split())
+            by_block.setdefault(block, []).append(DecodeStep(0, text, self._column(span[0]), field, None))
+        return by_block
+
     def _block(self, at: int, mode: _Mode | None) -> DecodedBlock:
         blocks = self._listing.blocks
         scale = (self._profile.integer_um, self._profile.point_um) if mode is None else mode[1:]
@@ -103,11 +114,9 @@ class Trace:
         last = {word.letter: word.value for word in words}
         g_words = tuple(word.value for word in words if word.letter == "G")
         count = _whole(last.get("N"))
-        steps = [
-            *map(_set_by, words),
-            *(self._assigned(one, *scale) for one in self._assignments.get(at, ())),
-            self._closing(int(blocks.past[at])),
-        ]
+        others = [self._assigned(one, *scale) for one in self._assignments.get(at, ())]
+        steps = [*map(_set_by, words), *others, *self._left_out.get(at, ())]
+        steps = [*sorted(steps, key=lambda step: step.column), self._closing(int(blocks.past[at]))]
         return DecodedBlock(
             line=int(blocks.line[at]),
             span=(int(blocks.first[at]), int(blocks.past[at])),

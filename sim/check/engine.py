@@ -179,7 +179,7 @@ class _PathChecks:
         """Findings about passes over one edge: as they are programmed, as the wire runs, and what they leave uncut."""
         program, rows, passes = self._program, self._rows, self._passes
         yield from followed_findings(program, rows, passes)
-        yield from tab_stop_findings(program, rows)
+        yield from tab_stop_findings(program, rows, passes)
         if not self._demands.may_stay_open:
             yield from tab_findings(program, rows, passes)
         made = self.compensation

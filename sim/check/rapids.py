@@ -7,15 +7,14 @@ import numpy as np
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
 from parser.geometry.along import places
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
 from parser.shape.contours import runs
-from parser.toolpath import Toolpath
 
 _KERF_UM = 500.0
 """A rapid this near to a cut runs in its kerf: offsets and leads lie as far from the contour."""
-_PER_ROW, _ON_WAY = 8, 9  # places on each block of the contour behind, and on the way of a rapid
+_ON_ARC, _ON_WAY = 8, 9  # places on each arc of the contour behind, and on the way of a rapid
 
 
 def rapid_findings(program: Program) -> Iterator[Finding]:
@@ -34,34 +33,48 @@ def _through_work(program: Program) -> Iterator[Finding]:
     pauses = np.array([stop.after for stop in toolpath.stops if stop.kind == "pause"], dtype=np.int64)
     is_threaded = np.searchsorted(pauses, begin) == np.searchsorted(pauses, end, side="right")
     for number in np.flatnonzero(is_threaded & (begin < end)).tolist():
-        row = _leaving(toolpath, np.arange(*cut[number]), np.arange(begin[number], end[number]))
-        if row is not None:
+        first = int(cut[number, 0])
+        near = toolpath.picked(np.arange(first, end[number]))  # alone: of a long program each look takes its time
+        leaving = _leaving(near, *np.split(np.arange(len(near)), [begin[number] - first]))
+        if leaving is not None:
+            row = first + leaving
             way = float(toolpath.length_um[row])
             yield at_block(toolpath, program.lines, "ISO301", row, length=way, rapid=program.reading.spelling.rapid)
 
 
-def _leaving(toolpath: Toolpath, cut: Ints, jumps: Ints) -> int | None:
+def _leaving(curves: Curves, cut: Ints, jumps: Ints) -> int | None:
     """The first of some rapids that leaves the kerf of the blocks cut before it, and what they enclose."""
-    outline = places(toolpath, np.repeat(cut, _PER_ROW), np.tile(np.arange(_PER_ROW) / _PER_ROW, len(cut)))
-    for row in jumps.tolist():
-        for place in places(toolpath, np.full(_ON_WAY, row), np.linspace(0.0, 1.0, _ON_WAY)):
-            if not (_is_enclosed(outline, place) or _distance_um(toolpath, cut, place) <= _KERF_UM):
-                return int(row)
-    return None
+    row = np.repeat(jumps, _ON_WAY)
+    place = places(curves, row, np.tile(np.linspace(0.0, 1.0, _ON_WAY), len(jumps)))
+    is_out = ~_is_enclosed(_outline(curves, cut), place)
+    is_out[is_out] = _distance_um(curves, cut, place[is_out]) > _KERF_UM
+    return int(row[np.argmax(is_out)]) if is_out.any() else None
 
 
-def _is_enclosed(outline: Floats, place: Floats) -> bool:
-    """Whether a place (2,) lies within an outline (m, 2): a ray from it crosses the outline an odd number of times."""
-    off = outline - place
-    after = np.roll(off, -1, axis=0)
-    crosses = (off[:, 1] > 0.0) != (after[:, 1] > 0.0)
-    side = off[:, 0] * after[:, 1] - off[:, 1] * after[:, 0]
-    return bool((crosses & ((side > 0.0) == (after[:, 1] > off[:, 1]))).sum() % 2)
+def _outline(curves: Curves, cut: Ints) -> Floats:
+    """Places (m, 2) along blocks: the starts of lines, and some on each arc."""
+    count = np.where(curves.is_arc[cut], _ON_ARC, 1)
+    before = np.repeat(np.cumsum(count) - count, count)
+    share = (np.arange(len(before)) - before) / np.repeat(count, count)
+    return places(curves, np.repeat(cut, count), share)
 
 
-def _distance_um(toolpath: Toolpath, row: Ints, place: Floats) -> float:
-    off, _ = distance_to_curves(toolpath, row, np.full(len(row), place[0]), np.full(len(row), place[1]))
-    return float(off.min())
+def _is_enclosed(outline: Floats, place: Floats) -> Bools:
+    """Whether places (k, 2) lie within an outline (m, 2): a ray from one crosses the outline an odd number of times."""
+    x, y = (outline[:, axis] - place[:, axis, None] for axis in range(2))
+    to_x, to_y = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
+    crosses = (y > 0.0) != (to_y > 0.0)
+    is_left = (x * to_y > y * to_x) == (to_y > y)
+    enclosed: Bools = (crosses & is_left).sum(axis=1) % 2 == 1
+    return enclosed
+
+
+def _distance_um(curves: Curves, row: Ints, place: Floats) -> Floats:
+    """Distances (k,) of places (k, 2) from the nearest of some blocks."""
+    x, y = (np.repeat(place[:, axis], len(row)) for axis in range(2))
+    off, _ = distance_to_curves(curves, np.tile(row, len(place)), x, y)
+    nearest: Floats = off.reshape(len(place), len(row)).min(axis=1)
+    return nearest
 
 
 def _compensated(program: Program) -> Iterator[Finding]:

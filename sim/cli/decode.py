@@ -1,16 +1,28 @@
 """``drycut decode``."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
+from parser.findings.errors import ProgramError
 from sim.cli.dialect_options import RegisterSet, RegisterValue, with_dialect
-from sim.cli.scenario_options import chosen
+from sim.cli.scenario_options import chosen, describe
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from sim.decode.blocks import Decoded
 
 
 @click.command(short_help="Show how each block of an ISO program is decoded and compensated.")
 @click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM")
-@click.option("--block", "number", type=int, help="Only the blocks with this number behind N.")
+@click.option(
+    "--block",
+    "number",
+    type=int,
+    help="Only the blocks with this number behind N; where none has one, the block in this place.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the blocks as JSON.")
 @with_dialect
 @click.option(
@@ -43,17 +55,31 @@ def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.decode.blocks import decoded
     from sim.decode.document import document_text
     from sim.show.terminal.decode import print_decoded
-    from sim.show.terminal.printer import write
+    from sim.show.terminal.printer import say, write
     from sim.show.words import Words
 
     language = chosen(lang)
-    program = read_program(path, Choices(dialect=dialect or "", unit=unit or "", registers=registers))
+    try:
+        program = read_program(path, Choices(dialect=dialect or "", unit=unit or "", registers=registers))
+    except ProgramError as error:
+        for line in describe(str(path), error):
+            say(line, err=True)
+        raise click.exceptions.Exit(2) from None
     if program.decoder is None:
         raise click.UsageError(Words(language)("decode.not-iso", name=program.name, dialect=program.reading.dialect))
-    blocks = [one for one in decoded(program, program.toolpath) if number is None or one.block.number == number]
+    blocks = _chosen(decoded(program, program.toolpath), number)
     if not blocks:
         raise click.UsageError(Words(language)("decode.none", name=program.name, block=number))
     if as_json:
         write(document_text(program, blocks), "json")
     else:
         print_decoded(program, blocks, language)
+
+
+def _chosen(blocks: "Sequence[Decoded]", number: int | None) -> "Sequence[Decoded]":
+    """The blocks with a number; all without one."""
+    if number is None:
+        return blocks
+    if all(one.block.number is None for one in blocks):
+        return blocks[number - 1 : number] if number > 0 else ()
+    return [one for one in blocks if one.block.number == number]

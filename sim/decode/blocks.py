@@ -6,10 +6,12 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.offset.block_ends import AsideEnds, JointKind, aside_ends, joint_kinds
+from controller.offset.path import Made
+from controller.offset.programmed import compensated
 from parser.dialect.decoding import DecodedBlock
-from parser.geometry.curves import CurveKind
+from parser.geometry.curves import CurveKind, Floats
 from parser.program import Program
-from parser.toolpath import Compensation, Point, Toolpath
+from parser.toolpath import Point, Toolpath
 
 
 class Way(NamedTuple):
@@ -25,6 +27,9 @@ class Way(NamedTuple):
         Of the contour, as programmed.
     left_um, right_um
         Its end moved aside to the left, P′, and to the right, P″; None without offset.
+    center_um
+        Where it ends on the path of the wire's centre, behind all joints; None without offset, and where it has no
+        place on that path.
     joint
         How it goes on from the block before it, and the line of that block; None and 0 without compensation.
     """
@@ -37,6 +42,7 @@ class Way(NamedTuple):
     length_um: float
     left_um: Point | None
     right_um: Point | None
+    center_um: Point | None
     joint: JointKind
     before_line: int
 
@@ -60,16 +66,20 @@ def _ways(toolpath: Toolpath) -> Mapping[int, Way]:
     """Ways of the blocks, by their first characters in the text."""
     first, row, runs = np.unique(toolpath.source.span[:, 0], return_index=True, return_counts=True)
     told = toolpath.compensation
-    stage = None if told is None else _Stage(told, aside_ends(toolpath, told), joint_kinds(toolpath, told))
+    stage = (
+        None
+        if told is None
+        else _Stage(aside_ends(toolpath, told), _center_ends(toolpath), joint_kinds(toolpath, told))
+    )
     found = zip(first.tolist(), row.tolist(), runs.tolist(), strict=True)
     return {first: _way(toolpath, row, runs, stage) for first, row, runs in found}
 
 
 class _Stage(NamedTuple):
-    """Compensation of a toolpath: what is told of it, ends moved aside, and joints."""
+    """Compensation of a toolpath: what is told of it, ends moved aside, on the centre's path (n, 2), and joints."""
 
-    told: Compensation
     ends: AsideEnds
+    center_um: Floats
     joints: tuple[JointKind, ...]
 
 
@@ -84,6 +94,7 @@ def _way(toolpath: Toolpath, row: int, runs: int, stage: _Stage | None) -> Way:
         length_um=block.length_um,
         left_um=None,
         right_um=None,
+        center_um=None,
         joint=JointKind.NONE,
         before_line=0,
     )
@@ -92,9 +103,19 @@ def _way(toolpath: Toolpath, row: int, runs: int, stage: _Stage | None) -> Way:
     return alone._replace(
         left_um=_place(stage.ends.left_um[row].tolist()),
         right_um=_place(stage.ends.right_um[row].tolist()),
+        center_um=_place(stage.center_um[row].tolist()),
         joint=stage.joints[row],
         before_line=int(toolpath.source.line[row - 1]) if row and stage.joints[row] != JointKind.NONE else 0,
     )
+
+
+def _center_ends(toolpath: Toolpath) -> Floats:
+    """Ends (n, 2) of blocks on the path of the wire's centre; NaN of those without offset or place."""
+    path = compensated(toolpath).path
+    own = np.flatnonzero((path.made == Made.SHIFTED) | (path.made == Made.LEAD))
+    ends = np.full((len(toolpath), 2), np.nan)
+    ends[path.source_row[own]] = path.curves.end_um[own]
+    return ends
 
 
 def _place(pair: list[float]) -> Point | None:

@@ -66,7 +66,7 @@ def _in_force(force: InForce) -> dict[str, Any]:
 
 
 def _way(way: Way) -> dict[str, Any]:
-    places = {name: _place(getattr(way, name)) for name in ("start_um", "end_um", "left_um", "right_um")}
+    places = {name: _place(getattr(way, name)) for name in ("start_um", "end_um", "left_um", "right_um", "center_um")}
     return {
         "row": way.row,
         "runs": way.runs,

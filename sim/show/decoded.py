@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Final, NamedTuple
 
-from parser.dialect.decoding import DecodedBlock, DecodeStep
+from parser.dialect.decoding import UNREAD, DecodedBlock, DecodeStep
 from parser.findings.catalogue import Said
 from parser.toolpath import Point
 from parser.units import mm
@@ -37,7 +37,7 @@ def word_text(step: DecodeStep) -> Said:
 def value_text(step: DecodeStep) -> Said:
     """What the field of a step becomes."""
     if step.value is None:
-        return said("decode.summed")
+        return said(f"decode.{_why_without(step)}")
     value = plain(step.value)
     if step.field == "buf_state":
         return said("decode.ready")
@@ -48,6 +48,13 @@ def value_text(step: DecodeStep) -> Said:
     if step.field == "G1":
         return said("decode.no-bit", value=value)
     return said("decode.um", um=value) if step.field.startswith("COOR") or "=" in step.word else same(value)
+
+
+def _why_without(step: DecodeStep) -> str:
+    """Why a step has no value."""
+    if step.field == UNREAD:
+        return "unread"
+    return "summed" if step.field[-1].isdecimal() else "no-field"
 
 
 def buffer_text(block: DecodedBlock) -> str:
@@ -95,6 +102,8 @@ def _way_texts(one: Decoded) -> Iterator[tuple[str, Said]]:
         yield "aside", said("decode.ends", **ends, register=force.register, offset=f"{mm(force.offset_um or 0.0):g}")
     elif force.side != "G40":
         yield "aside", said("decode.unknown", register=force.register or "D0")
+    if way.center_um is not None:
+        yield "path", said("decode.on-path", place=_place(way.center_um, 4))
     if way.joint != "none":
         yield "joint", said(f"decode.joint-{way.joint}", line=way.before_line)
 

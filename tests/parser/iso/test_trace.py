@@ -2,7 +2,7 @@
 
 import pytest
 
-from parser.dialect.decoding import DecodedBlock
+from parser.dialect.decoding import UNREAD, DecodedBlock
 from parser.dialect.reader import Choices
 from parser.iso.lexer import read_listing
 from parser.iso.profile import profile
@@ -128,3 +128,28 @@ def test_nothing_is_in_force_in_a_block_that_never_runs() -> None:
 
     assert dead.in_force is None
     assert dead.coor_um == {"X": 2000.0}
+
+
+def test_what_is_no_word_stands_among_the_steps_and_sets_no_field() -> None:
+    (block,) = decoded("G01 X10 ,5 Y20")
+
+    assert [(step.word, step.field, step.value) for step in block.steps[:-1]] == [
+        ("G01", "G0.D1", 1),
+        ("X10", "COOR[1]", 10000.0),
+        (",5", UNREAD, None),
+        ("Y20", "COOR[2]", 20000.0),
+    ]
+
+
+def test_lines_in_other_forms_than_words_are_told_and_set_no_field() -> None:
+    setting, function = decoded("C000   = 012  014 ;\nQAIC(2,1,0.1250) ;", "sodick")
+
+    assert setting.steps[0] == (1, "C000 = 012 014", 1, "setting", None)
+    assert function.steps[0] == (1, "QAIC(2,1,0.1250)", 1, "function", None)
+
+
+@pytest.mark.parametrize("number", ["1e5", "99999999999999999999", "007", "0"])
+def test_a_number_of_a_block_of_any_length_is_told(number: str) -> None:
+    block, *_ = decoded(f"N{number} G01 X1")
+
+    assert block.number is None or block.number_bcd == int(str(block.number), 16)

@@ -133,6 +133,15 @@ def test_a_stop_before_the_last_of_a_loop_tells_the_tab() -> None:
     assert told == {"ISO309": [(10, {"left": 2000.0})]}
 
 
+@pytest.mark.parametrize(("stop", "told"), [("M01", {"ISO309": [(21, {"left": 2000.0})]}), ("M80", {})])
+def test_a_stop_before_a_pass_over_the_tab_tells_its_length(stop: str, told: object) -> None:
+    there = (*THERE[:-1], "G01 X10000 Y-2000", "G40 G01 X9000 Y-2000")
+    back = ("G42 G01 X10000 Y-2000 H002", *BACK, "G40 G01 X9000 Y0")
+    tab = (stop, "G42 G01 X10000 Y0 H002", "G01 X10000 Y-2000", "G40 G01 X0 Y0")
+
+    assert found("H001=200", "H002=110", "G92 X0 Y0", "G90", "G41 G01 X10000 Y0 H001", *there, *back, *tab) == told
+
+
 @pytest.mark.parametrize("at", [2, 3, 9])
 def test_a_stop_elsewhere_is_no_tab(at: int) -> None:
     lines = ["G92 X0 Y0", "G90", "G01 X10000 Y0", *THERE, "G01 X0 Y0"]

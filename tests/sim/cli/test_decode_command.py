@@ -5,9 +5,12 @@ from pathlib import Path
 
 import pytest
 from command import run_inside
+from jsonschema import Draft202012Validator
+from places import ROOT
 
 from parser.text.excerpt import cells
 
+SCHEMA = json.loads((ROOT / "docs" / "decode.schema.json").read_text(encoding="utf-8"))
 COURSE = "N06 G90 G41 D11 G01 X200 Y300 F200 ;\n"
 PART = f"G92 X72 Y48\n{COURSE}N07 X250\nN08 X250 Y350\nG40 G01 X0 Y0\nM02\n"
 
@@ -91,6 +94,24 @@ def test_a_block_that_is_not_there_is_bad_use(part: Path) -> None:
     assert done.stderr.decode() == "drycut: error: part.iso: no block has the number 99\n"
 
 
+def test_a_block_of_a_program_without_numbers_is_named_by_its_place(tmp_path: Path) -> None:
+    path = tmp_path / "plain.iso"
+    path.write_text("G92 X0 Y0\nG91\nG01 X1000\nM02\n", encoding="utf-8")
+
+    assert [block["line"] for block in json.loads(printed(path, "--json", "--block", "3"))["blocks"]] == [3]
+    assert run_inside("decode", path, "--block", "0").returncode == 2
+    assert run_inside("decode", path, "--block", "5").returncode == 2
+
+
+def test_a_file_without_blocks_is_bad_use_and_named(tmp_path: Path) -> None:
+    path = tmp_path / "empty.iso"
+    path.write_text("", encoding="utf-8")
+    done = run_inside("decode", path)
+
+    assert done.returncode == 2
+    assert done.stderr.decode().startswith(f"{path}: error[")
+
+
 def test_a_program_in_3b_is_bad_use(tmp_path: Path) -> None:
     path = tmp_path / "part.3b"
     path.write_text("B1000 B0 B1000 GX L1\nDD\n", encoding="utf-8")
@@ -113,3 +134,9 @@ def test_a_block_that_is_called_twice_says_so(tmp_path: Path) -> None:
     path = tmp_path / "twice.iso"
     path.write_text("G92 X0 Y0\nG90 G01 X10\nM98 P1\nM98 P1\nM02\nN1\nG01 X20\nG01 X30\nM99\n", encoding="utf-8")
     assert "runs 2 times" in " ".join(printed(path, "--lang", "en").split())
+
+
+@pytest.mark.parametrize("options", [(), ("--offset", "D11=0.1mm"), ("--block", "8")])
+def test_json_is_as_its_schema_says(part: Path, options: tuple[str, ...]) -> None:
+    Draft202012Validator.check_schema(SCHEMA)
+    Draft202012Validator(SCHEMA).validate(json.loads(printed(part, "--json", *options)))
