@@ -58,9 +58,11 @@ def alarms_of(toolpath: Toolpath, told: Compensation, runs: Runs, row: Ints, gon
 def _unknown(told: Compensation) -> list[Alarm]:
     """At the first row of each that has a register without a value behind one with another register, or none."""
     is_open = (told.side != 0) & np.isnan(told.by_um)
+    if not is_open.any():
+        return []
     register = np.array(told.register, dtype=object)
     goes_on = is_open[1:] & is_open[:-1] & (register[1:] == register[:-1])
-    first = np.flatnonzero(is_open & ~np.append(False, goes_on)[: len(is_open)])
+    first = np.flatnonzero(is_open & ~np.append(False, goes_on))
     return _told(AlarmKind.UNKNOWN, first, stops=False)
 
 

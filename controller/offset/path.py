@@ -15,8 +15,8 @@ class Made(IntEnum):
     """How a row of the offset path came about.
 
     AS_IT_IS: a block without offset, such as a jump. LEAD: a lead-in or lead-out, between a place without offset and
-    the offset path. SHIFTED: a block moved aside, shortened or lengthened at its ends. BRIDGE: an arc round an outer
-    corner, or a line between ends that do not meet.
+    the offset path. SHIFTED: a block moved aside, shortened or lengthened at its ends. BRIDGE: an arc or a chamfer
+    round an outer corner, or a line between ends that do not meet.
     """
 
     AS_IT_IS = 0

@@ -170,6 +170,8 @@ class Reading(NamedTuple):
     codes
         Codes of this dialect for findings of the path and the machine that have other ones in 3B: ``3B301`` is
         ``ISO300``. Findings without one keep their code, which holds for every dialect.
+    threadings
+        How many jumps of the toolpath no block moves along: the wire is threaded elsewhere.
     not_simulated
         Term of the catalogue that says what the text asks for beside the path; empty where the path is all.
     """
@@ -184,6 +186,7 @@ class Reading(NamedTuple):
     remarks: Ints = NO_REMARKS
     assumptions: tuple[Assumption, ...] = ()
     codes: Mapping[str, str] = MappingProxyType({})
+    threadings: int = 0
     not_simulated: str = ""
 
 

@@ -11,6 +11,7 @@ from parser.iso.places import Coordinates, Places
 from parser.iso.rows import Rows
 
 _MOST, _HALF = 0.9, 0.5
+_SLIGHT = 0.01  # of a radius
 _APART_UM = 1.0  # chords, and ways from the zero point, that are too short to tell the readings apart
 
 
@@ -36,8 +37,11 @@ class Agreement(NamedTuple):
         return "because-arcs-neither"
 
 
-def agreement(mode: Modes, numbers: Coordinates, place: Places, path: Rows) -> Agreement:
-    """How the arcs of the running blocks agree with either reading of their I J."""
+def agreement(mode: Modes, numbers: Coordinates, place: Places, path: Rows, slack_um: float) -> Agreement:
+    """How the arcs of the running blocks agree with either reading of their I J.
+
+    The rounding of the file lets radii differ by `slack_um`.
+    """
     at = path.at[path.turning]
     start, end = path.curves.start_um[path.turning], path.curves.end_um[path.turning]
     center, base = numbers.center[at], place.shift_um[at]
@@ -46,14 +50,15 @@ def agreement(mode: Modes, numbers: Coordinates, place: Places, path: Rows) -> A
         return Agreement()
     start, end, center, base = start[tells], end[tells], center[tells], base[tells]
     is_absolute = mode.has_absolute_centers[at[tells], None]
-    as_read = _agrees(start, end, center + np.where(is_absolute, base, start))
-    otherwise = _agrees(start, end, center + np.where(is_absolute, start, base))
+    as_read = _agrees(start, end, center + np.where(is_absolute, base, start), slack_um)
+    otherwise = _agrees(start, end, center + np.where(is_absolute, start, base), slack_um)
     return Agreement(int(tells.sum()), float(as_read.mean()), float(otherwise.mean()))
 
 
-def _agrees(start: Floats, end: Floats, center: Floats) -> Bools:
-    """(k,) whether the radii at both ends of arcs (k, 2) agree."""
-    near: Bools = np.abs(_length(end - center) - _length(start - center)) <= GRAVE_UM
+def _agrees(start: Floats, end: Floats, center: Floats, slack_um: float) -> Bools:
+    """(k,) whether the radii at both ends of arcs (k, 2) agree as well as their size lets one tell."""
+    out = _length(start - center)
+    near: Bools = np.abs(_length(end - center) - out) <= np.maximum(slack_um, np.minimum(GRAVE_UM, _SLIGHT * out))
     return near
 
 

@@ -11,6 +11,7 @@ _MOTION = (0, 1, 2, 3)
 _PASSED = (17, 20, 21, 40, 41, 42, *range(54, 60), 70, 71, 90, 91, 90.1, 91.1)
 """G words that take no X and Y of their block for themselves."""
 _PLACES = [ord(letter) for letter in "XYIJR"]
+_CALL = 98
 _ENDS = (2, 30, 99, 199)
 
 
@@ -37,7 +38,8 @@ def without_command(listing: Listing) -> tuple[list[Finding], Ints]:
         for word in blocks.word[labels].tolist()
     ]
     is_g = words.letter == ord("G")
-    motion = np.flatnonzero(is_g & np.isin(words.value, _MOTION))
+    is_call = (words.letter == ord("M")) & (words.value == _CALL)  # what runs by then, the order of execution tells
+    motion = np.flatnonzero((is_g & np.isin(words.value, _MOTION)) | is_call)
     until = int(words.block[motion[0]]) if len(motion) else len(blocks.line)
     head = np.arange(blocks.word[until])
     taken = listing.blocks_of(head[is_g[head] & ~np.isin(words.value[head], _PASSED)])

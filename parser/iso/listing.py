@@ -9,6 +9,8 @@ from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.text.lines import LineIndex
 
+_LETTERS = 256  # codes of letters, with room
+
 
 class Words(NamedTuple):
     """m words, such as ``X-1.5``, in file order; each column has shape (m,).
@@ -164,6 +166,12 @@ class Listing(NamedTuple):
         holds = np.zeros(len(self.blocks.line), dtype=np.bool_)
         holds[self.words.block[word]] = True
         return holds
+
+    def of_any(self, letters: str) -> Ints:
+        """(k,) words with one of some letters, in file order."""
+        is_one = np.zeros(_LETTERS, dtype=np.bool_)
+        is_one[[ord(letter) for letter in letters]] = True
+        return np.flatnonzero(is_one[self.words.letter])
 
     def written(self, word: int) -> str:
         """A word as written."""

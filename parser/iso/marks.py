@@ -32,8 +32,10 @@ class Seen:
 
     @cached_property
     def coordinates(self) -> Ints:
-        """(k,) words of lengths in the plane, in file order."""
-        return np.flatnonzero(np.isin(self.listing.words.letter, [ord(letter) for letter in COORDINATES]))
+        """(k,) words of lengths in the plane, in file order; not those of 0, which is the same at any scale."""
+        word = self.listing.of_any(COORDINATES)
+        nonzero: Ints = word[self.listing.words.value[word] != 0.0]
+        return nonzero
 
     @cached_property
     def is_pointed(self) -> Bools:

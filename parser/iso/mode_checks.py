@@ -7,7 +7,6 @@ from parser.findings.facts import ReadAs
 from parser.findings.findings import Finding
 from parser.geometry.extents import extents
 from parser.iso.centers import Agreement
-from parser.iso.listing import Listing
 from parser.iso.marks import Seen
 from parser.iso.motion import Moved
 from parser.iso.profile import Profile
@@ -26,9 +25,9 @@ class _Fitting(NamedTuple):
     size_um: float
 
 
-def mode_findings(listing: Listing, family: Told, path: Moved) -> Iterator[Finding]:
+def mode_findings(family: Told, path: Moved) -> Iterator[Finding]:
     """Findings ISO111, ISO112, ISO215 and ISO216: what was assumed, and what does not fit the path."""
-    seen = Seen(listing)
+    seen = family.seen
     yield from _assumptions(family)
     yield from _mixed_numbers(seen, family.profile)
     yield from _other_centers(seen, family.profile, path.agreement)
@@ -47,8 +46,7 @@ def _assumptions(family: Told) -> Iterator[Finding]:
 
 def _mixed_numbers(seen: Seen, of: Profile) -> Iterator[Finding]:
     """ISO111 at the first length of the rarer kind, where those with a point and those without are of two scales."""
-    told = seen.listing.words.value[seen.coordinates] != 0.0
-    points, integers = (seen.coordinates[told & kind] for kind in (seen.is_pointed, ~seen.is_pointed))
+    points, integers = seen.coordinates[seen.is_pointed], seen.coordinates[~seen.is_pointed]
     if of.integer_um == of.point_um or not len(points) or not len(integers):
         return
     word = int((points if len(points) < len(integers) else integers)[0])

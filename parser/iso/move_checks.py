@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from parser.findings.findings import Finding
-from parser.geometry.curves import CurveKind, Ints
+from parser.geometry.curves import Bools, CurveKind, Ints
 from parser.iso.given import Given
 from parser.iso.modes import Modes
 from parser.iso.rows import Rows
@@ -13,10 +13,22 @@ from parser.iso.rows import Rows
 _HAIR = 1e-6  # of a step
 
 
-def move_findings(given: Given, runs: Ints, mode: Modes, path: Rows) -> Iterator[Finding]:
+def move_findings(given: Given, runs: Ints, mode: Modes, lacks_motion: Bools, path: Rows) -> Iterator[Finding]:
     """What is wrong with the coordinates of the running blocks `runs` (e,); a block that runs often is told once."""
+    yield from _without_motion(given, runs, lacks_motion)
     yield from _no_length(given, runs, mode, path)
     yield from _finer_than_steps(given, runs, mode)
+
+
+def _without_motion(given: Given, runs: Ints, lacks_motion: Bools) -> Iterator[Finding]:
+    """ISO110 at the first block that runs with numbers to move by before any motion word did."""
+    block = np.unique(runs[lacks_motion])
+    if len(block):
+        listing, first = given.listing, int(runs[np.argmax(lacks_motion)])
+        word = int(listing.blocks.word[first])
+        span = (int(listing.words.first[word]), int(listing.words.past[word]))
+        text, more = listing.text[slice(*span)], len(block) - 1
+        yield listing.lines.finding("ISO110", span, text=text, what="no-motion-yet", more=more)
 
 
 def _no_length(given: Given, runs: Ints, mode: Modes, path: Rows) -> Iterator[Finding]:
@@ -38,7 +50,7 @@ def _finer_than_steps(given: Given, runs: Ints, mode: Modes) -> Iterator[Finding
     coordinate = np.isin(words.letter, [ord(letter) for letter in "XYIJR"]) & (words.decimals > 0)
     word = np.flatnonzero(coordinate)
     um = words.value[word] * scale[words.block[word]]
-    steps = um / given.profile.resolution_um
+    steps = um / given.profile.step_um
     between = np.flatnonzero(np.abs(steps - np.rint(steps)) > _HAIR * np.maximum(1.0, np.abs(steps) * _HAIR))
     if len(between):
         first = int(word[between[0]])
@@ -48,6 +60,6 @@ def _finer_than_steps(given: Given, runs: Ints, mode: Modes) -> Iterator[Finding
             span,
             text=given.listing.text[slice(*span)],
             um=float(um[between[0]]),
-            step=given.profile.resolution_um,
+            step=given.profile.step_um,
             more=len(between) - 1,
         )

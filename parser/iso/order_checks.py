@@ -64,19 +64,21 @@ def _calls(listing: Listing, run: Flow) -> Iterator[Finding]:
 
 
 def _never_run(given: Given, run: Flow) -> Iterator[Finding]:
-    """ISO401 at subprograms that nothing calls, ISO108 at other blocks that nothing reaches: once a stretch."""
-    never = idle(given, run)
-    label = np.maximum(given.word("N"), given.word("O"))
-    returns = given.m("return")
+    """ISO401 at subprograms that nothing calls, ISO108 at other blocks that nothing reaches: once a stretch.
+
+    A subprogram with the label of one that runs is a label that is used twice (ISO121), and nothing besides.
+    """
+    words, never = given.listing.words, idle(given, run)
+    label, returns = np.maximum(given.word("N"), given.word("O")), given.m("return")
     starts = np.flatnonzero(never & ~np.concatenate([[False], never[:-1] & ~returns[:-1]]))
-    pasts = np.append(starts, len(never))[1:]
-    for first, past in zip(starts.tolist(), pasts.tolist(), strict=True):
-        is_subprogram = label[first] >= 0 and returns[first:past][never[first:past]].any()
-        if is_subprogram:
-            words = given.listing.words
-            yield _of_span(given.listing, "ISO401", (int(words.first[label[first]]), int(words.past[label[first]])))
-        else:
+    called = run.main_end + np.flatnonzero(~never[run.main_end :])
+    known = set(words.value[label[called][label[called] >= 0]].tolist())
+    for first, past in zip(starts.tolist(), np.append(starts, len(never))[1:].tolist(), strict=True):
+        word = int(label[first])
+        if word < 0 or not (returns & never)[first:past].any():
             yield _at(given.listing, "ISO108", first)
+        elif float(words.value[word]) not in known:
+            yield _of_span(given.listing, "ISO401", (int(words.first[word]), int(words.past[word])))
 
 
 def _behind_tape(listing: Listing) -> Iterator[Finding]:

@@ -27,6 +27,8 @@ class Coordinates(NamedTuple):
         (e,) whether a block is told to move, be it by nothing.
     names
         (e,) whether a block names its place by G92.
+    lacks_motion
+        (e,) whether a block has numbers to move by, and no motion word was there before it ran.
     """
 
     end: Floats
@@ -34,6 +36,7 @@ class Coordinates(NamedTuple):
     radius: Floats
     moves: Bools
     names: Bools
+    lacks_motion: Bools
 
 
 class Places(NamedTuple):
@@ -69,13 +72,15 @@ def coordinates(given: Given, runs: Ints, mode: Modes) -> Coordinates:
 
     if not len(words.value):
         nothing = np.full((len(runs), 2), np.nan)
-        return Coordinates(nothing, nothing, nothing[:, 0], *np.zeros((2, len(runs)), dtype=np.bool_))
+        return Coordinates(nothing, nothing, nothing[:, 0], *np.zeros((3, len(runs)), dtype=np.bool_))
     end, center = np.column_stack([um("X"), um("Y")]), np.column_stack([um("I"), um("J")])
     names = given.g(SET_PLACE)[runs]
     is_told = _any(end) | ((mode.motion >= 2) & _any(center))
-    is_moving = is_told & ~names & ~given.g(DWELL)[runs] & (mode.motion != NO_MOTION)
+    to_move = is_told & ~names & ~given.g(DWELL)[runs] & ~given.listing.blocks.is_damaged[runs]
+    has_motion = mode.motion != NO_MOTION
     end[names & bare_place(given)[runs]] = 0.0
-    return Coordinates(end, center, um("R"), is_moving & ~given.listing.blocks.is_damaged[runs], names)
+    lacks_motion = to_move & ~has_motion & (given.group("path")[runs] < 0)  # those take numbers of their own
+    return Coordinates(end, center, um("R"), to_move & has_motion, names, lacks_motion)
 
 
 def bare_place(given: Given) -> Bools:

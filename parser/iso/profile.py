@@ -29,6 +29,8 @@ class Profile:
         µm of a number of 1 without a point, and with one.
     resolution_um
         Least step that coordinates are written in: the tolerance of arcs follows from it.
+    step_um
+        Least step of the machine, to which it rounds finer numbers.
     may_be_inch
         Whether programs of the family are written in mm or in inches, and do not say in which.
     distance
@@ -67,6 +69,7 @@ class Profile:
     integer_um: float
     point_um: float
     resolution_um: float
+    step_um: float
     may_be_inch: bool
     distance: Literal["absolute", "incremental"]
     centers: Literal["from-start", "absolute"]

@@ -52,6 +52,7 @@ def _in_inches(seen: Seen, base: Profile) -> Profile:
         register_integer_um=step_um,
         register_point_um=UM_PER_INCH,
         resolution_um=step_um * _finer(seen, _DIGITS_IN_INCH),
+        step_um=step_um / 10,  # real programs have offsets of five digits
     )
 
 

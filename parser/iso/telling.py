@@ -27,6 +27,8 @@ class Told(NamedTuple):
         Of the family.
     assumptions
         What the text leaves open, in the order in which it is told; also what was chosen in its place.
+    seen
+        What stands in the listing.
     distance
         ``G90`` or ``G91``, in force at the first motion.
     says_centers, says_unit
@@ -35,6 +37,7 @@ class Told(NamedTuple):
 
     profile: Profile
     assumptions: tuple[Assumption, ...]
+    seen: Seen
     distance: str
     says_centers: bool
     says_unit: bool
@@ -70,7 +73,7 @@ def told(listing: Listing, choices: Choices) -> Told:
         assumed.append(Assumption("assumed-distance", _G[of.distance], habit))
     if not says_centers and (seen.has("I") or seen.has("J")):
         assumed.append(Assumption(_ASSUMED_CENTERS, of.centers, habit))
-    return Told(of, tuple(assumed), distance or _G[of.distance], says_centers, says_unit)
+    return Told(of, tuple(assumed), seen, distance or _G[of.distance], says_centers, says_unit)
 
 
 def reread(family: Told, arcs: Agreement) -> Told:

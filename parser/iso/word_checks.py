@@ -78,7 +78,7 @@ def _two_of_a_group(listing: Listing, g: Effects) -> Iterator[Finding]:
 
 def _repeated_letters(listing: Listing, profile: Profile) -> Iterator[Finding]:
     """ISO201: at the later word."""
-    word = np.flatnonzero(~_letters(profile.repeatable)[listing.words.letter])
+    word = listing.of_any("".join(sorted(set(profile.letters) - set(profile.repeatable))))
     for later, before in _repeats(listing, word, listing.words.letter[word]):
         yield listing.at_word("ISO201", later, word=listing.written(later), other=listing.written(before))
 
@@ -103,8 +103,8 @@ def _parts_of_numbers(listing: Listing, profile: Profile) -> Iterator[Finding]:
     """ISO205: parts behind the point where numbers are whole."""
     words = listing.words
     known = {round(float(number) * 10) for number in profile.g if "." in number}
-    parted = np.flatnonzero(_letters(profile.whole + "GM")[words.letter] & ~_is_whole(words.value))
-    for word in parted.tolist():
+    told = listing.of_any(profile.whole + "GM")
+    for word in told[~_is_whole(words.value[told])].tolist():
         is_known = words.letter[word] == ord("G") and round(float(words.value[word]) * 10, 6) in known
         if not is_known:
             yield listing.at_word("ISO205", word, word=listing.written(word), letter=chr(int(words.letter[word])))
@@ -120,9 +120,9 @@ def _out_of_range(listing: Listing, profile: Profile) -> Iterator[Finding]:
         code = int(words.letter[word])
         limits = f"{low[code]:.0f} … {high[code]:.0f}"
         yield listing.at_word("ISO206", word, word=listing.written(word), limits=limits)
-    scale = np.where(words.decimals < 0, profile.integer_um, profile.point_um)
-    is_far = _letters(_LENGTHS)[words.letter] & (np.abs(words.value) * scale > MAX_WORD_UM)
-    for word in np.flatnonzero(is_far).tolist():
+    lengths = listing.of_any(_LENGTHS)
+    scale = np.where(words.decimals[lengths] < 0, profile.integer_um, profile.point_um)
+    for word in lengths[np.abs(words.value[lengths]) * scale > MAX_WORD_UM].tolist():
         found = listing.at_word("ISO206", word, word=listing.written(word), limits="±1 km")
         yield found.with_fact(TooLarge())
 
@@ -152,13 +152,6 @@ def _has_repeats(block: Ints, kind: Ints) -> bool:
     first = np.flatnonzero(np.diff(block, prepend=-1))
     bit = np.left_shift(1, kind - kind.min()) if np.ptp(kind) < 63 else kind
     return bool((np.add.reduceat(bit, first) != np.bitwise_or.reduceat(bit, first)).any())
-
-
-def _letters(letters: str) -> Bools:
-    """(256,) whether a letter is one of some, by its code."""
-    table = np.zeros(_LETTERS, dtype=np.bool_)
-    table[[ord(letter) for letter in letters]] = True
-    return table
 
 
 def _is_whole(value: Floats) -> Bools:

@@ -16,7 +16,7 @@ from parser.text.encoding import decode_text, no_program
 from parser.text.lines import LineIndex
 from parser.text.source import Source
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS, Checked, run_checks
-from sim.check.programmed import programmed_of
+from sim.check.programmed import Programmed, programmed_of
 from sim.check.result import CheckResult, CheckState, Coverage
 from sim.check.settings import CheckSettings
 from sim.check.silence.sift import chosen, sifted, without_known
@@ -96,8 +96,12 @@ def result_of(program: Program, checked: Checked, settings: CheckSettings) -> Ch
         silenced=silenced,
         blocks=_blocks(program.toolpath.source, shown),
         assumptions=program.reading.assumptions,
-        programmed=programmed_of(program.toolpath) if checked.steps is not None else None,
+        programmed=_programmed(program) if checked.steps is not None else None,
     )
+
+
+def _programmed(program: Program) -> Programmed:
+    return programmed_of(program.toolpath, program.reading.threadings)
 
 
 def _mendable(program: Program, checked: Checked) -> tuple[Finding, ...]:

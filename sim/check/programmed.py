@@ -15,7 +15,7 @@ class Programmed(NamedTuple):
     Attributes
     ----------
     lines, arcs, rapids
-        Blocks of each kind.
+        Blocks of each kind; a new place of the wire, threaded by hand, is no rapid.
     cut_length_um
         Length of lines and arcs, leads included, rapids not.
     box_um
@@ -33,15 +33,15 @@ class Programmed(NamedTuple):
     last_um: Point | None = None
 
 
-def programmed_of(toolpath: Toolpath) -> Programmed:
-    """What a toolpath runs."""
+def programmed_of(toolpath: Toolpath, threadings: int = 0) -> Programmed:
+    """What a toolpath runs, of which some jumps are threadings."""
     if not len(toolpath):
         return Programmed()
     cut = ~toolpath.is_jump
     return Programmed(
         lines=int((toolpath.kind == CurveKind.LINE).sum()),
         arcs=int((toolpath.kind == CurveKind.ARC).sum()),
-        rapids=int(toolpath.is_jump.sum()),
+        rapids=int(toolpath.is_jump.sum()) - threadings,
         cut_length_um=float(toolpath.length_um[cut].sum()),
         box_um=_box(toolpath) if cut.any() else None,
         first_um=Point(*toolpath.start_um[0].tolist()),

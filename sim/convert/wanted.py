@@ -12,8 +12,9 @@ from parser.write.sides import registers_of
 from parser.write.threeb import Form, ThreeBChoices, written_3b
 
 Language = Literal["3b", "4b", "iso"]
-_BOUND_3B_UM = 3.0  # a radius of whole µm and a count of whole µm from where the last block ended: docs/iso.md §10
-_BOUND_ISO_STEPS = 2.0  # ends and centres in whole steps, the middle of a long arc twice as far off as its centre
+_BOUND_STEPS = 3.0
+"""Ends and centres in whole steps, and the middle of a long arc up to twice as far off as its centre; of 100,000 arcs
+of any sweep none is farther off in ISO, and one in 3B, which has whole radii and counts too (docs/iso.md §10)."""
 
 
 class Wanted(NamedTuple):
@@ -48,7 +49,7 @@ class Wanted(NamedTuple):
     @property
     def bound_um(self) -> float:
         """How far off the written path may be."""
-        return _BOUND_3B_UM if self.iso is None else _BOUND_ISO_STEPS * max(1.0, self.iso.step_um)
+        return _BOUND_STEPS * (1.0 if self.iso is None else max(1.0, self.iso.step_um))
 
 
 def draft_for(toolpath: Toolpath, wanted: Wanted) -> Draft:

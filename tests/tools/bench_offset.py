@@ -1,6 +1,7 @@
 """The true offset beside shapely's buffer with eight chords to a quarter turn, on the same contour in one run.
 
-The contour is a wavy ring of lines and arcs, each about 0.1 mm long, with corners between them.
+The contour is a wavy ring of lines and arcs, each about 0.1 mm long, with corners between them. The offset of a
+controller on it is timed too: one that the user asks for, and one that the program tells of.
 """
 
 import time
@@ -9,10 +10,14 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 import shapely
+from compensating import told
+from paths import toolpath_of
 
+from controller.offset.compensate import compensate
 from controller.offset.gouges import gouges
+from controller.offset.programmed import compensated
 from controller.offset.reach import reach
-from controller.offset.sections import Side
+from controller.offset.sections import OffsetSection, Side
 from parser.geometry.along import places_at
 from parser.geometry.broad_phase_places import nearest_um
 from parser.geometry.curves import Curves, Floats, curves_between
@@ -24,13 +29,18 @@ T = TypeVar("T")
 
 
 class Comparison(NamedTuple):
-    """µs a vertex, and the largest error µm of the distance from the contour; and µs a vertex to look for gouges."""
+    """µs a vertex, and the largest error µm of the distance from the contour; and µs a vertex to look for gouges.
+
+    `asked_us` and `told_us` are those of a controller, for an offset that the user asks for, or the program tells of.
+    """
 
     ours_us: float
     ours_off_um: float
     chords_us: float
     chords_off_um: float
     gouges_us: float
+    asked_us: float
+    told_us: float
 
 
 def wavy_ring(blocks: int) -> Curves:
@@ -58,8 +68,19 @@ def compare(blocks: int) -> Comparison:
     chords_s, buffer = _timed(lambda: polygon.buffer(-F_UM, quad_segs=8))
     theirs = shapely.get_coordinates(buffer)
     gouges_s, _ = _timed(lambda: [gouges(contour, loop, F_UM, Side.LEFT) for loop in loops])
+    asked_s, _ = _timed(lambda: compensate(contour, [OffsetSection(0, blocks - 1, closed=True)], F_UM, Side.LEFT))
+    program = told(toolpath_of(contour), Side.LEFT, F_UM)
+    told_s, _ = _timed(lambda: compensated(program))
     per = 1e6 / blocks
-    return Comparison(ours_s * per, _off(contour, ours), chords_s * per, _off(contour, theirs), gouges_s * per)
+    return Comparison(
+        ours_us=ours_s * per,
+        ours_off_um=_off(contour, ours),
+        chords_us=chords_s * per,
+        chords_off_um=_off(contour, theirs),
+        gouges_us=gouges_s * per,
+        asked_us=asked_s * per,
+        told_us=told_s * per,
+    )
 
 
 def offset_lines(blocks: int) -> list[str]:
@@ -69,6 +90,7 @@ def offset_lines(blocks: int) -> list[str]:
         f"true offset         {made.ours_us:.1f} µs per vertex, off by {made.ours_off_um:.1g} µm",
         f"offset of chords    {made.chords_us:.1f} µs per vertex by shapely, off by {made.chords_off_um:.1g} µm",
         f"gouges              {made.gouges_us:.1f} µs per vertex",
+        f"controller's offset {made.asked_us:.1f} µs per block asked for by a user, {made.told_us:.1f} by the program",
     ]
 
 

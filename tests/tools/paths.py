@@ -1,6 +1,7 @@
 """Toolpaths drawn block by block, exact, or rounded to whole µm the way CAM output is."""
 
 import math
+from dataclasses import fields
 from typing import Self
 
 import numpy as np
@@ -69,22 +70,31 @@ class Pen:
 
     def path(self) -> Toolpath:
         kind, start, end, center, radius, angle, sweep, length = zip(*self.rows, strict=True)
-        n = len(self.rows)
-        none = np.zeros(n, dtype=np.int64)
-        return Toolpath(
-            kind=np.array(kind, dtype=np.int64),
-            start_um=np.array(start, dtype=float),
-            end_um=np.array(end, dtype=float),
-            center_um=np.array(center, dtype=float),
-            radius_um=np.array(radius, dtype=float),
-            start_angle_rad=np.array(angle, dtype=float),
-            sweep_rad=np.array(sweep, dtype=float),
-            length_um=np.array(length, dtype=float),
-            printed_end_um=np.full((n, 2), np.nan),
-            words=StepWords(none, none, none, none, none, none, none, none),
-            source=Source("", np.arange(1, n + 1), np.zeros((n, 2), dtype=np.int64), none, ("",) * n),
-            stops=(),
+        return toolpath_of(
+            Curves(
+                kind=np.array(kind, dtype=np.int64),
+                start_um=np.array(start, dtype=float),
+                end_um=np.array(end, dtype=float),
+                center_um=np.array(center, dtype=float),
+                radius_um=np.array(radius, dtype=float),
+                start_angle_rad=np.array(angle, dtype=float),
+                sweep_rad=np.array(sweep, dtype=float),
+                length_um=np.array(length, dtype=float),
+            )
         )
+
+
+def toolpath_of(curves: Curves) -> Toolpath:
+    """A toolpath of curves alone, without text."""
+    n = len(curves)
+    none = np.zeros(n, dtype=np.int64)
+    return Toolpath(
+        **{field.name: getattr(curves, field.name) for field in fields(Curves)},
+        printed_end_um=np.full((n, 2), np.nan),
+        words=StepWords(none, none, none, none, none, none, none, none),
+        source=Source("", np.arange(1, n + 1), np.zeros((n, 2), dtype=np.int64), none, ("",) * n),
+        stops=(),
+    )
 
 
 def _counted(angle: float) -> float:

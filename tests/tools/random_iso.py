@@ -11,7 +11,7 @@ def random_iso(seed: int, blocks: int = 40) -> str:
     """One program, its lines ended by LF."""
     random = Random(seed)
     lines = [f"{letter}{number} = {random.randint(50, 200)}" for letter, number in (("D", 1), ("H", 2), ("D", 3))]
-    lines += [_filled(random, random.choice(_HEADS)), random.choice(["G00", "G01"])]
+    lines.append(_filled(random, random.choice(_HEADS)))
     lines += [_line(random, calls=(1, 2)) for _ in range(blocks)]
     lines.append("M02")
     lines += ["N0001", *(_line(random, calls=(2,)) for _ in range(blocks // 4)), "M99"]

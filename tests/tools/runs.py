@@ -42,14 +42,14 @@ def lawful(run: DryRun) -> DryRun:
 
 def run_folder(folder: Path) -> DryRun:
     scenario = load_scenario(folder)
-    return check_expectations(lawful(dry_run(read_program(scenario.program), scenario, silent)))
+    return check_expectations(lawful(dry_run(read_program(scenario.program, scenario.choices), scenario, silent)))
 
 
 @cache
 def scenario_recording(name: str) -> Recording:
     """A scenario of the project with every step: run once for all tests of a process, which change nothing in it."""
     scenario = load_scenario(SCENARIOS / name)
-    with recorded(read_program(scenario.program), scenario, silent) as found:
+    with recorded(read_program(scenario.program, scenario.choices), scenario, silent) as found:
         lawful(found.run)
         return found._replace(steps=Pulses(*(np.array(column) for column in found.steps)))
 

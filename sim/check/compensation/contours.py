@@ -79,7 +79,7 @@ def _uncut(program: Program, path: OffsetPath, one: Held, stops: set[int]) -> It
 
 
 def _missed(path: OffsetPath, one: Held) -> Ints:
-    """Rows beside which the path runs nowhere, though it has a block for them: corners before and behind take it all.
+    """Lines beside which the path runs nowhere, though it has a block for them: corners before and behind take it all.
 
     Where a step is lower than the offset, the wire turns about its foot before it comes to the step itself.
     """
@@ -89,7 +89,7 @@ def _missed(path: OffsetPath, one: Held) -> Ints:
     )
     row = path.source_row[moved] - section.first
     low, high = (along_um(one.contour, row, end[moved]) for end in (path.curves.start_um, path.curves.end_um))
-    missed: Ints = section.first + row[high - low <= NOTHING_UM]
+    missed: Ints = section.first + row[(high - low <= NOTHING_UM) & ~one.contour.is_arc[row]]
     return missed
 
 

@@ -26,9 +26,10 @@ _INDENT = "    "
 def converted_lines(done: Converted, out: Path, wanted: Wanted, language: Language, width: int) -> Iterator[str]:
     """What was written, in lines of `width` cells."""
     words = Words(language)
+    warnings = sum(finding.severity is Severity.WARNING for finding in done.checked.findings)
     texts = [
         words("convert.off", off=f"{done.off_um:.3f}", bound=f"{done.bound_um:g}"),
-        words("convert.finds", counts=_counts(done)) if done.checked.findings else "",
+        words("convert.finds", counts=numbered({"warning": warnings})) if warnings else "",
         words("convert.lost", parts=listed(map(_lost, done.lost))) if done.lost else "",
         "" if done.told_by_itself else words("convert.say-dialect", options=_options(wanted)),
     ]
@@ -52,11 +53,6 @@ def refused_lines(refused: Refused, name: str, language: Language, width: int) -
 
 def _lost(loss: Loss) -> Said:
     return said(f"convert.lost-{loss.what}", of=printable(loss.of), number=f"{loss.number:,}")
-
-
-def _counts(done: Converted) -> Said:
-    of = [finding.severity for finding in done.checked.findings]
-    return numbered({str(severity): of.count(severity) for severity in Severity})
 
 
 def _rows(toolpath: Toolpath) -> Said:

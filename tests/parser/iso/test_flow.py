@@ -100,6 +100,17 @@ def test_calls_of_calls_are_followed_up_to_a_bound(monkeypatch: pytest.MonkeyPat
     assert len(program.toolpath) <= flow.LONGEST
 
 
+def test_a_motion_word_counts_from_when_it_runs() -> None:
+    text = "G91 G92 X0 Y0\nM98 P1\n{}\nX5\nM02\nN1 {}X1000\nM99"
+    assert not findings(text.format("", "G01 "), "ISO110")
+    assert path(text.format("", "G01 ")).source.line.tolist() == [6, 4]
+    program = read(text.format("G01", ""))
+    assert [(one.line, one.values["what"]) for one in program.findings if one.code == "ISO110"] == [
+        (6, "no-motion-yet")
+    ]
+    assert [one.after for one in program.reading.damages] == [0]
+
+
 def test_damage_that_never_runs_leaves_nothing_in_doubt() -> None:
     assert not read("G91 G01 X1\nM02\nX1..2").reading.damages
     assert [one.after for one in read("G91 G01 X1\nX1..2\nX3\nM02").reading.damages] == [1]
@@ -114,6 +125,12 @@ def test_subprograms_that_nothing_calls_are_told_apart_from_it() -> None:
     text = "G91 G01 X1\nM98 P1\nM02\nN1 X2\nM99\nN2 X3\nM99\nN3 X4\nM99\nX5"
     assert [one.line for one in findings(text, "ISO401")] == [6, 8]
     assert [one.line for one in findings(text, "ISO108")] == [10]
+
+
+def test_a_label_used_twice_is_no_subprogram_without_a_call() -> None:
+    text = "G91 G01\nM98 P1\nM02\nN1 X2\nM99\nN1 X3\nM99"
+    assert [one.code for one in read(text).findings if one.code in {"ISO121", "ISO401"}] == ["ISO121"]
+    assert findings("G91 G01\nN1 X1\nM02\nN1 X3\nM99", "ISO401")
 
 
 def test_a_program_without_end_code_gets_one_where_its_text_ends() -> None:

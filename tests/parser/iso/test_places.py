@@ -75,6 +75,7 @@ def test_g92_behind_a_stop_threads_the_wire_where_it_says(stop: str) -> None:
     assert ends(program.toolpath) == [(10.0, 0.0), (50.0, 5.0), (60.0, 5.0)]
     assert program.toolpath.kind.tolist() == [CurveKind.LINE, CurveKind.JUMP, CurveKind.LINE]
     assert not [one for one in program.findings if one.code == "ISO303"]
+    assert program.reading.threadings == 1
     assert "assumed-threading" in {one.what for one in program.reading.assumptions}
 
 

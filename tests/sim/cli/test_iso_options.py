@@ -52,7 +52,7 @@ def offset_um(choices: Choices) -> float:
 def test_the_rounds_are_programmed_as_often_as_they_are_called(shop: Path) -> None:
     (file,) = checked(shop / "rounds.nc")
     said = file["programmed"]
-    assert (said["lines"], said["arcs"], said["rapids"]) == (6, 3, 1)
+    assert (said["lines"], said["arcs"], said["rapids"]) == (6, 3, 0)
     assert said["cut_length_um"] == pytest.approx(ROUNDS_CUT_UM, abs=1e-5)
     assert said["box_um"] == pytest.approx(ROUNDS_BOX_UM, abs=1e-6)
     assert (said["first_um"], said["last_um"]) == ([0.0, 0.0], [30000.0, 0.0])

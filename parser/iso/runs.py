@@ -1,0 +1,36 @@
+"""A program as it runs: all columns of its blocks, in the order in which they do."""
+
+from typing import NamedTuple
+
+from parser.dialect.reader import Choices
+from parser.iso.flow import Flow, flow
+from parser.iso.given import Given
+from parser.iso.modes import Modes, modes
+from parser.iso.places import Coordinates, Places, coordinates, places
+from parser.iso.registers import Offsets, offsets
+from parser.iso.rows import Rows, rows
+
+STOPS = ("stop", "thread", "cut")
+"""What M words do behind which the wire may be threaded elsewhere."""
+
+
+class Run(NamedTuple):
+    """What is known of the running blocks; `offsets` are None where nothing compensates."""
+
+    flow: Flow
+    mode: Modes
+    numbers: Coordinates
+    place: Places
+    rows: Rows
+    offsets: Offsets | None
+
+
+def run_of(given: Given, choices: Choices) -> Run:
+    """The run of a listing."""
+    order = flow(given)
+    mode = modes(given, order.block)
+    numbers = coordinates(given, order.block, mode)
+    place = places(numbers, mode.is_absolute, given.m(*STOPS)[order.block])
+    path = rows(mode, numbers, place, given.profile.resolution_um)
+    compensates = mode.side[path.at].any()
+    return Run(order, mode, numbers, place, path, offsets(given, order.block, mode, choices) if compensates else None)

@@ -1,0 +1,46 @@
+"""Programs as each family writes them, by a writer of its own: what is read of them is what was drawn."""
+
+import random
+
+import numpy as np
+import pytest
+from iso_programs import FAMILIES, program
+from iso_writer import IsoProgram
+
+from parser.dialect.reader import Choices
+from parser.program import Program, parse_program
+from sim.check.programmed import programmed_of
+
+PROGRAMS = [(family, number) for family in FAMILIES for number in range(12)]
+
+
+def read(made: IsoProgram, choices: Choices) -> Program:
+    return parse_program(made.text, "made.iso", choices=choices)
+
+
+def held(made: IsoProgram, program: Program) -> None:
+    """Hold what a program runs against its strokes."""
+    found = programmed_of(program.toolpath, program.reading.threadings)
+    assert (found.lines, found.arcs, found.rapids) == tuple(map(made.count, ("line", "arc", "rapid")))
+    off = 3.0 * made.resolution_um
+    assert found.cut_length_um == pytest.approx(made.cut_length_um, abs=3.0 * off * made.count("arc") + 1e-3)
+    assert found.box_um == pytest.approx(made.box_um, abs=off)
+    ends = [stroke.end for stroke in made.strokes]
+    ran = program.toolpath.end_um[~program.toolpath.is_jump | (found.rapids > 0)]
+    np.testing.assert_allclose(ran, ends, rtol=0.0, atol=1e-6)
+    assert found.first_um == pytest.approx(made.strokes[0].start, abs=1e-6)
+
+
+@pytest.mark.parametrize(("family", "number"), PROGRAMS)
+def test_a_program_read_by_its_profile_runs_what_was_drawn(family: str, number: int) -> None:
+    made = program(random.Random(number), family)
+    held(made, read(made, Choices(dialect=family, unit=made.unit)))
+
+
+@pytest.mark.parametrize(("family", "number"), PROGRAMS)
+def test_a_program_is_told_by_its_marks_and_has_no_fault(family: str, number: int) -> None:
+    made = program(random.Random(number), family)
+    read_so = read(made, Choices())
+    if family != "classroom":  # whole numbers may be of any unit: it is chosen
+        assert read_so.reading.dialect == family
+        held(made, read_so)

@@ -1,0 +1,74 @@
+"""Words told one block from the end of the other: near the drawn ends, however many blocks and whichever arcs."""
+
+import random
+
+import numpy as np
+import pytest
+from plain import PlainBlock
+from sound_cam import plain_end
+
+from parser.geometry.curves import Curves, Floats, curves_between
+from parser.toolpath import Axis, StepWords
+from parser.words.chained import chained_words
+from parser.words.labels import label
+
+_MOST_UM = 2.3
+
+
+def random_path(seed: int, n: int, reach_um: float) -> Curves:
+    """Lines and arcs of any sweep between random places."""
+    rng = np.random.default_rng(seed)
+    place = np.cumsum(rng.uniform(-reach_um, reach_um, (n + 1, 2)), axis=0)
+    by = np.diff(place, axis=0)
+    normal = np.column_stack([-by[:, 1], by[:, 0]])
+    center = place[:-1] + 0.5 * by + normal * rng.uniform(-2.0, 2.0, (n, 1))
+    low, high = (np.arctan2(*(at - center).T[::-1]) for at in (place[:-1], place[1:]))
+    turn = rng.choice([-1.0, 0.0, 1.0], n)
+    return curves_between(place[:-1], place[1:], center, (high - low) * turn % (2.0 * np.pi) * turn)
+
+
+def plain_ends(words: StepWords, start: Floats) -> Floats:
+    """Ends of blocks one behind the other, by the plain rules of the tests."""
+    at, ends = start, []
+    for row in range(len(words.x_um)):
+        sense = label(int(words.turn[row]), int(words.quadrant[row]))
+        x, y, count = (int(column[row]) for column in (words.x_um, words.y_um, words.count_um))
+        by = plain_end(PlainBlock(x, y, count, Axis(int(words.count_axis[row])).name, sense[:-1], int(sense[-1])))
+        at = at + np.array(by)
+        ends.append(at)
+    return np.array(ends)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("reach_um", [300.0, 5e4])
+def test_every_block_ends_near_its_drawn_end(seed: int, reach_um: float) -> None:
+    path = random_path(seed, 250, reach_um)
+    told = chained_words(path, np.full((len(path), 2), np.nan), np.zeros(len(path), dtype=np.bool_))
+    np.testing.assert_allclose(plain_ends(told.words, path.start_um[0]), told.end_um, atol=1e-5)
+    assert np.hypot(*(told.end_um - path.end_um).T).max() <= _MOST_UM
+
+
+def test_arcs_keep_the_centres_that_they_name() -> None:
+    rng = random.Random(5)
+    start = np.array([[0.0, 0.0]])
+    for _ in range(50):
+        out = np.array([[float(rng.randint(50, 9000)), float(rng.randint(50, 9000))]])
+        sweep = np.array([rng.uniform(0.3, 6.0)])
+        angle = np.arctan2(out[:, 1], out[:, 0]) + sweep
+        end = np.rint(start - out + np.hypot(*out.T) * np.column_stack([np.cos(angle), np.sin(angle)]))
+        arc = curves_between(start, end, start - out, sweep)
+        words = chained_words(arc, -out, np.zeros(1, dtype=np.bool_)).words
+        assert (words.x_um[0], words.y_um[0]) == (out[0, 0], out[0, 1])
+
+
+def test_a_block_begins_where_a_place_is_named() -> None:
+    start = np.array([[0.0, 0.0], [10.2, 0.0], [500.75, 3.0]])
+    end = np.array([[10.2, 0.0], [500.75, 3.0], [600.0, 3.0]])
+    lines = curves_between(start, end, np.full((3, 2), np.nan), np.zeros(3))
+    told = chained_words(lines, np.full((3, 2), np.nan), np.array([False, True, False]))
+    assert told.end_um.tolist() == [[10.0, 0.0], [500.75, 3.0], [599.75, 3.0]]
+
+
+def test_no_blocks_have_no_words() -> None:
+    nothing = curves_between(*[np.zeros((0, 2))] * 3, np.zeros(0))
+    assert len(chained_words(nothing, np.zeros((0, 2)), np.zeros(0, dtype=np.bool_)).words.x_um) == 0

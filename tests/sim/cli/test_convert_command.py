@@ -1,0 +1,135 @@
+"""``drycut convert`` as a user meets it: files, exit codes, messages in both languages, bad use."""
+
+import re
+from pathlib import Path
+
+import pytest
+from command import run_inside
+from places import ROOT
+from twins import BLOCKS_3B, TWIN_3B, TWIN_ISO, motion
+
+from sim.show.words.words import texts
+
+OPEN = "B9000B0B9000GXL1\nB0B9000B9000GYL2\nB9000B0B9000GXL3\nB0B8000B8000GYL4\nDD\n"
+HOLE = (
+    "%\nN10 G92 X0 Y0\nN20 G60 G38 G41 D0\nN30 G01 X5. Y0.\nN40 G03 X5. Y0. I0. J0.\nN50 G40 G01 X0. Y0.\nN60 M02\n%\n"
+)
+
+
+@pytest.fixture
+def iso(tmp_path: Path) -> Path:
+    path = tmp_path / "part.iso"
+    path.write_text(TWIN_ISO, encoding="utf-8")
+    return path
+
+
+def run(*arguments: object) -> tuple[int, str, str]:
+    done = run_inside("convert", *arguments)
+    return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+
+def test_the_suffix_says_the_language(iso: Path) -> None:
+    out = iso.with_suffix(".3b")
+    code, said, _ = run(iso, "-o", out)
+    assert code == 0
+    assert "written: 9 lines, 3 arcs" in said
+    assert "at most 0.575 µm off" in said
+    assert motion(out.read_text(encoding="utf-8")) == motion(BLOCKS_3B)
+
+
+def test_it_comes_back_in_another_dialect(iso: Path) -> None:
+    out = iso.with_suffix(".3b")
+    out.write_text(TWIN_3B, encoding="utf-8")
+    back = iso.with_suffix(".nc")
+    assert run(out, "-o", back, "--dialect", "robofil", "--number-step", "5", "--crlf")[0] == 0
+    assert back.read_bytes().startswith(b"%\r\n(robofil, mm, absolute, centres absolute)\r\nN5 G60 G90 G92 X115.000 ")
+
+
+def test_to_goes_before_the_suffix(iso: Path) -> None:
+    out = iso.with_suffix(".txt")
+    assert run(iso, "-o", out, "--to", "4b")[0] == 0
+    assert "GYDNR1" in out.read_text(encoding="utf-8")
+
+
+def test_a_register_is_told_and_worked_in(tmp_path: Path) -> None:
+    path, out = tmp_path / "hole.iso", tmp_path / "hole.3b"
+    path.write_text(HOLE, encoding="utf-8")
+    code, said, _ = run(path, "-o", out)
+    assert (code, out.exists()) == (1, False)
+    assert "ISO500" in said
+    assert run(path, "-o", out, "--offset", "D0=0.1mm")[0] == 0
+    assert "B4900B0B19600GYNR1" in out.read_text(encoding="utf-8")
+
+
+def test_an_offset_is_worked_into_3b(tmp_path: Path) -> None:
+    path, out = tmp_path / "hole.3b", tmp_path / "cut.3b"
+    path.write_text("B5000B0B5000GXL1\nB5000B0B20000GYNR1\nB5000B0B5000GXL3\nDD\n", encoding="utf-8")
+    assert run(path, "-o", out, "--offset", "0.1mm", "--side", "left", "--form", "detailed")[0] == 0
+    text = out.read_text(encoding="utf-8")
+    assert "Offset F= 0.10000 ," in text
+    assert motion(text)[1].replace(" ", "") == "B4900B0B19600GYNR1"
+
+
+def test_nothing_is_written_where_it_is_refused(tmp_path: Path) -> None:
+    path, out = tmp_path / "open.3b", tmp_path / "open.iso"
+    path.write_text(OPEN, encoding="utf-8")
+    out.write_text("as it was", encoding="utf-8")
+    code, said, _ = run(path, "-o", out)
+    assert code == 1
+    assert out.read_text(encoding="utf-8") == "as it was"
+    assert "3B301" in said
+    assert "not converted: mend its errors first" in said
+
+
+@pytest.mark.parametrize("lang", ["en", "zh"])
+def test_messages_are_in_both_languages_and_fit_the_terminal(iso: Path, lang: str) -> None:
+    _, said, _ = run(iso, "-o", iso.with_suffix(".3b"), "--lang", lang)
+    assert ("已回读并检查" in said) is (lang == "zh")
+    name = str(iso.with_suffix(".3b"))
+    assert all(len(line) <= 100 for line in said.splitlines() if name not in line)
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (("-o", "part.foo"), "--to"),
+        (("-o", "part.3b", "--tape"), "--tape is for ISO"),
+        (("-o", "b.iso", "--form", "detailed"), "--form is for 3B and 4B"),
+        (("-o", "part.3b", "--compensation", "kept"), "3B carries none"),
+        (("-o", "b.iso", "--dialect", "klingon"), "klingon"),
+        (("-o", "b.iso", "--dialect", "classroom", "--unit", "um"), "classroom"),
+        (("-o", "part.3b", "--side", "left"), "belong together"),
+        (("-o", "part.iso"), "is the program itself"),
+    ],
+)
+def test_bad_use_ends_with_2_and_one_line(iso: Path, options: tuple[str, ...], told: str) -> None:
+    named = [str(iso.parent / one) if one.endswith((".3b", ".iso", ".foo")) else one for one in options]
+    code, said, error = run(iso, *named)
+    assert code == 2
+    assert said == ""
+    assert told in error
+    assert iso.read_text(encoding="utf-8") == TWIN_ISO
+
+
+def test_a_file_that_is_no_program_is_bad_use(tmp_path: Path) -> None:
+    path = tmp_path / "letter.iso"
+    path.write_text("Dear customer\n", encoding="utf-8")
+    code, _, error = run(path, "-o", tmp_path / "letter.3b")
+    assert code == 2
+    assert "letter.iso" in error
+
+
+def test_every_loss_and_refusal_has_its_words() -> None:
+    code = "".join(
+        path.read_text(encoding="utf-8")
+        for folder in ("sim/convert", "parser/write")
+        for path in sorted((ROOT / folder).glob("*.py"))
+    )
+    named = {f"lost-{name}" for name in re.findall(r'(?:Loss|_named|_of)\(\s*"([a-z-]+)"', code)}
+    named |= {f"lost-{name}" for name in re.findall(r'"(offsets-[a-z-]+)"', code)}
+    named |= {f"refused-{name}" for name in re.findall(r'Refused\(\s*"([a-z-]+)"', code)}
+    named |= {
+        f"differs-{name}" for name in re.findall(r'np\.inf, "([a-z]+)"|else "(turns)"', code) for name in name if name
+    }
+    assert len(named) > 20
+    assert named == {name for name in texts("convert") if name.startswith(("lost-", "refused-", "differs-"))}
