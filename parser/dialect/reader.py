@@ -132,8 +132,8 @@ class Spelling(NamedTuple):
     ----------
     clockwise, counter_clockwise
         Arcs.
-    end
-        The end code.
+    end, pause
+        The end code, and a stop at which the operator goes on.
     rapid
         A rapid; empty where the machine jumps behind a pause alone.
     """
@@ -141,7 +141,13 @@ class Spelling(NamedTuple):
     clockwise: str
     counter_clockwise: str
     end: str
+    pause: str
     rapid: str = ""
+
+    @property
+    def jump(self) -> str:
+        """How a jump is written: as a rapid, or between two pauses."""
+        return self.rapid or f"{self.pause} … {self.pause}"
 
 
 class Reading(NamedTuple):

@@ -60,7 +60,7 @@ def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
         dialect=family.profile.name,
         counts=BlockCounts(n + len({one.block for one in listing.unread}), n, n),
         damages=path.damages,
-        spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02", rapid="G00"),
+        spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02", pause="M00", rapid="G00"),
         is_drawing=path.toolpath.compensation is not None,
         not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
         remarks=listing.remarks,

@@ -19,7 +19,7 @@ from parser.threeb.reader import Records, read_records
 from parser.toolpath import Toolpath
 from parser.words.labels import SENSES
 
-_SPELLING = Spelling(clockwise=SENSES[-1], counter_clockwise=SENSES[1], end=OWN_MARKS.end[0])
+_SPELLING = Spelling(SENSES[-1], SENSES[1], end=OWN_MARKS.end[0], pause=OWN_MARKS.pause[0])
 
 
 class ThreeB:

@@ -69,7 +69,8 @@ def contour_findings(
         if contour.is_open and not may_stay_open:
             found.append(_open(program, contour))
         elif (
-            contour.closure_exact_um <= contour.tolerance_um
+            program.toolpath.words is not None  # else steps are ours alone, and no word can be wrong
+            and contour.closure_exact_um <= contour.tolerance_um
             and gap - contour.closure_exact_um > limit
             and not explained
         ):

@@ -119,7 +119,9 @@ def _uncut_tab(program: Program, main: list[Pass]) -> Iterator[Finding]:
         return
     if abs(_turned_rad(toolpath, one)) < _TURNED_RAD or _is_cut(program.toolpath, one):
         return
-    yield at_block(toolpath, program.lines, "3B315", one.last, first=main[0].first + 1, last=one.last + 1, gap=gap)
+    blocks = {"first": main[0].first + 1, "last": one.last + 1}
+    pause = program.reading.spelling.pause
+    yield at_block(toolpath, program.lines, "3B315", one.last, **blocks, gap=gap, pause=pause)
 
 
 def _turned_rad(toolpath: Toolpath, one: Pass) -> float:

@@ -53,5 +53,5 @@ def test_a_click_on_it_leads_to_its_first_call(open_page: OpenPage) -> None:
     page = opened(open_page)
     page.get_by_text("N220 G03 X35000 Y0 I-5000 J0").click()
     assert page.evaluate("drycut.player.state().block") == SECOND
-    page.get_by_text("N220 G03 X35000 Y0 I-5000 J0").hover()
+    page.locator("#program .now").hover()
     assert page.locator("#tip").inner_text().startswith("Block 6 of 10 · N220 · arc, counter-clockwise")

@@ -104,4 +104,5 @@ def test_every_file_has_its_expectation() -> None:
 
 
 def test_every_code_has_a_fault_on_file() -> None:
-    assert {name.partition("-")[0] for name in FAULTS} == set(CODES) - _NEEDS_MORE
+    of_3b = {code for code in CODES if code.startswith("3B")}  # those of ISO have the examples of their pages
+    assert {name.partition("-")[0] for name in FAULTS} == of_3b - _NEEDS_MORE

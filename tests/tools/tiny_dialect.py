@@ -63,7 +63,7 @@ class TinyReader:
             dialect="tiny",
             counts=BlockCounts(len(blocks) + len(damages), len(blocks), len(blocks)),
             damages=tuple(damages),
-            spelling=Spelling(clockwise="right", counter_clockwise="left", end="end"),
+            spelling=Spelling(clockwise="right", counter_clockwise="left", end="end", pause="pause"),
             is_drawing=False,
             not_asked={
                 Check.BLOCKS: "reason-no-words",

@@ -27,6 +27,7 @@ def _early(program: Program, piece: Piece) -> Finding:
         "3B406",
         freed.block - 1,
         kind=piece.kind,
+        pause=program.reading.spelling.pause,
         area_mm2=piece.area_mm2,
         cut_after=piece.cut_after_um,
         t_s=freed.t_s,
