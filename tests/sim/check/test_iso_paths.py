@@ -157,6 +157,22 @@ def test_a_reversed_arc_has_the_code_of_iso() -> None:
     assert {code: [line for line, _ in of] for code, of in told.items()} == {"ISO219": [7]}
 
 
+@pytest.mark.parametrize(("side", "second"), [("G42", "110"), ("G41", "-110")])
+def test_a_pass_back_along_the_arc_that_the_pass_there_ended_with_is_sound(side: str, second: str) -> None:
+    there = ("G41 G01 X10000 Y0 H001", "X-10000", "G02 Y20000 J10000", "G01 X10000", "G02 Y0 J-10000")
+    back = (f"{side} G03 Y20000 J10000 H002", "G01 X-10000", "G03 Y0 J-10000", "G01 X10000")
+    told = found("H001=200", f"H002={second}", "G92 X10000 Y8000", "G90", *there, *back, "G40 G01 X10000 Y8000")
+
+    assert not {"ISO219", "ISO308"} & set(told)
+
+
+def test_an_approach_there_and_back_before_the_contour_is_no_figure() -> None:
+    square = ("X5000 Y0", "X5000 Y5000", "X-5000 Y5000", "X-5000 Y-5000", "X5000 Y-5000", "X5000 Y0")
+    approach = ("G41 H000 G01 X500 Y500", "H001", "G01 X0 Y0")
+
+    assert "3B310" not in found("H000=10", "H001=169", "G92 X0 Y0", "G90", *approach, *square, "G40 X0 Y0")
+
+
 def test_a_program_in_3b_has_no_rapids_to_be_named() -> None:
     text = "B1000 B0 B1000 GX L1\nD\nB9000 B0 B9000 GX L1\nD\nB1000 B0 B1000 GX L1\nDD\n"
     checked = run_checks(load_program(text.encode(), "part.3b"), Demands())
