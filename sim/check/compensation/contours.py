@@ -52,7 +52,8 @@ def _uncut(program: Program, path: OffsetPath, one: Held, stops: set[int]) -> It
     """Blocks that the wire does not come to: where the controller stops, and those that the nearest pass leaves."""
     section, run = one.run.round.section, one.run
     vanished = path.vanished[(path.vanished >= section.first) & (path.vanished <= section.last)]
-    missed = np.setdiff1d(_missed(path, one), vanished) if run.is_nearest else vanished[:0]
+    passed = set(_missed(path, one).tolist()) - set(vanished.tolist()) if run.is_nearest else set()
+    missed = np.array(sorted(passed), dtype=np.int64)
     beside = path.curves.picked(rows_beside(path, run.round))
     left_um = [*one.beside.left_um, *uncut_um(one.contour, beside, run.by_um, missed - section.first)]
     for row, left in zip([*vanished.tolist(), *missed.tolist()], left_um, strict=True):
