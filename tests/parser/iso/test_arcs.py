@@ -136,7 +136,9 @@ def test_an_arc_in_a_subprogram_is_told_once() -> None:
     ],
 )
 def test_circles_and_arcs_of_nothing_that_may_be_each_other_are_told(body: str, what: str) -> None:
-    assert [one.values["what"] for one in findings(f"{HEAD}{body}\nM02", "ISO217")] == [what]
+    (found,) = findings(f"{HEAD}{body}\nM02", "ISO217")
+    assert found.values["what"] == what
+    assert found.values["full"] == pytest.approx(math.tau * 5000)
 
 
 @pytest.mark.parametrize(
