@@ -79,8 +79,8 @@ def convert(path: Path, output: Path, lang: str | None, **options: Any) -> None:
     """Convert a program from 3B, 4B or ISO to 3B, 4B or any dialect of ISO.
 
     The program is checked first; one with errors is not converted. What is written is read back, checked, and held
-    against the path that it was written of, block by block: no more than 3 µm off, mostly less than 1. Then it is given,
-    with a list of what it could not take over.
+    against the path that it was written of, block by block: no more than 3 µm off, mostly less than 1. Then it is
+    given, with a list of what it could not take over.
 
     \b
     Exit code: 0 written and proved, 1 not, and nothing is written, 2 bad use or

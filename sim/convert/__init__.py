@@ -1,1 +1,1 @@
-"""A program in another language, proved before it is given: `Program` and `Wanted` in, `Converted` or `Refused` out."""
+"""A program in another language, proved before it is given; what crosses the border is `Converted` or `Refused`."""

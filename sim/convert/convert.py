@@ -14,6 +14,7 @@ from parser.units import mm
 from parser.write.draft import Draft, Written
 from parser.write.losses import Loss, some
 from sim.check.engine import Checked, Demands, run_checks
+from sim.convert.kerf import closed_by_kerf
 from sim.convert.losses import losses
 from sim.convert.proof import Proof, proof
 from sim.convert.wanted import Wanted, draft_for, read_with, written
@@ -34,6 +35,9 @@ class Converted(NamedTuple):
         What it has not got of the program that it was converted of.
     told_by_itself
         Whether it is read the same without being told its dialect and unit.
+    open_um
+        How far apart the ends of a contour lie at most that only the kerf closes, as those of the compensated path do;
+        0 where there is none.
     """
 
     data: bytes
@@ -43,6 +47,7 @@ class Converted(NamedTuple):
     bound_um: float
     lost: tuple[Loss, ...]
     told_by_itself: bool
+    open_um: float = 0.0
 
 
 class Refused(NamedTuple):
@@ -109,15 +114,21 @@ def _proved(program: Program, draft: Draft, made: Written, wanted: Wanted) -> Co
     except ProgramError as error:
         return Refused("result", program, (error.finding,))
     checked = run_checks(back, Demands())
-    if _errors(checked):
-        return Refused("result", back, _errors(checked))
+    told, open_um = program.toolpath.compensation, 0.0
+    closed: tuple[Finding, ...] = ()
+    if told is not None and not wanted.keeps:
+        closed, open_um = closed_by_kerf(checked.findings, back.toolpath, told)
+    wrong = tuple(finding for finding in _errors(checked) if finding not in closed)
+    if wrong:
+        return Refused("result", back, wrong)
     held = proof(draft, made, back.toolpath)
     if held.differs:
         return Refused("differs", back, values=(("what", f"convert.differs-{held.differs}"),))
     if held.off_um > wanted.bound_um:
         return Refused("off", back, values=(("off", f"{held.off_um:.3f}"), ("bound", f"{wanted.bound_um:g}")))
-    told = wanted.iso is None or _is_told_by_itself(data, draft, made, wanted, choices)
-    return Converted(data, back, checked, held.off_um, wanted.bound_um, losses(program, draft, made, wanted), told)
+    alone = wanted.iso is None or _is_told_by_itself(data, draft, made, wanted, choices)
+    lost = losses(program, draft, made, wanted)
+    return Converted(data, back, checked, held.off_um, wanted.bound_um, lost, alone, open_um)
 
 
 def _is_told_by_itself(data: bytes, draft: Draft, made: Written, wanted: Wanted, choices: Choices) -> bool:

@@ -30,6 +30,7 @@ def converted_lines(done: Converted, out: Path, wanted: Wanted, language: Langua
     texts = [
         words("convert.off", off=f"{done.off_um:.3f}", bound=f"{done.bound_um:g}"),
         words("convert.finds", counts=numbered({"warning": warnings})) if warnings else "",
+        words("convert.open", gap=f"{done.open_um:.0f}") if done.open_um else "",
         words("convert.lost", parts=listed(map(_lost, done.lost))) if done.lost else "",
         "" if done.told_by_itself else words("convert.say-dialect", options=_options(wanted)),
     ]

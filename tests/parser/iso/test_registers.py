@@ -138,3 +138,9 @@ def test_a_program_without_a_side_on_its_path_compensates_nothing() -> None:
 
 def test_jumps_are_compensated_like_cuts() -> None:
     assert [side for side, _, _ in offsets("D1=5\nG92 X0 Y0\nG91 G42 D1 G01 X9\nG00 X9\nM02", "common")] == [-1, -1]
+
+
+@pytest.mark.parametrize("told", ["", "D1 = 40\n"])
+def test_a_register_may_be_a_term_of_its_own_sum(told: str) -> None:
+    ((_, by, _),) = offsets(f"{told}D1 = D1 + 10\nG92 X0 Y0\nG91 G41 D1 G01 X9\nM02", "common")
+    assert math.isnan(by) if not told else by == 50.0

@@ -103,6 +103,26 @@ def test_compensation_is_kept_in_iso_unless_it_is_to_be_worked_in() -> None:
     np.testing.assert_allclose(worked_in.radius_um[1], 4900.0)
 
 
+AT_A_CORNER = """\
+G92 X-5000 Y-5000
+G90
+G42 D0
+G01 X0 Y0
+G01 X20000 Y0
+G01 X20000 Y10000
+G01 X0 Y10000
+G01 X0 Y0
+M02
+"""
+"""A punch that begins and ends at a corner, without a way out: the wire begins below it and ends beside it."""
+
+
+def test_a_path_that_the_kerf_closes_is_written_and_told() -> None:
+    made = done(AT_A_CORNER, TO_3B, registers=(("D0", 100.0),))
+    assert made.open_um == pytest.approx(100.0 * np.sqrt(2.0), abs=1e-2)
+    assert done(AT_A_CORNER, to_iso(), registers=(("D0", 100.0),)).open_um == 0.0
+
+
 def test_4b_leaves_one_offset_to_the_controller_and_no_more() -> None:
     made = done(HOLE, TO_4B, registers=(("D0", 100.0),))
     assert "B5000B0B20000B5000GYDNR1" in made.data.decode()
