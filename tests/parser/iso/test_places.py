@@ -106,6 +106,10 @@ def test_words_take_effect_before_the_motion_of_their_block_and_stops_behind_it(
     assert toolpath.stops[0].after == 1
 
 
+def test_the_first_word_of_a_text_is_a_word_like_others() -> None:
+    assert ends(path("X5 G01\nY7\nM02")) == [(5.0, 0.0), (5.0, 7.0)]
+
+
 def test_numbers_have_the_scale_of_their_writing_and_unit() -> None:
     toolpath = path("G92 X0 Y0\nG90 G01 X1013\nX1.013\nG20 X.5\nX10000\nG21 X1.\nM02")
     assert ends(toolpath) == [(1013.0, 0.0), (1013.0, 0.0), (12_700.0, 0.0), (25_400.0, 0.0), (1000.0, 0.0)]
@@ -172,3 +176,4 @@ def test_labels_are_the_numbers_of_blocks() -> None:
 def test_findings_of_words_bear_the_row_that_their_block_makes() -> None:
     (found,) = findings("G92 X0 Y0\nG90 G01 X5\nX9 G01\nM02", "ISO130")
     assert found.block == 2
+    assert [one.block for one in findings("G92 X0 Y0\nM05 G90\nG01 X5\nM02", "ISO130")] == [0]
