@@ -14,7 +14,7 @@ UM = 1e-6
 
 
 def read(text: str) -> Toolpath:
-    return parse_program(text, choices=Choices(dialect="common")).toolpath
+    return parse_program(text, choices=Choices(dialect="common", unit="um")).toolpath
 
 
 def done(text: str) -> PlainIso:
