@@ -71,6 +71,13 @@ def read_program(path: Path | str, choices: Choices = STANDARD_CHOICES) -> Progr
     return load_program(read_bytes(path), name=printable(path.name), choices=choices)
 
 
+def moving(program: Program) -> Program:
+    """A program in which something moves, as whatever runs or shows a path needs it. ProgramError (ISO100) else."""
+    if not len(program.toolpath):
+        raise ProgramError(no_program("no-motion", code="ISO100"))
+    return program
+
+
 def load_program(data: bytes, name: str, choices: Choices = STANDARD_CHOICES) -> Program:
     """Program of the bytes of a file.
 

@@ -48,10 +48,15 @@ def read_iso(text: str, choices: Choices) -> ReadText:
     besides = not_simulated(listing, taken.profile)
     reading = _reading(listing, taken, path)._replace(not_simulated=besides.reason)
     of_text = (*listing.findings, *mode_findings(taken, path), *besides.findings)
-    findings = (*(_by_row(finding, path.first_row) for finding in of_text), *path.findings)
+    findings = (*(_by_row(finding, path.first_row) for finding in of_text), *path.findings, *_without_motion(path))
     ordered = tuple(sorted(findings, key=file_order))
     decoder = Trace(listing, taken.profile, choices)
     return ReadText(listing.lines, reading, {}, path.toolpath, ordered, decoder=decoder)
+
+
+def _without_motion(path: Moved) -> tuple[Finding, ...]:
+    """ISO100 where no block moves the wire."""
+    return () if len(path.toolpath) else (no_program("no-motion", code="ISO100"),)
 
 
 def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
