@@ -1,7 +1,7 @@
 """A text of ISO, read: text to listing, its family, the rows that it moves, and all that is wrong with it."""
 
 from parser.dialect.reader import BlockCounts, Choices, Reading, ReadText, Spelling
-from parser.findings.codes import Check
+from parser.findings.codes import CODES_OF_ISO, Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
@@ -16,26 +16,12 @@ from parser.iso.text_checks import checked
 from parser.iso.trace import Trace
 from parser.text.encoding import no_program
 
-_CODES = {
-    "3B211": "ISO219",
-    "3B301": "ISO300",
-    "3B306": "ISO219",
-    "3B307": "ISO305",
-    "3B312": "ISO307",
-    "3B316": "ISO308",
-    "3B401": "ISO304",
-    "3B501": "ISO504",
-    "3B502": "ISO505",
-    "3B503": "ISO506",
-    "3B504": "ISO507",
-}
-
 
 def read_iso(text: str, choices: Choices) -> ReadText:
     """What a text says. ProgramError (ISO100) where it holds no block, or those of a mill."""
     listing = read_listing(text)
     if not (len(listing.words.letter) or listing.assignments or listing.statements):
-        raise ProgramError(no_program("no-block", code="ISO100"))
+        raise ProgramError(no_program("no-block", iso=True))
     mill = mill_code(listing)
     if mill:
         raise ProgramError(mill, excerpt=text[slice(*listing.lines.bounds(mill.line))])
@@ -65,7 +51,7 @@ def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
         not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
         remarks=listing.remarks,
         assumptions=(*family.assumptions, *path.assumptions),
-        codes=_CODES,
+        codes=CODES_OF_ISO,
         threadings=path.threadings,
     )
 
