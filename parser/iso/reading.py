@@ -11,7 +11,7 @@ from parser.iso.mill_code import mill_code
 from parser.iso.mode_checks import mode_findings
 from parser.iso.motion import Moved, moved
 from parser.iso.not_simulated import not_simulated
-from parser.iso.telling import Told, reread, told
+from parser.iso.telling import Told, in_other_distance, reread, told
 from parser.iso.text_checks import checked
 from parser.iso.trace import Trace
 from parser.text.encoding import no_program
@@ -27,10 +27,7 @@ def read_iso(text: str, choices: Choices) -> ReadText:
         raise ProgramError(mill, excerpt=text[slice(*listing.lines.bounds(mill.line))])
     family = told(listing, choices)
     listing = checked(listing, family.profile)
-    path = moved(listing, family.profile, choices)
-    taken = reread(family, path.agreement)
-    if taken.profile != family.profile:
-        path = moved(listing, taken.profile, choices)
+    taken, path = _as_arcs_agree(listing, family, choices)
     besides = not_simulated(listing, taken.profile)
     reading = _reading(listing, taken, path)._replace(not_simulated=besides.reason)
     of_text = (*listing.findings, *mode_findings(taken, path), *besides.findings)
@@ -38,6 +35,17 @@ def read_iso(text: str, choices: Choices) -> ReadText:
     ordered = tuple(sorted(findings, key=file_order))
     decoder = Trace(listing, taken.profile, choices)
     return ReadText(listing.lines, reading, {}, path.toolpath, ordered, decoder=decoder)
+
+
+def _as_arcs_agree(listing: Listing, family: Told, choices: Choices) -> tuple[Told, Moved]:
+    """The family with modes in which the radii of arcs agree, where these were assumed, and the path that it makes."""
+    path = moved(listing, family.profile, choices)
+    turned = in_other_distance(family) if path.agreement.is_neither else None
+    if turned:
+        other = moved(listing, turned.profile, choices)
+        family, path = (turned, other) if other.agreement.is_sure else (family, path)
+    taken = reread(family, path.agreement)
+    return taken, path if taken.profile == family.profile else moved(listing, taken.profile, choices)
 
 
 def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
