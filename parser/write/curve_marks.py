@@ -17,7 +17,7 @@ def curve_marks(curves: Curves) -> Ints:
     cross = curves.start_um[:, 0] * curves.end_um[:, 1] - curves.start_um[:, 1] * curves.end_um[:, 0]
     segment = np.where(curves.is_arc, curves.radius_um**2 * (curves.sweep_rad - np.sin(curves.sweep_rad)), 0.0)
     cut = curves.kind != CurveKind.JUMP
-    area = np.bincount(figure[cut], (cross + segment)[cut], minlength=int(figure[-1]) + 1 if len(figure) else 0)
+    area = 0.0 + np.bincount(figure[cut], (cross + segment)[cut], minlength=int(figure[-1]) + 1 if len(figure) else 0)
     area += _closing(curves, figure, len(area))
     convex = np.sign(curves.sweep_rad) == np.sign(area[figure])
     return np.where(curves.is_arc, np.where(convex, _CONVEX, _CONCAVE), 0).astype(np.int64)

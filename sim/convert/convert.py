@@ -84,10 +84,11 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     several = _several_offsets(program.toolpath, wanted)
     if several:
         return Refused("several-offsets", program, values=(("of", several),))
-    draft = draft_for(_path(program, checked, wanted), wanted)
+    path = _path(program, checked, wanted)
+    draft = draft_for(path, wanted)
     if not len(draft):
         return Refused("nothing", program)
-    return _proved(program, draft, written(draft, wanted), wanted)
+    return _proved(program, path, draft, wanted)
 
 
 def _path(program: Program, checked: Checked, wanted: Wanted) -> Toolpath:
@@ -106,7 +107,8 @@ def _several_offsets(toolpath: Toolpath, wanted: Wanted) -> str:
     return some(f"{mm(one):+.3f} mm" for one in left.tolist()) if len(left) > 1 else ""
 
 
-def _proved(program: Program, draft: Draft, made: Written, wanted: Wanted) -> Converted | Refused:
+def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted) -> Converted | Refused:
+    made = written(draft, wanted)
     data = made.text.encode()
     choices = read_with(draft, wanted)
     try:
@@ -127,7 +129,7 @@ def _proved(program: Program, draft: Draft, made: Written, wanted: Wanted) -> Co
     if held.off_um > wanted.bound_um:
         return Refused("off", back, values=(("off", f"{held.off_um:.3f}"), ("bound", f"{wanted.bound_um:g}")))
     alone = wanted.iso is None or _is_told_by_itself(data, draft, made, wanted, choices)
-    lost = losses(program, draft, made, wanted)
+    lost = losses(program, path, draft, made, wanted)
     return Converted(data, back, checked, held.off_um, wanted.bound_um, lost, alone, open_um)
 
 
