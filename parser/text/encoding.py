@@ -35,6 +35,8 @@ def decode_text(data: bytes) -> tuple[str, str]:
     if not data.strip():
         raise ProgramError(no_program("empty"))
     text, encoding = _decoded(data)
+    if not text:  # nothing but a BOM
+        raise ProgramError(no_program("empty"))
     # No text holds these, but for NULs that fill its last sector; pictures, archives and office files do.
     if any(control in text.rstrip("\0") for control in "\0\1\2\3\4\5\6\x0e\x0f"):
         raise ProgramError(no_program("not-text"))

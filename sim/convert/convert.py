@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.reader import Choices
+from parser.dialect.reader import Choices, Registers
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
@@ -38,6 +38,8 @@ class Converted(NamedTuple):
     open_um
         How far apart the ends of a contour lie at most that only the kerf closes, as those of the compensated path do;
         0 where there is none.
+    registers
+        Values, µm, that the controller's table has to hold, by the names of their registers.
     """
 
     data: bytes
@@ -47,7 +49,8 @@ class Converted(NamedTuple):
     bound_um: float
     lost: tuple[Loss, ...]
     told_by_itself: bool
-    open_um: float = 0.0
+    open_um: float
+    registers: Registers
 
 
 class Refused(NamedTuple):
@@ -130,7 +133,7 @@ def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted) -> C
         return Refused("off", back, values=(("off", f"{held.off_um:.3f}"), ("bound", f"{wanted.bound_um:g}")))
     alone = wanted.iso is None or _is_told_by_itself(data, draft, made, wanted, choices)
     lost = losses(program, path, draft, made, wanted)
-    return Converted(data, back, checked, held.off_um, wanted.bound_um, lost, alone, open_um)
+    return Converted(data, back, checked, held.off_um, wanted.bound_um, lost, alone, open_um, choices.registers)
 
 
 def _is_told_by_itself(data: bytes, draft: Draft, made: Written, wanted: Wanted, choices: Choices) -> bool:
