@@ -86,8 +86,7 @@ def load_program(data: bytes, name: str, choices: Choices = STANDARD_CHOICES) ->
             raise
         kind = kind_of(data)
         known = kind not in {"", *PROGRAMS}  # blocks that all stand in remarks are a program without blocks
-        code = f"{_meant(name, choices).name}100"
-        raise ProgramError(no_program(kind if known else what, code=code), others=error.others) from None
+        raise ProgramError(none_there(kind if known else what, name, choices), others=error.others) from None
 
 
 def parse_program(
@@ -96,6 +95,11 @@ def parse_program(
     """Program of a text. Raises ProgramError (3B100, ISO100) where it holds no block, or those of two languages."""
     reader = _reader(text, of_none=_meant(name, choices))
     return Program(name, encoding, text, **reader.read(text, choices)._asdict(), choices=choices)
+
+
+def none_there(what: str, name: str, choices: Choices, detail: str = "") -> Finding:
+    """Finding 3B100 or ISO100, by the language that a file is meant for: `what` and `detail` as for `no_program`."""
+    return no_program(what, detail, code=f"{_meant(name, choices).name}100")
 
 
 def _meant(name: str, choices: Choices) -> Reader:

@@ -134,7 +134,9 @@ def _changes(blocks: Curves, runs: Runs, ends: _Ends) -> list[Rows]:
     """Wedges between the offsets of two runs, and lines across to a run that begins at its own."""
     wedge = np.flatnonzero(runs.is_wedge)
     step = np.flatnonzero(~runs.is_setup & ~runs.is_wedge)
-    step = step[np.hypot(*(ends.start_um[step] - ends.end_um[step - 1]).T) > NOTHING_UM]
+    # What is nothing but rounding a line takes up by itself; an arc cannot.
+    nothing_um = np.where(blocks.is_arc[runs.first[step]], 0.0, NOTHING_UM)
+    step = step[np.hypot(*(ends.start_um[step] - ends.end_um[step - 1]).T) > nothing_um]
     row, before = runs.first[wedge], runs.first[step] - 1
     across = lines_between(ends.end_um[step - 1], ends.start_um[step])
     return [

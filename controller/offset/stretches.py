@@ -83,8 +83,9 @@ def known_sides(told: Compensation) -> Ints:
     """(n,) the sides, but 0 all along a stretch in which the value of a register is not known."""
     is_on = told.side != 0
     number = np.cumsum(is_on & ~_before(is_on))
-    unknown = np.unique(number[is_on & np.isnan(told.by_um)])
-    return np.where(np.isin(number, unknown), 0, told.side)
+    is_unknown = np.zeros(len(number) + 1, dtype=np.bool_)
+    is_unknown[number[is_on & np.isnan(told.by_um)]] = True
+    return np.where(is_unknown[number], 0, told.side)
 
 
 def runs_of(blocks: Curves, side: Ints, left_um: Floats, rules: CompensationRules) -> Runs:

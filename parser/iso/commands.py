@@ -5,7 +5,7 @@ import numpy as np
 from parser.findings.findings import Finding
 from parser.geometry.curves import Bools, Ints
 from parser.iso.listing import Listing
-from parser.iso.numbering import called, stands_alone
+from parser.iso.numbering import are_called, stands_alone
 
 _MOTION = (0, 1, 2, 3)
 _PASSED = (17, 20, 21, 40, 41, 42, *range(54, 60), 70, 71, 90, 91, 90.1, 91.1)
@@ -42,7 +42,8 @@ def without_command(listing: Listing) -> tuple[list[Finding], Ints]:
     motion = np.flatnonzero((is_g & np.isin(words.value, _MOTION)) | is_call)
     until = int(words.block[motion[0]]) if len(motion) else len(blocks.line)
     head = np.arange(blocks.word[until])
-    taken = listing.blocks_of(head[is_g[head] & ~np.isin(words.value[head], _PASSED)])
+    takes = head[is_g[head]]
+    taken = listing.blocks_of(takes[(words.value[takes, None] != _PASSED).all(axis=1)])
     places = head[np.isin(words.letter[head], _PLACES) & ~taken[words.block[head]]]
     lost = np.flatnonzero(listing.blocks_of(places))
     if len(lost):
@@ -61,7 +62,8 @@ def _empty(listing: Listing) -> Bools:
         return empty
     number = words.value[np.minimum(blocks.word[:-1], len(words.value) - 1)]
     ends = words.block[(words.letter == ord("M")) & np.isin(words.value, _ENDS)]
-    empty &= ~np.isin(number, called(listing))
+    empty &= ~are_called(listing, number)
     empty[int(ends[0]) + 1 if len(ends) else len(empty) :] = False
-    empty &= ~np.isin(blocks.line, listing.lines.lines(listing.remarks[:, 0]))
+    remarked = listing.lines.lines(listing.remarks[:, 0])
+    empty &= remarked.searchsorted(blocks.line, side="right") == remarked.searchsorted(blocks.line)
     return empty

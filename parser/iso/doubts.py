@@ -16,7 +16,7 @@ def damages(given: Given, run: Run) -> tuple[Damage, ...]:
     lost += [(int(blocks.first[one.block]), int(blocks.past[one.block])) for one in run.flow.faults]
     straight = run.rows.at[run.rows.turning[run.rows.arcs.sweep_rad == 0]]
     unmoved = run.flow.block[np.concatenate([straight, np.flatnonzero(run.numbers.lacks_motion)])]
-    lost += [(int(blocks.first[one]), int(blocks.past[one])) for one in np.unique(unmoved).tolist()]
+    lost += [(int(blocks.first[one]), int(blocks.past[one])) for one in sorted(set(unmoved.tolist()))]
     if not lost:
         return ()
     before = _rows_before(run, len(blocks.line))

@@ -11,6 +11,10 @@ from parser.iso.profile import Profile
 _TENFOLD = 10_000  # G words are numbers below 1000 with one decimal at most
 
 
+STOPS = ("stop", "thread", "cut")
+"""What M words do behind which the wire may be threaded elsewhere."""
+
+
 class Given:
     """Columns (b,) of the blocks of a listing, in file order. Of words that contradict each other the last one counts.
 

@@ -110,7 +110,8 @@ def _with_open_remarks(lines: LineIndex, bare: Bare, blocks: Blocks) -> tuple[Bl
     if not len(spans):
         return blocks, []
     line = lines.lines(spans[:, 0])
-    at, is_in = blocks.line.searchsorted(line), np.isin(line, blocks.line)
+    at = blocks.line.searchsorted(line)
+    is_in = blocks.line.searchsorted(line, side="right") > at
     is_damaged = blocks.is_damaged.copy()
     is_damaged[at[is_in]] = True
     block = np.where(is_in, at, -1).tolist()

@@ -11,6 +11,9 @@ from parser.iso.listing import Form, Listing
 
 COORDINATES = "XYIJR"
 """Letters of lengths in the plane of the program."""
+DIGITS_IN_MM = 3
+"""Behind the point, in programs in mm: those in inches need more."""
+_DWELL = 4.0  # G04, whose X is a time
 _LONG = 1000.0  # an integer of four digits
 _EXACT = 1e-6
 
@@ -24,7 +27,7 @@ class Seen:
     def has(self, letter: str, *numbers: float) -> bool:
         """Whether there is a word with a letter, and with one of the numbers where some are named."""
         values = self.listing.words.value[self.listing.of(letter)]
-        return bool(np.isin(values, numbers).any() if numbers else len(values))
+        return bool((values[:, None] == np.array(numbers)).any() if numbers else len(values))
 
     def has_long(self, letter: str) -> bool:
         """Whether there is a word with a letter and a number of four digits or more."""
@@ -33,15 +36,21 @@ class Seen:
     @cached_property
     def coordinates(self) -> Ints:
         """(k,) words of lengths in the plane, in file order; not those of 0, which is the same at any scale."""
-        word = self.listing.of_any(COORDINATES)
-        nonzero: Ints = word[self.listing.words.value[word] != 0.0]
-        return nonzero
+        words, word = self.listing.words, self.listing.of_any(COORDINATES)
+        dwells = words.block[self.listing.of("G")[words.value[self.listing.of("G")] == _DWELL]]
+        lengths: Ints = word[(words.value[word] != 0.0) & ~np.isin(words.block[word], dwells)]
+        return lengths
 
     @cached_property
     def is_pointed(self) -> Bools:
         """(k,) whether each of these is written with a point."""
         pointed: Bools = self.listing.words.decimals[self.coordinates] >= 0
         return pointed
+
+    @property
+    def first_length(self) -> int:
+        """The first block with such a word; −1 where there is none."""
+        return int(self.listing.words.block[self.coordinates[0]]) if len(self.coordinates) else -1
 
     @property
     def are_integers(self) -> bool:
@@ -58,7 +67,7 @@ class Seen:
         """Whether M98 P calls a number that stands behind an N, and no program has one behind an O."""
         called = self.listing.words.value[self.listing.of("P")]
         labels = self.listing.words.value[self.listing.of("N")]
-        return self.has("M", 98) and not self.has("O") and bool(np.isin(called, labels).any())
+        return self.has("M", 98) and not self.has("O") and not set(called.tolist()).isdisjoint(labels.tolist())
 
     def sets(self, letter: str, *, pointed: bool) -> bool:
         """Whether a register with a letter is set to a number with a point, or to one without."""
@@ -117,6 +126,7 @@ MARKS = (
     Mark("sodick", "because-registers-mm", lambda seen: seen.has("H") and seen.sets("H", pointed=True)),
     Mark("skd2", "because-called-labels", lambda seen: seen.calls_labels and seen.are_integers),
     Mark("fanuc", "because-o-number", lambda seen: seen.has("O") and seen.has("D") and seen.has("S")),
+    Mark("fanuc", "because-o-inches", lambda seen: seen.has("O") and seen.decimals > DIGITS_IN_MM),
     Mark("robofil", "because-g60", lambda seen: seen.has("G", 60)),
     Mark("fast-wire", "because-long-integers", lambda seen: seen.are_long_integers and seen.has("M", 2)),
 )

@@ -52,4 +52,4 @@ def _depth(listing: Listing) -> int:
     depth = listing.of("Z")
     depth = depth[~np.isin(words.block[depth], sets)]
     below = depth[words.value[depth] < 0.0]
-    return int(below[0]) if len(below) and len(np.unique(words.value[depth])) >= _LEVELS else -1
+    return int(below[0]) if len(below) and len(set(words.value[depth].tolist())) >= _LEVELS else -1

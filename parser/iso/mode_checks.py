@@ -86,8 +86,8 @@ def _fitting(seen: Seen, read: Profile, size_um: float) -> _Fitting | None:
 
 def _size_um(toolpath: Toolpath) -> float:
     """The longer side of the box round all that is cut; 0 where nothing is."""
-    cut = toolpath.picked(~toolpath.is_jump)
-    if not len(cut):
+    cut = ~toolpath.is_jump
+    if not cut.any():
         return 0.0
-    low, high = extents(cut)
-    return float((high.max(axis=0) - low.min(axis=0)).max())
+    low, high = extents(toolpath)
+    return float((high[cut].max(axis=0) - low[cut].min(axis=0)).max())

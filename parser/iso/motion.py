@@ -11,13 +11,13 @@ from parser.iso.arc_checks import arc_findings
 from parser.iso.arcs import ROUNDING
 from parser.iso.centers import Agreement, agreement
 from parser.iso.doubts import assumptions, damages
-from parser.iso.given import Given
+from parser.iso.given import STOPS, Given
 from parser.iso.listing import Listing
 from parser.iso.move_checks import move_findings
 from parser.iso.order_checks import order_findings
 from parser.iso.profile import Profile
 from parser.iso.rows import Rows, source
-from parser.iso.runs import STOPS, Run, run_of
+from parser.iso.runs import Run, run_of
 from parser.toolpath import Compensation, CompensationRules, Stop, Toolpath
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from parser.findings.findings import Finding
 from parser.geometry.curves import Bools, CurveKind, Ints
-from parser.iso.given import Given
+from parser.iso.given import STOPS, Given
 from parser.iso.modes import Modes
 from parser.iso.rows import Rows
 
@@ -32,14 +32,25 @@ def _without_motion(given: Given, runs: Ints, lacks_motion: Bools) -> Iterator[F
 
 
 def _no_length(given: Given, runs: Ints, mode: Modes, path: Rows) -> Iterator[Finding]:
-    """ISO218: lines told to cut that end where they start."""
+    """ISO218: lines told to cut that end where they start, but for those that meet the wire where it is threaded."""
     still = (path.curves.kind == CurveKind.LINE) & (path.curves.length_um == 0) & (mode.motion[path.at] == 1)
     row = np.flatnonzero(still)
+    row = row[~_at_stop(given, runs, path, row)]
     _, first = np.unique(runs[path.at[row]], return_index=True)
     blocks, lines = given.listing.blocks, given.listing.lines
     for one in row[first].tolist():
         block = int(runs[path.at[one]])
         yield lines.finding("ISO218", (int(blocks.first[block]), int(blocks.past[block])), one + 1)
+
+
+def _at_stop(given: Given, runs: Ints, path: Rows, row: Ints) -> Bools:
+    """(k,) whether a stop stands between the motion before and the motion behind some rows (k,) that do not move."""
+    moving = path.at[path.curves.length_um > 0]
+    stops = np.concatenate([[0], np.cumsum(given.m(*STOPS)[runs])])
+    around = np.searchsorted(moving, path.at[row])
+    first, last = np.concatenate([[0], moving])[around], np.concatenate([moving, [len(runs)]])[around]
+    some: Bools = stops[last] > stops[first]
+    return some
 
 
 def _finer_than_steps(given: Given, runs: Ints, mode: Modes) -> Iterator[Finding]:

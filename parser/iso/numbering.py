@@ -17,9 +17,11 @@ def numbering_findings(listing: Listing) -> list[Finding]:
     return [*_falls(listing), *_not_whole(listing), *_twice(listing)]
 
 
-def called(listing: Listing) -> Floats:
-    """(k,) numbers that P words name."""
-    return np.unique(listing.words.value[listing.of("P")])
+def are_called(listing: Listing, number: Floats) -> Bools:
+    """(k,) bool, whether P words name some numbers (k,)."""
+    called = np.sort(listing.words.value[listing.of("P")])
+    are: Bools = called.searchsorted(number, side="right") > called.searchsorted(number)
+    return are
 
 
 def stands_alone(listing: Listing) -> Bools:
@@ -44,7 +46,7 @@ def _falls(listing: Listing) -> list[Finding]:
         is_fall[1:] &= ~((value[:-1] <= most) & (value[:-1] + step > most) & (value[1:] <= step))
     restarts = np.cumsum((words.letter == ord("O")) | ((words.letter == ord("M")) & np.isin(words.value, _ENDS)))
     is_fall[1:] &= restarts[number[1:]] == restarts[number[:-1]]
-    label = stands_alone(listing)[words.block[number]] & np.isin(value, called(listing))
+    label = stands_alone(listing)[words.block[number]] & are_called(listing, value)
     is_fall &= ~label & ~np.append(False, label[:-1])
     found = [
         listing.at_word("ISO120", word, number=listing.written(word), before=listing.written(before))
@@ -88,7 +90,7 @@ def _twice(listing: Listing) -> list[Finding]:
     """Labels that calls name, or that stand alone, and program numbers, behind the first of each number."""
     words = listing.words
     n, o = listing.of("N"), listing.of("O")
-    is_label = np.isin(words.value[n], called(listing)) | stands_alone(listing)[words.block[n]]
+    is_label = are_called(listing, words.value[n]) | stands_alone(listing)[words.block[n]]
     found = []
     for label in (n[is_label], o):
         _, first, inverse = np.unique(words.value[label], return_index=True, return_inverse=True)

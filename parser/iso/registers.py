@@ -92,7 +92,8 @@ def _values(given: Given, runs: Ints, mode: Modes, choices: Choices) -> Values:
                 else term[0] * (integer_um if term[1] < 0 else point_um)
                 for term in assignment.terms
             )
-            values.setdefault(assignment.register, []).append((at, round(sum(terms), 6)))
+            value = round(sum(terms), 6)  # before the register has a place: it may be one of its own terms
+            values.setdefault(assignment.register, []).append((at, value))
     return values
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
 from parser.iso.arcs import ROUNDING, Arcs, arcs_about, arcs_of_radius
+from parser.iso.fields import fields_of
 from parser.iso.given import Given
 from parser.iso.modes import Modes
 from parser.iso.places import Coordinates, Places, exact
@@ -103,6 +104,7 @@ def source(given: Given, block: Ints) -> Source:
         span=np.column_stack([blocks.first[block], blocks.past[block]]),
         line=blocks.line[block],
         label=_labels(given, block),
+        fields_of=fields_of,
     )
 
 

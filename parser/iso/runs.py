@@ -4,14 +4,11 @@ from typing import NamedTuple
 
 from parser.dialect.reader import Choices
 from parser.iso.flow import Flow, flow
-from parser.iso.given import Given
+from parser.iso.given import STOPS, Given
 from parser.iso.modes import Modes, modes
 from parser.iso.places import Coordinates, Places, coordinates, places
 from parser.iso.registers import Offsets, offsets
 from parser.iso.rows import Rows, rows
-
-STOPS = ("stop", "thread", "cut")
-"""What M words do behind which the wire may be threaded elsewhere."""
 
 
 class Run(NamedTuple):

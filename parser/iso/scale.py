@@ -2,14 +2,14 @@
 
 from dataclasses import replace
 
-from parser.iso.marks import Seen
+from parser.iso.marks import DIGITS_IN_MM, Seen
 from parser.iso.profile import Profile
 from parser.units import UM_PER_MM
 
 UM_PER_INCH = 25.4 * UM_PER_MM
 _STEP_IN = 1e-4  # inch, of numbers without a point
 _MOST_OFFSET_IN = 0.03  # offsets of wires are 0.05 to 0.35 mm, 0.002 to 0.014 inch
-_DIGITS_IN_MM, _DIGITS_IN_INCH = 3, 4
+_DIGITS_IN_INCH = 4
 
 
 def scaled(seen: Seen, base: Profile, unit: str) -> tuple[Profile, str]:
@@ -24,7 +24,7 @@ def scaled(seen: Seen, base: Profile, unit: str) -> tuple[Profile, str]:
     if unit:
         integer_um = UM_PER_MM if unit == "mm" else 1.0
         base = replace(base, integer_um=integer_um, register_integer_um=integer_um)
-    return replace(base, resolution_um=base.resolution_um * _finer(seen, _DIGITS_IN_MM)), ""
+    return replace(base, resolution_um=base.resolution_um * _finer(seen, DIGITS_IN_MM)), ""
 
 
 def amount(length_um: float) -> str:
@@ -40,7 +40,7 @@ def _inches(seen: Seen) -> str:
     offset = seen.greatest_setting
     if offset:
         return "because-small-offsets" if offset < _MOST_OFFSET_IN else ""
-    return "because-four-digits" if seen.decimals > _DIGITS_IN_MM else ""
+    return "because-four-digits" if seen.decimals > DIGITS_IN_MM else ""
 
 
 def _in_inches(seen: Seen, base: Profile) -> Profile:

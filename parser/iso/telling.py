@@ -15,7 +15,8 @@ from parser.iso.scale import amount, scaled
 _G = {"absolute": "G90", "incremental": "G91"}
 _ASSUMED_CENTERS = "assumed-centres"
 _CHOSEN = "because-chosen"
-_DISTANCE, _CENTERS, _UNIT = (90.0, 91.0), (90.1, 91.1), (20.0, 21.0, 70.0, 71.0)
+_DISTANCE, _CENTERS, _INCH, _METRIC = (90.0, 91.0), (90.1, 91.1), (20.0, 70.0), (21.0, 71.0)
+_INCH_WORDS = ("G20", "G70")
 
 
 class Told(NamedTuple):
@@ -58,12 +59,15 @@ def told(listing: Listing, choices: Choices) -> Told:
     seen = Seen(listing)
     mark = None if choices.dialect else mark_of(seen)
     base = profile(choices.dialect or (mark.dialect if mark else "common"))
-    of, inches = scaled(seen, base, choices.unit)
-    habit = _CHOSEN if choices.dialect else "because-profile"
     first = _first_move(listing)
+    unit_word = _said(listing, (*_INCH, *_METRIC), seen.first_length)
+    if unit_word:
+        base = replace(base, may_be_inch=False)
+    of, inches = scaled(seen, base, choices.unit or ("inch" if unit_word in _INCH_WORDS else ""))
+    habit = _CHOSEN if choices.dialect else "because-profile"
     distance = _said(listing, _DISTANCE, first)
     says_centers = bool(_said(listing, _CENTERS, len(listing.blocks.line)))
-    says_unit = bool(choices.unit or _said(listing, _UNIT, first))
+    says_unit = bool(choices.unit or (unit_word and seen.is_pointed.all()))  # what integers are, no word says
     assumed = []
     if not choices.dialect:
         assumed.append(Assumption("assumed-dialect", of.name, mark.why if mark else "because-none"))

@@ -23,6 +23,6 @@ def order_finding(listing: Listing, *, strict: bool) -> list[Finding]:
     if not len(behind):
         return []
     before, word = ranked[behind[:1]].item(), ranked[behind[:1] + 1].item()
-    more = len(np.unique(block[behind])) - 1
+    more = int(np.count_nonzero(np.diff(block[behind])))
     found = listing.at_word("ISO130", word, word=listing.written(word), before=listing.written(before), more=more)
     return [found._replace(graver=Severity.ERROR if strict else None)]

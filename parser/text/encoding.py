@@ -35,7 +35,7 @@ def decode_text(data: bytes) -> tuple[str, str]:
     if not data.strip():
         raise ProgramError(no_program("empty"))
     text, encoding = _decoded(data)
-    if not text:  # nothing but a BOM
+    if not text:  # a byte order mark alone
         raise ProgramError(no_program("empty"))
     # No text holds these, but for NULs that fill its last sector; pictures, archives and office files do.
     if any(control in text.rstrip("\0") for control in "\0\1\2\3\4\5\6\x0e\x0f"):

@@ -19,6 +19,8 @@ class Field(StrEnum):
     RADIUS = "radius"
     AXIS = "axis"
     SENSE = "sense"
+    SIDE = "side"
+    REGISTER = "register"
 
     @property
     def term(self) -> str:

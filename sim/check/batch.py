@@ -11,8 +11,8 @@ from parser.files.reading import read_bytes
 from parser.findings.errors import DrycutError, FileUnreadableError, ProgramError
 from parser.findings.facts import DamagedBlock, telling
 from parser.findings.findings import Finding
-from parser.program import Program, load_program
-from parser.text.encoding import decode_text, no_program
+from parser.program import Program, load_program, none_there
+from parser.text.encoding import decode_text
 from parser.text.lines import LineIndex
 from parser.text.source import Source
 from sim.check.engine import PARSER_CHECKS, PATH_CHECKS, Checked, run_checks
@@ -65,7 +65,7 @@ def check_file(job: Job) -> CheckResult:
     try:
         data = job.source if isinstance(job.source, bytes) else read_bytes(job.source)
     except FileUnreadableError as error:
-        return _unreadable(job, b"", no_program(error.what, error.detail), ())
+        return _unreadable(job, b"", none_there(error.what, job.name, job.settings.choices, error.detail), ())
     try:
         program = load_program(data, job.name, job.settings.choices)
     except ProgramError as error:

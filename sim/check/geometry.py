@@ -3,12 +3,15 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Fact, Finding, Value
 from parser.geometry.curves import Ints
 from parser.program import Program
 from parser.shape.passes import Passes
 from parser.text.source import Field
+from parser.toolpath import Toolpath
 from sim.check.shape.corners import tight_corners
 from sim.check.shape.crossings import find_crossings
 from sim.check.shape.senses import retraced_arcs, reversed_arcs
@@ -22,8 +25,12 @@ class ReversedArc(Fact):
 
 
 def sense_findings(program: Program, contour: Ints) -> list[Finding]:
-    """Arcs that would fit their neighbours the other way round: 3B306, and 3B211 for the major arc of a circle."""
+    """Arcs that would fit their neighbours the other way round: 3B306, and 3B211 for the major arc of a circle.
+
+    A pass back begins with the arc that the pass there ended with, and is meant to turn: each is looked at by itself.
+    """
     toolpath = program.toolpath
+    contour = _by_side(toolpath, contour)
     found = [_reversed(program, row) for row in retraced_arcs(toolpath, contour).tolist()]
     arcs = reversed_arcs(toolpath, contour)
     for row, is_major, sweep, other_sweep in zip(*(column.tolist() for column in arcs), strict=True):
@@ -35,6 +42,16 @@ def sense_findings(program: Program, contour: Ints) -> list[Finding]:
         else:
             found.append(_reversed(program, row))
     return found
+
+
+def _by_side(toolpath: Toolpath, contour: Ints) -> Ints:
+    """Contour numbers (n,) that begin anew where compensation changes sides, and stay −1."""
+    told = toolpath.compensation
+    if told is None:
+        return contour
+    changes = np.diff(contour, prepend=-1) != 0
+    changes |= np.diff(told.side * np.where(told.by_um < 0.0, -1, 1), prepend=0) != 0
+    return np.where(contour >= 0, np.cumsum(changes), -1)
 
 
 def _reversed(program: Program, row: int) -> Finding:

@@ -35,7 +35,7 @@ def _in_loops(program: Program, contour: Ints, after: Ints) -> dict[int, int]:
     run_um = total_before(program.toolpath.length_um)
     after = after[(after > 0) & (after < len(contour))]
     after = after[(contour[after] >= 0) & (contour[after - 1] == contour[after])]
-    loops = find_loops(program.toolpath, contour, np.unique(contour[after]))
+    loops = find_loops(program.toolpath, contour, np.array(sorted(set(contour[after].tolist())), dtype=np.int64))
     found = {}
     for number, first, last, _ in zip(*(column.tolist() for column in loops), strict=True):
         for row in after[contour[after] == number].tolist():

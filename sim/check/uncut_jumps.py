@@ -5,7 +5,7 @@ import numpy as np
 from parser.dialect.at_block import at_block
 from parser.findings.facts import WrongBlock
 from parser.findings.findings import Finding
-from parser.geometry.curves import Ints
+from parser.geometry.curves import Bools, Ints
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
 from parser.shape.passes import Passes
@@ -24,6 +24,8 @@ def uncut_jump_findings(program: Program, contour: Ints, passes: Passes) -> list
     toolpath = program.toolpath
     is_arc = toolpath.is_arc
     first, last = loops_in_order(toolpath, contour)
+    encloses = _enclose(toolpath, first, last)
+    first, last = first[encloses], last[encloses]
     found = []
     for here, there in zip(range(len(first) - 1), range(1, len(first)), strict=True):
         begin, arrival = int(last[here]) + 1, int(first[there])
@@ -38,6 +40,13 @@ def uncut_jump_findings(program: Program, contour: Ints, passes: Passes) -> list
             told = at_block(toolpath, program.lines, "3B310", begin, length=way, jump=jump)
             found.append(told.with_fact(WrongBlock()))
     return found
+
+
+def _enclose(toolpath: Toolpath, first: Ints, last: Ints) -> Bools:
+    """Which of k figures enclose anything: two lines there and back, such as the set-up of an offset, do not."""
+    arcs = np.concatenate([[0], np.cumsum(toolpath.is_arc)])
+    encloses: Bools = (last - first >= 2) | (arcs[last + 1] > arcs[first])
+    return encloses
 
 
 def _distance(toolpath: Toolpath, row: int, figure: Ints) -> float:

@@ -45,6 +45,6 @@ def _register(name: str, by_mm: object, where: str) -> tuple[str, float]:
 DIALECT = Key("dialect", OneOf(dialects()), default="", get=lambda owner: owner.dialect or None)
 UNIT = Key("unit", OneOf(UNITS), default="", get=lambda owner: owner.unit or None)
 REGISTERS = Key("registers_mm", RegisterTable(), "registers", default=())
-"""Also of a machine file: its values are on the controller, whatever program runs."""
+"""Also of a machine file, under ``[controller]``: they stand there, whatever program runs."""
 READ_WITH = (DIALECT, UNIT, REGISTERS)
 """The keys that scenario files and settings have in common."""

@@ -120,7 +120,8 @@ class Scenario:
     @property
     def choices(self) -> Choices:
         """What the program is read with."""
-        return Choices(dialect=self.dialect, unit=self.unit, registers=merged([self.machine.registers, self.registers]))
+        registers = merged([self.machine.controller.registers, self.registers])
+        return Choices(dialect=self.dialect, unit=self.unit, registers=registers)
 
     @property
     def wire_lag_um(self) -> float:

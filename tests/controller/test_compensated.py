@@ -108,6 +108,14 @@ def test_a_pass_back_on_the_other_side_stays_on_one_side_of_the_contour() -> Non
     assert Made.BRIDGE not in made.path.made
 
 
+@pytest.mark.parametrize("by_um", [200.0, 1e-7])
+def test_a_pass_back_along_an_arc_leaves_no_gap(by_um: float) -> None:
+    moves = [To(0, 0), To(3, 1, 0.3, 4.1, 1), To(0, 0, 0.3, 4.1, -1), To(-5, 0)]
+    path = compensated(told(drawn_mm((-5, 0), moves).path(), [1, 1, -1, 0], by_um)).path
+    assert np.array_equal(path.curves.start_um[1:], path.curves.end_um[:-1])
+    assert path.curves.length_um[path.made == Made.BRIDGE].sum() == 0.0
+
+
 # Jumps
 
 

@@ -53,6 +53,16 @@ B0 B5000 B0 GY L4
 """
 
 PART = "B9900B0B9900GXL1\nB9900B0B39600GXNR1\nB9900B0B9900GXL3\nDD\n"
+ISO_PART = """\
+G92 X0 Y0
+G91
+G01 X20000 Y0
+G01 X0 Y10000
+G03 X-10000 Y10000 I-10000 J0
+G01 X-10000 Y0
+G01 X0 Y-20000
+M02
+"""
 HEADED_4B = """
 CAXAWEDM -Version 2.0 , Name : ring.4B
 Conner R= 1.001 , Offset F= -0.10000 ,Length= 82.004 mm
@@ -298,8 +308,8 @@ def test_shipped_machines_are_documented_with_their_figures() -> None:
 
 
 def test_findings_are_documented_with_severity_and_title() -> None:
-    rows = [row.split("|") for row in read(DOCS / "findings.md").splitlines() if row.startswith("| [3B")]
-    written = {code[2:7]: (severity.strip(), title.strip()) for _, code, severity, title, *_ in rows}
+    rows = [row.split("|") for row in read(DOCS / "findings.md").splitlines() if row.startswith(("| [3B", "| [ISO"))]
+    written = {code[2:].partition("]")[0]: (severity.strip(), title.strip()) for _, code, severity, title, *_ in rows}
     assert written == {code: (str(of.severity), catalogue_page(code).title) for code, of in CODES.items()}
 
 
@@ -337,11 +347,12 @@ def test_settings_shown_are_settings(tmp_path: Path) -> None:
 
 def test_checks_are_documented_with_their_findings() -> None:
     rows = rows_of(DOCS / "check.md", "`check-")
-    assert {cells[0] for cells in rows} == {*PARSER_CHECKS, *PATH_CHECKS} == set(Check)
+    assert {cells[0] for cells in rows} == {*PARSER_CHECKS, *PATH_CHECKS, Check.COMPENSATION} == set(Check)
     of_checks = {code: of.check for code, of in CODES.items() if of.check}
     assert {code: cells[0] for cells in rows for code in cells[2].split(", ")} == of_checks
 
 
+SHOWN_PROGRAMS = {"part.3b": PART, "part.iso": ISO_PART}
 SHOWN = [
     (page, command, output)
     for page in PAGES
@@ -351,8 +362,9 @@ SHOWN = [
 
 @pytest.mark.parametrize(("page", "command", "output"), SHOWN, ids=[f"{page.name} {what}" for page, what, _ in SHOWN])
 def test_shown_output_is_what_is_printed(tmp_path: Path, page: Path, command: str, output: str) -> None:
-    assert f"```\n{PART}```" in read(page)
-    (tmp_path / "part.3b").write_text(PART)
+    name = command.split()[1]
+    assert f"```\n{SHOWN_PROGRAMS[name]}```" in read(page)
+    (tmp_path / name).write_text(SHOWN_PROGRAMS[name])
     printed = subprocess.run(
         [sys.executable, "-m", "sim.cli", *command.split()],
         cwd=tmp_path,

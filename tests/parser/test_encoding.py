@@ -34,7 +34,17 @@ def test_big5_remarks_leave_the_blocks_readable(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "data", [b"", b" \r\n\t", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", b"PK\x03\x04", b"\xff\xfeB", bytes(range(256))]
+    "data",
+    [
+        b"",
+        b" \r\n\t",
+        b"\xff\xfe",
+        b"\xef\xbb\xbf",
+        b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR",
+        b"PK\x03\x04",
+        b"\xff\xfeB",
+        bytes(range(256)),
+    ],
 )
 def test_what_is_no_text_is_refused(data: bytes) -> None:
     with pytest.raises(ProgramError) as caught:

@@ -4,6 +4,7 @@ import time
 from pathlib import Path
 
 import pytest
+from fuzzing import iso_text
 from fuzzing.program_text import SEEDS
 from fuzzing.programs import judge
 from fuzzing.target import SEED
@@ -25,6 +26,7 @@ INPUTS = {
         "fix": 25,
         "iso": 200,
         "iso-fix": 15,
+        "convert": 20,
         "scenario": 200,
         "machine": 200,
         "settings": 60,
@@ -32,7 +34,7 @@ INPUTS = {
         "card": 200,
         "dxf": 60,
     },
-    **{"compare": 3, "command": 50, "run": 4},
+    **{"compare": 3, "command": 50, "run": 4, "iso-run": 4},
 }
 """How many of each kind are tried; `make fuzz` tries a million."""
 
@@ -59,7 +61,7 @@ def test_a_figure_that_is_never_left_takes_no_square_of_its_pauses() -> None:
     assert time.process_time() - begin < SLOWEST_S
 
 
-@pytest.mark.parametrize("text", SEEDS)
+@pytest.mark.parametrize("text", [*SEEDS, *iso_text.SEEDS[:-1]])
 def test_the_programs_that_are_fuzzed_are_read_to_their_last_block(text: str) -> None:
     cover = check_file(Job("seed.3b", text.encode(), CheckSettings())).coverage
     assert cover.read == cover.found > 0

@@ -10,13 +10,14 @@ from controller.offset.passes import PassedPath, PassedRound
 from controller.offset.path import OffsetPath, offset_toolpath
 from controller.offset.programmed import compensated
 from controller.offset.sections import Side
-from parser.findings.findings import Finding, file_order
+from parser.findings.findings import file_order
 from parser.geometry.curves import Bools, Floats
 from parser.program import Program
 from parser.shape.passes import Passes
 from parser.toolpath import Compensation, Toolpath
 from sim.check.beside import Offsetting
-from sim.check.compensation.contours import Held, contour_findings, held
+from sim.check.compensation.contours import contour_findings
+from sim.check.compensation.held import Held, held
 from sim.check.compensation.passes import drawn_passes, passes_beside, path_passes
 from sim.check.compensation.rounds import CompensatedRound, compensated_rounds, moved_um
 from sim.check.compensation.words import word_findings
@@ -56,14 +57,9 @@ def own_compensation(program: Program, told: Compensation, is_judged: Bools) -> 
         left_um=_left_um(made.path, stretches),
         gouges=tuple(gouge for one in stretches for gouge in one.beside.gouges),
         loops=tuple(one.beside.loops for one in stretches if one.beside.loops is not None),
-        findings=tuple(sorted((_coded(program, finding) for finding in found), key=file_order)),
+        findings=tuple(sorted(found, key=file_order)),
     )
     return OwnCompensation(offset, passes)
-
-
-def _coded(program: Program, finding: Finding) -> Finding:
-    """The finding under the code that it has in the program's dialect."""
-    return finding._replace(code=program.reading.codes.get(finding.code, finding.code))
 
 
 def _as_written(drawn: Toolpath, runs: Sequence[CompensatedRound], passes: Passes) -> PassedPath:

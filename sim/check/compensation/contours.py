@@ -1,7 +1,6 @@
 """The compensated path beside the contours that it runs along: what stays, what is gouged, what falls apart."""
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,31 +16,15 @@ from parser.findings.findings import Finding
 from parser.geometry.along import along_um
 from parser.geometry.curves import Curves, Ints, joined
 from parser.program import Program
-from sim.check.beside import Beside, beside_round, rows_beside
-from sim.check.compensation.rounds import CompensatedRound, contour_of, parts_of
+from parser.text.source import Field
+from sim.check.beside import rows_beside
+from sim.check.compensation.held import Held
+from sim.check.compensation.rounds import CompensatedRound, parts_of
 from sim.check.offset import gouge_finding, loop_finding, uncut_finding
 
 SEEN_UM = 1.0
 """What stays, or is cut, by less is not seen on the part: a step."""
 _LEFT_UM = 5.0  # along a block that the wire does not come to: less, of a contour in many small blocks, is no fault
-
-
-class Held(NamedTuple):
-    """A stretch held against its contour: what it is, the contour, and what became of it."""
-
-    run: CompensatedRound
-    contour: Curves
-    beside: Beside
-
-
-def held(curves: Curves, path: OffsetPath, rounds: Sequence[CompensatedRound]) -> tuple[Held, ...]:
-    """The stretches of a program's `curves` held against their contours."""
-    found = []
-    for one in rounds:
-        contour = contour_of(curves, one.round.section)
-        counted = one.is_nearest and one.round.section.closed
-        found.append(Held(one, contour, beside_round(contour, path, one.round, one.distances, counted=counted)))
-    return tuple(found)
 
 
 def contour_findings(
@@ -54,7 +37,8 @@ def contour_findings(
         if one.beside.loops not in (None, 1):
             yield loop_finding(program, one.run.round.section.first, int(one.beside.loops or 0), one.run.by_um)
         if one.run.part_side == one.run.side:
-            yield at_block(program.toolpath, program.lines, "ISO512", one.run.round.begin, **_side_words(one.run))
+            row, words = one.run.round.begin, _side_words(one.run)
+            yield at_block(program.toolpath, program.lines, "ISO512", row, Field.SIDE, **words)
     for one in stretches:
         if one.run.is_nearest and one.run.round.section.closed and not one.run.at_jump:
             yield from _stub(program, path, one, [other.run for other in stretches])
@@ -68,7 +52,8 @@ def _uncut(program: Program, path: OffsetPath, one: Held, stops: set[int]) -> It
     """Blocks that the wire does not come to: where the controller stops, and those that the nearest pass leaves."""
     section, run = one.run.round.section, one.run
     vanished = path.vanished[(path.vanished >= section.first) & (path.vanished <= section.last)]
-    missed = np.setdiff1d(_missed(path, one), vanished) if run.is_nearest else vanished[:0]
+    passed = set(_missed(path, one).tolist()) - set(vanished.tolist()) if run.is_nearest else set()
+    missed = np.array(sorted(passed), dtype=np.int64)
     beside = path.curves.picked(rows_beside(path, run.round))
     left_um = [*one.beside.left_um, *uncut_um(one.contour, beside, run.by_um, missed - section.first)]
     for row, left in zip([*vanished.tolist(), *missed.tolist()], left_um, strict=True):
@@ -101,18 +86,31 @@ def _side_words(run: CompensatedRound) -> dict[str, str]:
 def _stub(program: Program, path: OffsetPath, one: Held, runs: Sequence[CompensatedRound]) -> Iterator[Finding]:
     """Material that stays where a loop begins and ends (ISO514), though a wire could cut it."""
     run = one.run
+    if _closes(path, run):
+        return
     ends = _beside_joint(one.contour, run.by_um)
+    row = np.arange(len(ends))
     near = [each.round for each in runs if each.along.edge == run.along.edge and each.by_um == run.kerf_um]
     cut = path.curves.picked(np.concatenate([rows_beside(path, each) for each in near]))
-    left_um = uncut_um(ends, cut, run.by_um, np.arange(len(ends)))
+    left_um = uncut_um(ends, cut, run.by_um, row)
     if left_um.max() <= SEEN_UM:
         return
     reached = [loop.curves for loop in reach(one.contour, run.by_um, run.side).loops]
     if reached:
-        stays_um = float((left_um - uncut_um(ends, joined(reached), run.by_um, np.arange(len(ends)))).max())
+        stays_um = float((left_um - uncut_um(ends, joined(reached), run.by_um, row)).max())
         if stays_um > SEEN_UM:
-            row = run.round.section.first
-            yield at_block(program.toolpath, program.lines, "ISO514", row, left=stays_um, offset=run.by_um)
+            values = {"left": stays_um, "offset": run.by_um}
+            yield at_block(program.toolpath, program.lines, "ISO514", run.round.section.first, **values)
+
+
+def _closes(path: OffsetPath, run: CompensatedRound) -> bool:
+    """Whether the path along a loop ends where it begins, so that nothing stays between both."""
+    section = run.round.section
+    rows = np.arange(*np.searchsorted(path.source_row, (section.first, section.last + 1)).tolist())
+    if not len(rows):
+        return True
+    gap = path.curves.end_um[rows[-1]] - path.curves.start_um[rows[0]]
+    return float(np.hypot(*gap)) <= SEEN_UM
 
 
 def _beside_joint(contour: Curves, by_um: float) -> Curves:

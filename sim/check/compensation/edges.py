@@ -1,13 +1,13 @@
 """Which contours that a program compensates are one edge: a program writes each pass over it along the same places."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from parser.geometry.along import along_um, headings_along, places
 from parser.geometry.broad_phase_places import nearest_um
-from parser.geometry.curves import Curves, Floats
+from parser.geometry.curves import Bools, Curves, Floats
 from parser.geometry.distance import distance_to_curves
 from parser.geometry.extents import extents
 from parser.shape.closing import CLOSED_WITHIN_UM
@@ -52,19 +52,28 @@ class _Edge(NamedTuple):
 
 def edges_of_contours(contours: Sequence[Curves]) -> tuple[Along, ...]:
     """Edges of the contours, each of them in the order in which it is cut."""
-    edges: list[_Edge] = []
+    ones = [_edge(curves) for curves in contours]
+    boxes = np.array([one.box_um for one in ones]).reshape(-1, 2, 2)
+    first: list[int] = []  # contour of each edge
     counts: list[int] = []
     found = []
-    for curves in contours:
-        one = _edge(curves)
-        of, is_tab = next(_matches(one, edges), (len(edges), False))
-        if of == len(edges):
-            edges.append(one)
+    for at, one in enumerate(ones):
+        near = np.flatnonzero(_meets(boxes[first], one.box_um)).tolist()
+        of, is_tab = next(_matches(one, {edge: ones[first[edge]] for edge in near}), (len(first), False))
+        if of == len(first):
+            first.append(at)
             counts.append(0)
         counts[of] += 1
-        is_back = counts[of] > 1 and _is_back(one, edges[of], is_tab)
+        is_back = counts[of] > 1 and _is_back(one, ones[first[of]], is_tab)
         found.append(Along(of, counts[of], is_back, is_tab))
     return tuple(found)
+
+
+def _meets(boxes_um: Floats, box_um: Floats) -> Bools:
+    """(k,) whether boxes (k, 2, 2) overlap another one (2, 2)."""
+    low, high = np.maximum(boxes_um[:, 0], box_um[0]), np.minimum(boxes_um[:, 1], box_um[1])
+    overlaps: Bools = (low <= high + _ON_UM).all(axis=1)
+    return overlaps
 
 
 def _edge(curves: Curves) -> _Edge:
@@ -74,14 +83,11 @@ def _edge(curves: Curves) -> _Edge:
     return _Edge(curves, box, float(curves.length_um.sum()), gap_um <= CLOSED_WITHIN_UM)
 
 
-def _matches(one: _Edge, edges: Sequence[_Edge]) -> Iterator[tuple[int, bool]]:
-    """The edges that a contour runs along, or whose tab it cuts."""
-    for number, other in enumerate(edges):
-        low, high = np.maximum(one.box_um[0], other.box_um[0]), np.minimum(one.box_um[1], other.box_um[1])
-        if (low > high + _ON_UM).any():
-            continue
+def _matches(one: _Edge, edges: Mapping[int, _Edge]) -> Iterator[tuple[int, bool]]:
+    """Of some edges, by their numbers, those that a contour runs along, or whose tab it cuts."""
+    for number, other in edges.items():
         shorter, longer = sorted((one, other), key=lambda edge: edge.length_um)
-        if _share_on(shorter.curves, longer.curves) >= _MOST and shorter.length_um >= _MOST * longer.length_um:
+        if shorter.length_um >= _MOST * longer.length_um and _share_on(shorter.curves, longer.curves) >= _MOST:
             yield number, False
         elif _is_tab(one, other):
             yield number, True

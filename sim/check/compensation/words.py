@@ -12,9 +12,14 @@ from parser.dialect.at_block import at_block
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, Value
 from parser.program import Program
+from parser.text.source import Field
 from parser.toolpath import Compensation
 from sim.check.compensation.asked import WithoutValue
 
+_WORDS = {
+    **dict.fromkeys(("ISO500", "ISO509", "ISO513"), Field.REGISTER),
+    **dict.fromkeys(("ISO501", "ISO502", "ISO503", "ISO508"), Field.SIDE),
+}
 _ON_ARCS = {AlarmKind.SETUP_ARC: "set-up", AlarmKind.CANCEL_ARC: "cancel"}
 
 
@@ -72,7 +77,7 @@ def _at(program: Program, told: Compensation, code: str, row: int, **values: Val
     in_force: dict[str, Value] = {"side": _side(told, row), "register": told.register[row]}
     if not np.isnan(told.by_um[row]):
         in_force["offset"] = abs(float(told.by_um[row]))
-    return at_block(program.toolpath, program.lines, code, row, **in_force, **values)
+    return at_block(program.toolpath, program.lines, code, row, _WORDS.get(code), **in_force, **values)
 
 
 def _side(told: Compensation, row: int) -> str:

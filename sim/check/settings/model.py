@@ -61,7 +61,7 @@ class CheckSettings:
     @property
     def choices(self) -> Choices:
         """What the program is read with."""
-        of_machine = self.machine.registers if self.machine else ()
+        of_machine = self.machine.controller.registers if self.machine else ()
         return Choices(self.marks, self.dialect, self.unit, merged([of_machine, self.registers]))
 
     @property

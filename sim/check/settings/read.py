@@ -24,8 +24,8 @@ NAMES = ("drycut.toml", "pyproject.toml")
 _PROJECT = NAMES[1]
 _KEYS = (
     *("root", "machine", "start_mm", "open", "select", "ignore", "fail_on", "exclude", "baseline"),
-    *("end_marks", "pause_marks", "wire", "per_file_ignores"),
     *(key.name for key in READ_WITH),
+    *("end_marks", "pause_marks", "wire", "per_file_ignores"),
 )
 _WIRE = {"diameter_mm": WIRE_DIAMETER_MM, "spark_gap_mm": SPARK_GAP_MM}
 

@@ -9,7 +9,9 @@ from controller.card.core.units import UM_S3_PER_PULSE_MS3
 from controller.host.entries import Interpolation
 from controller.motion.junctions import Junction, JunctionDeviation, SlowAt, StopEach, Through
 from controller.motion.limits import MotionLimits
+from parser.dialect.reader import Registers
 from parser.findings.errors import SettingsError
+from sim.setup.dialect import REGISTERS
 from sim.setup.toml.keys import Key, Section
 from sim.setup.toml.kinds import DEGREES_AS_RAD, MM_AS_UM, MS_AS_S, US_AS_S, Number, OneOf
 from sim.setup.toml.reader import Bound
@@ -41,6 +43,8 @@ class ControllerModel(NamedTuple):
         How it makes steps of a path.
     servo_period_s
         Period of the card's own interpolator.
+    registers
+        Values of offset registers that stand on it, for ISO programs that name one and do not set it.
     """
 
     limits: MotionLimits
@@ -48,6 +52,7 @@ class ControllerModel(NamedTuple):
     jump_feed_mm_s: float
     interpolation: Interpolation
     servo_period_s: float
+    registers: Registers = ()
 
     @property
     def card_settings(self) -> CardSettings:
@@ -100,6 +105,7 @@ CONTROLLER = Section(
         Key("corner_feed_mm_s", Number(Bound(1e-6, 1e3), "mm/s", MM_AS_UM), default=None, get=_of_rule("speed_um_s")),
         Key("junction_deviation_um", Number(Bound(1e-3, 1e3), "µm"), default=None, get=_of_rule("deviation_um")),
         Key("interpolator", INTERPOLATOR, "interpolation", default="point-by-point"),
+        REGISTERS,
     ),
     fills="controller",
 )

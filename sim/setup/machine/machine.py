@@ -6,10 +6,8 @@ from typing import Literal, NamedTuple
 
 from controller.host.entries import Interpolation
 from controller.motion.limits import Feeds
-from parser.dialect.reader import Registers
 from parser.findings.errors import SettingsError
 from parser.units import from_mm
-from sim.setup.dialect import REGISTERS
 from sim.setup.machine.controller_model import CONTROLLER, ControllerModel, read_controller
 from sim.setup.machine.table_model import MOTOR, TABLE, TableModel, read_table
 from sim.setup.obstacles import ARM, Outline
@@ -17,7 +15,7 @@ from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import Keys, Number, Text
 from sim.setup.toml.reader import AREA_RATE_MM2_MIN, load_toml
 
-TOP = Section("machine", (Key("name", Text()), Key("assumed", Keys(), default=()), REGISTERS), form="top")
+TOP = Section("machine", (Key("name", Text()), Key("assumed", Keys(), default=())), form="top")
 CUTTING = Section("cutting", (Key("area_rate_mm2_min", Number(AREA_RATE_MM2_MIN, "mm²/min")),))
 SECTIONS = (TOP, TABLE, MOTOR, CONTROLLER, CUTTING, ARM)
 """Sections of a machine file."""
@@ -31,8 +29,7 @@ class Machine(NamedTuple):
     """One machine as its file gives it; units as named.
 
     `arm_um` is the outline of the arm round the wire, if known. `assumed` are the keys of the values that nobody has
-    measured. `registers` are values of offset registers that stand on its controller, µm. `engine` is what its table is
-    worked out with, which is no matter of the file.
+    measured. `engine` is what its table is worked out with, which is no matter of the file.
     """
 
     name: str
@@ -41,7 +38,6 @@ class Machine(NamedTuple):
     area_rate_mm2_min: float
     arm_um: Outline | None = None
     assumed: tuple[str, ...] = ()
-    registers: Registers = ()
     engine: TableEngine = "compiled"
 
     def stepping_by(self, interpolation: Interpolation) -> "Machine":

@@ -134,7 +134,7 @@ def _rule(code: str, language: Language) -> dict[str, Any]:
     first, *_ = of.why.strip().split("\n\n")
     return {
         "id": code,
-        "name": _identifier(page(code).title),
+        "name": _identifier(code),
         "shortDescription": {"text": _said(of.title)},
         "fullDescription": {"text": _said(" ".join(first.split()))},
         "help": {"text": _said(markdown), "markdown": _literal(markdown)},
@@ -142,9 +142,11 @@ def _rule(code: str, language: Language) -> dict[str, Any]:
     }
 
 
-def _identifier(title: str) -> str:
-    """``wrong count axis`` as ``WrongCountAxis``, the same in every language."""
-    return "".join(part[:1].upper() + part[1:] for part in re.split(r"\W+", title))
+def _identifier(code: str) -> str:
+    """``WrongCountAxis``, the title of a code, the same in every language; of a code of ISO ``IsoOpenContour``."""
+    title = page(code).title
+    family = "iso " if code.startswith("ISO") else ""
+    return "".join(part[:1].upper() + part[1:] for part in re.split(r"[^A-Za-z0-9]+", family + title))
 
 
 def _results(result: CheckResult, index: int, language: Language) -> Iterator[dict[str, Any]]:

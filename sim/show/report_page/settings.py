@@ -1,6 +1,6 @@
 """All settings of a run for people: by section, with names and units."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from parser.findings.catalogue import Said
@@ -77,6 +77,8 @@ def _setting(section: Section, key: Key, value: Any) -> Setting:
 def _value(value: Any) -> Said:
     if isinstance(value, bool):
         return said("report.yes" if value else "report.no")
+    if isinstance(value, Mapping):
+        return same(", ".join(f"{name} = {number:.10g}" for name, number in value.items()))
     if isinstance(value, list) and isinstance(value[0], str):
         return same(", ".join(value))
     if isinstance(value, list):

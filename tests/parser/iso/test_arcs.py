@@ -130,6 +130,8 @@ def test_an_arc_in_a_subprogram_is_told_once() -> None:
     ("body", "what"),
     [
         ("G01 X1\nG03 X1 Y0 I-5000\nG01 X2", "circle-for-tiny"),
+        ("G01 X2\nG03 X2 Y0 I-5000\nG01 X2000", "circle-for-tiny"),
+        ("G01 X2000\nG03 X2000 Y0 I-5000\nG01 X2002", "circle-for-tiny"),
         ("G01 X5000\nG03 X5000 Y1 I-5000\nG01 X0 Y0", "tiny-for-circle"),
     ],
 )
@@ -141,6 +143,7 @@ def test_circles_and_arcs_of_nothing_that_may_be_each_other_are_told(body: str, 
     "body",
     [
         "G01 X5000\nG03 X5000 Y0 I-5000\nG01 X0",
+        "G01 X3\nG03 X3 Y0 I-5000\nG01 X6",
         "G01 X5000\nG03 I-5000\nG01 X5001",
         "G01 X5000\nG03 X5000 Y2 I-5000\nG01 Y900",
     ],

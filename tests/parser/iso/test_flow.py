@@ -127,6 +127,12 @@ def test_subprograms_that_nothing_calls_are_told_apart_from_it() -> None:
     assert [one.line for one in findings(text, "ISO108")] == [10]
 
 
+def test_a_label_without_a_return_is_no_subprogram() -> None:
+    text = "G91 G01 X1\nM98 P1\nM02\nN1 X2\nM99\nN2 X3"
+    assert [one.line for one in findings(text, "ISO108")] == [6]
+    assert not findings(text, "ISO401")
+
+
 def test_a_label_used_twice_is_no_subprogram_without_a_call() -> None:
     text = "G91 G01\nM98 P1\nM02\nN1 X2\nM99\nN1 X3\nM99"
     assert [one.code for one in read(text).findings if one.code in {"ISO121", "ISO401"}] == ["ISO121"]

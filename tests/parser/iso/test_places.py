@@ -118,6 +118,20 @@ def test_rapids_are_jumps_and_a_cut_of_no_length_is_told() -> None:
     assert [(one.line, one.block) for one in findings(text, "ISO218")] == [(3, 2), (6, 3)]
 
 
+@pytest.mark.parametrize(
+    ("text", "is_told"),
+    [
+        ("G92 X0 Y0\nG90 G01 X0 Y0\nX9\nM02", True),
+        ("G92 X0 Y0\nG90 G01 X0 Y0\nM20\nX9\nM02", False),
+        ("G92 X0 Y0\nG90 G01 X9\nM00\nX9\nX5\nM02", False),
+        ("G92 X0 Y0\nM01\nG90 G01 X9 M00\nX9\nM02", False),
+        ("G92 X0 Y0\nM01\nG90 G01 X9\nX9\nX5 M00\nM02", True),
+    ],
+)
+def test_a_way_to_where_the_wire_is_threaded_is_no_cut_of_no_length(text: str, is_told: bool) -> None:
+    assert bool(findings(text, "ISO218")) == is_told
+
+
 def test_blocks_that_an_operator_may_skip_run_and_it_is_said() -> None:
     program = read("G92 X0 Y0\nG90 G01 X5\n/X7\nM02")
     assert ends(program.toolpath)[-1] == (7.0, 0.0)

@@ -84,6 +84,19 @@ def test_mitsubishi_sums_registers_in_inches() -> None:
     assert found[3][1] == pytest.approx(0.00775 * 25_400)
 
 
+@pytest.mark.parametrize(
+    ("dialect", "unit", "by"), [("classroom", "", 100.0), ("skd2", "", 100.0), ("common", "inch", 254.0)]
+)
+def test_whole_numbers_have_the_scale_of_registers(dialect: str, unit: str, by: float) -> None:
+    text = "H1 = 100\nG92 X0 Y0\nG91 G41 H1 G01 X9\nM02"
+    assert offsets(text, dialect, unit=unit)[0][1] == pytest.approx(by)
+
+
+def test_registers_follow_a_unit_word() -> None:
+    text = "G20\nH1 = 100\nH2 = .01\nG92 X0 Y0\nG91 G41 H1 G01 X9\nH2\nX9\nM02"
+    assert [by for _, by, _ in offsets(text, "common")] == pytest.approx([254.0, 254.0])
+
+
 def test_values_count_from_where_they_are_set() -> None:
     text = "D1 = 50\nG92 X0 Y0\nG91 G41 D1 G01 X9\nX9\nD1 = 60 + D1\nX9\nM02"
     assert [by for _, by, _ in offsets(text, "common")] == [50.0, 50.0, 110.0]
@@ -125,3 +138,9 @@ def test_a_program_without_a_side_on_its_path_compensates_nothing() -> None:
 
 def test_jumps_are_compensated_like_cuts() -> None:
     assert [side for side, _, _ in offsets("D1=5\nG92 X0 Y0\nG91 G42 D1 G01 X9\nG00 X9\nM02", "common")] == [-1, -1]
+
+
+@pytest.mark.parametrize("told", ["", "D1 = 40\n"])
+def test_a_register_may_be_a_term_of_its_own_sum(told: str) -> None:
+    ((_, by, _),) = offsets(f"{told}D1 = D1 + 10\nG92 X0 Y0\nG91 G41 D1 G01 X9\nM02", "common")
+    assert math.isnan(by) if not told else by == 50.0

@@ -41,7 +41,10 @@ def assumed(program: Program) -> dict[str, tuple[str, str]]:
         (MITSUBISHI.replace("+ H175", ""), "mitsubishi", "because-conditions"),
         (MITSUBISHI.replace("+ H175", "").replace("E1281\n", ""), "mitsubishi", "because-switches"),
         (FANUC, "fanuc", "because-o-number"),
+        (FANUC.replace("S1 D1\n", ""), "fanuc", "because-o-inches"),
+        (FANUC.replace("S1 D1\n", "").replace(".1034", ".103"), "common", "because-none"),
         (FAST, "fast-wire", "because-long-integers"),
+        (FAST.replace("M02", "G04 X2.5\nM02"), "fast-wire", "because-long-integers"),
         ("G92 X0 Y0\nG91\nG01 X-10 Y20\nM02\n", "common", "because-none"),
         ("G92 X0 Y0\nG90\nG01 X10.5 Y20.\nM02\n", "common", "because-none"),
     ],
@@ -95,6 +98,15 @@ def test_a_program_that_says_its_unit_is_believed(unit_word: str) -> None:
     assert "unit" not in assumed(program)
     times = 25.4 if unit_word in {"G20", "G70"} else 1.0
     assert program.toolpath.end_um[-1, 0] == pytest.approx(1500.0 * times)
+
+
+def test_what_integers_are_no_unit_word_says() -> None:
+    program = read("G21\nG92 X0 Y0\nG90 G01 X50 Y0\nM02\n")
+    assert assumed(program)["unit"] == ("1 = 0.001 mm", "because-profile")
+    assert "ISO216" in [finding.code for finding in program.findings]
+    program = read("G20\nG92 X0 Y0\nG90 G01 X50000 Y0\nM02\n")
+    assert assumed(program)["unit"] == ("1 = 0.0001 inch", "because-profile")
+    assert program.toolpath.end_um[-1, 0] == pytest.approx(127_000.0)
 
 
 @pytest.mark.parametrize(

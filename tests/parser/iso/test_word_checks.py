@@ -49,6 +49,7 @@ def found(block: str, dialect: str = "common") -> list[tuple[str, int]]:
         ("M1.5", [("ISO205", 1)]),
         ("G90.1 G91", []),
         ("D1. X1", []),
+        ("G04 P0.5", []),
         ("F-5", [("ISO206", 1)]),
         ("G41 D1000", [("ISO206", 5)]),
         ("X1000000.", [("ISO206", 1)]),

@@ -9,12 +9,15 @@ import pytest
 from compensated_iso import DIE, Place, around, die, head, lines, program
 from compensating import LINUXCNC, TEXTBOOK
 
+from controller.offset.reach import reach
+from controller.offset.sections import Side
 from parser.dialect.reader import Choices
 from parser.findings.codes import Check, Severity
 from parser.findings.findings import Finding
 from parser.program import Program, parse_program
 from parser.toolpath import CompensationRules
 from sim.check.beside import Offsetting
+from sim.check.compensation.rounds import contour_of
 from sim.check.engine import Checked, Demands, run_checks
 
 STUB_OF_A_COMPENSATED_LEAD = 100.0 * (math.sqrt(5.0) / 2.0 - 1.0)  # midway between two places an offset apart
@@ -267,3 +270,30 @@ def test_random_convex_outlines_are_silent_inside_and_outside_either_way_round(s
         checked = check(text)
         assert codes(checked) == []
         assert made(checked).loops == (1,)
+
+
+def star(rng: np.random.Generator) -> list[Place]:
+    """Corners of an outline about 0, 0 that has inner and outer corners, counter-clockwise."""
+    angle = np.arange(24) * np.pi / 12.0
+    radius = rng.uniform(1000.0, 9000.0, 24)
+    return [(round(r * math.cos(a)), round(r * math.sin(a))) for r, a in zip(radius, angle, strict=True)]
+
+
+def test_a_contour_that_is_not_looked_at_by_itself_has_one_loop_and_no_gouge() -> None:
+    """Most contours are passed over, since their path comes to every block and too near to none: proved one by one."""
+    passed_over = 0
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        corners = star(rng)
+        start = tuple(round((a + b) / 2) for a, b in zip(corners[-1], corners[0], strict=True))
+        ring = [(start[0], start[1]), *corners, (start[0], start[1])]
+        by_um = int(rng.integers(20, 900))
+        checked = check(program(head(f"H1={by_um}"), around(ring)))
+        (one,) = made(checked).passed.rounds
+        contour = contour_of(made(checked).passed.curves, one.round.section)
+        loops = len(reach(contour, by_um, Side.LEFT).loops)
+        assert made(checked).loops == (loops,)
+        if not made(checked).gouges and not len(made(checked).path.vanished):
+            assert loops == 1
+            passed_over += 1
+    assert 5 < passed_over < 18

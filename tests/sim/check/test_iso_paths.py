@@ -1,7 +1,11 @@
 """What is said of the paths of ISO programs: rapids, tabs, passes that stray; and sound programs that are near them."""
 
-import pytest
+import random
 
+import pytest
+from iso_programs import FAMILIES, program
+
+from parser.dialect.reader import Choices
 from parser.program import load_program
 from sim.check.engine import Demands, run_checks
 
@@ -14,9 +18,9 @@ BACK = ("G01 X10000 Y-10000", "G01 X-10000 Y-10000", "G01 X-10000 Y10000", "G01 
 
 def found(*lines: str) -> dict[str, list[tuple[int, dict[str, object]]]]:
     """Lines and values of findings by code, those left out that every program has."""
-    program = load_program("\n".join([*lines, "M02"]).encode(), "part.iso")
+    read = load_program("\n".join([*lines, "M02"]).encode(), "part.iso")
     by_code: dict[str, list[tuple[int, dict[str, object]]]] = {}
-    for one in run_checks(program, Demands()).findings:
+    for one in run_checks(read, Demands()).findings:
         if one.code not in ALWAYS:
             by_code.setdefault(one.code, []).append((one.line, dict(one.values)))
     return by_code
@@ -155,6 +159,32 @@ def test_a_reversed_arc_has_the_code_of_iso() -> None:
     told = found("G92 X0 Y2900", "G90", *lines, "G01 X0 Y0")
 
     assert {code: [line for line, _ in of] for code, of in told.items()} == {"ISO219": [7]}
+
+
+@pytest.mark.parametrize(("side", "second"), [("G42", "110"), ("G41", "-110")])
+def test_a_pass_back_along_the_arc_that_the_pass_there_ended_with_is_sound(side: str, second: str) -> None:
+    there = ("G41 G01 X10000 Y0 H001", "X-10000", "G02 Y20000 J10000", "G01 X10000", "G02 Y0 J-10000")
+    back = (f"{side} G03 Y20000 J10000 H002", "G01 X-10000", "G03 Y0 J-10000", "G01 X10000")
+    told = found("H001=200", f"H002={second}", "G92 X10000 Y8000", "G90", *there, *back, "G40 G01 X10000 Y8000")
+
+    assert not {"ISO219", "ISO308"} & set(told)
+
+
+def test_an_approach_there_and_back_before_the_contour_is_no_figure() -> None:
+    square = ("X5000 Y0", "X5000 Y5000", "X-5000 Y5000", "X-5000 Y-5000", "X5000 Y-5000", "X5000 Y0")
+    approach = ("G41 H000 G01 X500 Y500", "H001", "G01 X0 Y0")
+
+    assert "3B310" not in found("H000=10", "H001=169", "G92 X0 Y0", "G90", *approach, *square, "G40 X0 Y0")
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_sound_programs_of_every_family_turn_no_arc_and_stray_nowhere(family: str) -> None:
+    for seed in range(8):
+        one = program(random.Random(seed), family)
+        choices = Choices(dialect=one.family, registers=(("D0", 100.0), ("D1", 100.0)))
+        checked = run_checks(load_program(one.text.encode(), "part.iso", choices), Demands())
+
+        assert not {"ISO219", "ISO300", "ISO306", "ISO307", "3B310"} & {each.code for each in checked.findings}, seed
 
 
 def test_a_program_in_3b_has_no_rapids_to_be_named() -> None:

@@ -1,6 +1,7 @@
 """``drycut check`` and ``drycut explain`` as a user meets them."""
 
 import json
+import random
 import re
 import subprocess
 import sys
@@ -8,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from checking import SOUND, WRONG_AXIS, drycut
+from iso_programs import FAMILIES, program
 from places import SCENARIOS
 
 from parser.findings.catalogue import page
@@ -225,7 +227,9 @@ def test_check_needs_no_engine_and_no_pictures(part: Path) -> None:
         "try: cli.main(['check', *sys.argv[1:]], standalone_mode=False)\n"
         "finally: print(sorted(heavy & set(sys.modules)))"
     )
-    command = [sys.executable, "-c", script, str(part), str(SCENARIOS / "keyhole")]
+    for family in FAMILIES:
+        (part.parent / f"{family}.iso").write_text(program(random.Random(3), family).text, "utf-8")
+    command = [sys.executable, "-c", script, str(part.parent), str(SCENARIOS / "keyhole")]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
     assert done.stdout.splitlines()[-1] == "[]"
 

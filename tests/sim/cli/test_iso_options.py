@@ -95,7 +95,9 @@ def test_a_unit_scales_what_is_programmed(shop: Path, unit: str, side_um: float)
 
 
 def test_the_nearest_value_of_a_register_counts() -> None:
-    machine = load_machine("dk7740")._replace(registers=(("D1", 10.0), ("H1", 5.0)))
+    shipped = load_machine("dk7740")
+    controller = shipped.controller._replace(registers=(("D1", 10.0), ("H1", 5.0)))
+    machine = shipped._replace(controller=controller)
     settings = CheckSettings(machine=machine)
     assert offset_um(settings.choices) == 10.0
     settings = replace(settings, registers=(("D1", 20.0),))
@@ -106,7 +108,9 @@ def test_the_nearest_value_of_a_register_counts() -> None:
 
 
 def test_keys_of_files_say_what_options_say(shop: Path, tmp_path: Path) -> None:
-    machine = toml_text_of_machine().replace('name = "', 'registers_mm = { D1 = 0.05, D2 = 0.07 }\nname = "', 1)
+    machine = toml_text_of_machine().replace(
+        "[controller]\n", "[controller]\nregisters_mm = { D1 = 0.05, D2 = 0.07 }\n"
+    )
     (shop / "machine.toml").write_text(machine, "utf-8")
     keys = 'dialect = "common"\nunit = "mm"\nregisters_mm = { d01 = 0.11 }\nmachine = "machine.toml"\n'
     (shop / "scenario.toml").write_text('program = "die.iso"\n' + keys, "utf-8")

@@ -265,6 +265,7 @@ corner_wait_ms = 150
 jerk_mm_s3 = 1234.7
 servo_period_us = 250.3
 interpolator = "card"
+registers_mm = { D0 = 0.1, H12 = -0.02 }
 {junction}
 [cutting]
 area_rate_mm2_min = 105.3
@@ -276,6 +277,9 @@ title = "\\"<b>\\" \\\\ 零件"
 provenance = "a\\nb"
 start_mm = [12.3, 45.7]
 open = true
+dialect = "robofil"
+unit = "inch"
+registers_mm = { D1 = 0.11 }
 trace_spacing_um = 3.3
 machine = "own.toml"
 kerf = true
@@ -361,7 +365,8 @@ def test_every_setting_has_a_name_and_its_unit(full: Scenario) -> None:
     assert shown["kind"].value == Said("servo", "伺服电机")
     sections = [*scenario_sections(full), *machine_sections(full.machine)]
     keys = {key for section, values in sections if section not in (EXPECT, QUIZ) for key in values}
-    assert keys - {"machine"} == shown.keys() - {"encoding", "dialect"}
+    assert keys - {"machine"} == shown.keys() - {"encoding"}
+    assert (shown["unit"].value, shown["registers_mm"].value.en) == (Said("inches", "英寸"), "D0 = 0.1, H12 = -0.02")
 
 
 def test_a_folder_made_from_the_page_writes_the_same_report(tmp_path: Path) -> None:

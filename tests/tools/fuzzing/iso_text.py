@@ -20,7 +20,8 @@ SEEDS = (
     "G42 H1 G1 Y-.5\nX-.5\nY-1.5\nG02 X.5 Y-1.5 I.5\nG1 Y-.5\nM01\nX0.\nG40 Y0.\nM85 M83 M81\nM21 M58\nM02\n%\n",
     "%\nO0027\nG91 S1 D1\nG92 X0 Y0\nG42 (SIDE)\n/G01 X.5\nG01 X.5 Y-.25 F1.\nG03 I0.25 X.25 Y.25\nG02 X1. R.6\n"
     "G40 G01 X-2.25\nM60\nM30\n%\n",
-    "N06 G90 G41 D11 G01 X200 Y300 F200 ;\n#100 = 5\nIF [#100 GT 4] GOTO 20\nN20 G51 A1.5\nG01 U.1 V-.1 X1. Y1.;\nM02;\n",
+    "N06 G90 G41 D11 G01 X200 Y300 F200 ;\n#100 = 5\nIF [#100 GT 4] GOTO 20\nN20 G51 A1.5\nG01 U.1 V-.1 X1. Y1.;\n"
+    "M02;\n",
 )
 """One program of each family, and one of words that are not simulated."""
 _ENCODINGS = ("utf-8", "utf-8-sig", "utf-16", "gb18030", "big5", "latin-1")
@@ -46,10 +47,10 @@ def fuzzed_iso(rng: random.Random) -> bytes:
         return damaged(rng, _encoded(rng, _recombined(rng)), others)
     if kind < 0.5:
         return damaged(rng, rng.choice(others), others)
-    return _encoded(rng, _changed(rng, rng.choice(SEEDS)))
+    return _encoded(rng, changed(rng, rng.choice(SEEDS)))
 
 
-def _changed(rng: random.Random, text: str) -> str:
+def changed(rng: random.Random, text: str) -> str:
     """Lines, words, letters or numbers changed, moved, doubled or left out."""
     for _ in range(rng.choice((1, 1, 2, 4))):
         kind = rng.random()

@@ -1,10 +1,14 @@
-"""Target `run`: tiny programs dry-run, with all that a run can be asked for; now and then with pages and pictures."""
+"""Targets `run` and `iso-run`: tiny programs dry-run, with all that a run can be asked for.
+
+Now and then with pages and pictures.
+"""
 
 import random
 from pathlib import Path
 
 from places import SCENARIOS
 
+from fuzzing import iso_text
 from fuzzing.program_text import changed
 from fuzzing.ran import answer_of, broken_by, leftovers, ran
 from fuzzing.target import Input, Judged
@@ -22,6 +26,7 @@ _OPTIONS = (
     ("--offset", "0.1mm,0.05mm", "--side", "right"),
     ("--kerf", "--drawing", "drawing.dxf", "--tolerance", "1mm"),
     ("--interpolator", "card", "--card-log", "part.log"),
+    ("--offset", "D1=0.05mm", "--kerf"),
 )
 _WITH_PAGES = 25  # one in so many inputs
 
@@ -38,6 +43,15 @@ def make(rng: random.Random) -> Input:
         blocks = [f"B{radius}B0B{radius}GXL1", f"B{radius}B0B{4 * radius}GYNR1", f"B{radius}B0B{radius}GXL3"]
     text = "\n".join([*blocks, rng.choice(("DD", "D", "E", "")), ""])
     return (changed(rng, text) if rng.random() < 0.5 else text).encode()[:2000]
+
+
+def make_iso(rng: random.Random) -> Input:
+    """A rectangle or a hole of ISO, mostly compensated; then changed."""
+    side, a, b = rng.choice(("G41 D1 ", "G42 D1 ", "")), rng.randint(1, 400), rng.randint(1, 400)
+    around = rng.choice((f"X{a}\nY{b}\nX-{a}\nY-{b}", f"G03 I{a} J0", f"X{a}\nG02 X-{a} Y{a} I-{a}\nY-{a}"))
+    stop = rng.choice(("", "", "M01\n", "M00\nG92 X500 Y0\n"))
+    text = f"D1={rng.randint(0, 120)}\nG92 X0 Y0\nG91 {side}G01 Y{rng.randint(1, 200)}\n{around}\n{stop}G40 Y-90\nM02\n"
+    return (iso_text.changed(rng, text) if rng.random() < 0.5 else text).encode()[:2000]
 
 
 def judge(data: Input, number: int, folder: Path) -> Judged:

@@ -1,6 +1,6 @@
 """All that is fuzzed."""
 
-from fuzzing import card_logs, commands, drawings, programs, runs, setups
+from fuzzing import card_logs, commands, conversions, drawings, programs, runs, setups
 from fuzzing.target import Target
 
 TARGETS = {
@@ -10,6 +10,7 @@ TARGETS = {
         Target("fix", programs.make, programs.judge_fix, 5.0),
         Target("iso", programs.make_iso, programs.judge, 12.0),
         Target("iso-fix", programs.make_iso, programs.judge_fix, 5.0),
+        Target("convert", conversions.make, conversions.judge, 2.0, most_s=10.0),
         Target("scenario", setups.make_scenario, setups.judge_scenario, 20.0),
         Target("machine", setups.make_machine, setups.judge_machine, 20.0),
         Target("settings", setups.make_settings, setups.judge_settings, 5.0),
@@ -19,6 +20,7 @@ TARGETS = {
         Target("compare", drawings.make, drawings.judge_compared, 0.3, most_s=20.0),
         Target("command", commands.make, commands.judge, 4.0, most_s=20.0, most_mb=800.0),
         Target("run", runs.make, runs.judge, 0.2, most_s=20.0, most_mb=800.0),
+        Target("iso-run", runs.make_iso, runs.judge, 0.2, most_s=20.0, most_mb=800.0),
     )
 }
 """Targets by their names."""

@@ -1,0 +1,51 @@
+"""docs/iso.md, section 8, against what decoding really gives."""
+
+import json
+import re
+
+import pytest
+from places import ROOT
+
+from controller.offset.block_ends import JointKind
+from parser.dialect.reader import Choices
+from parser.program import parse_program
+from sim.decode.blocks import decoded
+from sim.decode.document import block_entry
+
+SECTION = re.split(r"^## ", (ROOT / "docs" / "iso.md").read_text(encoding="utf-8"), flags=re.MULTILINE)[8]
+SCHEMA = json.loads((ROOT / "docs" / "decode.schema.json").read_text(encoding="utf-8"))
+EXAMPLES = re.findall(
+    r"^\| `([^`]+)`[^|]* \| (\S+) \| (\S+), (\S+) \| (\S+) \| (0x\w+) \| (\S+) \|$", SECTION, re.MULTILINE
+)
+
+
+def test_every_joint_is_told() -> None:
+    rows = re.findall(r"^\| (`[-a-z`, ]+) \| [a-z]", SECTION, re.MULTILINE)
+    told = {name for row in rows for name in re.findall(r"`([-a-z]+)`", row)}
+
+    assert {kind.value for kind in JointKind} - {"none"} <= told
+
+
+def test_every_key_of_the_schema_is_told() -> None:
+    block = SCHEMA["properties"]["blocks"]["items"]["properties"]
+    nested = [*block["steps"]["items"]["properties"]]
+    nested += [key for name in ("in_force", "way") for key in block[name]["anyOf"][0]["properties"]]
+
+    assert [key for key in (*block, *nested) if not re.search(rf"`{key}(\[\])?`", SECTION)] == []
+
+
+def test_there_are_three_examples() -> None:
+    assert len(EXAMPLES) == 3
+
+
+@pytest.mark.parametrize("row", EXAMPLES, ids=[row[0] for row in EXAMPLES])
+def test_examples_give_the_figures_of_the_table(row: tuple[str, ...]) -> None:
+    text, number, x, y, feed, flags, register = row
+    program = parse_program(text, "part.iso", choices=Choices(dialect="classroom"))
+    entry = block_entry(decoded(program, program.toolpath)[0])
+
+    assert [entry["coor_um"]["X"], entry["coor_um"]["Y"]] == [float(one.replace("−", "-")) for one in (x, y)]
+    assert entry["g0"] == int(flags, 16)
+    assert [entry[key] for key in ("number", "f", "d")] == [
+        None if one == "–" else int(one) for one in (number, feed, register)
+    ]

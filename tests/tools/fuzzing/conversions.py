@@ -1,0 +1,57 @@
+"""Target `convert`: programs of every language changed a little, and converted: proved and written, or not written."""
+
+import random
+from pathlib import Path
+
+from fuzzing import iso_text, program_text
+from fuzzing.ran import answer_of, broken_by, leftovers, ran
+from fuzzing.target import Input, Judged
+from parser.findings.codes import Severity
+from sim.check.batch import Job, check_file
+from sim.check.settings import CheckSettings
+
+_REGISTERS = ("--offset", "D0=0.1mm", "--offset", "D1=0.05mm", "--offset", "D11=0.1mm")
+_OPTIONS = (
+    ("part.3b",),
+    ("part.3b", "--form", "detailed"),
+    ("part.4b",),
+    ("part.iso",),
+    ("part.iso", "--dialect", "robofil", "--compensation", "worked-in"),
+    ("part.iso", "--dialect", "mitsubishi", "--unit", "inch", "--crlf"),
+    ("part.iso", "--dialect", "fanuc", "--distance", "absolute", "--tape"),
+    ("part.iso", "--dialect", "sodick", "--decimals", "4", "--number-step", "10"),
+    ("part.iso", "--centers", "absolute", "--unit", "um"),
+)
+
+
+def make(rng: random.Random) -> Input:
+    """A program, as it is or with something in it changed."""
+    if rng.random() < 0.3:
+        text = rng.choice(program_text.SEEDS)
+        return (program_text.changed(rng, text) if rng.random() < 0.6 else text).encode()
+    text = rng.choice(iso_text.SEEDS)
+    return (iso_text.changed(rng, text) if rng.random() < 0.7 else text).encode()
+
+
+def judge(data: Input, number: int, folder: Path) -> Judged:
+    """What is written is a program without an error; where nothing is proved, nothing is written."""
+    assert isinstance(data, bytes)
+    (folder / "given").write_bytes(data)
+    name, *options = _OPTIONS[number % len(_OPTIONS)]
+    done = ran(("convert", "given", "-o", name, *options, *_REGISTERS), folder)
+    broken = [*broken_by(done, folder, "file"), *leftovers(folder)]
+    written = folder / name
+    if written.exists() != (not done.returncode):
+        broken.append(f"exit {done.returncode} {'with' if written.exists() else 'without'} a file")
+    if written.exists():
+        broken += _of_written(written.read_bytes(), name)
+    answer = answer_of(done, folder) + (repr(written.read_bytes()) if written.exists() else "")
+    return Judged(answer, broken, f"exit {done.returncode or 0}")
+
+
+def _of_written(data: bytes, name: str) -> list[str]:
+    """What is wrong with a program that was written."""
+    known = (("D0", 100.0), ("D1", 50.0), ("D11", 100.0))
+    result = check_file(Job(name, data, CheckSettings(registers=known)))
+    errors = {found.code for found in result.findings if found.severity is Severity.ERROR}
+    return [f"writes a program with {' '.join(sorted(errors))}"] if errors else []
