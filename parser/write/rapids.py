@@ -26,12 +26,12 @@ def without_rapids(draft: Draft) -> Draft:
 
 def _returning(draft: Draft) -> Ints:
     """Rows in the air, not placed, that end where a block of the figure before them begins."""
-    curves = draft.curves
-    rows = np.flatnonzero((curves.kind == CurveKind.JUMP) & ~draft.is_placed)
-    return np.array([row for row in rows.tolist() if _is_back(curves, row)], dtype=np.int64)
+    jumps = np.flatnonzero(draft.curves.kind == CurveKind.JUMP)
+    figures = zip([0, *(jumps[:-1] + 1).tolist()], jumps.tolist(), strict=True) if len(jumps) else ()
+    back = [row for first, row in figures if not draft.is_placed[row] and _is_back(draft.curves, first, row)]
+    return np.array(back, dtype=np.int64)
 
 
-def _is_back(curves: Curves, row: int) -> bool:
-    jumps = np.flatnonzero(curves.kind[:row] == CurveKind.JUMP)
-    begins = curves.start_um[jumps[-1] + 1 if len(jumps) else 0 : row]
-    return bool((np.hypot(*(begins - curves.end_um[row]).T) <= _SAME_UM).any())
+def _is_back(curves: Curves, first: int, row: int) -> bool:
+    away = curves.start_um[first:row] - curves.end_um[row]
+    return bool((np.hypot(away[:, 0], away[:, 1]) <= _SAME_UM).any())
