@@ -74,7 +74,7 @@ def read_program(path: Path | str, choices: Choices = STANDARD_CHOICES) -> Progr
 def moving(program: Program) -> Program:
     """A program in which something moves, as whatever runs or shows a path needs it. ProgramError (ISO100) else."""
     if not len(program.toolpath):
-        raise ProgramError(no_program("no-motion", code="ISO100"))
+        raise ProgramError(no_program("no-motion", iso=True))
     return program
 
 

@@ -39,7 +39,7 @@ def read_iso(text: str, choices: Choices) -> ReadText:
 
 def _without_motion(path: Moved) -> tuple[Finding, ...]:
     """ISO100 where no block moves the wire."""
-    return () if len(path.toolpath) else (no_program("no-motion", code="ISO100"),)
+    return () if len(path.toolpath) else (no_program("no-motion", iso=True),)
 
 
 def _as_arcs_agree(listing: Listing, family: Told, choices: Choices) -> tuple[Told, Moved]:
