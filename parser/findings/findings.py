@@ -1,5 +1,6 @@
 """Findings: what is wrong with a program, as data with a stable code; `parser.findings.catalogue` has their texts."""
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
@@ -71,6 +72,27 @@ class Finding(NamedTuple):
     def with_fact(self, fact: Fact) -> "Finding":
         """The finding with a fact for later checks and mends."""
         return self._replace(fact=fact)
+
+
+class Count(NamedTuple):
+    """How many findings there are of a code; those that are graver than their code are counted by themselves."""
+
+    code: str
+    severity: Severity
+    n: int
+
+    @property
+    def text(self) -> str:
+        """The code, and how many there are of it where it is more than one: ``3B305 ×4``."""
+        return self.code if self.n == 1 else f"{self.code} ×{self.n}"
+
+
+def counted(findings: Iterable[Finding]) -> tuple[Count, ...]:
+    """How many findings there are of each code, the worst severity first, then by code."""
+    counts = Counter((finding.severity, finding.code) for finding in findings)
+    worst_first = tuple(Severity)
+    of_each = (Count(code, severity, n) for (severity, code), n in counts.items())
+    return tuple(sorted(of_each, key=lambda one: (worst_first.index(one.severity), one.code)))
 
 
 def edited(text: str, edits: Iterable[Edit]) -> str:

@@ -7,8 +7,8 @@ from typing import Any, Final, NamedTuple
 
 from parser import __version__
 from parser.findings.catalogue import Said
-from parser.findings.codes import CODES, Severity
-from parser.findings.findings import Finding
+from parser.findings.codes import Severity
+from parser.findings.findings import Count
 
 _NONE: Final = Said("", "")
 SCHEMA: Final = "drycut.index/1"
@@ -29,7 +29,7 @@ class Row(NamedTuple):
     message
         Why there is no report; empty where there is one. Only findings are told in Chinese as well.
     findings
-        Code and count, the worst severity first, then by code.
+        How many there are of each code, the worst severity first, then by code.
     time_s, max_um
         How long the machine runs, and the largest deviation of the wire; None without a report.
     picture
@@ -39,7 +39,7 @@ class Row(NamedTuple):
     verdict: str
     title: str
     message: Said = _NONE
-    findings: tuple[tuple[str, int], ...] = ()
+    findings: tuple[Count, ...] = ()
     time_s: float | None = None
     max_um: float | None = None
     picture: str = ""
@@ -52,12 +52,6 @@ class Entry(NamedTuple):
     folder: str | None
     row: Row
     from_cache: bool
-
-
-def counted(findings: Sequence[Finding]) -> tuple[tuple[str, int], ...]:
-    """How often each code occurs, the worst severity first, then by code."""
-    counts = Counter(finding.code for finding in findings)
-    return tuple(sorted(counts.items(), key=lambda one: (_WORST_FIRST.index(CODES[one[0]].severity), one[0])))
 
 
 def build_index(entries: Sequence[Entry]) -> dict[str, Any]:
@@ -82,8 +76,8 @@ def _counts(entries: Sequence[Entry]) -> dict[str, int]:
     verdicts = Counter(entry.row.verdict for entry in entries)
     severities = Counter[Severity]()
     for entry in entries:
-        for code, count in entry.row.findings:
-            severities[CODES[code].severity] += count
+        for count in entry.row.findings:
+            severities[count.severity] += count.n
     return {
         "programs": len(entries),
         **{verdict: verdicts[verdict] for verdict in VERDICTS},
@@ -99,9 +93,7 @@ def _program(entry: Entry) -> dict[str, Any]:
         "title": row.title,
         "verdict": row.verdict,
         "message": row.message.en or None,
-        "findings": [
-            {"code": code, "severity": str(CODES[code].severity), "count": count} for code, count in row.findings
-        ],
+        "findings": [{"code": of.code, "severity": str(of.severity), "count": of.n} for of in row.findings],
         "time_s": row.time_s,
         "max_um": row.max_um,
         "folder": entry.folder,

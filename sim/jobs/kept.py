@@ -15,7 +15,9 @@ from typing import Any, Final
 
 from parser.files.reading import read_bytes
 from parser.findings.catalogue import Said
+from parser.findings.codes import Severity
 from parser.findings.errors import FileUnreadableError
+from parser.findings.findings import Count
 from sim.files import staged
 from sim.jobs.index import Row
 from sim.setup.scenario import Scenario
@@ -57,7 +59,7 @@ def kept(folder: Path, digest: str) -> Row | None:
         if any(_sum_of(folder / name) != told for name, told in record["files"].items()):
             return None
         row = record["row"]
-        findings = tuple((code, count) for code, count in row["findings"])
+        findings = tuple(Count(code, Severity(severity), n) for code, severity, n in row["findings"])
         return Row(**{**row, "findings": findings, "message": Said(*row["message"])})
     except (FileUnreadableError, OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
         return None

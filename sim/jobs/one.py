@@ -9,9 +9,10 @@ from typing import Final, NamedTuple
 
 from parser.findings.catalogue import LANGUAGES, Said, texts
 from parser.findings.errors import DrawingError, DrycutError, ProgramError
+from parser.findings.findings import counted
 from parser.program import load_program, moving
 from sim.files import scratch
-from sim.jobs.index import Row, counted
+from sim.jobs.index import Row
 from sim.jobs.run_into import FILES, run_into
 from sim.run.dryrun import DryRun
 from sim.run.findings import verdict

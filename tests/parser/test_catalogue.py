@@ -9,8 +9,8 @@ from typing import get_args
 import pytest
 
 from parser.findings.catalogue import LANGUAGES, CataloguePage, Language, Texts, example, instant, page, texts
-from parser.findings.codes import CODES
-from parser.findings.findings import Finding, Value
+from parser.findings.codes import CODES, Severity
+from parser.findings.findings import Finding, Value, counted
 from parser.findings.remarks import Remark, remark_text
 from parser.text.encoding import no_program
 
@@ -321,3 +321,12 @@ def test_remarks_have_the_same_places_in_both_languages() -> None:
 )
 def test_a_remark_is_said_in_both_languages(remark: Remark, english: str, chinese: str) -> None:
     assert (remark_text(remark), remark_text(remark, "zh")) == (english, chinese)
+
+
+def test_findings_are_counted_by_their_own_severity() -> None:
+    plain, graver = Finding("ISO212"), Finding("ISO212", graver=Severity.ERROR)
+    told = [(count.text, count.severity) for count in counted([plain, graver, Finding("ISO112"), graver])]
+    assert told == [
+        *[("ISO212 ×2", Severity.ERROR), ("ISO212", Severity.WARNING)],
+        ("ISO112", Severity.NOTE),
+    ]

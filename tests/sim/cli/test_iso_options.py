@@ -1,6 +1,7 @@
 """``--dialect``, ``--unit`` and ``--offset D0=…``, and the keys of files that say the same, as a user meets them."""
 
 import json
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,11 +12,12 @@ from iso_at_home import DIE, ROUNDS, ROUNDS_BOX_UM, ROUNDS_CUT_UM
 from jsonschema import Draft202012Validator
 from places import ROOT
 
-from parser.dialect.reader import Choices, merged, register_name
+from parser.dialect.reader import UNITS, Choices, merged, register_name
 from parser.program import dialects, load_program
 from sim.check.programmed import Programmed, programmed_of
 from sim.check.settings import CheckSettings
 from sim.cli.dialect_options import READ_WITH, offsets_of, register_set
+from sim.setup.key_words import value_word
 from sim.setup.machine.machine import load_machine
 from sim.setup.scenario import MACHINE_FILE, load_scenario, scenario_sections
 from sim.setup.toml.writer import toml_text
@@ -188,3 +190,22 @@ def test_names_of_registers_are_told_without_leading_zeros() -> None:
 def test_the_help_names_every_dialect() -> None:
     (dialect, _) = (option(lambda: None).__click_params__[0] for option in READ_WITH)  # type: ignore[attr-defined]
     assert ", ".join(dialects()) in dialect.help
+
+
+@pytest.mark.parametrize("schema", ["check", "report"])
+def test_schemas_know_every_dialect(schema: str) -> None:
+    text = (ROOT / "docs" / f"{schema}.schema.json").read_text("utf-8")
+    (known,) = (node["enum"] for node in nodes(json.loads(text)) if "3B+4B" in node.get("enum", ()))
+    assert {*known} - {None} == {"3B", "4B", "3B+4B", *dialects()}
+
+
+def nodes(node: Any) -> Iterator[dict[str, Any]]:
+    if isinstance(node, dict):
+        yield node
+    for inner in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
+        yield from nodes(inner)
+
+
+def test_every_dialect_has_a_name_for_people() -> None:
+    for name in (*dialects(), *UNITS):
+        assert value_word(name).zh

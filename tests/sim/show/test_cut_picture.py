@@ -251,7 +251,7 @@ def test_flags_keep_apart_and_lose_no_finding(seed: int) -> None:
     flags = flags_of(path, findings, 900.0)
     places = [flag.place_um for flag in flags]
     assert min(math.dist(a, b) for a, b in combinations(places, 2)) >= 900.0
-    assert sum(count for flag in flags for _, count in flag.counts) == 500
+    assert sum(count for flag in flags for _, _, count in flag.counts) == 500
     apart = np.hypot(*np.moveaxis(places_um(path, findings, 900.0)[:, None] - np.array(places), -1, 0))
     assert apart.min(axis=1).max() < (1 + math.sqrt(2)) * 900.0  # across a cell, and from there to the next flag
 

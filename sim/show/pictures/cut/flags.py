@@ -1,14 +1,13 @@
 """Findings as flags: a marker where each is, with its code, and those of one place as one."""
 
-from collections import Counter
 from collections.abc import Sequence
 from itertools import product
 from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.findings.codes import CODES, Severity
-from parser.findings.findings import Finding
+from parser.findings.codes import Severity
+from parser.findings.findings import Count, Finding, counted
 from parser.geometry.along import places
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Toolpath
@@ -30,25 +29,19 @@ class Flag(NamedTuple):
     """Findings of one place, µm on the part: how many there are of each code, the worst first."""
 
     place_um: Floats
-    counts: tuple[tuple[str, int], ...]
+    counts: tuple[Count, ...]
 
     @property
     def severity(self) -> Severity:
         """That of the worst."""
-        return CODES[self.counts[0][0]].severity
+        return self.counts[0].severity
 
     @property
     def text(self) -> str:
         """Codes with their counts, such as ``3B305 ×4``."""
-        texts = [code if count == 1 else f"{code} ×{count}" for code, count in self.counts]
+        texts = [count.text for count in self.counts]
         more = len(texts) - _MOST_CODES
         return ", ".join(texts[:_MOST_CODES]) + (f" +{more}" if more > 0 else "")
-
-
-def counted(findings: Sequence[Finding]) -> tuple[tuple[str, int], ...]:
-    """How many findings there are of each code, the worst codes first."""
-    counts = Counter(finding.code for finding in findings)
-    return tuple(sorted(counts.items(), key=lambda one: (_WORST_FIRST.index(CODES[one[0]].severity), one[0])))
 
 
 def flags_of(toolpath: Toolpath, findings: Sequence[Finding], apart_um: float) -> list[Flag]:

@@ -6,7 +6,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.findings.catalogue import page as page_of
-from parser.findings.codes import CODES, Severity
+from parser.findings.codes import Severity
+from parser.findings.findings import counted
 from parser.geometry.curves import Floats
 from parser.units import mm
 from sim.show.draw import style
@@ -25,7 +26,7 @@ from sim.show.draw.legend import (
 )
 from sim.show.draw.paints import Paint
 from sim.show.draw.tones import paint_of_pass, tones_of
-from sim.show.pictures.cut.flags import counted, draw_flag
+from sim.show.pictures.cut.flags import draw_flag
 from sim.show.pictures.cut.marks import draw_end, draw_pause, draw_start, pauses
 from sim.show.pictures.cut.numbers import draw_number, number_size
 from sim.show.pictures.cut.outlines import draw_clamp, draw_work
@@ -88,21 +89,15 @@ def finding_entries(cut: Cut, say: Words) -> list[Entry]:
     """What the codes of the findings mean; where there are many of them, how many there are of each severity."""
     counts = counted(cut.findings)
     if len(counts) > MOST_CODES:
-        by = {
-            severity: sum(count for code, count in counts if CODES[code].severity is severity) for severity in Severity
-        }
+        by = {severity: sum(count.n for count in counts if count.severity is severity) for severity in Severity}
         text = say("cut.count", errors=by[Severity.ERROR], warnings=by[Severity.WARNING], notes=by[Severity.NOTE])
-        return [Entry(_flag(CODES[counts[0][0]].severity), text)]
+        return [Entry(_flag(counts[0].severity), text)]
     return [
         Entry(
-            _flag(CODES[code].severity),
-            say(
-                "cut.finding",
-                code=code if count == 1 else f"{code} ×{count}",
-                title=page_of(code, say.language).title,
-            ),
+            _flag(count.severity),
+            say("cut.finding", code=count.text, title=page_of(count.code, say.language).title),
         )
-        for code, count in counts
+        for count in counts
     ]
 
 
