@@ -55,7 +55,7 @@ mutate: $(READY)
 
 # How many small changes of our own code the tests notice, of a random sample: some minutes for each area.
 survivors: $(READY)
-	for area in checks stepping planner; do PYTHONPATH=. nice $(BIN)/python tests/tools/survivors.py $$area || exit; done
+	for area in checks iso stepping planner; do PYTHONPATH=. nice $(BIN)/python tests/tools/survivors.py $$area || exit; done
 
 # Promises that hold for any input, on a million inputs of all kinds; and the time of programs bad on purpose.
 fuzz: $(READY)

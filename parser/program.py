@@ -71,6 +71,13 @@ def read_program(path: Path | str, choices: Choices = STANDARD_CHOICES) -> Progr
     return load_program(read_bytes(path), name=printable(path.name), choices=choices)
 
 
+def moving(program: Program) -> Program:
+    """A program in which something moves, as whatever runs or shows a path needs it. ProgramError (ISO100) else."""
+    if not len(program.toolpath):
+        raise ProgramError(no_program("no-motion", iso=True))
+    return program
+
+
 def load_program(data: bytes, name: str, choices: Choices = STANDARD_CHOICES) -> Program:
     """Program of the bytes of a file.
 
@@ -99,7 +106,7 @@ def parse_program(
 
 def none_there(what: str, name: str, choices: Choices, detail: str = "") -> Finding:
     """Finding 3B100 or ISO100, by the language that a file is meant for: `what` and `detail` as for `no_program`."""
-    return no_program(what, detail, code=f"{_meant(name, choices).name}100")
+    return no_program(what, detail, iso=_meant(name, choices) is ISO)
 
 
 def _meant(name: str, choices: Choices) -> Reader:
@@ -115,7 +122,7 @@ def _reader(text: str, *, of_none: Reader) -> Reader:
     first = _REMARK.sub("", narrow(text[:_LOOKED_AT]))
     known = [reader for reader in READERS if reader.recognises(first)]
     if len({reader.name for reader in known}) > 1:
-        raise ProgramError(no_program("two-languages", code="ISO100"))
+        raise ProgramError(no_program("two-languages", iso=True))
     return known[0] if known else next((reader for reader in READERS if reader.recognises(text)), of_none)
 
 

@@ -195,3 +195,20 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
     }
 )
 """All codes, in their order."""
+
+CODES_OF_ISO: Mapping[str, str] = MappingProxyType(
+    {
+        "3B211": "ISO219",
+        "3B301": "ISO300",
+        "3B306": "ISO219",
+        "3B307": "ISO305",
+        "3B312": "ISO307",
+        "3B316": "ISO308",
+        "3B401": "ISO304",
+        "3B501": "ISO504",
+        "3B502": "ISO505",
+        "3B503": "ISO506",
+        "3B504": "ISO507",
+    }
+)
+"""Codes of ISO for findings of the path and the machine that are made under those of 3B."""

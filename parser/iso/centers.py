@@ -28,6 +28,16 @@ class Agreement(NamedTuple):
         return self.otherwise >= _MOST and self.as_read < _HALF
 
     @property
+    def is_sure(self) -> bool:
+        """Whether the arcs agree in one of the readings."""
+        return max(self.as_read, self.otherwise) >= _MOST
+
+    @property
+    def is_neither(self) -> bool:
+        """Whether some arcs, more than one, agree in neither reading."""
+        return self.arcs > 1 and max(self.as_read, self.otherwise) < _HALF
+
+    @property
     def why(self) -> str:
         """Term of what the arcs say of the reading that was taken; empty where no arc says anything."""
         if not self.arcs:

@@ -5,14 +5,13 @@ import numpy as np
 from parser.findings.findings import Finding
 from parser.geometry.curves import Bools, Ints
 from parser.iso.listing import Listing
-from parser.iso.numbering import are_called, stands_alone
+from parser.iso.numbering import ENDS, are_called, stands_alone
 
 _MOTION = (0, 1, 2, 3)
 _PASSED = (17, 20, 21, 40, 41, 42, *range(54, 60), 70, 71, 90, 91, 90.1, 91.1)
 """G words that take no X and Y of their block for themselves."""
 _PLACES = [ord(letter) for letter in "XYIJR"]
 _CALL = 98
-_ENDS = (2, 30, 99, 199)
 
 
 def unknown_letters(listing: Listing, letters: str) -> tuple[list[Finding], Ints]:
@@ -61,7 +60,7 @@ def _empty(listing: Listing) -> Bools:
     if not empty.any():
         return empty
     number = words.value[np.minimum(blocks.word[:-1], len(words.value) - 1)]
-    ends = words.block[(words.letter == ord("M")) & np.isin(words.value, _ENDS)]
+    ends = words.block[(words.letter == ord("M")) & np.isin(words.value, ENDS)]
     empty &= ~are_called(listing, number)
     empty[int(ends[0]) + 1 if len(ends) else len(empty) :] = False
     remarked = listing.lines.lines(listing.remarks[:, 0])

@@ -55,12 +55,19 @@ class _Stretch(NamedTuple):
     depth: int
 
 
+_NOTHING = _Stretch(np.zeros(0, dtype=np.int64), "return", 0)
+
+
 class _Walk:
+    """Follows calls; `_known` are the subprograms that were walked, `_open` those that are being walked."""
+
     def __init__(self, given: Given) -> None:
         self._given = given
         self._past = len(given.listing.blocks.line)
         self._ends, self._returns, self._calls = (given.m(effect) for effect in ("end", "return", "call"))
         self._turns = np.flatnonzero(self._ends | self._returns | self._calls)
+        self._names, self._times = given.word("P"), given.word("L")
+        self._targets: dict[int | None, int] = {}
         self._known: dict[int, _Stretch] = {}
         self._open: list[int] = []
         self._faults: dict[int, str] = {}
@@ -70,7 +77,8 @@ class _Walk:
         self._main_end = int(ends[0]) if len(ends) else self._past
         whole = self._stretch(0)
         faults = tuple(Fault(*one) for one in sorted(self._faults.items()))
-        return Flow(whole.block[:LONGEST], whole.left, self._main_end, faults)
+        most = LONGEST if "call-too-long" in self._faults.values() else None  # a long text runs to its end
+        return Flow(whole.block[:most], whole.left, self._main_end, faults)
 
     def _stretch(self, first: int) -> _Stretch:
         """From a block on until a return, an end code or the end of the text."""
@@ -80,47 +88,56 @@ class _Walk:
             parts.append(np.arange(first, turn + 1))
             total += turn + 1 - first
             first = turn + 1
+            is_end = bool(self._ends[turn])
             if self._calls[turn]:
-                called, times = self._called(turn)
-                depth = max(depth, called.depth)
-                times = min(times, 1 + LONGEST // max(len(called.block), 1))
-                parts += [called.block] * (1 if called.left == "end" else times)
-                total += len(called.block) * times
-                if called.left == "end":
-                    return _Stretch(np.concatenate(parts), "end", depth)
-                if total > LONGEST:
-                    self._faults[turn] = "call-too-long"
-                    break
-            if self._ends[turn] or self._returns[turn]:
-                return _Stretch(np.concatenate(parts), "end" if self._ends[turn] else "return", depth)
+                called = self._called(turn)
+                parts.append(called.block)
+                total += len(called.block)
+                depth, is_end = max(depth, called.depth), is_end or called.left == "end"
+            if self._calls[turn] and total > LONGEST:
+                self._faults[turn], is_end = "call-too-long", True
+            if is_end or self._returns[turn]:
+                return _Stretch(np.concatenate(parts), "end" if is_end else "return", depth)
         return _Stretch(np.concatenate([*parts, np.arange(first, self._past)]), "text", depth)
 
-    def _called(self, block: int) -> tuple[_Stretch, int]:
-        """What a call runs, and how often."""
-        nothing = _Stretch(np.zeros(0, dtype=np.int64), "return", 0)
-        label = self._number(block, "P")
-        target = -1 if label is None else self._target(label)
+    def _called(self, block: int) -> _Stretch:
+        """What a call runs, as often as it says; nothing where it cannot be followed."""
+        target = self._target(block)
+        fault = self._why_not(block, target)
+        if fault:
+            self._faults[block] = fault
+            return _NOTHING
+        called = self._known[target]
+        if called.left == "text":
+            self._faults[block] = "call-without-return"
+        if called.left == "end":
+            return called
+        most = 1 + LONGEST // max(len(called.block), 1)
+        return called._replace(block=np.tile(called.block, min(max(self._number(block, self._times) or 1, 1), most)))
+
+    def _why_not(self, block: int, target: int) -> str:
+        """The term for what keeps a call from being followed; empty where its target is known now."""
         if target < 0:
-            self._faults[block] = "call-without-number" if label is None else "call-without-label"
-            return nothing, 0
+            return "call-without-number" if self._number(block, self._names) is None else "call-without-label"
         if target in self._open:
-            self._faults[block] = "call-recursive"
-            return nothing, 0
+            return "call-recursive"
         if target not in self._known and len(self._open) < DEEPEST:
             self._open.append(target)
             within = self._stretch(target)
             self._open.pop()
             self._known[target] = within._replace(depth=within.depth + 1)
-        called = self._known.get(target, nothing._replace(depth=1))
-        if len(self._open) + called.depth > DEEPEST:
-            self._faults[block] = "call-too-deep"
-            return nothing, 0
-        if called.left == "text":
-            self._faults[block] = "call-without-return"
-        return called, max(self._number(block, "L") or 1, 1)
+        if target not in self._known or len(self._open) + self._known[target].depth > DEEPEST:
+            return "call-too-deep"
+        return ""
 
-    def _target(self, label: int) -> int:
+    def _target(self, block: int) -> int:
         """The block that a call names: N behind the end of the program, O, or N before it; −1 where there is none."""
+        label = self._number(block, self._names)
+        if label not in self._targets:
+            self._targets[label] = self._block_of(label)
+        return self._targets[label]
+
+    def _block_of(self, label: int | None) -> int:
         words = self._given.listing.words
         for letter, first in (("N", self._main_end), ("O", 0), ("N", 0)):
             named = self._given.listing.of(letter)
@@ -130,8 +147,8 @@ class _Walk:
                 return int(blocks[0])
         return -1
 
-    def _number(self, block: int, letter: str) -> int | None:
-        word = int(self._given.word(letter)[block])
+    def _number(self, block: int, word_of: Ints) -> int | None:
+        word = int(word_of[block])
         return None if word < 0 else int(self._given.listing.words.value[word])
 
 

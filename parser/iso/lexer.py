@@ -27,7 +27,7 @@ def read_listing(text: str) -> Listing:
     bare = without_remarks(lines)
     plain = plain_words(bare.codes)
     if len(plain.opens) + len(plain.odd) > MOST_BLOCKS:
-        raise ProgramError(no_program("too-many-blocks", f"{MOST_BLOCKS:,}"))
+        raise ProgramError(no_program("too-many-blocks", f"{MOST_BLOCKS:,}", iso=True))
     odd = _odd_lines(folded, bare, plain)
     in_blocks = [line for line in odd if not line.is_title]
     words, blocks = _gathered(lines, plain, in_blocks)
@@ -35,7 +35,6 @@ def read_listing(text: str) -> Listing:
     at = blocks.first.searchsorted([line.span[0] for line in in_blocks]).tolist()
     numbered = list(zip(at, in_blocks, strict=True))
     unread = [(bad.code, Unread(bad.span, block)) for block, line in numbered for bad in line.bad]
-    unread += [("ISO105", remark) for remark in opened]
     titles = [line.span for line in odd if line.is_title]
     return Listing(
         text,
@@ -45,9 +44,9 @@ def read_listing(text: str) -> Listing:
         tuple(one._replace(block=block) for block, line in numbered for one in line.assignments),
         tuple(one._replace(block=block) for block, line in numbered for one in line.statements),
         bare.remarks,
-        tuple(sorted(one for _, one in unread)),
+        tuple(sorted([*opened, *(one for _, one in unread)])),
         bare.tape_end,
-        _findings(lines, bare, words, unread, titles),
+        tuple(sorted([*_findings(lines, bare, unread, opened, titles), *_small_letters(lines, words)], key=file_order)),
     )
 
 
@@ -120,16 +119,23 @@ def _with_open_remarks(lines: LineIndex, bare: Bare, blocks: Blocks) -> tuple[Bl
 
 
 def _findings(
-    lines: LineIndex, bare: Bare, words: Words, unread: list[tuple[str, Unread]], titles: list[tuple[int, int]]
-) -> tuple[Finding, ...]:
-    """ISO1xx of the text itself, in file order."""
+    lines: LineIndex,
+    bare: Bare,
+    unread: list[tuple[str, Unread]],
+    opened: list[Unread],
+    titles: list[tuple[int, int]],
+) -> list[Finding]:
+    """ISO1xx of the text itself, but for small letters."""
     found = [lines.finding(code, one.span, text=_shown(lines.text[slice(*one.span)])) for code, one in unread]
+    found += [lines.finding("ISO105", one.span, text=_shown(lines.text[slice(*one.span)])) for one in opened]
     hidden = [span for span in hidden_blocks(lines.text, bare.remarks) if span[0] < bare.tape_end]
-    for code, spans in (("ISO106", hidden), ("ISO107", titles)):
-        if spans:
-            shown = _shown(lines.text[slice(*spans[0])])
-            found.append(lines.finding(code, spans[0], text=shown, more=len(spans) - 1))
-    return tuple(sorted([*found, *_small_letters(lines, words)], key=file_order))
+    return [*found, *_at_first(lines, "ISO106", hidden), *_at_first(lines, "ISO107", titles)]
+
+
+def _at_first(lines: LineIndex, code: str, spans: list[tuple[int, int]]) -> list[Finding]:
+    """Finding at the first of some spans, where there are any."""
+    shown = [_shown(lines.text[slice(*span)]) for span in spans[:1]]
+    return [lines.finding(code, spans[0], text=text, more=len(spans) - 1) for text in shown]
 
 
 def _small_letters(lines: LineIndex, words: Words) -> list[Finding]:

@@ -6,7 +6,7 @@ from parser.findings.findings import Edit, Finding
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.iso.listing import Form, Listing
 
-_ENDS = (2, 30, 99, 199)
+ENDS = (2, 30, 99, 199)
 """M words behind which numbers may begin anew: what follows is a subprogram."""
 _WIDTHS = (9_999, 99_999)  # the largest number of four and of five digits: a CAM goes on from the beginning
 _USUAL_STEP = 10
@@ -44,7 +44,7 @@ def _falls(listing: Listing) -> list[Finding]:
     step = _usual_step(value)
     for most in _WIDTHS:
         is_fall[1:] &= ~((value[:-1] <= most) & (value[:-1] + step > most) & (value[1:] <= step))
-    restarts = np.cumsum((words.letter == ord("O")) | ((words.letter == ord("M")) & np.isin(words.value, _ENDS)))
+    restarts = np.cumsum((words.letter == ord("O")) | ((words.letter == ord("M")) & np.isin(words.value, ENDS)))
     is_fall[1:] &= restarts[number[1:]] == restarts[number[:-1]]
     label = stands_alone(listing)[words.block[number]] & are_called(listing, value)
     is_fall &= ~label & ~np.append(False, label[:-1])

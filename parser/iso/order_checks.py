@@ -36,7 +36,8 @@ def _without_end(listing: Listing, run: Flow) -> Iterator[Finding]:
     line = int(listing.blocks.line[last])
     _, past = listing.lines.bounds(line)
     newline = "\r\n" if "\r\n" in listing.text else "\n"
-    edits = (Edit(past, past, f"{newline}M02"),) if run.left == "text" and past <= listing.tape_end else ()
+    is_certain = run.left == "text" and not run.faults and past <= listing.tape_end
+    edits = (Edit(past, past, f"{newline}M02"),) if is_certain else ()
     span = (int(listing.blocks.first[last]), int(listing.blocks.past[last]))
     yield listing.lines.finding("ISO109", span)._replace(edits=edits)
 

@@ -1,7 +1,7 @@
 """A text of ISO, read: text to listing, its family, the rows that it moves, and all that is wrong with it."""
 
 from parser.dialect.reader import BlockCounts, Choices, Reading, ReadText, Spelling
-from parser.findings.codes import Check
+from parser.findings.codes import CODES_OF_ISO, Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
@@ -11,47 +11,46 @@ from parser.iso.mill_code import mill_code
 from parser.iso.mode_checks import mode_findings
 from parser.iso.motion import Moved, moved
 from parser.iso.not_simulated import not_simulated
-from parser.iso.telling import Told, reread, told
+from parser.iso.telling import Told, in_other_distance, reread, told
 from parser.iso.text_checks import checked
 from parser.iso.trace import Trace
 from parser.text.encoding import no_program
-
-_CODES = {
-    "3B211": "ISO219",
-    "3B301": "ISO300",
-    "3B306": "ISO219",
-    "3B307": "ISO305",
-    "3B312": "ISO307",
-    "3B316": "ISO308",
-    "3B401": "ISO304",
-    "3B501": "ISO504",
-    "3B502": "ISO505",
-    "3B503": "ISO506",
-    "3B504": "ISO507",
-}
 
 
 def read_iso(text: str, choices: Choices) -> ReadText:
     """What a text says. ProgramError (ISO100) where it holds no block, or those of a mill."""
     listing = read_listing(text)
     if not (len(listing.words.letter) or listing.assignments or listing.statements):
-        raise ProgramError(no_program("no-block", code="ISO100"))
+        raise ProgramError(no_program("no-block", iso=True))
     mill = mill_code(listing)
     if mill:
         raise ProgramError(mill, excerpt=text[slice(*listing.lines.bounds(mill.line))])
     family = told(listing, choices)
     listing = checked(listing, family.profile)
-    path = moved(listing, family.profile, choices)
-    taken = reread(family, path.agreement)
-    if taken.profile != family.profile:
-        path = moved(listing, taken.profile, choices)
+    taken, path = _as_arcs_agree(listing, family, choices)
     besides = not_simulated(listing, taken.profile)
     reading = _reading(listing, taken, path)._replace(not_simulated=besides.reason)
     of_text = (*listing.findings, *mode_findings(taken, path), *besides.findings)
-    findings = (*(_by_row(finding, path.first_row) for finding in of_text), *path.findings)
+    findings = (*(_by_row(finding, path.first_row) for finding in of_text), *path.findings, *_without_motion(path))
     ordered = tuple(sorted(findings, key=file_order))
     decoder = Trace(listing, taken.profile, choices)
     return ReadText(listing.lines, reading, {}, path.toolpath, ordered, decoder=decoder)
+
+
+def _without_motion(path: Moved) -> tuple[Finding, ...]:
+    """ISO100 where no block moves the wire."""
+    return () if len(path.toolpath) else (no_program("no-motion", iso=True),)
+
+
+def _as_arcs_agree(listing: Listing, family: Told, choices: Choices) -> tuple[Told, Moved]:
+    """The family with modes in which the radii of arcs agree, where these were assumed, and the path that it makes."""
+    path = moved(listing, family.profile, choices)
+    turned = in_other_distance(family) if path.agreement.is_neither else None
+    if turned:
+        other = moved(listing, turned.profile, choices)
+        family, path = (turned, other) if other.agreement.is_sure else (family, path)
+    taken = reread(family, path.agreement)
+    return taken, path if taken.profile == family.profile else moved(listing, taken.profile, choices)
 
 
 def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
@@ -65,7 +64,7 @@ def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
         not_asked={Check.PRINTED_ENDS: "reason-no-prints", Check.HEADER: "reason-no-header"},
         remarks=listing.remarks,
         assumptions=(*family.assumptions, *path.assumptions),
-        codes=_CODES,
+        codes=CODES_OF_ISO,
         threadings=path.threadings,
     )
 

@@ -13,7 +13,7 @@ from parser.iso.profile import Profile, profile
 from parser.iso.scale import amount, scaled
 
 _G = {"absolute": "G90", "incremental": "G91"}
-_ASSUMED_CENTERS = "assumed-centres"
+_ASSUMED_CENTERS, _ASSUMED_DISTANCE = "assumed-centres", "assumed-distance"
 _CHOSEN = "because-chosen"
 _DISTANCE, _CENTERS, _INCH, _METRIC = (90.0, 91.0), (90.1, 91.1), (20.0, 70.0), (21.0, 71.0)
 _INCH_WORDS = ("G20", "G70")
@@ -74,10 +74,22 @@ def told(listing: Listing, choices: Choices) -> Told:
     if len(seen.coordinates) and not says_unit:
         assumed.append(Assumption("assumed-unit", _unit(seen, of), inches or habit))
     if not distance:
-        assumed.append(Assumption("assumed-distance", _G[of.distance], habit))
+        assumed.append(Assumption(_ASSUMED_DISTANCE, _G[of.distance], habit))
     if not says_centers and (seen.has("I") or seen.has("J")):
         assumed.append(Assumption(_ASSUMED_CENTERS, of.centers, habit))
     return Told(of, tuple(assumed), seen, distance or _G[of.distance], says_centers, says_unit)
+
+
+def in_other_distance(family: Told) -> Told | None:
+    """The family with the other of G90 and G91 at the start, as arcs tell it; None where it was written or chosen."""
+    if family.is_chosen or all(one.what != _ASSUMED_DISTANCE for one in family.assumptions):
+        return None
+    of = replace(family.profile, distance="incremental" if family.profile.distance == "absolute" else "absolute")
+    assumptions = tuple(
+        Assumption(one.what, _G[of.distance], "because-arcs") if one.what == _ASSUMED_DISTANCE else one
+        for one in family.assumptions
+    )
+    return family._replace(profile=of, assumptions=assumptions, distance=_G[of.distance])
 
 
 def reread(family: Told, arcs: Agreement) -> Told:

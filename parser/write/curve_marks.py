@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from parser.geometry.curves import CurveKind, Curves, Ints
+from parser.geometry.curves import CurveKind, Curves, Floats, Ints
 
 _CONVEX, _CONCAVE = 1, 2
 
@@ -14,21 +14,18 @@ def curve_marks(curves: Curves) -> Ints:
     air; ways in and out along each other take no part in which way one runs.
     """
     figure = np.cumsum(curves.kind == CurveKind.JUMP)
-    cross = curves.start_um[:, 0] * curves.end_um[:, 1] - curves.start_um[:, 1] * curves.end_um[:, 0]
     segment = np.where(curves.is_arc, curves.radius_um**2 * (curves.sweep_rad - np.sin(curves.sweep_rad)), 0.0)
-    cut = curves.kind != CurveKind.JUMP
-    area = np.bincount(figure[cut], (cross + segment)[cut], minlength=int(figure[-1]) + 1 if len(figure) else 0)
-    area += _closing(curves, figure, len(area))
+    cut = np.flatnonzero(curves.kind != CurveKind.JUMP)
+    area = np.zeros(int(figure[-1]) + 1 if len(figure) else 0)
+    np.add.at(area, figure[cut], (_under(curves.start_um, curves.end_um) + segment)[cut])
+    number, first = np.unique(figure[cut], return_index=True)
+    last = np.append(first[1:], len(cut)) - 1
+    area[number] += _under(curves.end_um[cut[last]], curves.start_um[cut[first]])
     convex = np.sign(curves.sweep_rad) == np.sign(area[figure])
     return np.where(curves.is_arc, np.where(convex, _CONVEX, _CONCAVE), 0).astype(np.int64)
 
 
-def _closing(curves: Curves, figure: Ints, count: int) -> np.ndarray:
-    """(count,) twice the area under the straight way from the end of each figure back to its start."""
-    closing = np.zeros(count)
-    for number in range(count):
-        rows = np.flatnonzero((figure == number) & (curves.kind != CurveKind.JUMP))
-        if len(rows):
-            end, start = curves.end_um[rows[-1]], curves.start_um[rows[0]]
-            closing[number] = end[0] * start[1] - end[1] * start[0]
-    return closing
+def _under(start_um: Floats, end_um: Floats) -> Floats:
+    """(n,) twice the area between straight ways and the origin; round a figure they add up to that of the figure."""
+    area: Floats = start_um[:, 0] * end_um[:, 1] - start_um[:, 1] * end_um[:, 0]
+    return area

@@ -65,8 +65,8 @@ class Offsetting:
 
     @property
     def by_um(self) -> float:
-        """Least offset: of the pass that makes the edge; 0 where no contour is run along."""
-        return min((one.by_um for one in self.passes), default=0.0)
+        """Least offset: of the pass that makes the edge."""
+        return min(one.by_um for one in self.passes)
 
     @property
     def pass_of_row(self) -> Ints:

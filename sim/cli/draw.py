@@ -111,10 +111,10 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
 @contextmanager
 def _shown(asked: "PictureFiles", scenario: "Scenario") -> "Iterator[tuple[Shown, tuple[Finding, ...]]]":
     """What the pictures are drawn of, with its findings: the program alone where no other picture needs a run."""
-    from parser.program import read_program
+    from parser.program import moving, read_program
     from sim.show.pictures.path import PATH, PathAlone
 
-    program = read_program(scenario.program, scenario.choices)
+    program = moving(read_program(scenario.program, scenario.choices))
     if set(asked.files) == {PATH}:
         from sim.show.pictures.cut.of_path import programmed
 

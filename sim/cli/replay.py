@@ -100,7 +100,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut replay scenarios/keyhole -o cut.gif --seconds 5 --fps 20 --size 640x360
     drycut replay part.3b -o cut.webp --thickness 60mm --theme dark --lang zh
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from parser.program import read_program
+    from parser.program import moving, read_program
     from sim.cli.progress import StageProgress
     from sim.run.findings import verdict
     from sim.run.recording import recorded, stages_of
@@ -112,7 +112,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     scenario = overridden(path, Overrides(**options))
     try:
         stages = [*stages_of(scenario), *([] if output is None else ["film"])]
-        program = read_program(scenario.program, scenario.choices)
+        program = moving(read_program(scenario.program, scenario.choices))
         with StageProgress(*stages) as progress, recorded(program, scenario, progress) as recording:
             if output is None:
                 progress.finish()

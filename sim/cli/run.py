@@ -124,7 +124,7 @@ def _run_one(scenario: "Scenario", files: _Files, *, as_json: bool) -> int:
 
 
 def _run(scenario: "Scenario", files: _Files) -> "DryRun":
-    from parser.program import read_program
+    from parser.program import moving, read_program
     from sim.cli.progress import StageProgress
     from sim.run.card_log import logging_to
     from sim.run.dryrun import dry_run
@@ -140,7 +140,7 @@ def _run(scenario: "Scenario", files: _Files) -> "DryRun":
         stages = stages_of_files(scenario, trace=files.trace)
     with StageProgress("read", *stages) as progress, logging_to(files.card_log, settings) as log:
         progress("read", 0, 1)
-        program = read_program(scenario.program, scenario.choices)
+        program = moving(read_program(scenario.program, scenario.choices))
         if files.output is None:
             return check_expectations(dry_run(program, scenario, progress, log=log))
         return run_into(files.output, program, scenario, progress, log, trace=files.trace)

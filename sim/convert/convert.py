@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.reader import Choices
+from parser.dialect.reader import Choices, Registers
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
@@ -38,6 +38,8 @@ class Converted(NamedTuple):
     open_um
         How far apart the ends of a contour lie at most that only the kerf closes, as those of the compensated path do;
         0 where there is none.
+    registers
+        Values, µm, that the controller's table has to hold, by the names of their registers.
     """
 
     data: bytes
@@ -47,7 +49,8 @@ class Converted(NamedTuple):
     bound_um: float
     lost: tuple[Loss, ...]
     told_by_itself: bool
-    open_um: float = 0.0
+    open_um: float
+    registers: Registers
 
 
 class Refused(NamedTuple):
@@ -84,10 +87,11 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     several = _several_offsets(program.toolpath, wanted)
     if several:
         return Refused("several-offsets", program, values=(("of", several),))
-    draft = draft_for(_path(program, checked, wanted), wanted)
+    path = _path(program, checked, wanted)
+    draft = draft_for(path, wanted)
     if not len(draft):
         return Refused("nothing", program)
-    return _proved(program, draft, written(draft, wanted), wanted)
+    return _proved(program, path, draft, wanted)
 
 
 def _path(program: Program, checked: Checked, wanted: Wanted) -> Toolpath:
@@ -106,7 +110,8 @@ def _several_offsets(toolpath: Toolpath, wanted: Wanted) -> str:
     return some(f"{mm(one):+.3f} mm" for one in left.tolist()) if len(left) > 1 else ""
 
 
-def _proved(program: Program, draft: Draft, made: Written, wanted: Wanted) -> Converted | Refused:
+def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted) -> Converted | Refused:
+    made = written(draft, wanted)
     data = made.text.encode()
     choices = read_with(draft, wanted)
     try:
@@ -127,8 +132,8 @@ def _proved(program: Program, draft: Draft, made: Written, wanted: Wanted) -> Co
     if held.off_um > wanted.bound_um:
         return Refused("off", back, values=(("off", f"{held.off_um:.3f}"), ("bound", f"{wanted.bound_um:g}")))
     alone = wanted.iso is None or _is_told_by_itself(data, draft, made, wanted, choices)
-    lost = losses(program, draft, made, wanted)
-    return Converted(data, back, checked, held.off_um, wanted.bound_um, lost, alone, open_um)
+    lost = losses(program, path, draft, made, wanted)
+    return Converted(data, back, checked, held.off_um, wanted.bound_um, lost, alone, open_um, choices.registers)
 
 
 def _is_told_by_itself(data: bytes, draft: Draft, made: Written, wanted: Wanted, choices: Choices) -> bool:

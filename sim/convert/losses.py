@@ -10,11 +10,14 @@ from parser.write.losses import Loss, lost_words, some
 from sim.convert.wanted import Wanted
 
 
-def losses(program: Program, draft: Draft, made: Written, wanted: Wanted) -> tuple[Loss, ...]:
-    """What the written text does not have of a program, in the order in which it is told."""
+def losses(program: Program, path: Toolpath, draft: Draft, made: Written, wanted: Wanted) -> tuple[Loss, ...]:
+    """What the written text does not have of a program, in the order in which it is told.
+
+    `path` is what was drafted of it, as programmed or as the controller runs it.
+    """
     words = program.toolpath.words
     of_text = lost_words(program.text) if words is None else _lost_fields(program, words, wanted)
-    found = (*of_text, *_lost_offsets(program.toolpath, wanted), *_changed_rows(draft, made, wanted))
+    found = (*of_text, *_lost_offsets(program.toolpath, wanted), *_changed_rows(path, draft, made, wanted))
     return tuple(loss for loss in found if loss.number)
 
 
@@ -43,13 +46,16 @@ def _lost_offsets(toolpath: Toolpath, wanted: Wanted) -> tuple[Loss, ...]:
     return (Loss("offsets-left" if wanted.keeps else "offsets-worked-in", some(filter(None, names)), len(set(names))),)
 
 
-def _changed_rows(draft: Draft, made: Written, wanted: Wanted) -> tuple[Loss, ...]:
+def _changed_rows(path: Toolpath, draft: Draft, made: Written, wanted: Wanted) -> tuple[Loss, ...]:
     """Rows that became no block, more than one, or one of another kind."""
     blocks = np.bincount(made.row, minlength=len(draft))
     is_jump = draft.curves.kind == CurveKind.JUMP
-    rapids = is_jump & ~draft.is_placed & (wanted.iso is None) & (draft.words is None)
+    first = len(path) - len(draft)
+    rapids = is_jump & ~draft.is_placed & (blocks > 0) & (wanted.iso is None and draft.words is None)
     return (
-        Loss("rapids", "", int((rapids & (blocks > 0)).sum())),
+        Loss("first-rapids", "", first),
+        Loss("rapids-back", "", int((path.is_jump[first:] & ~is_jump).sum())),
+        Loss("rapids", "", int(rapids.sum())),
         Loss("nothing", "", int((blocks == 0).sum())),
         Loss("split", "", int((blocks > 1).sum())),
     )

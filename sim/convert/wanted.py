@@ -8,6 +8,7 @@ from parser.write.curve_marks import curve_marks
 from parser.write.draft import Draft, Written, draft_of
 from parser.write.iso import written_iso
 from parser.write.iso_choices import IsoChoices
+from parser.write.rapids import without_rapids
 from parser.write.sides import registers_of
 from parser.write.threeb import Form, ThreeBChoices, written_3b
 
@@ -53,9 +54,11 @@ class Wanted(NamedTuple):
 
 
 def draft_for(toolpath: Toolpath, wanted: Wanted) -> Draft:
-    """What is to be written of a toolpath: 4B leaves its offset to the controller, and does not say it."""
+    """What is to be written of a toolpath: 3B and 4B have no words for offsets, nor of their own for rapids."""
     draft = draft_of(toolpath)
-    return draft if wanted.iso is not None else draft.without_compensation()
+    if wanted.iso is not None:
+        return draft
+    return (without_rapids(draft) if draft.words is None else draft).without_compensation()
 
 
 def written(draft: Draft, wanted: Wanted) -> Written:

@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 from parser.findings.catalogue import LANGUAGES, Said, texts
 from parser.findings.errors import DrawingError, DrycutError, ProgramError
 from parser.findings.findings import counted
-from parser.program import load_program
+from parser.program import load_program, moving
 from sim.files import scratch
 from sim.jobs.index import Row
 from sim.jobs.run_into import FILES, run_into
@@ -87,7 +87,7 @@ def _run(task: Task, folder: Path) -> Done:
     made = folder / "made"
     scenario = _with_drawing(task, folder)
     try:
-        run = run_into(made, load_program(task.data, task.name, scenario.choices), scenario)
+        run = run_into(made, moving(load_program(task.data, task.name, scenario.choices)), scenario)
     except DrawingError as error:  # people know the drawing by where it stands
         raise DrawingError(str(error).replace(*_places_of_drawing(scenario, task.scenario))) from None
     return Done(_row(run), {name: (made / name).read_bytes() for name in FILES if (made / name).exists()})

@@ -9,12 +9,13 @@ from pathlib import Path
 import pytest
 from places import ROOT
 
-from parser.findings.codes import CODES
+from parser.findings.codes import CODES, CODES_OF_ISO
 
-CODE = re.compile(r"3B\d+")
-SPEAKS_OF_CODES = re.compile(r"3B\d|\.code\b|\.values\b")
-MAKERS = {"Finding", "finding", "at_block"}
-"""`Finding(code, …)`, `lines.finding(code, …)` and `at_block(toolpath, lines, code, …)` make one."""
+CODE = re.compile(r"(?:3B|ISO)\d{3}")
+SPEAKS_OF_CODES = re.compile(r"3B\d|ISO\d|\.code\b|\.values\b")
+MAKERS = {"Finding", "finding", "at_block", "at_word", "_at", "_at_first", "_of_span", "Bad"}
+"""`Finding(code, …)`, `lines.finding(code, …)` and `at_block(toolpath, lines, code, …)` make one, and so do helpers of
+modules; what cannot be read as a word goes by its code."""
 TABLE = ROOT / "parser" / "findings" / "codes.py"
 ALLOWED = ("CODES[", "settings.shows(", "job.settings.shows(")
 DECIDERS = (ast.Compare, ast.Match, ast.If, ast.IfExp, ast.comprehension)
@@ -37,7 +38,12 @@ def made(tree: ast.AST) -> Iterator[ast.Constant]:
     for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call)):
         name = call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
         if name in MAKERS:
-            yield from (argument for argument in call.args if is_code(argument))
+            yield from (one for argument in call.args for one in either(argument) if is_code(one))
+
+
+def either(node: ast.expr) -> tuple[ast.expr, ...]:
+    """What an argument may be: both ends of a choice, else itself."""
+    return (node.body, node.orelse) if isinstance(node, ast.IfExp) else (node,)
 
 
 def strays(tree: ast.AST) -> list[str]:
@@ -90,7 +96,9 @@ def test_nothing_is_decided_by_a_code_or_a_value() -> None:
 
 
 def test_every_code_is_made_and_every_one_made_is_in_the_table() -> None:
-    assert {node.value for tree in modules().values() for node in made(tree)} == set(CODES)
+    made_codes = {node.value for tree in modules().values() for node in made(tree)}
+    assert made_codes | set(CODES_OF_ISO.values()) == set(CODES)
+    assert set(CODES_OF_ISO) <= made_codes
     assert list(CODES) == sorted(CODES)
 
 

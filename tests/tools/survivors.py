@@ -42,6 +42,7 @@ _READING = ("tests/parser", "tests/sim/check", "tests/sim/test_second_dialect.py
 _MOVING = ("tests/controller", "tests/sim/run/test_interpolators.py")
 AREAS = {
     "checks": Area(("parser/threeb", "parser/shape", "sim/check"), _READING),
+    "iso": Area(("parser/iso",), ("tests/parser/iso",)),
     "stepping": Area(("controller/stepping",), _MOVING),
     "planner": Area(("controller/motion",), _MOVING),
 }

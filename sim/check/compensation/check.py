@@ -52,7 +52,7 @@ def own_compensation(program: Program, told: Compensation, is_judged: Bools) -> 
         program=replace(program, toolpath=offset_toolpath(passed, made.path)),
         path=made.path,
         side=Side(int(told.side[np.flatnonzero(told.side)[0]])),
-        passes=passes_beside(runs),
+        passes=passes_beside(runs, moved_um(told)),
         edge_passes=path_passes(runs, made.path),
         left_um=_left_um(made.path, stretches),
         gouges=tuple(gouge for one in stretches for gouge in one.beside.gouges),

@@ -135,13 +135,22 @@ def _is_mark(program: Program, run: CompensatedRound, gouge: Gouge) -> bool:
 
 
 def _told_gouges(stretches: Sequence[Held]) -> Iterator[tuple[CompensatedRound, Gouge]]:
-    """Gouges, each place of an edge once: of the pass that comes nearest, the first one of several."""
-    told: list[tuple[CompensatedRound, Gouge]] = []
+    """Gouges, each place of an edge once: of the pass that comes nearest, the first one of several.
+
+    A lead-in and a lead-out that cross the contour at one place are told as one.
+    """
+    told: dict[int, list[tuple[CompensatedRound, Gouge]]] = {}
     for one in sorted(stretches, key=lambda one: one.run.by_um):
-        others = [gouge.place_um for run, gouge in told if run.along.edge == one.run.along.edge]
-        told += [
-            (one.run, gouge)
-            for gouge in one.beside.gouges
-            if all(np.hypot(gouge.place_um.x - x, gouge.place_um.y - y) > 2.0 * one.run.by_um for x, y in others)
-        ]
-    yield from told
+        on_edge = told.setdefault(one.run.along.edge, [])
+        for gouge in one.beside.gouges:
+            if not any(_is_told(one.run, gouge, run, earlier) for run, earlier in on_edge):
+                on_edge.append((one.run, gouge))
+    for on_edge in told.values():
+        yield from on_edge
+
+
+def _is_told(run: CompensatedRound, gouge: Gouge, other: CompensatedRound, earlier: Gouge) -> bool:
+    """Whether a gouge is at the place of an earlier one: of another pass over the edge, or into the same block."""
+    (x, y), (was_x, was_y) = gouge.place_um, earlier.place_um
+    is_near = np.hypot(x - was_x, y - was_y) <= 2.0 * run.by_um
+    return bool(is_near and (run is not other or gouge.row == earlier.row))

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from controller.offset.path import OffsetPath
-from parser.geometry.curves import Ints
+from parser.geometry.curves import Floats, Ints
 from parser.shape.passes import Pass, Passes
 from sim.check.beside import PassBeside
 from sim.check.compensation.rounds import CompensatedRound
@@ -24,13 +24,19 @@ def path_passes(runs: Sequence[CompensatedRound], path: OffsetPath) -> Passes:
     return _passes(runs, np.stack([first, past - 1], axis=1), len(path.source_row))
 
 
-def passes_beside(runs: Sequence[CompensatedRound]) -> tuple[PassBeside, ...]:
-    """The passes of each number: the least offset, and the direction of the first of them."""
+def passes_beside(runs: Sequence[CompensatedRound], left_um: Floats) -> tuple[PassBeside, ...]:
+    """The passes of each number: the least offset, and the direction of the first of them.
+
+    Where no contour is run along, one pass at the least of the offsets `left_um` (n,) of the blocks.
+    """
     found: dict[int, PassBeside] = {}
     for one in runs:
         number = one.along.number
         known = found.setdefault(number, PassBeside(one.by_um, one.along.is_back))
         found[number] = known._replace(by_um=min(known.by_um, one.by_um))
+    if not found:
+        by_um = np.abs(left_um[left_um != 0.0])
+        return (PassBeside(float(by_um.min()) if len(by_um) else 0.0, is_back=False),)
     return tuple(found[number] for number in sorted(found))
 
 

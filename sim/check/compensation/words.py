@@ -16,10 +16,6 @@ from parser.text.source import Field
 from parser.toolpath import Compensation
 from sim.check.compensation.asked import WithoutValue
 
-_WORDS = {
-    **dict.fromkeys(("ISO500", "ISO509", "ISO513"), Field.REGISTER),
-    **dict.fromkeys(("ISO501", "ISO502", "ISO503", "ISO508"), Field.SIDE),
-}
 _ON_ARCS = {AlarmKind.SETUP_ARC: "set-up", AlarmKind.CANCEL_ARC: "cancel"}
 
 
@@ -34,20 +30,23 @@ def word_findings(
     yield from _without_value(program, told, alarms)
     for alarm in alarms:
         if alarm.kind in _ON_ARCS:
-            yield _at(program, told, "ISO502", alarm.row, what=_ON_ARCS[alarm.kind])
+            yield _at(program, told, "ISO502", alarm.row, Field.SIDE, what=_ON_ARCS[alarm.kind])
         elif alarm.kind is AlarmKind.SETUP_SHORT and told.by_um[alarm.row] != 0.0:
             length_um = float(program.toolpath.length_um[alarm.row])
-            yield _graver(_at(program, told, "ISO503", alarm.row, length=length_um), alarm)
+            yield _graver(_at(program, told, "ISO503", alarm.row, Field.SIDE, length=length_um), alarm)
         elif alarm.kind is AlarmKind.NO_CANCEL:
             yield _at(program, told, "ISO510", alarm.row)
     sides, offsets = (
         [alarm for alarm in alarms if alarm.kind is kind] for kind in (AlarmKind.SIDE_CHANGED, AlarmKind.OFFSET_CHANGED)
     )
     if sides:
-        yield _graver(_change(program, told, "ISO508", sides[0].row, len(sides)), sides[0])
+        before = _before(told, sides[0].row)
+        found = _at(program, told, "ISO508", sides[0].row, Field.SIDE, **before, more=len(sides) - 1)
+        yield _graver(found, sides[0])
     if offsets:
         first = next((alarm for alarm in offsets if alarm.row in wedges), offsets[0])
-        found = _change(program, told, "ISO509", first.row, len(offsets))
+        before = _before(told, first.row)
+        found = _at(program, told, "ISO509", first.row, Field.REGISTER, **before, more=len(offsets) - 1)
         yield _graver(found._replace(graver=Severity.WARNING if first.row in wedges else None), first)
 
 
@@ -55,16 +54,16 @@ def _without_value(program: Program, told: Compensation, alarms: Sequence[Alarm]
     """Registers without a value (ISO500), no register at all (ISO501), and registers that hold nothing (ISO513)."""
     unknown = {told.register[one.row]: one.row for one in reversed(alarms) if one.kind is AlarmKind.UNKNOWN}
     for register, row in unknown.items():
-        yield _at(program, told, "ISO500" if register else "ISO501", row).with_fact(WithoutValue())
+        field = Field.REGISTER if register else Field.SIDE
+        yield _at(program, told, "ISO500" if register else "ISO501", row, field).with_fact(WithoutValue())
     nothing = np.flatnonzero((told.side != 0) & (told.by_um == 0.0)).tolist()
     for row in {told.register[row]: row for row in reversed(nothing)}.values():
-        yield _at(program, told, "ISO513", row)
+        yield _at(program, told, "ISO513", row, Field.REGISTER)
 
 
-def _change(program: Program, told: Compensation, code: str, row: int, number: int) -> Finding:
-    """Finding at a change in a row while compensation is on, one of a number of such."""
-    was_um = abs(float(told.by_um[row - 1]))
-    return _at(program, told, code, row, before=_side(told, row - 1), was=was_um, more=number - 1)
+def _before(told: Compensation, row: int) -> dict[str, Value]:
+    """Side and offset that were in force before a row at which one of them changes."""
+    return {"before": _side(told, row - 1), "was": abs(float(told.by_um[row - 1]))}
 
 
 def _graver(finding: Finding, alarm: Alarm) -> Finding:
@@ -72,12 +71,14 @@ def _graver(finding: Finding, alarm: Alarm) -> Finding:
     return finding._replace(graver=Severity.ERROR) if alarm.stops else finding
 
 
-def _at(program: Program, told: Compensation, code: str, row: int, **values: Value) -> Finding:
+def _at(
+    program: Program, told: Compensation, code: str, row: int, field: Field | None = None, **values: Value
+) -> Finding:
     """Finding at a row, with the side, the register and the offset that are in force there."""
     in_force: dict[str, Value] = {"side": _side(told, row), "register": told.register[row]}
     if not np.isnan(told.by_um[row]):
         in_force["offset"] = abs(float(told.by_um[row]))
-    return at_block(program.toolpath, program.lines, code, row, _WORDS.get(code), **in_force, **values)
+    return at_block(program.toolpath, program.lines, code, row, field, **in_force, **values)
 
 
 def _side(told: Compensation, row: int) -> str:

@@ -96,7 +96,7 @@ def offset_entry(run: DryRun) -> dict[str, Any] | None:
         "vanished": [
             {
                 "source_block": int(of_drawn[made.passed.row[row]]),
-                "pass": int(made.passed.number[row]) + 1,
+                "pass": int(made.passed.number[row]) + 1 or None,
                 "left_um": rounded(left_um),
             }
             for row, left_um in zip(made.path.vanished.tolist(), made.left_um.tolist(), strict=True)

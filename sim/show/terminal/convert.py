@@ -10,6 +10,7 @@ from parser.findings.codes import Severity
 from parser.geometry.curves import CurveKind
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
+from parser.units import mm
 from parser.write.losses import Loss
 from sim.convert.convert import Converted, Refused
 from sim.convert.wanted import Wanted
@@ -31,6 +32,7 @@ def converted_lines(done: Converted, out: Path, wanted: Wanted, language: Langua
         words("convert.off", off=f"{done.off_um:.3f}", bound=f"{done.bound_um:g}"),
         words("convert.finds", counts=numbered({"warning": warnings})) if warnings else "",
         words("convert.open", gap=f"{done.open_um:.0f}") if done.open_um else "",
+        words("convert.registers", options=_registers(done)) if done.registers else "",
         words("convert.lost", parts=listed(map(_lost, done.lost))) if done.lost else "",
         "" if done.told_by_itself else words("convert.say-dialect", options=_options(wanted)),
     ]
@@ -59,6 +61,10 @@ def _lost(loss: Loss) -> Said:
 def _rows(toolpath: Toolpath) -> Said:
     names = {"line": CurveKind.LINE, "arc": CurveKind.ARC, "jump": CurveKind.JUMP}
     return numbered({name: int(np.count_nonzero(toolpath.kind == kind)) for name, kind in names.items()})
+
+
+def _registers(done: Converted) -> str:
+    return " ".join(f"--offset {name}={mm(by_um):g}mm" for name, by_um in done.registers)
 
 
 def _options(wanted: Wanted) -> str:

@@ -68,7 +68,7 @@ def test_an_arc_back_to_its_start_is_a_whole_circle(end: str) -> None:
 
 @pytest.mark.parametrize(("radius", "sweep"), [("R10", math.pi / 2), ("R-10", 3 * math.pi / 2)])
 def test_a_negative_radius_is_the_longer_way(radius: str, sweep: float) -> None:
-    toolpath = path(f"{HEAD}G03 X10 Y10 {radius}\nM02")
+    toolpath = path(f"G92 X30 Y-7\nG91 G03 X10 Y10 {radius}\nM02")
     assert toolpath.sweep_rad[0] == pytest.approx(sweep)
     assert toolpath.radius_um[0] == pytest.approx(10.0)
 
@@ -119,6 +119,7 @@ def test_the_difference_of_radii_is_told_with_both() -> None:
         "off": 40.0,
     }
     assert (found.line, found.column) == (3, 15)
+    assert found.values["limit"] == pytest.approx(2 * math.sqrt(2), abs=1e-3)
 
 
 def test_an_arc_in_a_subprogram_is_told_once() -> None:
@@ -136,7 +137,9 @@ def test_an_arc_in_a_subprogram_is_told_once() -> None:
     ],
 )
 def test_circles_and_arcs_of_nothing_that_may_be_each_other_are_told(body: str, what: str) -> None:
-    assert [one.values["what"] for one in findings(f"{HEAD}{body}\nM02", "ISO217")] == [what]
+    (found,) = findings(f"{HEAD}{body}\nM02", "ISO217")
+    assert found.values["what"] == what
+    assert found.values["full"] == pytest.approx(math.tau * 5000)
 
 
 @pytest.mark.parametrize(

@@ -90,6 +90,7 @@ def test_calls_that_cannot_be_followed_are_told_and_leave_the_path_in_doubt(
     assert [one.values["what"] for one in program.findings if one.code == "ISO400"] == [what]
     assert program.reading.damages
     assert len(program.toolpath) <= flow.LONGEST
+    assert not [one for one in program.findings if one.code == "ISO109"]
 
 
 def test_calls_of_calls_are_followed_up_to_a_bound(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -109,6 +110,11 @@ def test_a_motion_word_counts_from_when_it_runs() -> None:
         (6, "no-motion-yet")
     ]
     assert [one.after for one in program.reading.damages] == [0]
+
+
+def test_a_long_text_without_calls_runs_to_its_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flow, "LONGEST", 5)
+    assert len(path("G91 G01\n" + "X1\n" * 9 + "M02")) == 9
 
 
 def test_damage_that_never_runs_leaves_nothing_in_doubt() -> None:

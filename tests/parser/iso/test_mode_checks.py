@@ -73,6 +73,32 @@ def test_a_mode_that_is_written_is_kept_too() -> None:
     assert not told(read(written(5, absolute=True, head="G90 G90.1")), "ISO215")
 
 
+def moves(seed: int, *, incremental: bool) -> str:
+    """The same arcs without a word of the mode: ways or places."""
+    lines = written(seed, absolute=False, head="G01").splitlines()
+    if not incremental:
+        return "\n".join(lines)
+    at = [int(word[1:]) for word in lines[0].split()[1:]]
+    for number in range(2, len(lines) - 1):
+        words = lines[number].split()
+        to = [int(words[1][1:]), int(words[2][1:])]
+        lines[number] = " ".join([words[0], f"X{to[0] - at[0]}", f"Y{to[1] - at[1]}", *words[3:]])
+        at = to
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize("seed", [seed for seed in range(30) if len(arcs(seed)) > 1])
+def test_a_mode_that_nothing_says_is_told_by_the_arcs(seed: int) -> None:
+    ways, places = (read(moves(seed, incremental=incremental)) for incremental in (True, False))
+    assert np.allclose(ways.toolpath.end_um, places.toolpath.end_um)
+    told_by = {
+        one.taken: one.why for of in (ways, places) for one in of.reading.assumptions if one.what.endswith("ance")
+    }
+    assert told_by == {"G91": "because-profile", "G90": "because-arcs"}, "fast wire begins with G91"
+    kept = read(moves(seed, incremental=False), dialect="fast-wire")
+    assert [one.taken for one in kept.reading.assumptions if one.what == "assumed-distance"] == ["G91"]
+
+
 @pytest.mark.parametrize("wrong", [1, 2])
 def test_one_arc_in_many_that_is_wrong_changes_no_reading(wrong: int) -> None:
     lines = written(7, absolute=False).splitlines()

@@ -14,7 +14,7 @@ UM = 1e-6
 
 
 def read(text: str) -> Toolpath:
-    return parse_program(text, choices=Choices(dialect="common")).toolpath
+    return parse_program(text, choices=Choices(dialect="common", unit="um")).toolpath
 
 
 def done(text: str) -> PlainIso:
@@ -49,6 +49,11 @@ def test_arcs_turn_about_the_centres_of_a_plain_interpreter(seed: int) -> None:
     np.testing.assert_allclose(complex_of(of.center_um), [row.center for row in arcs], rtol=1e-9, atol=1e-3)
     np.testing.assert_allclose(of.sweep_rad, [row.sweep for row in arcs], rtol=1e-9, atol=1e-9)
     assert (of.radius_um > 0).all()
+    angles = np.angle(complex_of(of.start_um) - complex_of(of.center_um))
+    np.testing.assert_allclose(of.start_angle_rad, angles, rtol=1e-9, atol=1e-9)
+    straight = toolpath.picked(~toolpath.is_arc)
+    assert np.isnan([straight.start_angle_rad, straight.radius_um, *straight.center_um.T]).all()
+    assert not straight.sweep_rad.any()
 
 
 @pytest.mark.parametrize("seed", SEEDS)

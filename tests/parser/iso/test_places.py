@@ -39,7 +39,10 @@ def test_the_first_place_is_the_one_that_g92_names_else_the_origin() -> None:
 
 
 def test_a_bare_g92_names_the_origin() -> None:
-    assert ends(path("G92\nG90 G01 X9\nG92\nX4\nM02")) == [(9.0, 0.0), (13.0, 0.0)]
+    program = read("G92\nG90 G01 X9\nG92\nX4\nM02")
+    assert ends(program.toolpath) == [(9.0, 0.0), (13.0, 0.0)]
+    assert "assumed-place" in {one.what for one in program.reading.assumptions}
+    assert "assumed-place" not in {one.what for one in read("G92 Z0\nG90 G01 X9\nM02").reading.assumptions}
 
 
 def test_missing_axes_stay_in_g90_and_do_not_move_in_g91() -> None:
@@ -66,6 +69,7 @@ def test_absolute_centres_are_read_in_the_coordinates_of_their_block() -> None:
 
 def test_g92_that_says_what_is_known_is_nothing_to_tell() -> None:
     assert not findings("G92 X0 Y0\nG90 G01 X10\nG92 X10 Y0\nX20\nM02", "ISO303")
+    assert [one.block for one in findings("G92 X0 Y0\nG90 G01 X10\nG92 X11\nX20\nM02", "ISO303")] == [0]
 
 
 @pytest.mark.parametrize("stop", ["M00", "M01", "M21\nM20", "M00\nG54\nT84"])
@@ -102,14 +106,18 @@ def test_words_take_effect_before_the_motion_of_their_block_and_stops_behind_it(
     assert toolpath.stops[0].after == 1
 
 
+def test_the_first_word_of_a_text_is_a_word_like_others() -> None:
+    assert ends(path("X5 G01\nY7\nM02")) == [(5.0, 0.0), (5.0, 7.0)]
+
+
 def test_numbers_have_the_scale_of_their_writing_and_unit() -> None:
     toolpath = path("G92 X0 Y0\nG90 G01 X1013\nX1.013\nG20 X.5\nX10000\nG21 X1.\nM02")
     assert ends(toolpath) == [(1013.0, 0.0), (1013.0, 0.0), (12_700.0, 0.0), (25_400.0, 0.0), (1000.0, 0.0)]
 
 
 def test_a_unit_word_counts_over_the_unit_of_the_family() -> None:
-    inches = path("G92 X0. Y0.\nG90 G01 X.5\nG21 X5.\nM02", "mitsubishi", unit="inch")
-    assert ends(inches) == [(12_700.0, 0.0), (5000.0, 0.0)]
+    inches = path("G92 X0. Y0.\nG90 G01 X.5\nG21 X5.\nX700\nM02", "mitsubishi", unit="inch")
+    assert ends(inches) == [(12_700.0, 0.0), (5000.0, 0.0), (700.0, 0.0)]
 
 
 def test_rapids_are_jumps_and_a_cut_of_no_length_is_told() -> None:
@@ -168,3 +176,4 @@ def test_labels_are_the_numbers_of_blocks() -> None:
 def test_findings_of_words_bear_the_row_that_their_block_makes() -> None:
     (found,) = findings("G92 X0 Y0\nG90 G01 X5\nX9 G01\nM02", "ISO130")
     assert found.block == 2
+    assert [one.block for one in findings("G92 X0 Y0\nM05 G90\nG01 X5\nM02", "ISO130")] == [0]

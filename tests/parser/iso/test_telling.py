@@ -44,6 +44,7 @@ def assumed(program: Program) -> dict[str, tuple[str, str]]:
         (FANUC.replace("S1 D1\n", ""), "fanuc", "because-o-inches"),
         (FANUC.replace("S1 D1\n", "").replace(".1034", ".103"), "common", "because-none"),
         (FAST, "fast-wire", "because-long-integers"),
+        (FAST.replace("M02", ""), "fast-wire", "because-long-integers"),  # a missing end, mended, changes nothing
         (FAST.replace("M02", "G04 X2.5\nM02"), "fast-wire", "because-long-integers"),
         ("G92 X0 Y0\nG91\nG01 X-10 Y20\nM02\n", "common", "because-none"),
         ("G92 X0 Y0\nG90\nG01 X10.5 Y20.\nM02\n", "common", "because-none"),

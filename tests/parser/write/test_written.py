@@ -12,6 +12,7 @@ from parser.toolpath import Compensation, CompensationRules, Stop, Toolpath
 from parser.write.draft import Draft, draft_of
 from parser.write.iso import written_iso
 from parser.write.iso_choices import IsoChoices, iso_choices
+from parser.write.rapids import without_rapids
 from parser.write.threeb import Form, ThreeBChoices, written_3b
 
 FORMS: tuple[Form, ...] = ("compact", "aligned", "detailed")
@@ -124,6 +125,26 @@ def test_a_line_in_the_air_becomes_a_rapid_and_comes_back() -> None:
     iso = in_iso(text)
     assert "M00\nG00 X5000 Y0\nM00\n" in iso
     assert in_3b(iso).splitlines()[1:] == text.splitlines()
+
+
+def test_a_rapid_back_through_the_cut_is_a_block_of_3b_like_others() -> None:
+    hole = "G01 X5000 Y0\nG03 X5000 Y0 I-5000 J0\n"
+    away = f"M00\nG92 X20000 Y0\n{hole.replace('5000 Y0', '25000 Y0')}"
+    plan = draft(f"G90 G92 X0 Y0\n{hole}G00 X0 Y0\n{away}G00 X20000 Y0\nM02\n", dialect="common")
+    text = written_3b(without_rapids(plan), ThreeBChoices()).text
+    assert text.splitlines()[1:] == [
+        *("B5000B0B5000GXL1", "B5000B0B20000GYNR1", "B5000B0B5000GXL3", "D"),
+        "Start Point = 20.00000 , 0.00000 ; X , Y",
+        *("B5000B0B5000GXL1", "B5000B0B20000GYNR1", "B5000B0B5000GXL3", "DD"),
+    ]
+
+
+def test_moves_before_the_first_cut_only_say_where_it_begins() -> None:
+    plan = draft("G90 G92 X0 Y0\nG00 X3000 Y0\nM00\nG01 X9000 Y0\nG01 X3000\nM02\n", dialect="common")
+    text = written_3b(without_rapids(plan), ThreeBChoices()).text
+    assert text.splitlines()[1:] == [
+        *("Start Point = 3.00000 , 0.00000 ; X , Y", "B6000B0B6000GXL1", "B6000B0B6000GXL3", "DD")
+    ]
 
 
 def test_more_than_a_turn_is_written_as_whole_turns_and_a_rest() -> None:

@@ -61,6 +61,15 @@ def test_a_register_is_told_and_worked_in(tmp_path: Path) -> None:
     assert "B4900B0B19600GYNR1" in out.read_text(encoding="utf-8")
 
 
+def test_values_that_stay_in_the_table_are_told_as_options(tmp_path: Path) -> None:
+    path, out = tmp_path / "hole.iso", tmp_path / "again.iso"
+    path.write_text(HOLE, encoding="utf-8")
+    code, said, _ = run(path, "-o", out, "--offset", "D0=0.1mm", "--dialect", "fanuc")
+    assert code == 0
+    assert "check it with --offset D1=0.1mm" in " ".join(said.split())
+    assert run_inside("check", out, "--offset", "D1=0.1mm").returncode == 0
+
+
 def test_an_offset_is_worked_into_3b(tmp_path: Path) -> None:
     path, out = tmp_path / "hole.3b", tmp_path / "cut.3b"
     path.write_text("B5000B0B5000GXL1\nB5000B0B20000GYNR1\nB5000B0B5000GXL3\nDD\n", encoding="utf-8")

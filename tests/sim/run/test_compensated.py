@@ -150,3 +150,19 @@ def test_a_chamfer_of_a_sharp_corner_is_a_bridge_of_the_program_s_rules() -> Non
 def test_a_contour_at_nothing_runs_as_written() -> None:
     ran = run(program(head("H1=0"), around(DIE)))
     assert ran.toolpath.end_um.tolist() == read(die()).toolpath.end_um.tolist()
+
+
+@pytest.mark.parametrize(
+    "blocks",
+    [
+        ["G41 G01 X0 Y0 H1"],
+        ["G41 G01 X1000 Y0 H1"],
+        ["G41 G01 X1000 Y0 H1", "G40 X2000"],
+        ["G41 G00 X1000 Y0 H1", "G01 X2000", "G00 X3000", "G40 G01 X0"],
+        ["G01 X1000", "G41 X1000 H1", "X1000", "G40 X1000"],
+    ],
+    ids=["nothing moves", "set-up alone", "set-up and cancel", "jumps", "no length"],
+)
+def test_odd_programs_run_and_have_a_lawful_report(blocks: list[str]) -> None:
+    report = build_report(run(program(head("H1=100"), blocks), kerf=True))
+    jsonschema.validate(report, SCHEMA)
