@@ -13,7 +13,7 @@ from parser.files.reading import read_bytes
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
 from parser.iso.dialect import ISO
-from parser.iso.profile import PROFILES
+from parser.iso.profiles.profile import PROFILES
 from parser.text.encoding import decode_text, narrow, no_program, printable
 from parser.text.lines import LineIndex
 from parser.threeb.dialect import THREE_B

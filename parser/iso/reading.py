@@ -5,15 +5,15 @@ from parser.findings.codes import CODES_OF_ISO, Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
-from parser.iso.lexer import read_listing
-from parser.iso.listing import Listing
-from parser.iso.mill_code import mill_code
-from parser.iso.mode_checks import mode_findings
-from parser.iso.motion import Moved, moved
-from parser.iso.not_simulated import not_simulated
-from parser.iso.telling import Told, in_other_distance, reread, told
-from parser.iso.text_checks import checked
+from parser.iso.listing.lexer import read_listing
+from parser.iso.listing.listing import Listing
+from parser.iso.path.motion import Moved, moved
+from parser.iso.telling.mill_code import mill_code
+from parser.iso.telling.mode_checks import mode_findings
+from parser.iso.telling.told import Told, in_other_distance, reread, told
 from parser.iso.trace import Trace
+from parser.iso.words.not_simulated import not_simulated
+from parser.iso.words.text_checks import checked
 from parser.text.encoding import no_program
 
 

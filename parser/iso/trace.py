@@ -13,12 +13,12 @@ import numpy as np
 
 from parser.dialect.decoding import UNREAD, DecodedBlock, DecodeStep, InForce
 from parser.dialect.reader import Choices
-from parser.iso.flow import flow
-from parser.iso.given import Given
-from parser.iso.listing import Assignment, Listing
-from parser.iso.modes import NO_MOTION, carried, modes
-from parser.iso.profile import Profile
-from parser.iso.registers import offsets
+from parser.iso.listing.listing import Assignment, Listing
+from parser.iso.path.flow import flow
+from parser.iso.path.given import Given
+from parser.iso.path.modes import NO_MOTION, carried, modes
+from parser.iso.path.registers import offsets
+from parser.iso.profiles.profile import Profile
 
 _COOR: Final = {letter: at for at, letter in enumerate("XYZUVWIJKR", start=1)}
 """Places of dimension words in COOR: the course has X and Y; the others are put behind them here."""

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 from parser.findings.errors import SettingsError
-from parser.iso.profile import Profile, profile
+from parser.iso.profiles.profile import Profile, profile
 from parser.units import UM_PER_MM
 
 Unit = Literal["um", "mm", "inch"]

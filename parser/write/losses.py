@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Bools
-from parser.iso.lexer import read_listing
-from parser.iso.listing import Listing
+from parser.iso.listing.lexer import read_listing
+from parser.iso.listing.listing import Listing
 
 _MOST_NAMED = 8
 _SWITCHES = "ABCEFQSTUVWZ"

@@ -2,7 +2,7 @@
 
 import pytest
 
-from parser.iso import flow
+from parser.iso.path import flow
 from parser.toolpath import Stop
 from tests.tools.iso_reading import findings, path, read
 

@@ -4,7 +4,7 @@ import pytest
 
 from parser.dialect.reader import Choices
 from parser.findings.errors import ProgramError
-from parser.iso.profile import PROFILES
+from parser.iso.profiles.profile import PROFILES
 from parser.program import parse_program
 
 PATH = "G92 X0 Y0\nG90\n{}\nG01 X0 Y5000\nX5000 Y5000\nM02\n"

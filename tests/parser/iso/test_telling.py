@@ -4,7 +4,7 @@ import pytest
 
 from parser.dialect.reader import Choices
 from parser.findings.catalogue import LANGUAGES, term
-from parser.iso.profile import PROFILES
+from parser.iso.profiles.profile import PROFILES
 from parser.program import Program, parse_program
 
 SQUARE = "G01 X0 Y5000\nX5000 Y5000\nX5000 Y-5000\nX-5000 Y-5000\nX-5000 Y5000\nX0 Y5000\nM02\n"

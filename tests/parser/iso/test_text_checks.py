@@ -6,10 +6,10 @@ import pytest
 
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, edited
-from parser.iso.lexer import read_listing
-from parser.iso.listing import Listing
-from parser.iso.profile import profile
-from parser.iso.text_checks import checked
+from parser.iso.listing.lexer import read_listing
+from parser.iso.listing.listing import Listing
+from parser.iso.profiles.profile import profile
+from parser.iso.words.text_checks import checked
 
 COMMON = profile("common")
 

@@ -4,8 +4,8 @@ import pytest
 
 from parser.dialect.decoding import UNREAD, DecodedBlock
 from parser.dialect.reader import Choices
-from parser.iso.lexer import read_listing
-from parser.iso.profile import profile
+from parser.iso.listing.lexer import read_listing
+from parser.iso.profiles.profile import profile
 from parser.iso.trace import Trace, binary_coded, flags
 
 COURSE = "N06 G90 G41 D11 G01 X200 Y300 F200 ;"

@@ -7,9 +7,9 @@ import pytest
 from parser.dialect.reader import Choices
 from parser.findings.facts import TooLarge, telling
 from parser.findings.findings import Finding
-from parser.iso.lexer import read_listing
-from parser.iso.profile import PROFILES, profile
-from parser.iso.word_checks import GROUPS, word_findings
+from parser.iso.listing.lexer import read_listing
+from parser.iso.profiles.profile import PROFILES, profile
+from parser.iso.words.word_checks import GROUPS, word_findings
 from parser.program import parse_program
 from sim.check.batch import Job, check_file
 from sim.check.settings import CheckSettings

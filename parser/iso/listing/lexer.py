@@ -1,0 +1,154 @@
+"""Text to listing: words by their letters, remarks, tape marks, assignments, and what is none of them."""
+
+from itertools import chain
+
+import numpy as np
+
+from parser.findings.errors import ProgramError
+from parser.findings.findings import Edit, Finding, Value, file_order
+from parser.geometry.curves import Floats, Ints
+from parser.iso.listing.listing import Blocks, Listing, Unread, Words
+from parser.iso.listing.odd_lines import OddLine, odd_line
+from parser.iso.listing.plain_words import PlainWords, plain_words
+from parser.iso.listing.remarks import Bare, hidden_blocks, without_remarks
+from parser.text.encoding import narrow, no_program
+from parser.text.lines import LineIndex
+
+MOST_BLOCKS = 2_000_000
+"""Blocks that are read of one program, as of 3B."""
+
+_LONGEST_SHOWN = 40
+
+
+def read_listing(text: str) -> Listing:
+    """The words of a text (docs/iso.md §1). Raises ProgramError for more than `MOST_BLOCKS`."""
+    folded = narrow(text)
+    lines = LineIndex(folded)
+    bare = without_remarks(lines)
+    plain = plain_words(bare.codes)
+    if len(plain.opens) + len(plain.odd) > MOST_BLOCKS:
+        raise ProgramError(no_program("too-many-blocks", f"{MOST_BLOCKS:,}", iso=True))
+    odd = _odd_lines(folded, bare, plain)
+    in_blocks = [line for line in odd if not line.is_title]
+    words, blocks = _gathered(lines, plain, in_blocks)
+    blocks, opened = _with_open_remarks(lines, bare, blocks)
+    at = blocks.first.searchsorted([line.span[0] for line in in_blocks]).tolist()
+    numbered = list(zip(at, in_blocks, strict=True))
+    unread = [(bad.code, Unread(bad.span, block)) for block, line in numbered for bad in line.bad]
+    titles = [line.span for line in odd if line.is_title]
+    return Listing(
+        text,
+        lines,
+        words,
+        blocks,
+        tuple(one._replace(block=block) for block, line in numbered for one in line.assignments),
+        tuple(one._replace(block=block) for block, line in numbered for one in line.statements),
+        bare.remarks,
+        tuple(sorted([*opened, *(one for _, one in unread)])),
+        bare.tape_end,
+        tuple(sorted([*_findings(lines, bare, unread, opened, titles), *_small_letters(lines, words)], key=file_order)),
+    )
+
+
+def _odd_lines(folded: str, bare: Bare, plain: PlainWords) -> list[OddLine]:
+    """All lines that are not plain, in order; text stands for a title up to the first G word."""
+    g_words = plain.first[plain.letter == ord("G")]
+    until = int(g_words[0]) if len(g_words) else len(folded)
+    read: list[OddLine] = []
+    for first, past in plain.odd.tolist():
+        line = odd_line(_line(folded, bare, first, past), first, may_be_title=first < until)
+        read.append(line)
+        if any(word.letter == ord("G") for word in line.words):
+            until = min(until, first)
+    return read
+
+
+def _line(folded: str, bare: Bare, first: int, past: int) -> str:
+    """The characters of a line: blanks for remarks and control characters, and what is not ASCII as written."""
+    written = bare.codes[first:past]
+    line = np.where(written < ord(" "), np.uint8(ord(" ")), written).tobytes().decode("ascii")
+    if folded.isascii():
+        return line
+    return "".join(char if code == "?" else code for char, code in zip(folded[first:past], line, strict=True))
+
+
+def _gathered(lines: LineIndex, plain: PlainWords, odd: list[OddLine]) -> tuple[Words, Blocks]:
+    """The words of plain and odd lines, and their blocks, in file order."""
+    ends = np.append(plain.opens, len(plain.letter))[1:] - 1
+    first = np.concatenate([plain.first[plain.opens], np.array([line.span[0] for line in odd], dtype=np.int64)])
+    past = np.concatenate([plain.past[ends], np.array([line.span[1] for line in odd], dtype=np.int64)])
+    is_plain = np.zeros(len(plain.opens), dtype=np.bool_)
+    is_skipped = np.concatenate([is_plain, np.array([line.is_skipped for line in odd], dtype=np.bool_)])
+    is_damaged = np.concatenate([is_plain, np.array([line.is_damaged for line in odd], dtype=np.bool_)])
+    order = np.argsort(first, kind="stable") if odd else slice(None)
+    first = first[order]
+    letter, value, decimals, word_first, word_past = _all_words(plain, odd)
+    opens = np.append(word_first.searchsorted(first), len(word_first))
+    block = np.repeat(np.arange(len(first)), np.diff(opens))
+    words = Words(letter, value, decimals, word_first, word_past, block)
+    return words, Blocks(lines.lines(first), first, past[order], is_skipped[order], is_damaged[order], opens)
+
+
+def _all_words(plain: PlainWords, odd: list[OddLine]) -> tuple[Ints, Floats, Ints, Ints, Ints]:
+    """Letter, value, decimals, first and past of all words, in file order."""
+    columns = plain.letter, plain.value, plain.decimals, plain.first, plain.past
+    rows = list(chain.from_iterable(line.words for line in odd))
+    if not rows:
+        return columns
+    letter, value, decimals, first, past = (
+        np.concatenate([column, np.array(more, dtype=column.dtype)])
+        for column, more in zip(columns, zip(*rows, strict=True), strict=True)
+    )
+    order = np.argsort(first, kind="stable")
+    return letter[order], value[order], decimals[order], first[order], past[order]
+
+
+def _with_open_remarks(lines: LineIndex, bare: Bare, blocks: Blocks) -> tuple[Blocks, list[Unread]]:
+    """The blocks, damaged where a remark is not closed, and these remarks: they may hold what was meant to run."""
+    spans = bare.remarks[bare.is_open & (bare.remarks[:, 0] < bare.tape_end)]
+    if not len(spans):
+        return blocks, []
+    line = lines.lines(spans[:, 0])
+    at = blocks.line.searchsorted(line)
+    is_in = blocks.line.searchsorted(line, side="right") > at
+    is_damaged = blocks.is_damaged.copy()
+    is_damaged[at[is_in]] = True
+    block = np.where(is_in, at, -1).tolist()
+    unread = [Unread((first, past), number) for (first, past), number in zip(spans.tolist(), block, strict=True)]
+    return blocks._replace(is_damaged=is_damaged), unread
+
+
+def _findings(
+    lines: LineIndex,
+    bare: Bare,
+    unread: list[tuple[str, Unread]],
+    opened: list[Unread],
+    titles: list[tuple[int, int]],
+) -> list[Finding]:
+    """ISO1xx of the text itself, but for small letters."""
+    found = [lines.finding(code, one.span, text=_shown(lines.text[slice(*one.span)])) for code, one in unread]
+    found += [lines.finding("ISO105", one.span, text=_shown(lines.text[slice(*one.span)])) for one in opened]
+    hidden = [span for span in hidden_blocks(lines.text, bare.remarks) if span[0] < bare.tape_end]
+    return [*found, *_at_first(lines, "ISO106", hidden), *_at_first(lines, "ISO107", titles)]
+
+
+def _at_first(lines: LineIndex, code: str, spans: list[tuple[int, int]]) -> list[Finding]:
+    """Finding at the first of some spans, where there are any."""
+    shown = [_shown(lines.text[slice(*span)]) for span in spans[:1]]
+    return [lines.finding(code, spans[0], text=text, more=len(spans) - 1) for text in shown]
+
+
+def _small_letters(lines: LineIndex, words: Words) -> list[Finding]:
+    """ISO104 at the first word with a small letter, with the capitals of all of them."""
+    small = np.flatnonzero(lines.codes[words.first] >= ord("a"))
+    if not len(small):
+        return []
+    edits = tuple(Edit(at, at + 1, lines.text[at].upper()) for at in words.first[small].tolist())
+    word = int(small[0])
+    span = int(words.first[word]), int(words.past[word])
+    values: dict[str, Value] = {"text": lines.text[slice(*span)], "more": len(small) - 1}
+    return [lines.finding("ISO104", span, int(words.block[word]) + 1, **values)._replace(edits=edits)]
+
+
+def _shown(text: str) -> str:
+    return text if len(text) <= _LONGEST_SHOWN else text[:_LONGEST_SHOWN] + "…"

@@ -1,0 +1,1 @@
+"""What blocks move, in the order in which they run: `Listing` and `Profile` to the toolpath."""

@@ -1,0 +1,133 @@
+"""Places: where each block begins and ends, µm, from coordinates given as places and as ways (docs/iso.md §5)."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Bools, Floats, Ints
+from parser.iso.path.given import Given
+from parser.iso.path.modes import NO_MOTION, Modes
+
+DWELL, SET_PLACE = 40, 920
+"""G04, whose X is a time, and G92, tenfold."""
+
+_DIGITS = 6
+
+
+class Coordinates(NamedTuple):
+    """Numbers of e blocks as they run, µm, NaN where a word is missing.
+
+    Attributes
+    ----------
+    end, center
+        (e, 2) X Y and I J, places or ways.
+    radius
+        (e,) R.
+    moves
+        (e,) whether a block is told to move, be it by nothing.
+    names
+        (e,) whether a block names its place by G92.
+    lacks_motion
+        (e,) whether a block has numbers to move by, and no motion word was there before it ran.
+    """
+
+    end: Floats
+    center: Floats
+    radius: Floats
+    moves: Bools
+    names: Bools
+    lacks_motion: Bools
+
+
+class Places(NamedTuple):
+    """Where e blocks begin and end, on the table: µm, where the first G92 names the place of the start.
+
+    Attributes
+    ----------
+    start_um, end_um
+        (e, 2) of each block as it runs; the same where it does not move.
+    shift_um
+        (e, 2) what is added to coordinates as programmed.
+    is_threaded
+        (e,) G92 behind a stop: the wire was threaded anew at the place that it names.
+    is_rebased
+        (e,) G92 elsewhere that names another place than the wire is at: from here on coordinates are others.
+    """
+
+    start_um: Floats
+    end_um: Floats
+    shift_um: Floats
+    is_threaded: Bools
+    is_rebased: Bools
+
+
+def coordinates(given: Given, runs: Ints, mode: Modes) -> Coordinates:
+    """The numbers of the blocks `runs` (e,) at their scale. A bare G92 names X0 Y0."""
+    words = given.listing.words
+
+    def um(letter: str) -> Floats:
+        word = given.word(letter)[runs]
+        scale = np.where(words.decimals[word] < 0, mode.integer_um, mode.point_um)
+        return np.where(word >= 0, exact(words.value[word] * scale), np.nan)
+
+    if not len(words.value):
+        nothing = np.full((len(runs), 2), np.nan)
+        return Coordinates(nothing, nothing, nothing[:, 0], *np.zeros((3, len(runs)), dtype=np.bool_))
+    end, center = np.column_stack([um("X"), um("Y")]), np.column_stack([um("I"), um("J")])
+    names = given.g(SET_PLACE)[runs]
+    is_told = _any(end) | ((mode.motion >= 2) & _any(center))
+    to_move = is_told & ~names & ~given.g(DWELL)[runs] & ~given.listing.blocks.is_damaged[runs]
+    has_motion = mode.motion != NO_MOTION
+    end[names & bare_place(given)[runs]] = 0.0
+    lacks_motion = to_move & ~has_motion & (given.group("path")[runs] < 0)  # those take numbers of their own
+    return Coordinates(end, center, um("R"), to_move & has_motion, names, lacks_motion)
+
+
+def bare_place(given: Given) -> Bools:
+    """(b,) blocks with G92 and no coordinate."""
+    return given.g(SET_PLACE) & (given.word("X") < 0) & (given.word("Y") < 0) & (given.word("Z") < 0)
+
+
+def places(numbers: Coordinates, is_absolute: Bools, stops: Bools) -> Places:
+    """Where blocks begin and end; `stops` (e,) are those behind which the wire may be threaded elsewhere."""
+    names, moves = numbers.names, numbers.moves
+    placed = np.where((names | (moves & is_absolute))[:, None], numbers.end, np.nan)
+    by = np.where((moves & ~is_absolute)[:, None], np.nan_to_num(numbers.end), 0.0)
+    past = exact(_programmed(placed, by))
+    first = names & (np.cumsum(names | moves) == 1)
+    before = np.concatenate([np.zeros((1, 2)), past[:-1]])
+    before[first] = past[first]
+    is_threaded = names & ~first & _behind_stop(stops, moves)
+    is_rebased = names & ~is_threaded & ((before[:, 0] != past[:, 0]) | (before[:, 1] != past[:, 1]))
+    shift = exact(np.cumsum(np.where(is_rebased[:, None], before - past, 0.0), axis=0))
+    start_um = exact(before + np.concatenate([np.zeros((1, 2)), shift[:-1]]))
+    return Places(start_um, exact(past + shift), shift, is_threaded, is_rebased)
+
+
+def exact(um: Floats) -> Floats:
+    """Lengths to a millionth of a µm, as sums of written numbers are: 1.013 mm are 1013 µm, and no bit beside it."""
+    return np.round(um, _DIGITS)
+
+
+def _programmed(placed: Floats, by: Floats) -> Floats:
+    """Coordinates (e, 2) behind each block: the last one placed (NaN: none) and all ways since."""
+    total = np.cumsum(by, axis=0)
+    row = np.where(np.isnan(placed), -1, np.arange(len(placed))[:, None])
+    last = np.maximum.accumulate(row, axis=0)
+    base = np.take_along_axis(placed - total, np.maximum(last, 0), axis=0)
+    return np.where(last >= 0, base, 0.0) + total
+
+
+def _behind_stop(stops: Bools, moves: Bools) -> Bools:
+    """(e,) whether a stop stands before a block and no motion between."""
+    last_stop, last_move = _last(stops), _last(moves)
+    return np.concatenate([[False], last_stop[:-1] >= np.maximum(last_move[:-1], 0)])
+
+
+def _last(of: Bools) -> Ints:
+    """(e,) the last block so far that is one of them; −1 before the first."""
+    return np.maximum.accumulate(np.where(of, np.arange(len(of)), -1))
+
+
+def _any(pairs: Floats) -> Bools:
+    return ~np.isnan(pairs[:, 0]) | ~np.isnan(pairs[:, 1])

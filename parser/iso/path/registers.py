@@ -1,0 +1,106 @@
+"""Registers: which offset is in force in each block as it runs, and how much it is (docs/iso.md §9)."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.dialect.reader import Choices
+from parser.geometry.curves import Floats, Ints
+from parser.iso.listing.listing import Assignment
+from parser.iso.path.given import Given
+from parser.iso.path.modes import Modes, carried
+
+_PAST_NUMBERS = 1 << 32  # no register has so large a number
+
+Values = dict[str, list[tuple[int, float]]]
+"""Of each register that is ever set: before which of the running blocks (−1: by option), and to how many µm."""
+
+
+class Offsets(NamedTuple):
+    """Registers in force, for each of e blocks as they run.
+
+    Attributes
+    ----------
+    names
+        Of all that are ever in force, without leading zeros, such as ``H1``; empty for none.
+    name
+        (e,) int64, which of them it is.
+    by_um
+        (e,) their values, NaN where they are not known.
+    assumed
+        The register that was taken where nothing selects one: the only one with a value; empty where it was not needed.
+    """
+
+    names: tuple[str, ...]
+    name: Ints
+    by_um: Floats
+    assumed: str
+
+
+def offsets(given: Given, runs: Ints, mode: Modes, choices: Choices) -> Offsets:
+    """What is selected in the blocks `runs` (e,), and the value that it has by then."""
+    values = _values(given, runs, mode, choices)
+    number = _selected(given, runs)
+    open_ = (number < 0) & (mode.side != 0)
+    assumed = next(iter(values)) if len(values) == 1 and open_.any() else ""
+    distinct, at = np.unique(number, return_inverse=True)
+    names = [_name(one) if one >= 0 else assumed for one in distinct.tolist()]
+    by = np.full(len(runs), np.nan)
+    order = np.argsort(at, kind="stable")
+    for name, rows in zip(names, np.split(order, np.cumsum(np.bincount(at))[:-1]), strict=True):
+        by[rows] = _value(given, name, values, rows)
+    return Offsets(tuple(names), at, by, assumed)
+
+
+def _selected(given: Given, runs: Ints) -> Ints:
+    """(e,) the register in force as a number, its letter above its figures; −1 before the first."""
+    words = given.listing.words
+    selects = np.full(len(given.listing.blocks.line), -1, dtype=np.int64)
+    for letter in given.profile.offset_letters:
+        word = given.listing.of(letter)
+        figures = np.clip(words.value[word], 0, _PAST_NUMBERS - 1).astype(np.int64)
+        selects[words.block[word]] = ord(letter) * _PAST_NUMBERS + figures
+    return carried(selects[runs], -1)
+
+
+def _name(number: int) -> str:
+    return f"{chr(number // _PAST_NUMBERS)}{number % _PAST_NUMBERS}"
+
+
+def _value(given: Given, name: str, values: Values, rows: Ints) -> Floats | float:
+    """(k,) what a register holds while the running blocks `rows` (k,), in order, run."""
+    if given.profile.zero_register_is_off and name[1:] == "0":
+        return 0.0
+    when = np.array([set_before for set_before, _ in values.get(name, ())], dtype=np.int64)
+    value = np.array([np.nan, *(um for _, um in values.get(name, ()))])
+    held: Floats = value[np.searchsorted(when, rows, side="right")]
+    return held
+
+
+def _values(given: Given, runs: Ints, mode: Modes, choices: Choices) -> Values:
+    """All that registers are set to, in the order in which it happens."""
+    values: Values = {name: [(-1, um)] for name, um in choices.registers}
+    set_in: dict[int, list[Assignment]] = {}
+    for assignment in given.listing.assignments:
+        set_in.setdefault(assignment.block, []).append(assignment)
+    for at in np.flatnonzero(np.isin(runs, list(set_in))).tolist():
+        integer_um, point_um = _scales(given, mode, at)
+        for assignment in set_in[int(runs[at])]:
+            terms = (
+                values.get(term, [(-1, np.nan)])[-1][1]
+                if isinstance(term, str)
+                else term[0] * (integer_um if term[1] < 0 else point_um)
+                for term in assignment.terms
+            )
+            value = round(sum(terms), 6)  # before the register has a place: it may be one of its own terms
+            values.setdefault(assignment.register, []).append((at, value))
+    return values
+
+
+def _scales(given: Given, mode: Modes, at: int) -> tuple[float, float]:
+    """µm of register values without a point, and with one: those of the profile, in the unit of coordinates there."""
+    profile = given.profile
+    return (
+        profile.register_integer_um * float(mode.integer_um[at]) / profile.integer_um,
+        profile.register_point_um * float(mode.point_um[at]) / profile.point_um,
+    )

@@ -1,0 +1,33 @@
+"""A program as it runs: all columns of its blocks, in the order in which they do."""
+
+from typing import NamedTuple
+
+from parser.dialect.reader import Choices
+from parser.iso.path.flow import Flow, flow
+from parser.iso.path.given import STOPS, Given
+from parser.iso.path.modes import Modes, modes
+from parser.iso.path.places import Coordinates, Places, coordinates, places
+from parser.iso.path.registers import Offsets, offsets
+from parser.iso.path.rows import Rows, rows
+
+
+class Run(NamedTuple):
+    """What is known of the running blocks; `offsets` are None where nothing compensates."""
+
+    flow: Flow
+    mode: Modes
+    numbers: Coordinates
+    place: Places
+    rows: Rows
+    offsets: Offsets | None
+
+
+def run_of(given: Given, choices: Choices) -> Run:
+    """The run of a listing."""
+    order = flow(given)
+    mode = modes(given, order.block)
+    numbers = coordinates(given, order.block, mode)
+    place = places(numbers, mode.is_absolute, given.m(*STOPS)[order.block])
+    path = rows(mode, numbers, place, given.profile.resolution_um)
+    compensates = mode.side[path.at].any()
+    return Run(order, mode, numbers, place, path, offsets(given, order.block, mode, choices) if compensates else None)

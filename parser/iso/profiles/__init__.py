@@ -1,0 +1,1 @@
+"""The families of controllers as data: one TOML each, `Profile` what it says."""

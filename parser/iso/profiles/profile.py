@@ -1,0 +1,109 @@
+"""Dialect profiles: what the same text means to one family of controllers, as data in ``parser/iso/profiles``.
+
+Values, their grades and sources: the files themselves, and docs/iso.md §6.
+"""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any, Literal
+
+from parser.toolpath import CompensationRules
+
+_FOLDER = Path(__file__).parent
+PROFILES = ("fast-wire", "classroom", "skd2", "robofil", "sodick", "mitsubishi", "fanuc", "common")
+"""Names of all profiles, as ``--dialect`` takes them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """One family of controllers.
+
+    Attributes
+    ----------
+    name
+        As ``--dialect`` takes it.
+    integer_um, point_um
+        µm of a number of 1 without a point, and with one.
+    resolution_um
+        Least step that coordinates are written in: the tolerance of arcs follows from it.
+    step_um
+        Least step of the machine, to which it rounds finer numbers.
+    may_be_inch
+        Whether programs of the family are written in mm or in inches, and do not say in which.
+    distance
+        Mode at the start: ``absolute`` as after G90, ``incremental`` as after G91.
+    centers
+        I J: ``from-start`` of the arc, or ``absolute`` places.
+    register_integer_um, register_point_um
+        The same as for coordinates, of values that offset registers are set to.
+    offset_letters
+        Letters that select a register of an offset: ``D``, ``H``.
+    needs_offset_word
+        Whether G41 without a register is an error of the controller.
+    zero_register_is_off
+        Whether register 0 is always 0.
+    strict_order
+        Whether words in another order than the rule's are an error.
+    letters
+        Letters of words that it knows.
+    repeatable
+        Letters of words that may stand in a block more than once.
+    meant_twice
+        Numbers of M words that are written twice on purpose.
+    angle
+        Letter of the angle by which the wire leans.
+    whole
+        Letters of words whose numbers are whole.
+    range
+        Least and greatest number of a word as written, by letters; lengths have one bound of their own.
+    g, m
+        What G and M words do, by their numbers as written without leading zeros (``"1"``, ``"90.1"``).
+    rules
+        How it compensates.
+    """
+
+    name: str
+    integer_um: float
+    point_um: float
+    resolution_um: float
+    step_um: float
+    may_be_inch: bool
+    distance: Literal["absolute", "incremental"]
+    centers: Literal["from-start", "absolute"]
+    register_integer_um: float
+    register_point_um: float
+    offset_letters: str
+    needs_offset_word: bool
+    zero_register_is_off: bool
+    strict_order: bool
+    letters: str
+    repeatable: str
+    meant_twice: tuple[int, ...]
+    angle: str
+    whole: str
+    range: Mapping[str, tuple[float, float]]
+    g: Mapping[str, str]
+    m: Mapping[str, str]
+    rules: CompensationRules
+
+
+@cache
+def profile(name: str) -> Profile:
+    """A profile by its name: its own values over those of ``common``. KeyError where there is none."""
+    if name not in PROFILES:
+        raise KeyError(name)
+    values = _read("common")
+    if name != "common":
+        for key, value in _read(name).items():
+            values[key] = {**values[key], **value} if isinstance(value, dict) else value
+    rules = CompensationRules(**values.pop("rules"))
+    limits = {letter: (float(low), float(high)) for letter, (low, high) in values.pop("range").items()}
+    twice = tuple(values.pop("meant_twice"))
+    return Profile(name=name, rules=rules, range=limits, meant_twice=twice, **values)
+
+
+def _read(name: str) -> dict[str, Any]:
+    return tomllib.loads((_FOLDER / f"{name}.toml").read_text(encoding="utf-8"))

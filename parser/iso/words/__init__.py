@@ -1,0 +1,1 @@
+"""What is wrong with single words and blocks, whatever they move: `Listing` and `Profile` to findings."""

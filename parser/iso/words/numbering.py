@@ -1,0 +1,109 @@
+"""N and O numbers: whole, rising, and each label once where something calls it."""
+
+import numpy as np
+
+from parser.findings.findings import Edit, Finding
+from parser.geometry.curves import Bools, Floats, Ints
+from parser.iso.listing.listing import Form, Listing
+
+ENDS = (2, 30, 99, 199)
+"""M words behind which numbers may begin anew: what follows is a subprogram."""
+_WIDTHS = (9_999, 99_999)  # the largest number of four and of five digits: a CAM goes on from the beginning
+_USUAL_STEP = 10
+
+
+def numbering_findings(listing: Listing) -> list[Finding]:
+    """ISO120 where N does not rise, ISO121 where a label is no whole number or stands twice (docs/iso.md §2)."""
+    return [*_falls(listing), *_not_whole(listing), *_twice(listing)]
+
+
+def are_called(listing: Listing, number: Floats) -> Bools:
+    """(k,) bool, whether P words name some numbers (k,)."""
+    called = np.sort(listing.words.value[listing.of("P")])
+    are: Bools = called.searchsorted(number, side="right") > called.searchsorted(number)
+    return are
+
+
+def stands_alone(listing: Listing) -> Bools:
+    """(b,) bool, whether a block is one N word and nothing else, which makes it a label."""
+    words, blocks = listing.words, listing.blocks
+    alone: Bools = (np.diff(blocks.word) == 1) & ~blocks.is_damaged
+    alone[alone] = words.letter[blocks.word[:-1][alone]] == ord("N")
+    alone[[one.block for one in listing.assignments]] = False
+    alone[[one.block for one in listing.statements]] = False
+    return alone
+
+
+def _falls(listing: Listing) -> list[Finding]:
+    words = listing.words
+    number = listing.of("N")
+    if len(number) < 2:
+        return []
+    value = words.value[number]
+    is_fall = np.append(False, value[1:] <= value[:-1])
+    step = _usual_step(value)
+    for most in _WIDTHS:
+        is_fall[1:] &= ~((value[:-1] <= most) & (value[:-1] + step > most) & (value[1:] <= step))
+    restarts = np.cumsum((words.letter == ord("O")) | ((words.letter == ord("M")) & np.isin(words.value, ENDS)))
+    is_fall[1:] &= restarts[number[1:]] == restarts[number[:-1]]
+    label = stands_alone(listing)[words.block[number]] & are_called(listing, value)
+    is_fall &= ~label & ~np.append(False, label[:-1])
+    found = [
+        listing.at_word("ISO120", word, number=listing.written(word), before=listing.written(before))
+        for before, word in zip(number[np.flatnonzero(is_fall) - 1].tolist(), number[is_fall].tolist(), strict=True)
+    ]
+    return [found[0]._replace(edits=_renumbered(listing, number, step)), *found[1:]] if found else []
+
+
+def _usual_step(value: Floats) -> int:
+    """What a number is mostly larger by than the one before."""
+    rises, times = np.unique(np.diff(value)[np.diff(value) > 0], return_counts=True)
+    return int(rises[times.argmax()]) if len(rises) and rises[times.argmax()] >= 1 else _USUAL_STEP
+
+
+def _renumbered(listing: Listing, number: Ints, step: int) -> tuple[Edit, ...]:
+    """All N in equal steps from the first one; none where something may refer to them, or a digit more is needed."""
+    words = listing.words
+    value = words.value[number]
+    last = value[0] + step * (len(number) - 1)
+    refers = len(listing.of("P")) or len(listing.of("O")) or any(one.form is Form.MACRO for one in listing.statements)
+    most = next((most for most in _WIDTHS if value.max() <= most), value.max())
+    if refers or last > most or (words.decimals[number] >= 0).any() or value[0] < 0:
+        return ()
+    edits = []
+    for at, (first, past) in enumerate(zip(words.first[number].tolist(), words.past[number].tolist(), strict=True)):
+        digits = listing.lines.text[first + 1 : past]
+        new = str(int(value[0]) + step * at).zfill(len(digits.strip()))
+        if new != digits:
+            edits.append(Edit(first + 1, past, new))
+    return tuple(edits)
+
+
+def _not_whole(listing: Listing) -> list[Finding]:
+    words = listing.words
+    is_label = (words.letter == ord("N")) | (words.letter == ord("O"))
+    wrong = np.flatnonzero(is_label & ((words.decimals >= 0) | (words.value < 0)))
+    return [_label(listing, at, "label-not-whole", str(_line(listing, at))) for at in wrong.tolist()]
+
+
+def _twice(listing: Listing) -> list[Finding]:
+    """Labels that calls name, or that stand alone, and program numbers, behind the first of each number."""
+    words = listing.words
+    n, o = listing.of("N"), listing.of("O")
+    is_label = are_called(listing, words.value[n]) | stands_alone(listing)[words.block[n]]
+    found = []
+    for label in (n[is_label], o):
+        _, first, inverse = np.unique(words.value[label], return_index=True, return_inverse=True)
+        for at in np.flatnonzero(first[inverse] != np.arange(len(label))).tolist():
+            before, here = int(label[first[inverse[at]]]), int(label[at])
+            where = f"{_line(listing, before)}, {_line(listing, here)}"
+            found.append(_label(listing, here, "label-twice", where))
+    return found
+
+
+def _label(listing: Listing, word: int, what: str, where: str) -> Finding:
+    return listing.at_word("ISO121", word, label=listing.written(word), what=what, lines=where)
+
+
+def _line(listing: Listing, word: int) -> int:
+    return int(listing.blocks.line[listing.words.block[word]])

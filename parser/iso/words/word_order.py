@@ -1,0 +1,28 @@
+"""The order of the words in a block: N G X Y Z I J K R H D F S T M, as courses teach it."""
+
+import numpy as np
+
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
+from parser.iso.listing.listing import Listing
+
+ORDER = ("N", "G", "X", "Y", "Z", "IJKR", "H", "D", "F", "S", "T", "M")
+"""Letters in their order; those that are told together may stand in any, and all other letters anywhere."""
+
+_RANK = np.zeros(256, dtype=np.int64)  # 0: anywhere
+for _rank, _letters in enumerate(ORDER, 1):
+    _RANK[[ord(letter) for letter in _letters]] = _rank
+
+
+def order_finding(listing: Listing, *, strict: bool) -> list[Finding]:
+    """ISO130 at the first word that stands behind one that it comes before, an error where the order is strict."""
+    words = listing.words
+    ranked = np.flatnonzero(_RANK[words.letter])
+    rank, block = _RANK[words.letter[ranked]], words.block[ranked]
+    behind = np.flatnonzero((np.diff(rank) < 0) & (np.diff(block) == 0))
+    if not len(behind):
+        return []
+    before, word = ranked[behind[:1]].item(), ranked[behind[:1] + 1].item()
+    more = int(np.count_nonzero(np.diff(block[behind])))
+    found = listing.at_word("ISO130", word, word=listing.written(word), before=listing.written(before), more=more)
+    return [found._replace(graver=Severity.ERROR if strict else None)]
