@@ -5,9 +5,12 @@ from browser import OpenPage
 from page_checks import complaints
 
 from parser.findings.catalogue import Said
+from parser.findings.codes import Severity
+from parser.findings.findings import Count
 from sim.jobs.index import Entry, Row, build_index
 from sim.show.index_page import Beside, index_page
 
+THIN = Count("3B405", Severity.WARNING, 1)
 SQUARE = "M20,20l50,0 0,40 -50,0 0,-40"
 
 
@@ -16,10 +19,11 @@ def entry(number: int) -> Entry:
     file = f"shop/{number // 100:02}/part-{number:04}.3b"
     if number % 4 == 3:
         message = Said(f"no block in part {number}", f"第 {number} 个文件没有程序段")
-        return Entry(file, None, Row("refused", f"part-{number:04}.3b", message, (("3B100", 1),)), from_cache=False)
+        found = (Count("3B100", Severity.ERROR, 1),)
+        return Entry(file, None, Row("refused", f"part-{number:04}.3b", message, found), from_cache=False)
     row = Row("pass", f"Part {number}", time_s=60.0 + number, max_um=number % 7 + 0.5, picture=SQUARE)
     if number % 4 == 2:
-        row = row._replace(verdict="fail", findings=(("3B301", number + 1), ("3B405", 1)))
+        row = row._replace(verdict="fail", findings=(Count("3B301", Severity.ERROR, number + 1), THIN))
     return Entry(file, f"{number // 100:02}/part #{number}%.3b", row, from_cache=number % 2 == 0)
 
 

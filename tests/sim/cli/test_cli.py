@@ -235,7 +235,7 @@ def test_long_work_shows_its_progress_on_stderr(short: Path, monkeypatch: pytest
 
 def test_version_and_help() -> None:
     assert drycut("--version").stdout == f"drycut, version {__version__}\n"
-    assert "run      Dry-run a 3B program" in drycut("--help").stdout
+    assert "run      Dry-run a 3B or ISO program" in drycut("--help").stdout
     assert "drycut run part.3b -o out/\n" in drycut("run", "--help").stdout
     assert drycut().returncode == 2
     assert drycut("frobnicate").returncode == 2
