@@ -22,10 +22,11 @@ def move_findings(given: Given, runs: Ints, mode: Modes, lacks_motion: Bools, pa
 
 def _without_motion(given: Given, runs: Ints, lacks_motion: Bools) -> Iterator[Finding]:
     """ISO110 at the first block that runs with numbers to move by before any motion word did."""
-    block = np.unique(runs[lacks_motion])
-    if len(block):
+    block = set(runs[lacks_motion].tolist())
+    if block:
         listing, first = given.listing, int(runs[np.argmax(lacks_motion)])
-        word = int(listing.blocks.word[first])
+        words = np.arange(*listing.blocks.word[first : first + 2])
+        word = int(words[np.argmax(np.isin(listing.words.letter[words], [ord(letter) for letter in "XYIJR"]))])
         span = (int(listing.words.first[word]), int(listing.words.past[word]))
         text, more = listing.text[slice(*span)], len(block) - 1
         yield listing.lines.finding("ISO110", span, text=text, what="no-motion-yet", more=more)

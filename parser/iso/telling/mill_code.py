@@ -1,7 +1,5 @@
 """Mill code: what in a listing no wire machine is told (docs/iso.md §6)."""
 
-import numpy as np
-
 from parser.findings.findings import Finding
 from parser.iso.listing.listing import Listing
 
@@ -39,17 +37,17 @@ def _first(listing: Listing, letter: str, number: float) -> int:
 def _spindle(listing: Listing) -> int:
     """The first M03 or M04 in a block with an S word: a spindle turns."""
     turns = listing.of("M")
-    turns = turns[np.isin(listing.words.value[turns], (3.0, 4.0))]
-    blocks = listing.words.block
-    found = turns[np.isin(blocks[turns], blocks[listing.of("S")])]
+    value = listing.words.value[turns]
+    turns = turns[(value == 3.0) | (value == 4.0)]
+    found = turns[listing.blocks_of(listing.of("S"))[listing.words.block[turns]]]
     return int(found[0]) if len(found) else -1
 
 
 def _depth(listing: Listing) -> int:
     """The first Z below 0 where Z moves between levels: something goes down into the work."""
     words = listing.words
-    sets = words.block[listing.of("G")[words.value[listing.of("G")] == 92.0]]
+    sets = listing.blocks_of(listing.of("G")[words.value[listing.of("G")] == 92.0])
     depth = listing.of("Z")
-    depth = depth[~np.isin(words.block[depth], sets)]
+    depth = depth[~sets[words.block[depth]]]
     below = depth[words.value[depth] < 0.0]
     return int(below[0]) if len(below) and len(set(words.value[depth].tolist())) >= _LEVELS else -1

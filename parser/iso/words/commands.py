@@ -7,12 +7,6 @@ from parser.geometry.curves import Bools, Ints
 from parser.iso.listing.listing import Listing
 from parser.iso.words.numbering import ENDS, are_called, stands_alone
 
-_MOTION = (0, 1, 2, 3)
-_PASSED = (17, 20, 21, 40, 41, 42, *range(54, 60), 70, 71, 90, 91, 90.1, 91.1)
-"""G words that take no X and Y of their block for themselves."""
-_PLACES = [ord(letter) for letter in "XYIJR"]
-_CALL = 98
-
 
 def unknown_letters(listing: Listing, letters: str) -> tuple[list[Finding], Ints]:
     """ISO103 at the first word of each letter that is none of `letters`; and the blocks of all these words."""
@@ -28,29 +22,12 @@ def unknown_letters(listing: Listing, letters: str) -> tuple[list[Finding], Ints
     return found, np.flatnonzero(listing.blocks_of(unknown))
 
 
-def without_command(listing: Listing) -> tuple[list[Finding], Ints]:
-    """ISO110 at numbers of nothing, and at the first places before any motion word; and the blocks of the latter."""
-    words, blocks = listing.words, listing.blocks
-    labels = np.flatnonzero(_empty(listing))
-    found = [
-        listing.at_word("ISO110", word, what="nothing-but-n", text=listing.written(word), more=0)
-        for word in blocks.word[labels].tolist()
+def without_command(listing: Listing) -> list[Finding]:
+    """ISO110 at block numbers of nothing (docs/iso.md §2)."""
+    labels = listing.blocks.word[np.flatnonzero(_empty(listing))].tolist()
+    return [
+        listing.at_word("ISO110", word, what="nothing-but-n", text=listing.written(word), more=0) for word in labels
     ]
-    is_g = words.letter == ord("G")
-    is_call = (words.letter == ord("M")) & (words.value == _CALL)  # what runs by then, the order of execution tells
-    motion = np.flatnonzero((is_g & np.isin(words.value, _MOTION)) | is_call)
-    until = int(words.block[motion[0]]) if len(motion) else len(blocks.line)
-    head = np.arange(blocks.word[until])
-    takes = head[is_g[head]]
-    taken = listing.blocks_of(takes[(words.value[takes, None] != _PASSED).all(axis=1)])
-    places = head[np.isin(words.letter[head], _PLACES) & ~taken[words.block[head]]]
-    lost = np.flatnonzero(listing.blocks_of(places))
-    if len(lost):
-        first = int(places[0])
-        found.append(
-            listing.at_word("ISO110", first, what="no-motion-yet", text=listing.written(first), more=len(lost) - 1)
-        )
-    return found, lost
 
 
 def _empty(listing: Listing) -> Bools:

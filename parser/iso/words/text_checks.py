@@ -1,7 +1,5 @@
 """What is wrong with the words of a listing as text, once the family is known that it was written for."""
 
-import numpy as np
-
 from parser.findings.findings import file_order
 from parser.iso.listing.listing import Listing, Unread
 from parser.iso.profiles.profile import Profile
@@ -14,17 +12,15 @@ from parser.iso.words.word_order import order_finding
 def checked(listing: Listing, profile: Profile) -> Listing:
     """The listing with the findings of its text, and with the blocks damaged whose motion is not known by them."""
     letters, unknown = unknown_letters(listing, profile.letters)
-    commands, lost = without_command(listing)
     found = [
-        *(*listing.findings, *letters, *commands, *numbering_findings(listing)),
+        *(*listing.findings, *letters, *without_command(listing), *numbering_findings(listing)),
         *order_finding(listing, strict=profile.strict_order),
         *word_findings(listing, profile),
     ]
-    damaged = np.concatenate([unknown, lost])
     is_damaged = listing.blocks.is_damaged.copy()
-    is_damaged[damaged] = True
-    spans = zip(listing.blocks.first[damaged].tolist(), listing.blocks.past[damaged].tolist(), strict=True)
-    unread = [Unread(span, block) for span, block in zip(spans, damaged.tolist(), strict=True)]
+    is_damaged[unknown] = True
+    spans = zip(listing.blocks.first[unknown].tolist(), listing.blocks.past[unknown].tolist(), strict=True)
+    unread = [Unread(span, block) for span, block in zip(spans, unknown.tolist(), strict=True)]
     return listing._replace(
         blocks=listing.blocks._replace(is_damaged=is_damaged),
         unread=tuple(sorted([*listing.unread, *unread])),

@@ -4,12 +4,14 @@ from dataclasses import replace
 
 import pytest
 
+from parser.dialect.reader import Choices
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, edited
 from parser.iso.listing.lexer import read_listing
 from parser.iso.listing.listing import Listing
 from parser.iso.profiles.profile import profile
 from parser.iso.words.text_checks import checked
+from parser.program import parse_program
 
 COMMON = profile("common")
 
@@ -137,15 +139,15 @@ def test_a_strict_controller_takes_no_other_order() -> None:
     ],
 )
 def test_every_line_commands_something(text: str, what: str, places: list[tuple[int, int, int]]) -> None:
-    found = found_in(text, "ISO110")
+    program = parse_program(text, choices=Choices(dialect="common"))
+    found = [one for one in program.findings if one.code == "ISO110"]
     assert [(one.line, one.column, one.values["more"]) for one in found] == places
     assert {one.values["what"] for one in found} == {what} - {""}
 
 
 def test_places_before_any_motion_are_damage() -> None:
-    listing = judged("X1\nG01 X2\nN5\n")
-    assert listing.blocks.is_damaged.tolist() == [True, False, False]
-    assert [one.block for one in listing.unread] == [0]
+    reading = parse_program("X1\nG01 X2\nN5\n", choices=Choices(dialect="common")).reading
+    assert [damage.span for damage in reading.damages] == [(0, 2)]
 
 
 def test_letters_that_a_controller_does_not_know_are_told_once_each() -> None:
