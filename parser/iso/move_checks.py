@@ -22,7 +22,7 @@ def move_findings(given: Given, runs: Ints, mode: Modes, lacks_motion: Bools, pa
 
 def _without_motion(given: Given, runs: Ints, lacks_motion: Bools) -> Iterator[Finding]:
     """ISO110 at the first block that runs with numbers to move by before any motion word did."""
-    block = np.unique(runs[lacks_motion])
+    block, _ = np.unique(runs[lacks_motion], return_index=True)  # alone it would load numpy.ma
     if len(block):
         listing, first = given.listing, int(runs[np.argmax(lacks_motion)])
         word = int(listing.blocks.word[first])
