@@ -13,7 +13,8 @@ from parser.toolpath import Toolpath
 from parser.units import mm
 from parser.write.draft import Draft, Written
 from parser.write.losses import Loss, some
-from sim.check.engine import Checked, Demands, run_checks
+from sim.check.engine import Checked, run_checks
+from sim.check.path_checks import Demands
 from sim.convert.kerf import closed_by_kerf
 from sim.convert.losses import losses
 from sim.convert.proof import Proof, proof

@@ -14,8 +14,9 @@ from parser.findings.facts import WithoutOffset
 from parser.findings.findings import Finding
 from parser.program import Program
 from sim.check.beside import Offsetting
-from sim.check.engine import Checked, Demands, run_checks
+from sim.check.engine import Checked, run_checks
 from sim.check.passes import asked_pass_findings
+from sim.check.path_checks import Demands
 from sim.check.result import CheckState, Coverage
 from sim.check.too_large import refusal, too_many_steps
 from sim.check.travel import travel_findings
