@@ -100,6 +100,24 @@ class Assumption(NamedTuple):
     why: str
 
 
+class Beside(NamedTuple):
+    """What a text asks for beside its path, and is not simulated.
+
+    Attributes
+    ----------
+    reason
+        Term of the catalogue that says what it is; empty where the path is all.
+    words
+        The words that ask for it, as people name them: ``G26``, ``U``.
+    """
+
+    reason: str = ""
+    words: tuple[str, ...] = ()
+
+
+PATH_IS_ALL = Beside()
+
+
 class Damage(NamedTuple):
     """A piece of text that could not be read: its place, and how many whole blocks stand before it."""
 
@@ -179,7 +197,7 @@ class Reading(NamedTuple):
     threadings
         How many jumps of the toolpath no block moves along: the wire is threaded elsewhere.
     not_simulated
-        Term of the catalogue that says what the text asks for beside the path; empty where the path is all.
+        What the text asks for beside the path.
     """
 
     dialect: str
@@ -193,7 +211,7 @@ class Reading(NamedTuple):
     assumptions: tuple[Assumption, ...] = ()
     codes: Mapping[str, str] = MappingProxyType({})
     threadings: int = 0
-    not_simulated: str = ""
+    not_simulated: Beside = PATH_IS_ALL
 
 
 def in_codes(reading: Reading, findings: Iterable[Finding]) -> tuple[Finding, ...]:

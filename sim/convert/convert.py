@@ -7,6 +7,7 @@ import numpy as np
 from parser.dialect.reader import Choices, Registers
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
+from parser.findings.facts import NotSimulated, telling
 from parser.findings.findings import Finding
 from parser.program import Program, load_program
 from parser.toolpath import Toolpath
@@ -84,7 +85,10 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     if _errors(checked):
         return Refused("source", program, _errors(checked))
     if not checked.coverage.is_complete:
-        return Refused("incomplete", program)
+        beside = program.reading.not_simulated
+        why = "not-simulated" if beside.words else "incomplete"
+        said = tuple(finding for finding, _ in telling(checked.findings, NotSimulated))
+        return Refused(why, program, said, (("words", ", ".join(beside.words)),))
     several = _several_offsets(program.toolpath, wanted)
     if several:
         return Refused("several-offsets", program, values=(("of", several),))

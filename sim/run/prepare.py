@@ -9,8 +9,8 @@ from controller.motion.limits import Feeds
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.dialect.reader import in_codes
-from parser.findings.codes import Check
-from parser.findings.facts import WithoutOffset
+from parser.findings.codes import Check, Severity
+from parser.findings.facts import NotSimulated, WithoutOffset
 from parser.findings.findings import Finding
 from parser.program import Program
 from sim.check.beside import Offsetting
@@ -58,7 +58,7 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     """
     refuse_unanswerable(scenario.quiz, program.toolpath)
     refuse_twice(program, scenario.offset)
-    checked = run_checks(program, _demands(scenario))
+    checked = _as_run(run_checks(program, _demands(scenario)))
     if checked.steps is None:
         raise refusal(program, checked.findings)
     feeds = scenario.machine.feeds(scenario.thickness_mm)
@@ -79,6 +79,16 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     added = (*offset.findings, *_between_passes(offset, scenario), *travel)
     findings = (*_under_offset(checked.findings), *in_codes(program.reading, added))
     return Prepared(offset.program, steps, offset, feeds, findings, coverage)
+
+
+def _as_run(checked: Checked) -> Checked:
+    """The checks, with an error where the machine would go another way than a run of the path here."""
+    return checked._replace(
+        findings=tuple(
+            one._replace(graver=Severity.ERROR) if isinstance(one.fact, NotSimulated) and one.fact.otherwise else one
+            for one in checked.findings
+        )
+    )
 
 
 def _compensated(checked: Checked, made: Offsetting, feeds: Feeds) -> Prepared:

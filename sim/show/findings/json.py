@@ -55,7 +55,7 @@ def _check(check: CheckState, language: Language) -> dict[str, Any]:
         "title": term(check.name, language),
         "state": check.state,
         "reason": check.reason or None,
-        "reason_text": term(check.reason, language) if check.reason else None,
+        "reason_text": check.because(language) or None,
     }
 
 

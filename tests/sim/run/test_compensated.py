@@ -14,6 +14,7 @@ from controller.offset.path import Made
 from controller.offset.sections import Side
 from parser.dialect.reader import Choices
 from parser.findings.catalogue import texts
+from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError, SettingsError
 from parser.program import Program, parse_program
 from sim.run.dryrun import DryRun, dry_run
@@ -166,3 +167,10 @@ def test_a_contour_at_nothing_runs_as_written() -> None:
 def test_odd_programs_run_and_have_a_lawful_report(blocks: list[str]) -> None:
     report = build_report(run(program(head("H1=100"), blocks), kerf=True))
     jsonschema.validate(report, SCHEMA)
+
+
+@pytest.mark.parametrize(("line", "code"), [("G26", "ISO204"), ("#100 = 5", "ISO402")])
+def test_a_run_fails_where_the_machine_would_take_another_path(line: str, code: str) -> None:
+    ran = dry_run(read(die().replace("G90", f"G90\n{line}\n", 1)), plain_scenario(), silent)
+    assert [one.code for one in ran.findings if one.severity is Severity.ERROR] == [code]
+    assert build_report(ran)["verdict"] == "fail"
