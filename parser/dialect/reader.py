@@ -9,6 +9,7 @@ import numpy as np
 
 from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
+from parser.findings.catalogue import Language, term
 from parser.findings.codes import Check
 from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
@@ -98,6 +99,10 @@ class Assumption(NamedTuple):
     what: str
     taken: str
     why: str
+
+    def entry(self, language: Language) -> dict[str, str]:
+        """It as documents have it; why it was made is told in a language."""
+        return {"what": self.what.removeprefix("assumed-"), "taken": self.taken, "why": term(self.why, language)}
 
 
 class Beside(NamedTuple):

@@ -158,12 +158,3 @@ class CheckResult:
         if any(self.fails(finding.severity) for finding in self.findings):
             return "fail"
         return "pass" if self.coverage.is_complete else "incomplete"
-
-
-def assumption_entry(assumption: Assumption, language: Language) -> dict[str, str]:
-    """An assumption as documents have it; why it was made is told in a language."""
-    return {
-        "what": assumption.what.removeprefix("assumed-"),
-        "taken": assumption.taken,
-        "why": term(assumption.why, language),
-    }

@@ -9,7 +9,7 @@ from parser.findings.catalogue import texts
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.shape.contours import Contour
-from sim.check.result import Coverage, assumption_entry
+from sim.check.result import Coverage
 from sim.measure.compare.result import Comparison
 from sim.run.assumptions import assumptions_of
 from sim.run.dryrun import DryRun
@@ -91,7 +91,7 @@ def _machine(scenario: Scenario) -> dict[str, Any]:
 def _assumptions(run: DryRun) -> dict[str, Any]:
     found = assumptions_of(run)
     return {
-        "program": [assumption_entry(one, "en") for one in found.program],
+        "program": [one.entry("en") for one in found.program],
         "machine_by_default": found.by_default,
         "machine_values": list(found.values),
         "drawing_compared": found.compared,

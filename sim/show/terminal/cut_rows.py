@@ -38,7 +38,7 @@ def _pass(figures: PassFigures, reach_um: float) -> str:
     one, stock = figures.of, figures.stock
     way = ("tab, " if one.is_tab else "") + ("back" if one.is_back else "forward")
     taken = "not cut" if stock is None else f"takes {stock.mean_um:,.0f} µm"
-    return f"{way}, offset {reach_um + one.shift_um:,.0f} µm, {taken}, {clock(figures.time_s)}"
+    return f"{way}, offset {one.offset_um(reach_um):,.0f} µm, {taken}, {clock(figures.time_s)}"
 
 
 def offset_rows(run: DryRun) -> list[Row]:

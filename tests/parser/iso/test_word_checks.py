@@ -53,9 +53,18 @@ def found(block: str, dialect: str = "common") -> list[tuple[str, int]]:
         ("G04 P0.5", []),
         ("F-5", [("ISO206", 1)]),
         ("G41 D1000", [("ISO206", 5)]),
-        ("X1000000.", [("ISO206", 1)]),
-        ("X999999999", []),
-        ("Y-1000000000", [("ISO206", 1)]),
+        ("F0", [("ISO206", 1)]),
+        ("F.06", []),
+        ("G42 H1000", [("ISO206", 5)]),
+        ("G41 D999 H999", []),
+        ("G41 D-1", [("ISO206", 5)]),
+        ("X10000001", [("ISO206", 1)]),
+        ("X10000000 Y-10000. U10000. V0 Z10000.", []),
+        ("Y-10000001", [("ISO206", 1)]),
+        ("X10000.001", [("ISO206", 1)]),
+        ("G02 X1 R1000000.", []),
+        ("G02 X1 R1000001.", [("ISO206", 8)]),
+        ("G03 X1 I1000000. J-1000001.", [("ISO206", 18)]),
         ("M05 M05", [("ISO209", 5)]),
         ("M80 M82 M84", []),
     ],
@@ -80,7 +89,7 @@ def test_effects_of_profiles_are_known(name: str) -> None:
     assert set(of.g.values()) <= {*GROUPS, "once", "switch", "path"}
     assert set(of.m.values()) <= {"stop", "end", "call", "return", "thread", "cut", "switch", "path"}
     assert set(of.repeatable + of.whole + of.angle + of.offset_letters) <= set(of.letters)
-    assert all(low <= 0 <= high and letter in of.letters for letter, (low, high) in of.range.items())
+    assert all(low <= 1e-4 < high and letter in of.letters for letter, (low, high) in of.range.items())
     assert {"0", "1", "2", "3", "40", "41", "42", "90", "91", "92"} <= set(of.g)
 
 
@@ -126,8 +135,15 @@ def test_random_blocks_are_told_what_a_slow_reading_tells() -> None:
 
 
 def test_a_length_beyond_any_table_is_not_worked_out() -> None:
-    program = parse_program("G92 X0 Y0\nG91\nG01 X9999999999 Y0\nM02\n", choices=Choices(dialect="fast-wire"))
-    assert [finding.code for finding, _ in telling(program.findings, TooLarge)] == ["ISO206"]
+    program = parse_program("G92 X0 Y0\nG91\nG01 X10000001 Y0\nM02\n", choices=Choices(dialect="fast-wire"))
+    assert [finding.values["limits"] for finding, _ in telling(program.findings, TooLarge)] == ["±10 m"]
+
+
+def test_lengths_in_inches_have_the_same_bound() -> None:
+    text = "G92 X0. Y0.\nG90\nG01 X393. Y0.\nX{} Y0.\nM02\n"
+    for x, codes in (("393.7", []), ("393.71", ["ISO206"])):
+        found = parse_program(text.format(x), choices=Choices(dialect="mitsubishi", unit="inch")).findings
+        assert [finding.code for finding, _ in telling(found, TooLarge)] == codes
 
 
 SQUARE = "G92 X0 Y0\nG90\n{}\nG01 X0 Y5000\nX5000 Y5000\nX5000 Y-5000\nX-5000 Y-5000\nX-5000 Y5000\nX0 Y5000\nM02\n"

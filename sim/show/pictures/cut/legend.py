@@ -121,7 +121,7 @@ def _pass_entries(cut: Cut, say: Words, kerf_px: float) -> list[Entry]:
     passes = () if cut.passes is None else cut.passes.passes
     entries = []
     for tone in tones_of(passes):
-        offsets = [mm(cut.kerf_um / 2 + one.shift_um) for one in passes if paint_of_pass(one.number) is tone.paint]
+        offsets = [mm(one.offset_um(cut.kerf_um / 2)) for one in passes if paint_of_pass(one.number) is tone.paint]
         by = dict.fromkeys(f"{offset:.3f}" for offset in (min(offsets), max(offsets)))
         text = say("cut.pass", name=tone.name, by="–".join(by))
         entries.append(Entry(_kerf(kerf_px, tone.paint), text))
