@@ -54,7 +54,8 @@ def arc_findings(given: Given, runs: Ints, numbers: Coordinates, path: Rows) -> 
 
 
 def _told(given: Given, runs: Ints, numbers: Coordinates, path: Rows) -> _Told:
-    _, first = np.unique(runs[path.at[path.turning]], return_index=True)
+    block, first = np.unique(runs[path.at[path.turning]], return_index=True)
+    first = first[~given.contradicts("motion")[block]]  # such a block is told to be no arc as well
     row = path.turning[first]
     at = path.at[row]
     return _Told(
