@@ -31,9 +31,9 @@ def contour_findings(
     program: Program, path: OffsetPath, stretches: Sequence[Held], alarms: Sequence[Alarm]
 ) -> Iterator[Finding]:
     """What the path makes of the contours, under the codes of an offset, 3B501 to 3B504, and ISO512 and ISO514."""
-    stops = {one.row for one in alarms if one.stops and one.kind in (AlarmKind.TOO_SMALL, AlarmKind.VANISHED)}
+    gone = [one for one in alarms if one.kind in (AlarmKind.TOO_SMALL, AlarmKind.VANISHED)]
     for one in stretches:
-        yield from _uncut(program, path, one, stops)
+        yield from _uncut(program, path, one, gone)
         if one.beside.loops not in (None, 1):
             yield loop_finding(program, one.run.round.section.first, int(one.beside.loops or 0), one.run.by_um)
         if one.run.part_side == one.run.side:
@@ -48,19 +48,31 @@ def contour_findings(
             yield gouge_finding(program, (row, gouge.row), gouge, run.kerf_um)
 
 
-def _uncut(program: Program, path: OffsetPath, one: Held, stops: set[int]) -> Iterator[Finding]:
-    """Blocks that the wire does not come to: where the controller stops, and those that the nearest pass leaves."""
-    section, run = one.run.round.section, one.run
+def _uncut(program: Program, path: OffsetPath, one: Held, gone: Sequence[Alarm]) -> Iterator[Finding]:
+    """Blocks that the wire does not come to: where the controller stops, and those that the nearest pass leaves.
+
+    An inner arc as large as the offset leaves nothing, and makes other controllers stop: it is told too.
+    """
+    section, run, length_um = one.run.round.section, one.run, program.toolpath.length_um
+    stops = {each.row for each in gone if each.stops}
+    no_place = _between_apart(path)
+    small = {each.row for each in gone if each.kind is AlarmKind.TOO_SMALL and length_um[each.row] > _LEFT_UM}
     vanished = path.vanished[(path.vanished >= section.first) & (path.vanished <= section.last)]
     passed = set(_missed(path, one).tolist()) - set(vanished.tolist()) if run.is_nearest else set()
     missed = np.array(sorted(passed), dtype=np.int64)
     beside = path.curves.picked(rows_beside(path, run.round))
     left_um = [*one.beside.left_um, *uncut_um(one.contour, beside, run.by_um, missed - section.first)]
     for row, left in zip([*vanished.tolist(), *missed.tolist()], left_um, strict=True):
-        if program.toolpath.length_um[row] > NOTHING_UM and (row in stops or (run.is_nearest and left > _LEFT_UM)):
-            found = uncut_finding(program, row, float(left), run.distances, stops=row in stops)
-            if found is not None:
-                yield found
+        is_left = run.is_nearest and (left > _LEFT_UM or row in small | no_place)
+        if length_um[row] > NOTHING_UM and (row in stops or is_left):
+            yield uncut_finding(program, row, float(left), run.distances, stops=row in stops)
+
+
+def _between_apart(path: OffsetPath) -> set[int]:
+    """Rows that vanish between blocks that do not meet, such as the floor of a groove narrower than the kerf."""
+    bridge = np.flatnonzero((path.made == Made.BRIDGE) & ~path.curves.is_arc & (path.curves.length_um > _LEFT_UM))
+    inner = bridge[(bridge > 0) & (bridge < len(path.made) - 1)].tolist()
+    return {row for at in inner for row in range(int(path.source_row[at - 1]) + 1, int(path.source_row[at + 1]))}
 
 
 def _missed(path: OffsetPath, one: Held) -> Ints:
