@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 from parser.dialect.reader import Assumption
-from parser.findings.catalogue import Language, term
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from sim.check.programmed import Programmed
@@ -149,12 +148,3 @@ class CheckResult:
         if any(self.fails(finding.severity) for finding in self.findings):
             return "fail"
         return "pass" if self.coverage.is_complete else "incomplete"
-
-
-def assumption_entry(assumption: Assumption, language: Language) -> dict[str, str]:
-    """An assumption as documents have it; why it was made is told in a language."""
-    return {
-        "what": assumption.what.removeprefix("assumed-"),
-        "taken": assumption.taken,
-        "why": term(assumption.why, language),
-    }

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import Any, Final
 
 from parser import __version__
+from parser.dialect.assumed import assumption_entry
 from parser.dialect.decoding import DecodedBlock, InForce
 from parser.program import Program
 from parser.toolpath import Point
@@ -21,7 +22,7 @@ def document(program: Program, blocks: Sequence[Decoded]) -> dict[str, Any]:
         "drycut": __version__,
         "file": program.name,
         "dialect": program.reading.dialect,
-        "assumptions": [one._asdict() for one in program.reading.assumptions],
+        "assumptions": [assumption_entry(one, "en") for one in program.reading.assumptions],
         "blocks": [block_entry(one) for one in blocks],
     }
 

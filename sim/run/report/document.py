@@ -4,12 +4,13 @@ import json
 from typing import Any
 
 from parser import __version__
+from parser.dialect.assumed import assumption_entry
 from parser.dialect.reader import HeaderValue
 from parser.findings.catalogue import term, texts
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.shape.contours import Contour
-from sim.check.result import CheckState, Coverage, assumption_entry
+from sim.check.result import CheckState, Coverage
 from sim.measure.compare.result import Comparison
 from sim.run.assumptions import assumptions_of
 from sim.run.dryrun import DryRun

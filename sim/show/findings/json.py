@@ -5,9 +5,10 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from parser import __version__
+from parser.dialect.assumed import assumption_entry
 from parser.findings.catalogue import Language, term, texts
 from parser.findings.findings import Edit, Finding
-from sim.check.result import CheckResult, CheckState, Coverage, assumption_entry
+from sim.check.result import CheckResult, CheckState, Coverage
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import joined, spot, tidy
 from sim.show.findings.totals import BLOCKS, Totals
