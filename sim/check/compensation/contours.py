@@ -1,6 +1,7 @@
 """The compensated path beside the contours that it runs along: what stays, what is gouged, what falls apart."""
 
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,13 +28,20 @@ SEEN_UM = 1.0
 _LEFT_UM = 5.0  # along a block that the wire does not come to: less, of a contour in many small blocks, is no fault
 
 
+class _NoPlace(NamedTuple):
+    """Rows of the contour at which the controller stops, and those that have no place though they leave little."""
+
+    stops: set[int]
+    unseen: set[int]
+
+
 def contour_findings(
     program: Program, path: OffsetPath, stretches: Sequence[Held], alarms: Sequence[Alarm]
 ) -> Iterator[Finding]:
     """What the path makes of the contours, under the codes of an offset, 3B501 to 3B504, and ISO512 and ISO514."""
-    stops = {one.row for one in alarms if one.stops and one.kind in (AlarmKind.TOO_SMALL, AlarmKind.VANISHED)}
+    without = _without_place(program, path, alarms)
     for one in stretches:
-        yield from _uncut(program, path, one, stops)
+        yield from _uncut(program, path, one, without)
         if one.beside.loops not in (None, 1):
             yield loop_finding(program, one.run.round.section.first, int(one.beside.loops or 0), one.run.by_um)
         if one.run.part_side == one.run.side:
@@ -49,6 +57,14 @@ def contour_findings(
             yield gouge_finding(program, (row, gouge.row), gouge, run.kerf_um)
 
 
+def _without_place(program: Program, path: OffsetPath, alarms: Sequence[Alarm]) -> _NoPlace:
+    """An inner arc as large as the offset leaves nothing, and makes other controllers stop: it is told too."""
+    gone = [one for one in alarms if one.kind in (AlarmKind.TOO_SMALL, AlarmKind.VANISHED)]
+    small = {one.row for one in gone if one.kind is AlarmKind.TOO_SMALL}
+    seen = {row for row in small if program.toolpath.length_um[row] > _LEFT_UM}
+    return _NoPlace({one.row for one in gone if one.stops}, seen | _between_apart(path))
+
+
 def _by_edge(runs: Sequence[CompensatedRound]) -> dict[int, list[CompensatedRound]]:
     by_edge: dict[int, list[CompensatedRound]] = {}
     for run in runs:
@@ -56,7 +72,7 @@ def _by_edge(runs: Sequence[CompensatedRound]) -> dict[int, list[CompensatedRoun
     return by_edge
 
 
-def _uncut(program: Program, path: OffsetPath, one: Held, stops: set[int]) -> Iterator[Finding]:
+def _uncut(program: Program, path: OffsetPath, one: Held, without: _NoPlace) -> Iterator[Finding]:
     """Blocks that the wire does not come to: where the controller stops, and those that the nearest pass leaves."""
     section, run = one.run.round.section, one.run
     vanished = path.vanished[slice(*np.searchsorted(path.vanished, (section.first, section.last + 1)))]
@@ -65,10 +81,16 @@ def _uncut(program: Program, path: OffsetPath, one: Held, stops: set[int]) -> It
     beside = path.curves.picked(rows_beside(path, run.round))
     left_um = [*one.beside.left_um, *uncut_um(one.contour, beside, run.by_um, missed - section.first)]
     for row, left in zip([*vanished.tolist(), *missed.tolist()], left_um, strict=True):
-        if program.toolpath.length_um[row] > NOTHING_UM and (row in stops or (run.is_nearest and left > _LEFT_UM)):
-            found = uncut_finding(program, row, float(left), run.distances, stops=row in stops)
-            if found is not None:
-                yield found
+        is_left = run.is_nearest and (left > _LEFT_UM or row in without.unseen)
+        if program.toolpath.length_um[row] > NOTHING_UM and (row in without.stops or is_left):
+            yield uncut_finding(program, row, float(left), run.distances, stops=row in without.stops)
+
+
+def _between_apart(path: OffsetPath) -> set[int]:
+    """Rows that vanish between blocks that do not meet, such as the floor of a groove narrower than the kerf."""
+    bridge = np.flatnonzero((path.made == Made.BRIDGE) & ~path.curves.is_arc & (path.curves.length_um > _LEFT_UM))
+    inner = bridge[(bridge > 0) & (bridge < len(path.made) - 1)].tolist()
+    return {row for at in inner for row in range(int(path.source_row[at - 1]) + 1, int(path.source_row[at + 1]))}
 
 
 def _missed(path: OffsetPath, one: Held) -> Ints:
