@@ -135,7 +135,7 @@ def test_a_thin_wall_is_no_groove() -> None:
 
 def test_a_groove_narrower_than_the_kerf_has_no_place() -> None:
     groove = [(5000, 2000), (6000, 2000), (6000, 2150), (5000, 2150), (5000, 5000)]
-    assert set(codes(check(with_corner(groove)))) & {"ISO505", "ISO506"}
+    assert set(codes(check(with_corner(groove)))) == {"ISO505", "ISO506"}
     assert codes(check(with_corner(groove, by_um=70))) == []
 
 
@@ -143,7 +143,7 @@ def test_a_groove_narrower_than_the_kerf_has_no_place() -> None:
 def test_an_inside_arc_must_be_larger_than_the_offset(radius: int) -> None:
     arc = [f"G01 X5000 Y{5000 - radius}", f"G03 X{5000 - radius} Y5000 I-{radius} J0"]
     text = program(head("H1=100"), around(DIE[:1])[:-1], arc, lines(DIE[2:]), ["G40 X0"])
-    assert codes(check(text)) == (["ISO504"] if radius < 100 else [])  # at 100 µm the kerf is the arc
+    assert codes(check(text)) == (["ISO504"] if radius <= 100 else [])  # at 100 µm some controllers stop
     stops = check(text, TEXTBOOK._replace(too_small="alarm"))
     assert codes(stops) == (["ISO504"] if radius <= 100 else [])
 

@@ -148,3 +148,13 @@ def test_a_block_that_is_called_twice_says_so(tmp_path: Path) -> None:
 def test_json_is_as_its_schema_says(part: Path, options: tuple[str, ...]) -> None:
     Draft202012Validator.check_schema(SCHEMA)
     Draft202012Validator(SCHEMA).validate(json.loads(printed(part, "--json", *options)))
+
+
+def test_a_long_word_stands_alone_and_leaves_the_columns_their_room(tmp_path: Path) -> None:
+    path = tmp_path / "part.iso"
+    path.write_text("C000 = 012 014 2215 0 242 00 9 00 8030 000 120 0 045 ;\nG92 X0 Y0\nG01 X5.0 Y0\nM02\n", "utf-8")
+    done = run_inside("decode", path)
+    lines = done.stdout.decode().splitlines()
+    at = lines.index("  ① C000 = 012 014 2215 0 242 00 9 00 8030 000 120 0 045")
+    assert lines[at + 1].split("  ")[-1] == "sets no field of the buffer"
+    assert lines[at + 2] == "  ② ;  buf_state  1: the block is whole"
