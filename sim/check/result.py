@@ -25,11 +25,20 @@ class CheckState(NamedTuple):
         ``not asked`` where a setting that it needs was not given; ``incomplete`` where it could not look at everything.
     reason
         Term of the catalogue that says why it is not complete; empty where it is.
+    words
+        Words of the program that the reason is about, where it is about words.
     """
 
     name: str
     state: State = "complete"
     reason: str = ""
+    words: tuple[str, ...] = ()
+
+    def because(self, language: Language) -> str:
+        """Its reason for people, with the words that it is about; empty where it is complete."""
+        reason = term(self.reason, language) if self.reason else ""
+        words = ", ".join(self.words)
+        return term("reason-by-words", language).format(reason=reason, words=words) if words else reason
 
 
 class Coverage(NamedTuple):
@@ -149,12 +158,3 @@ class CheckResult:
         if any(self.fails(finding.severity) for finding in self.findings):
             return "fail"
         return "pass" if self.coverage.is_complete else "incomplete"
-
-
-def assumption_entry(assumption: Assumption, language: Language) -> dict[str, str]:
-    """An assumption as documents have it; why it was made is told in a language."""
-    return {
-        "what": assumption.what.removeprefix("assumed-"),
-        "taken": assumption.taken,
-        "why": term(assumption.why, language),
-    }

@@ -7,13 +7,15 @@ import numpy as np
 from parser.dialect.reader import Choices, Registers
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
+from parser.findings.facts import NotSimulated, telling
 from parser.findings.findings import Finding
 from parser.program import Program, load_program
 from parser.toolpath import Toolpath
 from parser.units import mm
 from parser.write.draft import Draft, Written
 from parser.write.losses import Loss, some
-from sim.check.engine import Checked, Demands, run_checks
+from sim.check.engine import Checked, run_checks
+from sim.check.path_checks import Demands
 from sim.convert.kerf import closed_by_kerf
 from sim.convert.losses import losses
 from sim.convert.proof import Proof, proof
@@ -83,7 +85,11 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     if _errors(checked):
         return Refused("source", program, _errors(checked))
     if not checked.coverage.is_complete:
-        return Refused("incomplete", program)
+        beside = program.reading.not_simulated
+        if not beside.words:
+            return Refused("incomplete", program)
+        said = tuple(finding for finding, _ in telling(checked.findings, NotSimulated))
+        return Refused("not-simulated", program, said, (("words", ", ".join(beside.words)),))
     several = _several_offsets(program.toolpath, wanted)
     if several:
         return Refused("several-offsets", program, values=(("of", several),))

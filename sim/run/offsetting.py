@@ -17,8 +17,9 @@ from parser.program import Program
 from parser.shape.passes import find_passes
 from sim.check.beside import Beside, Distances, Offsetting, PassBeside, beside_round
 from sim.check.compensation.asked import WithoutValue, compensation_of, is_known
-from sim.check.engine import Demands, run_checks
+from sim.check.engine import run_checks
 from sim.check.offset import gouge_findings, loop_findings, no_way_back, uncut_findings
+from sim.check.path_checks import Demands
 from sim.setup.part import Offset
 
 

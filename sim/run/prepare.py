@@ -9,13 +9,14 @@ from controller.motion.limits import Feeds
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.dialect.reader import in_codes
-from parser.findings.codes import Check
-from parser.findings.facts import WithoutOffset
+from parser.findings.codes import Check, Severity
+from parser.findings.facts import NotSimulated, WithoutOffset
 from parser.findings.findings import Finding
 from parser.program import Program
 from sim.check.beside import Offsetting
-from sim.check.engine import Checked, Demands, run_checks
+from sim.check.engine import Checked, run_checks
 from sim.check.passes import asked_pass_findings
+from sim.check.path_checks import Demands
 from sim.check.result import CheckState, Coverage
 from sim.check.too_large import refusal, too_many_steps
 from sim.check.travel import travel_findings
@@ -80,10 +81,20 @@ def checked_for(program: Program, scenario: Scenario) -> tuple[Checked, Steps]:
     """The check that every run begins with, and the steps of the program as written. Raises what `prepare` does."""
     refuse_unanswerable(scenario.quiz, program.toolpath)
     refuse_twice(program, scenario.offset)
-    checked = run_checks(program, _demands(scenario))
+    checked = _as_run(run_checks(program, _demands(scenario)))
     if checked.steps is None:
         raise refusal(program, checked.findings)
     return checked, checked.steps
+
+
+def _as_run(checked: Checked) -> Checked:
+    """The checks, with an error where the machine would go another way than a run of the path here."""
+    return checked._replace(
+        findings=tuple(
+            one._replace(graver=Severity.ERROR) if isinstance(one.fact, NotSimulated) and one.fact.otherwise else one
+            for one in checked.findings
+        )
+    )
 
 
 def _compensated(checked: Checked, made: Offsetting, feeds: Feeds) -> Prepared:

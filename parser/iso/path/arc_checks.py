@@ -10,8 +10,8 @@ from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.iso.path.arcs import ROUNDING, Arcs
 from parser.iso.path.given import Given
-from parser.iso.path.places import Coordinates
 from parser.iso.path.rows import Rows
+from parser.iso.path.runs import Run
 
 GRAVE_UM = 20.0
 """Radii that differ by more are an error, and no rounding of any file."""
@@ -24,8 +24,8 @@ _TINY_STEPS = 2.0
 class _Told(NamedTuple):
     """Blocks told to be arcs, k of them, each the first time it runs; (k,) but for the last.
 
-    `row` is that of the toolpath, `missing` how many of I J are not given. `slack_um` is what the rounding of the file
-    explains.
+    `row` is that of the toolpath, `missing` how many of I J are not given. `is_lost` tells where nobody knows where the
+    arc begins or ends. `slack_um` is what the rounding of the file explains.
     """
 
     given: Given
@@ -37,23 +37,26 @@ class _Told(NamedTuple):
     missing: Ints
     lacks_center: Bools
     has_end: Bools
+    is_lost: Bools
     slack_um: float
 
 
-def arc_findings(given: Given, runs: Ints, numbers: Coordinates, path: Rows) -> Iterator[Finding]:
-    """What is wrong with the arcs of the running blocks `runs` (e,); a block that runs often is told once."""
-    if not len(path.turning):
+def arc_findings(given: Given, run: Run) -> Iterator[Finding]:
+    """What is wrong with the arcs of a run; a block that runs often is told once."""
+    if not len(run.rows.turning):
         return
-    told = _told(given, runs, numbers, path)
+    told = _told(given, run)
     centred = ~told.by_radius & ~told.lacks_center
     yield from _without_center(told)
     yield from _without_radius(told, centred)
-    yield from _beside_circle(told, centred & (told.arcs.written_um > 0))
+    known = centred & ~told.is_lost
+    yield from _beside_circle(told, known & (told.arcs.written_um > 0))
     yield from _by_radius(told)
-    yield from _too_full(told, centred)
+    yield from _too_full(told, known)
 
 
-def _told(given: Given, runs: Ints, numbers: Coordinates, path: Rows) -> _Told:
+def _told(given: Given, run: Run) -> _Told:
+    runs, numbers, path = run.flow.block, run.numbers, run.rows
     block, first = np.unique(runs[path.at[path.turning]], return_index=True)
     first = first[~given.contradicts("motion")[block]]  # such a block is told to be no arc as well
     row = path.turning[first]
@@ -68,6 +71,7 @@ def _told(given: Given, runs: Ints, numbers: Coordinates, path: Rows) -> _Told:
         missing=np.isnan(numbers.center[at]).sum(axis=1),
         lacks_center=path.lacks_center[first],
         has_end=np.isnan(numbers.end[at]).sum(axis=1) < len(_AXES),
+        is_lost=run.is_lost[at],
         slack_um=ROUNDING * given.profile.resolution_um + _HAIR_UM,
     )
 
@@ -97,7 +101,7 @@ def _beside_circle(told: _Told, centred: Bools) -> Iterator[Finding]:
 def _by_radius(told: _Told) -> Iterator[Finding]:
     """ISO213 and ISO214."""
     chord, radius = told.arcs.chord_um, told.arcs.written_um
-    by_radius = told.by_radius & (radius > 0)
+    by_radius = told.by_radius & (radius > 0) & ~told.is_lost
     for one in np.flatnonzero(by_radius & (chord == 0)).tolist():
         yield _at(told, "ISO214", one, "R", radius=float(radius[one]))
     for one in np.flatnonzero(by_radius & (chord > 0) & (told.arcs.sweep_rad == 0)).tolist():

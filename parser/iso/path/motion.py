@@ -56,7 +56,7 @@ def moved(listing: Listing, profile: Profile, choices: Choices) -> Moved:
     given = Given(listing, profile)
     run = run_of(given, choices)
     arcs = agreement(run.mode, run.numbers, run.place, run.rows, ROUNDING * given.profile.resolution_um)
-    centred = () if arcs.is_otherwise else arc_findings(given, run.flow.block, run.numbers, run.rows)
+    centred = () if arcs.is_otherwise else arc_findings(given, run)
     findings = (
         *order_findings(given, run.flow, run.mode.side, run.place, run.rows.at),
         *move_findings(given, run.flow.block, run.mode, run.numbers.lacks_motion, run.rows),

@@ -104,6 +104,20 @@ def places(numbers: Coordinates, is_absolute: Bools, stops: Bools) -> Places:
     return Places(start_um, exact(past + shift), shift, is_threaded, is_rebased)
 
 
+def lost(numbers: Coordinates, is_absolute: Bools, is_damaged: Bools) -> Bools:
+    """(e,) whether a block that is told places begins or ends where nobody knows.
+
+    Behind a block whose motion is not known the wire is at no known place until blocks name X and Y again.
+    """
+    row = np.arange(len(is_damaged))[:, None]
+    names = (numbers.names | (numbers.moves & is_absolute))[:, None] & ~np.isnan(numbers.end)
+    damaged = np.maximum.accumulate(np.where(is_damaged[:, None], row, -1))
+    named = np.maximum.accumulate(np.where(names, row, -1))
+    is_unknown = damaged[:, 0] > named.min(axis=1)
+    before: Bools = np.concatenate([[False], is_unknown[:-1]])
+    return before | is_unknown
+
+
 def exact(um: Floats) -> Floats:
     """Lengths to a millionth of a µm, as sums of written numbers are: 1.013 mm are 1013 µm, and no bit beside it."""
     return np.round(um, _DIGITS)

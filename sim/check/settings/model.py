@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 from parser.dialect.reader import Choices, Marks, Registers, merged
 from parser.findings.codes import Severity
 from parser.units import from_mm
-from sim.check.engine import Demands
+from sim.check.path_checks import Demands
 from sim.setup.wire import DEFAULT_WIRE
 
 if TYPE_CHECKING:

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from parser.findings.catalogue import LANGUAGES, Said
 from parser.shape.contours import Contour
 from sim.run.dryrun import DryRun
 from sim.show.report_page.findings import address
@@ -175,13 +176,13 @@ def loss_table(report: Mapping[str, Any]) -> ReportTable:
 def check_table(run: DryRun) -> ReportTable:
     """How far each check came."""
     checks = run.coverage.checks
-    names, reasons = [check.name for check in checks], [check.reason for check in checks]
+    reasons = {check.reason: Said(*map(check.because, LANGUAGES)) for check in checks}
     return ReportTable(
         "checks",
         (
-            _terms("check", names),
+            _terms("check", [check.name for check in checks]),
             worded("state", [check.state.replace(" ", "-") for check in checks]),
-            _terms("reason", reasons),
+            Column(said("report.reason"), [check.reason for check in checks], "word", words=reasons),
         ),
     )
 

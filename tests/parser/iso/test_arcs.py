@@ -128,6 +128,21 @@ def test_the_difference_of_radii_is_told_with_both() -> None:
     assert found.values["limit"] == pytest.approx(2 * math.sqrt(2), abs=1e-3)
 
 
+@pytest.mark.parametrize(
+    ("blocks", "codes"),
+    [
+        ("G01 X5000 Y..5\nG03 X-3000 Y5000 I-4000 J0", []),
+        ("G01 X5000 Y..5\nG03 X-3000 Y5000 R3000", []),
+        ("G01 X5000 Y..5\nG01 X5000 Y5000\nG03 X-3000 Y5000 I-4020 J0", ["ISO212"]),
+        ("G01 X5000 Y..5\nG91 G03 X-8000 I-4020", ["ISO212"]),
+        ("G01 X5000 Y..5\nG03 X-3000 Y5000", ["ISO210"]),
+    ],
+)
+def test_an_arc_is_judged_by_places_only_where_they_are_known(blocks: str, codes: list[str]) -> None:
+    of_arcs = [one.code for one in read(f"{HEAD}{blocks}\nM02").findings if one.code.startswith("ISO21")]
+    assert [code for code in of_arcs if code != "ISO216"] == codes
+
+
 def test_an_arc_in_a_subprogram_is_told_once() -> None:
     text = f"{HEAD}G91\nM98 P1 L3\nM02\nN1 G02 X10000 Y0 I5020\nM99"
     assert [(one.line, one.block) for one in findings(text, "ISO212")] == [(6, 1)]

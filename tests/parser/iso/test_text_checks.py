@@ -119,7 +119,7 @@ def test_words_have_an_order(block: str, word: str) -> None:
 
 
 def test_a_strict_controller_takes_no_other_order() -> None:
-    (found,) = checked(read_listing("G01 Y1 X1\n"), replace(COMMON, strict_order=True)).findings
+    (found,) = checked(read_listing("G01 Y1 X1\n"), profile("strict")).findings
     assert (found.code, found.severity) == ("ISO130", Severity.ERROR)
 
 

@@ -18,7 +18,8 @@ from parser.program import Program, parse_program
 from parser.toolpath import CompensationRules
 from sim.check.beside import Offsetting
 from sim.check.compensation.rounds import contour_of
-from sim.check.engine import Checked, Demands, run_checks
+from sim.check.engine import Checked, run_checks
+from sim.check.path_checks import Demands
 
 STUB_OF_A_COMPENSATED_LEAD = 100.0 * (math.sqrt(5.0) / 2.0 - 1.0)  # midway between two places an offset apart
 

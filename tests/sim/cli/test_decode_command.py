@@ -28,6 +28,14 @@ def printed(path: Path, *options: str) -> str:
     return done.stdout.decode()
 
 
+def test_what_was_assumed_is_told_as_a_check_tells_it(part: Path) -> None:
+    for language in ("en", "zh"):
+        of_decode = json.loads(run_inside("decode", part, "--json", "--lang", language).stdout)
+        of_check = json.loads(run_inside("check", part, "--format", "json", "--lang", language).stdout)
+        assert of_decode["assumptions"] == of_check["files"][0]["assumptions"]
+        assert [one["what"] for one in of_decode["assumptions"]][:2] == ["dialect", "unit"]
+
+
 def test_the_example_of_the_course_is_shown_word_by_word(part: Path) -> None:
     lines = printed(part, "--block", "6", "--lang", "en").splitlines()
     first = lines.index("line 2: N06 G90 G41 D11 G01 X200 Y300 F200")

@@ -1,0 +1,206 @@
+"""The checks that look at the path of a program, and how far each came."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from controller.stepping.steps import Steps
+from controller.stepping.words import interpolate
+from parser.findings.codes import Check
+from parser.findings.facts import DoubtfulEnd, telling
+from parser.findings.findings import Finding
+from parser.geometry.curves import Ints
+from parser.program import Program
+from parser.shape.contours import Contour, contour_rows
+from parser.shape.passes import find_passes
+from sim.check.closures import OpenContour, contour_findings
+from sim.check.compensation.asked import compensation_of, is_known
+from sim.check.count_axes import stepped_end_findings
+from sim.check.followed import followed_findings
+from sim.check.geometry import corner_findings, crossing_findings, sense_findings
+from sim.check.header_offset import header_offset_findings
+from sim.check.passes import pass_findings, tab_findings
+from sim.check.radius_rule import radius_rule_findings, vanishing_findings
+from sim.check.rapids import rapid_findings
+from sim.check.result import CheckState
+from sim.check.stops import tab_stop_findings
+from sim.check.travel import travel_findings
+from sim.check.uncut_jumps import uncut_jump_findings
+
+if TYPE_CHECKING:  # most checks know no machine, and most programs do not compensate
+    from sim.check.compensation.check import OwnCompensation
+    from sim.setup.machine.table_model import TableModel
+
+
+class Demands(NamedTuple):
+    """What a program is checked against.
+
+    Attributes
+    ----------
+    table, start_um
+        Table that it is to run on, and where its start lies there; None where no table is known.
+    offset_um
+        Distance of the cut edge from the wire's centre; None where no wire is known.
+    may_stay_open
+        Whether contours may end away from their own path.
+    added_um
+        Offset that the controller adds; None where nobody asked for one.
+    """
+
+    table: "TableModel | None" = None
+    start_um: tuple[float, float] | None = None
+    offset_um: float | None = None
+    may_stay_open: bool = False
+    added_um: float | None = None
+
+
+class PathChecks:
+    """The checks of one path, with their states. Contours with a damaged or endless block are not judged."""
+
+    def __init__(self, program: Program, steps: Steps, contours: tuple[Contour, ...], demands: Demands) -> None:
+        self._program, self._steps, self._demands = program, steps, demands
+        rows = contour_rows(program.toolpath)
+        self._broken = _broken_contours(program, rows)
+        self.judged = tuple(contour for number, contour in enumerate(contours) if number not in self._broken)
+        self._rows = np.where(np.isin(rows, list(self._broken)), -1, rows)
+        own = self._own_compensation()
+        self.compensation = own.made if own else None
+        self._passes = own.drawn_passes if own else find_passes(program.toolpath)
+        self.states: list[CheckState] = []
+
+    def findings(self) -> Iterator[Finding]:
+        """Findings of all path checks; afterwards `states` tells how far they came."""
+        program, demands = self._program, self._demands
+        stepped = self._stepped()
+        yield from stepped
+        uncut = uncut_jump_findings(program, self._rows, self._passes)
+        yield from uncut
+        known = (*program.findings, *stepped, *uncut)
+        yield from rapid_findings(program)
+        closures = contour_findings(program, self.judged, self._rows, known, may_stay_open=demands.may_stay_open)
+        yield from closures
+        self._done(Check.CONTOURS, self._left_out)
+        rows = _closed(self._rows, closures)  # an open contour may not run where it was meant to
+        open_ones = "" if rows is self._rows else "reason-open"
+        yield from _undoubted(sense_findings(program, rows), known)
+        yield from radius_rule_findings(program, rows, self._offset_um)
+        self._done(Check.SENSES, self._left_out or open_ones)
+        crossings, all_pairs = crossing_findings(program, rows, self._passes)
+        yield from crossings
+        self._done(Check.CROSSINGS, self._left_out or open_ones if all_pairs else "reason-many")
+        yield from self._over_edges()
+        self._done(Check.PASSES, self._left_out)
+        yield from self._asked_for()
+        reach_um = demands.offset_um if demands.table is not None else None
+        yield from header_offset_findings(program, self._passes, reach_um, demands.added_um)
+        if self.compensation is not None:
+            yield from self.compensation.findings
+            self._done(Check.COMPENSATION, self._left_out or self._without_value)
+
+    def _stepped(self) -> list[Finding]:
+        """Findings about the words that steps are counted by, where the program has such."""
+        if self._program.toolpath.words is None:
+            self.states.append(CheckState(Check.STEPS, "not asked", "reason-no-words"))
+            return []
+        self._done(Check.STEPS, _stopped(self._program))
+        return stepped_end_findings(self._program, self._steps)
+
+    def _own_compensation(self) -> "OwnCompensation | None":
+        told = compensation_of(self._program.toolpath)
+        if told is None:
+            return None
+        from sim.check.compensation.check import own_compensation  # noqa: PLC0415 - other programs start sooner without
+
+        return own_compensation(self._program, told, self._rows >= 0)
+
+    def _over_edges(self) -> Iterator[Finding]:
+        """Findings about passes over one edge: as they are programmed, as the wire runs, and what they leave uncut."""
+        program, rows, passes = self._program, self._rows, self._passes
+        yield from followed_findings(program, rows, passes)
+        yield from tab_stop_findings(program, rows, passes)
+        if not self._demands.may_stay_open:
+            yield from tab_findings(program, rows, passes)
+        made = self.compensation
+        if made is not None:
+            program, rows, passes = made.program, rows[made.path.source_row], made.edge_passes
+        yield from pass_findings(program, rows, passes, self._demands.offset_um)
+
+    @property
+    def _without_value(self) -> str:
+        """Why the compensation is not all worked out; empty where it is."""
+        told = compensation_of(self._program.toolpath)
+        return "" if told is None or is_known(told) else "reason-no-register"
+
+    @property
+    def _left_out(self) -> str:
+        """Why a check of whole contours did not look at all of them; empty where it did."""
+        if not self._broken:
+            return ""
+        return "reason-damaged" if self._program.reading.damages else "reason-endless"
+
+    @property
+    def _offset_um(self) -> float | None:
+        """What the controller adds: as asked for, as the header says, or as the wire needs it."""
+        told = self._program.header.get("offset_um")
+        return self._demands.added_um or (told if isinstance(told, float) and told > 0.0 else self._demands.offset_um)
+
+    def _asked_for(self) -> Iterator[Finding]:
+        """Checks that need to know the wire or the machine."""
+        program, demands = self._program, self._demands
+        if self.compensation is not None:
+            self._done(Check.CORNERS, self._left_out or self._without_value)  # ISO504 tells of the offset that is known
+        elif demands.offset_um is None:
+            self.states.append(CheckState(Check.CORNERS, "not asked", "reason-no-wire"))
+        else:
+            yield from corner_findings(program, self._rows, self._passes, demands.offset_um)
+            yield from vanishing_findings(program, self._rows, self._passes, self._offset_um or demands.offset_um)
+            self._done(Check.CORNERS, self._left_out)
+        if demands.table is None or demands.start_um is None:
+            self.states.append(CheckState(Check.TRAVEL, "not asked", "reason-no-machine"))
+        else:
+            run, steps = program, self._steps
+            if self.compensation is not None:
+                run = self.compensation.program
+                steps = interpolate(run.toolpath)
+            yield from travel_findings(run, steps, demands.table, demands.start_um)
+            self._done(Check.TRAVEL, "reason-damaged" if program.reading.damages else _stopped(program))
+
+    def _done(self, name: Check, reason: str = "") -> None:
+        self.states.append(state_of(self._program, name, self._program.reading.not_simulated.reason or reason))
+
+
+def _closed(rows: Ints, closures: list[Finding]) -> Ints:
+    """The contour column with −1 for contours that were found open; the same array where there are none."""
+    ends = np.array([finding.block - 1 for finding, _ in telling(closures, OpenContour)], dtype=np.int64)
+    return np.where(np.isin(rows, rows[ends]), -1, rows) if len(ends) else rows
+
+
+def _undoubted(senses: list[Finding], known: tuple[Finding, ...]) -> list[Finding]:
+    """Findings about arcs, save where a wrong count length or end explains one: of the arc itself or of a neighbour."""
+    doubtful = {finding.block for finding, _ in telling(known, DoubtfulEnd)}
+    return [finding for finding in senses if not doubtful & {finding.block - 1, finding.block, finding.block + 1}]
+
+
+def _broken_contours(program: Program, rows: Ints) -> set[int]:
+    """Contours with a block missing in or beside them, or with one that never ends."""
+    toolpath = program.toolpath
+    before = np.array([damage.after for damage in program.reading.damages], dtype=np.int64)
+    near = np.concatenate([before - 1, before, np.flatnonzero(toolpath.is_endless)]).astype(np.int64)
+    near = near[(near >= 0) & (near < len(toolpath))]
+    return set(rows[near].tolist()) - {-1}
+
+
+def _stopped(program: Program) -> str:
+    return "reason-endless" if program.toolpath.is_endless.any() else ""
+
+
+def state_of(program: Program, name: Check, reason: str) -> CheckState:
+    """State of a check: not asked where the text gives no cause for it, else incomplete if there is a reason."""
+    causeless = program.reading.not_asked.get(name)
+    if causeless:
+        return CheckState(name, "not asked", causeless)
+    if not reason:
+        return CheckState(name, "complete")
+    beside = program.reading.not_simulated
+    return CheckState(name, "incomplete", reason, beside.words if reason == beside.reason else ())
