@@ -140,6 +140,7 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "ISO110": FindingCode(Severity.ERROR, Check.GRAMMAR),
         "ISO111": FindingCode(Severity.NOTE, Check.GRAMMAR),
         "ISO112": FindingCode(Severity.NOTE, Check.GRAMMAR),
+        "ISO113": FindingCode(Severity.NOTE, Check.GRAMMAR),
         "ISO120": FindingCode(Severity.WARNING, Check.ORDER),
         "ISO121": FindingCode(Severity.ERROR, Check.ORDER),
         "ISO130": FindingCode(Severity.NOTE, Check.ORDER),

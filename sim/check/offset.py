@@ -14,6 +14,7 @@ from parser.findings.findings import Fact, Finding, Value
 from parser.geometry.along import places
 from parser.geometry.curves import Floats, Ints
 from parser.program import Program
+from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.check.beside import Distances
 from sim.setup.part import Offset
@@ -52,25 +53,24 @@ def uncut_findings(
     rows, least = rows[stays], least[stays]
     fact = InPass(nearest[0])
     for row, left in zip(rows.tolist(), least.tolist(), strict=True):
-        found = uncut_finding(program, row, left, run)
-        if found is not None:
-            yield found.with_fact(fact)
+        if left > TOLERANCE_UM or _is_small_arc(program.toolpath, row, run):
+            yield uncut_finding(program, row, left, run).with_fact(fact)
 
 
-def uncut_finding(program: Program, row: int, left_um: float, run: Distances, *, stops: bool = False) -> Finding | None:
-    """Finding 3B501 or 3B502 at a row that vanished in a pass.
-
-    None where nothing stays, unless the controller `stops` there.
-    """
+def uncut_finding(program: Program, row: int, left_um: float, run: Distances, *, stops: bool = False) -> Finding:
+    """Finding 3B501 or 3B502 at a row that vanished in a pass; whether the controller `stops` there."""
     drawn, by_um = program.toolpath, run.by_um
     (x_mm, y_mm), radius_um = mm(places(drawn, np.array([row]), np.full(1, 0.5)))[0].tolist(), drawn.radius_um[row]
     values: dict[str, Value] = {"offset": by_um, "left": left_um, "x_mm": x_mm, "y_mm": y_mm}
     values["act"] = "compensation-stops" if stops else "compensation-leaves-out"
-    if drawn.is_arc[row] and radius_um <= by_um and drawn.sweep_rad[row] * run.side > 0.0:
+    if _is_small_arc(drawn, row, run):
         return at_block(drawn, program.lines, "3B501", row, radius=float(radius_um), **values)
-    if stops or left_um > TOLERANCE_UM:
-        return at_block(drawn, program.lines, "3B502", row, **values)
-    return None
+    return at_block(drawn, program.lines, "3B502", row, **values)
+
+
+def _is_small_arc(drawn: Toolpath, row: int, run: Distances) -> bool:
+    """Whether a row is an inner arc with a radius no larger than the offset."""
+    return bool(drawn.is_arc[row] and drawn.radius_um[row] <= run.by_um and drawn.sweep_rad[row] * run.side > 0.0)
 
 
 def gouge_findings(

@@ -84,12 +84,12 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     checked = run_checks(program, Demands())
     if _errors(checked):
         return Refused("source", program, _errors(checked))
-    if not checked.coverage.is_complete:
-        beside = program.reading.not_simulated
-        if not beside.words:
-            return Refused("incomplete", program)
+    beside = ", ".join(program.reading.not_simulated.words)
+    if beside:
         said = tuple(finding for finding, _ in telling(checked.findings, NotSimulated))
-        return Refused("not-simulated", program, said, (("words", ", ".join(beside.words)),))
+        return Refused("not-simulated", program, said, (("words", beside),))
+    if not checked.coverage.is_complete:
+        return Refused("incomplete", program)
     several = _several_offsets(program.toolpath, wanted)
     if several:
         return Refused("several-offsets", program, values=(("of", several),))

@@ -113,9 +113,10 @@ def lost(numbers: Coordinates, is_absolute: Bools, is_damaged: Bools) -> Bools:
     names = (numbers.names | (numbers.moves & is_absolute))[:, None] & ~np.isnan(numbers.end)
     damaged = np.maximum.accumulate(np.where(is_damaged[:, None], row, -1))
     named = np.maximum.accumulate(np.where(names, row, -1))
-    is_unknown = damaged[:, 0] > named.min(axis=1)
-    before: Bools = np.concatenate([[False], is_unknown[:-1]])
-    return before | is_unknown
+    is_unknown: Bools = damaged[:, 0] > named.min(axis=1)
+    before: Bools = np.concatenate([np.zeros(1, dtype=np.bool_), is_unknown[:-1]])
+    either: Bools = before | is_unknown
+    return either
 
 
 def exact(um: Floats) -> Floats:
