@@ -3,8 +3,8 @@
 This is the one type that leaves the parser. Readers of any dialect fill it; nothing behind it knows how they spell.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
 from enum import IntEnum
 from typing import Literal, NamedTuple
 
@@ -145,12 +145,15 @@ class Compensation:
         n names of registers without leading zeros, such as ``D1``; empty where there is none.
     rules
         How the controller joins, begins and ends.
+    lacking
+        Of registers whose value is not known because the program sets them to a sum: the one in it without a value.
     """
 
     side: Ints
     by_um: Floats
     register: tuple[str, ...]
     rules: "CompensationRules"
+    lacking: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Freeze the columns."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
+from parser.findings.catalogue import Language, term
 from parser.findings.codes import Check
 from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
@@ -99,6 +100,28 @@ class Assumption(NamedTuple):
     taken: str
     why: str
 
+    def entry(self, language: Language) -> dict[str, str]:
+        """It as documents have it; why it was made is told in a language."""
+        return {"what": self.what.removeprefix("assumed-"), "taken": self.taken, "why": term(self.why, language)}
+
+
+class Beside(NamedTuple):
+    """What a text asks for beside its path, and is not simulated.
+
+    Attributes
+    ----------
+    reason
+        Term of the catalogue that says what it is; empty where the path is all.
+    words
+        The words that ask for it, as people name them: ``G26``, ``U``.
+    """
+
+    reason: str = ""
+    words: tuple[str, ...] = ()
+
+
+PATH_IS_ALL = Beside()
+
 
 class Damage(NamedTuple):
     """A piece of text that could not be read: its place, and how many whole blocks stand before it."""
@@ -179,7 +202,7 @@ class Reading(NamedTuple):
     threadings
         How many jumps of the toolpath no block moves along: the wire is threaded elsewhere.
     not_simulated
-        Term of the catalogue that says what the text asks for beside the path; empty where the path is all.
+        What the text asks for beside the path.
     """
 
     dialect: str
@@ -193,7 +216,7 @@ class Reading(NamedTuple):
     assumptions: tuple[Assumption, ...] = ()
     codes: Mapping[str, str] = MappingProxyType({})
     threadings: int = 0
-    not_simulated: str = ""
+    not_simulated: Beside = PATH_IS_ALL
 
 
 def in_codes(reading: Reading, findings: Iterable[Finding]) -> tuple[Finding, ...]:

@@ -37,6 +37,13 @@ class TooLarge(Fact):
 
 
 @dataclass(frozen=True, slots=True)
+class NotSimulated(Fact):
+    """The program asks for something that is not simulated; `otherwise` where it moves along another path by that."""
+
+    otherwise: bool
+
+
+@dataclass(frozen=True, slots=True)
 class WithoutOffset(Fact):
     """The program's controller adds an offset, and the path is without it."""
 

@@ -41,6 +41,9 @@ class Pass(NamedTuple):
     part_side
         +1 with the part on the left of the path, −1 on the right, 0 unknown for want of a lead-in. The lead-in to the
         first pass comes from the waste.
+    told_um
+        Offset by which the program itself has the wire run beside its contour; None where it is the path that is
+        written, or another one adds the offset.
     """
 
     edge: int
@@ -52,6 +55,11 @@ class Pass(NamedTuple):
     is_tab: bool
     shift_um: float
     part_side: int
+    told_um: float | None = None
+
+    def offset_um(self, reach_um: float) -> float:
+        """Its offset: as the program tells it, else its distance from the edge that a wire of some reach leaves."""
+        return reach_um + self.shift_um if self.told_um is None else self.told_um
 
 
 class Passes(NamedTuple):

@@ -5,9 +5,9 @@ import numpy as np
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.toolpath import Axis, StepWords
 
-_MOST_SWEEP_RAD = 1.8 * np.pi
+MOST_SWEEP_RAD = 1.8 * np.pi
 """Beyond it the ends of an arc are so near each other that a centre equally far from both may lie anywhere."""
-_MOST_SHIFT = 0.5
+MOST_SHIFT = 0.5
 """Of the radius; the centre of an arc of a few µm alone would move farther, and it is told as a line."""
 
 
@@ -39,7 +39,7 @@ def words_of_arcs(start_um: Floats, end_um: Floats, sweep_rad: Floats) -> StepWo
     """
     by = end_um - start_um
     shift = _to_bisector(start_um, end_um, sweep_rad)
-    is_astray = np.hypot(shift[:, 0], shift[:, 1]) > _MOST_SHIFT * np.hypot(start_um[:, 0], start_um[:, 1])
+    is_astray = np.hypot(shift[:, 0], shift[:, 1]) > MOST_SHIFT * np.hypot(start_um[:, 0], start_um[:, 1])
     return chosen(is_astray, words_of_lines(by), words_of_told_arcs(np.rint(start_um - shift), by, sweep_rad))
 
 
@@ -75,7 +75,7 @@ def _to_bisector(start_um: Floats, end_um: Floats, sweep_rad: Floats) -> Floats:
     by = end_um - start_um
     square = (by * by).sum(axis=1)
     share = (0.5 * (start_um + end_um) * by).sum(axis=1) / np.where(square > 0.0, square, np.inf)
-    return np.where(np.abs(sweep_rad) < _MOST_SWEEP_RAD, share, 0.0)[:, None] * by
+    return np.where(np.abs(sweep_rad) < MOST_SWEEP_RAD, share, 0.0)[:, None] * by
 
 
 def _counted(radius: Floats, low: Floats, turned: Floats, end: Floats, on_y: Bools) -> Floats:

@@ -78,7 +78,7 @@ def _every_check(program: Program, demands: Demands) -> Checked:
 
 
 def _parser_states(program: Program) -> tuple[CheckState, ...]:
-    damaged = "reason-damaged" if program.reading.damages else ""
+    damaged = program.reading.not_simulated.reason or "reason-damaged" if program.reading.damages else ""
     beyond = "reason-too-large" if any(telling(program.findings, TooLarge)) else damaged
     reasons = {Check.GRAMMAR: "", Check.ORDER: damaged}
     reasons |= dict.fromkeys((Check.BLOCKS, Check.PRINTED_ENDS, Check.HEADER), beyond)

@@ -167,7 +167,7 @@ class PathChecks:
             self._done(Check.TRAVEL, "reason-damaged" if program.reading.damages else _stopped(program))
 
     def _done(self, name: Check, reason: str = "") -> None:
-        self.states.append(state_of(self._program, name, reason or self._program.reading.not_simulated))
+        self.states.append(state_of(self._program, name, self._program.reading.not_simulated.reason or reason))
 
 
 def _closed(rows: Ints, closures: list[Finding]) -> Ints:
@@ -200,4 +200,7 @@ def state_of(program: Program, name: Check, reason: str) -> CheckState:
     causeless = program.reading.not_asked.get(name)
     if causeless:
         return CheckState(name, "not asked", causeless)
-    return CheckState(name, "incomplete", reason) if reason else CheckState(name, "complete")
+    if not reason:
+        return CheckState(name, "complete")
+    beside = program.reading.not_simulated
+    return CheckState(name, "incomplete", reason, beside.words if reason == beside.reason else ())

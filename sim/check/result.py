@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 from parser.dialect.reader import Assumption
+from parser.findings.catalogue import Language, term
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from sim.check.programmed import Programmed
@@ -24,11 +25,20 @@ class CheckState(NamedTuple):
         ``not asked`` where a setting that it needs was not given; ``incomplete`` where it could not look at everything.
     reason
         Term of the catalogue that says why it is not complete; empty where it is.
+    words
+        Words of the program that the reason is about, where it is about words.
     """
 
     name: str
     state: State = "complete"
     reason: str = ""
+    words: tuple[str, ...] = ()
+
+    def because(self, language: Language) -> str:
+        """Its reason for people, with the words that it is about; empty where it is complete."""
+        reason = term(self.reason, language) if self.reason else ""
+        words = ", ".join(self.words)
+        return term("reason-by-words", language).format(reason=reason, words=words) if words else reason
 
 
 class Coverage(NamedTuple):

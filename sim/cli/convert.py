@@ -96,7 +96,7 @@ def convert(path: Path, output: Path, lang: str | None, **options: Any) -> None:
     from parser.program import read_program
     from sim.cli.scenario_options import describe
     from sim.convert.convert import Converted, converted
-    from sim.show.terminal.convert import converted_lines, refused_lines
+    from sim.show.terminal.convert import converted_lines, read_as_lines, refused_lines
     from sim.show.terminal.printer import say
     from sim.show.terminal.streams import outlet
     from sim.show.terminal.wrap import width_of
@@ -114,12 +114,13 @@ def convert(path: Path, output: Path, lang: str | None, **options: Any) -> None:
         for line in describe(str(path), error):
             say(line, err=True)
         raise click.exceptions.Exit(2) from None
+    width = width_of(outlet())
     if isinstance(done, Converted):
         _write(path, output, done.data)
-        lines = converted_lines(done, output, wanted, tongue, width_of(outlet()))
+        lines = converted_lines(done, output, wanted, tongue, width)
     else:
-        lines = refused_lines(done, str(path), tongue, width_of(outlet()))
-    for line in lines:
+        lines = refused_lines(done, str(path), tongue, width)
+    for line in (*read_as_lines(program, str(path), tongue, width), *lines):
         say(line)
     raise click.exceptions.Exit(0 if isinstance(done, Converted) else 1)
 

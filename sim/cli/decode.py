@@ -71,7 +71,7 @@ def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     if not blocks:
         raise click.UsageError(Words(language)("decode.none", name=program.name, block=number))
     if as_json:
-        write(document_text(program, blocks), "json")
+        write(document_text(program, blocks, language), "json")
     else:
         print_decoded(program, blocks, language)
 

@@ -7,7 +7,7 @@ import click
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
-_DIALECTS = "fast-wire, classroom, skd2, robofil, sodick, mitsubishi, fanuc, common"
+_DIALECTS = "fast-wire, classroom, skd2, robofil, sodick, mitsubishi, fanuc, common, strict"
 
 
 class RegisterSet(NamedTuple):

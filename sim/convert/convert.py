@@ -7,6 +7,7 @@ import numpy as np
 from parser.dialect.reader import Choices, Registers
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
+from parser.findings.facts import NotSimulated, telling
 from parser.findings.findings import Finding
 from parser.program import Program, load_program
 from parser.toolpath import Toolpath
@@ -83,6 +84,10 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     checked = run_checks(program, Demands())
     if _errors(checked):
         return Refused("source", program, _errors(checked))
+    beside = ", ".join(program.reading.not_simulated.words)
+    if beside:
+        said = tuple(finding for finding, _ in telling(checked.findings, NotSimulated))
+        return Refused("not-simulated", program, said, (("words", beside),))
     if not checked.coverage.is_complete:
         return Refused("incomplete", program)
     several = _several_offsets(program.toolpath, wanted)

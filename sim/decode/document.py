@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from typing import Any, Final
 
 from parser import __version__
-from parser.dialect.assumed import assumption_entry
 from parser.dialect.decoding import DecodedBlock, InForce
+from parser.findings.catalogue import Language
 from parser.program import Program
 from parser.toolpath import Point
 from sim.decode.blocks import Decoded, Way
@@ -15,21 +15,24 @@ SCHEMA: Final = "drycut.decode/1"
 _DIGITS: Final = 6
 
 
-def document(program: Program, blocks: Sequence[Decoded]) -> dict[str, Any]:
-    """Blocks of a program as plain lists, dicts, numbers and None; the order of keys is fixed."""
+def document(program: Program, blocks: Sequence[Decoded], language: Language) -> dict[str, Any]:
+    """Blocks of a program as plain lists, dicts, numbers and None; the order of keys is fixed.
+
+    Why something was assumed is told in a language.
+    """
     return {
         "schema": SCHEMA,
         "drycut": __version__,
         "file": program.name,
         "dialect": program.reading.dialect,
-        "assumptions": [assumption_entry(one, "en") for one in program.reading.assumptions],
+        "assumptions": [one.entry(language) for one in program.reading.assumptions],
         "blocks": [block_entry(one) for one in blocks],
     }
 
 
-def document_text(program: Program, blocks: Sequence[Decoded]) -> str:
+def document_text(program: Program, blocks: Sequence[Decoded], language: Language) -> str:
     """The document as JSON; the same program gives the same bytes."""
-    return json.dumps(document(program, blocks), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
+    return json.dumps(document(program, blocks, language), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
 
 
 def block_entry(one: Decoded) -> dict[str, Any]:

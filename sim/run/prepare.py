@@ -9,8 +9,8 @@ from controller.motion.limits import Feeds
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
 from parser.dialect.reader import in_codes
-from parser.findings.codes import Check
-from parser.findings.facts import WithoutOffset
+from parser.findings.codes import Check, Severity
+from parser.findings.facts import NotSimulated, WithoutOffset
 from parser.findings.findings import Finding
 from parser.program import Program
 from sim.check.beside import Offsetting
@@ -56,17 +56,13 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     ProgramError where no table can do what it asks for, SettingsError where the scenario asks about a block that the
     program does not have.
     """
-    refuse_unanswerable(scenario.quiz, program.toolpath)
-    refuse_twice(program, scenario.offset)
-    checked = run_checks(program, _demands(scenario))
-    if checked.steps is None:
-        raise refusal(program, checked.findings)
+    checked, steps = checked_for(program, scenario)
     feeds = scenario.machine.feeds(scenario.thickness_mm)
+    refuse_unknown(program, checked.findings)
     if checked.compensation is not None:
-        refuse_unknown(program, checked.findings)
         return _compensated(checked, checked.compensation, feeds)
     if scenario.offset is None:
-        return Prepared(program, checked.steps, None, feeds, checked.findings, checked.coverage)
+        return Prepared(program, steps, None, feeds, checked.findings, checked.coverage)
     offset = offsetting(program, scenario.offset)
     steps = interpolate(offset.program.toolpath)
     beyond = too_many_steps(offset.program, steps)
@@ -79,6 +75,26 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     added = (*offset.findings, *_between_passes(offset, scenario), *travel)
     findings = (*_under_offset(checked.findings), *in_codes(program.reading, added))
     return Prepared(offset.program, steps, offset, feeds, findings, coverage)
+
+
+def checked_for(program: Program, scenario: Scenario) -> tuple[Checked, Steps]:
+    """The check that every run begins with, and the steps of the program as written. Raises what `prepare` does."""
+    refuse_unanswerable(scenario.quiz, program.toolpath)
+    refuse_twice(program, scenario.offset)
+    checked = _as_run(run_checks(program, _demands(scenario)))
+    if checked.steps is None:
+        raise refusal(program, checked.findings)
+    return checked, checked.steps
+
+
+def _as_run(checked: Checked) -> Checked:
+    """The checks, with an error where the machine would go another way than a run of the path here."""
+    return checked._replace(
+        findings=tuple(
+            one._replace(graver=Severity.ERROR) if isinstance(one.fact, NotSimulated) and one.fact.otherwise else one
+            for one in checked.findings
+        )
+    )
 
 
 def _compensated(checked: Checked, made: Offsetting, feeds: Feeds) -> Prepared:

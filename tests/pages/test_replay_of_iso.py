@@ -55,3 +55,14 @@ def test_a_click_on_it_leads_to_its_first_call(open_page: OpenPage) -> None:
     assert page.evaluate("drycut.player.state().block") == SECOND
     page.locator("#program .now").hover()
     assert page.locator("#tip").inner_text().startswith("Block 6 of 10 · N220 · arc, counter-clockwise")
+
+
+def test_words_of_3b_are_not_shown_as_those_of_a_block(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    page.get_by_text("N220 G03 X35000 Y0 I-5000 J0").hover()
+    names = page.locator("#tip dt").all_inner_texts()
+    assert names[-1] == "steps counted"
+    assert not {"count J", "axis G", "Z"} & set(names)
+    assert page.locator("#tip dd").last.inner_text() == "20,000 along Y"
+    assert page.locator('.readouts dt:has-text("Count left")').count() == 1
+    assert page.locator('[data-out="left"]').inner_text() == "5,000 X"

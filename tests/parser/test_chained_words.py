@@ -11,6 +11,9 @@ from parser.geometry.curves import Curves, Floats, curves_between
 from parser.toolpath import Axis, StepWords
 from parser.words.chained import chained_words
 from parser.words.labels import label
+from parser.words.moves import moves
+from parser.words.one_arc import arc_of, line_of, told_arc_of
+from parser.words.telling import words_of_arcs, words_of_lines, words_of_told_arcs
 
 _MOST_UM = 2.3
 
@@ -72,3 +75,31 @@ def test_a_block_begins_where_a_place_is_named() -> None:
 def test_no_blocks_have_no_words() -> None:
     nothing = curves_between(*[np.zeros((0, 2))] * 3, np.zeros(0))
     assert len(chained_words(nothing, np.zeros((0, 2)), np.zeros(0, dtype=np.bool_)).words.x_um) == 0
+
+
+@pytest.mark.parametrize("most_um", [3.0, 400.0, 1e6])
+def test_one_arc_is_told_as_arrays_tell_it(most_um: float) -> None:
+    """To the last bit: `one_arc` says the same as `telling` and `moves`, also on axes, diagonals and whole turns."""
+    rng = np.random.default_rng(int(most_um))
+    n = 500
+    start = np.where(
+        rng.random((n, 1)) < 0.3, rng.integers(-3, 4, (n, 2)) * 500.0, rng.uniform(-1, 1, (n, 2)) * most_um
+    )
+    by = np.where(rng.random((n, 1)) < 0.1, -2.0 * start, rng.normal(size=(n, 2)) * most_um)
+    by = np.where(rng.random((n, 1)) < 0.1, rng.normal(size=(n, 2)), by)
+    sweep = rng.uniform(0.001, 2.0 * np.pi, n) * rng.choice([-1.0, 1.0], n)
+    end = start + by
+    for one, words in (
+        (lambda row: line_of(tuple(by[row].tolist())), words_of_lines(by)),
+        (lambda row: arc_of(start[row].tolist(), end[row].tolist(), sweep[row]), words_of_arcs(start, end, sweep)),
+        (
+            lambda row: told_arc_of(start[row].tolist(), by[row].tolist(), sweep[row]),
+            words_of_told_arcs(np.rint(start), by, sweep),
+        ),
+    ):
+        ways = moves(words).by_um
+        columns = [words.x_um, words.y_um, words.count_um, words.count_axis, words.quadrant, words.turn]
+        assert [one(row) for row in range(n)] == [
+            (*numbers, tuple(way))
+            for numbers, way in zip(np.column_stack(columns).tolist(), ways.tolist(), strict=True)
+        ]

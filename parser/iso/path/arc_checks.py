@@ -57,7 +57,8 @@ def arc_findings(given: Given, run: Run) -> Iterator[Finding]:
 
 def _told(given: Given, run: Run) -> _Told:
     runs, numbers, path = run.flow.block, run.numbers, run.rows
-    _, first = np.unique(runs[path.at[path.turning]], return_index=True)
+    block, first = np.unique(runs[path.at[path.turning]], return_index=True)
+    first = first[~given.contradicts("motion")[block]]  # such a block is told to be no arc as well
     row = path.turning[first]
     at = path.at[row]
     return _Told(

@@ -1,18 +1,22 @@
 """What is in doubt of a path: blocks whose motion is not known, and what the text leaves open of where it goes."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from parser.dialect.reader import Assumption, Damage
 from parser.geometry.curves import Bools, Ints
+from parser.iso.listing.listing import Form, Listing
 from parser.iso.path.given import Given
 from parser.iso.path.places import bare_place
 from parser.iso.path.runs import Run
+from parser.text.source import Span
 
 
 def damages(given: Given, run: Run) -> tuple[Damage, ...]:
     """Pieces that could not be read in blocks that run, calls and moves that could not be made, in file order."""
     blocks = given.listing.blocks
-    lost = [one.span for one in given.listing.unread]
+    lost = [*(one.span for one in given.listing.unread), *_macros_that_move(given.listing)]
     lost += [(int(blocks.first[one.block]), int(blocks.past[one.block])) for one in run.flow.faults]
     straight = run.rows.at[run.rows.turning[run.rows.arcs.sweep_rad == 0]]
     unmoved = run.flow.block[np.concatenate([straight, np.flatnonzero(run.numbers.lacks_motion)])]
@@ -23,6 +27,13 @@ def damages(given: Given, run: Run) -> tuple[Damage, ...]:
     behind = np.searchsorted(blocks.past, [first for first, _ in lost], side="right")
     after = before[behind]
     return tuple(sorted(Damage(span, int(rows)) for span, rows in zip(lost, after, strict=True) if rows >= 0))
+
+
+def _macros_that_move(listing: Listing) -> Iterator[Span]:
+    """Places of macros but those that only set a variable: they move the wire, or choose which blocks run."""
+    for one in listing.statements:
+        if one.form is Form.MACRO and listing.text[one.span[0]] != "#":
+            yield one.span
 
 
 def _rows_before(run: Run, count: int) -> Ints:

@@ -1,10 +1,11 @@
 """Flow: the order in which the blocks of a program run, subprograms once a call (docs/iso.md §7)."""
 
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Bools, Ints
+from parser.geometry.curves import Bools, Floats, Ints
 from parser.iso.path.given import Given
 
 DEEPEST = 10
@@ -67,7 +68,6 @@ class _Walk:
         self._ends, self._returns, self._calls = (given.m(effect) for effect in ("end", "return", "call"))
         self._turns = np.flatnonzero(self._ends | self._returns | self._calls)
         self._names, self._times = given.word("P"), given.word("L")
-        self._targets: dict[int | None, int] = {}
         self._known: dict[int, _Stretch] = {}
         self._open: list[int] = []
         self._faults: dict[int, str] = {}
@@ -84,7 +84,8 @@ class _Walk:
         """From a block on until a return, an end code or the end of the text."""
         parts: list[Ints] = []
         depth = total = 0
-        for turn in self._turns[np.searchsorted(self._turns, first) :].tolist():
+        for at in range(int(self._turns.searchsorted(first)), len(self._turns)):
+            turn = int(self._turns[at])
             parts.append(np.arange(first, turn + 1))
             total += turn + 1 - first
             first = turn + 1
@@ -133,23 +134,32 @@ class _Walk:
     def _target(self, block: int) -> int:
         """The block that a call names: N behind the end of the program, O, or N before it; −1 where there is none."""
         label = self._number(block, self._names)
-        if label not in self._targets:
-            self._targets[label] = self._block_of(label)
-        return self._targets[label]
-
-    def _block_of(self, label: int | None) -> int:
-        words = self._given.listing.words
-        for letter, first in (("N", self._main_end), ("O", 0), ("N", 0)):
-            named = self._given.listing.of(letter)
-            blocks = words.block[named[words.value[named] == label]]
-            blocks = blocks[blocks >= first]
-            if len(blocks):
-                return int(blocks[0])
+        if label is None:
+            return -1
+        for (values, blocks), first in zip(self._labels, (self._main_end, 0, 0), strict=True):
+            at, past = values.searchsorted(label), values.searchsorted(label, side="right")
+            at += blocks[at:past].searchsorted(first)
+            if at < past:
+                return int(blocks[at])
         return -1
+
+    @cached_property
+    def _labels(self) -> tuple[tuple[Floats, Ints], ...]:
+        """Numbers, rising, and their blocks, of what a call may name, in the order in which it is looked for."""
+        n, o = (_by_number(self._given, letter) for letter in "NO")
+        return n, o, n
 
     def _number(self, block: int, word_of: Ints) -> int | None:
         word = int(word_of[block])
         return None if word < 0 else int(self._given.listing.words.value[word])
+
+
+def _by_number(given: Given, letter: str) -> tuple[Floats, Ints]:
+    """The words with a letter by their numbers, those of one number in file order, and their blocks."""
+    word = given.listing.of(letter)
+    value = given.listing.words.value[word]
+    order = np.argsort(value, kind="stable")
+    return value[order], given.listing.words.block[word[order]]
 
 
 def idle(given: Given, run: Flow) -> Bools:

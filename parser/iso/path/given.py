@@ -37,6 +37,12 @@ class Given:
         at[self._block_of_g[chosen]] = self._tenfold[chosen]
         return at
 
+    def contradicts(self, name: str) -> Bools:
+        """(b,) whether a block has G words of a group that differ."""
+        chosen = np.flatnonzero(self._group_of[self._tenfold] == self._groups.get(name, -1))
+        block = self._block_of_g[chosen]
+        return self._any(block[self._tenfold[chosen] != self.group(name)[block]])
+
     def g(self, tenfold: int) -> Bools:
         """(b,) whether a block has one G word."""
         return self._any(self._block_of_g[self._tenfold == tenfold])

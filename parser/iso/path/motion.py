@@ -99,7 +99,8 @@ def _compensation(run: Run, rules: CompensationRules) -> Compensation | None:
     at = run.rows.at
     side = run.mode.side[at]
     by_um = np.where(side != 0, run.offsets.by_um[at], 0.0)
-    return Compensation(side, by_um, tuple(map(run.offsets.names.__getitem__, run.offsets.name[at].tolist())), rules)
+    names = tuple(map(run.offsets.names.__getitem__, run.offsets.name[at].tolist()))
+    return Compensation(side, by_um, names, rules, run.offsets.lacking)
 
 
 def _stops(given: Given, runs: Ints, at: Ints) -> tuple[Stop, ...]:

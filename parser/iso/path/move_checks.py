@@ -11,6 +11,7 @@ from parser.iso.path.modes import Modes
 from parser.iso.path.rows import Rows
 
 _HAIR = 1e-6  # of a step
+_MOVING = "XYIJR"
 
 
 def move_findings(given: Given, runs: Ints, mode: Modes, lacks_motion: Bools, path: Rows) -> Iterator[Finding]:
@@ -21,15 +22,14 @@ def move_findings(given: Given, runs: Ints, mode: Modes, lacks_motion: Bools, pa
 
 
 def _without_motion(given: Given, runs: Ints, lacks_motion: Bools) -> Iterator[Finding]:
-    """ISO110 at the first block that runs with numbers to move by before any motion word did."""
-    block = set(runs[lacks_motion].tolist())
-    if block:
-        listing, first = given.listing, int(runs[np.argmax(lacks_motion)])
-        words = np.arange(*listing.blocks.word[first : first + 2])
-        word = int(words[np.argmax(np.isin(listing.words.letter[words], [ord(letter) for letter in "XYIJR"]))])
-        span = (int(listing.words.first[word]), int(listing.words.past[word]))
-        text, more = listing.text[slice(*span)], len(block) - 1
-        yield listing.lines.finding("ISO110", span, text=text, what="no-motion-yet", more=more)
+    """ISO110 at each block that runs with numbers to move by before any motion word did, at the first of these."""
+    listing = given.listing
+    blocks = np.unique(runs[lacks_motion])
+    word = listing.of_any(_MOVING)
+    first = word[np.searchsorted(listing.words.block[word], blocks)]
+    for one in first.tolist():
+        span = (int(listing.words.first[one]), int(listing.words.past[one]))
+        yield listing.lines.finding("ISO110", span, text=listing.text[slice(*span)], what="no-motion-yet")
 
 
 def _no_length(given: Given, runs: Ints, mode: Modes, path: Rows) -> Iterator[Finding]:
@@ -59,7 +59,7 @@ def _finer_than_steps(given: Given, runs: Ints, mode: Modes) -> Iterator[Finding
     words = given.listing.words
     scale = np.full(len(given.listing.blocks.line), np.nan)
     scale[runs] = mode.point_um
-    coordinate = np.isin(words.letter, [ord(letter) for letter in "XYIJR"]) & (words.decimals > 0)
+    coordinate = np.isin(words.letter, [ord(letter) for letter in _MOVING]) & (words.decimals > 0)
     word = np.flatnonzero(coordinate)
     um = words.value[word] * scale[words.block[word]]
     steps = um / given.profile.step_um

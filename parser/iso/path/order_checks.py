@@ -10,7 +10,7 @@ from parser.geometry.curves import Ints
 from parser.iso.listing.listing import Listing
 from parser.iso.path.flow import Flow, idle
 from parser.iso.path.given import Given
-from parser.iso.path.places import SET_PLACE, Places
+from parser.iso.path.places import SET_PLACE, Places, bare_place
 from parser.text.source import Span
 
 _INK = re.compile(r"[^\s%\x00-\x1f][^\r\n]*")
@@ -25,6 +25,7 @@ def order_findings(given: Given, run: Flow, side: Ints, place: Places, at: Ints)
     yield from _never_run(given, run)
     yield from _behind_tape(given.listing)
     yield from _named_places(given, run, place)
+    yield from _bare_places(given, run)
     yield from _while_compensated(given, run, side, at)
 
 
@@ -94,6 +95,22 @@ def _named_places(given: Given, run: Flow, place: Places) -> Iterator[Finding]:
     for at in _first_runs(run, np.flatnonzero(place.is_rebased)).tolist():
         by_x, by_y = (place.shift_um[at - 1] - place.shift_um[at]).tolist()
         yield _at(given.listing, "ISO303", int(run.block[at]), x=by_x, y=by_y)
+
+
+def _bare_places(given: Given, run: Flow) -> Iterator[Finding]:
+    """ISO113: a G92 that names no place, with the place that it was taken for as its mend, written as others are."""
+    words = given.listing.words
+    written = words.decimals[np.isin(words.letter, _MOTION_LETTERS)]
+    place = " X0. Y0." if len(written) and (written >= 0).all() else " X0 Y0"
+    ran = np.zeros(len(given.listing.blocks.line), dtype=np.bool_)
+    ran[run.block] = True
+    names = given.listing.of("G")
+    names = names[(words.value[names] * 10 == SET_PLACE) & (bare_place(given) & ran)[words.block[names]]]
+    for word in names.tolist():
+        past = int(words.past[word])
+        yield _of_span(given.listing, "ISO113", (int(words.first[word]), past))._replace(
+            edits=(Edit(past, past, place),)
+        )
 
 
 def _while_compensated(given: Given, run: Flow, side: Ints, at: Ints) -> Iterator[Finding]:

@@ -1,5 +1,6 @@
 """Registers: which offset is in force in each block as it runs, and how much it is (docs/iso.md §9)."""
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -29,17 +30,20 @@ class Offsets(NamedTuple):
         (e,) their values, NaN where they are not known.
     assumed
         The register that was taken where nothing selects one: the only one with a value; empty where it was not needed.
+    lacking
+        Registers without a value by which sums are not known, by the registers that are set to them.
     """
 
     names: tuple[str, ...]
     name: Ints
     by_um: Floats
     assumed: str
+    lacking: Mapping[str, str]
 
 
 def offsets(given: Given, runs: Ints, mode: Modes, choices: Choices) -> Offsets:
     """What is selected in the blocks `runs` (e,), and the value that it has by then."""
-    values = _values(given, runs, mode, choices)
+    values, lacking = _values(given, runs, mode, choices)
     number = _selected(given, runs)
     open_ = (number < 0) & (mode.side != 0)
     assumed = next(iter(values)) if len(values) == 1 and open_.any() else ""
@@ -49,7 +53,7 @@ def offsets(given: Given, runs: Ints, mode: Modes, choices: Choices) -> Offsets:
     order = np.argsort(at, kind="stable")
     for name, rows in zip(names, np.split(order, np.cumsum(np.bincount(at))[:-1]), strict=True):
         by[rows] = _value(given, name, values, rows)
-    return Offsets(tuple(names), at, by, assumed)
+    return Offsets(tuple(names), at, by, assumed, lacking)
 
 
 def _selected(given: Given, runs: Ints) -> Ints:
@@ -77,24 +81,26 @@ def _value(given: Given, name: str, values: Values, rows: Ints) -> Floats | floa
     return held
 
 
-def _values(given: Given, runs: Ints, mode: Modes, choices: Choices) -> Values:
-    """All that registers are set to, in the order in which it happens."""
+def _values(given: Given, runs: Ints, mode: Modes, choices: Choices) -> tuple[Values, dict[str, str]]:
+    """All that registers are set to, in the order in which it happens; and what sums lack, as in `Offsets`."""
     values: Values = {name: [(-1, um)] for name, um in choices.registers}
+    lacking: dict[str, str] = {}
     set_in: dict[int, list[Assignment]] = {}
     for assignment in given.listing.assignments:
         set_in.setdefault(assignment.block, []).append(assignment)
     for at in np.flatnonzero(np.isin(runs, list(set_in))).tolist():
         integer_um, point_um = _scales(given, mode, at)
         for assignment in set_in[int(runs[at])]:
+            named = [term for term in assignment.terms if isinstance(term, str)]
+            known = {name: values.get(name, [(-1, np.nan)])[-1][1] for name in named}
             terms = (
-                values.get(term, [(-1, np.nan)])[-1][1]
-                if isinstance(term, str)
-                else term[0] * (integer_um if term[1] < 0 else point_um)
+                known[term] if isinstance(term, str) else term[0] * (integer_um if term[1] < 0 else point_um)
                 for term in assignment.terms
             )
-            value = round(sum(terms), 6)  # before the register has a place: it may be one of its own terms
-            values.setdefault(assignment.register, []).append((at, value))
-    return values
+            values.setdefault(assignment.register, []).append((at, round(sum(terms), 6)))
+            for name in (name for name, um in known.items() if np.isnan(um)):
+                lacking.setdefault(assignment.register, lacking.get(name, name))
+    return values, lacking
 
 
 def _scales(given: Given, mode: Modes, at: int) -> tuple[float, float]:

@@ -13,7 +13,7 @@ from typing import Any, Literal
 from parser.toolpath import CompensationRules
 
 _FOLDER = Path(__file__).parent
-PROFILES = ("fast-wire", "classroom", "skd2", "robofil", "sodick", "mitsubishi", "fanuc", "common")
+PROFILES = ("fast-wire", "classroom", "skd2", "robofil", "sodick", "mitsubishi", "fanuc", "common", "strict")
 """Names of all profiles, as ``--dialect`` takes them."""
 
 
@@ -58,7 +58,9 @@ class Profile:
     whole
         Letters of words whose numbers are whole.
     range
-        Least and greatest number of a word as written, by letters; lengths have one bound of their own.
+        Least and greatest number of a word as written, by letters; lengths have bounds of their own.
+    most_coordinate_um, most_radius_um
+        Greatest length either way: of coordinates, and of radii and the ways to centres.
     g, m
         What G and M words do, by their numbers as written without leading zeros (``"1"``, ``"90.1"``).
     rules
@@ -85,6 +87,8 @@ class Profile:
     angle: str
     whole: str
     range: Mapping[str, tuple[float, float]]
+    most_coordinate_um: float
+    most_radius_um: float
     g: Mapping[str, str]
     m: Mapping[str, str]
     rules: CompensationRules

@@ -9,15 +9,12 @@ from parser.iso.words.numbering import ENDS, are_called, stands_alone
 
 
 def unknown_letters(listing: Listing, letters: str) -> tuple[list[Finding], Ints]:
-    """ISO103 at the first word of each letter that is none of `letters`; and the blocks of all these words."""
-    words = listing.words
-    unknown = np.flatnonzero(~np.isin(words.letter, [ord(letter) for letter in letters]))
-    letter, first, times = np.unique(words.letter[unknown], return_index=True, return_counts=True)
+    """ISO103 at each word with a letter that is none of `letters`; and the blocks of these words."""
+    letter = listing.words.letter
+    unknown = np.flatnonzero(~np.isin(letter, [ord(letter) for letter in letters]))
     found = [
-        listing.at_word(
-            "ISO103", int(unknown[at]), letter=chr(one), text=listing.written(int(unknown[at])), more=count - 1
-        )
-        for one, at, count in zip(letter.tolist(), first.tolist(), times.tolist(), strict=True)
+        listing.at_word("ISO103", word, letter=chr(int(letter[word])), text=listing.written(word))
+        for word in unknown.tolist()
     ]
     return found, np.flatnonzero(listing.blocks_of(unknown))
 
@@ -25,9 +22,7 @@ def unknown_letters(listing: Listing, letters: str) -> tuple[list[Finding], Ints
 def without_command(listing: Listing) -> list[Finding]:
     """ISO110 at block numbers of nothing (docs/iso.md §2)."""
     labels = listing.blocks.word[np.flatnonzero(_empty(listing))].tolist()
-    return [
-        listing.at_word("ISO110", word, what="nothing-but-n", text=listing.written(word), more=0) for word in labels
-    ]
+    return [listing.at_word("ISO110", word, what="nothing-but-n", text=listing.written(word)) for word in labels]
 
 
 def _empty(listing: Listing) -> Bools:

@@ -5,52 +5,79 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.dialect.reader import PATH_IS_ALL, Beside
+from parser.findings.facts import NotSimulated
 from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
-from parser.iso.listing.listing import Form, Listing
+from parser.iso.listing.listing import Form, Listing, Statement
 from parser.iso.profiles.profile import Profile
 from parser.iso.words.word_checks import effects
 
 _OTHER_PLANES = (18.0, 19.0)
 _LEANS = (51.0, 52.0)
+_MOST_NAMED = 8
 
 
-class NotSimulated(NamedTuple):
-    """Findings ISO204, ISO402 and ISO600; and the term of why the path is not all that the machine does, or empty."""
+class AskedBeside(NamedTuple):
+    """Findings ISO204, ISO402 and ISO600; and what they are about."""
 
     findings: tuple[Finding, ...]
-    reason: str
+    beside: Beside
 
 
-def not_simulated(listing: Listing, profile: Profile) -> NotSimulated:
+class _Told(NamedTuple):
+    """Findings of one kind, and the words that they are about, as people name them."""
+
+    findings: list[Finding]
+    words: list[str]
+
+
+def not_simulated(listing: Listing, profile: Profile) -> AskedBeside:
     """What the words of a listing ask for beside its path."""
-    told = {
-        "reason-macros": [*_macros(listing)],
-        "reason-other-paths": [*_other_paths(listing, profile)],
-        "reason-taper": [*_taper(listing, profile)],
+    found = {
+        "reason-other-paths": _other_paths(listing, profile),
+        "reason-macros": _macros(listing),
+        "reason-taper": _taper(listing, profile),
     }
-    reason = next((reason for reason, findings in told.items() if findings), "")
-    return NotSimulated(tuple(finding for findings in told.values() for finding in findings), reason)
+    told = {reason: one for reason, one in found.items() if one.findings}
+    if not told:
+        return AskedBeside((), PATH_IS_ALL)
+    first = next(iter(told))
+    words = [word for one in told.values() for word in one.words]
+    named = tuple(words[:_MOST_NAMED]) + ("…",) * (len(words) > _MOST_NAMED)
+    findings = tuple(
+        finding.with_fact(NotSimulated(otherwise=reason != "reason-taper"))
+        for reason, one in told.items()
+        for finding in one.findings
+    )
+    return AskedBeside(findings, Beside(first if len(told) == 1 else "reason-other-paths", named))
 
 
-def _macros(listing: Listing) -> Iterator[Finding]:
+def _macros(listing: Listing) -> _Told:
     """ISO402 at the first line of them."""
     lines = [one for one in listing.statements if one.form is Form.MACRO]
-    for one in lines[:1]:
-        text = listing.lines.text[slice(*one.span)].strip()
-        yield listing.lines.finding("ISO402", one.span, 0, text=text, more=len(lines) - 1)
+    texts = [_text(listing, one) for one in lines]
+    first = [listing.lines.finding("ISO402", one.span, 0, text=texts[0], more=len(lines) - 1) for one in lines[:1]]
+    return _Told(first, list(dict.fromkeys(texts)))
 
 
-def _other_paths(listing: Listing, profile: Profile) -> Iterator[Finding]:
+def _text(listing: Listing, one: Statement) -> str:
+    return listing.lines.text[slice(*one.span)].strip()
+
+
+def _other_paths(listing: Listing, profile: Profile) -> _Told:
     """ISO204 at the first word of each kind."""
     g, m = effects(listing, "G", profile.g), effects(listing, "M", profile.m)
     value = listing.words.value
-    for word in (
-        g.word[g.are("path") | np.isin(value[g.word], _OTHER_PLANES)],
-        m.word[m.are("path")],
-    ):
-        for first, count in _first_of_each(value[word].tolist(), word):
-            yield listing.at_word("ISO204", first, word=listing.written(first), more=count - 1)
+    firsts = [
+        (first, count)
+        for word in (g.word[g.are("path") | np.isin(value[g.word], _OTHER_PLANES)], m.word[m.are("path")])
+        for first, count in _first_of_each(value[word].tolist(), word)
+    ]
+    findings = [
+        listing.at_word("ISO204", first, word=listing.written(first), more=count - 1) for first, count in firsts
+    ]
+    return _Told(findings, [listing.written(first) for first, _ in firsts])
 
 
 def _first_of_each(number: list[float], word: Ints) -> list[tuple[int, int]]:
@@ -59,16 +86,24 @@ def _first_of_each(number: list[float], word: Ints) -> list[tuple[int, int]]:
     return sorted(zip(word[first].tolist(), count.tolist(), strict=True))
 
 
-def _taper(listing: Listing, profile: Profile) -> Iterator[Finding]:
+def _taper(listing: Listing, profile: Profile) -> _Told:
     """ISO600 at the first word or contour by which the wire leans."""
     planes = [one for one in listing.statements if one.form is Form.TWO_PLANES]
     leaning = _leaning_words(listing, profile)
     more = len(planes) + len(leaning) - 1
+    names = [*_letters(listing, leaning), *([":"] if planes else [])]
     if len(leaning):
         first = int(leaning[0])
-        yield listing.at_word("ISO600", first, word=listing.written(first), more=more)
-    elif planes:
-        yield listing.lines.finding("ISO600", planes[0].span, 0, word=":", more=more)
+        return _Told([listing.at_word("ISO600", first, word=listing.written(first), more=more)], names)
+    return _Told([listing.lines.finding("ISO600", one.span, 0, word=":", more=more) for one in planes[:1]], names)
+
+
+def _letters(listing: Listing, word: Ints) -> Iterator[str]:
+    """Some words as people name them together: each letter once, G with its number."""
+    letter, value = listing.words.letter[word], listing.words.value[word]
+    pairs = zip(letter.tolist(), np.where(letter == ord("G"), value, 0.0).tolist(), strict=True)
+    for code, number in sorted(set(pairs)):
+        yield f"G{number:g}" if code == ord("G") else chr(code)
 
 
 def _leaning_words(listing: Listing, profile: Profile) -> Ints:

@@ -6,7 +6,7 @@ from parser.iso.profiles.profile import Profile
 from parser.iso.words.commands import unknown_letters, without_command
 from parser.iso.words.numbering import numbering_findings
 from parser.iso.words.word_checks import word_findings
-from parser.iso.words.word_order import order_finding
+from parser.iso.words.word_order import order_findings
 
 
 def checked(listing: Listing, profile: Profile) -> Listing:
@@ -14,7 +14,7 @@ def checked(listing: Listing, profile: Profile) -> Listing:
     letters, unknown = unknown_letters(listing, profile.letters)
     found = [
         *(*listing.findings, *letters, *without_command(listing), *numbering_findings(listing)),
-        *order_finding(listing, strict=profile.strict_order),
+        *order_findings(listing, strict=profile.strict_order),
         *word_findings(listing, profile),
     ]
     is_damaged = listing.blocks.is_damaged.copy()

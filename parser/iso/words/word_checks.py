@@ -10,7 +10,7 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.iso.listing.listing import Listing
 from parser.iso.profiles.profile import Profile
-from parser.units import MAX_WORD_UM
+from parser.units import mm
 
 GROUPS = (
     *("motion", "plane", "distance", "centres", "unit", "compensation", "taper", "system", "rotation"),
@@ -19,8 +19,9 @@ GROUPS = (
 """Groups of G words of which a block has one at most; other effects are none."""
 
 _TENFOLD = 10_000  # G and M words are numbers below 1000 with one decimal at most
-_LENGTHS = "XYUVZIJKR"
+_COORDINATES, _RADII = "XYUVZ", "IJKR"
 _LETTERS = 256
+_MM_PER_M = 1000.0
 _EXACT = 1e-6
 
 
@@ -118,13 +119,15 @@ def _out_of_range(listing: Listing, profile: Profile) -> Iterator[Finding]:
         low[ord(letter)], high[ord(letter)] = least, most
     for word in np.flatnonzero((words.value < low[words.letter]) | (words.value > high[words.letter])).tolist():
         code = int(words.letter[word])
-        limits = f"{low[code]:.0f} … {high[code]:.0f}"
+        limits = f"{low[code]:g} … {high[code]:.0f}"
         yield listing.at_word("ISO206", word, word=listing.written(word), limits=limits)
-    lengths = listing.of_any(_LENGTHS)
-    scale = np.where(words.decimals[lengths] < 0, profile.integer_um, profile.point_um)
-    for word in lengths[np.abs(words.value[lengths]) * scale > MAX_WORD_UM].tolist():
-        found = listing.at_word("ISO206", word, word=listing.written(word), limits="±1 km")
-        yield found.with_fact(TooLarge())
+    for letters, most_um in ((_COORDINATES, profile.most_coordinate_um), (_RADII, profile.most_radius_um)):
+        lengths = listing.of_any(letters)
+        scale = np.where(words.decimals[lengths] < 0, profile.integer_um, profile.point_um)
+        for word in lengths[np.abs(words.value[lengths]) * scale > most_um].tolist():
+            limits = f"±{mm(most_um) / _MM_PER_M:g} m"
+            found = listing.at_word("ISO206", word, word=listing.written(word), limits=limits)
+            yield found.with_fact(TooLarge())
 
 
 def _repeated_m(listing: Listing, profile: Profile, m: Effects) -> Iterator[Finding]:

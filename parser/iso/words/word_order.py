@@ -14,15 +14,17 @@ for _rank, _letters in enumerate(ORDER, 1):
     _RANK[[ord(letter) for letter in _letters]] = _rank
 
 
-def order_finding(listing: Listing, *, strict: bool) -> list[Finding]:
-    """ISO130 at the first word that stands behind one that it comes before, an error where the order is strict."""
+def order_findings(listing: Listing, *, strict: bool) -> list[Finding]:
+    """ISO130 at the first word that stands behind one that it comes before; in each block where the order is strict."""
     words = listing.words
     ranked = np.flatnonzero(_RANK[words.letter])
     rank, block = _RANK[words.letter[ranked]], words.block[ranked]
     behind = np.flatnonzero((np.diff(rank) < 0) & (np.diff(block) == 0))
-    if not len(behind):
-        return []
-    before, word = ranked[behind[:1]].item(), ranked[behind[:1] + 1].item()
-    more = int(np.count_nonzero(np.diff(block[behind])))
-    found = listing.at_word("ISO130", word, word=listing.written(word), before=listing.written(before), more=more)
-    return [found._replace(graver=Severity.ERROR if strict else None)]
+    behind = behind[np.flatnonzero(np.diff(block[behind], prepend=-1))]
+    told = behind if strict else behind[:1]
+    more = 0 if strict else len(behind) - 1
+    found = [
+        listing.at_word("ISO130", word, word=listing.written(word), before=listing.written(before), more=more)
+        for before, word in zip(ranked[told].tolist(), ranked[told + 1].tolist(), strict=True)
+    ]
+    return [one._replace(graver=Severity.ERROR if strict else None) for one in found]

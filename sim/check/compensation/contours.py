@@ -1,6 +1,7 @@
 """The compensated path beside the contours that it runs along: what stays, what is gouged, what falls apart."""
 
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -8,7 +9,7 @@ from controller.offset.alarms import Alarm, AlarmKind
 from controller.offset.gouges import Gouge
 from controller.offset.path import Made, OffsetPath
 from controller.offset.reach import reach
-from controller.offset.sections import Side
+from controller.offset.sections import OffsetSection, Side
 from controller.offset.shifted import NOTHING_UM
 from controller.offset.uncut import uncut_um
 from parser.dialect.at_block import at_block
@@ -27,11 +28,22 @@ SEEN_UM = 1.0
 _LEFT_UM = 5.0  # along a block that the wire does not come to: less, of a contour in many small blocks, is no fault
 
 
+class _Gone(NamedTuple):
+    """Rows that have vanished: where the controller stops, and those that are told whatever stays along them.
+
+    The latter are floors of grooves that have no room for the wire, and inner arcs as large as the offset: these leave
+    nothing, and make other controllers stop.
+    """
+
+    stops: set[int]
+    anyhow: set[int]
+
+
 def contour_findings(
     program: Program, path: OffsetPath, stretches: Sequence[Held], alarms: Sequence[Alarm]
 ) -> Iterator[Finding]:
     """What the path makes of the contours, under the codes of an offset, 3B501 to 3B504, and ISO512 and ISO514."""
-    gone = [one for one in alarms if one.kind in (AlarmKind.TOO_SMALL, AlarmKind.VANISHED)]
+    gone = _gone(program, path, alarms)
     for one in stretches:
         yield from _uncut(program, path, one, gone)
         if one.beside.loops not in (None, 1):
@@ -39,33 +51,42 @@ def contour_findings(
         if one.run.part_side == one.run.side:
             row, words = one.run.round.begin, _side_words(one.run)
             yield at_block(program.toolpath, program.lines, "ISO512", row, Field.SIDE, **words)
+    runs = _by_edge([one.run for one in stretches])
     for one in stretches:
         if one.run.is_nearest and one.run.round.section.closed and not one.run.at_jump:
-            yield from _stub(program, path, one, [other.run for other in stretches])
+            yield from _stub(program, path, one, runs[one.run.along.edge])
     for run, gouge in _told_gouges(stretches):
         row = int(path.source_row[gouge.path_row])
         if row != run.wedge and not _is_mark(program, run, gouge):  # ISO509 tells of a wedge
             yield gouge_finding(program, (row, gouge.row), gouge, run.kerf_um)
 
 
-def _uncut(program: Program, path: OffsetPath, one: Held, gone: Sequence[Alarm]) -> Iterator[Finding]:
-    """Blocks that the wire does not come to: where the controller stops, and those that the nearest pass leaves.
+def _by_edge(runs: Sequence[CompensatedRound]) -> dict[int, list[CompensatedRound]]:
+    by_edge: dict[int, list[CompensatedRound]] = {}
+    for run in runs:
+        by_edge.setdefault(run.along.edge, []).append(run)
+    return by_edge
 
-    An inner arc as large as the offset leaves nothing, and makes other controllers stop: it is told too.
-    """
-    section, run, length_um = one.run.round.section, one.run, program.toolpath.length_um
-    stops = {each.row for each in gone if each.stops}
-    no_place = _between_apart(path)
-    small = {each.row for each in gone if each.kind is AlarmKind.TOO_SMALL and length_um[each.row] > _LEFT_UM}
-    vanished = path.vanished[(path.vanished >= section.first) & (path.vanished <= section.last)]
+
+def _gone(program: Program, path: OffsetPath, alarms: Sequence[Alarm]) -> _Gone:
+    length_um = program.toolpath.length_um
+    gone = [one for one in alarms if one.kind in (AlarmKind.TOO_SMALL, AlarmKind.VANISHED)]
+    small = {one.row for one in gone if one.kind is AlarmKind.TOO_SMALL and length_um[one.row] > _LEFT_UM}
+    return _Gone({one.row for one in gone if one.stops}, small | _between_apart(path))
+
+
+def _uncut(program: Program, path: OffsetPath, one: Held, gone: _Gone) -> Iterator[Finding]:
+    """Blocks that the wire does not come to: where the controller stops, and those that the nearest pass leaves."""
+    section, run = one.run.round.section, one.run
+    vanished = path.vanished[slice(*np.searchsorted(path.vanished, (section.first, section.last + 1)))]
     passed = set(_missed(path, one).tolist()) - set(vanished.tolist()) if run.is_nearest else set()
     missed = np.array(sorted(passed), dtype=np.int64)
     beside = path.curves.picked(rows_beside(path, run.round))
     left_um = [*one.beside.left_um, *uncut_um(one.contour, beside, run.by_um, missed - section.first)]
     for row, left in zip([*vanished.tolist(), *missed.tolist()], left_um, strict=True):
-        is_left = run.is_nearest and (left > _LEFT_UM or row in small | no_place)
-        if length_um[row] > NOTHING_UM and (row in stops or is_left):
-            yield uncut_finding(program, row, float(left), run.distances, stops=row in stops)
+        is_left = run.is_nearest and (left > _LEFT_UM or row in gone.anyhow)
+        if program.toolpath.length_um[row] > NOTHING_UM and (row in gone.stops or is_left):
+            yield uncut_finding(program, row, float(left), run.distances, stops=row in gone.stops)
 
 
 def _between_apart(path: OffsetPath) -> set[int]:
@@ -81,13 +102,17 @@ def _missed(path: OffsetPath, one: Held) -> Ints:
     Where a step is lower than the offset, the wire turns about its foot before it comes to the step itself.
     """
     section = one.run.round.section
-    moved = np.flatnonzero(
-        (path.made == Made.SHIFTED) & (path.source_row >= section.first) & (path.source_row <= section.last)
-    )
+    rows = _path_rows(path, section)
+    moved = rows[path.made[rows] == Made.SHIFTED]
     row = path.source_row[moved] - section.first
     low, high = (along_um(one.contour, row, end[moved]) for end in (path.curves.start_um, path.curves.end_um))
     missed: Ints = section.first + row[(high - low <= NOTHING_UM) & ~one.contour.is_arc[row]]
     return missed
+
+
+def _path_rows(path: OffsetPath, section: OffsetSection) -> Ints:
+    """Rows of the path that are made of the blocks of a section."""
+    return np.arange(*np.searchsorted(path.source_row, (section.first, section.last + 1)).tolist())
 
 
 def _side_words(run: CompensatedRound) -> dict[str, str]:
@@ -102,7 +127,7 @@ def _stub(program: Program, path: OffsetPath, one: Held, runs: Sequence[Compensa
         return
     ends = _beside_joint(one.contour, run.by_um)
     row = np.arange(len(ends))
-    near = [each.round for each in runs if each.along.edge == run.along.edge and each.by_um == run.kerf_um]
+    near = [each.round for each in runs if each.by_um == run.kerf_um]
     cut = path.curves.picked(np.concatenate([rows_beside(path, each) for each in near]))
     left_um = uncut_um(ends, cut, run.by_um, row)
     if left_um.max() <= SEEN_UM:
@@ -118,7 +143,7 @@ def _stub(program: Program, path: OffsetPath, one: Held, runs: Sequence[Compensa
 def _closes(path: OffsetPath, run: CompensatedRound) -> bool:
     """Whether the path along a loop ends where it begins, so that nothing stays between both."""
     section = run.round.section
-    rows = np.arange(*np.searchsorted(path.source_row, (section.first, section.last + 1)).tolist())
+    rows = _path_rows(path, section)
     if not len(rows):
         return True
     gap = path.curves.end_um[rows[-1]] - path.curves.start_um[rows[0]]

@@ -53,14 +53,15 @@ class _Edge(NamedTuple):
 def edges_of_contours(contours: Sequence[Curves]) -> tuple[Along, ...]:
     """Edges of the contours, each of them in the order in which it is cut."""
     ones = [_edge(curves) for curves in contours]
-    boxes = np.array([one.box_um for one in ones]).reshape(-1, 2, 2)
+    boxes = np.empty((2, 2, len(ones)))  # of the first contour of each edge: low and high, X and Y
     first: list[int] = []  # contour of each edge
     counts: list[int] = []
     found = []
     for at, one in enumerate(ones):
-        near = np.flatnonzero(_meets(boxes[first], one.box_um)).tolist()
+        near = np.flatnonzero(_meets(boxes[:, :, : len(first)], one.box_um)).tolist()
         of, is_tab = next(_matches(one, {edge: ones[first[edge]] for edge in near}), (len(first), False))
         if of == len(first):
+            boxes[:, :, of] = one.box_um
             first.append(at)
             counts.append(0)
         counts[of] += 1
@@ -70,9 +71,10 @@ def edges_of_contours(contours: Sequence[Curves]) -> tuple[Along, ...]:
 
 
 def _meets(boxes_um: Floats, box_um: Floats) -> Bools:
-    """(k,) whether boxes (k, 2, 2) overlap another one (2, 2)."""
-    low, high = np.maximum(boxes_um[:, 0], box_um[0]), np.minimum(boxes_um[:, 1], box_um[1])
-    overlaps: Bools = (low <= high + _ON_UM).all(axis=1)
+    """(k,) whether boxes (2, 2, k) overlap another one (2, 2); by whole columns, for there may be thousands."""
+    (low_x, low_y), (high_x, high_y) = boxes_um
+    (x0, y0), (x1, y1) = (box_um[0] - _ON_UM).tolist(), (box_um[1] + _ON_UM).tolist()
+    overlaps: Bools = (low_x <= x1) & (high_x >= x0) & (low_y <= y1) & (high_y >= y0)
     return overlaps
 
 

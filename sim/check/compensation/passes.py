@@ -55,7 +55,7 @@ def _passes(runs: Sequence[CompensatedRound], bounds: Ints, rows: int) -> Passes
             of_row[low : high + 1] = len(passes)
             shift_um = (_aside_um(one) - last[edge, is_tab]) * waste[edge]
             closed = one.round.section.closed
-            passes.append(Pass(edge, number, low, high, is_back, closed, is_tab, shift_um, -one.side))
+            passes.append(Pass(edge, number, low, high, is_back, closed, is_tab, shift_um, -one.side, one.by_um))
     return Passes(tuple(passes), of_row)
 
 

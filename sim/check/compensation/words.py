@@ -54,8 +54,11 @@ def _without_value(program: Program, told: Compensation, alarms: Sequence[Alarm]
     """Registers without a value (ISO500), no register at all (ISO501), and registers that hold nothing (ISO513)."""
     unknown = {told.register[one.row]: one.row for one in reversed(alarms) if one.kind is AlarmKind.UNKNOWN}
     for register, row in unknown.items():
-        field = Field.REGISTER if register else Field.SIDE
-        yield _at(program, told, "ISO500" if register else "ISO501", row, field).with_fact(WithoutValue())
+        if register:
+            found = _at(program, told, "ISO500", row, Field.REGISTER, lacking=told.lacking.get(register, register))
+        else:
+            found = _at(program, told, "ISO501", row, Field.SIDE)
+        yield found.with_fact(WithoutValue())
     nothing = np.flatnonzero((told.side != 0) & (told.by_um == 0.0)).tolist()
     for row in {told.register[row]: row for row in reversed(nothing)}.values():
         yield _at(program, told, "ISO513", row, Field.REGISTER)

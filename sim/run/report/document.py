@@ -4,13 +4,12 @@ import json
 from typing import Any
 
 from parser import __version__
-from parser.dialect.assumed import assumption_entry
 from parser.dialect.reader import HeaderValue
-from parser.findings.catalogue import term, texts
+from parser.findings.catalogue import texts
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.shape.contours import Contour
-from sim.check.result import CheckState, Coverage
+from sim.check.result import Coverage
 from sim.measure.compare.result import Comparison
 from sim.run.assumptions import assumptions_of
 from sim.run.dryrun import DryRun
@@ -92,7 +91,7 @@ def _machine(scenario: Scenario) -> dict[str, Any]:
 def _assumptions(run: DryRun) -> dict[str, Any]:
     found = assumptions_of(run)
     return {
-        "program": [assumption_entry(one, "en") for one in found.program],
+        "program": [one.entry("en") for one in found.program],
         "machine_by_default": found.by_default,
         "machine_values": list(found.values),
         "drawing_compared": found.compared,
@@ -144,14 +143,10 @@ def _coverage(coverage: Coverage) -> dict[str, Any]:
             "stepped": coverage.stepped,
         },
         "checks": [
-            {"check": check.name.removeprefix("check-"), "state": check.state, "reason": _reason(check)}
+            {"check": check.name.removeprefix("check-"), "state": check.state, "reason": check.because("en") or None}
             for check in coverage.checks
         ],
     }
-
-
-def _reason(check: CheckState) -> str | None:
-    return term(check.reason) if check.reason else None
 
 
 def _interpolator(run: DryRun) -> dict[str, Any]:

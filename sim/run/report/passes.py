@@ -19,7 +19,7 @@ def _pass(figures: PassFigures, reach_um: float) -> dict[str, Any]:
         "contour": one.edge + 1,
         "number": one.number,
         "blocks": [one.first + 1, one.last + 1],
-        "offset_um": rounded(reach_um + one.shift_um),
+        "offset_um": rounded(one.offset_um(reach_um)),
         "direction": "back" if one.is_back else "forward",
         "cuts_tab": one.is_tab,
         "length_um": rounded(figures.length_um),

@@ -5,7 +5,6 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from parser import __version__
-from parser.dialect.assumed import assumption_entry
 from parser.findings.catalogue import Language, term, texts
 from parser.findings.findings import Edit, Finding
 from sim.check.result import CheckResult, CheckState, Coverage
@@ -31,7 +30,7 @@ def _file(result: CheckResult, language: Language) -> dict[str, Any]:
         "name": result.name,
         "encoding": result.encoding or None,
         "dialect": result.dialect or None,
-        "assumptions": [assumption_entry(assumption, language) for assumption in result.assumptions],
+        "assumptions": [assumption.entry(language) for assumption in result.assumptions],
         "verdict": result.verdict,
         "settings_file": result.settings_file or None,
         "silenced": result.silenced._asdict(),
@@ -56,7 +55,7 @@ def _check(check: CheckState, language: Language) -> dict[str, Any]:
         "title": term(check.name, language),
         "state": check.state,
         "reason": check.reason or None,
-        "reason_text": term(check.reason, language) if check.reason else None,
+        "reason_text": check.because(language) or None,
     }
 
 
@@ -90,7 +89,7 @@ def _totals(totals: Totals) -> dict[str, Any]:
     return {
         "files": {"checked": totals.files.total(), **totals.by_verdict()},
         "findings": {severity.value: count for severity, count in totals.by_severity().items()},
-        "codes": dict(sorted(totals.codes.items())),
+        "codes": totals.codes,
         "fixable": totals.fixable,
         "silenced": totals.silenced._asdict(),
         "blocks": {name: totals.blocks[name] for name in BLOCKS},

@@ -4,7 +4,6 @@ from collections import Counter
 from collections.abc import Sequence
 
 from parser.findings.catalogue import Language, length, page, term
-from parser.findings.codes import CODES
 from parser.text.encoding import printable
 from parser.text.excerpt import cells
 from sim.show.findings.totals import BLOCKS, Totals
@@ -16,15 +15,15 @@ _GAP = "  "  # between the columns
 
 
 def table(totals: Totals, language: Language, width: int) -> list[str]:
-    """Counts by code with titles, then files, checks, blocks, steps and path, in lines of `width` cells."""
+    """Counts by code and severity, then files, checks, blocks, steps and path, in lines of `width` cells."""
     return [*_columns(_codes(totals, language), width, right=(2,)), *_columns(_sums(totals, language), width)]
 
 
 def _codes(totals: Totals, language: Language) -> list[tuple[str, ...]]:
     say = Words(language)
     rows = [
-        (code, say(f"findings.{CODES[code].severity}"), f"{count:,}", page(code, language).title)
-        for code, count in sorted(totals.codes.items())
+        (code, say(f"findings.{severity}"), f"{count:,}", page(code, language).title)
+        for (code, severity), count in sorted(totals.counts.items())
     ]
     head = (say("findings.code"), say("findings.severity"), say("findings.count"), say("findings.title"))
     return [head, *rows] if rows else []

@@ -11,7 +11,7 @@ BLOCKS = ("found", "read", "decoded", "stepped")
 
 
 class Totals:
-    """Sums over results: files by verdict, findings by code, blocks, steps and path.
+    """Sums over results: files by verdict, findings by code and severity, blocks, steps and path.
 
     Beside them what is not shown: in how many files a check is in a state (``checks[state][name]``), the findings that
     were silenced, and the settings files that counted, in their order.
@@ -19,8 +19,7 @@ class Totals:
 
     def __init__(self) -> None:
         self.files: Counter[str] = Counter()
-        self.codes: Counter[str] = Counter()
-        self._severities: Counter[Severity] = Counter()
+        self.counts: Counter[tuple[str, Severity]] = Counter()
         self.blocks: Counter[str] = Counter()
         self.checks: defaultdict[str, Counter[str]] = defaultdict(Counter)
         self.silenced = Silenced()
@@ -41,7 +40,12 @@ class Totals:
 
     def by_severity(self) -> dict[Severity, int]:
         """Findings of each severity, the worst first."""
-        return {severity: self._severities[severity] for severity in Severity}
+        return {severity: sum(n for (_, of), n in self.counts.items() if of is severity) for severity in Severity}
+
+    @property
+    def codes(self) -> dict[str, int]:
+        """Findings of each code, of whatever severity, by their codes."""
+        return {code: sum(self.counts[code, severity] for severity in Severity) for code, _ in sorted(self.counts)}
 
     @property
     def settings_files(self) -> tuple[str, ...]:
@@ -57,8 +61,7 @@ class Totals:
 
     def _add(self, result: CheckResult) -> None:
         self.files[result.verdict] += 1
-        self.codes.update(finding.code for finding in result.findings)
-        self._severities.update(finding.severity for finding in result.findings)
+        self.counts.update((finding.code, finding.severity) for finding in result.findings)
         self.blocks.update({name: getattr(result.coverage, name) for name in BLOCKS})
         for check in result.coverage.checks:
             self.checks[check.state][check.name] += 1

@@ -23,7 +23,7 @@ def with_hint(finding: Finding, language: Language) -> str:
 
 def reason(check: CheckState, language: Language) -> str:
     """Name of a check, and why it is not complete."""
-    return _because(term(check.name, language), check.reason, language)
+    return _because(term(check.name, language), check.because(language), language)
 
 
 def verdict(result: CheckResult, language: Language) -> str:
@@ -139,10 +139,10 @@ def reasons(checks: Iterable[CheckState], language: Language) -> list[str]:
     names: dict[str, list[str]] = {}
     for check in checks:
         if check.state == "incomplete":
-            names.setdefault(check.reason, []).append(term(check.name, language))
+            names.setdefault(check.because(language), []).append(term(check.name, language))
     comma = Words(language)("findings.comma")
     return [_because(comma.join(of), why, language) for why, of in names.items()]
 
 
 def _because(checks: str, reason: str, language: Language) -> str:
-    return Words(language)("findings.reason", check=checks, reason=term(reason, language))
+    return Words(language)("findings.reason", check=checks, reason=reason)

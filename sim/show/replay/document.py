@@ -73,5 +73,6 @@ def _program(program: Program) -> dict[str, Any]:
     return {
         "name": printable(program.name),
         "dialect": program.reading.dialect,
+        "is_worded": program.toolpath.words is not None,
         "lines": [printable(program.excerpt(line)) for line in lines],
     }

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from parser.findings.catalogue import LANGUAGES, Said
 from parser.shape.contours import Contour
 from sim.run.dryrun import DryRun
 from sim.show.report_page.findings import address
@@ -40,8 +41,7 @@ def block_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
             counted("line", of("line")),
             Column(said("report.text"), of("text"), "code"),
             worded("kind", of("kind"), "kind"),
-            counted("count-length", of("count_um")),
-            Column(said("report.count-axis"), [axis and f"G{axis}" for axis in of("count_axis")], "code"),
+            *_counted_by(of("count_um"), of("count_axis")),
             millimetres("from-x", of("exact.start_um.0")),
             millimetres("from-y", of("exact.start_um.1")),
             millimetres("to-x", of("exact.end_um.0")),
@@ -55,6 +55,14 @@ def block_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
             Column(said("report.codes"), _codes(run), "codes"),
         ),
     )
+
+
+def _counted_by(count_um: list[Any], axis: list[Any]) -> tuple[Column, ...]:
+    """J and G of each block; none for a program without words, which has nothing to show there."""
+    if not any(axis):
+        return ()
+    words = [one and f"G{one}" for one in axis]
+    return counted("count-length", count_um), Column(said("report.count-axis"), words, "code")
 
 
 def _codes(run: DryRun) -> list[list[CodeLink]]:
@@ -168,13 +176,13 @@ def loss_table(report: Mapping[str, Any]) -> ReportTable:
 def check_table(run: DryRun) -> ReportTable:
     """How far each check came."""
     checks = run.coverage.checks
-    names, reasons = [check.name for check in checks], [check.reason for check in checks]
+    reasons = {check.reason: Said(*map(check.because, LANGUAGES)) for check in checks}
     return ReportTable(
         "checks",
         (
-            _terms("check", names),
+            _terms("check", [check.name for check in checks]),
             worded("state", [check.state.replace(" ", "-") for check in checks]),
-            _terms("reason", reasons),
+            Column(said("report.reason"), [check.reason for check in checks], "word", words=reasons),
         ),
     )
 

@@ -8,6 +8,7 @@ import numpy as np
 from parser.findings.catalogue import Language, Said
 from parser.findings.codes import Severity
 from parser.geometry.curves import CurveKind
+from parser.program import Program
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from parser.units import mm
@@ -18,10 +19,18 @@ from sim.show.terminal.colours import painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped
 from sim.show.words import Words
-from sim.show.words.phrases import listed, numbered, same
+from sim.show.words.phrases import as_read, listed, numbered, same
 from sim.show.words.words import said
 
 _INDENT = "    "
+
+
+def read_as_lines(program: Program, name: str, language: Language, width: int) -> Iterator[str]:
+    """What was assumed to read a program, in lines of `width` cells; none where its text leaves nothing open."""
+    if not program.reading.assumptions:
+        return
+    text = Words(language)("findings.read-as", parts=as_read(program.reading.assumptions))
+    yield from wrapped(f"{printable(name)}: {text}", width, "", _INDENT)
 
 
 def converted_lines(done: Converted, out: Path, wanted: Wanted, language: Language, width: int) -> Iterator[str]:

@@ -18,6 +18,8 @@ from sim.show.words import Words
 from sim.show.words.phrases import catalogued
 
 _INDENT = _GAP = "  "
+_WIDEST = 24
+"""Cells of a column: a longer text stands on a line of its own, and leaves the others their room."""
 
 
 def print_decoded(program: Program, blocks: Sequence[Decoded], language: Language) -> None:
@@ -45,8 +47,18 @@ def _step_row(step: DecodeStep, language: Language) -> tuple[str, ...]:
 
 def _print_table(rows: Sequence[tuple[str, ...]]) -> None:
     """Rows of texts under each other; the last text of a row may run on over several lines."""
-    wide = [max(map(cells, column)) for column in list(zip(*rows, strict=True))[:-1]]
+    width = width_of(outlet())
+    wide = [_room(column) for column in list(zip(*rows, strict=True))[:-1]]
     for *heads, text in rows:
-        filled = (one + " " * (room - cells(one)) for one, room in zip(heads, wide, strict=True))
-        for line in wrapped(text, width_of(outlet()), _INDENT + "".join(one + _GAP for one in filled)):
+        too_long = heads[0] if cells(heads[0]) > wide[0] else ""
+        for line in wrapped(too_long, width, _INDENT, _INDENT * 2) if too_long else ():
             say(line)
+        shown = ["" if too_long else heads[0], *heads[1:]]
+        filled = (one + " " * (room - cells(one)) for one, room in zip(shown, wide, strict=True))
+        for line in wrapped(text, width, _INDENT + "".join(one + _GAP for one in filled)):
+            say(line)
+
+
+def _room(column: Sequence[str]) -> int:
+    """Cells of a column: of the widest text in it that is not too long for one."""
+    return max((cells(one) for one in column if cells(one) <= _WIDEST), default=0)

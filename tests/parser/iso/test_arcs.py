@@ -99,6 +99,12 @@ def test_what_makes_no_arc_is_told_at_its_word_and_leaves_the_path_in_doubt(bloc
     assert [one.after for one in program.reading.damages] == [0]
 
 
+def test_of_a_block_that_is_told_to_be_a_line_and_an_arc_only_that_is_said() -> None:
+    program = read(f"{HEAD}G01 G02 X10000 Y0\nG02 X20000 Y0\nM02")
+    assert [(one.code, one.line) for one in program.findings if one.code != "ISO112"] == [("ISO200", 3), ("ISO210", 4)]
+    assert len(program.reading.damages) == 2
+
+
 @pytest.mark.parametrize(
     ("first", "severity"),
     [(5001, None), (5002, Severity.WARNING), (5010, Severity.WARNING), (5011, Severity.ERROR)],

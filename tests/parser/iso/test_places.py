@@ -2,6 +2,7 @@
 
 import pytest
 
+from parser.findings.findings import edited
 from parser.geometry.curves import CurveKind
 from tests.tools.iso_reading import ends, findings, path, read
 
@@ -43,6 +44,27 @@ def test_a_bare_g92_names_the_origin() -> None:
     assert ends(program.toolpath) == [(9.0, 0.0), (13.0, 0.0)]
     assert "assumed-place" in {one.what for one in program.reading.assumptions}
     assert "assumed-place" not in {one.what for one in read("G92 Z0\nG90 G01 X9\nM02").reading.assumptions}
+
+
+@pytest.mark.parametrize(
+    ("text", "mended"),
+    [
+        ("N1 G92\nG90 G01 X9\nM00\nG92\nX4\nM02", "N1 G92 X0 Y0\nG90 G01 X9\nM00\nG92 X0 Y0\nX4\nM02"),
+        ("G92G90\nG01 X9.\nM02", "G92 X0. Y0.G90\nG01 X9.\nM02"),
+    ],
+)
+def test_a_bare_g92_is_told_and_mended_to_what_was_taken(text: str, mended: str) -> None:
+    bare = [one for one in read(text).findings if one.code == "ISO113"]
+    assert [one.line for one in bare] == [number for number, line in enumerate(text.split("\n"), 1) if "G92" in line]
+    new = edited(text, [edit for one in bare for edit in one.edits])
+    assert new == mended
+    assert "ISO113" not in {one.code for one in read(new).findings}
+    assert ends(path(new)) == ends(path(text))
+
+
+def test_a_g92_with_a_place_or_one_that_never_runs_is_not_called_bare() -> None:
+    told = {one.code for one in read("G92 Z0\nG90 G92 Y1\nG01 X9\nM02\nG92\n").findings}
+    assert "ISO113" not in told
 
 
 def test_missing_axes_stay_in_g90_and_do_not_move_in_g91() -> None:

@@ -118,6 +118,22 @@ def test_a_value_that_nothing_tells_is_not_known() -> None:
     assert math.isnan(offsets("H1 = 5 + H9\nG92 X0 Y0\nG91 G41 H1 G01 X9\nM02", "common")[0][1])
 
 
+@pytest.mark.parametrize(
+    ("told", "lacking"),
+    [
+        ("H1 = 5 + H9", {"H1": "H9"}),
+        ("H2 = 5 + H9\nH1 = 1 + H2", {"H2": "H9", "H1": "H9"}),
+        ("H9 = 3\nH1 = 5 + H9", {}),
+        ("H1 = 5 + H1", {"H1": "H1"}),
+        ("H1 = 5", {}),
+    ],
+)
+def test_the_register_that_a_sum_lacks_is_known(told: str, lacking: dict[str, str]) -> None:
+    compensation = path(f"{told}\nG92 X0 Y0\nG91 G41 H1 G01 X9\nM02", "common").compensation
+    assert compensation is not None
+    assert compensation.lacking == lacking
+
+
 def test_the_only_register_is_taken_where_none_is_selected_and_it_is_said() -> None:
     text = "H001=110\nG92 X0 Y0\nG91 G41\nG01 X9\nM02"
     assert offsets(text, "skd2") == [(1, 110.0, "H1")]

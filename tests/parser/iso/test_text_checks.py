@@ -118,30 +118,33 @@ def test_words_have_an_order(block: str, word: str) -> None:
         assert text.splitlines()[1][one.column - 1 :].startswith(word)
 
 
-def test_a_strict_controller_takes_no_other_order() -> None:
-    (found,) = checked(read_listing("G01 Y1 X1\n"), replace(COMMON, strict_order=True)).findings
-    assert (found.code, found.severity) == ("ISO130", Severity.ERROR)
+def test_a_strict_controller_takes_no_other_order_in_any_block() -> None:
+    found = checked(read_listing("G01 Y1 X1\nX2 Y2\nY3 X3 G01\n"), profile("strict")).findings
+    assert [(one.code, one.severity, one.line, one.values["more"]) for one in found] == [
+        ("ISO130", Severity.ERROR, 1, 0),
+        ("ISO130", Severity.ERROR, 3, 0),
+    ]
 
 
 @pytest.mark.parametrize(
     ("text", "what", "places"),
     [
-        ("G92 X0 Y0\nG90\nX10 Y0\nX20\nG01 X1\n", "no-motion-yet", [(3, 1, 1)]),
-        ("G92 X0 Y0\nG90 X10\nG01 X1\n", "no-motion-yet", [(2, 5, 0)]),
-        ("X1\n", "no-motion-yet", [(1, 1, 0)]),
+        ("G92 X0 Y0\nG90\nX10 Y0\nX20\nG01 X1\n", "no-motion-yet", [(3, 1), (4, 1)]),
+        ("G92 X0 Y0\nG90 X10\nG01 X1\n", "no-motion-yet", [(2, 5)]),
+        ("X1\n", "no-motion-yet", [(1, 1)]),
         ("G92 X0 Y0\nG01 X1\nX2\nM01\nX3\n", "", []),
         ("M20\nG54 G90\nS1 D1\nG00 X1\n", "", []),
-        ("G01 X1\nN10\nX2\nN20\n", "nothing-but-n", [(2, 1, 0), (4, 1, 0)]),
+        ("G01 X1\nN10\nX2\nN20\n", "nothing-but-n", [(2, 1), (4, 1)]),
         ("G01 X1\nN10 (second pass)\nX2\n", "", []),
         ("G01 X1\nM98 P10\nN10\nX2\nM99\n", "", []),
         ("G01 X1\nM02\nN10\nX2\nM99\n", "", []),
         ("G01 X1\nN10 H001=110\nN20 C001 = 1\n", "", []),
     ],
 )
-def test_every_line_commands_something(text: str, what: str, places: list[tuple[int, int, int]]) -> None:
+def test_every_line_commands_something(text: str, what: str, places: list[tuple[int, int]]) -> None:
     program = parse_program(text, choices=Choices(dialect="common"))
     found = [one for one in program.findings if one.code == "ISO110"]
-    assert [(one.line, one.column, one.values["more"]) for one in found] == places
+    assert [(one.line, one.column) for one in found] == places
     assert {one.values["what"] for one in found} == {what} - {""}
 
 
@@ -150,12 +153,15 @@ def test_places_before_any_motion_are_damage() -> None:
     assert [damage.span for damage in reading.damages] == [(0, 2)]
 
 
-def test_letters_that_a_controller_does_not_know_are_told_once_each() -> None:
+def test_letters_that_a_controller_does_not_know_are_told_at_each_word() -> None:
     listing = checked(read_listing("G01 X0\nW1 X1\nX2 ~\nW2 Q1\nQ2 W3\n"), replace(COMMON, letters="GX"))
     found = [one for one in listing.findings if one.code == "ISO103"]
-    assert [(one.line, one.column, one.values["letter"], one.values["more"]) for one in found] == [
-        (2, 1, "W", 2),
-        (4, 4, "Q", 1),
+    assert [(one.line, one.column, one.values["letter"]) for one in found] == [
+        (2, 1, "W"),
+        (4, 1, "W"),
+        (4, 4, "Q"),
+        (5, 1, "Q"),
+        (5, 4, "W"),
     ]
     assert listing.blocks.is_damaged.tolist() == [False, True, True, True, True]
     assert [one.block for one in listing.unread] == [1, 2, 3, 4]

@@ -5,6 +5,7 @@ from random import Random
 import pytest
 
 from parser.dialect.reader import Choices
+from parser.findings.codes import Severity
 from parser.findings.facts import TooLarge, telling
 from parser.findings.findings import Finding
 from parser.iso.listing.lexer import read_listing
@@ -52,9 +53,18 @@ def found(block: str, dialect: str = "common") -> list[tuple[str, int]]:
         ("G04 P0.5", []),
         ("F-5", [("ISO206", 1)]),
         ("G41 D1000", [("ISO206", 5)]),
-        ("X1000000.", [("ISO206", 1)]),
-        ("X999999999", []),
-        ("Y-1000000000", [("ISO206", 1)]),
+        ("F0", [("ISO206", 1)]),
+        ("F.06", []),
+        ("G42 H1000", [("ISO206", 5)]),
+        ("G41 D999 H999", []),
+        ("G41 D-1", [("ISO206", 5)]),
+        ("X10000001", [("ISO206", 1)]),
+        ("X10000000 Y-10000. U10000. V0 Z10000.", []),
+        ("Y-10000001", [("ISO206", 1)]),
+        ("X10000.001", [("ISO206", 1)]),
+        ("G02 X1 R1000000.", []),
+        ("G02 X1 R1000001.", [("ISO206", 8)]),
+        ("G03 X1 I1000000. J-1000001.", [("ISO206", 18)]),
         ("M05 M05", [("ISO209", 5)]),
         ("M80 M82 M84", []),
     ],
@@ -79,7 +89,7 @@ def test_effects_of_profiles_are_known(name: str) -> None:
     assert set(of.g.values()) <= {*GROUPS, "once", "switch", "path"}
     assert set(of.m.values()) <= {"stop", "end", "call", "return", "thread", "cut", "switch", "path"}
     assert set(of.repeatable + of.whole + of.angle + of.offset_letters) <= set(of.letters)
-    assert all(low <= 0 <= high and letter in of.letters for letter, (low, high) in of.range.items())
+    assert all(low <= 1e-4 < high and letter in of.letters for letter, (low, high) in of.range.items())
     assert {"0", "1", "2", "3", "40", "41", "42", "90", "91", "92"} <= set(of.g)
 
 
@@ -125,8 +135,15 @@ def test_random_blocks_are_told_what_a_slow_reading_tells() -> None:
 
 
 def test_a_length_beyond_any_table_is_not_worked_out() -> None:
-    program = parse_program("G92 X0 Y0\nG91\nG01 X9999999999 Y0\nM02\n", choices=Choices(dialect="fast-wire"))
-    assert [finding.code for finding, _ in telling(program.findings, TooLarge)] == ["ISO206"]
+    program = parse_program("G92 X0 Y0\nG91\nG01 X10000001 Y0\nM02\n", choices=Choices(dialect="fast-wire"))
+    assert [finding.values["limits"] for finding, _ in telling(program.findings, TooLarge)] == ["±10 m"]
+
+
+def test_lengths_in_inches_have_the_same_bound() -> None:
+    text = "G92 X0. Y0.\nG90\nG01 X393. Y0.\nX{} Y0.\nM02\n"
+    for x, codes in (("393.7", []), ("393.71", ["ISO206"])):
+        found = parse_program(text.format(x), choices=Choices(dialect="mitsubishi", unit="inch")).findings
+        assert [finding.code for finding, _ in telling(found, TooLarge)] == codes
 
 
 SQUARE = "G92 X0 Y0\nG90\n{}\nG01 X0 Y5000\nX5000 Y5000\nX5000 Y-5000\nX-5000 Y-5000\nX-5000 Y5000\nX0 Y5000\nM02\n"
@@ -153,13 +170,39 @@ def check(line: str, dialect: str = "common") -> tuple[list[Finding], set[str], 
         ("IF [#1 GT 0] GOTO 10", "ISO402", "IF [#1 GT 0] GOTO 10"),
     ],
 )
-def test_what_is_not_simulated_is_an_error_with_a_name(line: str, code: str, word: str) -> None:
+def test_what_is_not_simulated_leaves_the_verdict_open_by_its_name(line: str, code: str, word: str) -> None:
     findings, reasons, verdict = check(line)
     assert [(one.code, one.line, one.values.get("word", one.values.get("text"))) for one in findings] == [
         (code, 3, word)
     ]
-    assert reasons & {"reason-other-paths", "reason-macros"}
-    assert verdict == "fail"
+    assert [one.severity for one in findings] == [Severity.WARNING]
+    assert (reasons, verdict) == ({"reason-other-paths" if code == "ISO204" else "reason-macros"}, "incomplete")
+
+
+def test_a_contour_with_a_block_of_a_macro_is_not_called_open() -> None:
+    text = SQUARE.format("G91").replace("G91\n", "").replace("X0 Y5000\nM02", "X0 Y#100\nM02")
+    result = check_file(Job("part.iso", text.encode(), CheckSettings(dialect="common")))
+    assert [one.code for one in result.findings if one.severity is not Severity.NOTE] == ["ISO402"]
+    assert result.verdict == "incomplete"
+
+
+def test_checks_name_the_words_that_they_stop_at() -> None:
+    text = SQUARE.format("G26 G51 A1.5\nG18\n#100 = 5").replace("Y-5000", "Y-5000 U10")
+    coverage = check_file(Job("part.iso", text.encode(), CheckSettings(dialect="common"))).coverage
+    stopped = [state for state in coverage.checks if state.state == "incomplete"]
+    assert {(state.reason, state.words) for state in stopped} == {
+        ("reason-other-paths", ("G26", "G18", "#100 = 5", "A", "U"))
+    }
+    assert stopped[0].because("en").endswith("not simulated: G26, G18, #100 = 5, A, U")
+    assert stopped[0].because("zh").endswith("：G26, G18, #100 = 5, A, U")
+
+
+def test_at_most_eight_words_are_named() -> None:
+    numbers = (5, 6, 7, 8, 9, 26, 27, 28, 29, 30)
+    text = SQUARE.format("\n".join(f"G{one}" for one in numbers))
+    coverage = check_file(Job("part.iso", text.encode(), CheckSettings(dialect="common"))).coverage
+    named = {state.words for state in coverage.checks if state.words}
+    assert named == {(*(f"G{one}" for one in numbers[:8]), "…")}
 
 
 @pytest.mark.parametrize("line", ["G51 A1.5", "G52 A-2", "G51", "G01 U.04 V0", "G01 X0 Y2500 : G01 X0 Y2000"])

@@ -12,6 +12,7 @@ from compensating import LINUXCNC, TEXTBOOK
 from controller.offset.reach import reach
 from controller.offset.sections import Side
 from parser.dialect.reader import Choices
+from parser.findings.catalogue import LANGUAGES, texts
 from parser.findings.codes import Check, Severity
 from parser.findings.findings import Finding
 from parser.program import Program, parse_program
@@ -157,6 +158,15 @@ def test_where_the_controller_stops_a_wide_pass_is_told_too() -> None:
     stopped = found(check(text, TEXTBOOK._replace(too_small="alarm")))
     assert [(finding.code, finding.line) for finding in stopped] == [("ISO504", 7)]
     assert stopped[0].values["act"] == "compensation-stops"
+
+
+def test_the_register_that_a_sum_lacks_is_asked_for() -> None:
+    text = program(head("H1 = 60 + H175"), around(DIE))
+    (asked,) = [one for one in check(text).findings if one.code == "ISO500"]
+    said = {language: texts(asked, language) for language in LANGUAGES}
+    assert "and nobody says what H175 holds" in said["en"].found
+    assert all("H1" in one.found and "--offset H175=0.1mm" in one.hint for one in said.values())
+    assert codes(check(text, H175=40.0)) == []
 
 
 def test_an_unknown_register_leaves_the_check_incomplete_and_other_contours_judged() -> None:

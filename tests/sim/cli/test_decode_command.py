@@ -28,6 +28,14 @@ def printed(path: Path, *options: str) -> str:
     return done.stdout.decode()
 
 
+def test_what_was_assumed_is_told_as_a_check_tells_it(part: Path) -> None:
+    for language in ("en", "zh"):
+        of_decode = json.loads(run_inside("decode", part, "--json", "--lang", language).stdout)
+        of_check = json.loads(run_inside("check", part, "--format", "json", "--lang", language).stdout)
+        assert of_decode["assumptions"] == of_check["files"][0]["assumptions"]
+        assert [one["what"] for one in of_decode["assumptions"]][:2] == ["dialect", "unit"]
+
+
 def test_the_example_of_the_course_is_shown_word_by_word(part: Path) -> None:
     lines = printed(part, "--block", "6", "--lang", "en").splitlines()
     first = lines.index("line 2: N06 G90 G41 D11 G01 X200 Y300 F200")
@@ -140,3 +148,13 @@ def test_a_block_that_is_called_twice_says_so(tmp_path: Path) -> None:
 def test_json_is_as_its_schema_says(part: Path, options: tuple[str, ...]) -> None:
     Draft202012Validator.check_schema(SCHEMA)
     Draft202012Validator(SCHEMA).validate(json.loads(printed(part, "--json", *options)))
+
+
+def test_a_long_word_stands_alone_and_leaves_the_columns_their_room(tmp_path: Path) -> None:
+    path = tmp_path / "part.iso"
+    path.write_text("C000 = 012 014 2215 0 242 00 9 00 8030 000 120 0 045 ;\nG92 X0 Y0\nG01 X5.0 Y0\nM02\n", "utf-8")
+    done = run_inside("decode", path)
+    lines = done.stdout.decode().splitlines()
+    at = lines.index("  ① C000 = 012 014 2215 0 242 00 9 00 8030 000 120 0 045")
+    assert lines[at + 1].split("  ")[-1] == "sets no field of the buffer"
+    assert lines[at + 2] == "  ② ;  buf_state  1: the block is whole"

@@ -1,6 +1,7 @@
 """``--dialect``, ``--unit`` and ``--offset D0=…``, and the keys of files that say the same, as a user meets them."""
 
 import json
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -8,6 +9,7 @@ from typing import Any
 
 import pytest
 from checking import SOUND, drycut
+from command import run_inside
 from iso_at_home import DIE, ROUNDS, ROUNDS_BOX_UM, ROUNDS_CUT_UM
 from jsonschema import Draft202012Validator
 from places import ROOT
@@ -209,3 +211,19 @@ def nodes(node: Any) -> Iterator[dict[str, Any]]:
 def test_every_dialect_has_a_name_for_people() -> None:
     for name in (*dialects(), *UNITS):
         assert value_word(name).zh
+
+
+def test_a_strict_dialect_makes_the_order_of_words_an_error(tmp_path: Path) -> None:
+    path = tmp_path / "part.iso"
+    path.write_text("G92 X0 Y0\nG90\nX5000 Y0 G01\nX5000 Y5000\nX0 Y0\nM02\n", "ascii")
+    told = {}
+    for dialect in ("common", "strict"):
+        done = run_inside("check", path, "--dialect", dialect, "--format", "json", "--statistics")
+        (file,) = json.loads(done.stdout)["files"]
+        told[dialect] = file["dialect"], file["verdict"], [(one["code"], one["severity"]) for one in file["findings"]]
+    assert told == {
+        "common": ("common", "pass", [("ISO130", "note")]),
+        "strict": ("strict", "fail", [("ISO130", "error")]),
+    }
+    table = run_inside("check", path, "--dialect", "strict", "--statistics", "--lang", "en").stdout.decode()
+    assert re.search(r"^ISO130 +error +1  words in an unusual order$", table, re.MULTILINE)

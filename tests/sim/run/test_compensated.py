@@ -14,12 +14,14 @@ from controller.offset.path import Made
 from controller.offset.sections import Side
 from parser.dialect.reader import Choices
 from parser.findings.catalogue import texts
+from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError, SettingsError
 from parser.program import Program, parse_program
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.offsetting import as_run
 from sim.run.report import build_report
 from sim.setup.part import Offset, OffsetPass
+from sim.show.terminal.cut_rows import pass_rows
 from sim.table.motion import silent
 
 SCHEMA = json.loads((ROOT / "docs" / "report.schema.json").read_text("utf-8"))
@@ -166,3 +168,24 @@ def test_a_contour_at_nothing_runs_as_written() -> None:
 def test_odd_programs_run_and_have_a_lawful_report(blocks: list[str]) -> None:
     report = build_report(run(program(head("H1=100"), blocks), kerf=True))
     jsonschema.validate(report, SCHEMA)
+
+
+@pytest.mark.parametrize(("line", "code"), [("G26", "ISO204"), ("#100 = 5", "ISO402")])
+def test_a_run_fails_where_the_machine_would_take_another_path(line: str, code: str) -> None:
+    ran = dry_run(read(die().replace("G90", f"G90\n{line}\n", 1)), plain_scenario(), silent)
+    assert [one.code for one in ran.findings if one.severity is Severity.ERROR] == [code]
+    assert build_report(ran)["verdict"] == "fail"
+
+
+def test_passes_have_the_offsets_of_their_registers_and_not_the_reach_of_the_wire() -> None:
+    registers = {"H1": 252.73, "H2": 184.15, "H3": 132.08}
+    back = tuple(reversed(DIE))
+    ways = [around(DIE, "G41", "H1"), around(back, "G42", "H2"), around(DIE, "G41", "H3")]
+    ran = run(program(head(*(f"{name}={um / 1000:.5f}" for name, um in registers.items())), *ways), kerf=True)
+    assert ran.scenario.wire.reach_um == 100.0
+    report = build_report(ran)
+    wanted = list(registers.values())
+    assert [one["offset_um"] for one in report["passes"]] == pytest.approx(wanted)
+    assert [one["by_um"] for one in report["offset"]["passes"]] == pytest.approx(wanted)
+    assert [figures.split(",")[1] for _, figures in pass_rows(ran)] == [f" offset {um:.0f} µm" for um in wanted]
+    assert [one["stock_um"]["mean"] for one in report["passes"]] == pytest.approx([200.0, 68.58, 52.07], abs=1.0)

@@ -32,6 +32,7 @@ from sim.show.pictures.deviation import inset
 from sim.show.pictures.deviation.along import draw_along
 from sim.show.pictures.deviation.histogram import bins_of, draw_histogram, path_of_each, shares
 from sim.show.pictures.deviation.inset import STEPS, inset_of
+from sim.show.pictures.deviation.inset_drawing import draw_inset
 from sim.show.pictures.deviation.places import APART_UM, worst_of, worst_places
 from sim.show.pictures.deviation.polar import circles_of, draw_polar
 from sim.show.pictures.deviation.samples import Samples, samples_of
@@ -481,6 +482,17 @@ def test_inset_shows_its_deviation_to_scale() -> None:
         assert np.hypot(*(shown.place_um - shown.foot_um)) == pytest.approx(abs(of.wire_um[at]), abs=1e-6)
         gap = np.hypot(*(shown.ideal_um - shown.foot_um).T).min()
         assert gap <= 0.06  # the path is drawn in chords of 0.1 µm
+
+
+def test_a_single_sample_of_the_wire_is_a_dot() -> None:
+    of, steps = samples(SLOT), recording(SLOT).steps
+    at = int(worst_places(of)[0])
+    alone = inset_of(of, steps, at)._replace(
+        wire_um=of.trace.wire_um[at : at + 1], table_um=of.trace.wire_um[at : at + 1]
+    )
+    canvas = Recorder(300, 300)
+    draw_inset(canvas, Box(0.0, 0.0, 300.0, 300.0), alone, 1.0)
+    assert len(canvas.of("disc", Paint.ACTUAL)) == 1
 
 
 def test_table_shows_beside_a_wire_that_bows() -> None:

@@ -11,6 +11,7 @@ from places import ROOT
 from recorder import Recorder, recording_sheet
 from runs import plain_scenario, run_folder
 
+from parser.dialect.reader import Choices
 from parser.program import parse_program, read_program
 from sim.run.recording import NO_PIECES, Recording
 from sim.setup.scenario import load_scenario
@@ -89,3 +90,67 @@ def test_among_the_pictures_of_a_run_it_is_the_same() -> None:
     assert all(np.array_equal(a.at, b.at) for a, b in zip(first.drawn, second.drawn, strict=True) if a.what != "region")
     assert any(finding.code.startswith("3B4") for finding in run.findings)  # which the path does not know
     assert not any(text.startswith("3B4") for text in first.texts)
+
+
+NAMELESS = "G92 X0 Y0\nG90\nG41 D0\nG01 X5000 Y0\nG03 X5000 Y0 I-5000 J0\nG40\nG01 X0 Y0\nM02\n"
+"""A round hole by register D0, of which the program does not tell the value."""
+
+
+def of_iso(text: str, **registers: float) -> Programmed:
+    program = parse_program(text, "part.iso", choices=Choices(dialect="fast-wire", registers=tuple(registers.items())))
+    return programmed(program, plain_scenario())
+
+
+@pytest.mark.parametrize(
+    ("language", "said", "contour"),
+    [
+        ("en", "contour alone: the offset is not known", "programmed contour"),
+        ("zh", "补偿值未知，只画编程轮廓", "编程轮廓"),
+    ],
+)
+def test_of_an_offset_that_nobody_tells_the_contour_is_drawn_alone(language: str, said: str, contour: str) -> None:
+    canvas = recorded(of_iso(NAMELESS), language)
+    assert any(said in text for text in canvas.texts)
+    assert any(text.startswith("ISO500") for text in canvas.texts)
+    assert contour in canvas.texts
+    assert canvas.of("polyline", Paint.KERF) == canvas.of("polyline", Paint.LEAD) == []
+    assert not any("0.000" in text for text in canvas.texts)
+
+
+def test_of_an_offset_that_is_told_the_wire_and_its_kerf_are_drawn() -> None:
+    canvas = recorded(of_iso(NAMELESS, D0=100.0))
+    assert any("offset 0.1 mm left" in text for text in canvas.texts)
+    assert not any("contour alone" in text for text in canvas.texts)
+    assert canvas.of("polyline", Paint.KERF) != []
+
+
+TWO_PASSES = """\
+H1=.0099567
+H2=.0072561
+G92 X0 Y0
+G90
+G41 H1 G01 X.2
+Y.2
+X-.2
+Y-.2
+X.2
+Y0.
+G40 X0.
+G42 H2 G01 X.2
+Y-.2
+X-.2
+Y.2
+X.2
+Y0.
+G40 X0.
+M02
+"""
+"""A square opening in inches: there by H1, back by H2."""
+
+
+def test_offsets_that_are_told_stand_in_the_note_alone_and_to_a_tenth_of_a_micrometre() -> None:
+    program = parse_program(TWO_PASSES, "part.iso", choices=Choices(dialect="mitsubishi", unit="inch"))
+    texts = draw_path(recording_sheet(), programmed(program, plain_scenario())).texts
+    assert any("offset 0.2529, 0.1843 mm left" in text for text in texts)
+    assert {"pass 1", "pass 2"} <= set(texts)
+    assert not any(text.startswith("pass 1,") for text in texts)

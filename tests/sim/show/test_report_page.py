@@ -29,6 +29,7 @@ from sim.show.report_page import report_page
 from sim.show.report_page.figures import why
 from sim.show.report_page.findings import MOST, prose
 from sim.show.report_page.reproduce import reproduction
+from sim.show.report_page.results import block_table
 from sim.show.report_page.settings import setting_groups
 from sim.show.report_page.tables import reached
 from sim.show.words.phrases import lasting
@@ -421,3 +422,12 @@ def test_a_page_of_many_blocks_stays_small() -> None:
     page = report_page(run, build_report(run), [])
     assert len(page.encode()) < 1_000_000
     assert len(json.loads(re.findall(r'id="tables">(.*?)</script>', page, re.DOTALL)[0])) >= 5
+
+
+def test_blocks_without_words_have_no_columns_for_them(part: Made) -> None:
+    text = "G92 X0 Y0\nG90\nG01 X5000 Y0\nG03 X5000 Y0 I-5000 J0\nG01 X0 Y0\nM02\n"
+    run = run_text(text)
+    heads = [column.head.en for column in block_table(run, build_report(run)).columns]
+    worded = [column.head.en for column in block_table(part.run, part.report).columns]
+    assert [head for head in worded if head not in heads] == ["J", "G"]
+    assert [head for head in heads if head not in worded] == []

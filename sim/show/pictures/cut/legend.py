@@ -59,14 +59,12 @@ def entries(cut: Cut, page: Page, say: Words, seen: Seen, numbers: str) -> list[
     bar_um = scale_bar_um(page)
     bar = bar_um * page.view.px_per_um / (style.SAMPLE * page.unit)
     kinds = {piece.kind for piece in cut.pieces.freed} if cut.pieces else set()
+    path = "cut.offset_path" if cut.contour else "cut.programmed" if cut.kerf_um else "cut.contour"
     found = (
-        (True, Entry(_kerf(seen.kerf_px, Paint.KERF), say("cut.kerf_wider", kerf=kerf) if wider else kerf)),
+        (cut.kerf_um, Entry(_kerf(seen.kerf_px, Paint.KERF), say("cut.kerf_wider", kerf=kerf) if wider else kerf)),
         *((True, entry) for entry in _pass_entries(cut, say, seen.kerf_px)),
         (cut.leads is not None and cut.leads.any(), Entry(_kerf(seen.kerf_px, Paint.LEAD), say("cut.lead"))),
-        (
-            True,
-            Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say("cut.offset_path" if cut.contour else "cut.programmed")),
-        ),
+        (True, Entry(stroke(Paint.IDEAL, style.IDEAL_WIDTH), say(path))),
         (cut.contour, Entry(stroke(Paint.CONTOUR, style.CONTOUR_WIDTH), say("cut.contour"))),
         (cut.trace, Entry(stroke(Paint.ACTUAL, style.ACTUAL_WIDTH), say("cut.actual"))),
         (cut.toolpath.is_jump.any(), Entry(dashes(Paint.JUMP, style.JUMP_WIDTH), say("cut.jump"))),
@@ -117,11 +115,16 @@ def draw_legends(canvas: Canvas, page: Page, plain: list[Entry], findings: list[
 
 
 def _pass_entries(cut: Cut, say: Words, kerf_px: float) -> list[Entry]:
-    """Tones of passes with the offsets of those that have them, where any edge is cut more than once."""
+    """Tones of passes, where any edge is cut more than once, with their offsets from the edge that is left.
+
+    Beside a contour the line at the top has them: from the contour, which the wire's reach need not meet.
+    """
     passes = () if cut.passes is None else cut.passes.passes
+    if cut.contour is not None:
+        return [Entry(_kerf(kerf_px, tone.paint), getattr(tone.name, say.language)) for tone in tones_of(passes)]
     entries = []
     for tone in tones_of(passes):
-        offsets = [mm(cut.kerf_um / 2 + one.shift_um) for one in passes if paint_of_pass(one.number) is tone.paint]
+        offsets = [mm(one.offset_um(cut.kerf_um / 2)) for one in passes if paint_of_pass(one.number) is tone.paint]
         by = dict.fromkeys(f"{offset:.3f}" for offset in (min(offsets), max(offsets)))
         text = say("cut.pass", name=tone.name, by="–".join(by))
         entries.append(Entry(_kerf(kerf_px, tone.paint), text))

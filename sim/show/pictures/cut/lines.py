@@ -71,6 +71,8 @@ def lines_of(cut: Cut, view: View) -> Lines:
 def _bands(cut: Cut, view: View) -> list[Band]:
     """The kerf in the tones of the passes that took it off: leads below, and each pass over those that came later."""
     toolpath = cut.toolpath
+    if not cut.kerf_um:
+        return []
     if cut.trace is None:
         points, row = flatten(toolpath, CHORD_PX / view.px_per_um)
     else:

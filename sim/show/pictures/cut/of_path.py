@@ -6,7 +6,8 @@ from parser.findings.findings import Finding
 from parser.program import Program
 from parser.shape.passes import find_passes
 from sim.check.beside import Offsetting
-from sim.run.prepare import prepare
+from sim.check.compensation.asked import compensation_of, is_known
+from sim.run.prepare import checked_for, prepare
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.picture import draw_cut
@@ -28,16 +29,26 @@ class Programmed(NamedTuple):
         What the controller's compensation made of it; None where it runs as written.
     findings
         Of the check that every run begins with.
+    is_contour
+        Whether it is the contour alone: it compensates by what nobody tells, so its wire runs nobody knows where.
     """
 
     program: Program
     scenario: Scenario
     offset: Offsetting | None
     findings: tuple[Finding, ...]
+    is_contour: bool = False
 
 
 def programmed(program: Program, scenario: Scenario) -> Programmed:
-    """Check a program, and add the offset of its scenario. Raises what `sim.run.prepare.prepare` does."""
+    """Check a program, and add its offset or that of its scenario.
+
+    Raises what `sim.run.prepare.prepare` does, but takes a program whose own offset nobody tells: its contour is known.
+    """
+    told = compensation_of(program.toolpath)
+    if told is not None and not is_known(told):
+        checked, _ = checked_for(program, scenario)
+        return Programmed(program, scenario, None, checked.findings, is_contour=True)
     ready = prepare(program, scenario)
     return Programmed(ready.program, scenario, ready.offset, ready.findings)
 
@@ -48,16 +59,18 @@ def draw_path(sheet: Sheet[AnyCanvas], shown: Programmed) -> AnyCanvas:
 
 
 def cut_of_path(shown: Programmed, say: Words) -> Cut:
-    """A cut of which no more is known than its program, machine and wire."""
+    """A cut of which no more is known than its program, machine and wire; a contour alone has no kerf either."""
     toolpath, scenario = shown.program.toolpath, shown.scenario
+    has_kerf = not shown.is_contour
+    ran = say("cut.not_run") if has_kerf else f"{say('cut.not_run')} · {say('cut.contour_alone')}"
     passes = find_passes(toolpath) if shown.offset is None else shown.offset.edge_passes
     return Cut(
         toolpath=toolpath,
-        kerf_um=scenario.wire.kerf_um,
+        kerf_um=scenario.wire.kerf_um if has_kerf else 0.0,
         title=scenario.title,
-        note=note_of(toolpath, shown.offset, shown.findings, say("cut.not_run"), say),
-        passes=passes if any(one.number > 1 for one in passes.passes) else None,
-        leads=(passes.of_row < 0) & ~toolpath.is_jump,
+        note=note_of(toolpath, shown.offset, shown.findings, ran, say),
+        passes=passes if has_kerf and any(one.number > 1 for one in passes.passes) else None,
+        leads=(passes.of_row < 0) & ~toolpath.is_jump if has_kerf else None,
         contour=None if shown.offset is None else shown.offset.passed.drawn,
         bodies=bodies_of(scenario),
         findings=shown.findings,

@@ -29,7 +29,7 @@ class Cut(NamedTuple):
     toolpath
         The path of the wire's centre, at least one block.
     kerf_um
-        Full width of the kerf, twice the sum of wire radius and spark gap; not negative.
+        Full width of the kerf, twice the sum of wire radius and spark gap; 0 where none is to be drawn.
     title, note
         Lines at the top; the middle of a line that is too long is left out.
     trace

@@ -39,6 +39,6 @@ def note_of(toolpath: Toolpath, offset: Offsetting | None, findings: Sequence[Fi
         ran,
     ]
     if offset is not None:
-        by = ", ".join(f"{mm(one.by_um):g}" for one in offset.passes)
+        by = ", ".join(f"{round(mm(one.by_um), 4):g}" for one in offset.passes)
         parts.append(say(f"cut.offset_{offset.side.name.lower()}", by=by))
     return " · ".join(parts)

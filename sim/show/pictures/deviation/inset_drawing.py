@@ -84,7 +84,8 @@ def _draw_wire(canvas: Canvas, view: View, inset: Inset, unit: float) -> None:
     """Draw the wire's way, and a dot at each sample while they stand apart: between them it is drawn straight."""
     places = view.to_px(inset.wire_um)
     canvas.polyline(simplify(places, CHORD_PX), Paint.ACTUAL, WIRE_WIDTH * unit)
-    if np.median(np.hypot(*np.diff(places, axis=0).T)) >= APART * WIRE_DOT * unit:
+    apart = np.hypot(*np.diff(places, axis=0).T)
+    if not len(apart) or np.median(apart) >= APART * WIRE_DOT * unit:
         for place in places[(np.abs(inset.wire_um - inset.center_um) <= inset.side_um / 2.0).all(axis=1)]:
             canvas.disc(place, WIRE_DOT * unit, Paint.ACTUAL)
 

@@ -24,6 +24,8 @@ BAND: Final = 26.0
 """Height of the tones of passes, in a row."""
 TICK: Final = 9.0
 LINE_WIDTH: Final = 1.5
+PAUSE: Final = "‖"
+"""Sign of a pause, as two bars are in the picture of the cut: one dialect writes D, others M00, M01 or M20."""
 _NAMES: Final[Mapping[LossKind, str]] = {"lost-steps": "motion.lost", "trip": "motion.trip"}
 
 
@@ -46,7 +48,9 @@ class _Label(NamedTuple):
 
 def marks_of(run: DryRun) -> list[TimeMark]:
     """Losses of a run, with the codes of their findings and the axes, and pauses."""
-    pauses = [TimeMark(one.t_s, "motion.pause", "D", Paint.PAUSE) for one in stops_of(run) if one.what.kind == "pause"]
+    pauses = [
+        TimeMark(one.t_s, "motion.pause", PAUSE, Paint.PAUSE) for one in stops_of(run) if one.what.kind == "pause"
+    ]
     codes = {fact.kind: finding.code for finding, fact in telling(run.findings, Lost)}
     losses = [
         TimeMark(loss.t_s, _NAMES[loss.kind], f"{codes[loss.kind]} {loss.axis.name}", Paint.ERROR)

@@ -41,6 +41,7 @@ import { element } from "../../html/assets/elements.js";
  * @typedef {object} Program
  * @property {string} name
  * @property {string} dialect
+ * @property {boolean} is_worded whether the steps are counted by words of the program, not by the controller's own
  * @property {string[]} lines
  */
 

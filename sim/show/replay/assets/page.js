@@ -95,7 +95,7 @@ export function buildPage(replay) {
     onHover(row, event) {
       stage.outline(row);
       if (row === null) tip.hide();
-      else tip.show(words.block(doc.blocks, row), words.geometry(doc.blocks, row), event.clientX, event.clientY);
+      else tip.show(words.block(doc.blocks, row), words.geometry(doc, row), event.clientX, event.clientY);
     },
   });
   const decoding = decodingIn(elements("#decoding"), doc);

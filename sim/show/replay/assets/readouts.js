@@ -64,6 +64,15 @@ export function readoutsIn(page, doc, model) {
     fields.get("pass")?.style.setProperty("--tone", pass ? `var(--${pass.paint})` : "transparent");
   }
 
+  /**
+   * What is left of a block's count, or nothing to tell: with the word of its axis where the program has words.
+   * @param {Moment} moment
+   */
+  function left({ block, count_left: count }) {
+    if (count === null) return "–";
+    return `${number(count)} ${doc.program.is_worded ? "G" : ""}${doc.blocks.count_axis[block]}`;
+  }
+
   return {
     /**
      * Show a moment.
@@ -73,7 +82,7 @@ export function readoutsIn(page, doc, model) {
       const next = moment.isAsked ? null : model.decision(moment.step + 1);
       write("x", mm(moment.x));
       write("y", mm(moment.y));
-      write("left", moment.count_left === null ? "–" : `${number(moment.count_left)} G${doc.blocks.count_axis[moment.block]}`);
+      write("left", left(moment));
       write("feed", number((moment.feed_um_s * 60) / 1000, 2));
       write("block", rows < MANY ? `${number(moment.block + 1)} / ${number(rows)}` : number(moment.block + 1));
       write("step", number(moment.step));

@@ -3,7 +3,7 @@ import { pick, say } from "../../html/assets/language.js";
 
 /**
  * @import { Decision } from "./decisions.js"
- * @import { Blocks, Finding, Piece } from "./document.js"
+ * @import { Blocks, Finding, Piece, ReplayDocument } from "./document.js"
  */
 
 const MINUS = "−";
@@ -70,11 +70,28 @@ export function kind(blocks, row) {
 export const code = (blocks, row) => `${TURNS[blocks.turn[row]]}${blocks.quadrant[row]}`;
 
 /**
+ * What a block's steps are counted by: words of the program where it has them, else the controller's own count.
+ * @param {ReplayDocument} doc
+ * @param {number} row
+ * @returns {[name: string, value: string][]}
+ */
+function counting({ blocks, program }, row) {
+  const [count, axis] = [number(blocks.count_um[row]), blocks.count_axis[row]];
+  if (!program.is_worded) return [[say("counted"), say("counted_along", { count, axis })]];
+  return [
+    [say("count"), count],
+    [say("axis"), `G${axis}`],
+    ["Z", code(blocks, row)],
+  ];
+}
+
+/**
  * Pairs of name and value that describe a block.
- * @param {Blocks} blocks
+ * @param {ReplayDocument} doc
  * @param {number} row
  */
-export function geometry(blocks, row) {
+export function geometry(doc, row) {
+  const { blocks } = doc;
   /** @type {[name: string, value: string][]} */
   const rows = [
     [say("from"), place(blocks.place_x_um[row], blocks.place_y_um[row])],
@@ -88,13 +105,7 @@ export function geometry(blocks, row) {
     );
   }
   rows.push([say("length"), `${mm(blocks.length_um[row])} mm`]);
-  if (blocks.kind[row] !== "jump") {
-    rows.push(
-      [say("count"), number(blocks.count_um[row])],
-      [say("axis"), `G${blocks.count_axis[row]}`],
-      ["Z", code(blocks, row)],
-    );
-  }
+  if (blocks.kind[row] !== "jump") rows.push(...counting(doc, row));
   return rows;
 }
 
