@@ -28,24 +28,20 @@ SEEN_UM = 1.0
 _LEFT_UM = 5.0  # along a block that the wire does not come to: less, of a contour in many small blocks, is no fault
 
 
-class _Gone(NamedTuple):
-    """Rows that have vanished: where the controller stops, and those that are told whatever stays along them.
-
-    The latter are floors of grooves that have no room for the wire, and inner arcs as large as the offset: these leave
-    nothing, and make other controllers stop.
-    """
+class _NoPlace(NamedTuple):
+    """Rows of the contour at which the controller stops, and those that have no place though they leave little."""
 
     stops: set[int]
-    anyhow: set[int]
+    unseen: set[int]
 
 
 def contour_findings(
     program: Program, path: OffsetPath, stretches: Sequence[Held], alarms: Sequence[Alarm]
 ) -> Iterator[Finding]:
     """What the path makes of the contours, under the codes of an offset, 3B501 to 3B504, and ISO512 and ISO514."""
-    gone = _gone(program, path, alarms)
+    without = _without_place(program, path, alarms)
     for one in stretches:
-        yield from _uncut(program, path, one, gone)
+        yield from _uncut(program, path, one, without)
         if one.beside.loops not in (None, 1):
             yield loop_finding(program, one.run.round.section.first, int(one.beside.loops or 0), one.run.by_um)
         if one.run.part_side == one.run.side:
@@ -61,6 +57,14 @@ def contour_findings(
             yield gouge_finding(program, (row, gouge.row), gouge, run.kerf_um)
 
 
+def _without_place(program: Program, path: OffsetPath, alarms: Sequence[Alarm]) -> _NoPlace:
+    """An inner arc as large as the offset leaves nothing, and makes other controllers stop: it is told too."""
+    gone = [one for one in alarms if one.kind in (AlarmKind.TOO_SMALL, AlarmKind.VANISHED)]
+    small = {one.row for one in gone if one.kind is AlarmKind.TOO_SMALL}
+    seen = {row for row in small if program.toolpath.length_um[row] > _LEFT_UM}
+    return _NoPlace({one.row for one in gone if one.stops}, seen | _between_apart(path))
+
+
 def _by_edge(runs: Sequence[CompensatedRound]) -> dict[int, list[CompensatedRound]]:
     by_edge: dict[int, list[CompensatedRound]] = {}
     for run in runs:
@@ -68,14 +72,7 @@ def _by_edge(runs: Sequence[CompensatedRound]) -> dict[int, list[CompensatedRoun
     return by_edge
 
 
-def _gone(program: Program, path: OffsetPath, alarms: Sequence[Alarm]) -> _Gone:
-    length_um = program.toolpath.length_um
-    gone = [one for one in alarms if one.kind in (AlarmKind.TOO_SMALL, AlarmKind.VANISHED)]
-    small = {one.row for one in gone if one.kind is AlarmKind.TOO_SMALL and length_um[one.row] > _LEFT_UM}
-    return _Gone({one.row for one in gone if one.stops}, small | _between_apart(path))
-
-
-def _uncut(program: Program, path: OffsetPath, one: Held, gone: _Gone) -> Iterator[Finding]:
+def _uncut(program: Program, path: OffsetPath, one: Held, without: _NoPlace) -> Iterator[Finding]:
     """Blocks that the wire does not come to: where the controller stops, and those that the nearest pass leaves."""
     section, run = one.run.round.section, one.run
     vanished = path.vanished[slice(*np.searchsorted(path.vanished, (section.first, section.last + 1)))]
@@ -84,9 +81,9 @@ def _uncut(program: Program, path: OffsetPath, one: Held, gone: _Gone) -> Iterat
     beside = path.curves.picked(rows_beside(path, run.round))
     left_um = [*one.beside.left_um, *uncut_um(one.contour, beside, run.by_um, missed - section.first)]
     for row, left in zip([*vanished.tolist(), *missed.tolist()], left_um, strict=True):
-        is_left = run.is_nearest and (left > _LEFT_UM or row in gone.anyhow)
-        if program.toolpath.length_um[row] > NOTHING_UM and (row in gone.stops or is_left):
-            yield uncut_finding(program, row, float(left), run.distances, stops=row in gone.stops)
+        is_left = run.is_nearest and (left > _LEFT_UM or row in without.unseen)
+        if program.toolpath.length_um[row] > NOTHING_UM and (row in without.stops or is_left):
+            yield uncut_finding(program, row, float(left), run.distances, stops=row in without.stops)
 
 
 def _between_apart(path: OffsetPath) -> set[int]:
