@@ -23,8 +23,7 @@ def pass_rows(run: DryRun) -> list[Row]:
         return []
     among = Counter(figures.of.edge for figures in run.pass_figures)
     named = [_pass_name(figures.of, among) for figures in run.pass_figures]
-    reach_um = run.scenario.wire.reach_um if run.offset is None else None
-    told = [_pass(figures, reach_um) for figures in run.pass_figures]
+    told = [_pass(figures, run.scenario.wire.reach_um) for figures in run.pass_figures]
     rows = list(zip(named, told, strict=True))
     more = [("", f"and {len(rows) - _MOST_PASSES} passes more")] if len(rows) > _MOST_PASSES else []
     return [*rows[:_MOST_PASSES], *more]
@@ -35,13 +34,11 @@ def _pass_name(one: Pass, among: Counter[int]) -> str:
     return f"{contour}pass {one.number} of {among[one.edge]}"
 
 
-def _pass(figures: PassFigures, reach_um: float | None) -> str:
-    """What a pass comes to; without a reach its offset is left to the row that tells those of the controller."""
+def _pass(figures: PassFigures, reach_um: float) -> str:
     one, stock = figures.of, figures.stock
     way = ("tab, " if one.is_tab else "") + ("back" if one.is_back else "forward")
     taken = "not cut" if stock is None else f"takes {stock.mean_um:,.0f} µm"
-    offset = "" if reach_um is None else f"offset {one.offset_um(reach_um):,.0f} µm, "
-    return f"{way}, {offset}{taken}, {clock(figures.time_s)}"
+    return f"{way}, offset {one.offset_um(reach_um):,.0f} µm, {taken}, {clock(figures.time_s)}"
 
 
 def offset_rows(run: DryRun) -> list[Row]:

@@ -116,10 +116,3 @@ def test_a_damaged_program_is_decoded_to_what_the_schema_allows(seed: int) -> No
     VALIDATOR.validate(json.loads(document_text(program, blocks, "en")))
     assert [step.order for one in blocks for step in one.block.steps[-1:]] == [len(one.block.steps) for one in blocks]
     assert all(way.text.zh for one in blocks for way in way_texts(one))
-
-
-def test_what_was_assumed_is_told_in_the_words_of_a_check() -> None:
-    program = parse_program("G92 X0 Y0\nG91 G01 X5000 Y0\nM02\n", "part")
-    told = json.loads(document_text(program, decoded(program, program.toolpath)))["assumptions"]
-    assert [one["what"] for one in told] == ["dialect", "unit"]
-    assert not any(one["why"].startswith("because") for one in told)

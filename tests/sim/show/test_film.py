@@ -548,3 +548,10 @@ def test_pieces_are_drawn_up_into_their_kerf_and_no_further() -> None:
     assert drawn.buffer(1e-6).contains(piece.what.outline_um)
     assert drawn.difference(piece.what.outline_um.buffer(1.0)).difference(kerf.buffer(1.0)).area < 1.0
     assert drawn.contains(shapely.Point(0.0, 5000.0))  # of the slot that is cut when the piece is free
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_the_line_that_is_followed_has_the_name_that_it_has_in_the_replay(language: str) -> None:
+    """It is the path that runs: beside a contour none that is programmed."""
+    say = Words(language)
+    assert say("film.ideal") == say("replay.ideal_path")

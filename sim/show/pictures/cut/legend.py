@@ -115,13 +115,8 @@ def draw_legends(canvas: Canvas, page: Page, plain: list[Entry], findings: list[
 
 
 def _pass_entries(cut: Cut, say: Words, kerf_px: float) -> list[Entry]:
-    """Tones of passes, where any edge is cut more than once, with their offsets from the edge that is left.
-
-    Beside a contour the line at the top has them: from the contour, which the wire's reach need not meet.
-    """
+    """Tones of passes with the offsets of those that have them, where any edge is cut more than once."""
     passes = () if cut.passes is None else cut.passes.passes
-    if cut.contour is not None:
-        return [Entry(_kerf(kerf_px, tone.paint), getattr(tone.name, say.language)) for tone in tones_of(passes)]
     entries = []
     for tone in tones_of(passes):
         offsets = [mm(one.offset_um(cut.kerf_um / 2)) for one in passes if paint_of_pass(one.number) is tone.paint]
