@@ -6,7 +6,7 @@ from controller.stepping.point_by_point import interpolate_words
 from controller.stepping.steps import Steps
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.toolpath import StepWords, Toolpath
-from parser.words.telling import chosen, words_of_arcs, words_of_lines
+from parser.words.telling import words_of_arcs, words_of_lines
 
 
 def interpolate(toolpath: Toolpath) -> Steps:
@@ -49,7 +49,10 @@ def stepped_words(curves: Curves) -> StepWords:
 def _told(curves: Curves, row: Ints, begin_um: Floats) -> StepWords:
     """Words of the rows (k,) that begin at places (k, 2) and end where they should."""
     end = curves.end_um[row]
+    words = words_of_lines(end - begin_um)
     is_arc = curves.is_arc[row]
-    lines = words_of_lines(end - begin_um)
-    center = np.where(is_arc[:, None], curves.center_um[row], begin_um - (1.0, 0.0))
-    return chosen(is_arc, words_of_arcs(begin_um - center, end - center, curves.sweep_rad[row]), lines)
+    center = curves.center_um[row[is_arc]]
+    arcs = words_of_arcs(begin_um[is_arc] - center, end[is_arc] - center, curves.sweep_rad[row[is_arc]])
+    for name in StepWords.__slots__:
+        getattr(words, name)[is_arc] = getattr(arcs, name)
+    return words

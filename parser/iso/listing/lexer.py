@@ -7,7 +7,7 @@ import numpy as np
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Edit, Finding, Value, file_order
 from parser.geometry.curves import Floats, Ints
-from parser.iso.listing.listing import Blocks, Listing, Unread, Words
+from parser.iso.listing.listing import Blocks, ByLetter, Listing, Unread, Words
 from parser.iso.listing.odd_lines import OddLine, odd_line
 from parser.iso.listing.plain_words import PlainWords, plain_words
 from parser.iso.listing.remarks import Bare, hidden_blocks, without_remarks
@@ -41,6 +41,7 @@ def read_listing(text: str) -> Listing:
         lines,
         words,
         blocks,
+        ByLetter(words.letter),
         tuple(one._replace(block=block) for block, line in numbered for one in line.assignments),
         tuple(one._replace(block=block) for block, line in numbered for one in line.statements),
         bare.remarks,

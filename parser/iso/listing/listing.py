@@ -123,6 +123,20 @@ class Unread(NamedTuple):
     block: int
 
 
+class ByLetter:
+    """Words (m,) by their letters, each letter looked for once."""
+
+    def __init__(self, letter: Ints) -> None:
+        self._letter = letter.astype(np.uint8)
+        self._words: dict[str, Ints] = {}
+
+    def of(self, letter: str) -> Ints:
+        """(k,) words with a letter, in file order."""
+        if letter not in self._words:
+            self._words[letter] = np.flatnonzero(self._letter == ord(letter))
+        return self._words[letter]
+
+
 class Listing(NamedTuple):
     """All that stands in one text.
 
@@ -132,6 +146,8 @@ class Listing(NamedTuple):
         The text as written, and places in it folded to narrow characters.
     words, blocks
         Words, in blocks.
+    by_letter
+        The words by their letters.
     assignments
         Of offset registers, in file order.
     statements
@@ -150,6 +166,7 @@ class Listing(NamedTuple):
     lines: LineIndex
     words: Words
     blocks: Blocks
+    by_letter: ByLetter
     assignments: tuple[Assignment, ...]
     statements: tuple[Statement, ...]
     remarks: Ints
@@ -159,7 +176,7 @@ class Listing(NamedTuple):
 
     def of(self, letter: str) -> Ints:
         """(k,) words with a letter, in file order."""
-        return np.flatnonzero(self.words.letter == ord(letter))
+        return self.by_letter.of(letter)
 
     def blocks_of(self, word: Ints) -> Bools:
         """(b,) bool, which blocks hold any of some words."""

@@ -44,8 +44,10 @@ def _falls(listing: Listing) -> list[Finding]:
     step = _usual_step(value)
     for most in _WIDTHS:
         is_fall[1:] &= ~((value[:-1] <= most) & (value[:-1] + step > most) & (value[1:] <= step))
-    restarts = np.cumsum((words.letter == ord("O")) | ((words.letter == ord("M")) & np.isin(words.value, ENDS)))
-    is_fall[1:] &= restarts[number[1:]] == restarts[number[:-1]]
+    ends = listing.of("M")
+    ends = ends[np.isin(words.value[ends], ENDS)]
+    restarts = np.sort(np.concatenate([listing.of("O"), ends])).searchsorted(number)
+    is_fall[1:] &= restarts[1:] == restarts[:-1]
     label = stands_alone(listing)[words.block[number]] & are_called(listing, value)
     is_fall &= ~label & ~np.append(False, label[:-1])
     found = [
