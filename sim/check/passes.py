@@ -21,6 +21,7 @@ from parser.toolpath import Toolpath
 from sim.setup.wire import DEFAULT_WIRE
 
 _SAME_UM = 10.0  # passes at one offset may lie so far apart: ends in whole µm drift along many small arcs
+_RISES_UM = 0.5  # offsets that a program tells are exact
 _DEEPER_UM = 20.0  # of single blocks, of which each has a drift of its own
 _OTHER_SIDE = 1.8  # offsets that a pass lies aside of another one: no trim takes nearly all of a kerf
 _TURNED_RAD = np.radians(300.0)
@@ -84,7 +85,7 @@ def _offsets(program: Program, passes: list[Pass], offset_um: float | None) -> I
         other, values = nearest[0], {"number": one.number, "other": nearest[0].number}
         by = other.shift_um - one.shift_um
         turned = one.is_back != other.is_back and one.part_side != 0
-        if by < -_SAME_UM:
+        if by < -(_SAME_UM if one.told_um is None else _RISES_UM):
             yield at_block(program.toolpath, program.lines, "3B312", one.first, by=-by, **values)
         elif turned and by > _OTHER_SIDE * (DEFAULT_WIRE.reach_um if offset_um is None else offset_um):
             yield at_block(program.toolpath, program.lines, "3B316", one.first, by=by, **values)

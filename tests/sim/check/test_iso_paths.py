@@ -128,6 +128,11 @@ def test_an_offset_that_rises_is_named() -> None:
     assert values["by"] == pytest.approx(50.0, abs=0.5)
 
 
+def test_offsets_that_a_program_tells_are_held_to_the_um() -> None:
+    assert two_passes(BACK, second="200") == {}
+    assert "ISO307" in two_passes(BACK, second="201")
+
+
 def test_a_side_that_does_not_turn_with_the_direction_is_named() -> None:
     assert "ISO308" in two_passes(BACK, side="G41")
 
