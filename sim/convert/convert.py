@@ -14,6 +14,7 @@ from parser.toolpath import Toolpath
 from parser.units import mm
 from parser.write.draft import Draft, Written
 from parser.write.losses import Loss, some
+from sim.check.closures import OpenContour
 from sim.check.engine import Checked, run_checks
 from sim.check.path_checks import Demands
 from sim.convert.kerf import closed_by_kerf
@@ -79,9 +80,11 @@ class Refused(NamedTuple):
 def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     """Convert a program; what has errors, or could not be read as a whole, is not converted.
 
+    A contour that stays open has a path all the same: it is converted, and stays as open as it was.
+
     SettingsError where the dialect cannot say what the program needs.
     """
-    checked = run_checks(program, Demands())
+    checked = run_checks(program, Demands(may_stay_open=True))
     if _errors(checked):
         return Refused("source", program, _errors(checked))
     beside = ", ".join(program.reading.not_simulated.words)
@@ -124,7 +127,7 @@ def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted) -> C
         back = load_program(data, f"{program.name} → {wanted.language}", choices)
     except ProgramError as error:
         return Refused("result", program, (error.finding,))
-    checked = run_checks(back, Demands())
+    checked = run_checks(back, Demands(may_stay_open=_is_open(program)))
     told, open_um = program.toolpath.compensation, 0.0
     closed: tuple[Finding, ...] = ()
     if told is not None and not wanted.keeps:
@@ -146,6 +149,11 @@ def _is_told_by_itself(data: bytes, draft: Draft, made: Written, wanted: Wanted,
     """Whether the text alone tells how it is to be read."""
     alone = proof(draft, made, load_program(data, "alone", Choices(registers=choices.registers)).toolpath)
     return alone == Proof(alone.off_um) and alone.off_um <= wanted.bound_um
+
+
+def _is_open(program: Program) -> bool:
+    """Whether a contour of a program ends away from its own path."""
+    return any(telling(run_checks(program, Demands()).findings, OpenContour))
 
 
 def _errors(checked: Checked) -> tuple[Finding, ...]:

@@ -6,6 +6,7 @@ import numpy as np
 
 from parser.findings.findings import Finding
 from parser.geometry.curves import Bools, CurveKind, Ints
+from parser.geometry.boxes import distinct
 from parser.iso.path.given import STOPS, Given
 from parser.iso.path.modes import Modes
 from parser.iso.path.rows import Rows
@@ -24,7 +25,7 @@ def move_findings(given: Given, runs: Ints, mode: Modes, lacks_motion: Bools, pa
 def _without_motion(given: Given, runs: Ints, lacks_motion: Bools) -> Iterator[Finding]:
     """ISO110 at each block that runs with numbers to move by before any motion word did, at the first of these."""
     listing = given.listing
-    blocks = np.unique(runs[lacks_motion])
+    blocks = distinct(runs[lacks_motion])
     word = listing.of_any(_MOVING)
     first = word[np.searchsorted(listing.words.block[word], blocks)]
     for one in first.tolist():

@@ -80,13 +80,13 @@ def test_an_offset_is_worked_into_3b(tmp_path: Path) -> None:
 
 
 def test_nothing_is_written_where_it_is_refused(tmp_path: Path) -> None:
-    path, out = tmp_path / "open.3b", tmp_path / "open.iso"
-    path.write_text(OPEN, encoding="utf-8")
+    path, out = tmp_path / "damaged.3b", tmp_path / "damaged.iso"
+    path.write_text(OPEN.replace("B9000", "B9O00", 1), encoding="utf-8")
     out.write_text("as it was", encoding="utf-8")
     code, said, _ = run(path, "-o", out)
     assert code == 1
     assert out.read_text(encoding="utf-8") == "as it was"
-    assert "3B301" in said
+    assert "3B106" in said
     assert "not converted: mend its errors first" in " ".join(said.split())
 
 

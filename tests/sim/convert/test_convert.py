@@ -10,6 +10,8 @@ from twins import TWIN_3B, TWIN_ISO
 from parser.dialect.reader import Choices
 from parser.program import Program, load_program, parse_program
 from parser.write.iso_choices import iso_choices
+from sim.check.engine import run_checks
+from sim.check.path_checks import Demands
 from sim.convert import convert as conversion
 from sim.convert.convert import Converted, Refused, converted
 from sim.convert.wanted import Language, Wanted
@@ -71,9 +73,15 @@ def test_a_sound_program_is_written_within_its_bound(text: str, wanted: Wanted) 
 
 
 def test_a_program_with_an_error_is_not_converted() -> None:
-    made = refused(OPEN, to_iso())
+    made = refused("B9000B0B9000GXL1\nB9O00B0B9000GXL3\nDD\n", to_iso())
     assert made.why == "source"
-    assert [finding.code for finding in made.findings] == ["3B301"]
+    assert [finding.code for finding in made.findings] == ["3B106"]
+
+
+def test_a_contour_that_stays_open_is_converted_as_it_is() -> None:
+    made = done(OPEN, to_iso())
+    assert made.off_um == 0.0
+    assert "ISO300" in {finding.code for finding in run_checks(made.program, Demands()).findings}
 
 
 def test_a_program_that_could_not_be_read_whole_is_not_converted() -> None:
