@@ -5,9 +5,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from parser.dialect.choices import STANDARD_CHOICES, Choices, Marks
 from parser.dialect.decoding import Decoder
 from parser.dialect.mender import Mender
-from parser.dialect.reader import STANDARD_CHOICES, Choices, HeaderValue, Marks, Reader, Reading
+from parser.dialect.reader import HeaderValue, Reader, Reading
 from parser.files.kinds import PROGRAMS, kind_of
 from parser.files.reading import read_bytes
 from parser.findings.errors import ProgramError

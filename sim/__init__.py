@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from parser import __version__ as __version__
 
 if TYPE_CHECKING:
-    from parser.dialect.reader import Choices
+    from parser.dialect.choices import Choices
     from parser.drawing.read import read_drawing
     from parser.findings.catalogue import texts
     from parser.findings.errors import DrycutError

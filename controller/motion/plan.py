@@ -71,6 +71,12 @@ class Plan:
             np.where(over, 0.0, a + dt * j)[()],
         )
 
+    def border_s(self, before_um: Floats) -> Floats:
+        """Times (n + 1,) s at which blocks begin, and the last one ends; `before_um` (n + 1,) is the path by then."""
+        reached = self.time_at(before_um)
+        reached[-1] = self.duration_s
+        return reached
+
     def time_at(self, along_um: Floats) -> Floats:
         """Time at which the path length is reached; (n,) never falling µm to (n,) s.
 

@@ -8,7 +8,8 @@ import numpy as np
 from controller.offset.shifted import NOTHING_UM
 from controller.offset.stretches import Runs
 from parser.geometry.curves import Bools, Ints
-from parser.toolpath import Compensation, CompensationRules, Toolpath
+from parser.told.compensation import Compensation, CompensationRules
+from parser.toolpath import Toolpath
 
 
 class AlarmKind(Enum):

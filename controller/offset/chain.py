@@ -11,7 +11,7 @@ from controller.offset.sections import OffsetSection
 from controller.offset.shifted import NOTHING_UM, Blocks, turned_rad
 from parser.geometry.boxes import distinct
 from parser.geometry.curves import Floats, Ints
-from parser.toolpath import Outer
+from parser.told.compensation import Outer
 
 _NONE = -1
 _LESS_SHORT = 0.5

@@ -12,7 +12,8 @@ from controller.offset.rows import Order, Rows, bridge_rows, in_order, lines_bet
 from controller.offset.shifted import NOTHING_UM, Blocks, shifted_blocks
 from controller.offset.stretches import Runs, Stretch, idle_rows, known_sides, runs_of, stretches_of
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
-from parser.toolpath import CompensationRules, Toolpath
+from parser.told.compensation import CompensationRules
+from parser.toolpath import Toolpath
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,7 +7,8 @@ import numpy as np
 from controller.offset.sections import OffsetSection
 from controller.offset.shifted import NOTHING_UM
 from parser.geometry.curves import Bools, Curves, Floats, Ints
-from parser.toolpath import Compensation, CompensationRules, Toolpath
+from parser.told.compensation import Compensation, CompensationRules
+from parser.toolpath import Toolpath
 
 
 class Stretch(NamedTuple):

@@ -9,7 +9,7 @@ from controller.stepping.quadrants import walk_arcs
 from controller.stepping.steps import Steps
 from controller.stepping.strokes import arc_strokes, line_strokes, reached
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.toolpath import Axis, StepWords
+from parser.told.step_words import Axis, StepWords
 
 Number = TypeVar("Number", np.int64, np.float64)
 

@@ -5,7 +5,8 @@ import numpy as np
 from controller.stepping.point_by_point import interpolate_words
 from controller.stepping.steps import Steps
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.toolpath import StepWords, Toolpath
+from parser.told.step_words import StepWords
+from parser.toolpath import Toolpath
 from parser.words.telling import words_of_arcs, words_of_lines
 
 

@@ -4,7 +4,8 @@ from typing import NamedTuple, Protocol
 
 from parser.findings.findings import Edit
 from parser.text.source import Field
-from parser.toolpath import Axis, Toolpath
+from parser.told.step_words import Axis
+from parser.toolpath import Toolpath
 
 
 class Mend(NamedTuple):

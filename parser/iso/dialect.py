@@ -2,7 +2,8 @@
 
 import re
 
-from parser.dialect.reader import Choices, Marks, ReadText
+from parser.dialect.choices import Choices, Marks
+from parser.dialect.reader import ReadText
 from parser.text.encoding import narrow
 
 # A line of words with G and a number among the first ones; B begins the numbers of 3B.

@@ -1,6 +1,7 @@
 """A text of ISO, read: text to listing, its family, the rows that it moves, and all that is wrong with it."""
 
-from parser.dialect.reader import BlockCounts, Choices, Reading, ReadText, Spelling
+from parser.dialect.choices import Choices
+from parser.dialect.reader import BlockCounts, Reading, ReadText, Spelling
 from parser.findings.codes import CODES_OF_ISO, Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding, file_order

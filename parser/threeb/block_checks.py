@@ -13,7 +13,8 @@ from parser.text.lines import LineIndex
 from parser.text.source import Field
 from parser.threeb.decode import decoded_words
 from parser.threeb.stolen_numbers import RADIUS_TOLERANCE_UM
-from parser.toolpath import Axis, StepWords, Toolpath
+from parser.told.step_words import Axis, StepWords
+from parser.toolpath import Toolpath
 from parser.words.labels import label
 
 FULL_TURN_UM = 4.0

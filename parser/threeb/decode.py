@@ -12,7 +12,8 @@ from parser.text.source import Source
 from parser.threeb.figures import Nodes, air_lines, with_node_rows
 from parser.threeb.reader import Records
 from parser.threeb.tokens import fields_of
-from parser.toolpath import StepWords, Stop, Toolpath
+from parser.told.step_words import StepWords
+from parser.toolpath import Stop, Toolpath
 from parser.words.moves import moves, with_axes_named
 from parser.words.telling import words_of_lines
 

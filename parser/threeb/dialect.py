@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from parser.dialect.reader import BlockCounts, Choices, Damage, Reading, ReadText, Spelling
+from parser.dialect.choices import Choices
+from parser.dialect.reader import BlockCounts, Damage, Reading, ReadText, Spelling
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.facts import TooLarge, telling

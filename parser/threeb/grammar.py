@@ -7,7 +7,7 @@ import re
 from functools import cache
 from itertools import chain
 
-from parser.dialect.reader import Marks
+from parser.dialect.choices import Marks
 
 OWN_MARKS = Marks(end=("DD",), pause=("D",))
 """Marks of the dialect itself (docs/3b.md §2)."""

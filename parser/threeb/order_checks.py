@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from parser.dialect.at_block import at_block
-from parser.dialect.reader import Marks
+from parser.dialect.choices import Marks
 from parser.findings.facts import NoEnd, WithoutOffset
 from parser.findings.findings import Finding
 from parser.shape.closing import ends_closed

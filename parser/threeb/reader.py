@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from parser.dialect.reader import STANDARD_MARKS, Marks
+from parser.dialect.choices import STANDARD_MARKS, Marks
 from parser.findings.errors import ProgramError
 from parser.findings.facts import TooLarge
 from parser.findings.findings import Finding, file_order

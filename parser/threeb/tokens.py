@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.reader import STANDARD_MARKS, Marks
+from parser.dialect.choices import STANDARD_MARKS, Marks
 from parser.text.encoding import narrow
 from parser.text.lines import LineIndex
 from parser.text.source import Field, Span

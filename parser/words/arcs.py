@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 
 
 class ArcEnds(NamedTuple):

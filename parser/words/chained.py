@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Bools, Curves, Floats
-from parser.toolpath import StepWords
+from parser.told.step_words import StepWords
 from parser.words.moves import moves
 from parser.words.one_arc import OneBlock, Place, arc_of, told_arc_of
 from parser.words.telling import chosen, words_of_arcs, words_of_lines, words_of_told_arcs

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats
-from parser.toolpath import Axis, StepWords
+from parser.told.step_words import Axis, StepWords
 from parser.words.arcs import arc_ends
 
 # (X, Y) of a line that leaves both out and so runs along the axis its digit names (`BBB40000GXL1`).

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from parser.words.telling import MOST_SHIFT, MOST_SWEEP_RAD
 
 Place = tuple[float, float]

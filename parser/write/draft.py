@@ -7,7 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Bools, Curves, Floats, Ints
-from parser.toolpath import Compensation, StepWords, Stop, Toolpath
+from parser.told.compensation import Compensation
+from parser.told.step_words import StepWords
+from parser.toolpath import Stop, Toolpath
 
 _PLACED = re.compile(r"\s*(?:N\s*\d+\s*)?(?:Start|.*G\s*92(?!\d))", re.IGNORECASE)
 _STAYS_UM = 1.5

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Compensation
+from parser.told.compensation import Compensation
 from parser.write.iso_choices import UM_PER_INCH, IsoChoices
 
 _SIDES = {1: "G41", -1: "G42", 0: "G40"}

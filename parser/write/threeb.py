@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Bools, CurveKind, Floats, Ints
-from parser.toolpath import Axis, StepWords
+from parser.told.step_words import Axis, StepWords
 from parser.units import mm
 from parser.words.chained import Chained, chained_words
 from parser.words.labels import label

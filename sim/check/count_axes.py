@@ -12,7 +12,8 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.program import Program
 from parser.text.source import Field
-from parser.toolpath import Axis, StepWords, Toolpath
+from parser.told.step_words import Axis, StepWords
+from parser.toolpath import Toolpath
 from parser.words.telling import counted_way
 
 STEPPED_END_UM = 12.0

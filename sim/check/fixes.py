@@ -14,7 +14,7 @@ from parser.shape.contours import Contour
 from parser.shape.loops import is_circle
 from parser.text.lines import LINE_END
 from parser.text.source import Field
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.check.blame.cases import MOST_PRINTED
 from sim.check.blame.settle import WrongWord
 from sim.check.closures import OpenContour, Suspected

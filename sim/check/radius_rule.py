@@ -15,7 +15,8 @@ from parser.geometry.directions import Directions, directions, headings_at
 from parser.program import Program
 from parser.shape.loops import find_loops
 from parser.shape.passes import Passes
-from parser.toolpath import StepWords, Toolpath
+from parser.told.step_words import StepWords
+from parser.toolpath import Toolpath
 from sim.check.shape.corners import ROUNDING_UM, tight_corners
 
 USUAL_OFFSET_UM = 100.0

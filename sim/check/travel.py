@@ -10,7 +10,8 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.geometry.extents import extents
 from parser.program import Program
-from parser.toolpath import Axis, Toolpath
+from parser.told.step_words import Axis
+from parser.toolpath import Toolpath
 from parser.units import from_mm
 
 if TYPE_CHECKING:

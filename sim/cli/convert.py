@@ -9,7 +9,7 @@ from sim.cli.dialect_options import Dialect, Offsets, OrRegister, offsets_of
 from sim.cli.scenario_options import Length, chosen
 
 if TYPE_CHECKING:
-    from parser.dialect.reader import Choices
+    from parser.dialect.choices import Choices
     from parser.findings.catalogue import Language as Tongue
     from parser.program import Program
     from parser.write.iso_choices import IsoChoices, Unit
@@ -154,7 +154,7 @@ def _refuse_misfits(asked: _Asked, language: "Language") -> None:
 
 def _choices(asked: _Asked, language: "Language", given: Offsets) -> "Choices":
     """What the program is read with: --dialect and --unit say it where nothing of ISO is written."""
-    from parser.dialect.reader import Choices, merged
+    from parser.dialect.choices import Choices, merged
 
     is_written = language == "iso"
     dialect, unit = (asked.from_dialect, asked.from_unit) if is_written else (asked.dialect, asked.unit)

@@ -50,7 +50,7 @@ def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut decode part.iso
     drycut decode part.iso --block 6 --offset D11=0.1mm
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from parser.dialect.reader import Choices
+    from parser.dialect.choices import Choices
     from parser.program import read_program
     from sim.decode.blocks import decoded
     from sim.decode.document import document_text

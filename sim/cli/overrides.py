@@ -74,7 +74,7 @@ def read_with(
     scenario: "Scenario", dialect: str | None, unit: str | None, registers: tuple["RegisterSet", ...]
 ) -> "Scenario":
     """The scenario with what the options say of its program in place of its own values; other registers stay."""
-    from parser.dialect.reader import merged
+    from parser.dialect.choices import merged
 
     return replace(
         scenario,

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.reader import Choices, Registers
+from parser.dialect.choices import Choices, Registers
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
 from parser.findings.facts import NotSimulated, telling

@@ -7,7 +7,8 @@ import numpy as np
 from parser.findings.facts import telling
 from parser.findings.findings import Finding
 from parser.geometry.distance import distance_to_curves
-from parser.toolpath import Compensation, Toolpath
+from parser.told.compensation import Compensation
+from parser.toolpath import Toolpath
 from sim.check.closures import OpenContour
 
 _LAST_BLOCKS = 2

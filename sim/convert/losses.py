@@ -4,7 +4,8 @@ import numpy as np
 
 from parser.geometry.curves import CurveKind
 from parser.program import Program
-from parser.toolpath import StepWords, Toolpath
+from parser.told.step_words import StepWords
+from parser.toolpath import Toolpath
 from parser.write.draft import Draft, Written
 from parser.write.losses import Loss, lost_words, some
 from sim.convert.wanted import Wanted

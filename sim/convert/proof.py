@@ -5,7 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints
-from parser.toolpath import Compensation, Toolpath
+from parser.told.compensation import Compensation
+from parser.toolpath import Toolpath
 from parser.write.draft import Draft, Written
 
 _SHARES = (0.25, 0.5, 0.75)

@@ -2,7 +2,7 @@
 
 from typing import Literal, NamedTuple
 
-from parser.dialect.reader import STANDARD_CHOICES, Choices
+from parser.dialect.choices import STANDARD_CHOICES, Choices
 from parser.toolpath import Toolpath
 from parser.write.curve_marks import curve_marks
 from parser.write.draft import Draft, Written, draft_of

@@ -146,7 +146,7 @@ class DryRun:
     @property
     def block_time_s(self) -> Floats:
         """(n,) float64, time that each block ran, which add up to that of the run."""
-        return _times_within(self.border_s, self.ran_s)
+        return np.diff(np.minimum(self.border_s, self.ran_s))
 
     @property
     def whole_contours(self) -> tuple[Contour, ...]:
@@ -190,8 +190,8 @@ def dry_run(
     ended = trip_of(moved.losses) or ended
     cut = _cut(trace, ended)
     passes = find_passes(toolpath) if ready.offset is None else ready.offset.edge_passes
-    border_s = _borders(plan, ready.steps.along_um)
-    time_s = _times_within(border_s, ended.t_s if ended else plan.duration_s)
+    border_s = plan.border_s(ready.steps.along_um)
+    time_s = np.diff(np.minimum(border_s, ended.t_s if ended else plan.duration_s))
     way = wire_taken(toolpath, plan, cut)
     left = left_of(program, cut, contours, scenario, drawing, progress)
     met = _met(program, scenario, moved, trace, contours)
@@ -247,15 +247,3 @@ def _handed_to(meters: Meters, sink: PulseSink | None, motion: Motion) -> Callab
 def _cut(trace: Trace, ended: Ending | None) -> Trace:
     """The trace as far as the machine ran: after a trip it stands, and cuts nothing of what follows."""
     return trace.until(ended.t_s) if ended else trace
-
-
-def _borders(plan: Plan, before_um: Floats) -> Floats:
-    """Planned times (n + 1,) s at which blocks begin, and the end of the last one."""
-    reached = plan.time_at(before_um)
-    reached[-1] = plan.duration_s
-    return reached
-
-
-def _times_within(border_s: Floats, until_s: float) -> Floats:
-    """Time (n,) s of each block up to a time."""
-    return np.diff(np.minimum(border_s, until_s))

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from parser.dialect.reader import UNITS, Registers, merged, register_name
+from parser.dialect.choices import UNITS, Registers, merged, register_name
 from parser.findings.errors import SettingsError
 from parser.program import dialects
 from parser.units import from_mm

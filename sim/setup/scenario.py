@@ -6,7 +6,7 @@ A folder holds ``scenario.toml`` and the program it names; a program alone is a 
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from parser.dialect.reader import Choices, Registers, merged
+from parser.dialect.choices import Choices, Registers, merged
 from parser.findings.errors import FileUnreadableError, SettingsError
 from parser.program import suffixes
 from parser.text.encoding import printable

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from parser.units import mm
 from sim.run.ballbar.circle import Ballbar
 from sim.run.ballbar.figures import Figures

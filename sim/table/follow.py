@@ -6,7 +6,7 @@ import numpy as np
 
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats, Ints
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from parser.units import from_mm
 from sim.setup.machine.machine import TableEngine
 from sim.setup.machine.table_model import TableModel

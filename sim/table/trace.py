@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
-from parser.toolpath import Axis, Toolpath
+from parser.told.step_words import Axis
+from parser.toolpath import Toolpath
 
 
 @dataclass(frozen=True, slots=True, eq=False)

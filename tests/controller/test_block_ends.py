@@ -5,7 +5,8 @@ import pytest
 
 from controller.offset.block_ends import JointKind, aside_ends, joint_kinds
 from parser.program import parse_program
-from parser.toolpath import Compensation, CompensationRules, Toolpath
+from parser.told.compensation import Compensation, CompensationRules
+from parser.toolpath import Toolpath
 
 
 def path_of(*words: str, start: tuple[float, float] = (0.0, 0.0)) -> Toolpath:

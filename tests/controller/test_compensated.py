@@ -24,7 +24,8 @@ from controller.offset.programmed import Compensated, compensated
 from controller.offset.sections import OffsetSection, Side
 from parser.geometry.along import places_at
 from parser.geometry.curves import CurveKind, Curves
-from parser.toolpath import CompensationRules, Toolpath
+from parser.told.compensation import CompensationRules
+from parser.toolpath import Toolpath
 
 SAME_UM = 1e-6
 LENGTHEN = CompensationRules(outer="lengthen")

@@ -7,7 +7,7 @@ import pytest
 from places import ROOT
 
 from controller.offset.block_ends import JointKind
-from parser.dialect.reader import Choices
+from parser.dialect.choices import Choices
 from parser.program import parse_program
 from sim.decode.blocks import decoded
 from sim.decode.document import block_entry

@@ -8,7 +8,7 @@ from plain import PlainBlock
 from sound_cam import plain_end
 
 from parser.geometry.curves import Curves, Floats, curves_between
-from parser.toolpath import Axis, StepWords
+from parser.told.step_words import Axis, StepWords
 from parser.words.chained import chained_words
 from parser.words.labels import label
 from parser.words.moves import moves

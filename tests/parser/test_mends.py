@@ -6,7 +6,7 @@ from parser.dialect.mender import Mend
 from parser.program import parse_program
 from parser.text.source import Field
 from parser.threeb.mend import MENDER
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 
 
 @pytest.mark.parametrize(

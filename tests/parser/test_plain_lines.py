@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from cam_programs import sound_program
 
-from parser.dialect.reader import Marks
+from parser.dialect.choices import Marks
 from parser.text.lines import LineIndex
 from parser.threeb import reader
 from parser.threeb.columns import RawBlocks

@@ -9,7 +9,7 @@ from drawings import Arc
 from plain import PlainBlock, motion_quadrant, plain_steps
 from sound_cam import arc_block, line_block
 
-from parser.toolpath import Axis, StepWords
+from parser.told.step_words import Axis, StepWords
 from parser.words.arcs import arc_ends
 from parser.words.telling import words_of_arcs, words_of_lines
 

@@ -9,7 +9,8 @@ import numpy as np
 from paths import Pen
 
 from parser.geometry.curves import CurveKind, Curves
-from parser.toolpath import Compensation, CompensationRules, Toolpath
+from parser.told.compensation import Compensation, CompensationRules
+from parser.toolpath import Toolpath
 
 TEXTBOOK = CompensationRules()
 LINUXCNC = CompensationRules(outer="arc", startup="own-normal", too_small="alarm", change_on="alarm")

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from parser.words.telling import words_of_lines
 
 

@@ -8,7 +8,8 @@ import numpy as np
 
 from parser.geometry.curves import CurveKind, Curves
 from parser.text.source import Source
-from parser.toolpath import StepWords, Toolpath
+from parser.told.step_words import StepWords
+from parser.toolpath import Toolpath
 from parser.words.arcs import arc_ends
 
 

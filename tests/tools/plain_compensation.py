@@ -5,7 +5,7 @@ import itertools
 import math
 from typing import NamedTuple
 
-from parser.toolpath import CompensationRules
+from parser.told.compensation import CompensationRules
 
 
 class Leg(NamedTuple):

@@ -10,7 +10,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from parser.dialect.reader import BlockCounts, Choices, Damage, Marks, Reading, ReadText, Spelling
+from parser.dialect.choices import Choices, Marks
+from parser.dialect.reader import BlockCounts, Damage, Reading, ReadText, Spelling
 from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import file_order

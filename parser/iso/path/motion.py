@@ -4,7 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.reader import Assumption, Choices, Damage
+from parser.dialect.choices import Choices
+from parser.dialect.reader import Assumption, Damage
 from parser.findings.findings import Finding
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.iso.listing.listing import Listing
@@ -18,7 +19,8 @@ from parser.iso.path.order_checks import order_findings
 from parser.iso.path.rows import Rows, source
 from parser.iso.path.runs import Run, run_of
 from parser.iso.profiles.profile import Profile
-from parser.toolpath import Compensation, CompensationRules, Stop, Toolpath
+from parser.told.compensation import Compensation, CompensationRules
+from parser.toolpath import Stop, Toolpath
 
 
 class Moved(NamedTuple):

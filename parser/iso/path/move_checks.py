@@ -5,8 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from parser.findings.findings import Finding
-from parser.geometry.curves import Bools, CurveKind, Ints
 from parser.geometry.boxes import distinct
+from parser.geometry.curves import Bools, CurveKind, Ints
 from parser.iso.path.given import STOPS, Given
 from parser.iso.path.modes import Modes
 from parser.iso.path.rows import Rows

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.reader import Choices
+from parser.dialect.choices import Choices
 from parser.geometry.curves import Floats, Ints
 from parser.iso.listing.listing import Assignment
 from parser.iso.path.given import Given

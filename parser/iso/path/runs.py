@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from parser.dialect.reader import Choices
+from parser.dialect.choices import Choices
 from parser.geometry.curves import Bools
 from parser.iso.path.flow import Flow, flow
 from parser.iso.path.given import STOPS, Given

@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal
 
-from parser.toolpath import CompensationRules
+from parser.told.compensation import CompensationRules
 
 _FOLDER = Path(__file__).parent
 PROFILES = ("fast-wire", "classroom", "skd2", "robofil", "sodick", "mitsubishi", "fanuc", "common", "strict")

@@ -5,7 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.reader import Assumption, Choices
+from parser.dialect.choices import Choices
+from parser.dialect.reader import Assumption
 from parser.iso.listing.listing import Listing
 from parser.iso.path.centers import Agreement
 from parser.iso.profiles.profile import Profile, profile

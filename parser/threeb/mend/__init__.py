@@ -7,7 +7,8 @@ from parser.dialect.mender import Mend, Mender, Suspect
 from parser.findings.findings import Edit
 from parser.threeb import print_checks
 from parser.threeb.mend import edits
-from parser.toolpath import Axis, Toolpath
+from parser.told.step_words import Axis
+from parser.toolpath import Toolpath
 
 
 class _Mender:

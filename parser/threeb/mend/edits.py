@@ -10,7 +10,8 @@ from parser.text.encoding import narrow
 from parser.text.source import Field
 from parser.threeb.block_checks import ruled_label
 from parser.threeb.decode import decoded_words
-from parser.toolpath import Axis, StepWords, Toolpath
+from parser.told.step_words import Axis, StepWords
+from parser.toolpath import Toolpath
 from parser.words.labels import label
 
 _LETTERS = {Field.X: "X ", Field.Y: "Y ", Field.COUNT: "J "}

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from parser.geometry.curves import Floats, Ints
 from parser.threeb.block_checks import ruled_label
-from parser.toolpath import Axis, StepWords
+from parser.told.step_words import Axis, StepWords
 from parser.words.moves import Moves
 
 Flags = NDArray[np.bool_]

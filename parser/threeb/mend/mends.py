@@ -15,7 +15,8 @@ from parser.threeb.decode import decoded_words
 from parser.threeb.mend.edits import counted_on
 from parser.threeb.mend.likelihood import slip
 from parser.threeb.mend.solved import COUNT, X, Y, solved_numbers
-from parser.toolpath import Axis, StepWords, Toolpath
+from parser.told.step_words import Axis, StepWords
+from parser.toolpath import Toolpath
 from parser.words.labels import label
 from parser.words.moves import Moves, moves, with_axes_named
 

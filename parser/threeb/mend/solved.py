@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
-from parser.toolpath import Axis, StepWords
+from parser.told.step_words import Axis, StepWords
 from parser.units import MAX_WORD_UM
 from parser.words.arcs import ArcEnds, arc_ends
 

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from parser.findings.findings import Fact
-from parser.toolpath import Compensation, Toolpath
+from parser.told.compensation import Compensation
+from parser.toolpath import Toolpath
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,8 @@ from parser.findings.findings import file_order
 from parser.geometry.curves import Bools, Floats
 from parser.program import Program
 from parser.shape.passes import Passes
-from parser.toolpath import Compensation, Toolpath
+from parser.told.compensation import Compensation
+from parser.toolpath import Toolpath
 from sim.check.beside import Offsetting
 from sim.check.compensation.contours import contour_findings
 from sim.check.compensation.held import Held, held

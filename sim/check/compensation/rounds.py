@@ -17,7 +17,8 @@ from parser.geometry.along import along_um, places_at
 from parser.geometry.curves import Bools, Curves, Floats, Ints, joined
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.loops import find_loops
-from parser.toolpath import Compensation, Toolpath
+from parser.told.compensation import Compensation
+from parser.toolpath import Toolpath
 from sim.check.beside import Distances
 from sim.check.compensation.edges import ALONE, Along, edges_of_contours
 

@@ -13,7 +13,7 @@ from parser.findings.codes import Severity
 from parser.findings.findings import Finding, Value
 from parser.program import Program
 from parser.text.source import Field
-from parser.toolpath import Compensation
+from parser.told.compensation import Compensation
 from sim.check.compensation.asked import WithoutValue
 
 _ON_ARCS = {AlarmKind.SETUP_ARC: "set-up", AlarmKind.CANCEL_ARC: "cancel"}

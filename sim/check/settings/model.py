@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, Self
 
-from parser.dialect.reader import Choices, Marks, Registers, merged
+from parser.dialect.choices import Choices, Marks, Registers, merged
 from parser.findings.codes import Severity
 from parser.units import from_mm
 from sim.check.path_checks import Demands

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from parser.dialect.reader import Marks
+from parser.dialect.choices import Marks
 from parser.findings.codes import CODES, Severity
 from parser.findings.errors import SettingsError
 from parser.program import block_words, own_marks

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from parser.dialect.reader import merged
+from parser.dialect.choices import merged
 from parser.files.reading import read_stdin
 from parser.units import mm
 from sim.check.batch import Job

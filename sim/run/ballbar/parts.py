@@ -25,7 +25,7 @@ from typing import Final, Literal, NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Bools, Floats
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.run.ballbar.turn import GRID_RAD, SENSES, MeasuredTurn, Sense
 
 BEFORE_RAD: Final = np.radians(5.0)

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from parser.geometry.curves import CurveKind
-from parser.toolpath import Axis, Toolpath
+from parser.told.step_words import Axis
+from parser.toolpath import Toolpath
 from sim.run.dryrun import DryRun
 from sim.run.report.rounded import DEG_DIGITS, column, points, rows
 

@@ -7,7 +7,7 @@ import numpy as np
 from controller.stepping.quadrants import walk_arcs
 from controller.stepping.words import words_of
 from parser.geometry.curves import Floats
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from parser.units import mm
 from parser.words.labels import label
 from sim.run.dryrun import DryRun

@@ -8,7 +8,8 @@ from controller.motion.plan import Plan
 from controller.stepping.words import words_of
 from parser.geometry.curves import CurveKind, Floats
 from parser.program import Program
-from parser.toolpath import Axis, StepWords, Toolpath
+from parser.told.step_words import Axis, StepWords
+from parser.toolpath import Toolpath
 from sim.run.dryrun import DryRun
 from sim.run.report.rounded import column
 

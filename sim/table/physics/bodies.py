@@ -7,7 +7,7 @@ may have ticks of its own.
 import pymunk
 
 from parser.geometry.curves import Floats
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.setup.machine.table_model import TableModel
 from sim.table.physics.state import Slide
 

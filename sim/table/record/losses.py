@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from typing import Literal, NamedTuple
 
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.table.trace import Trace
 from sim.table.when.ticks import Ticks
 

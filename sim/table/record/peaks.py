@@ -2,7 +2,7 @@
 
 from typing import Final, Literal, NamedTuple
 
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.table.physics.drive import Drive
 from sim.table.record.gather import PEAK_COLUMNS, Record
 from sim.table.trace import Trace

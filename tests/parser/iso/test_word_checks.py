@@ -4,7 +4,7 @@ from random import Random
 
 import pytest
 
-from parser.dialect.reader import Choices
+from parser.dialect.choices import Choices
 from parser.findings.codes import Severity
 from parser.findings.facts import TooLarge, telling
 from parser.findings.findings import Finding

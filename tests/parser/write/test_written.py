@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from twins import BLOCKS_3B, BLOCKS_ISO, PAIRS, START_3B, TWIN_3B, TWIN_ISO, motion
 
-from parser.dialect.reader import Choices
+from parser.dialect.choices import Choices
 from parser.findings.errors import SettingsError
 from parser.geometry.curves import CurveKind, curves_between
 from parser.program import dialects, parse_program
-from parser.toolpath import Compensation, CompensationRules, Stop, Toolpath
+from parser.told.compensation import Compensation, CompensationRules
+from parser.toolpath import Stop, Toolpath
 from parser.write.draft import Draft, draft_of
 from parser.write.iso import written_iso
 from parser.write.iso_choices import IsoChoices, iso_choices

@@ -11,12 +11,12 @@ from compensating import LINUXCNC, TEXTBOOK
 
 from controller.offset.reach import reach
 from controller.offset.sections import Side
-from parser.dialect.reader import Choices
+from parser.dialect.choices import Choices
 from parser.findings.catalogue import LANGUAGES, texts
 from parser.findings.codes import Check, Severity
 from parser.findings.findings import Finding
 from parser.program import Program, parse_program
-from parser.toolpath import CompensationRules
+from parser.told.compensation import CompensationRules
 from sim.check.beside import Offsetting
 from sim.check.compensation.rounds import contour_of
 from sim.check.engine import Checked, run_checks

@@ -17,7 +17,7 @@ from jsonschema import Draft202012Validator
 from PIL import Image
 from places import ROOT
 
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.cli.ballbar import ballbar as command
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test
 from sim.run.ballbar.document import document

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 from twins import TWIN_3B
 
-from parser.dialect.reader import Choices
+from parser.dialect.choices import Choices
 from parser.geometry.curves import CurveKind
 from parser.program import parse_program
-from parser.toolpath import Compensation, CompensationRules, Toolpath
+from parser.told.compensation import Compensation, CompensationRules
+from parser.toolpath import Toolpath
 from parser.write.draft import draft_of
 from parser.write.iso import written_iso
 from parser.write.iso_choices import iso_choices

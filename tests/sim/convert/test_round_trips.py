@@ -10,7 +10,8 @@ import sound
 
 from parser.geometry.curves import Bools
 from parser.program import Program, dialects, load_program
-from parser.toolpath import StepWords, Toolpath
+from parser.told.step_words import StepWords
+from parser.toolpath import Toolpath
 from parser.write.iso_choices import iso_choices
 from sim.convert.convert import Converted, converted
 from sim.convert.wanted import Wanted

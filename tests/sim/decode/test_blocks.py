@@ -7,7 +7,7 @@ import pytest
 from jsonschema import Draft202012Validator
 from places import ROOT
 
-from parser.dialect.reader import Choices
+from parser.dialect.choices import Choices
 from parser.findings.errors import ProgramError
 from parser.program import parse_program
 from sim.decode.blocks import Decoded, decoded

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from runs import machine
 
 from parser.findings.errors import SettingsError
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.run.ballbar.circle import circle_test, measure, run_test
 from sim.run.ballbar.figures import circularity, figures_of, least_squares_circle
 from sim.run.ballbar.turn import SENSES, MeasuredTurn

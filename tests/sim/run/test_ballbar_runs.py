@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from runs import machine
 
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test
 from sim.run.ballbar.parts import DeviationParts
 from sim.table.motion import silent

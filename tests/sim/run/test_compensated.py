@@ -12,7 +12,7 @@ from runs import codes, lawful, plain_scenario, scenario_run
 
 from controller.offset.path import Made
 from controller.offset.sections import Side
-from parser.dialect.reader import Choices
+from parser.dialect.choices import Choices
 from parser.findings.catalogue import texts
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError, SettingsError

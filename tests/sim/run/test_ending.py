@@ -10,7 +10,7 @@ from runs import codes, machine, run_text, scenario_run
 
 from controller.card.log.writer import CardLog
 from parser.program import parse_program
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.report import build_report
 from sim.show.terminal.run import summary_rows

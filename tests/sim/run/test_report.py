@@ -12,7 +12,7 @@ from places import ROOT
 from runs import plain_scenario, run_text
 
 from parser.program import parse_program
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.jobs.run_into import run_into
 from sim.run.report import build_report
 from sim.setup.wire import DEFAULT_WIRE

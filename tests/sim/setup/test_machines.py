@@ -9,7 +9,7 @@ import pytest
 from places import MACHINES, ROOT
 
 from parser.findings.errors import SettingsError
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from parser.units import from_mm
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.machine.table_model import TableModel

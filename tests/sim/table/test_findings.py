@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from parser.findings.catalogue import texts
 from parser.program import Program, parse_program
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.setup.machine.table_model import Motor
 from sim.table.findings import MOST, loss_findings
 from sim.table.record.losses import Loss

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from parser.geometry.curves import Floats, total_before
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import Chart, draw_band, draw_line

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from sim.run.dryrun import DryRun
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas

@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.geometry.curves import Floats, Ints
-from parser.toolpath import Axis
+from parser.told.step_words import Axis
 from parser.units import mm
 from sim.run.dryrun import DryRun
 from sim.show.draw.chart import AxisRange, range_of
