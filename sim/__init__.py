@@ -64,7 +64,7 @@ __all__ = [
 _HOMES = {
     "CheckResult": "sim.check.result",
     "CheckSettings": "sim.check.settings",
-    "Choices": "parser.dialect.reader",
+    "Choices": "parser.dialect.choices",
     "DrawingTarget": "sim.setup.part",
     "DryRun": "sim.run.dryrun",
     "DrycutError": "parser.findings.errors",

@@ -1,1 +1,1 @@
-"""What a program tells its controller beside the path: words to count by, and compensation; a row a block."""
+"""What controllers are told beside the path, a row a block: `StepWords` to count by, and `Compensation`."""
