@@ -176,6 +176,16 @@ def test_each_stretch_is_by_itself() -> None:
     assert alarms(made) == []
 
 
+def test_a_plain_outline_stays_as_it_is_beside_its_compensated_twin() -> None:
+    outline = ((0, 0), (0, 10), (10, 10), (10, 0), (0, 0), (-5, 0))
+    path = line((-5, 0), *outline, *outline)
+    made = compensated(told(path, [0] * 6 + [1] * 5 + [0], [0.0] * 6 + [100.0] * 5 + [0.0]))
+    beside = [(-0.1, 0), (-0.1, 10.1), (10.1, 10.1), (10.1, -0.1), (0, -0.1), (-5, 0)]
+    assert ends_mm(made) == [*outline, *beside]
+    assert made.path.made.tolist() == [*[Made.AS_IT_IS] * 6, Made.LEAD, *[Made.SHIFTED] * 4, Made.LEAD]
+    assert alarms(made) == []
+
+
 @pytest.mark.parametrize("rules", [TEXTBOOK, LINUXCNC])
 def test_a_set_up_without_a_block_behind_it_ends_on_its_own_normal(rules: CompensationRules) -> None:
     made = compensated(told(line((0, 0), (10, 0), (10, -10)), [1, 0], 500.0, rules))
