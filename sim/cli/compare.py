@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.dialect_options import OrRegister, offsets_of, with_dialect
+from sim.cli.dialect_options import Offsets, OrRegister, offsets_of, with_dialect
 from sim.cli.scenario_options import SHARP_CORNERS, Length
 
 if TYPE_CHECKING:
@@ -55,19 +55,15 @@ def compare(
     drycut compare scenarios/punch
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.drawing.read import read_drawing
-    from parser.units import mm
     from sim.cli.overrides import OfDrawing, drawing_target, read_with
     from sim.measure.compare.compared_program import compare_program
     from sim.measure.compare.result import Asked
     from sim.run.report.drawing import document_text
-    from sim.setup.part import OFFSET_MM
     from sim.setup.scenario import load_scenario
-    from sim.setup.toml.reader import number
     from sim.show.terminal.compare import print_comparison
     from sim.show.terminal.printer import write
 
-    given = offsets_of(offset)
-    number(mm(given.plain or 0.0), OFFSET_MM._replace(low=0.0), "--offset in mm")
+    given = _checked(offsets_of(offset))
     scenario = read_with(load_scenario(path), dialect, unit, given.registers)
     drawing = drawing_target(scenario.drawing, OfDrawing(**options))
     if drawing is None:
@@ -82,6 +78,16 @@ def compare(
     else:
         print_comparison(done, program.name, source)
     raise click.exceptions.Exit(0 if done.passes else 1)
+
+
+def _checked(given: Offsets) -> Offsets:
+    """The options, their plain length within its bounds. SettingsError else."""
+    from parser.units import mm
+    from sim.setup.part import OFFSET_MM
+    from sim.setup.toml.reader import number
+
+    number(mm(given.plain or 0.0), OFFSET_MM._replace(low=0.0), "--offset in mm")
+    return given
 
 
 def _program(scenario: "Scenario") -> "Program":

@@ -14,7 +14,6 @@ from parser.toolpath import Toolpath
 from parser.units import mm
 from parser.write.draft import Draft, Written
 from parser.write.losses import Loss, some
-from sim.check.closures import OpenContour
 from sim.check.engine import Checked, run_checks
 from sim.check.path_checks import Demands
 from sim.convert.kerf import closed_by_kerf
@@ -100,7 +99,7 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     draft = draft_for(path, wanted)
     if not len(draft):
         return Refused("nothing", program)
-    return _proved(program, path, draft, wanted)
+    return _proved(program, path, draft, wanted, is_open=any(one.is_open for one in checked.contours))
 
 
 def _path(program: Program, checked: Checked, wanted: Wanted) -> Toolpath:
@@ -119,7 +118,8 @@ def _several_offsets(toolpath: Toolpath, wanted: Wanted) -> str:
     return some(f"{mm(one):+.3f} mm" for one in left.tolist()) if len(left) > 1 else ""
 
 
-def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted) -> Converted | Refused:
+def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, is_open: bool) -> Converted | Refused:
+    """The written program, or what speaks against it; its contours may be open where one of the source is."""
     made = written(draft, wanted)
     data = made.text.encode()
     choices = read_with(draft, wanted)
@@ -127,7 +127,7 @@ def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted) -> C
         back = load_program(data, f"{program.name} → {wanted.language}", choices)
     except ProgramError as error:
         return Refused("result", program, (error.finding,))
-    checked = run_checks(back, Demands(may_stay_open=_is_open(program)))
+    checked = run_checks(back, Demands(may_stay_open=is_open))
     told, open_um = program.toolpath.compensation, 0.0
     closed: tuple[Finding, ...] = ()
     if told is not None and not wanted.keeps:
@@ -149,11 +149,6 @@ def _is_told_by_itself(data: bytes, draft: Draft, made: Written, wanted: Wanted,
     """Whether the text alone tells how it is to be read."""
     alone = proof(draft, made, load_program(data, "alone", Choices(registers=choices.registers)).toolpath)
     return alone == Proof(alone.off_um) and alone.off_um <= wanted.bound_um
-
-
-def _is_open(program: Program) -> bool:
-    """Whether a contour of a program ends away from its own path."""
-    return any(telling(run_checks(program, Demands()).findings, OpenContour))
 
 
 def _errors(checked: Checked) -> tuple[Finding, ...]:

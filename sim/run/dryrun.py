@@ -15,7 +15,7 @@ from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
-from parser.shape.passes import Passes, find_passes
+from parser.shape.passes import Passes
 from parser.toolpath import Toolpath
 from sim.check.beside import Offsetting
 from sim.check.result import Coverage
@@ -25,10 +25,11 @@ from sim.cut.wire_lag import bowed
 from sim.measure.compare.result import Comparison
 from sim.measure.deviation.measured import Deviations, Meters
 from sim.measure.deviation.meters import BlockSteps
-from sim.measure.passes.figures import PassFigures, figures_of_passes, wire_taken
+from sim.measure.passes.figures import PassFigures
+from sim.run.edge_passes import passes_of
 from sim.run.ending import Ending, motion_to_end, trip_of
 from sim.run.left import drawing_of, left_of
-from sim.run.prepare import prepare
+from sim.run.prepare import Prepared, prepare
 from sim.setup.expectations import Missed
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
@@ -189,12 +190,8 @@ def dry_run(
     contours = find_contours(toolpath, stepped.corner_um)
     ended = trip_of(moved.losses) or ended
     cut = _cut(trace, ended)
-    passes = find_passes(toolpath) if ready.offset is None else ready.offset.edge_passes
-    border_s = plan.border_s(ready.steps.along_um)
-    time_s = np.diff(np.minimum(border_s, ended.t_s if ended else plan.duration_s))
-    way = wire_taken(toolpath, plan, cut)
+    passes, figures, border_s = passes_of(ready, scenario, plan, cut, ended)
     left = left_of(program, cut, contours, scenario, drawing, progress)
-    met = _met(program, scenario, moved, trace, contours)
     return DryRun(
         program=program,
         scenario=scenario,
@@ -210,14 +207,19 @@ def dry_run(
         deviations=meters.deviations(cut),
         contours=contours,
         passes=passes,
-        pass_figures=figures_of_passes(toolpath, passes, time_s, way, scenario.wire.reach_um),
+        pass_figures=figures,
         border_s=border_s,
         remains=left.remains,
         comparison=left.comparison,
-        findings=tuple(sorted([*ready.findings, *in_codes(program.reading, [*met, *left.findings])], key=file_order)),
+        findings=_in_order(ready, [*_met(program, scenario, moved, trace, contours), *left.findings]),
         checked=ready.findings,
         coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
     )
+
+
+def _in_order(ready: Prepared, found: list[Finding]) -> tuple[Finding, ...]:
+    """All findings in file order, those that a run `found` in the codes of the program's dialect."""
+    return tuple(sorted([*ready.findings, *in_codes(ready.program.reading, found)], key=file_order))
 
 
 def _met(

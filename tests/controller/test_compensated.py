@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from paths import Pen
 from plain_compensation import Leg, plain_path
-from sound_shapes import SHAPES, Shape
+from sound_shapes import SHAPES, Shape, run_round
 
 from controller.offset.alarms import AlarmKind
 from controller.offset.block_ends import JointKind, joint_kinds
@@ -335,13 +335,7 @@ def lead_in(shape: Shape, side: Side) -> Toolpath:
     if isinstance(first, Line):
         amid = 0.5 * (before[0] + first.to[0]), 0.5 * (before[1] + first.to[1])
     pen = Pen(amid[0] - 5000.0, amid[1] - 3000.0).to(*amid)
-    for move in shape.moves:
-        if isinstance(move, Line):
-            pen.to(*move.to)
-        elif len(shape.moves) == 1:
-            pen.arc(*move.center, move.turn * 2.0 * math.pi)
-        else:
-            pen.arc_to(*move.to, *move.center, move.turn)
+    run_round(pen, shape)
     return (pen.to(*amid) if amid != shape.start else pen).path()
 
 

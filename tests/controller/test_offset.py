@@ -10,11 +10,10 @@ import pytest
 import shapely
 import sound_offset
 from chunked import chunks_of
-from drawings import Line
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from paths import Pen, flipped
-from sound_shapes import SHAPES, Shape
+from sound_shapes import SHAPES, Shape, run_round
 
 from controller.offset.compensate import compensate
 from controller.offset.passes import PassedPath, in_passes
@@ -33,14 +32,7 @@ def drawn(shape: Shape, begin: tuple[float, float] | None = None) -> Toolpath:
     pen = Pen(*(begin or shape.start))
     if begin:
         pen.to(*shape.start)
-    for move in shape.moves:
-        if isinstance(move, Line):
-            pen.to(*move.to)
-        elif len(shape.moves) == 1:
-            pen.arc(*move.center, move.turn * 2.0 * math.pi)
-        else:
-            pen.arc_to(*move.to, *move.center, move.turn)
-    return pen.path()
+    return run_round(pen, shape).path()
 
 
 def random_shape(seed: int, largest_um: float = 50_000.0) -> tuple[Shape, float, Side]:

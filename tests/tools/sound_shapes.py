@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from drawings import Arc, Line, Place
+from paths import Pen
 from sound_cam import Move, drawn_sweep
 
 _LEAST_FILLET_UM = 20.0  # below, every step of 1 µm shows: dozens of such arcs do end tens of µm off when stepped
@@ -208,3 +209,15 @@ def length(start: Place, move: Move) -> float:
     if isinstance(move, Line):
         return math.dist(start, move.to)
     return math.dist(start, move.center) * drawn_sweep(start, move)
+
+
+def run_round(pen: Pen, shape: Shape) -> Pen:
+    """The pen behind the moves of a shape; a shape of one arc is a whole turn."""
+    for move in shape.moves:
+        if isinstance(move, Line):
+            pen.to(*move.to)
+        elif len(shape.moves) == 1:
+            pen.arc(*move.center, move.turn * 2.0 * math.pi)
+        else:
+            pen.arc_to(*move.to, *move.center, move.turn)
+    return pen

@@ -5,33 +5,16 @@ import pytest
 from parser.findings.findings import edited
 from parser.geometry.curves import CurveKind
 from tests.tools.iso_reading import ends, findings, path, read
-
-TWIN = """
-G91G92 X115000 Y-10000
-G01 X-9900 Y0
-G01 X0 Y70100
-G01 X-55000 Y0
-G03 X-100200 Y0 I-50100 J-100
-G01 X-54900 Y0
-G03 X-100 Y-80200 I0 J-40100
-G01 X0 Y-40000
-G01 X60200 Y0
-G02 X79800 Y0 I39900 J100
-G01 X70200 Y0
-G01 X0 Y50100
-G01 X9900 Y0
-M02
-"""
-"""The ISO of a published pair of 3B and ISO of one part, whose 3B is 828.921 mm long."""
+from tests.tools.twins import TWIN_ISO
 
 
 def test_a_published_program_closes_with_the_length_of_its_twin() -> None:
-    toolpath = path(TWIN, "fast-wire")
+    toolpath = path(TWIN_ISO, "fast-wire")
     assert len(toolpath) == 12
     assert toolpath.is_arc.sum() == 3
     assert toolpath.length_um.sum() == pytest.approx(828_921.0, abs=1.5)
     assert toolpath.start_um[0].tolist() == toolpath.end_um[-1].tolist() == [115_000.0, -10_000.0]
-    assert not [one for one in read(TWIN, "fast-wire").findings if one.code != "ISO112"]
+    assert not [one for one in read(TWIN_ISO, "fast-wire").findings if one.code != "ISO112"]
 
 
 def test_the_first_place_is_the_one_that_g92_names_else_the_origin() -> None:
