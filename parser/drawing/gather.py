@@ -9,10 +9,11 @@ import numpy as np
 from ezdxf.entities.dxfentity import DXFEntity
 from ezdxf.entities.insert import Insert
 
-from parser.drawing.blocks import Placed
-from parser.drawing.entities import reader_of
-from parser.drawing.flat import Flat, flat_forms, flat_spline, is_slanted, refuse_many
-from parser.drawing.forms import COLUMNS, SAME_WITHIN_UM, ReadEntity, Spline, behind
+from parser.drawing.dxf.blocks import Placed
+from parser.drawing.dxf.entities import reader_of
+from parser.drawing.dxf.forms import COLUMNS, ReadEntity, Spline, behind
+from parser.drawing.model import SAME_WITHIN_UM
+from parser.drawing.plane.flat import Flat, flat_forms, flat_spline, is_slanted, refuse_many
 from parser.geometry.curves import Curves, Floats, Ints, joined
 from parser.text.encoding import printable
 
@@ -30,6 +31,7 @@ class EntityCounts:
     slanted: int = 0
     upright: int = 0
     beyond: int = 0
+    fit_max_um: float = 0.0
 
 
 class Gathered(NamedTuple):
@@ -49,8 +51,8 @@ class _Forms(NamedTuple):
     maps: Floats
 
 
-def gather(placed: Sequence[Placed], tolerance_um: float) -> Gathered:
-    """Curves of entities, ellipses and splines made lines within a tolerance.
+def gather(placed: Sequence[Placed], tolerance_um: float, fit_um: float | None = None) -> Gathered:
+    """Curves of entities, ellipses and splines made lines within a tolerance, or arcs within `fit_um`.
 
     Raises DrawingError, without the name of the file, where they become too many.
     """
@@ -58,13 +60,13 @@ def gather(placed: Sequence[Placed], tolerance_um: float) -> Gathered:
     read = [_read(one.entity, counts) for one in placed]
     forms = _forms(placed, read)
     refuse_many(len(forms.forms))
-    flat = flat_forms(forms.forms, forms.maps, forms.which, tolerance_um)
+    flat = flat_forms(forms.forms, forms.maps, forms.which, tolerance_um, fit_um)
     _count(counts, flat)
     parts, entity = [flat.curves], [forms.entity[flat.form]]
     total = len(flat.curves)
     for number, (one, found) in enumerate(zip(placed, read, strict=True)):
         if found is not None and isinstance(found.forms, Spline):
-            curves = _spline(one, found.forms, tolerance_um, counts)
+            curves = _spline(one, found.forms, counts, tolerance_um, fit_um)
             if curves is not None:
                 total += len(curves)
                 refuse_many(total)
@@ -114,17 +116,20 @@ def _forms(placed: Sequence[Placed], read: Sequence[ReadEntity | None]) -> _Form
     return _Forms(np.concatenate(forms), which_of, entity, np.array(maps).reshape(-1, 4, 3))
 
 
-def _spline(placed: Placed, spline: Spline, tolerance_um: float, counts: EntityCounts) -> Curves | None:
+def _spline(
+    placed: Placed, spline: Spline, counts: EntityCounts, tolerance_um: float, fit_um: float | None
+) -> Curves | None:
     try:
-        curves = flat_spline(spline, placed.place, tolerance_um)
+        curves, _, off_um = flat_spline(spline, placed.place, tolerance_um, fit_um)
     except Exception:  # knots, weights or places that cannot be
         counts.unreadable["SPLINE"] += 1
         return None
     counts.flattened += len(curves) > 1
+    counts.fit_max_um = max(counts.fit_max_um, off_um)
     counts.slanted += is_slanted(spline.control @ placed.place[:3])
     return curves
 
 
 def _count(counts: EntityCounts, flat: Flat) -> None:
     counts.flattened, counts.slanted = flat.ellipses, flat.slanted
-    counts.upright, counts.beyond = flat.upright, flat.beyond
+    counts.upright, counts.beyond, counts.fit_max_um = flat.upright, flat.beyond, flat.fit_max_um

@@ -11,6 +11,8 @@ from parser.geometry.curves import CurveKind, Curves, Ints
 
 DEFAULT_GAP_UM = 10.0
 """Ends of a drawing this near are joined: more than the rounding of any CAD, less than what anyone draws (assumed)."""
+SAME_WITHIN_UM = 1e-3
+"""What files lose by printing decimals: places so near are one, curves so short are none, so flat are straight."""
 DEFAULT_FLATTEN_UM = 0.1
 """How far lines lie off ellipses and splines at most: little beside the 5 µm that a cut is usually held to."""
 
@@ -28,12 +30,60 @@ class Entity(NamedTuple):
         The layer that it is drawn on; for layer 0 inside a block that of the INSERT.
     block
         The block that it belongs to, empty in the model space itself.
+    color
+        Its colour by the AutoCAD index, that of its layer where it says so; 0 where that is not known.
     """
 
     kind: str
     handle: str
     layer: str
     block: str
+    color: int = 0
+
+
+class LeftOut(NamedTuple):
+    """An entity, or a curve of one, that is no part of any contour, and why.
+
+    Attributes
+    ----------
+    entity
+        The entity.
+    why
+        Name of a text for people, ``drawing.left-out-…``: such as ``text``, ``dimension``, ``center-line``, ``frozen``.
+    place_um
+        Where it is, so that it can be found; None where it has no place.
+    """
+
+    entity: Entity
+    why: str
+    place_um: tuple[float, float] | None = None
+
+
+class Mark(NamedTuple):
+    """A point of the drawing, or the centre of a circle, with the layer that it is drawn on; radius 0 for a point."""
+
+    place_um: tuple[float, float]
+    layer: str
+    radius_um: float
+
+
+class FitFigures(NamedTuple):
+    """What a fit of arcs came to.
+
+    Attributes
+    ----------
+    tolerance_um
+        How far the fitted curves may lie off those that are drawn.
+    max_um
+        How far they lie off at most: a bound that is proved, no sample.
+    arcs, lines
+        How many arcs and lines the fitted curves are.
+    """
+
+    tolerance_um: float
+    max_um: float
+    arcs: int
+    lines: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,6 +132,12 @@ class Drawing:
         How many ellipses and splines were made lines, and how far these lie off them at most.
     notes
         What was left out, assumed or mended.
+    left_out
+        What of the drawing is in none of its loops, entity by entity.
+    marks
+        Points, which may be thread points.
+    fit
+        What the fit of arcs came to; None where curves were flattened to lines.
     """
 
     name: str
@@ -94,6 +150,9 @@ class Drawing:
     flattened: int
     flatten_um: float
     notes: tuple[Remark, ...]
+    left_out: tuple[LeftOut, ...] = ()
+    marks: tuple[Mark, ...] = ()
+    fit: FitFigures | None = None
 
 
 def running(curves: Curves, row: Ints, backwards: NDArray[np.bool_]) -> Curves:

@@ -8,12 +8,12 @@ from typing import NamedTuple
 import numpy as np
 from ezdxf.document import Drawing as Document
 
-from parser.drawing.blocks import Placed, placed_entities
-from parser.drawing.chain import Chained, chain
-from parser.drawing.document import read_document
-from parser.drawing.duplicates import drawn_once
-from parser.drawing.forms import scaled
+from parser.drawing.dxf.blocks import Placed, placed_entities
+from parser.drawing.dxf.document import read_document
+from parser.drawing.dxf.forms import scaled
 from parser.drawing.gather import Gathered, gather
+from parser.drawing.loops.chain import Chained, chain
+from parser.drawing.loops.duplicates import drawn_once
 from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity
 from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark
@@ -30,10 +30,15 @@ class _Asked(NamedTuple):
     layer: str | None
     gap_um: float
     flatten_um: float
+    fit_um: float | None
 
 
 def read_drawing(
-    path: Path | str, layer: str | None = None, gap_um: float = DEFAULT_GAP_UM, flatten_um: float = DEFAULT_FLATTEN_UM
+    path: Path | str,
+    layer: str | None = None,
+    gap_um: float = DEFAULT_GAP_UM,
+    flatten_um: float = DEFAULT_FLATTEN_UM,
+    fit_um: float | None = None,
 ) -> Drawing:
     """The drawing of a DXF file, ASCII or binary, of any release.
 
@@ -47,6 +52,9 @@ def read_drawing(
         Ends that are no farther apart are joined.
     flatten_um
         How far the lines that ellipses and splines become may lie off them.
+    fit_um
+        How far arcs may lie off the ellipses, splines and dense polylines that they are fitted to; None where no arcs
+        are fitted.
 
     Raises FileUnreadableError where there is no readable file; DrawingError where it is no DXF, is damaged beyond
     mending, has no such layer, or holds no curve.
@@ -55,7 +63,7 @@ def read_drawing(
     document, notes = read_document(path)
     try:
         with np.errstate(all="ignore"):  # damaged numbers overflow; what comes of them is left out by its value
-            return _drawing(path.name, document, _Asked(layer, gap_um, flatten_um), notes)
+            return _drawing(path.name, document, _Asked(layer, gap_um, flatten_um, fit_um), notes)
     except DrawingError as error:
         raise DrawingError(f"{path}: {error}") from None
     except Exception as error:  # what no part of the reader foresaw in a damaged file
@@ -66,7 +74,7 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
     unit, assumed = unit_of(document.header.get("$INSUNITS", None))
     placed = list(placed_entities(document, scaled(unit.um)))
     wanted = _wanted(document, placed, asked.layer)
-    gathered = gather(wanted, asked.flatten_um)
+    gathered = gather(wanted, asked.flatten_um, asked.fit_um)
     once = drawn_once(gathered.curves, gathered.entity)
     if not len(once):
         raise DrawingError(_nothing(placed, wanted, asked.layer))

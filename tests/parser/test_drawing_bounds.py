@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from ezdxf.entities.insert import Insert
 
-from parser.drawing import document, flat
-from parser.drawing.blocks import MOST_NESTED
-from parser.drawing.forms import Spline
+from parser.drawing.dxf import document
+from parser.drawing.plane import flat
+from parser.drawing.dxf.blocks import MOST_NESTED
+from parser.drawing.dxf.forms import Spline
+from parser.drawing.plane.splines import places_at
 from parser.drawing.read import read_drawing
-from parser.drawing.splines import places_at
 from parser.findings.errors import DrawingError
 from parser.findings.remarks import remark_text
 
@@ -95,7 +96,7 @@ def test_a_bulge_that_can_be_is_drawn(tmp_path: Path, bulge: str) -> None:
 def test_what_is_more_than_a_drawing_may_hold_is_one_line(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: Callable[[], str], most: int, said: str
 ) -> None:
-    for module in ("parser.drawing.document", "parser.drawing.blocks"):
+    for module in ("parser.drawing.dxf.document", "parser.drawing.dxf.blocks"):
         monkeypatch.setattr(f"{module}.MOST_ENTITIES", most)
     monkeypatch.setattr(flat, "MOST_CURVES", 1000)
     with pytest.raises(DrawingError) as caught:

@@ -7,8 +7,8 @@ from ezdxf.document import Drawing as Document
 from ezdxf.entities.dxfentity import DXFEntity
 from ezdxf.entities.insert import Insert
 
-from parser.drawing.document import MOST_ENTITIES
-from parser.drawing.forms import behind, of_insert
+from parser.drawing.dxf.document import MOST_ENTITIES
+from parser.drawing.dxf.forms import behind, of_insert
 from parser.findings.errors import DrawingError
 from parser.geometry.curves import Floats
 

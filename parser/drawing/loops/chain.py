@@ -5,9 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.drawing.ends import Ends, joints
-from parser.drawing.forms import SAME_WITHIN_UM
-from parser.drawing.model import DrawnLoop, running
+from parser.drawing.loops.ends import Ends, joints
+from parser.drawing.model import SAME_WITHIN_UM, DrawnLoop, running
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import directions
 

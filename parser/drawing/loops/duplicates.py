@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from parser.drawing.forms import SAME_WITHIN_UM
+from parser.drawing.model import SAME_WITHIN_UM
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints
 

@@ -11,7 +11,15 @@ from ezdxf.entities.polyline import Polyline
 from ezdxf.entities.spline import Spline as DXFSpline
 from ezdxf.math import Vec3
 
-from parser.drawing.forms import ReadEntity, Spline, circle_form, ellipse_form, line_forms, of_extrusion, polyline_forms
+from parser.drawing.dxf.forms import (
+    ReadEntity,
+    Spline,
+    circle_form,
+    ellipse_form,
+    line_forms,
+    of_extrusion,
+    polyline_forms,
+)
 from parser.geometry.curves import Floats
 
 _FRAME = 16  # flag of a vertex that is a control point of a fitted spline, and not on the polyline

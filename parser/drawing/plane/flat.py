@@ -6,8 +6,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.drawing.forms import BEGIN, CENTER, END, MAJOR, MINOR, SAME_WITHIN_UM, START, SWEEP, Spline
-from parser.drawing.splines import flattened
+from parser.drawing.dxf.forms import BEGIN, CENTER, END, MAJOR, MINOR, START, SWEEP, Spline
+from parser.drawing.fit.ellipses import arcs_of_ellipses
+from parser.drawing.fit.fitted import Fitted
+from parser.drawing.fit.splines import arcs_of_spline
+from parser.drawing.model import SAME_WITHIN_UM
+from parser.drawing.plane.splines import flattened
 from parser.findings.errors import DrawingError
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 
@@ -30,6 +34,8 @@ class Flat(NamedTuple):
         Ellipses that are lines seen from above; left out.
     beyond
         With places beyond any table, or that are no numbers; left out.
+    fit_max_um
+        How far arcs lie off the ellipses that they were fitted to, at most.
     """
 
     curves: Curves
@@ -38,10 +44,13 @@ class Flat(NamedTuple):
     slanted: int
     upright: int
     beyond: int
+    fit_max_um: float
 
 
-def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float) -> Flat:
+def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float, fit_um: float | None = None) -> Flat:
     """Forms (k, 17) to curves in µm, by the maps (m, 4, 3), of which `which` (k,) tells each form its own.
+
+    Ellipses become lines within `tolerance_um`, or arcs within `fit_um` where that is given.
 
     Raises DrawingError, without the name of the file, where ellipses become too many lines.
     """
@@ -54,16 +63,20 @@ def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float) ->
     kept = np.flatnonzero(near & ~upright)
     forms, line, rho = forms[kept], line[kept], rho[kept]
     exact = line | _is_round(forms)
-    chords, of = _chords(forms[~exact], rho[~exact], tolerance_um)
-    form = np.concatenate([kept[exact], kept[~exact][of]])
+    if fit_um is None:
+        made = _chords(forms[~exact], rho[~exact], tolerance_um)
+    else:
+        made = arcs_of_ellipses(forms[~exact], fit_um)
+    form = np.concatenate([kept[exact], kept[~exact][made.of]])
     order = np.argsort(form, kind="stable")
     return Flat(
-        joined([_exact(forms[exact]), chords]).picked(order),
+        joined([_exact(forms[exact]), made.curves]).picked(order),
         form[order],
         ellipses=int((~exact).sum()),
         slanted=int(_is_slanted(forms).sum()),
         upright=int(upright.sum()),
         beyond=int((~near).sum()),
+        fit_max_um=made.max_um,
     )
 
 
@@ -73,15 +86,18 @@ def refuse_many(curves: int) -> None:
         raise DrawingError(f"becomes more than {MOST_CURVES:,} lines and arcs; save the contour of the part alone")
 
 
-def flat_spline(spline: Spline, place: Floats, tolerance_um: float) -> Curves:
-    """Lines in µm for a spline that a map (4, 3) places. Raises ValueError beyond any table."""
+def flat_spline(spline: Spline, place: Floats, tolerance_um: float, fit_um: float | None = None) -> Fitted:
+    """Lines in µm for a spline that a map (4, 3) places, or arcs within `fit_um`. ValueError beyond any table."""
     placed = spline._replace(control=spline.control @ place[:3] + place[3])
     if not _is_near(placed.control).all():
         raise ValueError("control points beyond any table")
+    if fit_um is not None:
+        return arcs_of_spline(placed, fit_um)
     at = flattened(placed, tolerance_um)
     if not _is_near(at).all():
         raise ValueError("places beyond any table")
-    return curves_between(at[:-1], at[1:], at[1:], np.zeros(len(at) - 1))
+    lines = curves_between(at[:-1], at[1:], at[1:], np.zeros(len(at) - 1))
+    return Fitted(lines, np.zeros(len(lines), dtype=np.int64), 0.0)
 
 
 def is_slanted(control: Floats) -> bool:
@@ -154,7 +170,7 @@ def _exact(forms: Floats) -> Curves:
     return replace(curves, radius_um=radius, length_um=np.where(arc, radius * np.abs(sweep), curves.length_um))
 
 
-def _chords(forms: Floats, rho: Floats, tolerance_um: float) -> tuple[Curves, Ints]:
+def _chords(forms: Floats, rho: Floats, tolerance_um: float) -> Fitted:
     """Lines (m,) between places on ellipses (k,), and which ellipse each is of.
 
     Over a step h of the angle, a chord lies off the curve by at most h²/8 times the second derivative. That is nowhere
@@ -168,7 +184,7 @@ def _chords(forms: Floats, rho: Floats, tolerance_um: float) -> tuple[Curves, In
     start, end = (_on_ellipse(forms[of], share / parts[of]) for share in (at, at + 1))
     last = at + 1 == parts[of]
     start[at == 0], end[last] = _xy(forms, START), _xy(forms, END)
-    return curves_between(start, end, end, np.zeros(len(of))), of
+    return Fitted(curves_between(start, end, end, np.zeros(len(of))), of, 0.0)
 
 
 def _xy(forms: Floats, column: slice) -> Floats:

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from parser.drawing.forms import SAME_WITHIN_UM, Spline
+from parser.drawing.dxf.forms import Spline
+from parser.drawing.model import SAME_WITHIN_UM
 from parser.geometry.curves import Floats, Ints
 
 _BETWEEN = np.array([0.25, 0.5, 0.75])  # shares of a chord's parameters where its distance from the curve is looked at

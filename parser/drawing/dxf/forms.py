@@ -16,8 +16,6 @@ from parser.geometry.curves import Floats
 START, END, CENTER, MAJOR, MINOR = (slice(at, at + 3) for at in range(0, 15, 3))
 BEGIN, SWEEP = 15, 16
 COLUMNS = 17
-SAME_WITHIN_UM = 1e-3
-"""What files lose by printing decimals: places so near are one, curves so short are none, so flat are straight."""
 _STRAIGHT = 1e-12  # a bulge over 10 km of chord is then 0.005 µm; R = chord / (4 bulge) overflows far below
 _FULL_WITHIN_RAD = 1e-6  # files print angles to six digits and more
 

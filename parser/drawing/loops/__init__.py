@@ -1,0 +1,1 @@
+"""Curves chained to loops, each drawn once; the border type is `Chained`."""

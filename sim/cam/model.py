@@ -1,0 +1,160 @@
+"""What is to be cut: figures of a drawing, how the wire comes to them, and the passes over them."""
+
+from typing import Literal, NamedTuple
+
+from controller.offset.sections import Side
+from parser.drawing.model import Drawing, LeftOut
+from parser.findings.remarks import Remark
+from parser.geometry.curves import Curves, Ints
+from parser.toolpath import Point
+from sim.setup.making import Making
+
+FigureKind = Literal["hole", "outline"]
+ThreadedBy = Literal["asked", "marked", "chosen", "contour"]
+
+
+class Figure(NamedTuple):
+    """A closed contour that is to be cut.
+
+    Attributes
+    ----------
+    number
+        From 1: the name by which people order it.
+    kind
+        A hole of a part, or its outline.
+    part
+        Number of the part, from 1.
+    depth
+        How many contours it lies within.
+    contour
+        (m,) as drawn, counter-clockwise, each curve from the end of the one before it, the first from that of the last.
+    entity
+        (m,) number of the drawing's entity that each is of.
+    layer
+        That of its first entity.
+    """
+
+    number: int
+    kind: FigureKind
+    part: int
+    depth: int
+    contour: Curves
+    entity: Ints
+    layer: str
+
+
+class Parts(NamedTuple):
+    """Figures, and what is cut of none, with what was found doubtful and settled."""
+
+    figures: tuple[Figure, ...]
+    left_out: tuple[LeftOut, ...]
+    notes: tuple[Remark, ...]
+
+
+class Refusal(NamedTuple):
+    """Why there is no program.
+
+    Attributes
+    ----------
+    why
+        Name of a text for people, ``program.refused-…``.
+    places_um
+        Where it is seen.
+    values
+        What fills the text.
+    """
+
+    why: str
+    places_um: tuple[Point, ...] = ()
+    values: tuple[tuple[str, str], ...] = ()
+
+
+class CannotCutError(Exception):
+    """Raised with a `Refusal` where a drawing asks for what cannot be cut, or not for certain."""
+
+    def __init__(self, refusal: Refusal) -> None:
+        super().__init__(refusal.why)
+        self.refusal = refusal
+
+
+class Entry(NamedTuple):
+    """Where the wire comes to a contour.
+
+    Attributes
+    ----------
+    row, along_um
+        Row of the contour, and how far along it, from its start.
+    place_um
+        That place on the contour.
+    out
+        Unit vector from it into the waste, across the contour.
+    """
+
+    row: int
+    along_um: float
+    place_um: Point
+    out: Point
+
+
+class Thread(NamedTuple):
+    """Where the wire of a figure is threaded, and where it comes to the contour from there."""
+
+    place_um: Point
+    by: ThreadedBy
+    entry: Entry
+
+
+class PassCut(NamedTuple):
+    """One pass over a figure, in running order.
+
+    Attributes
+    ----------
+    by_um
+        Offset from the contour.
+    is_back
+        Whether it runs against the first pass.
+    into, along, out
+        Lead-in, way along the contour, lead-out; each curve from the end of the one before it.
+    """
+
+    by_um: float
+    is_back: bool
+    into: Curves
+    along: Curves
+    out: Curves
+
+
+class FigureCut(NamedTuple):
+    """How a figure is cut.
+
+    Attributes
+    ----------
+    figure, thread
+        The figure, and where the wire of it is threaded.
+    side
+        Side of the contour on which the wire runs in its first pass, as that runs.
+    is_ccw
+        Whether the first pass runs counter-clockwise.
+    passes
+        In running order.
+    cut_off
+        Passes over the tab, behind a stop; none where there is no tab.
+    """
+
+    figure: Figure
+    thread: Thread
+    side: Side
+    is_ccw: bool
+    passes: tuple[PassCut, ...]
+    cut_off: tuple[PassCut, ...] = ()
+
+
+class CutPlan(NamedTuple):
+    """All that is cut, in running order, with what it was made of."""
+
+    drawing: Drawing
+    making: Making
+    passes_um: tuple[float, ...]
+    cuts: tuple[FigureCut, ...]
+    left_out: tuple[LeftOut, ...]
+    notes: tuple[Remark, ...]

@@ -1,0 +1,36 @@
+"""A plan to a draft: figure after figure, with a jump and a pause between, and a pause before a tab."""
+
+import numpy as np
+
+from parser.geometry.curves import CurveKind, Curves, curves_between, joined
+from parser.toolpath import Stop
+from parser.write.draft import Draft
+from sim.cam.model import CutPlan, FigureCut
+
+
+def draft_of_plan(plan: CutPlan) -> Draft:
+    """The draft of a plan."""
+    parts: list[Curves] = []
+    stops: list[Stop] = []
+    rows = 0
+    for at, cut in enumerate(plan.cuts):
+        if at:
+            jump = _jump(plan.cuts[at - 1], cut)
+            stops.append(Stop("pause", rows, 0))
+            parts.append(jump)
+            rows += len(jump)
+        for one in (*cut.passes, *cut.cut_off):
+            if cut.cut_off and one is cut.cut_off[0]:
+                stops.append(Stop("pause", rows, 0))
+            parts += [one.into, one.along, one.out]
+            rows += len(one.into) + len(one.along) + len(one.out)
+    curves = joined(parts)
+    stops.append(Stop("end", rows, 0))
+    return Draft(curves, tuple(stops), np.zeros(rows, dtype=np.bool_), np.full((rows, 2), np.nan))
+
+
+def _jump(before: FigureCut, behind: FigureCut) -> Curves:
+    start, end = (np.array([one.thread.place_um]) for one in (before, behind))
+    line = curves_between(start, end, np.full((1, 2), np.nan), np.zeros(1))
+    line.kind[:] = CurveKind.JUMP
+    return line

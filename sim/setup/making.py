@@ -1,0 +1,77 @@
+"""How a program is to be made of a drawing: what its maker is asked for, and ``[program]`` in a scenario file."""
+
+from typing import Literal, NamedTuple, get_args
+
+from parser.toolpath import Point
+
+Language = Literal["3b", "4b", "iso"]
+SideWish = Literal["nesting", "inside", "outside"]
+DirectionWish = Literal["one-side", "ccw", "cw"]
+Returning = Literal["back", "one-way"]
+LeadIn = Literal["perpendicular", "point", "arc", "tangent"]
+Corners = Literal["sharp", "round"]
+LANGUAGES: tuple[str, ...] = get_args(Language)
+SIDE_WISHES: tuple[str, ...] = get_args(SideWish)
+DIRECTION_WISHES: tuple[str, ...] = get_args(DirectionWish)
+RETURNINGS: tuple[str, ...] = get_args(Returning)
+LEAD_INS: tuple[str, ...] = get_args(LeadIn)
+CORNERS: tuple[str, ...] = get_args(Corners)
+DEFAULT_FIT_UM = 2.0
+"""Usual in CAMs (HSMWorks' post for wire EDM has it by default)."""
+
+
+class Making(NamedTuple):
+    """How a program is to be made of a drawing.
+
+    Attributes
+    ----------
+    tolerance_um
+        How far the path may lie off the one that the drawing asks for.
+    part_tolerance_um
+        How far the edge as cut may lie off the drawing.
+    layer
+        The one layer whose contours are cut; all that are seen where None.
+    gap_um
+        Ends of the drawing that are no farther apart are joined.
+    passes_um
+        Offset of each pass, the first one first; 0 alone for the contour itself. The reach of the wire where empty.
+    returning
+        Whether passes run back and forth, or each the same way.
+    side
+        On which side the wire runs: by nesting inside of holes and outside of parts, or the same for all.
+    direction
+        ``one-side``: so that the wire is on the same side of all contours, the left; else as asked for.
+    order
+        Numbers of figures in the order in which they are cut; by nesting and the shortest way where empty.
+    starts_um
+        Thread points, each for the figure whose waste it lies in.
+    thread_layer
+        Layer whose points and circles are thread points.
+    lead
+        How the wire comes to the contour.
+    lead_um
+        How long the lead-in is where the thread point is chosen; None for what suits.
+    overcut_um
+        How far the last pass runs on behind its start.
+    tab_um
+        How much of each part's outline is left for a last cut behind a stop; 0 for none.
+    corners
+        How the wire goes round outside corners.
+    """
+
+    tolerance_um: float = DEFAULT_FIT_UM
+    part_tolerance_um: float = 5.0
+    layer: str | None = None
+    gap_um: float = 10.0
+    passes_um: tuple[float, ...] = ()
+    returning: Returning = "back"
+    side: SideWish = "nesting"
+    direction: DirectionWish = "one-side"
+    order: tuple[int, ...] = ()
+    starts_um: tuple[Point, ...] = ()
+    thread_layer: str | None = None
+    lead: LeadIn = "perpendicular"
+    lead_um: float | None = None
+    overcut_um: float = 0.0
+    tab_um: float = 0.0
+    corners: Corners = "sharp"
