@@ -8,6 +8,7 @@ from parser.program import Program, load_program
 from parser.write.draft import Draft
 from sim.cam.model import CannotCutError, CutPlan, Refusal
 from sim.cam.order.order import in_order
+from sim.cam.order.sides import with_sides
 from sim.cam.parts.parts import parts_of
 from sim.cam.passes.passes import figure_cut
 from sim.cam.path.drafted import draft_of_plan
@@ -54,9 +55,10 @@ def planned(path: Path, making: Making, scenario: Scenario) -> CutPlan:
     drawing = read_drawing(path, making.layer, making.gap_um)
     parts = parts_of(drawing)
     passes_um = making.passes_um or (scenario.wire.reach_um,)
-    threads = threads_of(drawing, parts.figures, making, max(passes_um))
-    order = in_order(parts.figures, threads, making)
-    cuts = tuple(figure_cut(parts.figures[one], threads[one], passes_um, making) for one in order)
+    figures = with_sides(parts.figures, making)
+    threads = threads_of(drawing, figures, making, max(passes_um))
+    order = in_order(figures, threads, making)
+    cuts = tuple(figure_cut(figures[one], threads[one], passes_um, making) for one in order)
     return CutPlan(drawing, making, passes_um, cuts, parts.left_out, parts.notes)
 
 

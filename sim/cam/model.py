@@ -32,6 +32,8 @@ class Figure(NamedTuple):
         (m,) number of the drawing's entity that each is of.
     layer
         That of its first entity.
+    runs_inside
+        Whether the wire runs within it, in the waste: of a hole; outside of an outline, unless asked otherwise.
     """
 
     number: int
@@ -41,6 +43,7 @@ class Figure(NamedTuple):
     contour: Curves
     entity: Ints
     layer: str
+    runs_inside: bool
 
 
 class Parts(NamedTuple):

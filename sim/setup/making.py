@@ -20,6 +20,27 @@ DEFAULT_FIT_UM = 2.0
 """Usual in CAMs (HSMWorks' post for wire EDM has it by default)."""
 
 
+class LayerWish(NamedTuple):
+    """What is asked for the contours of one layer, in place of what holds for all.
+
+    Attributes
+    ----------
+    layer
+        Its name, in letters of either case.
+    side
+        On which side the wire runs; None for that of all.
+    rank
+        Contours of a lower rank are cut first, as far as nesting allows; None for none.
+    passes_um
+        Offset of each pass; that of all where empty.
+    """
+
+    layer: str
+    side: SideWish | None = None
+    rank: int | None = None
+    passes_um: tuple[float, ...] = ()
+
+
 class Making(NamedTuple):
     """How a program is to be made of a drawing.
 
@@ -57,6 +78,8 @@ class Making(NamedTuple):
         How much of each part's outline is left for a last cut behind a stop; 0 for none.
     corners
         How the wire goes round outside corners.
+    layers
+        What is asked for some layers.
     """
 
     tolerance_um: float = DEFAULT_FIT_UM
@@ -75,3 +98,4 @@ class Making(NamedTuple):
     overcut_um: float = 0.0
     tab_um: float = 0.0
     corners: Corners = "sharp"
+    layers: tuple[LayerWish, ...] = ()

@@ -9,9 +9,9 @@ import pytest
 from ezdxf.entities.insert import Insert
 
 from parser.drawing.dxf import document
-from parser.drawing.plane import flat
 from parser.drawing.dxf.blocks import MOST_NESTED
 from parser.drawing.dxf.forms import Spline
+from parser.drawing.plane import flat
 from parser.drawing.plane.splines import places_at
 from parser.drawing.read import read_drawing
 from parser.findings.errors import DrawingError

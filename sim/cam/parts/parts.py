@@ -31,7 +31,8 @@ def parts_of(drawing: Drawing) -> Parts:
             depth=int(depth[at]),
             contour=contour,
             entity=drawing.entity[loop.row],
-            layer=drawing.entities[int(drawing.entity[loop.row[0]])].layer,
+            layer=_entity(drawing, loop).layer,
+            runs_inside=bool(depth[at] % 2),
         )
         for at, (loop, contour) in enumerate(zip(closed, contours, strict=True))
     )

@@ -17,7 +17,7 @@ def beside(figure: Figure, by_um: float, corners: Corners) -> Curves:
     """
     if by_um <= 0.0:
         return figure.contour
-    loops = reach(figure.contour, by_um, Side.LEFT if figure.kind == "hole" else Side.RIGHT).loops
+    loops = reach(figure.contour, by_um, Side.LEFT if figure.runs_inside else Side.RIGHT).loops
     if len(loops) != 1:
         places = tuple(Point(*loop.curves.start_um[0].tolist()) for loop in loops)
         why = "falls-apart" if loops else "too-small"

@@ -23,7 +23,7 @@ def entry_at(figure: Figure, row: int, along_um: float) -> Entry:
     rows = np.array([row])
     place = places_at(figure.contour, rows, np.array([along_um]))[0]
     way = headings_along(figure.contour, rows, np.array([along_um]))[0]
-    sign = 1.0 if figure.kind == "hole" else -1.0
+    sign = 1.0 if figure.runs_inside else -1.0
     return Entry(row, along_um, Point(*place.tolist()), Point(float(-way[1] * sign), float(way[0] * sign)))
 
 
