@@ -9,7 +9,7 @@ from sim.setup.making import Making
 
 
 def lead_in(figure: Figure, thread: Thread, along: Curves, making: Making) -> Curves:
-    """The way (m,) from the thread point to where a pass `along` a contour begins; CannotCutError where none is free."""
+    """The way (m,) from the thread point to where a pass `along` begins. CannotCutError where none is free."""
     return _line(thread.place_um, Point(*along.start_um[0].tolist()))
 
 
