@@ -32,6 +32,8 @@ CORNERS: tuple[str, ...] = get_args(Corners)
 FORMS: tuple[str, ...] = get_args(Form)
 ENCODINGS: tuple[str, ...] = get_args(Encoding)
 COMPENSATIONS: tuple[str, ...] = get_args(Compensation)
+SUFFIXES: Mapping[str, Language] = {".3b": "3b", ".4b": "4b", ".iso": "iso", ".nc": "iso", ".cnc": "iso"}
+"""Languages of programs that are written, by the suffixes of their files."""
 DEFAULT_FIT_UM = 2.0
 """Usual in CAMs (HSMWorks' post for wire EDM has it by default)."""
 
@@ -152,6 +154,19 @@ class ToMake(NamedTuple):
     making: Making = Making()
     writing: Writing = Writing()
 
+    @property
+    def language(self) -> Language:
+        """What the suffix of its file says. SettingsError where that says none."""
+        return language_of(self.file)
+
+
+def language_of(file: Path) -> Language:
+    """The language that the suffix of a file says. SettingsError where it says none."""
+    language = SUFFIXES.get(file.suffix.lower())
+    if language is None:
+        raise SettingsError(f"{file}: the suffix says no language; expected one of {', '.join(SUFFIXES)}")
+    return language
+
 
 FIT_UM = Bound(0.1, 1000.0)
 """Of a fit of arcs: less than a tenth of a step asks for what no program holds."""
@@ -222,7 +237,9 @@ def read_to_make(scenario: Mapping[str, Any], where: str, drawing: DrawingTarget
     value = PROGRAM.read_in(scenario, where)
     making = of_drawing(Making(**value["making"])._replace(layers=wishes), drawing)
     refuse_odd(making, f"{where}: [program]")
-    return ToMake(value["file"], making, Writing(**value["writing"]))
+    found = ToMake(value["file"], making, Writing(**value["writing"]))
+    refuse_misfits(found.writing, found.language, f"{where}: [program]")
+    return found
 
 
 def of_drawing(making: Making, drawing: DrawingTarget) -> Making:
@@ -241,6 +258,14 @@ def refuse_odd(making: Making, where: str) -> None:
         number(mm(making.lead_um), LEAD_MM, f"{where}: the length of the lead in mm")
     for passes_um in (making.passes_um, *(wish.passes_um for wish in making.layers)):
         _refuse_odd_passes(passes_um, where)
+
+
+def refuse_misfits(writing: Writing, language: Language, where: str) -> None:
+    """SettingsError for what the language that is written has nothing for."""
+    usual = Writing()
+    for name in ("form", "end_code", "pause_code") if language == "iso" else ("compensation", "decimals"):
+        if getattr(writing, name) != getattr(usual, name):
+            raise SettingsError(f"{where}: {name} is for {'3B and 4B' if language == 'iso' else 'ISO'}, not {language}")
 
 
 def _refuse_odd_passes(passes_um: tuple[float, ...], where: str) -> None:
