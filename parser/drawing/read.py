@@ -14,7 +14,7 @@ from parser.drawing.dxf.forms import scaled
 from parser.drawing.gather import Gathered, gather
 from parser.drawing.loops.chain import Chained, chain
 from parser.drawing.loops.once import Again, drawn_once
-from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity, LeftOut
+from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity, FitFigures, LeftOut
 from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark
 from parser.text.encoding import printable
@@ -92,7 +92,13 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
         flatten_um=asked.flatten_um,
         notes=(*notes, *([assumed] if assumed else []), *notes_of(placed, wanted, gathered, once.again, chained)),
         left_out=tuple(_again(wanted, again) for again in once.again),
+        fit=None if asked.fit_um is None else _fit_figures(gathered, asked.fit_um),
     )
+
+
+def _fit_figures(gathered: Gathered, fit_um: float) -> FitFigures:
+    arcs = int(gathered.curves.is_arc.sum())
+    return FitFigures(fit_um, gathered.counts.fit_max_um, arcs, len(gathered.curves) - arcs)
 
 
 def _wanted(document: Document, placed: Sequence[Placed], layer: str | None) -> list[Placed]:

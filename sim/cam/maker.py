@@ -14,6 +14,7 @@ from sim.cam.passes.passes import figure_cut
 from sim.cam.path.drafted import draft_of_plan
 from sim.cam.proof.proof import Proof, proved
 from sim.cam.threads.threads import threads_of
+from sim.cam.tolerances import fit_share_um
 from sim.convert.proof import proof as held_against
 from sim.convert.wanted import Wanted, read_with, written
 from sim.setup.making import Making
@@ -55,7 +56,7 @@ class NotMade(NamedTuple):
 
 def planned(path: Path, making: Making, scenario: Scenario) -> CutPlan:
     """What is to be cut, and how. CannotCutError where the drawing asks for what cannot be."""
-    drawing = read_drawing(path, making.layer, making.gap_um)
+    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_share_um(making.tolerance_um))
     parts = parts_of(drawing)
     passes_um = making.passes_um or (scenario.wire.reach_um,)
     figures = with_sides(parts.figures, making)
