@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import NamedTuple
 
+from parser.drawing.model import Drawing
 from parser.drawing.read import read_drawing
 from parser.program import Program, load_program
 from parser.write.draft import Draft
@@ -12,7 +13,8 @@ from sim.cam.order.sides import with_sides
 from sim.cam.parts.parts import parts_of
 from sim.cam.passes.passes import figure_cut
 from sim.cam.path.drafted import draft_of_plan
-from sim.cam.proof.proof import Proof, proved
+from sim.cam.proof.proof import Given, proved
+from sim.cam.proof.result import Proof
 from sim.cam.threads.threads import threads_of
 from sim.convert.proof import proof as held_against
 from sim.convert.wanted import Wanted, read_with, written
@@ -73,9 +75,17 @@ def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progres
         plan = planned(path, making, scenario)
     except CannotCutError as error:
         return NotMade(error.refusal)
+    progress("write", 0, 1)
     draft = draft_of_plan(plan)
     text = written(draft, wanted)
     data = text.text.encode()
     program = load_program(data, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
-    path_um = held_against(draft, text, program.toolpath).off_um
-    return Made(data, program, plan, draft, proved(program, plan, scenario, path_um, progress))
+    given = Given(program, plan, _unfitted(path, plan), held_against(draft, text, program.toolpath), wanted.bound_um)
+    return Made(data, program, plan, draft, proved(given, scenario, progress))
+
+
+def _unfitted(path: Path, plan: CutPlan) -> Drawing:
+    """The drawing as it is drawn: read again where arcs were fitted to it."""
+    if plan.drawing.fit is None:
+        return plan.drawing
+    return read_drawing(path, plan.making.layer, plan.making.gap_um)

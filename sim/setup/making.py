@@ -16,6 +16,8 @@ DIRECTION_WISHES: tuple[str, ...] = get_args(DirectionWish)
 RETURNINGS: tuple[str, ...] = get_args(Returning)
 LEAD_INS: tuple[str, ...] = get_args(LeadIn)
 CORNERS: tuple[str, ...] = get_args(Corners)
+_MACHINE_UM = 8.0
+"""What steps and table add to the path: up to 4 µm on the machines that are here, and twice that in a corner."""
 DEFAULT_FIT_UM = 2.0
 """Usual in CAMs (HSMWorks' post for wire EDM has it by default)."""
 
@@ -49,7 +51,8 @@ class Making(NamedTuple):
     tolerance_um
         How far the path may lie off the one that the drawing asks for.
     part_tolerance_um
-        How far the edge as cut may lie off the drawing.
+        How far the edge as cut may lie off the drawing; None for the tolerance of the path and what a machine in order
+        adds, 8 µm.
     layer
         The one layer whose contours are cut; all that are seen where None.
     gap_um
@@ -83,7 +86,7 @@ class Making(NamedTuple):
     """
 
     tolerance_um: float = DEFAULT_FIT_UM
-    part_tolerance_um: float = 5.0
+    part_tolerance_um: float | None = None
     layer: str | None = None
     gap_um: float = 10.0
     passes_um: tuple[float, ...] = ()
@@ -99,3 +102,8 @@ class Making(NamedTuple):
     tab_um: float = 0.0
     corners: Corners = "sharp"
     layers: tuple[LayerWish, ...] = ()
+
+    @property
+    def held_to_um(self) -> float:
+        """How far the edge as cut may lie off the drawing."""
+        return self.tolerance_um + _MACHINE_UM if self.part_tolerance_um is None else self.part_tolerance_um
