@@ -3,7 +3,6 @@
 from pathlib import Path
 from typing import NamedTuple
 
-from parser.drawing.model import Drawing
 from parser.drawing.read import read_drawing
 from parser.program import Program, load_program
 from parser.write.draft import Draft
@@ -16,6 +15,7 @@ from sim.cam.path.drafted import draft_of_plan
 from sim.cam.proof.proof import Given, proved
 from sim.cam.proof.result import Proof
 from sim.cam.threads.threads import threads_of
+from sim.convert.proof import Proof as Written
 from sim.convert.proof import proof as held_against
 from sim.convert.wanted import Wanted, read_with, written
 from sim.setup.making import Making
@@ -34,6 +34,8 @@ class Made(NamedTuple):
         What reading them gives.
     plan, draft
         What it was written of.
+    written
+        How far the path of its text lies off that which was planned, and what else of it is not the same.
     proof
         What its run shows; None where nobody asked for one.
     """
@@ -42,7 +44,8 @@ class Made(NamedTuple):
     program: Program
     plan: CutPlan
     draft: Draft
-    proof: Proof | None
+    written: Written
+    proof: Proof | None = None
 
 
 class NotMade(NamedTuple):
@@ -70,6 +73,16 @@ def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progres
     Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where the dialect cannot say
     what it needs.
     """
+    done = unproved(path, making, wanted, scenario, progress)
+    if isinstance(done, NotMade):
+        return done
+    return done._replace(proof=proved(_given(path, done, wanted), scenario, progress))
+
+
+def unproved(
+    path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress = silent
+) -> Made | NotMade:
+    """A program as `made` gives it, before anything is run."""
     try:
         progress("drawing", 0, 1)
         plan = planned(path, making, scenario)
@@ -80,12 +93,12 @@ def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progres
     text = written(draft, wanted)
     data = text.text.encode()
     program = load_program(data, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
-    given = Given(program, plan, _unfitted(path, plan), held_against(draft, text, program.toolpath), wanted.bound_um)
-    return Made(data, program, plan, draft, proved(given, scenario, progress))
+    return Made(data, program, plan, draft, held_against(draft, text, program.toolpath))
 
 
-def _unfitted(path: Path, plan: CutPlan) -> Drawing:
-    """The drawing as it is drawn: read again where arcs were fitted to it."""
-    if plan.drawing.fit is None:
-        return plan.drawing
-    return read_drawing(path, plan.making.layer, plan.making.gap_um)
+def _given(path: Path, done: Made, wanted: Wanted) -> Given:
+    """What is proved: with the drawing as it is drawn, read again where arcs were fitted to it."""
+    plan = done.plan
+    is_fitted = plan.drawing.fit is not None
+    drawn = read_drawing(path, plan.making.layer, plan.making.gap_um) if is_fitted else plan.drawing
+    return Given(done.program, plan, drawn, done.written, wanted.bound_um)
