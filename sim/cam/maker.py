@@ -55,9 +55,11 @@ class NotMade(NamedTuple):
     plan: CutPlan | None = None
 
 
-def planned(path: Path, making: Making, scenario: Scenario) -> CutPlan:
+def planned(path: Path, making: Making, scenario: Scenario, progress: Progress = silent) -> CutPlan:
     """What is to be cut, and how. CannotCutError where the drawing asks for what cannot be."""
+    progress("drawing", 0, 1)
     drawing = read_drawing(path, making.layer, making.gap_um)
+    progress("figures", 0, 1)
     parts = parts_of(drawing)
     passes_um = making.passes_um or (scenario.wire.reach_um,)
     figures = with_sides(parts.figures, making)
@@ -84,12 +86,11 @@ def unproved(
 ) -> Made | NotMade:
     """A program as `made` gives it, before anything is run."""
     try:
-        progress("drawing", 0, 1)
-        plan = planned(path, making, scenario)
+        plan = planned(path, making, scenario, progress)
+        progress("write", 0, 1)
+        draft = draft_of_plan(plan)
     except CannotCutError as error:
         return NotMade(error.refusal)
-    progress("write", 0, 1)
-    draft = draft_of_plan(plan)
     text = written(draft, wanted)
     data = text.text.encode()
     program = load_program(data, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
