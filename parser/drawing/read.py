@@ -13,8 +13,8 @@ from parser.drawing.dxf.document import read_document
 from parser.drawing.dxf.forms import scaled
 from parser.drawing.gather import Gathered, gather
 from parser.drawing.loops.chain import Chained, chain
-from parser.drawing.loops.duplicates import drawn_once
-from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity
+from parser.drawing.loops.once import Again, drawn_once
+from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity, LeftOut
 from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark
 from parser.text.encoding import printable
@@ -75,23 +75,23 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
     placed = list(placed_entities(document, scaled(unit.um)))
     wanted = _wanted(document, placed, asked.layer)
     gathered = gather(wanted, asked.flatten_um, asked.fit_um)
-    once = drawn_once(gathered.curves, gathered.entity)
-    if not len(once):
+    if not len(gathered.curves):
         raise DrawingError(_nothing(placed, wanted, asked.layer))
-    curves = gathered.curves.picked(once)
-    number, entity = np.unique(gathered.entity[once], return_inverse=True)
-    chained = chain(curves, entity, asked.gap_um)
+    once = drawn_once(gathered.curves, gathered.entity, asked.gap_um)
+    number, entity = np.unique(once.entity, return_inverse=True)
+    chained = chain(once.curves, entity, asked.gap_um)
     return Drawing(
         name=name,
         version=str(document.acad_release),
         unit=unit.name,
-        curves=curves,
+        curves=once.curves,
         entity=entity.astype(np.int64),
         entities=tuple(_entity(wanted[at]) for at in number.tolist()),
         loops=chained.loops,
         flattened=gathered.counts.flattened,
         flatten_um=asked.flatten_um,
-        notes=(*notes, *([assumed] if assumed else []), *notes_of(placed, wanted, gathered, len(once), chained)),
+        notes=(*notes, *([assumed] if assumed else []), *notes_of(placed, wanted, gathered, once.again, chained)),
+        left_out=tuple(_again(wanted, again) for again in once.again),
     )
 
 
@@ -117,6 +117,10 @@ def _entity(placed: Placed) -> Entity:
     dxf = placed.entity.dxf
     handle, kind = str(dxf.get("handle", "")), placed.entity.dxftype()
     return Entity(kind, printable(handle), printable(placed.layer), printable(placed.block))
+
+
+def _again(wanted: Sequence[Placed], again: Again) -> LeftOut:
+    return LeftOut(_entity(wanted[again.entity]), "drawn-twice" if again.whole else "overlaps", again.place_um)
 
 
 class Unit(NamedTuple):
@@ -150,9 +154,9 @@ def unit_of(code: object) -> tuple[Unit, Remark | None]:
 
 
 def notes_of(
-    placed: Sequence[Placed], wanted: Sequence[Placed], gathered: Gathered, curves: int, chained: Chained
+    placed: Sequence[Placed], wanted: Sequence[Placed], gathered: Gathered, again: Sequence[Again], chained: Chained
 ) -> Iterator[Remark]:
-    """What was left out or mended; `curves` is how many are left after what is drawn twice."""
+    """What was left out or mended."""
     counts = gathered.counts
     if len(wanted) < len(placed):
         yield Remark("other-layers", {"number": len(placed) - len(wanted)})
@@ -164,7 +168,8 @@ def notes_of(
         (counts.beyond, "beyond"),
         (counts.upright, "upright"),
         (counts.slanted, "slanted"),
-        (len(gathered.curves) - curves, "drawn-twice"),
+        (sum(each.curves for each in again if each.whole), "drawn-twice"),
+        (sum(each.curves for each in again if not each.whole), "overlaps"),
     ):
         if number:
             yield Remark(name, {"number": number})

@@ -32,6 +32,8 @@ class Made(NamedTuple):
         What reading them gives.
     plan, draft
         What it was written of.
+    path_um
+        How far the path of its text lies off that which was planned.
     proof
         What its run shows; None where nobody asked for one.
     """
@@ -40,7 +42,8 @@ class Made(NamedTuple):
     program: Program
     plan: CutPlan
     draft: Draft
-    proof: Proof | None
+    path_um: float
+    proof: Proof | None = None
 
 
 class NotMade(NamedTuple):
@@ -68,6 +71,16 @@ def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progres
     Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where the dialect cannot say
     what it needs.
     """
+    done = unproved(path, making, wanted, scenario, progress)
+    if isinstance(done, NotMade):
+        return done
+    return done._replace(proof=proved(done.program, done.plan, scenario, done.path_um, progress))
+
+
+def unproved(
+    path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress = silent
+) -> Made | NotMade:
+    """A program as `made` gives it, before anything is run."""
     try:
         progress("drawing", 0, 1)
         plan = planned(path, making, scenario)
@@ -77,5 +90,4 @@ def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progres
     text = written(draft, wanted)
     data = text.text.encode()
     program = load_program(data, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
-    path_um = held_against(draft, text, program.toolpath).off_um
-    return Made(data, program, plan, draft, proved(program, plan, scenario, path_um, progress))
+    return Made(data, program, plan, draft, held_against(draft, text, program.toolpath).off_um)
