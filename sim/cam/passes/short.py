@@ -73,4 +73,5 @@ def _from_line(place: Floats, start: Floats, end: Floats) -> Floats:
     square = (by * by).sum(axis=1)
     share = np.clip((out * by).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
     off = out - share[:, None] * by
-    return np.hypot(off[:, 0], off[:, 1])
+    away: Floats = np.hypot(off[:, 0], off[:, 1])
+    return away
