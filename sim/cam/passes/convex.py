@@ -7,10 +7,12 @@ contour, since a convex region is what lies on the inner side of all its tangent
 moved inward. (At a corner the disc about it touches both neighbours, and bends more than either: it crosses neither.)
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from controller.offset.reach import OffsetLoop
-from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints, curves_between, joined
+from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.directions import directions, to_left
 from sim.cam.passes.ends import met_near, with_ends
 
@@ -26,9 +28,11 @@ def beside_convex(contour: Curves, by_um: float, is_inside: bool) -> OffsetLoop 
 
     None where the contour does not turn one way, or the offset uses up one of its curves.
     """
+    moved_um = by_um if is_inside else -by_um
+    if len(contour) == 1:
+        return _circle(contour, moved_um)
     if (contour.sweep_rad < 0.0).any():
         return None
-    moved_um = by_um if is_inside else -by_um
     leaving, arriving = directions(contour)
     leaving_next = _next(leaving)
     cross = arriving[:, 0] * leaving_next[:, 1] - arriving[:, 1] * leaving_next[:, 0]
@@ -53,6 +57,15 @@ def beside_convex(contour: Curves, by_um: float, is_inside: bool) -> OffsetLoop 
     if not is_inside:
         return _with_arcs(shifted, contour, corner, kink)
     return _shortened(shifted, corner)
+
+
+def _circle(contour: Curves, moved_um: float) -> OffsetLoop | None:
+    radius = contour.radius_um - moved_um
+    if radius[0] < _LEFT_UM:
+        return None
+    start = contour.center_um + (radius / contour.radius_um)[:, None] * (contour.start_um - contour.center_um)
+    circle = replace(contour, start_um=start, end_um=start, radius_um=radius, length_um=radius * contour.sweep_rad)
+    return OffsetLoop(circle, np.array([0]), np.array([False]))
 
 
 def _next(rows: Floats) -> Floats:
@@ -97,5 +110,4 @@ def _welded(shifted: Curves, is_tangent: Bools) -> Curves:
     middle = 0.5 * (shifted.end_um + begun)
     end = np.where(is_tangent[:, None], middle, shifted.end_um)
     start = np.roll(np.where(is_tangent[:, None], middle, begun), 1, axis=0)
-    full = len(shifted) == 1 and shifted.kind[0] == CurveKind.ARC
-    return shifted if full else with_ends(shifted, start, end)
+    return with_ends(shifted, start, end)

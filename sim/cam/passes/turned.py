@@ -1,5 +1,6 @@
 """Closed ways begun elsewhere, ways parted, and ways run back."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -22,7 +23,12 @@ def length_to(way: Curves, place_um: Point) -> float:
 
 
 def begun_at(way: Curves, place_um: Point) -> Curves:
-    """A closed way that begins and ends at its place nearest to another; at an end of a curve within 3 µm of that."""
+    """A closed way that begins and ends at its place nearest to another; at an end of a curve within 3 µm of that.
+
+    A circle stays one curve.
+    """
+    if len(way) == 1:
+        return _circle_at(way, place_um)
     first, last = parted(way, length_to(way, place_um))
     return joined([last, first])
 
@@ -45,6 +51,13 @@ def run_back(way: Curves) -> Curves:
     """A way run from its end to its start."""
     rows = np.arange(len(way))[::-1]
     return running(way, rows, np.ones(len(way), dtype=np.bool_))
+
+
+def _circle_at(circle: Curves, place_um: Point) -> Curves:
+    (x, y), radius = circle.center_um[0].tolist(), float(circle.radius_um[0])
+    angle = math.atan2(place_um.y - y, place_um.x - x)
+    start = np.array([[x + radius * math.cos(angle), y + radius * math.sin(angle)]])
+    return replace(circle, start_um=start, end_um=start, start_angle_rad=np.array([angle]))
 
 
 def _halves(one: Curves, on_um: float) -> tuple[Curves, Curves]:
