@@ -16,7 +16,10 @@ from sim.cam.path.drafted import draft_of_plan
 from sim.cam.proof.proof import Given, proved
 from sim.cam.proof.result import Proof
 from sim.cam.threads.threads import threads_of
-from sim.convert.proof import Proof as Written
+    progress("drawing", 0, 1)
+    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_share_um(making.tolerance_um))
+    progress("figures", 0, 1)
+    parts = parts_of(drawing, making)
 from sim.convert.proof import proof as held_against
 from sim.convert.wanted import Wanted, read_with, written
 from sim.setup.making import Making
@@ -59,7 +62,7 @@ class NotMade(NamedTuple):
 def planned(path: Path, making: Making, scenario: Scenario, progress: Progress = silent) -> CutPlan:
     """What is to be cut, and how. CannotCutError where the drawing asks for what cannot be."""
     progress("drawing", 0, 1)
-    drawing = read_drawing(path, making.layer, making.gap_um)
+    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_share_um(making.tolerance_um))
     progress("figures", 0, 1)
     parts = parts_of(drawing, making)
     passes_um = making.passes_um or (scenario.wire.reach_um,)
