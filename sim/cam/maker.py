@@ -16,10 +16,8 @@ from sim.cam.path.drafted import draft_of_plan
 from sim.cam.proof.proof import Given, proved
 from sim.cam.proof.result import Proof
 from sim.cam.threads.threads import threads_of
-    progress("drawing", 0, 1)
-    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_share_um(making.tolerance_um))
-    progress("figures", 0, 1)
-    parts = parts_of(drawing, making)
+from sim.cam.tolerances import fit_share_um
+from sim.convert.proof import Proof as Written
 from sim.convert.proof import proof as held_against
 from sim.convert.wanted import Wanted, read_with, written
 from sim.setup.making import Making
