@@ -101,8 +101,9 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
             _draw(done, _Picture(picture, theme), tongue)
     if as_json:
         from sim.cam.document import document_text
+        from sim.show.words import Words
 
-        write(document_text(done), "json")
+        write(document_text(done, Words(tongue)), "json")
     else:
         _tell(done, asked, written, picture, tongue)
     raise click.exceptions.Exit(0 if is_proved else 1)
