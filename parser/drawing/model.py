@@ -13,6 +13,8 @@ DEFAULT_GAP_UM = 10.0
 """Ends of a drawing this near are joined: more than the rounding of any CAD, less than what anyone draws (assumed)."""
 SAME_WITHIN_UM = 1e-3
 """What files lose by printing decimals: places so near are one, curves so short are none, so flat are straight."""
+BESIDE_UM = 1.0
+"""Curves that run this near beside each other are one drawn twice: a step of a machine, less than any wall is thick."""
 DEFAULT_FLATTEN_UM = 0.1
 """How far lines lie off ellipses and splines at most: little beside the 5 µm that a cut is usually held to."""
 
@@ -52,11 +54,14 @@ class LeftOut(NamedTuple):
         Name of a text for people, ``drawing.left-out-…``: such as ``text``, ``dimension``, ``center-line``, ``frozen``.
     place_um
         Where it is, so that it can be found; None where it has no place.
+    gap_um
+        How far the nearest loose end of another curve lies from an end of an open one; None where none is near.
     """
 
     entity: Entity
     why: str
     place_um: tuple[float, float] | None = None
+    gap_um: float | None = None
 
 
 class Mark(NamedTuple):

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -11,10 +12,11 @@ from ezdxf.document import Drawing as Document
 from parser.drawing.dxf.blocks import Placed, placed_entities
 from parser.drawing.dxf.document import read_document
 from parser.drawing.dxf.forms import scaled
+from parser.drawing.fit.loops import loops_with_arcs
 from parser.drawing.gather import Gathered, gather
 from parser.drawing.loops.chain import Chained, chain
-from parser.drawing.loops.duplicates import drawn_once
-from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity
+from parser.drawing.loops.once import Again, drawn_once
+from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity, FitFigures, LeftOut
 from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark
 from parser.text.encoding import printable
@@ -75,24 +77,39 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
     placed = list(placed_entities(document, scaled(unit.um)))
     wanted = _wanted(document, placed, asked.layer)
     gathered = gather(wanted, asked.flatten_um, asked.fit_um)
-    once = drawn_once(gathered.curves, gathered.entity)
-    if not len(once):
+    if not len(gathered.curves):
         raise DrawingError(_nothing(placed, wanted, asked.layer))
-    curves = gathered.curves.picked(once)
-    number, entity = np.unique(gathered.entity[once], return_inverse=True)
-    chained = chain(curves, entity, asked.gap_um)
-    return Drawing(
+    once = drawn_once(gathered.curves, gathered.entity, asked.gap_um)
+    number, entity = np.unique(once.entity, return_inverse=True)
+    chained = chain(once.curves, entity, asked.gap_um)
+    drawing = Drawing(
         name=name,
         version=str(document.acad_release),
         unit=unit.name,
-        curves=curves,
+        curves=once.curves,
         entity=entity.astype(np.int64),
         entities=tuple(_entity(wanted[at]) for at in number.tolist()),
         loops=chained.loops,
         flattened=gathered.counts.flattened,
         flatten_um=asked.flatten_um,
-        notes=(*notes, *([assumed] if assumed else []), *notes_of(placed, wanted, gathered, len(once), chained)),
+        notes=(*notes, *([assumed] if assumed else []), *notes_of(placed, wanted, gathered, once.again, chained)),
+        left_out=tuple(_again(wanted, again) for again in once.again),
+        fit=None if asked.fit_um is None else _fit_figures(gathered, asked.fit_um),
     )
+    return drawing if asked.fit_um is None else _with_arcs(drawing, asked.fit_um, gathered.counts.fit_max_um)
+
+
+def _with_arcs(drawing: Drawing, fit_um: float, so_far_um: float) -> Drawing:
+    """A drawing with arcs in place of dense lines, where ellipses and splines are arcs already."""
+    fitted = loops_with_arcs(drawing.curves, drawing.entity, drawing.loops, fit_um)
+    arcs = int(fitted.curves.is_arc.sum())
+    figures = FitFigures(fit_um, max(so_far_um, fitted.max_um), arcs, len(fitted.curves) - arcs)
+    return replace(drawing, curves=fitted.curves, entity=fitted.entity, loops=fitted.loops, fit=figures)
+
+
+def _fit_figures(gathered: Gathered, fit_um: float) -> FitFigures:
+    arcs = int(gathered.curves.is_arc.sum())
+    return FitFigures(fit_um, gathered.counts.fit_max_um, arcs, len(gathered.curves) - arcs)
 
 
 def _wanted(document: Document, placed: Sequence[Placed], layer: str | None) -> list[Placed]:
@@ -117,6 +134,10 @@ def _entity(placed: Placed) -> Entity:
     dxf = placed.entity.dxf
     handle, kind = str(dxf.get("handle", "")), placed.entity.dxftype()
     return Entity(kind, printable(handle), printable(placed.layer), printable(placed.block))
+
+
+def _again(wanted: Sequence[Placed], again: Again) -> LeftOut:
+    return LeftOut(_entity(wanted[again.entity]), "drawn-twice" if again.whole else "overlaps", again.place_um)
 
 
 class Unit(NamedTuple):
@@ -150,9 +171,9 @@ def unit_of(code: object) -> tuple[Unit, Remark | None]:
 
 
 def notes_of(
-    placed: Sequence[Placed], wanted: Sequence[Placed], gathered: Gathered, curves: int, chained: Chained
+    placed: Sequence[Placed], wanted: Sequence[Placed], gathered: Gathered, again: Sequence[Again], chained: Chained
 ) -> Iterator[Remark]:
-    """What was left out or mended; `curves` is how many are left after what is drawn twice."""
+    """What was left out or mended."""
     counts = gathered.counts
     if len(wanted) < len(placed):
         yield Remark("other-layers", {"number": len(placed) - len(wanted)})
@@ -164,7 +185,8 @@ def notes_of(
         (counts.beyond, "beyond"),
         (counts.upright, "upright"),
         (counts.slanted, "slanted"),
-        (len(gathered.curves) - curves, "drawn-twice"),
+        (sum(each.curves for each in again if each.whole), "drawn-twice"),
+        (sum(each.curves for each in again if not each.whole), "overlaps"),
     ):
         if number:
             yield Remark(name, {"number": number})

@@ -93,13 +93,14 @@ def _checked(given: Offsets) -> Offsets:
 def _program(scenario: "Scenario") -> "Program":
     """The program of a scenario, with the offset that its controller is to add; one that cannot be read is refused."""
     from parser.findings.errors import ProgramError
-    from parser.program import moving, read_program
+    from parser.program import moving
     from sim.check.too_large import refuse_too_large
     from sim.cli.scenario_options import refused
+    from sim.jobs.source import program_read, source_of
     from sim.run.offsetting import as_run
 
     try:
-        program = moving(read_program(scenario.program, scenario.choices))
+        program = moving(program_read(scenario, source_of(scenario)))
         refuse_too_large(program)
         return as_run(program, scenario.offset)
     except ProgramError as error:

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from parser.write.iso_choices import IsoChoices, Unit
     from sim.convert.wanted import Language, Wanted
 
-_SUFFIXES: "dict[str, Language]" = {".3b": "3b", ".4b": "4b", ".iso": "iso", ".nc": "iso", ".cnc": "iso"}
 _UNITS = click.Choice(["um", "mm", "inch"])
 
 
@@ -126,7 +125,9 @@ def convert(path: Path, output: Path, lang: str | None, **options: Any) -> None:
 
 
 def _language(output: Path) -> "Language":
-    language = _SUFFIXES.get(output.suffix.lower())
+    from sim.setup.making import SUFFIXES
+
+    language = SUFFIXES.get(output.suffix.lower())
     if language is None:
         raise click.BadParameter(f"{output} does not say its language by its suffix; give --to", param_hint="-o")
     return language

@@ -111,10 +111,11 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
 @contextmanager
 def _shown(asked: "PictureFiles", scenario: "Scenario") -> "Iterator[tuple[Shown, tuple[Finding, ...]]]":
     """What the pictures are drawn of, with its findings: the program alone where no other picture needs a run."""
-    from parser.program import moving, read_program
+    from parser.program import moving
+    from sim.jobs.source import program_read, source_of
     from sim.show.pictures.path import PATH, PathAlone
 
-    program = moving(read_program(scenario.program, scenario.choices))
+    program = moving(program_read(scenario, source_of(scenario)))
     if set(asked.files) == {PATH}:
         from sim.show.pictures.cut.of_path import programmed
 

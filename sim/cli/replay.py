@@ -100,8 +100,9 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut replay scenarios/keyhole -o cut.gif --seconds 5 --fps 20 --size 640x360
     drycut replay part.3b -o cut.webp --thickness 60mm --theme dark --lang zh
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from parser.program import moving, read_program
+    from parser.program import moving
     from sim.cli.progress import StageProgress
+    from sim.jobs.source import program_read, source_of
     from sim.run.findings import verdict
     from sim.run.recording import recorded, stages_of
     from sim.show.film.screen import Look
@@ -112,7 +113,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     scenario = overridden(path, Overrides(**options))
     try:
         stages = [*stages_of(scenario), *([] if output is None else ["film"])]
-        program = moving(read_program(scenario.program, scenario.choices))
+        program = moving(program_read(scenario, source_of(scenario)))
         with StageProgress(*stages) as progress, recorded(program, scenario, progress) as recording:
             if output is None:
                 progress.finish()

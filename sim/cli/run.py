@@ -119,13 +119,15 @@ def _run_one(scenario: "Scenario", files: _Files, *, as_json: bool) -> int:
             from sim.jobs.run_into import FILES
             from sim.jobs.trace_file import TRACE
 
-            say(f"written: {files.output}/ {', '.join([*FILES, *([TRACE] if files.trace else [])])}")
+            made = [done.program.name] if scenario.to_make is not None and not scenario.program.exists() else []
+            say(f"written: {files.output}/ {', '.join([*FILES, *([TRACE] if files.trace else []), *made])}")
     return 0 if verdict(done.findings) == "pass" else 1
 
 
 def _run(scenario: "Scenario", files: _Files) -> "DryRun":
-    from parser.program import moving, read_program
+    from parser.program import moving
     from sim.cli.progress import StageProgress
+    from sim.jobs.source import program_read, source_of
     from sim.run.card_log import logging_to
     from sim.run.dryrun import dry_run
     from sim.run.recording import check_expectations, stages_of
@@ -140,10 +142,12 @@ def _run(scenario: "Scenario", files: _Files) -> "DryRun":
         stages = stages_of_files(scenario, trace=files.trace)
     with StageProgress("read", *stages) as progress, logging_to(files.card_log, settings) as log:
         progress("read", 0, 1)
-        program = moving(read_program(scenario.program, scenario.choices))
+        source = source_of(scenario, progress)
+        program = moving(program_read(scenario, source))
         if files.output is None:
             return check_expectations(dry_run(program, scenario, progress, log=log))
-        return run_into(files.output, program, scenario, progress, log, trace=files.trace)
+        beside = {scenario.program.name: source.data} if source.is_made else {}
+        return run_into(files.output, program, scenario, progress, log, trace=files.trace, beside=beside)
 
 
 def _refuse_to_overwrite(card_log: Path | None, *, program_file: Path, output: Path | None) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from parser.files.reading import read_bytes
-from parser.findings.errors import FileUnreadableError
+from parser.findings.errors import DrawingError, FileUnreadableError, SettingsError
 from parser.text.encoding import printable
 from sim.files import staged
 from sim.jobs.index import Entry, Row, build_index, index_text
@@ -13,6 +13,7 @@ from sim.jobs.kept import NAME, digest_of, drop, keep, kept
 from sim.jobs.one import Done, Task, fault_of, run_task
 from sim.jobs.run_into import NAMES
 from sim.jobs.shop import ShopProgram
+from sim.jobs.source import source_of
 from sim.show.index_page import Beside, index_page
 from sim.show.words.phrases import same
 from sim.workers.makers import made_by
@@ -66,7 +67,7 @@ class _Work:
         for number, program in enumerate(self._programs):
             try:
                 task = _task(program)
-            except FileUnreadableError as error:
+            except (FileUnreadableError, DrawingError, SettingsError) as error:
                 self._refuse(number, str(error))
                 continue
             if task is None:
@@ -105,13 +106,16 @@ class _Work:
 
 
 def _task(program: ShopProgram) -> Task | None:
-    """The task of a program; None where its scenario cannot be read. FileUnreadableError for its file or drawing."""
+    """The task of a program; None where its scenario cannot be read.
+
+    FileUnreadableError for its file or drawing; DrawingError and SettingsError where it cannot be made of that.
+    """
     scenario = program.scenario
     if scenario is None:
         return None
-    data = read_bytes(scenario.program)
+    source = source_of(scenario)
     drawing = read_bytes(scenario.drawing.file) if scenario.drawing is not None else None
-    return Task(printable(scenario.program.name), data, scenario, drawing, made_by())
+    return Task(printable(scenario.program.name), source.data, scenario, drawing, made_by(), source.is_made)
 
 
 def _title(program: ShopProgram) -> str:

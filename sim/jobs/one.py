@@ -38,6 +38,8 @@ class Task(NamedTuple):
         Bytes of the scenario's drawing; None without one.
     made_by
         What its bytes must come from: `made_by` of who asks for them.
+    is_made
+        Whether its bytes were made of the drawing, so that they belong to its files.
     """
 
     name: str
@@ -45,6 +47,7 @@ class Task(NamedTuple):
     scenario: Scenario
     drawing: bytes | None
     made_by: Maker
+    is_made: bool = False
 
 
 class Done(NamedTuple):
@@ -90,7 +93,8 @@ def _run(task: Task, folder: Path) -> Done:
         run = run_into(made, moving(load_program(task.data, task.name, scenario.choices)), scenario)
     except DrawingError as error:  # people know the drawing by where it stands
         raise DrawingError(str(error).replace(*_places_of_drawing(scenario, task.scenario))) from None
-    return Done(_row(run), {name: (made / name).read_bytes() for name in FILES if (made / name).exists()})
+    beside = {task.scenario.program.name: task.data} if task.is_made else {}
+    return Done(_row(run), {**{name: (made / name).read_bytes() for name in FILES if (made / name).exists()}, **beside})
 
 
 def _with_drawing(task: Task, folder: Path) -> Scenario:

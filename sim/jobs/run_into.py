@@ -1,6 +1,8 @@
 """A run with its files: picture, pages and report in one folder, and its trace where asked for; all or none of them."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Final
 
 from controller.card.log.writer import CardLog
@@ -33,22 +35,25 @@ def run_into(  # noqa: PLR0913 - what it is run with, and whom it tells
     log: CardLog | None = None,
     *,
     trace: bool = False,
+    beside: Mapping[str, bytes] = MappingProxyType({}),
 ) -> DryRun:
     """Dry-run a program and write `FILES` into a folder, and with `trace` every step and sample, `TRACE`.
 
     Without it a trace of an earlier run goes: none stands beside the files of another run. The calls to the card go to
-    `log`.
+    `log`. Files `beside`, by their names, are written as they are.
 
     Raises ProgramError as `dry_run` does and FileUnreadableError where the folder cannot be written; then no file of
     the folder has changed.
     """
-    with staged(Path(folder), NAMES) as stage:
+    with staged(Path(folder), [*NAMES, *beside]) as stage:
         with StepFiles(stage) as files:
             run, report = reported(dry_run(program, scenario, progress, files, log))
         _show(recording_of(run, files.paths, progress), report, stage, progress, has_trace=trace)
         if trace:
             progress("trace", 0, 1)
             write_trace(stage, run, files.paths)
+        for name, data in beside.items():
+            (stage / name).write_bytes(data)
     return run
 
 

@@ -1,8 +1,18 @@
 """How a program is to be made of a drawing: what its maker is asked for, and ``[program]`` in a scenario file."""
 
-from typing import Literal, NamedTuple, get_args
+from collections.abc import Mapping
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, Literal, NamedTuple, get_args
 
+from parser.findings.errors import SettingsError
 from parser.toolpath import Point
+from parser.units import mm
+from sim.setup.part import GAP_UM, OFFSET_MM, PASSES, TOLERANCE_UM, DrawingTarget
+from sim.setup.toml.keys import Key, Section
+from sim.setup.toml.kinds import MM_AS_UM, FileName, Name, Number, OneOf, Text, Truth, Whole
+from sim.setup.toml.lists import Lengths, Places, Wholes
+from sim.setup.toml.reader import PLACE_MM, Bound, number, tables
 
 Language = Literal["3b", "4b", "iso"]
 SideWish = Literal["nesting", "inside", "outside"]
@@ -10,12 +20,22 @@ DirectionWish = Literal["one-side", "ccw", "cw"]
 Returning = Literal["back", "one-way"]
 LeadIn = Literal["perpendicular", "point", "arc", "tangent"]
 Corners = Literal["sharp", "round"]
+Form = Literal["compact", "aligned", "detailed"]
+Encoding = Literal["utf-8", "gbk"]
+Compensation = Literal["worked-in", "kept"]
 LANGUAGES: tuple[str, ...] = get_args(Language)
 SIDE_WISHES: tuple[str, ...] = get_args(SideWish)
 DIRECTION_WISHES: tuple[str, ...] = get_args(DirectionWish)
 RETURNINGS: tuple[str, ...] = get_args(Returning)
 LEAD_INS: tuple[str, ...] = get_args(LeadIn)
 CORNERS: tuple[str, ...] = get_args(Corners)
+FORMS: tuple[str, ...] = get_args(Form)
+ENCODINGS: tuple[str, ...] = get_args(Encoding)
+COMPENSATIONS: tuple[str, ...] = get_args(Compensation)
+SUFFIXES: Mapping[str, Language] = {".3b": "3b", ".4b": "4b", ".iso": "iso", ".nc": "iso", ".cnc": "iso"}
+"""Languages of programs that are written, by the suffixes of their files."""
+_MACHINE_UM = 8.0
+"""What steps and table add to the path: up to 4 µm on the machines that are here, and twice that in a corner."""
 DEFAULT_FIT_UM = 2.0
 """Usual in CAMs (HSMWorks' post for wire EDM has it by default)."""
 
@@ -49,7 +69,8 @@ class Making(NamedTuple):
     tolerance_um
         How far the path may lie off the one that the drawing asks for.
     part_tolerance_um
-        How far the edge as cut may lie off the drawing.
+        How far the edge as cut may lie off the drawing; None for the tolerance of the path and what a machine in order
+        adds, 8 µm.
     layer
         The one layer whose contours are cut; all that are seen where None.
     gap_um
@@ -83,7 +104,7 @@ class Making(NamedTuple):
     """
 
     tolerance_um: float = DEFAULT_FIT_UM
-    part_tolerance_um: float = 5.0
+    part_tolerance_um: float | None = None
     layer: str | None = None
     gap_um: float = 10.0
     passes_um: tuple[float, ...] = ()
@@ -99,3 +120,169 @@ class Making(NamedTuple):
     tab_um: float = 0.0
     corners: Corners = "sharp"
     layers: tuple[LayerWish, ...] = ()
+
+    @property
+    def held_to_um(self) -> float:
+        """How far the edge as cut may lie off the drawing."""
+        return self.tolerance_um + _MACHINE_UM if self.part_tolerance_um is None else self.part_tolerance_um
+
+
+class Writing(NamedTuple):
+    """How a program that is made is written.
+
+    Attributes
+    ----------
+    form
+        Of 3B and 4B.
+    end_code, pause_code
+        Words of 3B and 4B in place of ``DD`` and ``D``; None for those.
+    crlf
+        Whether lines end as Windows does.
+    encoding
+        Of its bytes.
+    compensation
+        Whether offsets are worked into the path, or G41 and G42 of ISO leave them to the controller.
+    decimals
+        Digits behind the point, of ISO; None as its dialect has them.
+    """
+
+    form: Form = "compact"
+    end_code: str | None = None
+    pause_code: str | None = None
+    crlf: bool = False
+    encoding: Encoding = "utf-8"
+    compensation: Compensation = "worked-in"
+    decimals: int | None = None
+
+
+class ToMake(NamedTuple):
+    """A program that is made of a scenario's drawing: name of its file, what is asked of its maker and of its text."""
+
+    file: Path = Path("program.3b")
+    making: Making = Making()
+    writing: Writing = Writing()
+
+    @property
+    def language(self) -> Language:
+        """What the suffix of its file says. SettingsError where that says none."""
+        return language_of(self.file)
+
+
+def language_of(file: Path) -> Language:
+    """The language that the suffix of a file says. SettingsError where it says none."""
+    language = SUFFIXES.get(file.suffix.lower())
+    if language is None:
+        raise SettingsError(f"{file}: the suffix says no language; expected one of {', '.join(SUFFIXES)}")
+    return language
+
+
+FIT_UM = Bound(0.1, 1000.0)
+"""Of a fit of arcs: less than a tenth of a step asks for what no program holds."""
+LEAD_MM = Bound(0.001, 1000.0)
+OVERCUT_MM = Bound(0.0, 100.0)
+RANK = Bound(-1000, 1000)
+FIGURE = Bound(1, 1e6)
+DECIMALS = Bound(1, 6)
+OR_NONE_MM = Bound(0.0, OFFSET_MM.high)
+"""Offset of a pass; 0 for the contour itself."""
+_USUAL, _AS_USUAL = Making(), Writing()
+
+PROGRAM = Section(
+    "program",
+    (
+        Key("file", FileName(), default="program.3b"),
+        Key("tolerance_um", Number(FIT_UM, "µm"), "making.tolerance_um", default=_USUAL.tolerance_um),
+        Key("passes_mm", Lengths(OR_NONE_MM), "making.passes_um", default=()),
+        Key("returning", OneOf(RETURNINGS), "making.returning", default=_USUAL.returning),
+        Key("side", OneOf(SIDE_WISHES), "making.side", default=_USUAL.side),
+        Key("direction", OneOf(DIRECTION_WISHES), "making.direction", default=_USUAL.direction),
+        Key("order", Wholes(FIGURE), "making.order", default=()),
+        Key("starts_mm", Places(PLACE_MM), "making.starts_um", default=()),
+        Key("thread_layer", Text(), "making.thread_layer", default=None),
+        Key("lead", OneOf(LEAD_INS), "making.lead", default=_USUAL.lead),
+        Key("lead_mm", Number(LEAD_MM, "mm", MM_AS_UM), "making.lead_um", default=None),
+        Key("overcut_mm", Number(OVERCUT_MM, "mm", MM_AS_UM), "making.overcut_um", default=0.0),
+        Key("tab_mm", Number(OVERCUT_MM, "mm", MM_AS_UM), "making.tab_um", default=0.0),
+        Key("corners", OneOf(CORNERS), "making.corners", default=_USUAL.corners),
+        Key("form", OneOf(FORMS), "writing.form", default=_AS_USUAL.form),
+        Key("end_code", Name(), "writing.end_code", default=None),
+        Key("pause_code", Name(), "writing.pause_code", default=None),
+        Key("crlf", Truth(), "writing.crlf", default=False),
+        Key("encoding", OneOf(ENCODINGS), "writing.encoding", default=_AS_USUAL.encoding),
+        Key("compensation", OneOf(COMPENSATIONS), "writing.compensation", default=_AS_USUAL.compensation),
+        Key("decimals", Whole(DECIMALS), "writing.decimals", default=None),
+    ),
+    fills="to_make",
+)
+LAYER = Section(
+    "layer",
+    (
+        Key("name", Name(), "layer"),
+        Key("side", OneOf(SIDE_WISHES), default=None),
+        Key("rank", Whole(RANK), default=None),
+        Key("passes_mm", Lengths(OR_NONE_MM), "passes_um", default=()),
+    ),
+    fills="layer_wishes",
+    form="list",
+)
+
+
+def read_to_make(scenario: Mapping[str, Any], where: str, drawing: DrawingTarget | None) -> ToMake | None:
+    """The program of ``[program]``, with wishes of ``[[layer]]``; None where it is left out or names a file alone.
+
+    Layer, gap and tolerance of the part are those of the drawing. SettingsError names file and key.
+    """
+    wishes = tuple(
+        LayerWish(**LAYER.read(table, f"{where}: {LAYER.header} {at}"))
+        for at, table in enumerate(tables(scenario, "layer", where), start=1)
+    )
+    if not isinstance(scenario.get("program"), Mapping):
+        if wishes:
+            raise SettingsError(f"{where}: [[layer]] needs [program], which makes the program of the drawing")
+        return None
+    if drawing is None:
+        raise SettingsError(f"{where}: [program] needs [drawing] with the file that the program is made of")
+    value = PROGRAM.read_in(scenario, where)
+    making = of_drawing(Making(**value["making"])._replace(layers=wishes), drawing)
+    refuse_odd(making, f"{where}: [program]")
+    found = ToMake(value["file"], making, Writing(**value["writing"]))
+    refuse_misfits(found.writing, found.language, f"{where}: [program]")
+    return found
+
+
+def of_drawing(making: Making, drawing: DrawingTarget) -> Making:
+    """What is asked, with layer, gap and tolerance of the part that a drawing is held to."""
+    return making._replace(layer=drawing.layer, gap_um=drawing.gap_um, part_tolerance_um=drawing.tolerance_um)
+
+
+def refuse_odd(making: Making, where: str) -> None:
+    """SettingsError where numbers are out of their bounds, or say what cannot be meant."""
+    number(making.tolerance_um, FIT_UM, f"{where}: the tolerance in µm")
+    number(making.held_to_um, TOLERANCE_UM, f"{where}: the tolerance of the part in µm")
+    number(making.gap_um, GAP_UM, f"{where}: the gap in µm")
+    number(mm(making.overcut_um), OVERCUT_MM, f"{where}: the overcut in mm")
+    number(mm(making.tab_um), OVERCUT_MM, f"{where}: the tab in mm")
+    if making.lead_um is not None:
+        number(mm(making.lead_um), LEAD_MM, f"{where}: the length of the lead in mm")
+    for passes_um in (making.passes_um, *(wish.passes_um for wish in making.layers)):
+        _refuse_odd_passes(passes_um, where)
+
+
+def refuse_misfits(writing: Writing, language: Language, where: str) -> None:
+    """SettingsError for what the language that is written has nothing for."""
+    usual = Writing()
+    for name in ("form", "end_code", "pause_code") if language == "iso" else ("compensation", "decimals"):
+        if getattr(writing, name) != getattr(usual, name):
+            raise SettingsError(f"{where}: {name} is for {'3B and 4B' if language == 'iso' else 'ISO'}, not {language}")
+
+
+def _refuse_odd_passes(passes_um: tuple[float, ...], where: str) -> None:
+    if not passes_um:
+        return
+    number(len(passes_um), PASSES, f"{where}: the number of passes")
+    for one in passes_um:
+        number(mm(one), OR_NONE_MM, f"{where}: the offset of a pass in mm")
+    if any(later > before for before, later in pairwise(passes_um)):
+        raise SettingsError(f"{where}: the offset of a pass is no larger than that of the pass before it")
+    if len(passes_um) > 1 and not min(passes_um):
+        raise SettingsError(f"{where}: a pass of offset 0 is one on the contour itself, and the only one")

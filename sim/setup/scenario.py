@@ -15,6 +15,7 @@ from sim.setup.dialect import READ_WITH
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
 from sim.setup.machine.controller_model import INTERPOLATOR
 from sim.setup.machine.machine import Machine, load_machine
+from sim.setup.making import LAYER, PROGRAM, LayerWish, ToMake, read_to_make
 from sim.setup.obstacles import CLAMPS, Clamp, Outline, OutlineMm, read_clamps
 from sim.setup.part import (
     DEFAULT_DENSITY_G_CM3,
@@ -82,6 +83,9 @@ class Scenario:
         Density of the work.
     quiz
         What the replay asks a trainee.
+    to_make
+        How its program is made of its drawing; None where there is no more to it than the file. A file that stands
+        there is what runs all the same.
     expect
         What the scenario promises of its report; checked after the run.
     machine_by_default
@@ -108,6 +112,7 @@ class Scenario:
     drawing: DrawingTarget | None = None
     density_g_cm3: float = DEFAULT_DENSITY_G_CM3
     quiz: tuple[Question, ...] = ()
+    to_make: ToMake | None = None
     expect: tuple[Expectation, ...] = ()
     machine_by_default: bool = field(default=False, compare=False)
 
@@ -122,6 +127,11 @@ class Scenario:
         """What the program is read with."""
         registers = merged([self.machine.controller.registers, self.registers])
         return Choices(dialect=self.dialect, unit=self.unit, registers=registers)
+
+    @property
+    def layer_wishes(self) -> tuple[LayerWish, ...]:
+        """What is asked of the contours of some layers where its program is made."""
+        return () if self.to_make is None else self.to_make.making.layers
 
     @property
     def wire_lag_um(self) -> float:
@@ -152,12 +162,17 @@ def _usual_names() -> tuple[str, ...]:
     return tuple(f"program{suffix}" for suffix in suffixes())
 
 
+def _plain_program(scenario: Scenario) -> Path | None:
+    """Its program where no section tells of it: a file has one or the other by that name."""
+    return scenario.program if scenario.to_make is None else None
+
+
 TOP = Section(
     "scenario",
     (
         Key("title", Name(), default=None),
         Key("provenance", Text(), default="not given"),
-        Key("program", FileName(), default=_usual_names()[0]),
+        Key("program", FileName(), default=_usual_names()[0], get=_plain_program),
         Key("machine", Text(), default=DEFAULT_MACHINE, get=lambda _: MACHINE_FILE),
         *READ_WITH,
         Key("interpolator", INTERPOLATOR, default=None, get=lambda _: None),  # the machine file says it
@@ -177,7 +192,7 @@ WORK = Section(
         Key("outline_mm", OutlineMm(), "work_um", default=None),
     ),
 )
-SECTIONS = (TOP, WIRE, WORK, OFFSET, PASS, DRAWING, CLAMPS, QUIZ, EXPECT)
+SECTIONS = (TOP, WIRE, WORK, OFFSET, PASS, DRAWING, PROGRAM, LAYER, CLAMPS, QUIZ, EXPECT)
 """Sections of a scenario file."""
 
 
@@ -197,7 +212,10 @@ def load_scenario(path: Path | str) -> Scenario:
     if not file.exists():
         raise SettingsError(f"{path}: is a folder without scenario.toml; give a program or a scenario folder")
     content, where = load_toml(file), str(file)
-    value = TOP.read(content, where, beside=(section.name for section in SECTIONS[1:]))
+    drawing = read_drawing_target(content, where, path)
+    to_make = read_to_make(content, where, drawing)
+    top = content if to_make is None else {**content, "program": str(to_make.file)}
+    value = TOP.read(top, where, beside=(section.name for section in SECTIONS[1:]))
     machine = load_machine(value.pop("machine"), beside=path)
     interpolator, program = value.pop("interpolator"), value.pop("program")
     return Scenario(
@@ -207,7 +225,8 @@ def load_scenario(path: Path | str) -> Scenario:
         wire=read_wire(section(content, "wire", where), f"{where}: [wire]"),
         clamps=read_clamps(content, where),
         offset=read_offset(content, where),
-        drawing=read_drawing_target(content, where, path),
+        drawing=drawing,
+        to_make=to_make,
         quiz=read_quiz(content, where),
         expect=read_expectation(section(content, "expect", where), f"{where}: [expect]"),
         machine_by_default="machine" not in content,

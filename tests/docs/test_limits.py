@@ -5,7 +5,8 @@ import re
 from places import ROOT
 
 from parser import units
-from parser.drawing import blocks, document, flat, splines
+from parser.drawing.dxf import blocks, document
+from parser.drawing.plane import flat, splines
 from parser.files import reading
 from parser.threeb import reader
 from sim.check import too_large

@@ -14,6 +14,7 @@ from ezdxf.filemanagement import dxf_stream_info
 from ezdxf.lldxf.encoding import decode_dxf_unicode
 from ezdxf.lldxf.tagger import binary_tags_loader
 
+from parser.drawing.dxf.marks import with_marks
 from parser.files.kinds import kind_of
 from parser.files.reading import read_bytes
 from parser.findings.catalogue import term
@@ -64,8 +65,19 @@ def _loaded(path: Path, data: bytes) -> tuple[Document, list[Remark]]:
     try:
         return _text(data), early
     except Exception:  # damaged files end in any error
-        document, mended = _recovered(path, data)
-        return document, early + mended
+        return _mended(path, data, early)
+
+
+def _mended(path: Path, data: bytes, early: list[Remark]) -> tuple[Document, list[Remark]]:
+    """The document of data that ezdxf refuses: whole but for its subclass marks, or damaged."""
+    marked = with_marks(data)
+    if marked is not data:
+        try:
+            return _text(marked), early
+        except Exception:
+            data = marked
+    document, mended = _recovered(path, data)
+    return document, early + mended
 
 
 def _ended(data: bytes) -> bytes:

@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parser.drawing.loops.ends import Ends, joints
+from parser.drawing.loops.parting import Run, parted, signed_areas
+from parser.drawing.loops.strings import Strings, strings_of
 from parser.drawing.model import SAME_WITHIN_UM, DrawnLoop, running
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import directions
@@ -18,58 +20,30 @@ class Chained(NamedTuple):
     branches_um: Floats
 
 
-class _Strings(NamedTuple):
-    """First and last rows (s,) of curves that an entity runs through one after the other."""
-
-    first: Ints
-    last: Ints
-
-
-class _Run(NamedTuple):
-    """Rows (n,) in running order, whether each is run backwards, its loop, and the end that each loop enters by."""
-
-    row: Ints
-    backwards: NDArray[np.bool_]
-    of: Ints
-    begin: Ints
-
-
 def chain(curves: Curves, entity: Ints, gap_um: float) -> Chained:
     """Loops of curves (n,) whose ends lie within `gap_um`; entities are numbers (n,) that do not decrease."""
-    strings = _strings(curves, entity)
+    strings = strings_of(curves, entity)
     ends = _ends(curves, strings)
     partner = np.full(len(ends.place_um), -1, dtype=np.int64)
-    itself = np.flatnonzero(_is_closed(curves, strings))
+    itself = np.flatnonzero(strings.closed)
     partner[2 * itself], partner[2 * itself + 1] = 2 * itself + 1, 2 * itself
     branches = []
     for within_um in sorted({SAME_WITHIN_UM, max(gap_um, SAME_WITHIN_UM)}):
         made = joints(ends, np.flatnonzero(partner < 0), within_um)
         partner[made.pair[:, 0]], partner[made.pair[:, 1]] = made.pair[:, 1], made.pair[:, 0]
         branches.append(made.branch)
-    run = _run(strings, _ways(partner))
     places = ends.place_um[np.unique(np.concatenate(branches))]
-    return Chained(_loops(curves, run, partner), np.unique(np.round(places, -1), axis=0))
+    run = parted(curves, _run(strings, _ways(partner), partner), places, gap_um)
+    return Chained(_loops(curves, run), np.unique(np.round(places, -1), axis=0))
 
 
-def _strings(curves: Curves, entity: Ints) -> _Strings:
-    apart = np.hypot(*(curves.start_um[1:] - curves.end_um[:-1]).T) > SAME_WITHIN_UM
-    cut = np.flatnonzero(apart | (np.diff(entity) != 0)) + 1
-    return _Strings(np.append(0, cut), np.append(cut, len(curves)) - 1)
-
-
-def _ends(curves: Curves, strings: _Strings) -> Ends:
+def _ends(curves: Curves, strings: Strings) -> Ends:
     along = directions(curves)
     run = curves.before_um
     place = np.stack([curves.start_um[strings.first], curves.end_um[strings.last]], axis=1)
     out = np.stack([-along.leaving[strings.first], along.arriving[strings.last]], axis=1)
     length = np.repeat(run[strings.last + 1] - run[strings.first], 2)
     return Ends(place.reshape(-1, 2), out.reshape(-1, 2), length)
-
-
-def _is_closed(curves: Curves, strings: _Strings) -> NDArray[np.bool_]:
-    gap = np.hypot(*(curves.start_um[strings.first] - curves.end_um[strings.last]).T)
-    closed: NDArray[np.bool_] = gap <= SAME_WITHIN_UM
-    return closed
 
 
 def _ways(partner: Ints) -> list[list[int]]:
@@ -90,7 +64,7 @@ def _way(to: list[int], seen: list[bool], end: int) -> list[int]:
     return way
 
 
-def _run(strings: _Strings, ways: list[list[int]]) -> _Run:
+def _run(strings: Strings, ways: list[list[int]], partner: Ints) -> Run:
     """Rows in the order in which the ways pass them."""
     entry = np.array([end for way in ways for end in way], dtype=np.int64)
     string, back = entry // 2, entry % 2 == 1
@@ -100,15 +74,15 @@ def _run(strings: _Strings, ways: list[list[int]]) -> _Run:
     row = np.where(back[of_string], strings.last[string][of_string] - at, strings.first[string][of_string] + at)
     of = np.repeat(np.arange(len(ways)), [len(way) for way in ways])[of_string]
     begin = np.array([way[0] for way in ways], dtype=np.int64)
-    return _Run(row, back[of_string], of, begin)
+    return Run(row, back[of_string], of, partner[begin] >= 0)
 
 
-def _loops(curves: Curves, run: _Run, partner: Ints) -> tuple[DrawnLoop, ...]:
+def _loops(curves: Curves, run: Run) -> tuple[DrawnLoop, ...]:
     """Loops of rows, closed ones counter-clockwise from their leftmost place, open ones as their first row runs."""
-    closed = partner[run.begin] >= 0
+    closed = run.closed
     first = np.flatnonzero(np.diff(run.of, prepend=-1))
     past = np.append(first[1:], len(run.of))
-    turned = _turned(run, first, past, np.where(closed, _areas(curves, run) < 0.0, _runs_back(run)))
+    turned = _turned(run, first, past, np.where(closed, signed_areas(curves, run) < 0.0, _runs_back(run)))
     ran = running(curves, turned.row, turned.backwards)
     gap = np.hypot(*(ran.start_um - np.roll(ran.end_um, 1, axis=0)).T)
     gap[first] = np.where(closed, np.hypot(*(ran.start_um[first] - ran.end_um[past - 1]).T), 0.0)
@@ -121,14 +95,14 @@ def _loops(curves: Curves, run: _Run, partner: Ints) -> tuple[DrawnLoop, ...]:
     return tuple(DrawnLoop(row, back, whole, gap_um) for row, back, whole, gap_um in columns)
 
 
-def _turned(run: _Run, first: Ints, past: Ints, turn: NDArray[np.bool_]) -> _Run:
+def _turned(run: Run, first: Ints, past: Ints, turn: NDArray[np.bool_]) -> Run:
     """The run with some loops run through the other way."""
     at, whether = np.arange(len(run.of)), turn[run.of]
     other = np.where(whether, (first + past - 1)[run.of] - at, at)
     return run._replace(row=run.row[other], backwards=run.backwards[other] ^ whether)
 
 
-def _runs_back(run: _Run) -> NDArray[np.bool_]:
+def _runs_back(run: Run) -> NDArray[np.bool_]:
     """Whether loops (l,) run through the earliest of their rows from its end."""
     order = np.lexsort([run.row, run.of])
     back: NDArray[np.bool_] = run.backwards[order[np.flatnonzero(np.diff(run.of[order], prepend=-1))]]
@@ -140,13 +114,3 @@ def _leftmost(start: Floats, of: Ints) -> Ints:
     order = np.lexsort([start[:, 1], start[:, 0], of])
     leftmost: Ints = order[np.flatnonzero(np.diff(of[order], prepend=-1))]
     return leftmost
-
-
-def _areas(curves: Curves, run: _Run) -> Floats:
-    """Signed areas (l,) µm² of loops, arcs included."""
-    ran = running(curves, run.row, run.backwards)
-    origin = ran.start_um[np.flatnonzero(np.diff(run.of, prepend=-1))][run.of]
-    start, end = ran.start_um - origin, ran.end_um - origin
-    segment = np.where(ran.is_arc, ran.radius_um**2 * (ran.sweep_rad - np.sin(ran.sweep_rad)), 0.0)
-    area = np.bincount(run.of, 0.5 * (start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0] + segment))
-    return area.astype(np.float64)

@@ -43,7 +43,7 @@ def joints(ends: Ends, loose: Ints, within_um: float) -> JoinedEnds:
     The nearest two ends are joined first. Of pairs that are equally near, those go first whose strings do not end free
     at the other end, and of these the pair that runs on straightest.
     """
-    pair, crowd = _near(ends.place_um[loose], within_um)
+    pair, crowd = near(ends.place_um[loose], within_um)
     pair = loose[pair]
     by = np.hypot(*(ends.place_um[pair[:, 0]] - ends.place_um[pair[:, 1]]).T)
     # A string shorter than the distance does not close upon itself.
@@ -76,7 +76,7 @@ def _matched(pair: Ints) -> Ints:
     return pair[kept]
 
 
-def _near(place: Floats, within_um: float) -> tuple[Ints, Ints]:
+def near(place: Floats, within_um: float) -> tuple[Ints, Ints]:
     """Pairs (k, 2) of places in one cell of a grid or in neighbouring ones, and places (c,) in cells with a crowd."""
     cell = np.floor(place / within_um).astype(np.int64)
     key = cell_keys(*cell.T)  # two cells of one key cost time, not truth

@@ -13,7 +13,7 @@ import numpy as np
 
 from controller.offset.reach import OffsetLoop, reach
 from controller.offset.sections import Side
-from parser.drawing.model import Drawing, running
+from parser.drawing.model import SAME_WITHIN_UM, Drawing, running
 from parser.geometry.along import along_um, headings_along, places, places_at
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.geometry.directions import directions
@@ -96,7 +96,7 @@ def reachable(drawing: Drawing, part_side: Ints, reach_um: float) -> Reachable:
     closed = [loop for loop in drawing.loops if loop.closed]
     for number, (loop, side) in enumerate(zip(closed, part_side.tolist(), strict=True)):
         ring = running(drawing.curves, loop.row, loop.backwards)
-        fillets = _fillets(ring, side, reach_um) if side and reach_um > 0.0 else []
+        fillets = _fillets(ring, side, reach_um, loop.gap_um) if side and reach_um > 0.0 else []
         if not fillets:
             continue
         kept[loop.row] = False
@@ -132,11 +132,16 @@ def _told(fillet: _Fillet, reach_um: float, ring: Curves, entity: int) -> Unreac
     return Unreachable(Point(*left[deepest].tolist()), float(away[deepest]) - reach_um, np.pi - turned, entity)
 
 
-def _fillets(ring: Curves, side: int, reach_um: float) -> list[_Fillet]:
-    """Fillets in a loop with the part on a side, in the loop's order; one by one, since most loops have few or none."""
+def _fillets(ring: Curves, side: int, reach_um: float, gap_um: float) -> list[_Fillet]:
+    """Fillets in a loop with the part on a side, in the loop's order; one by one, since most loops have few or none.
+
+    Ends that are joined may lie past each other by the gap that is bridged, or by what a file loses of its places: seen
+    from a fillet's centre, the loop steps back there.
+    """
     fillets = [fillet for offset in reach(ring, reach_um, Side(-side)).loops for fillet in _kinks(ring, offset, side)]
     deep = 2.0 * np.arccos(reach_um / (reach_um + _LEAST_UM))
-    found = [fillet for fillet in fillets if fillet.turn_rad > deep and _is_corner(ring, fillet, reach_um)]
+    back = _SAME_RAD + (gap_um + SAME_WITHIN_UM) / reach_um
+    found = [fillet for fillet in fillets if fillet.turn_rad > deep and _is_corner(ring, fillet, reach_um, back)]
     return sorted(found, key=lambda fillet: (fillet.first, fillet.first_um))
 
 
@@ -154,16 +159,16 @@ def _kinks(ring: Curves, offset: OffsetLoop, side: int) -> Iterator[_Fillet]:
         yield _Fillet(center, *values)
 
 
-def _is_corner(ring: Curves, fillet: _Fillet, reach_um: float) -> bool:
+def _is_corner(ring: Curves, fillet: _Fillet, reach_um: float, back_rad: float) -> bool:
     """Whether a fillet lies in a corner, and not before a slot that is too narrow for the wire.
 
-    In a corner both sides run on from the fillet, the wire's centre sees all that it leaves, and what it leaves is not
-    much deeper than between two straight sides.
+    In a corner both sides run on from the fillet, the wire's centre sees all that it leaves, which steps back by no
+    more than `back_rad`, and what it leaves is not much deeper than between two straight sides.
     """
     out = _left(ring, fillet) - fillet.center_um
     away = np.hypot(out[:, 0], out[:, 1])
     turns = np.diff(np.unwrap(np.arctan2(out[:, 1], out[:, 0])))
-    sees_all = bool((turns >= -_SAME_RAD).all() or (turns <= _SAME_RAD).all())
+    sees_all = bool((turns >= -back_rad).all() or (turns <= back_rad).all())
     straight_um = reach_um / np.cos(0.5 * fillet.turn_rad) - reach_um
     rim, side = out[[0, -1]] / away[[0, -1], None], _sides(ring, fillet)
     tangent = np.abs(rim[:, 0] * side[:, 1] - rim[:, 1] * side[:, 0])

@@ -41,10 +41,11 @@ def setting_groups(scenario: Scenario, program: Program) -> list[SettingGroup]:
     named, *of_machine = machine_sections(scenario.machine)
     settings = {setting.key: setting for setting in (*_settings(whole), *_settings(named))}
     del settings["machine"], settings["name"]  # shown by its own sections, and beside the time
+    settings.pop("program", None)  # shown by its name alone
     read = (
         settings.pop("title"),
         settings.pop("provenance"),
-        settings.pop("program")._replace(value=same(program.name)),
+        _program(whole.section, program),
         _found("encoding", program.encoding),
         _found("dialect", program.reading.dialect),
     )
@@ -54,6 +55,12 @@ def setting_groups(scenario: Scenario, program: Program) -> list[SettingGroup]:
         SettingGroup(said("report.section-run"), tuple(settings.values())),
         *_groups(of_machine),
     ]
+
+
+def _program(top: Section, program: Program) -> Setting:
+    """The name of the program, whichever section tells of its file."""
+    key = next(key for key in top.keys if key.name == "program")
+    return Setting(words_of(top, key).name, key.name, same(program.name), key.kind.unit)
 
 
 def _found(key: str, value: str) -> Setting:

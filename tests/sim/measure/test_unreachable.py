@@ -2,6 +2,7 @@
 
 import math
 import random
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -66,6 +67,18 @@ def test_an_arc_tighter_than_the_wire_is_as_a_corner() -> None:
     ]
     assert [place.entity for place in tight if place.where_um.y < 50.0] == [0]
     assert min(place.depth_um for place in tight) == pytest.approx((math.sqrt(2.0) - 1.0) * 60.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("past_um", [0.0002, 0.001, 3.0])
+def test_a_corner_whose_sides_run_past_each_other_is_a_corner(past_um: float) -> None:
+    """Files round the ends of a line and of the arc behind it; ends that lie apart by less than a gap are joined."""
+    wedge = polygon((0, 0), (40_000, 0), (20_000, 20_000 * math.sqrt(3.0)))
+    drawing = drawing_of(wedge)
+    drawing.curves.end_um[0, 0] += past_um
+    if past_um > 0.001:
+        drawing = replace(drawing, loops=tuple(replace(loop, gap_um=past_um) for loop in drawing.loops))
+    corners = sorted(reachable(drawing, np.array([-1]), F).unreachable, key=lambda place: place.where_um.x)
+    assert [place.depth_um for place in corners] == pytest.approx([F, F, F], abs=past_um)
 
 
 def test_a_slot_that_is_too_narrow_is_no_corner() -> None:

@@ -1,0 +1,47 @@
+"""Where the program of a scenario comes from: its file, or its drawing where there is no file."""
+
+from typing import NamedTuple
+
+from parser.files.reading import read_bytes
+from parser.findings.errors import DrawingError
+from parser.program import Program, load_program
+from parser.text.encoding import printable
+from sim.setup.making import ToMake
+from sim.setup.scenario import Scenario
+from sim.table.motion import Progress, silent
+
+
+class Source(NamedTuple):
+    """Bytes of a program, and whether they were made of a drawing, so that no file holds them yet."""
+
+    data: bytes
+    is_made: bool
+
+
+def source_of(scenario: Scenario, progress: Progress = silent) -> Source:
+    """The bytes of a scenario's program.
+
+    Raises FileUnreadableError where file or drawing cannot be read, DrawingError where no program can be made of the
+    drawing, SettingsError where it cannot be written as it is asked for.
+    """
+    if scenario.to_make is None or scenario.program.exists():
+        return Source(read_bytes(scenario.program), is_made=False)
+    return Source(_made(scenario, scenario.to_make, progress), is_made=True)
+
+
+def _made(scenario: Scenario, to_make: ToMake, progress: Progress) -> bytes:
+    from sim.cam.maker import NotMade  # noqa: PLC0415 - few programs are made, and what makes them takes long to load
+    from sim.cam.of_scenario import program_of  # noqa: PLC0415 - as above
+    from sim.show.refusals import why_refused  # noqa: PLC0415 - as above
+    from sim.show.words import Words  # noqa: PLC0415 - as above
+
+    done = program_of(scenario, to_make, progress)
+    if isinstance(done, NotMade):
+        drawing = printable(str(scenario.drawing and scenario.drawing.file))
+        raise DrawingError(Words("en")("program.not-written", name=drawing, why=why_refused(done.refusal)))
+    return done.data
+
+
+def program_read(scenario: Scenario, source: Source) -> Program:
+    """The program of its bytes. ProgramError where they hold none."""
+    return load_program(source.data, printable(scenario.program.name), scenario.choices)

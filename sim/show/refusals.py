@@ -1,0 +1,34 @@
+"""Why no program is made of a drawing, in words."""
+
+from collections.abc import Sequence
+
+from parser.findings.catalogue import Said
+from parser.text.encoding import printable
+from parser.units import mm
+from sim.cam.model import Refusal
+from sim.show.words import said
+from sim.show.words.phrases import same
+
+_MOST_PLACES = 5
+
+
+def why_refused(refusal: Refusal) -> Said:
+    """The text of a refusal, its places behind it."""
+    values = {name: same(printable(value)) for name, value in refusal.values}
+    why = said(f"program.refused-{refusal.why}", **values)
+    if not refusal.places_um:
+        return why
+    return said("program.at", what=why, places=places_said(refusal.places_um))
+
+
+def places_said(places_um: Sequence[tuple[float, float]]) -> Said:
+    """Places in mm, the first few of many."""
+    named = ", ".join(place_text(place) for place in places_um[:_MOST_PLACES])
+    more = len(places_um) - _MOST_PLACES
+    return said("program.places-more", places=named, more=f"{more:,}") if more > 0 else same(named)
+
+
+def place_text(place: tuple[float, float]) -> str:
+    """A place in mm, such as ``(12.5, -3)``."""
+    x, y = (round(mm(one), 3) + 0.0 for one in place)
+    return f"({x:g}, {y:g})"
