@@ -10,11 +10,13 @@ from sim.cam.model import CannotCutError, CutPlan, Refusal
 from sim.cam.order.order import in_order
 from sim.cam.order.sides import with_sides
 from sim.cam.parts.parts import parts_of
+from sim.cam.parts.walls import walls
 from sim.cam.passes.passes import figure_cut
 from sim.cam.path.drafted import draft_of_plan
 from sim.cam.proof.proof import Given, proved
 from sim.cam.proof.result import Proof
 from sim.cam.threads.threads import threads_of
+from sim.cam.tolerances import fit_share_um
 from sim.convert.proof import Proof as Written
 from sim.convert.proof import proof as held_against
 from sim.convert.wanted import Wanted, read_with, written
@@ -58,15 +60,16 @@ class NotMade(NamedTuple):
 def planned(path: Path, making: Making, scenario: Scenario, progress: Progress = silent) -> CutPlan:
     """What is to be cut, and how. CannotCutError where the drawing asks for what cannot be."""
     progress("drawing", 0, 1)
-    drawing = read_drawing(path, making.layer, making.gap_um)
+    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_share_um(making.tolerance_um))
     progress("figures", 0, 1)
-    parts = parts_of(drawing)
+    parts = parts_of(drawing, making)
     passes_um = making.passes_um or (scenario.wire.reach_um,)
     figures = with_sides(parts.figures, making)
+    notes = (*parts.notes, *walls(figures, passes_um, scenario.wire.reach_um))
     threads = threads_of(drawing, figures, making, max(passes_um))
     order = in_order(figures, threads, making)
     cuts = tuple(figure_cut(figures[one], threads[one], passes_um, making) for one in order)
-    return CutPlan(drawing, making, passes_um, cuts, parts.left_out, parts.notes)
+    return CutPlan(drawing, making, passes_um, cuts, parts.left_out, notes)
 
 
 def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress = silent) -> Made | NotMade:
