@@ -20,6 +20,9 @@ def wanted_of(writing: Writing, language: Language, scenario: Scenario, name: st
         keeps=writing.compensation == "kept",
         newline="\r\n" if writing.crlf else "\n",
         name=name,
+        end_code=writing.end_code,
+        pause_code=writing.pause_code,
+        encoding=writing.encoding,
     )
 
 

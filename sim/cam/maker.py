@@ -19,7 +19,7 @@ from sim.cam.threads.threads import threads_of
 from sim.cam.tolerances import fit_share_um
 from sim.convert.proof import Proof as Written
 from sim.convert.proof import proof as held_against
-from sim.convert.wanted import Wanted, read_with, written
+from sim.convert.wanted import Wanted, encoded, read_with, written
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 from sim.table.motion import Progress, silent
@@ -94,10 +94,11 @@ def unproved(
         draft = draft_of_plan(plan)
     except CannotCutError as error:
         return NotMade(error.refusal)
+    wanted = wanted._replace(offset_um=plan.passes_um[0] if len(plan.passes_um) == 1 else None)
     text = written(draft, wanted)
-    data = text.text.encode()
-    program = load_program(data, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
-    return Made(data, program, plan, draft, held_against(draft, text, program.toolpath))
+    told = text.text.encode(wanted.encoding, "replace")
+    program = load_program(told, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
+    return Made(encoded(text.text, wanted), program, plan, draft, held_against(draft, text, program.toolpath))
 
 
 def _given(path: Path, done: Made, wanted: Wanted) -> Given:

@@ -10,7 +10,7 @@ from parser.write.iso import written_iso
 from parser.write.iso_choices import IsoChoices
 from parser.write.rapids import without_rapids
 from parser.write.sides import registers_of
-from parser.write.threeb import Form, ThreeBChoices, written_3b
+from parser.write.threeb import Form, ThreeBChoices, with_codes, written_3b
 
 Language = Literal["3b", "4b", "iso"]
 _BOUND_STEPS = 3.0
@@ -37,6 +37,11 @@ class Wanted(NamedTuple):
         Of the program, for headers.
     offset_um
         Offset that is worked in, for headers; None where none is known.
+    end_code, pause_code
+        Words of 3B and 4B in place of ``DD`` and ``D``; None for those. They go into the file alone: what is read back
+        has the words that every reader knows.
+    encoding
+        Of the file.
     """
 
     language: Language
@@ -46,6 +51,9 @@ class Wanted(NamedTuple):
     newline: str = "\n"
     name: str = ""
     offset_um: float | None = None
+    end_code: str | None = None
+    pause_code: str | None = None
+    encoding: str = "utf-8"
 
     @property
     def bound_um(self) -> float:
@@ -69,6 +77,12 @@ def written(draft: Draft, wanted: Wanted) -> Written:
         marks = curve_marks(draft.curves) if wanted.language == "4b" else None
         made = written_3b(draft, ThreeBChoices(wanted.form, wanted.name, wanted.offset_um, marks))
     return made._replace(text=made.text.replace("\n", wanted.newline))
+
+
+def encoded(text: str, wanted: Wanted) -> bytes:
+    """Bytes of a file with a written text. Letters that its encoding does not have become question marks."""
+    told = text if wanted.iso is not None else with_codes(text, wanted.end_code, wanted.pause_code)
+    return told.encode(wanted.encoding, "replace")
 
 
 def read_with(draft: Draft, wanted: Wanted) -> Choices:
