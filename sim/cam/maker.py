@@ -19,7 +19,7 @@ from sim.cam.threads.threads import threads_of
 from sim.cam.tolerances import fit_share_um
 from sim.convert.proof import Proof as Written
 from sim.convert.proof import proof as held_against
-from sim.convert.wanted import Wanted, encoded, read_with, written
+from sim.convert.wanted import Wanted, begun, encoded, read_with, written
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 from sim.table.motion import Progress, silent
@@ -91,10 +91,9 @@ def unproved(
     try:
         plan = planned(path, making, scenario, progress)
         progress("write", 0, 1)
-        draft = draft_of_plan(plan)
+        draft = begun(draft_of_plan(plan), wanted)
     except CannotCutError as error:
         return NotMade(error.refusal)
-    wanted = wanted._replace(offset_um=plan.passes_um[0] if len(plan.passes_um) == 1 else None)
     text = written(draft, wanted)
     told = text.text.encode(wanted.encoding, "replace")
     program = load_program(told, f"{path.stem}.{wanted.language}", read_with(draft, wanted))

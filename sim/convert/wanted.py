@@ -8,7 +8,7 @@ from parser.write.curve_marks import curve_marks
 from parser.write.draft import Draft, Written, draft_of
 from parser.write.iso import written_iso
 from parser.write.iso_choices import IsoChoices
-from parser.write.rapids import without_rapids
+from parser.write.rapids import with_rapid_to_start, without_rapids
 from parser.write.sides import registers_of
 from parser.write.threeb import Form, ThreeBChoices, with_codes, written_3b
 
@@ -65,8 +65,14 @@ def draft_for(toolpath: Toolpath, wanted: Wanted) -> Draft:
     """What is to be written of a toolpath: 3B and 4B have no words for offsets, nor of their own for rapids."""
     draft = draft_of(toolpath)
     if wanted.iso is not None:
-        return draft
+        return begun(draft, wanted)
     return (without_rapids(draft) if draft.words is None else draft).without_compensation()
+
+
+def begun(draft: Draft, wanted: Wanted) -> Draft:
+    """A draft that begins as the dialect does that is written."""
+    by_rapid = wanted.iso is not None and wanted.iso.habits.starts_by == "rapid"
+    return with_rapid_to_start(draft) if by_rapid else draft
 
 
 def written(draft: Draft, wanted: Wanted) -> Written:
