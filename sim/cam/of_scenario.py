@@ -16,7 +16,7 @@ def program_of(scenario: Scenario, to_make: ToMake, progress: Progress = silent)
     it is asked for.
     """
     drawing = drawing_to_cut(scenario)
-    wanted = wanted_of(to_make.writing, to_make.language, scenario, to_make.file.stem)
+    wanted = wanted_of(to_make, to_make.language, scenario)
     return unproved(drawing.file, to_make.making, wanted, scenario, progress)
 
 

@@ -188,7 +188,7 @@ def _made(asked: _Asked) -> "Made | NotMade":
     from sim.cli.progress import StageProgress
     from sim.run.recording import stages_of
 
-    wanted = wanted_of(asked.to_make.writing, asked.language, asked.scenario, asked.to_make.file.stem)
+    wanted = wanted_of(asked.to_make, asked.language, asked.scenario)
     stages = stages_of(replace(asked.scenario, kerf=True, drawing=None))
     with StageProgress("drawing", "figures", "write", *stages, "comparison") as progress:
         return made(asked.drawing, asked.to_make.making, wanted, asked.scenario, progress)

@@ -25,7 +25,9 @@ def places_said(places_um: Sequence[tuple[float, float]]) -> Said:
     """Places in mm, the first few of many."""
     named = ", ".join(place_text(place) for place in places_um[:_MOST_PLACES])
     more = len(places_um) - _MOST_PLACES
-    return said("program.places-more", places=named, more=f"{more:,}") if more > 0 else same(named)
+    if more > 0:
+        return said("program.places-more", places=named, more=f"{more:,}")
+    return said("program.places-all", places=named)
 
 
 def place_text(place: tuple[float, float]) -> str:

@@ -18,8 +18,9 @@ from sim.show.draw.tones import TONES, paint_of_pass
 from sim.show.pictures.plan.ways import heading_px, line_px, plan_bounds_um
 from sim.show.words import Words, said
 
-_PASS_WIDTH: Final = 5.0
-_NARROWER: Final = 0.9  # by so much each pass is drawn narrower than the one before it
+_PASS_WIDTH: Final = 3.6  # of the last one, which lies on top; each before it is wider, so that all show
+_WIDER: Final = 1.6
+_WIDEST: Final = 12.0
 _LEAD_WIDTH: Final = 2.5
 _TAB_WIDTH: Final = 4.5
 _THREAD: Final = 17.0  # radius of the disc that has the number
@@ -63,8 +64,8 @@ def _draw_ways(canvas: Canvas, page: Page, plan: CutPlan) -> None:
     unit = page.unit
     for cut in plan.cuts:
         for number, one in enumerate(cut.passes, start=1):
-            width = max(_PASS_WIDTH - _NARROWER * (number - 1), 1.5) * unit
-            _stroke(canvas, line_px(one.along, page.view), paint_of_pass(number), width)
+            width = min(_PASS_WIDTH * _WIDER ** (len(cut.passes) - number), _WIDEST)
+            _stroke(canvas, line_px(one.along, page.view), paint_of_pass(number), width * unit)
         for one in cut.cut_off:
             _stroke(canvas, line_px(one.along, page.view), Paint.PAUSE, _TAB_WIDTH * unit)
         for one in (*cut.passes, *cut.cut_off):
