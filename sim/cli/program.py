@@ -200,7 +200,7 @@ def _with_findings(done: "Made", asked: _Asked, tongue: "Tongue") -> bytes:
     from sim.cam.remarked import remarked
     from sim.show.terminal.proof import against
 
-    wanted = wanted_of(asked.to_make.writing, asked.language, asked.scenario, asked.to_make.file.stem)
+    wanted = wanted_of(asked.to_make, asked.language, asked.scenario)
     return remarked(done, [*against(done, tongue)], wanted).data
 
 
