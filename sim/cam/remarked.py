@@ -7,7 +7,7 @@ from parser.text.encoding import printable
 from sim.cam.maker import Made
 from sim.convert.wanted import Wanted, encoded, read_with
 
-_LONGEST = 100
+_LONGEST = 120
 """Characters of a remark: what a controller shows in a line (assumed)."""
 
 
