@@ -101,8 +101,9 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
             _draw(done, _Picture(picture, theme), tongue)
     if as_json:
         from sim.cam.document import document_text
+        from sim.show.words import Words
 
-        write(document_text(done), "json")
+        write(document_text(done, Words(tongue)), "json")
     else:
         _tell(done, asked, written, picture, tongue)
     raise click.exceptions.Exit(0 if is_proved else 1)
@@ -189,7 +190,7 @@ def _made(asked: _Asked) -> "Made | NotMade":
 
     wanted = wanted_of(asked.to_make, asked.language, asked.scenario)
     stages = stages_of(replace(asked.scenario, kerf=True, drawing=None))
-    with StageProgress("drawing", *stages, "comparison") as progress:
+    with StageProgress("drawing", "figures", "write", *stages, "comparison") as progress:
         return made(asked.drawing, asked.to_make.making, wanted, asked.scenario, progress)
 
 

@@ -28,7 +28,7 @@ def proof_lines(done: Made, name: str, language: Language, width: int) -> Iterat
     if len(found) > _MOST_FINDINGS:
         yield words("program.more-findings", more=f"{len(found) - _MOST_FINDINGS:,}")
     edge = proof.comparison
-    if edge is not None:
+    if edge is not None and proof.run is not None:
         text = words(
             "program.edge",
             there=f"{float(edge.edge_to_drawing.max_um.max()):.2f}",
