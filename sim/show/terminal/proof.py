@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from parser.findings.catalogue import Language
+from parser.findings.catalogue import Language, texts
 from parser.findings.codes import Severity
 from parser.findings.facts import ReadAs
 from sim.cam.maker import Made
@@ -38,3 +38,14 @@ def proof_lines(done: Made, name: str, language: Language, width: int) -> Iterat
         )
         yield from wrapped(text, width, "", _INDENT)
     yield styled(words(f"program.verdict-{proof.verdict}"), f"bold {COLOURS[proof.verdict]}")
+
+
+def against_lines(done: Made, language: Language) -> list[str]:
+    """What speaks against a program, a line for each: what was found wrong, then what could not be proved."""
+    proof, words = done.proof, Words(language)
+    if proof is None:
+        return []
+    faults = [words(f"program.fault-{one.name}", **one.values) for one in proof.faults]
+    findings = [f"{one.code} {texts(one, language).message}" for one in proof.counting]
+    unproved = [words(f"program.unproved-{one.name}", **one.values) for one in proof.unproved]
+    return [*faults, *findings, *unproved][:_MOST_FINDINGS]
