@@ -94,7 +94,6 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
         flatten_um=asked.flatten_um,
         notes=(*notes, *([assumed] if assumed else []), *notes_of(placed, wanted, gathered, once.again, chained)),
         left_out=tuple(_again(wanted, again) for again in once.again),
-        fit=None if asked.fit_um is None else _fit_figures(gathered, asked.fit_um),
     )
     return drawing if asked.fit_um is None else _with_arcs(drawing, asked.fit_um, gathered.counts.fit_max_um)
 
@@ -105,11 +104,6 @@ def _with_arcs(drawing: Drawing, fit_um: float, so_far_um: float) -> Drawing:
     arcs = int(fitted.curves.is_arc.sum())
     figures = FitFigures(fit_um, max(so_far_um, fitted.max_um), arcs, len(fitted.curves) - arcs)
     return replace(drawing, curves=fitted.curves, entity=fitted.entity, loops=fitted.loops, fit=figures)
-
-
-def _fit_figures(gathered: Gathered, fit_um: float) -> FitFigures:
-    arcs = int(gathered.curves.is_arc.sum())
-    return FitFigures(fit_um, gathered.counts.fit_max_um, arcs, len(gathered.curves) - arcs)
 
 
 def _wanted(document: Document, placed: Sequence[Placed], layer: str | None) -> list[Placed]:
