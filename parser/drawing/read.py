@@ -79,7 +79,7 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
     gathered = gather(wanted, asked.flatten_um, asked.fit_um)
     if not len(gathered.curves):
         raise DrawingError(_nothing(placed, wanted, asked.layer))
-    once = drawn_once(gathered.curves, gathered.entity, asked.gap_um)
+    once = drawn_once(gathered.curves, gathered.entity)
     number, entity = np.unique(once.entity, return_inverse=True)
     chained = chain(once.curves, entity, asked.gap_um)
     drawing = Drawing(
