@@ -104,7 +104,7 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
 
 def _with_arcs(drawing: Drawing, fit_um: float, so_far_um: float) -> Drawing:
     """A drawing with arcs in place of dense lines, where ellipses and splines are arcs already."""
-    fitted = loops_with_arcs(drawing.curves, drawing.entity, drawing.loops, fit_um)
+    fitted = loops_with_arcs(drawing, fit_um)
     arcs = int(fitted.curves.is_arc.sum())
     figures = FitFigures(fit_um, max(so_far_um, fitted.max_um), arcs, len(fitted.curves) - arcs)
     return replace(drawing, curves=fitted.curves, entity=fitted.entity, loops=fitted.loops, fit=figures)
