@@ -4,17 +4,14 @@ import numpy as np
 import pytest
 from drawings_dxf import drawn
 from ezdxf.layouts import Modelspace
+from made_programs import plan_of
 from twins import motion
 
 from parser.dialect.choices import Choices
-from parser.drawing.read import read_drawing
 from parser.program import parse_program
 from parser.toolpath import Point
 from parser.write.draft import Draft
 from parser.write.iso_choices import iso_choices
-from sim.cam.model import CutPlan, Entry, Thread
-from sim.cam.parts.parts import parts_of
-from sim.cam.passes.passes import figure_cut
 from sim.cam.path.drafted import draft_of_plan
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands
@@ -34,7 +31,6 @@ N9 M02
 """
 THREE_B = ["B0B50000B100000GXNR2", "B100000B0B100000GXL1", "B0B50000B100000GXNR4", "B100000B0B100000GXL3"]
 TO_ISO = Wanted("iso", iso_choices("patent-mill"))
-START = Point(50_000.0, 100_000.0)
 
 
 def slot(space: Modelspace) -> None:
@@ -48,13 +44,8 @@ def slot(space: Modelspace) -> None:
 @pytest.fixture(name="draft", scope="module")
 def slot_draft(tmp_path_factory: pytest.TempPathFactory) -> Draft:
     """The slot on its contour, counter-clockwise from the patent's start."""
-    drawing = read_drawing(drawn(tmp_path_factory.mktemp("slot"), slot))
-    making = Making(passes_um=(0.0,), direction="ccw", starts_um=(START,))
-    (figure,) = parts_of(drawing, making).figures
-    row = int(np.argmin(np.hypot(*(figure.contour.start_um - np.array(START)).T)))
-    thread = Thread(START, "asked", Entry(row, 0.0, START, Point(0.0, 1.0)))
-    cut = figure_cut(figure, thread, making.passes_um, making)
-    return draft_of_plan(CutPlan(drawing, making, making.passes_um, (cut,), (), ()))
+    making = Making(passes_um=(0.0,), direction="ccw", starts_um=(Point(50_000.0, 100_000.0),))
+    return draft_of_plan(plan_of(drawn(tmp_path_factory.mktemp("slot"), slot), making))
 
 
 def test_the_slot_is_the_patents_text_block_by_block(draft: Draft) -> None:
