@@ -13,7 +13,8 @@ from parser.drawing.dxf.blocks import Placed
 from parser.drawing.dxf.entities import reader_of
 from parser.drawing.dxf.forms import COLUMNS, ReadEntity, Spline, behind
 from parser.drawing.model import SAME_WITHIN_UM
-from parser.drawing.plane.flat import Flat, flat_forms, flat_spline, is_slanted, refuse_many
+from parser.drawing.plane.flat import Flat, flat_forms, refuse_many
+from parser.drawing.plane.splined import flat_splines, placed_spline
 from parser.geometry.curves import Curves, Floats, Ints, joined
 from parser.text.encoding import printable
 
@@ -62,16 +63,9 @@ def gather(placed: Sequence[Placed], tolerance_um: float, fit_um: float | None =
     refuse_many(len(forms.forms))
     flat = flat_forms(forms.forms, forms.maps, forms.which, tolerance_um, fit_um)
     _count(counts, flat)
-    parts, entity = [flat.curves], [forms.entity[flat.form]]
-    total = len(flat.curves)
-    for number, (one, found) in enumerate(zip(placed, read, strict=True)):
-        if found is not None and isinstance(found.forms, Spline):
-            curves = _spline(one, found.forms, counts, tolerance_um, fit_um)
-            if curves is not None:
-                total += len(curves)
-                refuse_many(total)
-                parts.append(curves)
-                entity.append(np.full(len(curves), number))
+    splined, spline_entity = _splines(placed, read, counts, tolerance_um, fit_um)
+    refuse_many(len(flat.curves) + len(splined))
+    parts, entity = [flat.curves, splined], [forms.entity[flat.form], spline_entity]
     order = np.argsort(np.concatenate(entity), kind="stable")
     curves = joined(parts).picked(order)
     long = curves.length_um > SAME_WITHIN_UM
@@ -116,18 +110,27 @@ def _forms(placed: Sequence[Placed], read: Sequence[ReadEntity | None]) -> _Form
     return _Forms(np.concatenate(forms), which_of, entity, np.array(maps).reshape(-1, 4, 3))
 
 
-def _spline(
-    placed: Placed, spline: Spline, counts: EntityCounts, tolerance_um: float, fit_um: float | None
-) -> Curves | None:
-    try:
-        curves, _, off_um = flat_spline(spline, placed.place, tolerance_um, fit_um)
-    except Exception:  # knots, weights or places that cannot be
-        counts.unreadable["SPLINE"] += 1
-        return None
-    counts.flattened += len(curves) > 1
-    counts.fit_max_um = max(counts.fit_max_um, off_um)
-    counts.slanted += is_slanted(spline.control @ placed.place[:3])
-    return curves
+def _splines(
+    placed: Sequence[Placed],
+    read: Sequence[ReadEntity | None],
+    counts: EntityCounts,
+    tolerance_um: float,
+    fit_um: float | None,
+) -> tuple[Curves, Ints]:
+    """Curves of splines, and the number of the entity of each."""
+    drawn = [
+        (number, placed_spline(found.forms, placed[number].place))
+        for number, found in enumerate(read)
+        if found is not None and isinstance(found.forms, Spline)
+    ]
+    flat = flat_splines([spline for _, spline in drawn], tolerance_um, fit_um)
+    unreadable = int(flat.unreadable.sum())
+    if unreadable:
+        counts.unreadable["SPLINE"] += unreadable
+    counts.flattened += int((np.bincount(flat.of, minlength=1) > 1).sum())
+    counts.slanted += flat.slanted
+    counts.fit_max_um = max(counts.fit_max_um, flat.fit_max_um)
+    return flat.curves, np.array([number for number, _ in drawn], dtype=np.int64)[flat.of]
 
 
 def _count(counts: EntityCounts, flat: Flat) -> None:

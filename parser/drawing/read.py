@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -11,10 +12,11 @@ from ezdxf.document import Drawing as Document
 from parser.drawing.dxf.blocks import Placed, placed_entities
 from parser.drawing.dxf.document import read_document
 from parser.drawing.dxf.forms import scaled
+from parser.drawing.fit.loops import loops_with_arcs
 from parser.drawing.gather import Gathered, gather
 from parser.drawing.loops.chain import Chained, chain
 from parser.drawing.loops.once import Again, drawn_once
-from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity, LeftOut
+from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity, FitFigures, LeftOut
 from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark
 from parser.text.encoding import printable
@@ -80,7 +82,7 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
     once = drawn_once(gathered.curves, gathered.entity, asked.gap_um)
     number, entity = np.unique(once.entity, return_inverse=True)
     chained = chain(once.curves, entity, asked.gap_um)
-    return Drawing(
+    drawing = Drawing(
         name=name,
         version=str(document.acad_release),
         unit=unit.name,
@@ -93,6 +95,15 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
         notes=(*notes, *([assumed] if assumed else []), *notes_of(placed, wanted, gathered, once.again, chained)),
         left_out=tuple(_again(wanted, again) for again in once.again),
     )
+    return drawing if asked.fit_um is None else _with_arcs(drawing, asked.fit_um, gathered.counts.fit_max_um)
+
+
+def _with_arcs(drawing: Drawing, fit_um: float, so_far_um: float) -> Drawing:
+    """A drawing with arcs in place of dense lines, where ellipses and splines are arcs already."""
+    fitted = loops_with_arcs(drawing.curves, drawing.entity, drawing.loops, fit_um)
+    arcs = int(fitted.curves.is_arc.sum())
+    figures = FitFigures(fit_um, max(so_far_um, fitted.max_um), arcs, len(fitted.curves) - arcs)
+    return replace(drawing, curves=fitted.curves, entity=fitted.entity, loops=fitted.loops, fit=figures)
 
 
 def _wanted(document: Document, placed: Sequence[Placed], layer: str | None) -> list[Placed]:

@@ -11,6 +11,7 @@ from parser.told.step_words import Axis, StepWords
 from parser.units import mm
 from parser.words.chained import Chained, chained_words
 from parser.words.labels import label
+from parser.words.nearest import nearest_words
 from parser.write.draft import Draft, Written
 
 Form = Literal["compact", "aligned", "detailed"]
@@ -56,6 +57,8 @@ def _told(draft: Draft) -> Chained:
     """Words of the rows, and where they end: as they are, or told one from the end of the other."""
     if draft.words is not None:
         return Chained(draft.words, draft.curves.end_um)
+    if draft.is_meant:
+        return nearest_words(draft.curves, draft.is_placed)
     return chained_words(draft.curves, draft.told_um, draft.is_placed)
 
 

@@ -10,10 +10,14 @@ from sim.cam.model import CannotCutError, CutPlan, Refusal
 from sim.cam.order.order import in_order
 from sim.cam.order.sides import with_sides
 from sim.cam.parts.parts import parts_of
+from sim.cam.parts.walls import walls
 from sim.cam.passes.passes import figure_cut
 from sim.cam.path.drafted import draft_of_plan
-from sim.cam.proof.proof import Proof, proved
-from sim.cam.threads.threads import threads_of
+from sim.cam.proof.proof import Given, proved
+from sim.cam.proof.result import Proof
+from sim.cam.threads.threads import thread_notes, threads_of
+from sim.cam.tolerances import fit_share_um
+from sim.convert.proof import Proof as Written
 from sim.convert.proof import proof as held_against
 from sim.convert.wanted import Wanted, read_with, written
 from sim.setup.making import Making
@@ -32,8 +36,8 @@ class Made(NamedTuple):
         What reading them gives.
     plan, draft
         What it was written of.
-    path_um
-        How far the path of its text lies off that which was planned.
+    written
+        How far the path of its text lies off that which was planned, and what else of it is not the same.
     proof
         What its run shows; None where nobody asked for one.
     """
@@ -42,7 +46,7 @@ class Made(NamedTuple):
     program: Program
     plan: CutPlan
     draft: Draft
-    path_um: float
+    written: Written
     proof: Proof | None = None
 
 
@@ -53,16 +57,20 @@ class NotMade(NamedTuple):
     plan: CutPlan | None = None
 
 
-def planned(path: Path, making: Making, scenario: Scenario) -> CutPlan:
+def planned(path: Path, making: Making, scenario: Scenario, progress: Progress = silent) -> CutPlan:
     """What is to be cut, and how. CannotCutError where the drawing asks for what cannot be."""
-    drawing = read_drawing(path, making.layer, making.gap_um)
-    parts = parts_of(drawing)
+    progress("drawing", 0, 1)
+    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_share_um(making.tolerance_um))
+    progress("figures", 0, 1)
+    parts = parts_of(drawing, making)
     passes_um = making.passes_um or (scenario.wire.reach_um,)
     figures = with_sides(parts.figures, making)
+    notes = (*parts.notes, *walls(figures, passes_um, scenario.wire.reach_um))
     threads = threads_of(drawing, figures, making, max(passes_um))
+    notes += thread_notes(figures, threads, making)
     order = in_order(figures, threads, making)
     cuts = tuple(figure_cut(figures[one], threads[one], passes_um, making) for one in order)
-    return CutPlan(drawing, making, passes_um, cuts, parts.left_out, parts.notes)
+    return CutPlan(drawing, making, passes_um, cuts, parts.left_out, notes)
 
 
 def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress = silent) -> Made | NotMade:
@@ -74,7 +82,7 @@ def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progres
     done = unproved(path, making, wanted, scenario, progress)
     if isinstance(done, NotMade):
         return done
-    return done._replace(proof=proved(done.program, done.plan, scenario, done.path_um, progress))
+    return done._replace(proof=proved(_given(path, done, wanted), scenario, progress))
 
 
 def unproved(
@@ -82,12 +90,20 @@ def unproved(
 ) -> Made | NotMade:
     """A program as `made` gives it, before anything is run."""
     try:
-        progress("drawing", 0, 1)
-        plan = planned(path, making, scenario)
+        plan = planned(path, making, scenario, progress)
+        progress("write", 0, 1)
+        draft = draft_of_plan(plan)
     except CannotCutError as error:
         return NotMade(error.refusal)
-    draft = draft_of_plan(plan)
     text = written(draft, wanted)
     data = text.text.encode()
     program = load_program(data, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
-    return Made(data, program, plan, draft, held_against(draft, text, program.toolpath).off_um)
+    return Made(data, program, plan, draft, held_against(draft, text, program.toolpath))
+
+
+def _given(path: Path, done: Made, wanted: Wanted) -> Given:
+    """What is proved: with the drawing as it is drawn, read again where arcs were fitted to it."""
+    plan = done.plan
+    is_fitted = plan.drawing.fit is not None
+    drawn = read_drawing(path, plan.making.layer, plan.making.gap_um) if is_fitted else plan.drawing
+    return Given(done.program, plan, drawn, done.written, wanted.bound_um)

@@ -34,6 +34,8 @@ ENCODINGS: tuple[str, ...] = get_args(Encoding)
 COMPENSATIONS: tuple[str, ...] = get_args(Compensation)
 SUFFIXES: Mapping[str, Language] = {".3b": "3b", ".4b": "4b", ".iso": "iso", ".nc": "iso", ".cnc": "iso"}
 """Languages of programs that are written, by the suffixes of their files."""
+_MACHINE_UM = 8.0
+"""What steps and table add to the path: up to 4 µm on the machines that are here, and twice that in a corner."""
 DEFAULT_FIT_UM = 2.0
 """Usual in CAMs (HSMWorks' post for wire EDM has it by default)."""
 
@@ -67,7 +69,8 @@ class Making(NamedTuple):
     tolerance_um
         How far the path may lie off the one that the drawing asks for.
     part_tolerance_um
-        How far the edge as cut may lie off the drawing.
+        How far the edge as cut may lie off the drawing; None for the tolerance of the path and what a machine in order
+        adds, 8 µm.
     layer
         The one layer whose contours are cut; all that are seen where None.
     gap_um
@@ -101,7 +104,7 @@ class Making(NamedTuple):
     """
 
     tolerance_um: float = DEFAULT_FIT_UM
-    part_tolerance_um: float = 5.0
+    part_tolerance_um: float | None = None
     layer: str | None = None
     gap_um: float = 10.0
     passes_um: tuple[float, ...] = ()
@@ -117,6 +120,11 @@ class Making(NamedTuple):
     tab_um: float = 0.0
     corners: Corners = "sharp"
     layers: tuple[LayerWish, ...] = ()
+
+    @property
+    def held_to_um(self) -> float:
+        """How far the edge as cut may lie off the drawing."""
+        return self.tolerance_um + _MACHINE_UM if self.part_tolerance_um is None else self.part_tolerance_um
 
 
 class Writing(NamedTuple):
@@ -250,7 +258,7 @@ def of_drawing(making: Making, drawing: DrawingTarget) -> Making:
 def refuse_odd(making: Making, where: str) -> None:
     """SettingsError where numbers are out of their bounds, or say what cannot be meant."""
     number(making.tolerance_um, FIT_UM, f"{where}: the tolerance in µm")
-    number(making.part_tolerance_um, TOLERANCE_UM, f"{where}: the tolerance of the part in µm")
+    number(making.held_to_um, TOLERANCE_UM, f"{where}: the tolerance of the part in µm")
     number(making.gap_um, GAP_UM, f"{where}: the gap in µm")
     number(mm(making.overcut_um), OVERCUT_MM, f"{where}: the overcut in mm")
     number(mm(making.tab_um), OVERCUT_MM, f"{where}: the tab in mm")

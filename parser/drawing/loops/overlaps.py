@@ -43,7 +43,7 @@ def covered(curves: Curves, entity: Ints) -> Covered:
     row, by = np.where(turn, early, late), np.where(turn, late, early)
     closed = strings.closed[strings.of_row]
     looked = np.flatnonzero(~closed[row] | (closed[by] & _alike(curves, strings, row, by)))
-    found = _over(curves, row[looked], by[looked])
+    found = over(curves, row[looked], by[looked])
     return found.take(~closed[found.row] | _all_round(curves, found, strings))
 
 
@@ -79,7 +79,7 @@ def _met(curves: Curves) -> Ints:
     return met
 
 
-def _over(curves: Curves, row: Ints, by: Ints) -> Covered:
+def over(curves: Curves, row: Ints, by: Ints) -> Covered:
     """Where the curves of pairs of rows (k,), both lines or both arcs, run over each other."""
     line, arc = np.flatnonzero(~curves.is_arc[row]), np.flatnonzero(curves.is_arc[row])
     found = [_of_lines(curves, row[line], by[line]), *_of_arcs(curves, row[arc], by[arc])]

@@ -6,12 +6,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.drawing.dxf.forms import BEGIN, CENTER, END, MAJOR, MINOR, START, SWEEP, Spline
+from parser.drawing.dxf.forms import BEGIN, CENTER, END, MAJOR, MINOR, START, SWEEP
 from parser.drawing.fit.ellipses import arcs_of_ellipses
 from parser.drawing.fit.fitted import Fitted
-from parser.drawing.fit.splines import arcs_of_spline
 from parser.drawing.model import SAME_WITHIN_UM
-from parser.drawing.plane.splines import flattened
 from parser.findings.errors import DrawingError
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 
@@ -58,7 +56,7 @@ def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float, fi
     rho, thin = _axes(forms[:, MAJOR], forms[:, MINOR])
     line = forms[:, SWEEP] == 0.0
     arc = np.isfinite(forms).all(axis=1) & ((rho <= FARTHEST_UM) | (_is_round(forms) & _bends_near(forms, rho)))
-    near = _is_near(forms[:, START]) & _is_near(forms[:, END]) & (line | arc)
+    near = is_near(forms[:, START]) & is_near(forms[:, END]) & (line | arc)
     upright = near & ~line & (thin <= SAME_WITHIN_UM)
     kept = np.flatnonzero(near & ~upright)
     forms, line, rho = forms[kept], line[kept], rho[kept]
@@ -66,7 +64,8 @@ def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float, fi
     if fit_um is None:
         made = _chords(forms[~exact], rho[~exact], tolerance_um)
     else:
-        made = arcs_of_ellipses(forms[~exact], fit_um)
+        made, refused = arcs_of_ellipses(forms[~exact], fit_um)
+        refuse_many(MOST_CURVES + 1 if len(refused) else len(made.curves))
     form = np.concatenate([kept[exact], kept[~exact][made.of]])
     order = np.argsort(form, kind="stable")
     return Flat(
@@ -86,23 +85,9 @@ def refuse_many(curves: int) -> None:
         raise DrawingError(f"becomes more than {MOST_CURVES:,} lines and arcs; save the contour of the part alone")
 
 
-def flat_spline(spline: Spline, place: Floats, tolerance_um: float, fit_um: float | None = None) -> Fitted:
-    """Lines in µm for a spline that a map (4, 3) places, or arcs within `fit_um`. ValueError beyond any table."""
-    placed = spline._replace(control=spline.control @ place[:3] + place[3])
-    if not _is_near(placed.control).all():
-        raise ValueError("control points beyond any table")
-    if fit_um is not None:
-        return arcs_of_spline(placed, fit_um)
-    at = flattened(placed, tolerance_um)
-    if not _is_near(at).all():
-        raise ValueError("places beyond any table")
-    lines = curves_between(at[:-1], at[1:], at[1:], np.zeros(len(at) - 1))
-    return Fitted(lines, np.zeros(len(lines), dtype=np.int64), 0.0)
-
-
-def is_slanted(control: Floats) -> bool:
-    """Whether places (k, 3) µm are not all of one height."""
-    return bool(np.ptp(control[:, 2]) > SAME_WITHIN_UM)
+def is_near(place: Floats) -> NDArray[np.bool_]:
+    """Whether places (k, d) are numbers that a table may have."""
+    return np.asarray((np.abs(place) <= FARTHEST_UM).all(axis=1))
 
 
 def _placed(forms: Floats, maps: Floats) -> Floats:
@@ -130,11 +115,6 @@ def _squares(major: Floats, minor: Floats) -> tuple[Floats, Floats]:
 def _cross(major: Floats, minor: Floats) -> Floats:
     crossed: Floats = major[:, 0] * minor[:, 1] - major[:, 1] * minor[:, 0]
     return crossed
-
-
-def _is_near(place: Floats) -> NDArray[np.bool_]:
-    """Whether places (k, d) are numbers that a table may have."""
-    return np.asarray((np.abs(place) <= FARTHEST_UM).all(axis=1))
 
 
 def _is_round(forms: Floats) -> NDArray[np.bool_]:

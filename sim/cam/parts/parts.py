@@ -1,74 +1,211 @@
-"""Parts of a drawing: closed loops by how deep they lie within each other."""
+"""Parts of a drawing: its closed loops as figures, by how they lie within each other."""
+
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.drawing.model import Drawing, DrawnLoop, Entity, LeftOut, running
-from parser.geometry.curves import Bools, Curves, Floats
+from parser.drawing.model import BESIDE_UM, Drawing, DrawnLoop, LeftOut
+from parser.geometry.broad_phase_places import nearest_um
+from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.extents import extents
 from parser.toolpath import Point
 from sim.cam.model import CannotCutError, Figure, Parts, Refusal
-from sim.cam.parts.inside import is_inside
+from sim.cam.parts.contacts import Contacts, contacts, crossed, overlaps, self_contacts, spread
+from sim.cam.parts.contours import Contours, contours_of
+from sim.cam.parts.loose import left_open, named
+from sim.cam.parts.nesting import Nesting, nesting
+from sim.setup.making import Making
+
+_MOST_PLACES: Final = 20  # of one refusal
+_CLEAR_UM: Final = 1000.0  # from other contours is far enough to tell within which ones a place lies
 
 
-def parts_of(drawing: Drawing) -> Parts:
-    """Figures of the closed loops of a drawing; open ones are left out. CannotCutError where none is closed."""
-    closed = [loop for loop in drawing.loops if loop.closed]
-    if not closed:
-        raise CannotCutError(Refusal("no-contour", _ends(drawing)))
-    contours = [_contour(drawing, loop) for loop in closed]
-    within = _within(contours)
-    depth = within.sum(axis=0)
-    outlines = np.flatnonzero(depth % 2 == 0)
-    part = np.full(len(closed), 0)
-    part[outlines] = np.arange(1, len(outlines) + 1)
-    for hole in np.flatnonzero(depth % 2 == 1).tolist():
-        around = np.flatnonzero(within[:, hole] & (depth == depth[hole] - 1))
-        part[hole] = part[around[0]]
-    figures = tuple(
-        Figure(
-            number=at + 1,
-            kind="hole" if depth[at] % 2 else "outline",
-            part=int(part[at]),
-            depth=int(depth[at]),
-            contour=contour,
-            entity=drawing.entity[loop.row],
-            layer=_entity(drawing, loop).layer,
-            runs_inside=bool(depth[at] % 2),
-        )
-        for at, (loop, contour) in enumerate(zip(closed, contours, strict=True))
+class _Found(NamedTuple):
+    """Closed loops as contours, and what each one (l,) is: its area µm², its box (l, 2) µm."""
+
+    loops: list[DrawnLoop]
+    contours: Contours
+    area_um2: Floats
+    low_um: Floats
+    high_um: Floats
+
+
+def parts_of(drawing: Drawing, making: Making) -> Parts:
+    """Figures of the closed loops of a drawing, and what is cut of none.
+
+    Figures are numbered part by part, parts from left to right by the leftmost place of their outlines, from below
+    where these begin equally far left; in each part its holes in the same order, and its outline last. Neither the
+    order of entities in the file nor the way they were drawn changes a number.
+
+    CannotCutError, by name and place, where what is drawn is not certain: ``no-contour``, ``crosses-itself``,
+    ``crossing``, ``shared-edge``, and those of `left_open`.
+    """
+    loops = [loop for loop in drawing.loops if not _is_thread(drawing, loop, making.thread_layer)]
+    closed, loose = ([loop for loop in loops if loop.closed is whole] for whole in (True, False))
+    drawn = contours_of(drawing, closed) if closed else None
+    left = left_open(drawing, loose, None if drawn is None else drawn.curves, making.gap_um)
+    if drawn is None:
+        raise CannotCutError(Refusal("no-contour", tuple(Point(*one.place_um) for one in left if one.place_um)))
+    found, flat = _with_width(drawing, _found(closed, drawn))
+    _refuse_itself(drawing, found)
+    within = BESIDE_UM + 2.0 * (0.0 if drawing.fit is None else drawing.fit.tolerance_um)
+    found, again = _once(drawing, found, within)
+    touching = _touching(drawing, found, within)
+    nested = nesting(found.contours, _places(found, touching), found.area_um2)
+    return Parts(_figures(drawing, found, nested), (*drawing.left_out, *left, *flat, *again), ())
+
+
+def _is_thread(drawing: Drawing, loop: DrawnLoop, layer: str | None) -> bool:
+    """Whether a loop lies on the layer of thread points."""
+    return layer is not None and drawing.entities[int(drawing.entity[loop.row[0]])].layer.lower() == layer.lower()
+
+
+def _found(loops: list[DrawnLoop], contours: Contours) -> _Found:
+    curves, first = contours.curves, np.searchsorted(contours.loop, np.arange(len(loops)))
+    start, end = curves.start_um, curves.end_um
+    segment = np.where(curves.is_arc, curves.radius_um**2 * (curves.sweep_rad - np.sin(curves.sweep_rad)), 0.0)
+    origin = start[first][contours.loop]
+    cross = (start - origin)[:, 0] * (end - origin)[:, 1] - (start - origin)[:, 1] * (end - origin)[:, 0]
+    low, high = extents(curves)
+    return _Found(
+        loops,
+        contours,
+        np.add.reduceat(0.5 * (cross + segment), first),
+        np.minimum.reduceat(low, first),
+        np.maximum.reduceat(high, first),
     )
-    return Parts(figures, (*drawing.left_out, *_open(drawing)), ())
 
 
-def _contour(drawing: Drawing, loop: DrawnLoop) -> Curves:
-    return running(drawing.curves, loop.row, loop.backwards)
+def _kept(found: _Found, keep: Bools) -> _Found:
+    """Those loops that are kept, numbered anew."""
+    at = np.flatnonzero(keep)
+    contours = found.contours
+    row = np.flatnonzero(keep[contours.loop])
+    number = np.cumsum(keep) - 1
+    left = Contours(contours.curves.picked(row), number[contours.loop[row]], contours.entity[row])
+    loops = [found.loops[one] for one in at.tolist()]
+    return _Found(loops, left, found.area_um2[at], found.low_um[at], found.high_um[at])
 
 
-def _within(contours: list[Curves]) -> Bools:
-    """(k, k) whether a contour lies around another."""
-    places = np.array([contour.start_um[0] for contour in contours])
-    within = np.stack([is_inside(contour, places) for contour in contours])
-    np.fill_diagonal(within, val=False)
-    return within
+def _left_out(drawing: Drawing, found: _Found, which: Ints, why: str) -> tuple[LeftOut, ...]:
+    return tuple(
+        LeftOut(drawing.entities[int(drawing.entity[found.loops[at].row[0]])], why, _start(found, at))
+        for at in which.tolist()
+    )
 
 
-def _open(drawing: Drawing) -> tuple[LeftOut, ...]:
-    """Open loops, each by its first entity."""
-    loops = [loop for loop in drawing.loops if not loop.closed]
-    return tuple(LeftOut(_entity(drawing, loop), "open", _xy(_start(drawing, loop))) for loop in loops)
+def _start(found: _Found, at: int) -> tuple[float, float]:
+    x, y = found.contours.one(at).start_um[0].tolist()
+    return x, y
 
 
-def _entity(drawing: Drawing, loop: DrawnLoop) -> Entity:
-    return drawing.entities[int(drawing.entity[loop.row[0]])]
+def _with_width(drawing: Drawing, found: _Found) -> tuple[_Found, tuple[LeftOut, ...]]:
+    """Loops without those that are lines there and back. CannotCutError where none is left."""
+    length = np.bincount(found.contours.loop, found.contours.curves.length_um, len(found.loops))
+    flat = 2.0 * np.abs(found.area_um2) <= BESIDE_UM * length
+    flat[flat] = [_is_flat(found.contours.one(at)) for at in np.flatnonzero(flat).tolist()]
+    if flat.all():
+        raise CannotCutError(Refusal("no-contour", tuple(Point(*_start(found, at)) for at in range(len(flat)))))
+    return _kept(found, ~flat), _left_out(drawing, found, np.flatnonzero(flat), "no-width")
 
 
-def _start(drawing: Drawing, loop: DrawnLoop) -> Floats:
-    start: Floats = running(drawing.curves, loop.row[:1], loop.backwards[:1]).start_um[0]
-    return start
+def _is_flat(ring: Curves) -> bool:
+    """Whether a contour lies along a line; one of no area may be a figure eight."""
+    place = spread(ring)
+    _, _, ways = np.linalg.svd(place - place.mean(axis=0), full_matrices=False)
+    return bool(np.ptp(place @ ways[1]) <= BESIDE_UM)
 
 
-def _ends(drawing: Drawing) -> tuple[Point, ...]:
-    return tuple(Point(*_xy(_start(drawing, loop))) for loop in drawing.loops)
+def _refuse_itself(drawing: Drawing, found: _Found) -> None:
+    itself = self_contacts(found.contours)
+    over = overlaps(found.contours)
+    for at, why in ((over.one == over.other, "crosses-itself"), (over.one != over.other, "shared-edge")):
+        places = Contacts(over.one[at], over.other[at], over.place_um[at])
+        if why == "crosses-itself":
+            places = Contacts(*(np.concatenate(two) for two in zip(places, itself, strict=True)))
+        if len(places.one):
+            raise CannotCutError(_refusal(drawing, found, places, why))
 
 
-def _xy(place: Floats) -> tuple[float, float]:
-    return float(place[0]), float(place[1])
+def _once(drawing: Drawing, found: _Found, within_um: float) -> tuple[_Found, tuple[LeftOut, ...]]:
+    """Loops without those that lie upon another one all round, as curves do that were fitted twice."""
+    order = np.lexsort([found.low_um[:, 1], found.low_um[:, 0]])
+    low = found.low_um[order, 0]
+    past = np.searchsorted(low, low + within_um, side="right")
+    number = past - np.arange(len(low)) - 1
+    one = np.repeat(np.arange(len(low)), number)
+    other = one + 1 + np.arange(len(one)) - (np.cumsum(number) - number)[one]
+    one, other = order[one], order[other]
+    off = np.maximum(np.abs(found.low_um[one] - found.low_um[other]), np.abs(found.high_um[one] - found.high_um[other]))
+    keep = np.ones(len(found.loops), dtype=np.bool_)
+    for at in np.flatnonzero(off.max(axis=1) <= within_um).tolist():
+        first, again = int(one[at]), int(other[at])
+        rings = [found.contours.one(number) for number in (first, again)]
+        if keep[first] and all(
+            (nearest_um(ring, spread(mate), within_um) <= within_um).all() for ring, mate in (rings, rings[::-1])
+        ):
+            keep[again] = False
+    return _kept(found, keep), _left_out(drawing, found, np.flatnonzero(~keep), "drawn-twice")
+
+
+def _touching(drawing: Drawing, found: _Found, within_um: float) -> Contacts:
+    """Where contours touch. CannotCutError where they cross."""
+    touching = contacts(found.contours)
+    crossing = crossed(found.contours, touching, within_um)
+    if len(crossing.one):
+        raise CannotCutError(_refusal(drawing, found, crossing, "crossing"))
+    return touching
+
+
+def _refusal(drawing: Drawing, found: _Found, contact: Contacts, why: str) -> Refusal:
+    places = np.unique(np.round(contact.place_um, 3), axis=0)[:_MOST_PLACES]
+    names = [
+        named(drawing.entities[int(drawing.entity[found.loops[int(numbers[0])].row[0]])])
+        for numbers in (contact.one, contact.other)
+    ]
+    values = tuple(zip(("entity", "other"), names, strict=True))
+    return Refusal(why, tuple(Point(x, y) for x, y in places.tolist()), values)
+
+
+def _places(found: _Found, touching: Contacts) -> Floats:
+    """A place (l, 2) of each contour that lies on no other one."""
+    contours = found.contours
+    first = np.searchsorted(contours.loop, np.arange(len(found.loops)))
+    place = contours.curves.start_um[first].copy()
+    both = np.append(touching.one, touching.other), np.append(touching.other, touching.one)
+    pairs = np.unique(np.stack(both, axis=1), axis=0)
+    for at in np.unique(pairs[:, 0]).tolist():
+        mates = pairs[slice(*np.searchsorted(pairs[:, 0], (at, at + 1)).tolist()), 1]
+        on = spread(contours.one(at))
+        clear = [nearest_um(contours.one(mate), on, _CLEAR_UM) for mate in mates.tolist()]
+        place[at] = on[np.argmax(np.min(clear, axis=0))]
+    return place
+
+
+def _figures(drawing: Drawing, found: _Found, nested: Nesting) -> tuple[Figure, ...]:
+    """Figures in the order of their numbers."""
+    is_hole = nested.depth % 2 == 1
+    outline = np.where(is_hole, nested.around, np.arange(len(is_hole)))
+    rank = np.argsort(_order(found))
+    order = np.lexsort([rank, ~is_hole, rank[outline]])
+    part = np.cumsum(np.diff(outline[order], prepend=-1) != 0)
+    return tuple(
+        Figure(
+            number=number,
+            kind="hole" if is_hole[at] else "outline",
+            part=int(part[number - 1]),
+            depth=int(nested.depth[at]),
+            contour=found.contours.one(at),
+            entity=found.contours.entity[found.contours.rows(at)],
+            layer=drawing.entities[int(drawing.entity[found.loops[at].row[0]])].layer,
+            runs_inside=bool(is_hole[at]),
+        )
+        for number, at in enumerate(order.tolist(), 1)
+    )
+
+
+def _order(found: _Found) -> Ints:
+    """Contours (l,) from left to right, from below where they begin equally far left, to a whole µm."""
+    low = np.round(found.low_um)
+    start = np.round([_start(found, at) for at in range(len(low))])
+    return np.lexsort([found.area_um2, start[:, 1], low[:, 1], low[:, 0]])

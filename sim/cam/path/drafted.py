@@ -26,7 +26,7 @@ def draft_of_plan(plan: CutPlan) -> Draft:
             rows += len(one.into) + len(one.along) + len(one.out)
     curves = joined(parts)
     stops.append(Stop("end", rows, 0))
-    return Draft(curves, tuple(stops), np.zeros(rows, dtype=np.bool_), np.full((rows, 2), np.nan))
+    return Draft(curves, tuple(stops), np.zeros(rows, dtype=np.bool_), np.full((rows, 2), np.nan), is_meant=True)
 
 
 def _jump(before: FigureCut, behind: FigureCut) -> Curves:

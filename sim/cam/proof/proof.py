@@ -1,60 +1,187 @@
-"""The proof of a written program: read back, checked, run on the machine, its edge held against the drawing."""
+"""The proof of a written program: read back, checked, run on the machine, path and edge held against the drawing."""
 
-from dataclasses import replace
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import Final, NamedTuple
 
-from parser.findings.codes import Severity
+import numpy as np
+
+from parser.drawing.model import Drawing
+from parser.findings.errors import ProgramError, SettingsError
 from parser.findings.findings import Finding
+from parser.findings.remarks import Remark
+from parser.geometry.curves import Bools, Ints
 from parser.program import Program
+from parser.shape.contours import runs
+from parser.toolpath import Point
+from parser.units import mm
 from sim.cam.model import CutPlan
+from sim.cam.proof.as_run import AsRun, as_run
+from sim.cam.proof.falls import fall_faults, side_faults
+from sim.cam.proof.result import Fault, Proof
+from sim.cam.proof.target import Target, target_of
+from sim.convert.proof import Proof as Written
+from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.findings import compare_cut, drawing_findings
-from sim.measure.compare.result import Comparison
+from sim.measure.compare.result import Asked, Comparison
+from sim.measure.compare.tables import by_block, by_entity
 from sim.run.dryrun import DryRun, dry_run
-from sim.setup.part import DrawingTarget, Offset, OffsetPass
+from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.motion import Progress, silent
 
+_MEASURED_UM = 0.05
+"""A comparison of exact paths is right to 0.01 µm, and fillets of a drawing to 0.02 µm."""
 
-class Proof(NamedTuple):
-    """What a run of a written program shows.
+_OF_ADDED: Final = frozenset({"3B214"})
+"""Findings of 4B of what a controller's own offset makes of corners: none where the path has its offset already."""
 
-    Attributes
-    ----------
-    run
-        The run.
-    path_um
-        How far the written path lies off that which was planned.
-    comparison
-        The edge as cut beside the contours of the drawing that were cut; None where there is no edge.
-    findings
-        Of the run and of the comparison.
+
+class Given(NamedTuple):
+    """What is proved: a program that was read back, the plan that it was written of, and its drawing, unfitted.
+
+    `written` says how far the program's path lies off the plan's, of which whole steps explain `rounding_um`.
     """
 
-    run: DryRun
-    path_um: float
-    comparison: Comparison | None
-    findings: tuple[Finding, ...]
-
-    @property
-    def verdict(self) -> Literal["pass", "fail"]:
-        """Whether the program may be written."""
-        return "fail" if any(one.severity is Severity.ERROR for one in self.findings) else "pass"
+    program: Program
+    plan: CutPlan
+    drawn: Drawing
+    written: Written
+    rounding_um: float
 
 
-def proved(program: Program, plan: CutPlan, scenario: Scenario, path_um: float, progress: Progress = silent) -> Proof:
-    """Run a program on the machine of a scenario, and hold what it cuts against the drawing."""
-    run = dry_run(program, _as_it_runs(scenario, plan), progress)
+def proved(given: Given, scenario: Scenario, progress: Progress = silent) -> Proof:
+    """Run a program on the machine of a scenario, and hold its path and what it cuts against the drawing."""
+    plan = given.plan
+    how = as_run(scenario, plan, given.program.toolpath)
+    target, missing = target_of(given.drawn, plan)
+    faults = (*_written_faults(given), *missing)
+    none = Proof(None, given.written.off_um, None, None, (), faults, how.unproved, how.notes, how.scenario.wire)
+    try:
+        run = dry_run(given.program, how.scenario, progress)
+    except ProgramError as error:
+        return none._replace(findings=(*error.others, error.finding))
+    except SettingsError as error:
+        return none._replace(unproved=(*how.unproved, Remark("run", {"why": str(error)})))
+    progress("comparison", 0, 1)
+    of_run, notes = _of_run(run, how)
+    by_cut = _by_cut(given, run)
+    ran = none._replace(run=run, findings=of_run, faults=(*faults, *by_cut), notes=(*how.notes, *notes))
+    ran = ran._replace(unproved=(*how.unproved, *_unlooked(run)))
+    if target is None or by_cut:
+        return ran
+    path, of_path = _path(given, target, run, how)
+    cut, of_cut = _as_cut(given, target, run, how)
+    return ran._replace(
+        path=path,
+        comparison=cut,
+        findings=(*ran.findings, *of_cut.findings),
+        faults=(*ran.faults, *of_path.faults, *of_cut.faults),
+        unproved=(*ran.unproved, *of_path.unproved, *of_cut.unproved),
+    )
+
+
+def _of_run(run: DryRun, how: AsRun) -> tuple[tuple[Finding, ...], tuple[Remark, ...]]:
+    """The findings of a run, and what is to be known to run the program so: of 4B, that its offset is worked in."""
+    is_4b = any(finding.code == "3B110" for finding in run.findings)
+    if not is_4b or how.scenario.offset is not None or not how.has_offset:
+        return run.findings, ()
+    return tuple(one for one in run.findings if one.code not in _OF_ADDED), (Remark("worked-in"),)
+
+
+class _Found(NamedTuple):
+    """What one look at a program finds."""
+
+    faults: tuple[Fault, ...] = ()
+    findings: tuple[Finding, ...] = ()
+    unproved: tuple[Remark, ...] = ()
+
+
+def _written_faults(given: Given) -> tuple[Fault, ...]:
+    """That reading gives something else than was planned."""
+    off_um, differs = given.written
+    if differs:
+        return (Fault("differs", {"what": differs}),)
+    return (Fault("written", {"off": off_um, "bound": given.rounding_um}),) if off_um > given.rounding_um else ()
+
+
+def _by_cut(given: Given, run: DryRun) -> tuple[Fault, ...]:
+    """That the program has more contours than figures are cut, or fewer."""
+    found, wanted = len(runs(run.toolpath)), len(given.plan.cuts)
+    return () if found == wanted else (Fault("contours", {"found": found, "wanted": wanted}),)
+
+
+def _unlooked(run: DryRun) -> Iterator[Remark]:
+    """Checks that did not come to their end."""
+    for check in run.coverage.checks:
+        if check.state == "incomplete":
+            yield Remark("check", {"check": check.name, "reason": check.reason})
+
+
+def _path(given: Given, target: Target, run: DryRun, how: AsRun) -> tuple[Comparison | None, _Found]:
+    """The path held against the offset of the drawing: as it is written where the controller adds the offset.
+
+    It may lie off by the tolerance of the fit, by what rounding to steps moves it, and by gaps of the drawing.
+    """
+    on_contour = min(how.edge_um, default=0.0) <= 0.0
+    toolpath = given.program.toolpath if on_contour else run.toolpath
+    making, written = given.plan.making, given.written
+    rounding_um = min(written.off_um, given.rounding_um)
+    bound_um = making.tolerance_um + rounding_um + target.gap_um + target.drawing.flatten_um + _MEASURED_UM
+    faults: list[Fault] = []
+    first: Comparison | None = None
+    for by_um in sorted(set(how.edge_um)):
+        try:
+            found = compare_program(toolpath, max(by_um, 0.0), target.drawing, Asked(bound_um, fitted=False))
+        except SettingsError as error:
+            return first, _Found(tuple(faults), (), (Remark("path", {"why": str(error)}),))
+        first = first or found
+        faults += _off_faults(given, target, run, found, np.array(how.edge_um) == by_um)
+    return first, _Found(tuple(faults))
+
+
+def _off_faults(given: Given, target: Target, run: DryRun, found: Comparison, of_cut: Bools) -> Iterator[Fault]:
+    """The worst place of the path past its bound, both ways, and leads that cut into parts, of some of the cuts."""
+    number = _cut_of_block(run)
+    bound_um = found.asked.tolerance_um
+    for name, places in (("path", by_block(found)), ("uncut", by_entity(found))):
+        here = [one for one in places if of_cut[number[one.block]] and one.deviation_um > bound_um]
+        if not here:
+            continue
+        worst = max(here, key=lambda one: one.deviation_um)
+        at = number[worst.block]
+        values = {"off": worst.deviation_um, "bound": bound_um, **_mm(worst.where_um)}
+        yield Fault(name, values, worst.where_um, given.plan.cuts[at].figure.number, worst.block)
+    for gouge in found.gouges:
+        at = number[gouge.block]
+        if of_cut[at]:
+            values = {"depth": gouge.depth_um, **_mm(gouge.where_um)}
+            yield Fault("lead", values, gouge.where_um, given.plan.cuts[at].figure.number, gouge.block)
+
+
+def _cut_of_block(run: DryRun) -> Ints:
+    """Index of the cut that each block is of, by its number; of a jump that of the cut behind it."""
+    block, cut = run.toolpath.source.block, np.zeros(len(run.toolpath), dtype=np.int64)
+    for at, (_, past) in enumerate(runs(run.toolpath).tolist()):
+        cut[past:] = at + 1
+    of_block = np.zeros(int(block.max(initial=0)) + 1, dtype=np.int64)
+    of_block[block] = np.minimum(cut, int(cut[~run.toolpath.is_jump].max(initial=0)))
+    return of_block
+
+
+def _mm(place: Point) -> dict[str, float]:
+    return {"x_mm": mm(place.x), "y_mm": mm(place.y)}
+
+
+def _as_cut(given: Given, target: Target, run: DryRun, how: AsRun) -> tuple[Comparison | None, _Found]:
+    """The edge as cut, after steps and table, and what falls."""
+    faults = [*side_faults(given.plan, target, run.toolpath)] if how.has_offset else []
     if run.remains is None:
-        return Proof(run, path_um, None, run.findings)
-    target = DrawingTarget(Path(plan.drawing.name), tolerance_um=plan.making.part_tolerance_um, fit=False)
-    found = compare_cut(run.program, run.remains, plan.drawing, target)
-    return Proof(run, path_um, found, (*run.findings, *drawing_findings(run.program, found)))
-
-
-def _as_it_runs(scenario: Scenario, plan: CutPlan) -> Scenario:
-    """The scenario with all that the proof looks at; the controller adds the offset that the program leaves to it."""
-    asked = replace(scenario, kerf=True, drawing=None, start_mm=None)
-    if any(plan.passes_um):
-        return asked
-    return replace(asked, offset=Offset((OffsetPass(scenario.wire.reach_um),), plan.cuts[0].side))
+        return None, _Found(tuple(faults))
+    faults += fall_faults(given.plan, target, run.remains.pieces, how.scenario.wire.reach_um)
+    if not how.is_one_edge:
+        return None, _Found(tuple(faults))
+    tolerance_um = given.plan.making.held_to_um
+    asked = DrawingTarget(Path(target.drawing.name), tolerance_um=tolerance_um, fit=False)
+    found = compare_cut(run.program, run.remains, target.drawing, asked)
+    return found, _Found(tuple(faults), tuple(drawing_findings(run.program, found)))

@@ -1,0 +1,51 @@
+"""Loops of a drawing with their dense polylines made arcs."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.drawing.fit.fitted import Fitted
+from parser.drawing.fit.polylines import arcs_of_lines
+from parser.drawing.model import DrawnLoop, running
+from parser.geometry.curves import Curves, Ints, joined
+
+
+class FittedLoops(NamedTuple):
+    """Curves (n,) of loops, in running order one loop behind the other, and which entity each is of (n,).
+
+    An arc is of the entity of the first of its lines. ``max_um`` is a bound of how far arcs lie off their lines.
+    """
+
+    curves: Curves
+    entity: Ints
+    loops: tuple[DrawnLoop, ...]
+    max_um: float
+
+
+def loops_with_arcs(curves: Curves, entity: Ints, loops: Sequence[DrawnLoop], tolerance_um: float) -> FittedLoops:
+    """Loops of curves (n,) of entities (n,), arcs within a tolerance in place of dense lines."""
+    fitted = [_fitted(curves, entity, loop, tolerance_um) for loop in loops]
+    number = [len(one.of) for one in fitted]
+    first = np.cumsum(number) - number
+    return FittedLoops(
+        joined([curves.picked(slice(0)), *(one.curves for one in fitted)]),
+        np.concatenate([entity[:0], *(one.of for one in fitted)]),
+        tuple(_running_ahead(loop, int(at), len(one.of)) for loop, one, at in zip(loops, fitted, first, strict=True)),
+        max((one.max_um for one in fitted), default=0.0),
+    )
+
+
+def _fitted(curves: Curves, entity: Ints, loop: DrawnLoop, tolerance_um: float) -> Fitted:
+    """A loop in running order, begun at its leftmost place if it is closed; `of` is the entity of each curve."""
+    part, of = running(curves, loop.row, loop.backwards), entity[loop.row]
+    if (~part.is_arc).sum() < 2:
+        return Fitted(part, of, 0.0)
+    fitted = arcs_of_lines(part, tolerance_um, is_closed=loop.closed)
+    leftmost = np.lexsort([fitted.curves.start_um[:, 1], fitted.curves.start_um[:, 0]])[0] if loop.closed else 0
+    order = np.roll(np.arange(len(fitted.of)), -leftmost)
+    return Fitted(fitted.curves.picked(order), of[fitted.of[order]], fitted.max_um)
+
+
+def _running_ahead(loop: DrawnLoop, first: int, number: int) -> DrawnLoop:
+    return DrawnLoop(np.arange(first, first + number), np.zeros(number, dtype=np.bool_), loop.closed, loop.gap_um)

@@ -1,0 +1,31 @@
+"""A made program with remarks in its header: what speaks against one that is written all the same."""
+
+from collections.abc import Sequence
+
+from parser.program import load_program
+from parser.text.encoding import encode_text, printable
+from sim.cam.maker import Made
+from sim.convert.wanted import Wanted, read_with
+
+_LONGEST = 100
+"""Characters of a remark: what a controller shows in a line (assumed)."""
+
+
+def remarked(done: Made, texts: Sequence[str], wanted: Wanted) -> Made:
+    """The same program with remark lines behind its first line, one for each text; the same blocks are read back.
+
+    Letters that the encoding of the program does not have become question marks.
+    """
+    lines = [_remark(text, is_iso=wanted.iso is not None) for text in texts]
+    first, newline, rest = done.program.text.partition(wanted.newline)
+    encoding = done.program.encoding
+    text = newline.join([first, *lines, rest])
+    data = encode_text(text.encode(encoding, "replace").decode(encoding), encoding)
+    return done._replace(data=data, program=load_program(data, done.program.name, read_with(done.draft, wanted)))
+
+
+def _remark(text: str, *, is_iso: bool) -> str:
+    """One line: what could end a remark, or begin a header or a word to drycut in it, is taken out."""
+    plain = printable(" ".join(text.split())).replace("µ", "u").replace("=", " ").replace(";", ",")
+    plain = f"not proved: {plain}"[:_LONGEST]
+    return "(" + plain.replace("(", "[").replace(")", "]") + ")" if is_iso else f"// {plain}"
