@@ -153,6 +153,7 @@ fit = false
 [program]
 file = "plate.3b"
 passes_mm = [0.12, 0.1]
+tab_mm = 1
 """
 
 
