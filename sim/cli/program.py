@@ -96,7 +96,7 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
     if isinstance(done, Made):
         if (is_proved or force) and not preview and asked.output is not None:
             written = asked.output
-            _write(written, done.data if is_proved else _with_findings(done, asked, tongue).data)
+            _write(written, done.data if is_proved else _with_findings(done, asked, tongue))
         if picture is not None:
             _draw(done, _Picture(picture, theme), tongue)
     if as_json:
@@ -194,14 +194,14 @@ def _made(asked: _Asked) -> "Made | NotMade":
         return made(asked.drawing, asked.to_make.making, wanted, asked.scenario, progress)
 
 
-def _with_findings(done: "Made", asked: _Asked, tongue: "Tongue") -> "Made":
-    """The program that is written though it is not proved, with what was found at its head."""
+def _with_findings(done: "Made", asked: _Asked, tongue: "Tongue") -> bytes:
+    """The program with what speaks against it at its head."""
     from sim.cam.asked import wanted_of
     from sim.cam.remarked import remarked
-    from sim.show.terminal.proof import against_lines
+    from sim.show.terminal.proof import against
 
     wanted = wanted_of(asked.to_make, asked.language, asked.scenario)
-    return remarked(done, against_lines(done, tongue), wanted)
+    return remarked(done, [*against(done, tongue)], wanted).data
 
 
 def _write(output: Path, data: bytes) -> None:
