@@ -30,21 +30,21 @@ class OneBlock(NamedTuple):
 def arc_of(start_um: Place, end_um: Place, sweep_rad: float) -> OneBlock:
     """One of `words_of_arcs`."""
     by = end_um[0] - start_um[0], end_um[1] - start_um[1]
-    shift = _to_bisector(start_um, end_um, by, sweep_rad)
+    shift = to_bisector(start_um, end_um, by, sweep_rad)
     if _hypot(*shift) > MOST_SHIFT * _hypot(*start_um):
         return line_of(by)
     return told_arc_of((start_um[0] - shift[0], start_um[1] - shift[1]), by, sweep_rad)
 
 
-def told_arc_of(start_um: Place, by_um: Place, sweep_rad: float) -> OneBlock:
-    """One of `words_of_told_arcs`, its start from the centre rounded to whole µm."""
+def told_arc_of(start_um: Place, by_um: Place, sweep_rad: float, axis: Axis | None = None) -> OneBlock:
+    """One of `words_of_told_arcs`, its start from the centre rounded to whole µm; counted on an axis that is given."""
     x, y = round(start_um[0]), round(start_um[1])
     end = x + by_um[0], y + by_um[1]
     turn, radius = (1 if sweep_rad > 0.0 else -1), _hypot(float(x), float(y))
     low = float(np.arctan2(float(y), float(x)))
     turned = turn * (float(np.arctan2(end[1], end[0])) - low)
     turned += 2.0 * np.pi * round((abs(sweep_rad) - turned) / (2.0 * np.pi))
-    on_y = abs(end[0]) > abs(end[1])
+    on_y = abs(end[0]) > abs(end[1]) if axis is None else axis == Axis.Y
     count = round(_counted(radius, low, turn * turned, end[on_y], on_y=on_y))
     if x * x + y * y <= 1 or turned <= 0.0 or count <= 0:
         return line_of(by_um)
@@ -62,7 +62,8 @@ def line_of(by_um: Place) -> OneBlock:
     return OneBlock(abs(x), abs(y), count, Axis.X if on_x else Axis.Y, quadrant, 0, (float(x), float(y)))
 
 
-def _to_bisector(start: Place, end: Place, by: Place, sweep_rad: float) -> Place:
+def to_bisector(start: Place, end: Place, by: Place, sweep_rad: float) -> Place:
+    """The way of a centre along the chord to where start and end are equally far from it, as in `telling`."""
     square = by[0] * by[0] + by[1] * by[1]
     if square == 0.0 or abs(sweep_rad) >= MOST_SWEEP_RAD:
         return 0.0, 0.0

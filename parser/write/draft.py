@@ -35,6 +35,9 @@ class Draft:
         The words of a counting controller that are to be written; None where they are to be told.
     compensation
         The controller's offset that is to be written; None where it has none.
+    is_meant
+        Whether the curves are what is meant, and not what a program made of it: the nearest whole numbers are written
+        then, in place of those that a CAM would have written.
     """
 
     curves: Curves
@@ -43,6 +46,7 @@ class Draft:
     told_um: Floats
     words: StepWords | None = None
     compensation: Compensation | None = None
+    is_meant: bool = False
 
     def __len__(self) -> int:
         return len(self.curves)
@@ -104,4 +108,5 @@ def picked(draft: Draft, row: Ints) -> Draft:
     )
     words = draft.words and StepWords(*(getattr(draft.words, name)[row] for name in StepWords.__slots__))
     stops = (stop._replace(after=int(np.searchsorted(row, stop.after))) for stop in draft.stops)
-    return Draft(draft.curves.picked(row), tuple(stops), draft.is_placed[row], draft.told_um[row], words, compensation)
+    columns = draft.curves.picked(row), tuple(stops), draft.is_placed[row], draft.told_um[row]
+    return Draft(*columns, words, compensation, draft.is_meant)

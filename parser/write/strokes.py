@@ -14,7 +14,11 @@ _SHORT_STEPS = 3.0
 """An arc of a longer chord keeps its sense, however its places are rounded; a shorter one is a line within a step."""
 
 _LET_BE_STEPS = 0.6
-"""As in `parser.words.chained`: what a CAM leaves off on an axis before it writes a step more or less."""
+"""Steps. As in `parser.words.chained`: what a CAM leaves off on an axis before it writes a step more or less."""
+
+
+_SAME_DIGITS = 6
+"""Places that differ behind these digits are one, and are rounded to the same side."""
 
 
 class Strokes(NamedTuple):
@@ -48,7 +52,7 @@ def strokes_of(draft: Draft, step_um: float) -> Strokes:
     turned, row = _in_turns(draft)
     curves = turned.curves
     full = _is_full(curves)
-    places = _places(curves, step_um, full)
+    places = _places(curves, step_um, full, 0.0 if draft.is_meant else _LET_BE_STEPS)
     start, end = places[:-1], places[1:]
     chord = np.hypot(*(end - start).T)
     short = curves.is_arc & ~full & (chord <= _SHORT_STEPS) & (np.abs(curves.sweep_rad) < np.pi)
@@ -84,22 +88,22 @@ def _is_full(curves: Curves) -> Bools:
     return full
 
 
-def _places(curves: Curves, step_um: float, full: Bools) -> Ints:
+def _places(curves: Curves, step_um: float, full: Bools, let_be: float) -> Ints:
     """(n + 1, 2) places between the rows; a full circle ends where it starts."""
     by = np.where(full[:, None], 0.0, curves.end_um - curves.start_um) / step_um
     start = curves.start_um[:1] / step_um
     first = np.rint(start)
-    ends = curves.end_um / step_um - start + first
-    columns = [_rounded(first[:, axis], by[:, axis], ends[:, axis], full) for axis in (0, 1)]
+    ends = np.round(curves.end_um / step_um - start, _SAME_DIGITS) + first
+    columns = [_rounded(first[:, axis], by[:, axis], ends[:, axis], full, let_be) for axis in (0, 1)]
     return np.array(columns, dtype=np.int64).reshape(2, -1).T
 
 
-def _rounded(start: Floats, by: Floats, ends: Floats, full: Bools) -> list[int]:
-    """Places on an axis: each way rounded by itself while that stays near enough to its end, else the end itself."""
+def _rounded(start: Floats, by: Floats, ends: Floats, full: Bools, let_be: float) -> list[int]:
+    """Places on an axis: each way rounded by itself while it lets its end be, else the end itself."""
     places = [int(at) for at in start.tolist()]
     for way, end, stays in zip(np.rint(by).tolist(), ends.tolist(), full.tolist(), strict=True):
         at = places[-1] + int(way)
-        places.append(at if stays or abs(at - end) <= _LET_BE_STEPS else round(end))
+        places.append(at if stays or abs(at - end) <= let_be else round(end))
     return places
 
 

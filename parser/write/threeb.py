@@ -1,5 +1,6 @@
 """A draft as 3B or 4B, in the three forms of CAXA: compact, aligned, and with a header and the end of each block."""
 
+import re
 from collections.abc import Iterator
 from itertools import count
 from typing import Literal, NamedTuple
@@ -11,12 +12,14 @@ from parser.told.step_words import Axis, StepWords
 from parser.units import mm
 from parser.words.chained import Chained, chained_words
 from parser.words.labels import label
+from parser.words.nearest import nearest_words
 from parser.write.draft import Draft, Written
 
 Form = Literal["compact", "aligned", "detailed"]
 _RULE = "*" * 40
 _CURVES = ("", "D", "DD")
 _PAUSE, _END = "D", "DD"
+_CODE = re.compile(rf"(?m)^((?:N *\d+: )?)({_END}|{_PAUSE})(?=\r?$)")
 
 
 class ThreeBChoices(NamedTuple):
@@ -52,10 +55,18 @@ def written_3b(draft: Draft, choices: ThreeBChoices) -> Written:
     return Written("\n".join([*lines, ""]), np.flatnonzero(is_block | draft.is_placed))
 
 
+def with_codes(text: str, end: str | None, pause: str | None) -> str:
+    """A written text with other words for its end and its pauses; None leaves them."""
+    codes = {_END: end or _END, _PAUSE: pause or _PAUSE}
+    return _CODE.sub(lambda found: found[1] + codes[found[2]], text)
+
+
 def _told(draft: Draft) -> Chained:
     """Words of the rows, and where they end: as they are, or told one from the end of the other."""
     if draft.words is not None:
         return Chained(draft.words, draft.curves.end_um)
+    if draft.is_meant:
+        return nearest_words(draft.curves, draft.is_placed)
     return chained_words(draft.curves, draft.told_um, draft.is_placed)
 
 

@@ -7,7 +7,7 @@ from parser.drawing.model import Drawing, LeftOut
 from parser.findings.remarks import Remark
 from parser.geometry.curves import Curves, Ints
 from parser.toolpath import Point
-from sim.setup.making import Making
+from sim.setup.making import LeadIn, Making
 
 FigureKind = Literal["hole", "outline"]
 ThreadedBy = Literal["asked", "marked", "chosen", "contour"]
@@ -100,11 +100,24 @@ class Entry(NamedTuple):
 
 
 class Thread(NamedTuple):
-    """Where the wire of a figure is threaded, and where it comes to the contour from there."""
+    """Where the wire of a figure is threaded, and how it comes to the contour from there.
+
+    Attributes
+    ----------
+    place_um
+        The thread point.
+    by
+        Whether it was asked for, stands in the drawing, was chosen, or is a place of the contour itself.
+    entry
+        Where the wire comes to the contour.
+    lead
+        What is free in the waste: the lead that is asked for, else a straight one.
+    """
 
     place_um: Point
     by: ThreadedBy
     entry: Entry
+    lead: LeadIn = "perpendicular"
 
 
 class PassCut(NamedTuple):

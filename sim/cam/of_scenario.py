@@ -1,8 +1,10 @@
 """The program that a scenario asks for, made of its drawing."""
 
+from parser.findings.errors import SettingsError
 from sim.cam.asked import wanted_of
 from sim.cam.maker import Made, NotMade, unproved
 from sim.setup.making import ToMake
+from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.motion import Progress, silent
 
@@ -13,6 +15,13 @@ def program_of(scenario: Scenario, to_make: ToMake, progress: Progress = silent)
     Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where it cannot be written as
     it is asked for.
     """
-    assert scenario.drawing is not None  # noqa: S101 - what is to be made has a drawing
-    wanted = wanted_of(to_make.writing, to_make.language, scenario, to_make.file.stem)
-    return unproved(scenario.drawing.file, to_make.making, wanted, scenario, progress)
+    drawing = drawing_to_cut(scenario)
+    wanted = wanted_of(to_make, to_make.language, scenario)
+    return unproved(drawing.file, to_make.making, wanted, scenario, progress)
+
+
+def drawing_to_cut(scenario: Scenario) -> DrawingTarget:
+    """The drawing of a scenario. SettingsError where it has none."""
+    if scenario.drawing is None:
+        raise SettingsError(f"{scenario.title}: has no [drawing], of which a program could be made")
+    return scenario.drawing

@@ -5,6 +5,8 @@ from typing import Final
 
 LOOPS: Final[tuple[str, ...]] = (
     "controller.stepping.chunks",
+    "sim.cam.order.nearest",
+    "sim.cam.order.shorter",
     "sim.cut.kerf.edges",
     "sim.cut.kerf.last_beside",
     "sim.cut.kerf.stars",

@@ -1,36 +1,239 @@
 """``drycut program``."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from sim.cli.scenario_options import Length, chosen
+from sim.cli.program_options import Options, making_of, program_options, refuse_own_files, writing_of
+from sim.cli.scenario_options import chosen
+
+if TYPE_CHECKING:
+    from parser.findings.catalogue import Language as Tongue
+    from sim.cam.maker import Made, NotMade
+    from sim.setup.making import Language, ToMake
+    from sim.setup.scenario import Scenario
+    from sim.show.draw.paints import ThemeName
 
 
-@click.command(short_help="Make a program of a drawing, and prove it.")
-@click.argument("path", type=click.Path(path_type=Path, dir_okay=False), metavar="DRAWING.dxf")
-@click.option("-o", "--output", type=click.Path(path_type=Path, dir_okay=False), required=True, metavar="FILE")
-@click.option("--tolerance", type=Length(), default="2um", help="How far the path may lie off the drawing.")
+class _Asked(NamedTuple):
+    """What is to be made: of which drawing, on whose machine, how, in which language, and where it goes."""
+
+    drawing: Path
+    scenario: "Scenario"
+    to_make: "ToMake"
+    language: "Language"
+    output: Path | None
+
+
+class _Picture(NamedTuple):
+    """The picture of the plan, as it is asked for; no file where none is."""
+
+    file: Path | None
+    theme: "ThemeName"
+
+
+@click.command(short_help="Make a program of a drawing, and prove it by a run.")
+@click.argument("path", type=click.Path(path_type=Path), metavar="DRAWING.dxf|SCENARIO")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="The program that is written; its suffix says its language: .3b, .4b, .iso, .nc or .cnc. Of a scenario its "
+    "own file.",
+)
+@program_options
+@click.option("--preview", is_flag=True, help="Plan and prove, and write no program.")
+@click.option("--force", is_flag=True, help="Write a program that is not proved too, with what was found at its head.")
+@click.option(
+    "--picture",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Draw the plan here, .png or .svg: order, leads, passes, thread points and waste.",
+)
+@click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True, help="Its colours.")
+@click.option("--json", "as_json", is_flag=True, help="Print what was made as JSON instead of the tables.")
 @click.option("--lang", type=click.Choice(["en", "zh"]), help="Language of messages; else that of the locale.")
-def program(path: Path, output: Path, tolerance: float, lang: str | None) -> None:
-    """Make a program of a drawing (DXF), and prove it by a run before it is written."""
-    from sim.cam.maker import Made, made
-    from sim.convert.wanted import Wanted
+def program(  # noqa: PLR0913 - click hands over each option by its name
+    *,
+    path: Path,
+    output: Path | None,
+    preview: bool,
+    force: bool,
+    picture: Path | None,
+    theme: "ThemeName",
+    as_json: bool,
+    lang: str | None,
+    **options: Any,
+) -> None:
+    """Make a program of a drawing (DXF) or of a scenario that has one, and prove it by a run before it is written.
+
+    Curves become arcs within the tolerance, loops become parts with their holes, each figure gets its thread point,
+    leads and passes. The program is checked, run on the machine and held against the drawing; one that fails is not
+    written.
+
+    \b
+    Exit code: 0 written and proved, 1 refused or not proved, 2 bad use or
+    unreadable input, 3 a fault of drycut itself.
+
+    \b
+    drycut program part.dxf -o part.3b
+    drycut program part.dxf -o part.3b --pass 0.18mm --pass 0.12mm --tab 3mm
+    drycut program part.dxf -o part.iso --dialect robofil --compensation kept
+    drycut program part.dxf --preview --picture plan.png
+    drycut program scenarios/plate -o plate.3b
+    """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from sim.cam.maker import Made
+    from sim.show.terminal.printer import write
+
+    asked = _asked(path, output, Options(**options), is_written=not preview)
+    _refuse_pictures(picture, asked)
+    tongue: Tongue = chosen(lang)
+    done = _made(asked)
+    is_proved = isinstance(done, Made) and done.proof is not None and done.proof.verdict == "pass"
+    written = None
+    if isinstance(done, Made):
+        if (is_proved or force) and not preview and asked.output is not None:
+            written = asked.output
+            _write(written, done.data if is_proved else _with_findings(done, asked, tongue))
+        if picture is not None:
+            _draw(done, _Picture(picture, theme), tongue)
+    if as_json:
+        from sim.cam.document import document_text
+        from sim.show.words import Words
+
+        write(document_text(done, Words(tongue)), "json")
+    else:
+        _tell(done, asked, written, picture, tongue)
+    raise click.exceptions.Exit(0 if is_proved else 1)
+
+
+def _asked(path: Path, output: Path | None, options: Options, *, is_written: bool) -> _Asked:
+    """What is to be made. UsageError where it is not said which drawing, or where to."""
+    from sim.cam.of_scenario import drawing_to_cut
+    from sim.setup.making import ToMake, of_drawing, refuse_misfits
+
+    scenario = _scenario(path, output, options)
+    if path.is_dir():
+        drawing = drawing_to_cut(scenario)
+        own = scenario.to_make or ToMake(making=of_drawing(ToMake().making, drawing))
+        file, output = drawing.file, output or scenario.program
+    else:
+        own, file = ToMake(), path
+    if output is None and is_written:
+        raise click.UsageError("-o FILE says where the program is written; --preview writes none")
+    language = options.language or _language(output)
+    to_make = own._replace(
+        file=output or Path(f"{file.stem}.{language}"),
+        making=making_of(own.making, options),
+        writing=writing_of(own.writing, options),
+    )
+    refuse_misfits(to_make.writing, language, "drycut program")
+    if output is not None:
+        refuse_own_files(output, (file, *([path / "scenario.toml"] if path.is_dir() else [])))
+    return _Asked(file, scenario, to_make, language, output)
+
+
+def _scenario(path: Path, output: Path | None, options: Options) -> "Scenario":
+    """The scenario of a folder, else one of the defaults, with the options in place of its own values."""
+    from sim.cli.overrides import Overrides, overridden
+
+    nothing = dict.fromkeys(Overrides._fields, None)
+    given = {
+        "dialect": options.dialect,
+        "unit": options.unit,
+        "machine": options.machine,
+        "thickness": options.thickness,
+        "wire_diameter": options.wire_diameter,
+        "gap": options.spark_gap,
+        "offset": (),
+        "past_stop": False,
+        "kerf": False,
+        "no_fit": False,
+    }
+    where = path if path.is_dir() else (output or path.with_suffix(".3b"))
+    return overridden(where, Overrides(**{**nothing, **given}))  # type: ignore[arg-type]  # by their names
+
+
+def _language(output: Path | None) -> "Language":
+    from parser.findings.errors import SettingsError
+    from sim.setup.making import language_of
+
+    if output is None:
+        return "3b"
+    try:
+        return language_of(output)
+    except SettingsError:
+        message = f"{output} does not say its language by its suffix; give --as"
+        raise click.BadParameter(message, param_hint="-o") from None
+
+
+def _refuse_pictures(picture: Path | None, asked: _Asked) -> None:
+    if picture is None:
+        return
+    if picture.suffix.lower() not in {".png", ".svg"}:
+        raise click.BadParameter(f"{picture} is neither a .png nor a .svg", param_hint="--picture")
+    refuse_own_files(picture, (asked.drawing,))
+    if asked.output is not None and picture.resolve() == asked.output.resolve():
+        raise click.BadParameter(f"{picture} is the program", param_hint="--picture")
+
+
+def _made(asked: _Asked) -> "Made | NotMade":
+    """The program, made and proved, with progress on stderr."""
+    from dataclasses import replace
+
+    from sim.cam.asked import wanted_of
+    from sim.cam.maker import made
+    from sim.cli.progress import StageProgress
+    from sim.run.recording import stages_of
+
+    wanted = wanted_of(asked.to_make, asked.language, asked.scenario)
+    stages = stages_of(replace(asked.scenario, kerf=True, drawing=None))
+    with StageProgress("drawing", "figures", "write", *stages, "comparison") as progress:
+        return made(asked.drawing, asked.to_make.making, wanted, asked.scenario, progress)
+
+
+def _with_findings(done: "Made", asked: _Asked, tongue: "Tongue") -> bytes:
+    """The program with what speaks against it at its head."""
+    from sim.cam.asked import wanted_of
+    from sim.cam.remarked import remarked
+    from sim.show.terminal.proof import against
+
+    wanted = wanted_of(asked.to_make, asked.language, asked.scenario)
+    return remarked(done, [*against(done, tongue)], wanted).data
+
+
+def _write(output: Path, data: bytes) -> None:
     from sim.files import staged
-    from sim.setup.making import Making
-    from sim.setup.scenario import load_scenario
+
+    with staged(output.parent, [output.name]) as stage:
+        (stage / output.name).write_bytes(data)
+
+
+def _draw(done: "Made", picture: _Picture, tongue: "Tongue") -> None:
+    from sim.show.draw.sheet import SIZES_PX
+    from sim.show.pictures.files import PictureFiles, write_pictures
+    from sim.show.pictures.plan.shown import PLAN, PlanShown
+
+    assert picture.file is not None  # noqa: S101 - asked before
+    files = PictureFiles(picture.file.parent, {PLAN: picture.file.name})
+    write_pictures(PlanShown(done.plan), files, SIZES_PX["screen"], picture.theme, tongue)
+
+
+def _tell(done: "Made | NotMade", asked: _Asked, written: Path | None, picture: Path | None, tongue: "Tongue") -> None:
+    from sim.cam.maker import Made
     from sim.show.terminal.printer import say
-    from sim.show.terminal.program import made_lines, not_made_lines
+    from sim.show.terminal.program import not_made_lines, print_made
     from sim.show.terminal.streams import outlet
     from sim.show.terminal.wrap import width_of
+    from sim.show.words import Words
 
-    width, tongue = width_of(outlet()), chosen(lang)
-    done = made(path, Making(tolerance_um=tolerance), Wanted("3b"), load_scenario(output))
-    if not isinstance(done, Made):
-        for line in not_made_lines(done, str(path), tongue, width):
+    if isinstance(done, Made):
+        print_made(done, asked.to_make.file, tongue)
+    else:
+        for line in not_made_lines(done, str(asked.drawing), tongue, width_of(outlet())):
             say(line)
-        raise click.exceptions.Exit(1)
-    with staged(output.parent, [output.name]) as stage:
-        (stage / output.name).write_bytes(done.data)
-    for line in made_lines(output, tongue, width):
-        say(line)
+    for file in (written, picture if isinstance(done, Made) else None):
+        if file is not None:
+            say(Words(tongue)("program.written", out=file))

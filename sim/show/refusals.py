@@ -1,8 +1,9 @@
 """Why no program is made of a drawing, in words."""
 
+from collections.abc import Sequence
+
 from parser.findings.catalogue import Said
 from parser.text.encoding import printable
-from parser.toolpath import Point
 from parser.units import mm
 from sim.cam.model import Refusal
 from sim.show.words import said
@@ -20,11 +21,13 @@ def why_refused(refusal: Refusal) -> Said:
     return said("program.at", what=why, places=places_said(refusal.places_um))
 
 
-def places_said(places_um: tuple[Point, ...]) -> Said:
+def places_said(places_um: Sequence[tuple[float, float]]) -> Said:
     """Places in mm, the first few of many."""
     named = ", ".join(place_text(place) for place in places_um[:_MOST_PLACES])
     more = len(places_um) - _MOST_PLACES
-    return said("program.places-more", places=named, more=f"{more:,}") if more > 0 else same(named)
+    if more > 0:
+        return said("program.places-more", places=named, more=f"{more:,}")
+    return said("program.places-all", places=named)
 
 
 def place_text(place: tuple[float, float]) -> str:

@@ -4,42 +4,15 @@ import random
 
 import numpy as np
 import pytest
-from plain import PlainBlock
-from sound_cam import plain_end
+from plain_ends import plain_ends, random_path
 
-from parser.geometry.curves import Curves, Floats, curves_between
-from parser.told.step_words import Axis, StepWords
+from parser.geometry.curves import curves_between
 from parser.words.chained import chained_words
-from parser.words.labels import label
 from parser.words.moves import moves
 from parser.words.one_arc import arc_of, line_of, told_arc_of
 from parser.words.telling import words_of_arcs, words_of_lines, words_of_told_arcs
 
 _MOST_UM = 2.3
-
-
-def random_path(seed: int, n: int, reach_um: float) -> Curves:
-    """Lines and arcs of any sweep between random places."""
-    rng = np.random.default_rng(seed)
-    place = np.cumsum(rng.uniform(-reach_um, reach_um, (n + 1, 2)), axis=0)
-    by = np.diff(place, axis=0)
-    normal = np.column_stack([-by[:, 1], by[:, 0]])
-    center = place[:-1] + 0.5 * by + normal * rng.uniform(-2.0, 2.0, (n, 1))
-    low, high = (np.arctan2(*(at - center).T[::-1]) for at in (place[:-1], place[1:]))
-    turn = rng.choice([-1.0, 0.0, 1.0], n)
-    return curves_between(place[:-1], place[1:], center, (high - low) * turn % (2.0 * np.pi) * turn)
-
-
-def plain_ends(words: StepWords, start: Floats) -> Floats:
-    """Ends of blocks one behind the other, by the plain rules of the tests."""
-    at, ends = start, []
-    for row in range(len(words.x_um)):
-        sense = label(int(words.turn[row]), int(words.quadrant[row]))
-        x, y, count = (int(column[row]) for column in (words.x_um, words.y_um, words.count_um))
-        by = plain_end(PlainBlock(x, y, count, Axis(int(words.count_axis[row])).name, sense[:-1], int(sense[-1])))
-        at = at + np.array(by)
-        ends.append(at)
-    return np.array(ends)
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from controller.offset.sections import Side
 from sim.cam.model import Figure
-from sim.setup.making import Making
+from sim.setup.making import Making, SideWish
 
 
 class Way(NamedTuple):
@@ -16,13 +16,20 @@ class Way(NamedTuple):
 
 
 def with_sides(figures: Sequence[Figure], making: Making) -> tuple[Figure, ...]:
-    """The figures with the sides that are asked for."""
-    if making.side == "nesting":
-        return tuple(figures)
-    return tuple(figure._replace(runs_inside=making.side == "inside") for figure in figures)
+    """The figures with the sides that are asked for, for their layers or for all."""
+    of_layer = {wish.layer.casefold(): wish.side for wish in making.layers if wish.side is not None}
+    return tuple(_with_side(figure, of_layer.get(figure.layer.casefold(), making.side)) for figure in figures)
+
+
+def _with_side(figure: Figure, side: SideWish) -> Figure:
+    inside = figure.kind == "hole" if side == "nesting" else side == "inside"
+    return figure._replace(runs_inside=inside)
 
 
 def way_of(figure: Figure, making: Making) -> Way:
-    """Which way the first pass over a figure runs."""
+    """Which way the first pass over a figure runs.
+
+    ``one-side`` has the wire on its left: counter-clockwise within a contour, clockwise around one.
+    """
     is_ccw = figure.runs_inside if making.direction == "one-side" else making.direction == "ccw"
     return Way(is_ccw, Side.LEFT if is_ccw == figure.runs_inside else Side.RIGHT)

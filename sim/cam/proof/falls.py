@@ -1,11 +1,11 @@
 """What falls, and when: of each figure its slug or its part, at the end of its own cut, and nothing besides."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 import shapely
 
-from parser.drawing.model import running
+from parser.geometry.along import places
 from parser.geometry.curves import Bools
 from parser.shape.contours import runs
 from parser.toolpath import Point, Toolpath
@@ -14,65 +14,48 @@ from sim.cam.order.sides import with_sides
 from sim.cam.proof.result import Fault
 from sim.cam.proof.target import Target
 from sim.cut.pieces.pieces import Piece, Pieces
-from sim.measure.compare.rings import polygon
 
 _CRUMB_UM2 = 2000.0
 """Of less than 0.001 mm² nothing is told when it falls (`sim.cut.pieces`); twice that has fallen."""
 
 
-def shapes_of(target: Target) -> list[shapely.Polygon]:
-    """(k,) the contours that are to be cut, filled."""
-    curves = target.drawing.curves
-    return [polygon(running(curves, loop.row, loop.backwards)) for loop in target.drawing.loops]
-
-
-def side_faults(
-    plan: CutPlan, target: Target, shapes: Sequence[shapely.Polygon], toolpath: Toolpath
-) -> Iterator[Fault]:
+def side_faults(plan: CutPlan, target: Target, toolpath: Toolpath) -> Iterator[Fault]:
     """Figures of which the wire runs on the other side than is asked for, by how the contours lie in each other.
 
-    The middle of each contour's longest curve lies in the contour of the drawing, or outside of it.
+    More than half of the path to a figure and round it lies within the contour of the drawing, or outside of it.
     """
-    wanted = _within(plan, target, shapes)
-    of_run = runs(toolpath)
+    wanted, of_run = _within(plan, target), runs(toolpath)
     for loop, at in enumerate(target.cut.tolist()):
         first, past = of_run[at].tolist()
         rows = toolpath.picked(np.arange(first, past))
-        places = shapely.points(np.concatenate([rows.start_um, rows.end_um]))
-        inside = shapes[loop].contains(places)
-        weight = np.tile(rows.length_um, 2)
-        if (float(weight[inside].sum()) * 2.0 > float(weight.sum())) != bool(wanted[loop]):
-            figure = plan.cuts[at].figure
-            yield Fault("side", {}, Point(*rows.start_um[0].tolist()), figure.number, first + 1)
+        middle = shapely.points(places(rows, np.arange(len(rows)), np.full(len(rows), 0.5)))
+        inside = shapely.contains(target.shapes[loop], middle)
+        if (2.0 * float(rows.length_um[inside].sum()) > float(rows.length_um.sum())) != bool(wanted[loop]):
+            yield Fault("side", {}, Point(*rows.start_um[0].tolist()), plan.cuts[at].figure.number, first + 1)
 
 
-def _within(plan: CutPlan, target: Target, shapes: Sequence[shapely.Polygon]) -> Bools:
+def _within(plan: CutPlan, target: Target) -> Bools:
     """(k,) whether the wire is to run within each contour: by its depth, and as is asked for."""
-    area = shapely.area(shapes)
-    inner = shapely.point_on_surface(shapes)
-    one, around = shapely.STRtree(shapes).query(inner, predicate="within")
-    depth = np.bincount(one[area[around] > area[one]], minlength=len(shapes))
     figures = [
         plan.cuts[at].figure._replace(runs_inside=bool(deep % 2), kind="hole" if deep % 2 else "outline")
-        for at, deep in zip(target.cut.tolist(), depth.tolist(), strict=True)
+        for at, deep in zip(target.cut.tolist(), target.depth.tolist(), strict=True)
     ]
     return np.array([figure.runs_inside for figure in with_sides(figures, plan.making)])
 
 
-def fall_faults(
-    plan: CutPlan, target: Target, shapes: Sequence[shapely.Polygon], pieces: Pieces, reach_um: float
-) -> Iterator[Fault]:
+def fall_faults(plan: CutPlan, target: Target, pieces: Pieces, reach_um: float) -> Iterator[Fault]:
     """Figures of which nothing falls, or something else than should, or by another figure's cut."""
     fallen: dict[int, list[Piece]] = {}
     for piece in pieces.freed:
         if not piece.is_scrap:
             fallen.setdefault(piece.freed.contour - 1, []).append(piece)
-    wanted = _within(plan, target, shapes)
+    wanted = _within(plan, target)
     for loop, at in enumerate(target.cut.tolist()):
         cut, found = plan.cuts[at], fallen.pop(at, [])
         kind = "slug" if wanted[loop] else "part"
         most_um = max((one.by_um for one in cut.passes), default=0.0) or reach_um
-        left = shapes[loop].buffer(-most_um - reach_um) if kind == "slug" else shapes[loop]
+        left = target.shapes[loop]
+        left = left.buffer(-most_um - reach_um) if kind == "slug" else left
         place = Point(*cut.figure.contour.start_um[0].tolist())
         if not found and left.area > _CRUMB_UM2:
             yield Fault(f"no-{kind}", {}, place, cut.figure.number)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from parser.toolpath import Point
 from parser.units import mm
 from sim.cam.model import CutPlan
 from sim.cam.proof.as_run import AsRun, as_run
-from sim.cam.proof.falls import fall_faults, shapes_of, side_faults
+from sim.cam.proof.falls import fall_faults, side_faults
 from sim.cam.proof.result import Fault, Proof
 from sim.cam.proof.target import Target, target_of
 from sim.convert.proof import Proof as Written
@@ -32,6 +32,9 @@ from sim.table.motion import Progress, silent
 
 _MEASURED_UM = 0.05
 """A comparison of exact paths is right to 0.01 µm, and fillets of a drawing to 0.02 µm."""
+
+_OF_ADDED: Final = frozenset({"3B214"})
+"""Findings of 4B of what a controller's own offset makes of corners: none where the path has its offset already."""
 
 
 class Given(NamedTuple):
@@ -51,8 +54,8 @@ def proved(given: Given, scenario: Scenario, progress: Progress = silent) -> Pro
     """Run a program on the machine of a scenario, and hold its path and what it cuts against the drawing."""
     plan = given.plan
     how = as_run(scenario, plan, given.program.toolpath)
-    target, faults = target_of(given.drawn, plan)
-    faults = (*_written_faults(given), *faults)
+    target, missing = target_of(given.drawn, plan)
+    faults = (*_written_faults(given), *missing)
     none = Proof(None, given.written.off_um, None, None, (), faults, how.unproved, how.notes, how.scenario.wire)
     try:
         run = dry_run(given.program, how.scenario, progress)
@@ -61,22 +64,29 @@ def proved(given: Given, scenario: Scenario, progress: Progress = silent) -> Pro
     except SettingsError as error:
         return none._replace(unproved=(*how.unproved, Remark("run", {"why": str(error)})))
     progress("comparison", 0, 1)
-    unproved = [*how.unproved, *_unlooked(run)]
-    if target is None:
-        return none._replace(run=run, findings=run.findings, unproved=tuple(unproved))
+    of_run, notes = _of_run(run, how)
     by_cut = _by_cut(given, run)
-    if by_cut:
-        return none._replace(run=run, findings=run.findings, faults=(*faults, *by_cut), unproved=tuple(unproved))
+    ran = none._replace(run=run, findings=of_run, faults=(*faults, *by_cut), notes=(*how.notes, *notes))
+    ran = ran._replace(unproved=(*how.unproved, *_unlooked(run)))
+    if target is None or by_cut:
+        return ran
     path, of_path = _path(given, target, run, how)
     cut, of_cut = _as_cut(given, target, run, how)
-    return none._replace(
-        run=run,
+    return ran._replace(
         path=path,
         comparison=cut,
-        findings=(*run.findings, *of_cut.findings),
-        faults=(*faults, *of_path.faults, *of_cut.faults),
-        unproved=(*unproved, *of_path.unproved, *of_cut.unproved),
+        findings=(*ran.findings, *of_cut.findings),
+        faults=(*ran.faults, *of_path.faults, *of_cut.faults),
+        unproved=(*ran.unproved, *of_path.unproved, *of_cut.unproved),
     )
+
+
+def _of_run(run: DryRun, how: AsRun) -> tuple[tuple[Finding, ...], tuple[Remark, ...]]:
+    """The findings of a run, and what is to be known to run the program so: of 4B, that its offset is worked in."""
+    is_4b = any(finding.code == "3B110" for finding in run.findings)
+    if not is_4b or how.scenario.offset is not None or not how.has_offset:
+        return run.findings, ()
+    return tuple(one for one in run.findings if one.code not in _OF_ADDED), (Remark("worked-in"),)
 
 
 class _Found(NamedTuple):
@@ -165,11 +175,10 @@ def _mm(place: Point) -> dict[str, float]:
 
 def _as_cut(given: Given, target: Target, run: DryRun, how: AsRun) -> tuple[Comparison | None, _Found]:
     """The edge as cut, after steps and table, and what falls."""
-    shapes = shapes_of(target)
-    faults = [*side_faults(given.plan, target, shapes, run.toolpath)] if how.has_offset else []
+    faults = [*side_faults(given.plan, target, run.toolpath)] if how.has_offset else []
     if run.remains is None:
         return None, _Found(tuple(faults))
-    faults += fall_faults(given.plan, target, shapes, run.remains.pieces, how.scenario.wire.reach_um)
+    faults += fall_faults(given.plan, target, run.remains.pieces, how.scenario.wire.reach_um)
     if not how.is_one_edge:
         return None, _Found(tuple(faults))
     tolerance_um = given.plan.making.held_to_um

@@ -1,19 +1,20 @@
 """What a program is held against: the contours of its drawing that are to be cut, as they are drawn, unfitted."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 import shapely
 
-from parser.drawing.model import SAME_WITHIN_UM, Drawing, DrawnLoop, LeftOut, running
+from parser.drawing.model import SAME_WITHIN_UM, Drawing, DrawnLoop, running
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.geometry.extents import extents
 from parser.toolpath import Point
 from parser.units import mm
 from sim.cam.model import CutPlan
 from sim.cam.proof.result import Fault
+from sim.measure.compare.rings import polygon
 
 _NEAR_UM = 1000.0
 """A figure's box may lie so far from that of its contour: what a wrong fit moves is told as a path that is off."""
@@ -28,32 +29,52 @@ class Target(NamedTuple):
         They alone, their gaps bridged by lines.
     cut
         (k,) index of the plan's cut that each is of.
+    shapes
+        They as polygons.
+    depth
+        (k,) how many of the contours that are to be cut lie round each, those among them that the plan does not cut.
     gap_um
         The largest gap that is bridged.
     """
 
     drawing: Drawing
     cut: Ints
+    shapes: tuple[shapely.Polygon, ...]
+    depth: Ints
     gap_um: float
 
 
 def target_of(drawn: Drawing, plan: CutPlan) -> tuple[Target | None, tuple[Fault, ...]]:
     """The contours of a drawing that a plan cuts, None where it cuts none; and what of the two is not in the other."""
-    loops = [loop for loop in drawn.loops if loop.closed]
-    of_loop = _features([running(drawn.curves, loop.row, loop.backwards) for loop in loops])
-    of_cut = _features([cut.figure.contour for cut in plan.cuts])
-    found = _nearest(of_cut, of_loop)
-    faults = [_stray(plan, at) for at in np.flatnonzero(found < 0).tolist()]
+    closed = [loop for loop in drawn.loops if loop.closed]
+    rings = [running(drawn.curves, loop.row, loop.backwards) for loop in closed]
+    found = _nearest(_features([cut.figure.contour for cut in plan.cuts]), _features(rings))
     known = np.flatnonzero(found >= 0)
     once, first = np.unique(found[known], return_index=True)
-    again = np.setdiff1d(known, known[first])
-    faults += [Fault("twice", {}, _place(plan, at), plan.cuts[at].figure.number) for at in again.tolist()]
-    missing = np.setdiff1d(np.arange(len(loops)), once)
-    faults += _missing(drawn, [loops[at] for at in missing.tolist()], plan.left_out)
+    missing = [
+        at for at in np.setdiff1d(np.arange(len(closed)), once).tolist() if not _is_told(drawn, closed[at], plan)
+    ]
+    faults = (
+        *(_of_cut("stray", plan, at) for at in np.flatnonzero(found < 0).tolist()),
+        *(_of_cut("twice", plan, at) for at in np.setdiff1d(known, known[first]).tolist()),
+        *(_missing(drawn, closed[at]) for at in missing),
+    )
     if not len(once):
-        return None, tuple(faults)
-    kept = [loops[at] for at in once.tolist()]
-    return Target(_only(drawn, kept), known[first], max(loop.gap_um for loop in kept)), tuple(faults)
+        return None, faults
+    shapes = [polygon(rings[at]) for at in (*once.tolist(), *missing)]
+    kept = [closed[at] for at in once.tolist()]
+    gap_um = max(loop.gap_um for loop in kept)
+    depth = _depths(shapes)[: len(kept)]
+    return Target(_only(drawn, kept), known[first], tuple(shapes[: len(kept)]), depth, gap_um), faults
+
+
+def _depths(shapes: Sequence[shapely.Polygon]) -> Ints:
+    """(k,) how many of the others lie round each: a place within it lies within them, and they are larger."""
+    area = shapely.area(shapes)
+    inner = np.asarray(shapely.point_on_surface(shapes), dtype=np.object_)
+    one, around = shapely.STRtree(shapes).query(inner, predicate="within")
+    depth: Ints = np.bincount(one[area[around] > area[one]], minlength=len(shapes))
+    return depth
 
 
 def _features(contours: Sequence[Curves]) -> Floats:
@@ -88,25 +109,22 @@ def _nearest(of_cut: Floats, of_loop: Floats) -> Ints:
     return found
 
 
-def _stray(plan: CutPlan, at: int) -> Fault:
-    return Fault("stray", {}, _place(plan, at), plan.cuts[at].figure.number)
+def _of_cut(name: str, plan: CutPlan, at: int) -> Fault:
+    figure = plan.cuts[at].figure
+    return Fault(name, {}, Point(*figure.contour.start_um[0].tolist()), figure.number)
 
 
-def _place(plan: CutPlan, at: int) -> Point:
-    return Point(*plan.cuts[at].figure.contour.start_um[0].tolist())
+def _is_told(drawn: Drawing, loop: DrawnLoop, plan: CutPlan) -> bool:
+    """Whether a contour is among those that are left out, and told so."""
+    told = {one.entity for one in plan.left_out}
+    return bool(told) and {drawn.entities[int(at)] for at in drawn.entity[loop.row]} <= told
 
 
-def _missing(drawn: Drawing, loops: Sequence[DrawnLoop], left_out: Sequence[LeftOut]) -> Iterator[Fault]:
-    """Closed contours that are not cut, and of which nobody said that they are left out."""
-    told = {one.entity for one in left_out}
-    for loop in loops:
-        entities = {drawn.entities[int(at)] for at in drawn.entity[loop.row]}
-        if entities <= told:
-            continue
-        place = Point(*running(drawn.curves, loop.row[:1], loop.backwards[:1]).start_um[0].tolist())
-        entity = drawn.entities[int(drawn.entity[loop.row[0]])]
-        named = f"{entity.kind} {entity.handle}"
-        yield Fault("missing", {"entity": named, "x_mm": mm(place.x), "y_mm": mm(place.y)}, place)
+def _missing(drawn: Drawing, loop: DrawnLoop) -> Fault:
+    place = Point(*running(drawn.curves, loop.row[:1], loop.backwards[:1]).start_um[0].tolist())
+    entity = drawn.entities[int(drawn.entity[loop.row[0]])]
+    named = f"{entity.kind} {entity.handle}"
+    return Fault("missing", {"entity": named, "x_mm": mm(place.x), "y_mm": mm(place.y)}, place)
 
 
 def _only(drawn: Drawing, loops: Sequence[DrawnLoop]) -> Drawing:

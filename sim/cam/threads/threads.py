@@ -1,38 +1,156 @@
 """Thread points: those that are asked for, those that are marked in the drawing, and others chosen in the waste."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from parser.drawing.model import Drawing
-from parser.geometry.along import headings_along, places_at
+from parser.findings.remarks import Remark
+from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Point
-from sim.cam.model import Entry, Figure, Thread
-from sim.setup.making import Making
+from parser.units import mm
+from sim.cam.leads.room import TOLERANCE_UM, Room, nearest, room_of
+from sim.cam.model import CannotCutError, Figure, Refusal, Thread, ThreadedBy
+from sim.cam.order.nested import around
+from sim.cam.threads.chosen import Wanted, begun_on, chosen
+from sim.cam.threads.entries import nearest_of
+from sim.cam.threads.given import Taken, across, at_corners, matched, on_contour, refused, waste_of
+from sim.cam.threads.marks import marks_of_layer, points_of
+from sim.setup.making import LeadIn, Making
 
-_USUAL_LEAD_UM = 2000.0
+_ROUND = ("arc", "tangent")
+_SPARE_UM = 3.0  # more than places move from one side to the other as they become whole µm
+_MOST_NUMBERS = 20  # of figures that one refusal names
+_LEAST_UM = 1.0  # what leads of an offset of 0 keep off contours, but for their ends
 
 
 def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reach_um: float) -> tuple[Thread, ...]:
-    """A thread point for each figure; CannotCutError where there is no place for one."""
-    return tuple(_thread(figure, making, reach_um) for figure in figures)
+    """A thread point for each figure, and a lead from there that keeps from all contours by the largest offset.
+
+    First come the points that are asked for, then those of the layer of thread points, or points of the drawing that
+    lie alone in the waste of one hole; all others are chosen. Where the offset is 0 and nothing else is asked, the wire
+    begins on the contour. CannotCutError where a thread point cannot be, or there is no room for one.
+    """
+    waste = _Waste(figures, reach_um)
+    threads = waste.given(_whole(making.starts_um), "asked", {})
+    if making.thread_layer is None:
+        threads |= waste.lone(points_of(drawing), threads)
+    else:
+        threads |= waste.given(marks_of_layer(drawing, making.thread_layer), "marked", threads)
+    wanted = np.array([at for at in range(len(figures)) if at not in threads], dtype=np.int64)
+    if len(wanted) and (reach_um > 0.0 or making.lead_um is not None):
+        threads |= waste.chosen(wanted, making)
+    elif len(wanted):
+        threads |= begun_on(waste.room, waste.side, wanted)
+    return waste.led(threads, making.lead)
 
 
-def entry_at(figure: Figure, row: int, along_um: float) -> Entry:
-    """The entry at a place along a contour; the waste is within a hole, and outside of a part."""
-    rows = np.array([row])
-    place = places_at(figure.contour, rows, np.array([along_um]))[0]
-    way = headings_along(figure.contour, rows, np.array([along_um]))[0]
-    sign = 1.0 if figure.runs_inside else -1.0
-    return Entry(row, along_um, Point(*place.tolist()), Point(float(-way[1] * sign), float(way[0] * sign)))
+def thread_notes(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
+    """What is to be said of leads that are not as they are asked for."""
+    straight = [
+        str(figure.number)
+        for figure, thread in zip(figures, threads, strict=True)
+        if thread.lead != making.lead and thread.by != "contour"
+    ]
+    return (Remark("straight-leads", {"figures": ", ".join(straight)}),) if straight else ()
 
 
-def _thread(figure: Figure, making: Making, reach_um: float) -> Thread:
-    """Across from the middle of the longest line, else of the longest curve."""
-    longest = int(np.argmax(figure.contour.length_um - 1e9 * figure.contour.is_arc))
-    entry = entry_at(figure, longest, 0.5 * float(figure.contour.length_um[longest]))
-    lead = making.lead_um or _USUAL_LEAD_UM
-    if not reach_um:
-        return Thread(entry.place_um, "contour", entry)
-    at = Point(round(entry.place_um.x + lead * entry.out.x), round(entry.place_um.y + lead * entry.out.y))
-    return Thread(at, "chosen", entry)
+class _Waste:
+    """The waste of figures, in which their thread points lie."""
+
+    def __init__(self, figures: Sequence[Figure], reach_um: float) -> None:
+        self.figures = figures
+        self.reach_um = reach_um
+        self.clear_um = max(reach_um, _LEAST_UM)
+        self.room: Room = room_of(figures)
+        self.side: Floats = np.where([figure.runs_inside for figure in figures], 1.0, -1.0)
+
+    def given(self, place_um: Floats, by: ThreadedBy, taken: Mapping[int, Thread]) -> dict[int, Thread]:
+        """Threads at places (m, 2), for figures that are not taken yet; what is marked for those that are is left out.
+
+        CannotCutError where a place is for none.
+        """
+        threads, place_um = self._begun_at(place_um)
+        if not len(place_um):
+            return threads
+        waste = waste_of(self.figures, around(self.figures), place_um)
+        begun = Taken(frozenset(threads), frozenset(taken))
+        places = {at: place_um[one] for at, one in matched(waste, begun, place_um).items()}
+        return threads | self._threaded(places, by)
+
+    def _begun_at(self, place_um: Floats) -> tuple[dict[int, Thread], Floats]:
+        """Threads at those of the places that lie on contours, and the other places."""
+        on = on_contour(self.room, place_um)
+        which = np.isin(np.arange(len(place_um)), list(on.values()))
+        if on and self.reach_um > 0.0:
+            raise refused("start-on-contour", place_um[which])
+        begun = {
+            at: Thread(Point(*place_um[one].tolist()), "contour", nearest_of(self.room, self.side, at, place_um[one]))
+            for at, one in on.items()
+        }
+        return begun, place_um[~which]
+
+    def lone(self, place_um: Floats, taken: Mapping[int, Thread]) -> dict[int, Thread]:
+        """Threads at points that lie alone in the waste within a figure, and in that of no other one, if they fit."""
+        place_um = place_um[self._clear(place_um) > self.clear_um]
+        if not len(place_um):
+            return {}
+        waste = waste_of(self.figures, around(self.figures), place_um)
+        alone = (np.bincount(waste.place)[waste.place] == 1) & (np.bincount(waste.figure)[waste.figure] == 1)
+        alone &= (self.side > 0.0)[waste.figure] & ~np.isin(waste.figure, list(taken))
+        found = waste.take(alone)
+        places = {at: place_um[one] for at, one in zip(found.figure.tolist(), found.place.tolist(), strict=True)}
+        entries = across(self.room, self.side, places, self.clear_um)
+        return {at: Thread(Point(*places[at].tolist()), "marked", entry) for at, entry in entries.items()}
+
+    def _threaded(self, places: Mapping[int, Floats], by: ThreadedBy) -> dict[int, Thread]:
+        """Threads of figures at places (2,) that must do."""
+        place_um = np.array(list(places.values())).reshape(-1, 2)
+        clear = self._clear(place_um)
+        if (clear <= self.clear_um).any():
+            values = (("off_mm", f"{mm(float(clear.min())):.4g}"), ("least_mm", f"{mm(self.clear_um):.4g}"))
+            raise refused("start-too-near", place_um[clear <= self.clear_um], values)
+        entries = across(self.room, self.side, places, self.clear_um)
+        hidden = [at not in entries for at in places]
+        if any(hidden):
+            raise refused("start-hidden", place_um[hidden])
+        return {at: Thread(Point(*places[at].tolist()), by, entry) for at, entry in entries.items()}
+
+    def chosen(self, wanted: Ints, making: Making) -> dict[int, Thread]:
+        """Threads of the figures `wanted` at places in their waste."""
+        spare_um = _SPARE_UM if making.lead in _ROUND else 0.0
+        asked = Wanted(self.clear_um, making.lead_um, spare_um)
+        found = chosen(self.room, self.side, wanted, asked)
+        missing = [at for at in wanted.tolist() if at not in found]
+        if missing:
+            places = tuple(Point(*self.figures[at].contour.start_um[0].tolist()) for at in missing)
+            numbers = ", ".join(str(self.figures[at].number) for at in missing[:_MOST_NUMBERS])
+            values = (("figures", numbers), ("least_mm", f"{mm(asked.least_um):.4g}"))
+            raise CannotCutError(Refusal("no-room", places[:_MOST_NUMBERS], values))
+        return found
+
+    def _clear(self, place_um: Floats) -> Floats:
+        """(m,) how far places lie from all contours, as far as it matters."""
+        return nearest(self.room, place_um, self.clear_um).distance_um
+
+    def led(self, threads: Mapping[int, Thread], lead: LeadIn) -> tuple[Thread, ...]:
+        """Threads of all figures, in their order, with the lead that is asked for where that is free."""
+        lead_off = {at: one for at, one in threads.items() if one.by != "contour"}
+        places = {at: np.array(one.place_um) for at, one in lead_off.items()}
+        found = dict(threads)
+        if lead == "point":
+            for at, entry in at_corners(self.room, self.side, places, self.clear_um).items():
+                found[at] = threads[at]._replace(entry=entry, lead=lead)
+        elif lead != "perpendicular" and places:
+            off = np.array([math.dist(one.place_um, one.entry.place_um) for one in lead_off.values()])
+            clear = nearest(self.room, np.array(list(places.values())), float(off.max())).distance_um
+            # Leads of all forms are free in the circle about the thread point that touches contours at the entry alone.
+            for at, is_free in zip(lead_off, (clear >= off - TOLERANCE_UM).tolist(), strict=True):
+                found[at] = threads[at]._replace(lead=lead) if is_free else threads[at]
+        return tuple(found[at] for at in range(len(self.figures)))
+
+
+def _whole(places: Sequence[Point]) -> Floats:
+    """Places (m, 2) in whole µm."""
+    return np.round(np.array(places, dtype=np.float64).reshape(-1, 2)) + 0.0

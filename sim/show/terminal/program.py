@@ -1,24 +1,143 @@
-"""A program made of a drawing, on the terminal: its figures, or why there is none."""
+"""A program made of a drawing, on the terminal: its figures, what it left out and took for granted, and its proof."""
 
+from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 
-from parser.findings.catalogue import Language
+from parser.drawing.model import LeftOut
+from parser.findings.catalogue import Language, Said
+from parser.findings.remarks import remark_text
 from parser.text.encoding import printable
-from sim.cam.maker import NotMade
-from sim.show.terminal.wrap import wrapped
-from sim.show.words import Words
-from sim.show.words.words import said
+from parser.units import mm
+from sim.cam.maker import Made, NotMade
+from sim.cam.model import CutPlan, FigureCut
+from sim.cam.sums import FigureSum, figure_sums
+from sim.show.refusals import place_text, places_said, why_refused
+from sim.show.terminal.colours import styled
+from sim.show.terminal.layout import show, table
+from sim.show.terminal.printer import say
+from sim.show.terminal.proof import proof_lines
+from sim.show.terminal.streams import outlet
+from sim.show.terminal.wrap import width_of, wrapped
+from sim.show.words import Words, said
+from sim.show.words.phrases import listed, same
 
 _INDENT = "    "
+_MOST_FIGURES = 40
+_HEADS = ("number", "kind", "wire", "blocks", "length", "time", "thread")
 
 
-def made_lines(out: Path, language: Language, width: int) -> Iterator[str]:
-    """What was written, in lines of `width` cells."""
-    yield from wrapped(Words(language)("program.written", out=printable(str(out))), width, "", _INDENT)
+def print_made(done: Made, name: Path, language: Language) -> None:
+    """Print figures, what was left out and taken for granted, and the proof of a program to stdout."""
+    words, width = Words(language), width_of(outlet())
+    sums = figure_sums(done)
+    passes = set(map(_passes, done.plan.cuts))
+    names = (*_HEADS, "passes") if len(passes) > 1 else _HEADS
+    shown = table(printable(name.name), tuple(words(f"program.head-{one}") for one in names), right=(0, 3, 4, 5))
+    for cut, of in list(zip(done.plan.cuts, sums, strict=False))[:_MOST_FIGURES]:
+        shown.add_row(*_row(cut, of, words)[: len(names)])
+    show(shown)
+    for line in (*_total(done.plan, sums, words, width), *told_lines(done.plan, language, width)):
+        say(line)
+    if done.proof is not None:
+        for line in proof_lines(done, str(name), language, width):
+            say(line)
+
+
+def told_lines(plan: CutPlan, language: Language, width: int) -> Iterator[str]:
+    """The fit, what was left out, and what was chosen or taken for granted, in lines of `width` cells."""
+    words = Words(language)
+    texts = [*_same_passes(plan, words), *_fit(plan, words), *_left_out(plan.left_out, words), *_chosen(plan, words)]
+    texts += [words("program.note", what=remark_text(note, language)) for note in (*plan.drawing.notes, *plan.notes)]
+    for text in texts:
+        yield from wrapped(text, width, "", _INDENT)
 
 
 def not_made_lines(refused: NotMade, name: str, language: Language, width: int) -> Iterator[str]:
     """Why nothing was written, in lines of `width` cells."""
-    why = said(f"program.refused-{refused.refusal.why}")
-    yield from wrapped(Words(language)("program.not-written", name=printable(name), why=why), width, "", _INDENT)
+    text = Words(language)("program.not-written", name=printable(name), why=why_refused(refused.refusal))
+    yield from (styled(line, "red") for line in wrapped(text, width, "", _INDENT))
+
+
+def _row(cut: FigureCut, of: FigureSum, words: Words) -> tuple[str, ...]:
+    return (
+        str(cut.figure.number),
+        words(f"program.kind-{cut.figure.kind}", part=cut.figure.part),
+        words("program.wire-inside" if cut.figure.runs_inside else "program.wire-outside"),
+        f"{of.blocks:,}",
+        f"{mm(of.length_um):,.3f}",
+        "–" if of.time_s is None else _hours(of.time_s),
+        place_text(cut.thread.place_um),
+        _passes(cut),
+    )
+
+
+def _passes(cut: FigureCut) -> str:
+    return ", ".join(f"{mm(one.by_um):g}" for one in cut.passes)
+
+
+def _hours(time_s: float) -> str:
+    """Hours, minutes and seconds, such as 0:19:33."""
+    minutes, seconds = divmod(round(time_s), 60)
+    return f"{minutes // 60}:{minutes % 60:02d}:{seconds:02d}"
+
+
+def _total(plan: CutPlan, sums: tuple[FigureSum, ...], words: Words, width: int) -> Iterator[str]:
+    more = len(plan.cuts) - _MOST_FIGURES
+    if more > 0:
+        yield words("program.more-figures", more=f"{more:,}")
+    length, blocks = mm(sum(one.length_um for one in sums)), sum(one.blocks for one in sums)
+    text = words("program.total", figures=f"{len(sums):,}", blocks=f"{blocks:,}", length=f"{length:,.3f}")
+    yield from wrapped(text, width, "", _INDENT)
+
+
+def _same_passes(plan: CutPlan, words: Words) -> Iterator[str]:
+    """The passes where they are the same for all figures, else the table has them; and the tabs."""
+    passes = set(map(_passes, plan.cuts))
+    if len(passes) == 1:
+        yield words("program.passes", passes=passes.pop())
+    tabs = [str(cut.figure.number) for cut in plan.cuts if cut.cut_off]
+    if tabs:
+        yield words("program.tabs", figures=_numbers(tabs), length=f"{mm(plan.making.tab_um):g}")
+
+
+def _fit(plan: CutPlan, words: Words) -> Iterator[str]:
+    fit = plan.drawing.fit
+    if fit is not None:
+        yield words(
+            "program.fit",
+            arcs=f"{fit.arcs:,}",
+            lines=f"{fit.lines:,}",
+            max=f"{fit.max_um:.3f}",
+            tolerance=f"{fit.tolerance_um:g}",
+        )
+
+
+def _left_out(left_out: tuple[LeftOut, ...], words: Words) -> Iterator[str]:
+    """A line for each reason, with the kinds of entities and the first places."""
+    by_reason: dict[str, list[LeftOut]] = defaultdict(list)
+    for one in left_out:
+        by_reason[one.why].append(one)
+    for why, ones in by_reason.items():
+        kinds: dict[str, int] = defaultdict(int)
+        for one in ones:
+            kinds[one.entity.kind] += 1
+        counted = listed(same(f"{number:,} {printable(kind)}") for kind, number in kinds.items())
+        places = tuple(one.place_um for one in ones if one.place_um is not None)
+        text = said("program.left-out", what=counted, why=said(f"program.left-out-{why}"))
+        yield getattr(_with_places(text, places), words.language)
+
+
+def _with_places(text: Said, places_um: tuple[tuple[float, float], ...]) -> Said:
+    return said("program.at", what=text, places=places_said(places_um)) if places_um else text
+
+
+def _chosen(plan: CutPlan, words: Words) -> Iterator[str]:
+    """Thread points that nobody asked for."""
+    chosen = [str(cut.figure.number) for cut in plan.cuts if cut.thread.by == "chosen"]
+    if chosen:
+        yield words("program.chosen", figures=_numbers(chosen))
+
+
+def _numbers(figures: list[str]) -> str:
+    return ", ".join(figures[:_MOST_FIGURES]) + ("…" if len(figures) > _MOST_FIGURES else "")

@@ -1,0 +1,107 @@
+"""Words of a path that is meant as it stands: of all whole µm about it, those that run nearest to it.
+
+`parser.words.chained` writes again what was a program before, as its CAM wrote it. Here the curves are no rounding of
+anybody's: each block begins at the decoded end of the last; of the centres in whole µm about the one that an arc should
+have that one is taken whose arc lies nearest; and where the path comes to a place again, the program does too.
+"""
+
+import math
+from collections import ChainMap
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Bools, Curves
+from parser.told.step_words import StepWords
+from parser.words.chained import Chained
+from parser.words.looked_at import LookedAt, looked_at
+from parser.words.near_blocks import Aim, arc_to, line_to
+from parser.words.one_arc import OneBlock, Place
+
+_ATTEMPTS, _TAIL = 24, 40
+"""How often the rows before a place are told until they meet it, and how many rows of them."""
+_CLOSED_UM, _ASIDE_UM = 0.5, 1.5
+"""How far a path may end from where it was, and how far aside of it an arc may lie to bring it there."""
+_COLUMNS = "x_um", "y_um", "count_um", "count_axis", "quadrant", "turn"
+
+
+class _Told(NamedTuple):
+    """Blocks of some rows, and where they end.
+
+    `missed`: by how much they miss places where the path was before, or lie aside of it to meet them, at most; by what
+    is wished 1 or less.
+    """
+
+    blocks: list[OneBlock]
+    ends: list[Place]
+    missed: float
+
+
+def nearest_words(curves: Curves, is_placed: Bools) -> Chained:
+    """Words of n curves; jumps are told as lines, and rows that are placed end at the very place.
+
+    How near: docs/program.md.
+    """
+    if not len(curves):
+        return Chained(_words([]), np.zeros((0, 2)))
+    path = looked_at(curves, is_placed)
+    x, y = curves.start_um[0].tolist()
+    ends: list[Place] = [(x, y)]
+    seen: dict[int, Place] = {path.again.first: ends[0]}
+    blocks: list[OneBlock] = []
+    for first, past in pairwise(_stretches(path)):
+        told = _closing(path, range(first, past), ends[-1], seen)
+        for place, end in zip(path.again.place[first:past], told.ends, strict=True):
+            seen.setdefault(place, end)
+        blocks += told.blocks
+        ends += told.ends
+    return Chained(_words(blocks), np.array(ends[1:]))
+
+
+def _stretches(path: LookedAt) -> list[int]:
+    """Rows at which stretches begin that are told by themselves: up to a place that is met, the last rows once more."""
+    closing = path.again.closing
+    tails = [past - _TAIL for before, past in pairwise([0, *closing]) if past - before > _TAIL]
+    return sorted({0, *closing, *tails, len(path.end)})
+
+
+def _closing(path: LookedAt, rows: range, begin: Place, seen: dict[int, Place]) -> _Told:
+    """Some rows told so that they come near enough to where the path was before, or as near as may be."""
+    best = _told(path, rows, begin, seen, 0)
+    for attempt in range(1, _ATTEMPTS if len(rows) <= _TAIL else 1):
+        if best.missed <= 1.0:
+            break
+        best = min(best, _told(path, rows, begin, seen, attempt), key=lambda one: one.missed)
+    return best
+
+
+def _told(path: LookedAt, rows: range, begin: Place, seen: dict[int, Place], attempt: int) -> _Told:
+    """Some rows told one from the end of the other."""
+    known = ChainMap({}, seen)
+    blocks: list[OneBlock] = []
+    ends: list[Place] = []
+    at, missed = begin, 0.0
+    for row in rows:
+        place = path.again.place[row]
+        pins = tuple((pin.axis, known[pin.place][pin.axis]) for pin in path.again.pinned.get(row, ()))
+        aim = Aim(known.get(place, path.end[row]), place in known, pins)
+        if path.is_arc[row]:
+            block, aside_um = arc_to(path, row, at, aim, attempt)
+        else:
+            block, aside_um = line_to(path, row, at, aim), 0.0
+        at = aim.end if path.is_placed[row] else (at[0] + block.by_um[0], at[1] + block.by_um[1])
+        if aim.is_known:
+            missed = max(missed, math.dist(at, aim.end) / _CLOSED_UM)
+        if aim.is_known or pins:
+            missed = max(missed, aside_um / _ASIDE_UM)
+        known.setdefault(place, at)
+        blocks.append(block)
+        ends.append(at)
+    return _Told(blocks, ends, missed)
+
+
+def _words(told: list[OneBlock]) -> StepWords:
+    none, n = np.int64(0), len(told)
+    columns = {name: np.array([getattr(one, name) for one in told], dtype=np.int64) for name in _COLUMNS}
+    return StepWords(**columns, radius_um=np.full(n, none - 1), curve=np.full(n, none))

@@ -1,0 +1,160 @@
+"""Places where the wire may come to a contour: middles of its curves, places across from a point, its corners."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from parser.geometry.along import along_um, headings_along, places_at
+from parser.geometry.curves import Floats, Ints
+from parser.geometry.directions import directions, to_left
+from parser.geometry.feet import feet
+from parser.toolpath import Point
+from sim.cam.leads.room import Room
+from sim.cam.model import Entry
+
+MOST: Final = 12
+"""Entries of a figure that are looked at."""
+_LONG_UM: Final = 1000.0  # a line as long as this takes an entry before any arc
+_STRAIGHT_COS: Final = 1.0 - 1e-4  # curves that turn by less than 0.8° from one to the next make no corner
+_ACROSS: Final = 1e-6
+
+
+class Entries(NamedTuple):
+    """Entries (m,), the best of each figure first.
+
+    Attributes
+    ----------
+    row, along_um
+        (m,) row of the room, and how far along it.
+    place_um, out
+        (m, 2) on the contour, and unit vectors into the waste.
+    aside_um
+        (m,) how far out from the place a pass at the offset begins: the offset, more in a corner.
+    """
+
+    row: Ints
+    along_um: Floats
+    place_um: Floats
+    out: Floats
+    aside_um: Floats
+
+    def take(self, at: Ints) -> "Entries":
+        """Those at the indices `at`."""
+        return Entries(self.row[at], self.along_um[at], self.place_um[at], self.out[at], self.aside_um[at])
+
+    @property
+    def begin_um(self) -> Floats:
+        """(m, 2) where the pass at the offset begins."""
+        return self.place_um + self.aside_um[:, None] * self.out
+
+    def one(self, room: Room, at: int) -> Entry:
+        """One of them, with the row of its own contour."""
+        row = int(self.row[at])
+        first = int(np.searchsorted(room.figure, room.figure[row]))
+        (x, y), (out_x, out_y) = self.place_um[at].tolist(), self.out[at].tolist()
+        return Entry(row - first, float(self.along_um[at]), Point(x, y), Point(out_x, out_y))
+
+
+def middles(room: Room, side: Floats, wanted: Ints, reach_um: float, most: int = MOST) -> Entries:
+    """Up to so many middles of curves of each of the figures `wanted`, where a mark hurts least first.
+
+    Lines of 1 mm and more come first, the longest before the others, then what else there is, by length; arcs of a
+    radius no larger than the reach of the wire only where there is nothing else. `side` (figures,) is 1 where the waste
+    lies within.
+    """
+    row = np.flatnonzero(np.isin(room.figure, wanted))
+    curves = room.curves.picked(row)
+    is_small = curves.is_arc & (curves.radius_um <= reach_um)
+    grade = np.where(is_small, 2, np.where(~curves.is_arc & (curves.length_um >= _LONG_UM), 0, 1))
+    along = _to_whole(room, row, 0.5 * curves.length_um)
+    place = places_at(room.curves, row, along)
+    keys = (*np.round(place.T[::-1]), -np.round(curves.length_um), grade, room.figure[row])
+    order = np.lexsort(keys)
+    figure, grade = room.figure[row[order]], grade[order]
+    start = np.flatnonzero(np.diff(figure, prepend=-1))
+    of = np.cumsum(np.diff(figure, prepend=-1) > 0) - 1
+    is_best = (np.arange(len(order)) - start[of] < most) & ((grade < 2) | (grade[start[of]] == 2))
+    order = order[is_best]
+    out = _out(room, side, row[order], headings_along(room.curves, row[order], along[order]))
+    return Entries(row[order], along[order], place[order], out, np.full(len(order), reach_um))
+
+
+class Asked(NamedTuple):
+    """Thread points (k, 2) of figures (k,) that ask for entries, and how far leads keep off contours."""
+
+    figure: Ints
+    place_um: Floats
+    reach_um: float
+
+
+def across_from(room: Room, side: Floats, asked: Asked) -> tuple[Entries, Ints]:
+    """Entries straight across from thread points, the nearest of each first, arcs no larger than the reach last.
+
+    With them, which thread point (m,) each is for.
+    """
+    row, whose = room.rows(asked.figure)
+    place = asked.place_um[whose]
+    foot = feet(room.curves, row, place).place_um
+    along = along_um(room.curves, row, foot)
+    by = place - foot
+    length = np.hypot(*by.T)
+    heading = headings_along(room.curves, row, along)
+    is_across = (np.abs((by * heading).sum(axis=1)) < _ACROSS * length) & (length > 0.0)
+    is_small = room.curves.is_arc[row] & (room.curves.radius_um[row] <= asked.reach_um)
+    found = np.flatnonzero(is_across)
+    found = found[np.lexsort([length[found], is_small[found], whose[found]])]
+    out, aside = _out(room, side, row[found], heading[found]), np.full(len(found), asked.reach_um)
+    return Entries(row[found], along[found], foot[found], out, aside), whose[found]
+
+
+def corners(room: Room, side: Floats, asked: Asked) -> tuple[Entries, Ints]:
+    """Entries at corners, from midway between both sides, those nearest to each of the thread points first.
+
+    With them, which thread point (m,) each is for. Where the waste lies in the corner, the wire reaches no nearer to it
+    than where it touches both sides.
+    """
+    row, whose = room.rows(asked.figure)
+    leaving, arriving = (way[row] for way in directions(room.curves))
+    first = np.searchsorted(whose, whose)
+    last = np.searchsorted(whose, whose, side="right") - 1
+    at = np.arange(len(row))
+    arriving = arriving[np.where(at > first, at - 1, last)]
+    sense = side[room.figure[row], None]
+    normal, middle = sense * to_left(leaving), sense * (to_left(leaving) + to_left(arriving))
+    length = np.hypot(*middle.T)
+    off = np.hypot(*(room.curves.start_um[row] - asked.place_um[whose]).T)
+    turns = (leaving * arriving).sum(axis=1) < _STRAIGHT_COS
+    corner = np.flatnonzero(turns & (length > _ACROSS))
+    corner = corner[np.lexsort([off[corner], whose[corner]])]
+    out = middle[corner] / length[corner, None]
+    turn = (arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0])[corner]
+    aside = asked.reach_um / np.where(sense[corner, 0] * turn > 0.0, (out * normal[corner]).sum(axis=1), 1.0)
+    found = Entries(row[corner], np.zeros(len(corner)), room.curves.start_um[row[corner]], out, aside)
+    return found, whose[corner]
+
+
+def nearest_of(room: Room, side: Floats, at: int, place_um: Floats) -> Entry:
+    """The entry of one figure at its place nearest to another one (2,)."""
+    row, _ = room.rows(np.array([at]))
+    foot = feet(room.curves, row, np.broadcast_to(place_um, (len(row), 2))).place_um
+    one = int(np.argmin(np.hypot(*(foot - place_um).T)))
+    row, foot = row[one : one + 1], foot[one : one + 1]
+    along = along_um(room.curves, row, foot)
+    out = _out(room, side, row, headings_along(room.curves, row, along))
+    return Entries(row, along, foot, out, np.zeros(1)).one(room, 0)
+
+
+def _out(room: Room, side: Floats, row: Ints, heading: Floats) -> Floats:
+    """Unit vectors (m, 2) into the waste; contours run counter-clockwise."""
+    out: Floats = side[room.figure[row], None] * to_left(heading)
+    return out
+
+
+def _to_whole(room: Room, row: Ints, along: Floats) -> Floats:
+    """Lengths along lines moved by less than 1 µm, so that their places are whole µm along the axis nearest to them."""
+    place, heading = places_at(room.curves, row, along), headings_along(room.curves, row, along)
+    axis = np.argmax(np.abs(heading), axis=1)
+    at = np.arange(len(row))
+    by = (np.round(place[at, axis]) - place[at, axis]) / heading[at, axis]
+    is_line = ~room.curves.is_arc[row] & (room.curves.length_um[row] > 2.0)
+    return np.where(is_line, along + by, along)

@@ -1,0 +1,233 @@
+"""Options of ``drycut program``: what is asked of the maker of a program, in place of a scenario's own values."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+import click
+
+from sim.cli.dialect_options import READ_WITH
+from sim.cli.scenario_options import Length
+from sim.setup.making import CORNERS, DIRECTION_WISHES, ENCODINGS, FORMS, LEAD_INS, SIDE_WISHES
+
+if TYPE_CHECKING:
+    from parser.toolpath import Point
+    from sim.setup.making import LayerWish, Making, Writing
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+class Place(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """``X,Y`` of the drawing: numbers in mm, or lengths with their units."""
+
+    name = "X,Y"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> "Point":
+        """The place in µm. SettingsError for lengths without end, bad use for what is no pair."""
+        from parser.toolpath import Point
+        from parser.units import mm
+        from sim.setup.toml.reader import PLACE_MM, number
+
+        if isinstance(value, Point):
+            return value
+        parts = value.split(",")
+        if len(parts) != 2:
+            self.fail(f"{value!r} is no place; write it such as 50,100 in mm", param, ctx)
+        x, y = (_length_um(part) for part in parts)
+        for one in (x, y):
+            number(mm(one), PLACE_MM, "--start in mm")
+        return Point(x, y)
+
+
+class Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """Whole numbers with commas between them."""
+
+    name = "3,1,2"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, ...]:
+        """The numbers, each once and from 1."""
+        if isinstance(value, tuple):
+            return value
+        parts = [part.strip() for part in value.split(",")]
+        if not all(part.isascii() and part.isdigit() and len(part) < 8 and int(part) for part in parts):
+            self.fail(f"{value!r} are no numbers of figures; write them such as 3,1,2", param, ctx)
+        numbers = tuple(map(int, parts))
+        if len(set(numbers)) < len(numbers):
+            self.fail(f"{value!r} names a figure twice", param, ctx)
+        return numbers
+
+
+class OnLayer(click.ParamType):  # type: ignore[type-arg]  # generic in newer clicks alone
+    """``NAME:side=inside,rank=2,pass=0.12mm``: what is asked for the contours of one layer."""
+
+    name = "NAME:wishes"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> "LayerWish":
+        """The wish. Bad use for words that are none; SettingsError for lengths that are none."""
+        from sim.setup.making import LayerWish
+
+        if not isinstance(value, str):
+            return value  # type: ignore[no-any-return]  # converted before
+        layer, colon, rest = value.rpartition(":")
+        wishes = [part.partition("=") for part in rest.split(",")]
+        if not colon or not layer or not all(equals and asked.strip() for _, equals, asked in wishes):
+            self.fail(f"{value!r} is no wish; write it such as HOLES:side=inside,rank=1,pass=0.12mm", param, ctx)
+        passes_um = tuple(_length_um(asked) for name, _, asked in wishes if name.strip() == "pass")
+        others = {name.strip(): asked.strip() for name, _, asked in wishes if name.strip() != "pass"}
+        side, rank = others.pop("side", None), others.pop("rank", None)
+        if others or (side is not None and side not in SIDE_WISHES) or not _is_rank(rank):
+            self.fail(f"{value!r}: a layer takes side={'|'.join(SIDE_WISHES)}, rank=NUMBER and pass=LENGTH", param, ctx)
+        return LayerWish(layer, side, None if rank is None else int(rank), passes_um)  # type: ignore[arg-type]
+
+
+def _length_um(text: str) -> float:
+    """A length with its unit, or a number in mm, in µm."""
+    from sim.units import parse_length
+
+    text = text.strip()
+    return parse_length(text if not text or text[-1].isalpha() else f"{text}mm")
+
+
+def _is_rank(text: str | None) -> bool:
+    return text is None or (text.removeprefix("-").isdecimal() and text.isascii() and abs(int(text[:6])) <= 1000)
+
+
+OPTIONS = (
+    click.option("--tolerance", type=Length(), help="How far the path may lie off the drawing: arcs are fitted; 2um."),
+    click.option("--part-tolerance", type=Length(), help="How far the edge as cut may lie off the drawing."),
+    click.option("--offset", type=Length(), help="Offset of a single pass, such as 0.1mm; half the kerf."),
+    click.option("--no-offset", is_flag=True, help="Write the contour itself: the controller adds the offset."),
+    click.option("--pass", "passes", type=Length(), multiple=True, help="Offset of a pass, again for each: 0.18mm."),
+    click.option("--one-way", is_flag=True, help="Run all passes the same way; else back and forth."),
+    click.option("--start", type=Place(), multiple=True, help="Thread point in the drawing, in mm; again for more."),
+    click.option("--thread-layer", metavar="NAME", help="Layer whose points and small circles are thread points."),
+    click.option("--layer", metavar="NAME", help="The one layer that is cut; else all that are seen."),
+    click.option("--on-layer", type=OnLayer(), multiple=True, help="NAME:side=inside,rank=2,pass=0.12mm; again."),
+    click.option("--gap", type=Length(), help="Ends of the drawing no farther apart are joined; 10um."),
+    click.option("--side", type=click.Choice(SIDE_WISHES), help="Side of the wire: by nesting, or one for all."),
+    click.option("--direction", type=click.Choice(DIRECTION_WISHES), help="Which way round; the wire on the left."),
+    click.option("--order", type=Numbers(), help="Figures in the order in which they are cut; by nesting and way."),
+    click.option("--lead", type=click.Choice(LEAD_INS), help="How the wire comes to the contour; perpendicular."),
+    click.option("--lead-length", type=Length(), help="Length of the lead-in where the thread point is chosen."),
+    click.option("--overcut", type=Length(), help="How far the last pass runs on behind its start."),
+    click.option("--tab", type=Length(), help="How much of each outline is left for a last cut behind a stop."),
+    click.option("--corners", type=click.Choice(CORNERS), help="Outside corners: sharp, or rounded."),
+    click.option("--as", "language", type=click.Choice(["3b", "4b", "iso"]), help="Its language; else by the suffix."),
+    *READ_WITH,
+    click.option("--decimals", type=click.IntRange(1, 6), help="Digits behind the point, of ISO."),
+    click.option("--compensation", type=click.Choice(["worked-in", "kept"]), help="Of ISO: worked in, or G41 and G42."),
+    click.option("--form", type=click.Choice(FORMS), help="Form of 3B and 4B; compact."),
+    click.option("--end-code", metavar="WORD", help="Word of 3B and 4B at the end; DD."),
+    click.option("--pause-code", metavar="WORD", help="Word of 3B and 4B for a pause; D."),
+    click.option("--crlf", is_flag=True, help="End lines as Windows does."),
+    click.option("--encoding", type=click.Choice(ENCODINGS), help="Encoding of the text; utf-8."),
+    click.option("--machine", metavar="NAME|FILE", help="Machine of the proof: shipped, such as dk7740, or a file."),
+    click.option("--thickness", type=Length(), help="Thickness of the work, such as 40mm."),
+    click.option("--wire-diameter", type=Length(), help="Diameter of the wire, such as 0.18mm."),
+    click.option("--spark-gap", type=Length(), help="Spark gap on one side, such as 10um."),
+)
+
+
+def program_options(command: Command) -> Command:
+    """Give a command the options that `Options` holds."""
+    for option in reversed(OPTIONS):
+        command = option(command)
+    return command
+
+
+class Options(NamedTuple):
+    """The options as given, lengths in µm; None, False and () where they are left out."""
+
+    tolerance: float | None
+    part_tolerance: float | None
+    offset: float | None
+    no_offset: bool
+    passes: tuple[float, ...]
+    one_way: bool
+    start: "tuple[Point, ...]"
+    thread_layer: str | None
+    layer: str | None
+    on_layer: "tuple[LayerWish, ...]"
+    gap: float | None
+    side: Any
+    direction: Any
+    order: tuple[int, ...] | None
+    lead: Any
+    lead_length: float | None
+    overcut: float | None
+    tab: float | None
+    corners: Any
+    language: Any
+    dialect: str | None
+    unit: str | None
+    decimals: int | None
+    compensation: Any
+    form: Any
+    end_code: str | None
+    pause_code: str | None
+    crlf: bool
+    encoding: Any
+    machine: str | None
+    thickness: float | None
+    wire_diameter: float | None
+    spark_gap: float | None
+
+
+def making_of(own: "Making", options: Options) -> "Making":
+    """What is asked of the maker. UsageError for options that exclude each other; SettingsError for odd numbers."""
+    from sim.setup.making import refuse_odd
+
+    given = {
+        "tolerance_um": options.tolerance,
+        "part_tolerance_um": options.part_tolerance,
+        "layer": options.layer,
+        "gap_um": options.gap,
+        "passes_um": _passes(options),
+        "returning": "one-way" if options.one_way else None,
+        "side": options.side,
+        "direction": options.direction,
+        "order": options.order,
+        "starts_um": options.start or None,
+        "thread_layer": options.thread_layer,
+        "lead": options.lead,
+        "lead_um": options.lead_length,
+        "overcut_um": options.overcut,
+        "tab_um": options.tab,
+        "corners": options.corners,
+        "layers": options.on_layer or None,
+    }
+    making = own._replace(**{name: value for name, value in given.items() if value is not None})
+    refuse_odd(making, "drycut program")
+    return making
+
+
+def _passes(options: Options) -> tuple[float, ...] | None:
+    """Offsets of the passes; None where nothing is asked."""
+    asked = {"--offset": options.offset is not None, "--no-offset": options.no_offset, "--pass": bool(options.passes)}
+    named = [name for name, is_there in asked.items() if is_there]
+    if len(named) > 1:
+        raise click.UsageError(f"{' and '.join(named)} are ways to say one thing; give one of them")
+    if options.no_offset:
+        return (0.0,)
+    return options.passes or (None if options.offset is None else (options.offset,))
+
+
+def writing_of(own: "Writing", options: Options) -> "Writing":
+    """What is asked of the text."""
+    given = {
+        "form": options.form,
+        "end_code": options.end_code,
+        "pause_code": options.pause_code,
+        "crlf": options.crlf or None,
+        "encoding": options.encoding,
+        "compensation": options.compensation,
+        "decimals": options.decimals,
+    }
+    return own._replace(**{name: value for name, value in given.items() if value is not None})
+
+
+def refuse_own_files(output: Path, others: "tuple[Path, ...]") -> None:
+    """BadParameter where what is written would take the place of what it is made of."""
+    for other in others:
+        if output.exists() and other.exists() and output.samefile(other):
+            raise click.BadParameter(f"{output} is what the program is made of", param_hint="-o")

@@ -1,0 +1,65 @@
+"""The proof of a made program on the terminal: how far it is off, what was found, and the verdict."""
+
+from collections.abc import Iterator
+
+from parser.findings.catalogue import Language, texts
+from parser.findings.codes import Severity
+from parser.findings.facts import ReadAs
+from sim.cam.maker import Made
+from sim.cam.proof.result import Proof
+from sim.show.terminal.colours import COLOURS, painted, styled
+from sim.show.terminal.finding import finding_lines
+from sim.show.terminal.wrap import wrapped
+from sim.show.words import Words
+
+_INDENT = "    "
+_MOST_FINDINGS = 20
+
+
+def proof_lines(done: Made, name: str, language: Language, width: int) -> Iterator[str]:
+    """What the proof of a program shows, in lines of `width` cells."""
+    proof, words = done.proof, Words(language)
+    if proof is None:
+        return
+    found = [one for one in proof.findings if not isinstance(one.fact, ReadAs) and one.severity is not Severity.NOTE]
+    for finding in found[:_MOST_FINDINGS]:
+        excerpt = done.program.excerpt(finding.line) if finding.column else None
+        for line in finding_lines(name, finding, excerpt, language, width):
+            yield painted(line, finding.severity)
+    if len(found) > _MOST_FINDINGS:
+        yield words("program.more-findings", more=f"{len(found) - _MOST_FINDINGS:,}")
+    for text in said_of_proof(proof, words):
+        yield from wrapped(text, width, "", _INDENT)
+    edge = proof.comparison
+    if edge is not None and proof.run is not None:
+        text = words(
+            "program.edge",
+            there=f"{float(edge.edge_to_drawing.max_um.max()):.2f}",
+            back=f"{float(edge.drawing_to_edge.max_um.max()):.2f}",
+            tolerance=f"{edge.asked.tolerance_um:g}",
+            machine=proof.run.scenario.machine.name,
+        )
+        yield from wrapped(text, width, "", _INDENT)
+    yield styled(words(f"program.verdict-{proof.verdict}"), f"bold {COLOURS[proof.verdict]}")
+
+
+def said_of_proof(proof: Proof, words: Words) -> Iterator[str]:
+    """What the proof found wrong by itself, what it could not prove, and what it assumed."""
+    for fault in proof.faults:
+        text = words(f"program.fault-{fault.name}", **fault.values)
+        yield words("program.of-figure", figure=fault.figure, what=text) if fault.figure else text
+    for unproved in proof.unproved:
+        yield words(f"program.unproved-{unproved.name}", **unproved.values)
+    for note in proof.notes:
+        yield words("program.note", what=words(f"program.proof-{note.name}", **note.values))
+
+
+def against(done: Made, language: Language) -> Iterator[str]:
+    """What speaks against a program, a text for each: findings, faults, and what could not be proved."""
+    proof, words = done.proof, Words(language)
+    if proof is None:
+        return
+    for finding in proof.counting[:_MOST_FINDINGS]:
+        at = f" {finding.block}" if finding.block else ""
+        yield f"{finding.code}{at}: {texts(finding, language).found}"
+    yield from said_of_proof(proof._replace(notes=()), words)

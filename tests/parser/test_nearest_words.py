@@ -1,0 +1,177 @@
+"""Paths that are meant as they stand: told in whole µm nearest to them, closed, and on count axes of the rule."""
+
+import numpy as np
+import pytest
+from plain_ends import plain_ends, random_path
+
+from parser.geometry.curves import Curves, Floats, curves_between
+from parser.told.step_words import Axis
+from parser.words.chained import Chained, chained_words
+from parser.words.moves import moves
+from parser.words.nearest import nearest_words
+
+_AIM_UM, _LINE_UM, _CLOSED_UM = 1.35, 1.1, 0.5
+_SHARES = np.linspace(0.0, 1.0, 33)
+
+
+def told(path: Curves) -> Chained:
+    return nearest_words(path, np.zeros(len(path), dtype=np.bool_))
+
+
+def off_um(path: Curves, words: Chained) -> Floats:
+    """(n,) how far what is told of each row lies from its circle or line, at most, along all of it."""
+    way = moves(words.words)
+    start = np.concatenate([path.start_um[:1], words.end_um[:-1]])
+    angle = way.start_angle_rad + _SHARES[:, None] * way.sweep_rad
+    arc = start + way.center_um + way.radius_um[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=2)
+    line = start + _SHARES[:, None, None] * (words.end_um - start)
+    place = np.where((way.sweep_rad != 0.0)[:, None], arc, line)
+    by = path.end_um - path.start_um
+    across = np.column_stack([-by[:, 1], by[:, 0]]) / np.hypot(*by.T)[:, None]
+    aside = np.abs(((place - path.start_um) * across).sum(axis=2))
+    center = np.where(path.is_arc[:, None], path.center_um, 0.0)
+    round_ = np.abs(np.hypot(*np.moveaxis(place - center, 2, 0)) - path.radius_um)
+    found: Floats = np.where(path.is_arc, round_, aside).max(axis=0)
+    return found
+
+
+def ellipse(rng: np.random.Generator, arcs: int) -> Curves:
+    """A closed way of arcs through three places each of an ellipse, led to from a whole place and back."""
+    half, turn = rng.uniform(2e3, 3e4, 2), rng.uniform(0.0, 7.0)
+    angle = np.linspace(0.0, 2.0 * np.pi, 2 * arcs + 1)[:-1]
+    flat = half * np.column_stack([np.cos(angle), np.sin(angle)])
+    place = flat @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    start, middle, end = place[::2], place[1::2], np.roll(place[::2], -1, axis=0)
+    one, two = middle - start, end - start
+    double = 2.0 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
+    squares = np.column_stack([(one**2).sum(axis=1), (two**2).sum(axis=1)])
+    center = (
+        start
+        + np.column_stack(
+            [
+                two[:, 1] * squares[:, 0] - one[:, 1] * squares[:, 1],
+                one[:, 0] * squares[:, 1] - two[:, 0] * squares[:, 0],
+            ]
+        )
+        / double[:, None]
+    )
+    low, high = (np.arctan2(*(at - center).T[::-1]) for at in (start, end))
+    return led(start, end, center, (high - low) % (2.0 * np.pi))
+
+
+def filleted(rng: np.random.Generator, corners: int) -> Curves:
+    """A closed way of lines with tangent arcs at all corners, led to from a whole place and back."""
+    angle = (np.arange(corners) + rng.uniform(-0.3, 0.3, corners)) * 2.0 * np.pi / corners
+    size = 10.0 ** rng.uniform(3.0, 5.0) * rng.uniform(0.5, 1.0, corners)
+    corner = size[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    way = np.roll(corner, -1, axis=0) - corner
+    length = np.hypot(*way.T)
+    out = way / length[:, None]
+    into = np.roll(out, 1, axis=0)
+    turn = np.arctan2(into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0], (into * out).sum(axis=1))
+    cut = (np.minimum(length, np.roll(length, 1)) * rng.uniform(0.1, 0.4, corners))[:, None]
+    start, end = corner - cut * into, corner + cut * out
+    radius = cut / np.tan(0.5 * turn)[:, None]
+    center = start + radius * np.column_stack([-into[:, 1], into[:, 0]])
+    places = np.stack([start, end], axis=1).reshape(-1, 2)
+    nothing = np.full_like(center, np.nan)
+    centers = np.stack([center, nothing], axis=1).reshape(-1, 2)
+    return led(places, np.roll(places, -1, axis=0), centers, np.column_stack([turn, 0.0 * turn]).reshape(-1))
+
+
+def led(start: Floats, end: Floats, center: Floats, sweep: Floats) -> Curves:
+    thread, nothing = np.rint(1.2 * start[:1]), np.full((1, 2), np.nan)
+    return curves_between(
+        np.concatenate([thread, start, start[:1]]),
+        np.concatenate([start[:1], end, thread]),
+        np.concatenate([nothing, center, nothing]),
+        np.concatenate([[0.0], sweep, [0.0]]),
+    )
+
+
+@pytest.mark.parametrize("reach_um", [300.0, 5e3, 5e4])
+def test_blocks_end_near_their_drawn_ends_by_the_plain_rules(reach_um: float) -> None:
+    path = random_path(7, 500, reach_um)
+    words = told(path)
+    np.testing.assert_allclose(plain_ends(words.words, path.start_um[0]), words.end_um, atol=1e-5)
+    assert np.hypot(*(words.end_um - path.end_um).T).max() <= _AIM_UM
+
+
+def test_paths_lie_nearer_than_those_of_a_cam() -> None:
+    path = random_path(8, 3000, 5e3)
+    cam = chained_words(path, np.full((len(path), 2), np.nan), np.zeros(len(path), dtype=np.bool_))
+    ours, theirs = off_um(path, told(path)), off_um(path, cam)
+    assert ours.max() < 0.85 * theirs.max()
+    assert np.median(ours) < 0.85 * np.median(theirs)
+    assert ours[~path.is_arc].max() <= _LINE_UM
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_way_of_arcs_closes_and_lies_within_a_um(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    path = ellipse(rng, int(rng.integers(12, 60)))
+    words = told(path)
+    assert np.hypot(*(words.end_um[-2] - words.end_um[0])) <= _CLOSED_UM
+    assert np.hypot(*(words.end_um[-1] - path.start_um[0])) <= _CLOSED_UM
+    assert off_um(path, words).max() <= 1.0
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_a_way_of_lines_and_fillets_closes(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    path = filleted(rng, int(rng.integers(4, 12)))
+    words = told(path)
+    assert np.hypot(*(words.end_um[-2] - words.end_um[0])) <= _CLOSED_UM
+    assert np.hypot(*(words.end_um[-1] - path.start_um[0])) <= _CLOSED_UM
+    assert off_um(path, words).max() <= 1.6
+
+
+def test_count_axes_are_those_of_the_rule() -> None:
+    path = random_path(9, 3000, 5e3)
+    words = told(path)
+    way = moves(words.words)
+    out = np.abs(way.by_um - way.center_um)
+    ruled = np.where(out[:, 0] > out[:, 1], Axis.Y, Axis.X)
+    clear = (way.sweep_rad != 0.0) & (np.abs(out[:, 0] - out[:, 1]) > 5.0)  # nearer to 45° both axes do
+    assert (words.words.count_axis == ruled)[clear].all()
+
+
+def test_whole_um_stay_as_they_are() -> None:
+    start = np.array([[0.0, 0.0], [5000.0, 0.0], [0.0, 5000.0], [0.0, 0.0]])
+    end = np.roll(start, -1, axis=0)
+    sweep = np.array([0.0, 0.5 * np.pi, 0.0, 2.0 * np.pi])
+    center = np.array([[np.nan, np.nan], [0.0, 0.0], [np.nan, np.nan], [-701.0, 0.0]])
+    words = told(curves_between(start, end[[0, 1, 2, 3]] * [[1.0], [1.0], [1.0], [0.0]], center, sweep)).words
+    assert words.x_um.tolist() == [5000, 5000, 0, 701]
+    assert words.y_um.tolist() == [0, 0, 5000, 0]
+    assert words.count_um.tolist() == [5000, 5000, 5000, 2804]
+
+
+def test_a_path_that_comes_to_a_place_again_ends_where_it_was() -> None:
+    """Back over the same curves: each end within half a µm of where the way there had it."""
+    there = ellipse(np.random.default_rng(3), 24).picked(slice(1, 20))
+    back = curves_between(
+        there.end_um[::-1], there.start_um[::-1], there.center_um[::-1], np.array(-there.sweep_rad[::-1])
+    )
+    path = curves_between(
+        *(
+            np.concatenate([getattr(way, name) for way in (there, back)])
+            for name in ("start_um", "end_um", "center_um")
+        ),
+        np.concatenate([there.sweep_rad, back.sweep_rad]),
+    )
+    ends = np.concatenate([path.start_um[:1], told(path).end_um])
+    n = len(there)
+    assert np.hypot(*(ends[n + 1 :] - ends[n - 1 :: -1]).T).max() <= 0.6
+
+
+def test_a_row_that_is_placed_ends_at_the_very_place() -> None:
+    start = np.array([[0.0, 0.0], [10.2, 0.0], [500.75, 3.0]])
+    end = np.array([[10.2, 0.0], [500.75, 3.0], [600.0, 3.0]])
+    lines = curves_between(start, end, np.full((3, 2), np.nan), np.zeros(3))
+    assert nearest_words(lines, np.array([False, True, False])).end_um[1].tolist() == [500.75, 3.0]
+
+
+def test_no_curves_have_no_words() -> None:
+    nothing = curves_between(*[np.zeros((0, 2))] * 3, np.zeros(0))
+    assert len(told(nothing).words.x_um) == 0

@@ -1,0 +1,75 @@
+"""The picture of a plan: parts, waste, passes, leads and thread points in their order, in both themes and languages."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from drawings_dxf import drawn
+from ezdxf.layouts import Modelspace
+from golden_pictures import assert_golden
+
+from sim.cam.maker import planned
+from sim.cam.model import CutPlan
+from sim.setup.machine.machine import load_machine
+from sim.setup.making import Making
+from sim.setup.scenario import Scenario
+from sim.show.draw.paints import DARK, LIGHT, Paint
+from sim.show.draw.sheet import drawing, pixels
+from sim.show.pictures.plan.picture import draw_plan
+from sim.show.pictures.plan.ways import plan_bounds_um
+
+SCENARIO = Scenario("part", Path("part.3b"), load_machine("dk7740"))
+PASSES_UM = 180.0, 120.0, 100.0
+
+
+def plate(space: Modelspace) -> None:
+    space.add_lwpolyline([(0, 0), (12, 0), (12, 8), (0, 8)], close=True)
+    space.add_circle((4, 4), 2.0)
+    space.add_circle((9, 4), 1.5)
+
+
+@pytest.fixture
+def plan(tmp_path: Path) -> CutPlan:
+    return planned(drawn(tmp_path, plate), Making(passes_um=PASSES_UM), SCENARIO)
+
+
+def test_plan_in_english_on_white(plan: CutPlan) -> None:
+    assert_golden(draw_plan(pixels(800), plan).image(), "plan.png")
+
+
+def test_plan_in_chinese_on_black(plan: CutPlan) -> None:
+    assert_golden(draw_plan(pixels(800, DARK, "zh"), plan).image(), "plan-dark-zh.png")
+
+
+def test_all_of_it_lies_in_the_bounds(plan: CutPlan) -> None:
+    low, high = plan_bounds_um(plan)
+    places = np.array([cut.thread.place_um for cut in plan.cuts])
+    assert (low <= places).all()
+    assert (high >= places).all()
+    assert (low <= -PASSES_UM[0] + 1e-6).all()
+    assert (high >= np.array([12e3, 8e3]) + PASSES_UM[0] - 1e-6).all()
+
+
+@pytest.mark.parametrize("paint", [Paint.PART, Paint.SLUG, Paint.KERF, Paint.TRIM_1, Paint.TRIM_2, Paint.START])
+def test_every_pass_and_area_shows_its_colour(plan: CutPlan, paint: Paint) -> None:
+    image = np.asarray(draw_plan(pixels(1200), plan).image())
+    assert (image.reshape(-1, 3) == LIGHT[paint]).all(axis=1).sum() > 300
+
+
+def test_the_turns_of_the_figures_stand_in_the_svg(plan: CutPlan) -> None:
+    text = draw_plan(drawing(1200), plan).document("plan", 1200)
+    assert all(f">{turn}</text>" in text for turn in (1, 2, 3))
+    assert "thread point, with its turn" in text
+    assert "tab, cut off" not in text
+
+
+def test_many_figures_have_marks_without_numbers(plan: CutPlan) -> None:
+    many = plan._replace(cuts=plan.cuts * 30)
+    assert ">90</text>" not in draw_plan(drawing(1200), many).document("plan", 1200)
+
+
+def test_another_wire_has_another_pass(tmp_path: Path) -> None:
+    wide = replace(SCENARIO, wire=replace(SCENARIO.wire, diameter_um=280.0))
+    one = planned(drawn(tmp_path, plate), Making(), wide)
+    assert "offset 0.150 mm" in draw_plan(drawing(1200), one).document("plan", 1200)

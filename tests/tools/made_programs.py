@@ -1,0 +1,70 @@
+"""Programs made of drawings for tests: a plate with a round and a square hole, its plan, and proofs of what is made."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from drawings_dxf import drawn
+from ezdxf.layouts import Modelspace
+from runs import plain_scenario
+
+from parser.drawing.read import read_drawing
+from parser.geometry.curves import Curves
+from parser.program import load_program
+from sim.cam.maker import planned
+from sim.cam.model import CutPlan, FigureCut
+from sim.cam.path.drafted import draft_of_plan
+from sim.cam.proof.proof import Given, proved
+from sim.cam.proof.result import Proof
+from sim.convert.proof import proof as held_against
+from sim.convert.wanted import Wanted, read_with, written
+from sim.setup.making import Making
+from sim.setup.scenario import Scenario
+
+WIDTH, HEIGHT = 20.0, 12.0
+ROUND, SQUARE, OUTLINE = 1, 2, 0
+"""Places of the figures in `plate`'s drawing: the outline is drawn first."""
+TO_3B = Wanted("3b")
+
+
+def plate(space: Modelspace) -> None:
+    """An outline of 20 × 12 mm, a hole of R 2 at (5, 6), and a square one of 5 mm in the middle of (14, 6)."""
+    space.add_lwpolyline([(0, 0), (WIDTH, 0), (WIDTH, HEIGHT), (0, HEIGHT)], close=True)
+    space.add_circle((5, 6), 2)
+    space.add_lwpolyline([(11.5, 3.5), (16.5, 3.5), (16.5, 8.5), (11.5, 8.5)], close=True)
+
+
+def plate_file(folder: Path, draw: Callable[[Modelspace], object] = plate) -> Path:
+    return drawn(folder, draw)
+
+
+def plan_of(path: Path, making: Making | None = None, scenario: Scenario | None = None) -> CutPlan:
+    return planned(path, making or Making(), scenario or plain_scenario())
+
+
+def proof_of(
+    plan: CutPlan,
+    path: Path,
+    wanted: Wanted = TO_3B,
+    scenario: Scenario | None = None,
+    mend: Callable[[str], str] = str,
+) -> Proof:
+    """The proof of what is written of a plan, its text changed by `mend`; the drawing is read from its file."""
+    draft = draft_of_plan(plan)
+    text = written(draft, wanted)
+    program = load_program(mend(text.text).encode(), f"made.{wanted.language}", read_with(draft, wanted))
+    held = held_against(draft, text, program.toolpath)
+    drawing = read_drawing(path, plan.making.layer, plan.making.gap_um)
+    return proved(Given(program, plan, drawing, held, wanted.bound_um), scenario or plain_scenario())
+
+
+def with_cut(plan: CutPlan, number: int, change: Callable[[FigureCut], FigureCut]) -> CutPlan:
+    """The plan with the cut of one figure changed, found by the number of the figure."""
+    cuts = [change(cut) if cut.figure.number == number else cut for cut in plan.cuts]
+    return plan._replace(cuts=tuple(cuts))
+
+
+def moved(curves: Curves, x_um: float, y_um: float) -> Curves:
+    by = np.array([x_um, y_um])
+    return replace(curves, start_um=curves.start_um + by, end_um=curves.end_um + by, center_um=curves.center_um + by)
