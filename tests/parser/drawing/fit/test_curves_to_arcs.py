@@ -1,7 +1,9 @@
 """Ellipses and splines to arcs: as few as nodes on the curve allow, never over the tolerance, proved both ways."""
 
 import math
+import time
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import pytest
@@ -65,8 +67,9 @@ def _interpolating(place: Floats, tangent: tuple[Floats, Floats]) -> Spline:
     return _spline(control, knot=knot)
 
 
+@cache
 def _cam() -> Spline:
-    angle = np.linspace(0.0, 2.0 * math.pi, 181)
+    angle = np.linspace(0.0, 2.0 * math.pi, 121)
     radius = 1000.0 * (20.0 + 4.0 * np.cos(angle) + 1.5 * np.cos(2.0 * angle))
     up = np.array([0.0, 1.0])
     return _interpolating(np.column_stack([radius * np.cos(angle), radius * np.sin(angle)]), (up, up))
@@ -145,7 +148,7 @@ def _random_open(random: np.random.Generator) -> Spline:
 @pytest.mark.parametrize("drawn", [_random_closed, _random_open])
 def test_arcs_of_any_spline_are_within_the_tolerance_both_ways(drawn: Callable[[np.random.Generator], Spline]) -> None:
     random = np.random.default_rng(4)
-    splines = [drawn(random) for _ in range(24)]
+    splines = [drawn(random) for _ in range(14)]
     fitted, refused = arcs_of_splines(splines, 2.0)
     assert not len(refused)
     assert fitted.max_um <= 2.0
@@ -165,7 +168,7 @@ def test_arcs_of_any_ellipse_are_within_the_tolerance_both_ways() -> None:
                 np.array([*random.uniform(-2e4, 2e4, 2), 0.0]),
                 *random.uniform(0.0, 6.0, 2),
             )
-            for _ in range(30)
+            for _ in range(20)
         ]
     )
     fitted, refused = arcs_of_ellipses(forms, 2.0)
@@ -270,3 +273,19 @@ def test_ellipses_of_any_form_are_fitted_within_the_tolerance(major_um: float, m
     assert not len(refused)
     assert fitted.max_um <= 2.0
     assert _meets(fitted.curves)
+
+
+def _wave(number: int) -> Spline:
+    along = np.arange(number)
+    return _spline(np.column_stack([1000.0 * along, 3000.0 * np.sin(1.7 * along)]))
+
+
+def _seconds(number: int) -> float:
+    before = time.process_time()
+    arcs_of_splines([_wave(number)], 2.0)
+    return time.process_time() - before
+
+
+def test_time_grows_with_the_curve_and_no_faster() -> None:
+    _seconds(60)
+    assert _seconds(800) < 8.0 * max(_seconds(200), 0.02)
