@@ -11,21 +11,41 @@ from ezdxf.entities.insert import Insert
 
 from parser.drawing.dxf.blocks import Placed
 from parser.drawing.dxf.entities import reader_of
-from parser.drawing.dxf.forms import COLUMNS, ReadEntity, Spline, behind
+from parser.drawing.dxf.forms import COLUMNS, ReadEntity, Spline, WrongNumbersError, behind
 from parser.drawing.model import SAME_WITHIN_UM
 from parser.drawing.plane.flat import Flat, flat_forms, refuse_many
 from parser.drawing.plane.splined import flat_splines, placed_spline
+from parser.findings.remarks import Remark
 from parser.geometry.curves import Curves, Floats, Ints, joined
 from parser.text.encoding import printable
+
+
+class Missed(NamedTuple):
+    """An entity that gives no curve, or not all of its curves.
+
+    Attributes
+    ----------
+    entity
+        Its number among those that were looked at.
+    why
+        ``unreadable``, ``beyond``, ``upright`` or ``short``, as `LeftOut` has it; empty where its kind is no curve.
+    detail
+        What is wrong with it, where that is known.
+    """
+
+    entity: int
+    why: str = ""
+    detail: Remark | None = None
 
 
 @dataclass(slots=True)
 class EntityCounts:
     """How many entities, by kind, are no curves or have numbers that cannot be; and how many curves were treated how.
 
-    See `Flat` for the latter.
+    See `Flat` for the latter. `missed` is the entities themselves, in no order.
     """
 
+    missed: list[Missed] = field(default_factory=list)
     no_curves: Counter[str] = field(default_factory=Counter)
     unreadable: Counter[str] = field(default_factory=Counter)
     flattened: int = 0
@@ -58,30 +78,37 @@ def gather(placed: Sequence[Placed], tolerance_um: float, fit_um: float | None =
     Raises DrawingError, without the name of the file, where they become too many.
     """
     counts = EntityCounts()
-    read = [_read(one.entity, counts) for one in placed]
+    read = [_read(at, one.entity, counts) for at, one in enumerate(placed)]
     forms = _forms(placed, read)
     refuse_many(len(forms.forms))
     flat = flat_forms(forms.forms, forms.maps, forms.which, tolerance_um, fit_um)
-    _count(counts, flat)
+    _count(counts, flat, forms.entity)
     splined, spline_entity = _splines(placed, read, counts, tolerance_um, fit_um)
     refuse_many(len(flat.curves) + len(splined))
     parts, entity = [flat.curves, splined], [forms.entity[flat.form], spline_entity]
     order = np.argsort(np.concatenate(entity), kind="stable")
     curves = joined(parts).picked(order)
-    long = curves.length_um > SAME_WITHIN_UM
-    return Gathered(curves.picked(long), np.concatenate(entity)[order][long], counts)
+    long, of = curves.length_um > SAME_WITHIN_UM, np.concatenate(entity)[order]
+    counts.missed.extend(Missed(number, "short") for number in np.setdiff1d(of[~long], of[long]).tolist())
+    return Gathered(curves.picked(long), of[long], counts)
 
 
-def _read(entity: DXFEntity, counts: EntityCounts) -> ReadEntity | None:
+def _read(at: int, entity: DXFEntity, counts: EntityCounts) -> ReadEntity | None:
     reader = reader_of(entity)
     if reader is None:
         counts.no_curves[_kind(entity)] += 1
+        counts.missed.append(Missed(at))
         return None
+    detail = None
     try:
         return reader(entity)
-    except Exception:  # a number is missing, is a word, or there are too few
-        counts.unreadable[entity.dxftype()] += 1
-        return None
+    except WrongNumbersError as error:
+        detail = error.remark
+    except Exception:  # a number is a word, or there are too few  # noqa: S110
+        pass
+    counts.unreadable[entity.dxftype()] += 1
+    counts.missed.append(Missed(at, "unreadable", detail))
+    return None
 
 
 def _kind(entity: DXFEntity) -> str:
@@ -124,15 +151,19 @@ def _splines(
         if found is not None and isinstance(found.forms, Spline)
     ]
     flat = flat_splines([spline for _, spline in drawn], tolerance_um, fit_um)
-    unreadable = int(flat.unreadable.sum())
+    unreadable = [drawn[row][0] for row in np.flatnonzero(flat.unreadable).tolist()]
     if unreadable:
-        counts.unreadable["SPLINE"] += unreadable
+        counts.unreadable["SPLINE"] += len(unreadable)
+        counts.missed.extend(Missed(number, "unreadable") for number in unreadable)
     counts.flattened += int((np.bincount(flat.of, minlength=1) > 1).sum())
     counts.slanted += flat.slanted
     counts.fit_max_um = max(counts.fit_max_um, flat.fit_max_um)
     return flat.curves, np.array([number for number, _ in drawn], dtype=np.int64)[flat.of]
 
 
-def _count(counts: EntityCounts, flat: Flat) -> None:
-    counts.flattened, counts.slanted = flat.ellipses, flat.slanted
-    counts.upright, counts.beyond, counts.fit_max_um = flat.upright, flat.beyond, flat.fit_max_um
+def _count(counts: EntityCounts, flat: Flat, entity: Ints) -> None:
+    """Take over what was done to forms (k,) of entities (k,)."""
+    counts.flattened, counts.slanted, counts.fit_max_um = flat.ellipses, flat.slanted, flat.fit_max_um
+    counts.upright, counts.beyond = len(flat.upright), len(flat.beyond)
+    for why, forms in (("upright", flat.upright), ("beyond", flat.beyond)):
+        counts.missed.extend(Missed(number, why) for number in np.unique(entity[forms]).tolist())

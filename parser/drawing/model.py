@@ -51,17 +51,20 @@ class LeftOut(NamedTuple):
     entity
         The entity.
     why
-        Name of a text for people, ``drawing.left-out-…``: such as ``text``, ``dimension``, ``center-line``, ``frozen``.
+        Name of a text for people, ``program.left-out-…``: such as ``text``, ``dimension``, ``broken-line``, ``frozen``.
     place_um
         Where it is, so that it can be found; None where it has no place.
     gap_um
         How far the nearest loose end of another curve lies from an end of an open one; None where none is near.
+    detail
+        What is wrong with it, where that is known.
     """
 
     entity: Entity
     why: str
     place_um: tuple[float, float] | None = None
     gap_um: float | None = None
+    detail: Remark | None = None
 
 
 class Mark(NamedTuple):
@@ -140,7 +143,7 @@ class Drawing:
     left_out
         What of the drawing is in none of its loops, entity by entity.
     marks
-        Points, which may be thread points.
+        Points and circles of all layers, seen or not: their layer is asked for by name where they are thread points.
     fit
         What the fit of arcs came to; None where curves were flattened to lines.
     """

@@ -1,7 +1,6 @@
 """A DXF file to a drawing: `read_drawing`, the one way in."""
 
-from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -13,17 +12,19 @@ from parser.drawing.dxf.blocks import Placed, placed_entities
 from parser.drawing.dxf.document import read_document
 from parser.drawing.dxf.forms import scaled
 from parser.drawing.fit.loops import loops_with_arcs
-from parser.drawing.gather import Gathered, gather
-from parser.drawing.loops.chain import Chained, chain
+from parser.drawing.gather import gather
+from parser.drawing.left import entity_of, left_out, wanted_of
+from parser.drawing.loops.chain import chain
 from parser.drawing.loops.once import Again, drawn_once
-from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity, FitFigures, LeftOut
+from parser.drawing.marks import marks_of
+from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, FitFigures, LeftOut
+from parser.drawing.notes import no_contour, notes_of
 from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark
 from parser.text.encoding import printable
-from parser.units import UM_PER_MM, mm
+from parser.units import UM_PER_MM
 
 _INCH_MM = 25.4
-_MOST_PLACES = 5  # named one by one
 
 
 class _Asked(NamedTuple):
@@ -75,11 +76,13 @@ def read_drawing(
 def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) -> Drawing:
     unit, assumed = unit_of(document.header.get("$INSUNITS", None))
     placed = list(placed_entities(document, scaled(unit.um)))
-    wanted = _wanted(document, placed, asked.layer)
-    gathered = gather(wanted, asked.flatten_um, asked.fit_um)
+    _refuse_unknown(document, placed, asked.layer)
+    wanted = wanted_of(document, placed, asked.layer)
+    gathered = gather(wanted.kept, asked.flatten_um, asked.fit_um)
+    left = tuple(left_out(wanted, gathered.counts.missed))
     if not len(gathered.curves):
-        raise DrawingError(_nothing(placed, wanted, asked.layer))
-    once = drawn_once(gathered.curves, gathered.entity, asked.gap_um)
+        raise no_contour(left, asked.layer)
+    once = drawn_once(gathered.curves, gathered.entity)
     number, entity = np.unique(once.entity, return_inverse=True)
     chained = chain(once.curves, entity, asked.gap_um)
     drawing = Drawing(
@@ -88,50 +91,35 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
         unit=unit.name,
         curves=once.curves,
         entity=entity.astype(np.int64),
-        entities=tuple(_entity(wanted[at]) for at in number.tolist()),
+        entities=tuple(entity_of(wanted.kept[at]) for at in number.tolist()),
         loops=chained.loops,
         flattened=gathered.counts.flattened,
         flatten_um=asked.flatten_um,
-        notes=(*notes, *([assumed] if assumed else []), *notes_of(placed, wanted, gathered, once.again, chained)),
-        left_out=tuple(_again(wanted, again) for again in once.again),
+        notes=(*notes, *([assumed] if assumed else []), *notes_of(left, gathered, once.again, chained)),
+        left_out=(*left, *(_again(wanted.kept, again) for again in once.again)),
+        marks=marks_of(placed),
     )
     return drawing if asked.fit_um is None else _with_arcs(drawing, asked.fit_um, gathered.counts.fit_max_um)
 
 
 def _with_arcs(drawing: Drawing, fit_um: float, so_far_um: float) -> Drawing:
     """A drawing with arcs in place of dense lines, where ellipses and splines are arcs already."""
-    fitted = loops_with_arcs(drawing.curves, drawing.entity, drawing.loops, fit_um)
+    fitted = loops_with_arcs(drawing, fit_um)
     arcs = int(fitted.curves.is_arc.sum())
     figures = FitFigures(fit_um, max(so_far_um, fitted.max_um), arcs, len(fitted.curves) - arcs)
     return replace(drawing, curves=fitted.curves, entity=fitted.entity, loops=fitted.loops, fit=figures)
 
 
-def _wanted(document: Document, placed: Sequence[Placed], layer: str | None) -> list[Placed]:
-    if layer is None:
-        return [one for one in placed if not one.hidden]
+def _refuse_unknown(document: Document, placed: Sequence[Placed], layer: str | None) -> None:
     drawn = {one.layer for one in placed}
     names = drawn | {str(entry.dxf.name) for entry in document.layers}
-    if layer.lower() not in map(str.lower, names):
+    if layer is not None and layer.lower() not in map(str.lower, names):
         shown = ", ".join(sorted(map(printable, drawn or names)))
         raise DrawingError(f"has no layer {printable(layer)}; expected one of {shown}")
-    return [one for one in placed if one.layer.lower() == layer.lower()]
-
-
-def _nothing(placed: Sequence[Placed], wanted: Sequence[Placed], layer: str | None) -> str:
-    where = "" if layer is None else f" on layer {printable(layer)}"
-    hidden = len(placed) - len(wanted)
-    unseen = f" ({hidden} entities on layers that are off or frozen)" if layer is None and hidden else ""
-    return f"holds no line, arc or curve{where}{unseen}; expected the contour of a part"
-
-
-def _entity(placed: Placed) -> Entity:
-    dxf = placed.entity.dxf
-    handle, kind = str(dxf.get("handle", "")), placed.entity.dxftype()
-    return Entity(kind, printable(handle), printable(placed.layer), printable(placed.block))
 
 
 def _again(wanted: Sequence[Placed], again: Again) -> LeftOut:
-    return LeftOut(_entity(wanted[again.entity]), "drawn-twice" if again.whole else "overlaps", again.place_um)
+    return LeftOut(entity_of(wanted[again.entity]), "drawn-twice" if again.whole else "overlaps", again.place_um)
 
 
 class Unit(NamedTuple):
@@ -162,42 +150,3 @@ def unit_of(code: object) -> tuple[Unit, Remark | None]:
         return _UNITS[code], None
     assumed = Remark("no-unit") if code in (None, 0) else Remark("strange-unit", {"code": printable(str(code))})
     return _UNITS[4], assumed
-
-
-def notes_of(
-    placed: Sequence[Placed], wanted: Sequence[Placed], gathered: Gathered, again: Sequence[Again], chained: Chained
-) -> Iterator[Remark]:
-    """What was left out or mended."""
-    counts = gathered.counts
-    if len(wanted) < len(placed):
-        yield Remark("other-layers", {"number": len(placed) - len(wanted)})
-    if counts.no_curves:
-        yield Remark("no-curves", {"kinds": _listed(counts.no_curves)})
-    if counts.unreadable:
-        yield Remark("unreadable", {"kinds": _listed(counts.unreadable)})
-    for number, name in (
-        (counts.beyond, "beyond"),
-        (counts.upright, "upright"),
-        (counts.slanted, "slanted"),
-        (sum(each.curves for each in again if each.whole), "drawn-twice"),
-        (sum(each.curves for each in again if not each.whole), "overlaps"),
-    ):
-        if number:
-            yield Remark(name, {"number": number})
-    yield from _of_chain(chained)
-
-
-def _of_chain(chained: Chained) -> Iterator[Remark]:
-    bridged = [loop.gap_um for loop in chained.loops if loop.gap_um > 0.0]
-    if bridged:
-        yield Remark("bridged", {"gap": max(bridged), "loops": len(bridged)})
-    places = [f"({mm(x):g}, {mm(y):g})" for x, y in chained.branches_um[:_MOST_PLACES].tolist()]
-    more = len(chained.branches_um) - len(places)
-    if more:
-        yield Remark("many-branches", {"places": ", ".join(places), "more": more})
-    elif places:
-        yield Remark("branches", {"places": ", ".join(places)})
-
-
-def _listed(counts: Counter[str]) -> str:
-    return ", ".join(f"{number} {kind}" for kind, number in sorted(counts.items()))

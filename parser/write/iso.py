@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from parser.geometry.curves import Ints
+from parser.geometry.curves import CurveKind, Ints
 from parser.units import mm
 from parser.write.draft import Draft, Written
 from parser.write.iso_choices import IsoChoices
@@ -45,7 +45,12 @@ def _head(draft: Draft, choices: IsoChoices) -> Iterator[str]:
         modes.append("G20" if choices.unit == "inch" else "G21")
     if choices.centers != profile.centers:
         modes.append("G90.1" if choices.centers == "absolute" else "G91.1")
-    modes.append("G90" if choices.distance == "absolute" else "G91")
+    starts_by_place = habits.starts_by == "place"
+    if starts_by_place or choices.distance != profile.distance:
+        modes.append("G90" if choices.distance == "absolute" else "G91")
+    if not starts_by_place:
+        yield from filter(None, [" ".join(modes)])
+        return
     start = (
         np.rint(draft.curves.start_um[0] / choices.step_um).astype(np.int64) if len(draft) else np.zeros(2, np.int64)
     )
@@ -58,15 +63,29 @@ def _body(draft: Draft, choices: IsoChoices, strokes: Strokes, sides: Sides) -> 
     pauses |= set(np.flatnonzero(draft.is_placed).tolist())
     first = np.searchsorted(strokes.row, np.arange(len(draft) + 1)).tolist()
     blocks = _blocks(draft, choices, strokes)
+    begins, ends = _about_cuts(draft)
     for row in range(len(draft)):
+        if row in ends:
+            yield from choices.habits.behind_cut
         if row in pauses:
             yield _PAUSE
+        if row in begins:
+            yield from choices.habits.before_cut
         yield from sides.before.get(row, [])
         begun, closed = sides.first.get(row, ""), sides.last.get(row, "")
         for block in blocks[first[row] : first[row + 1]]:
             yield " ".join(filter(None, (begun, block, closed)))
             begun = closed = ""
+    if len(draft) in ends:
+        yield from choices.habits.behind_cut
     yield choices.habits.end
+
+
+def _about_cuts(draft: Draft) -> tuple[set[int], set[int]]:
+    """Rows with which cuts begin, and rows behind those with which they end: at jumps, and where the path does."""
+    is_cut = np.concatenate([[False], draft.curves.kind != CurveKind.JUMP, [False]])
+    begins, ends = (np.flatnonzero(is_cut[1:] & ~is_cut[:-1]), np.flatnonzero(is_cut[:-1] & ~is_cut[1:]))
+    return set(begins.tolist()), set(ends.tolist())
 
 
 def _blocks(draft: Draft, choices: IsoChoices, strokes: Strokes) -> list[str]:
@@ -86,7 +105,8 @@ def _placed(place: Ints, choices: IsoChoices) -> str:
 
 def _block(motion: int, to: Ints, center: Ints, choices: IsoChoices) -> str:
     words = [f"G0{motion}", *_words("XY", to, choices)]
-    return " ".join([*words, *_words("IJ", center, choices)] if motion >= 2 else words)
+    feed = [choices.habits.arc_feed] if choices.habits.arc_feed else []
+    return " ".join([*words, *_words("IJ", center, choices), *feed] if motion >= 2 else words)
 
 
 def _words(letters: str, steps: Ints, choices: IsoChoices) -> list[str]:

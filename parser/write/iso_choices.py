@@ -31,6 +31,11 @@ class Habits:
     offset_on: str
     side_alone: bool
     says_unit: bool
+    starts_by: Literal["place", "rapid"]
+    before_cut: tuple[str, ...]
+    behind_cut: tuple[str, ...]
+    arc_feed: str
+    trims_zeros: bool
 
 
 class IsoChoices(NamedTuple):
@@ -72,7 +77,10 @@ class IsoChoices(NamedTuple):
 
     def number(self, steps: int) -> str:
         """A number of steps as text."""
-        return f"{steps}" if not self.decimals else f"{steps / 10**self.decimals:.{self.decimals}f}"
+        if not self.decimals:
+            return f"{steps}"
+        whole, digits = f"{steps / 10**self.decimals:.{self.decimals}f}".split(".")
+        return f"{whole}.{(digits.rstrip('0') or '0') if self.habits.trims_zeros else digits}"
 
 
 def iso_choices(dialect: str, unit: Unit | None = None, decimals: int | None = None) -> IsoChoices:
@@ -93,4 +101,5 @@ def _habits(name: str) -> Habits:
     """Of a profile: its own over those of ``common``."""
     values: dict[str, Any] = tomllib.loads(Path(__file__).with_name("habits.toml").read_text(encoding="utf-8"))
     own = {**values["common"], **values[name]}
-    return Habits(**{**own, "head": tuple(own["head"])})
+    columns: dict[str, Any] = {key: tuple(value) if isinstance(value, list) else value for key, value in own.items()}
+    return Habits(**columns)

@@ -1,13 +1,37 @@
-"""Rapids as 3B can say them, which has no word for one: a line is in the air because the wire is out."""
+"""Rapids as a language says them: 3B has no word for one, and a line is in the air because the wire is out."""
 
 from dataclasses import replace
 
 import numpy as np
 
-from parser.geometry.curves import CurveKind, Curves, Ints
+from parser.geometry.curves import CurveKind, Curves, Ints, curves_between, joined
 from parser.write.draft import Draft, picked
 
 _SAME_UM = 2.0
+
+
+def with_rapid_to_start(draft: Draft) -> Draft:
+    """A draft that begins at (0, 0), with a rapid to where it began; for languages that have no words to count by."""
+    if not len(draft) or not draft.curves.start_um[0].any():
+        return draft
+    curves = draft.curves
+    rapid = curves_between(np.zeros((1, 2)), curves.start_um[:1], np.full((1, 2), np.nan), np.zeros(1))
+    rapid.kind[:] = CurveKind.JUMP
+    told = draft.compensation and replace(
+        draft.compensation,
+        side=np.append(0, draft.compensation.side),
+        by_um=np.append(0.0, draft.compensation.by_um),
+        register=("", *draft.compensation.register),
+    )
+    return replace(
+        draft,
+        curves=joined([rapid, curves]),
+        stops=tuple(stop._replace(after=stop.after + 1) for stop in draft.stops),
+        is_placed=np.append(False, draft.is_placed),
+        told_um=np.concatenate([np.full((1, 2), np.nan), draft.told_um]),
+        words=None,
+        compensation=told,
+    )
 
 
 def without_rapids(draft: Draft) -> Draft:

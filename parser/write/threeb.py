@@ -1,5 +1,6 @@
 """A draft as 3B or 4B, in the three forms of CAXA: compact, aligned, and with a header and the end of each block."""
 
+import re
 from collections.abc import Iterator
 from itertools import count
 from typing import Literal, NamedTuple
@@ -18,6 +19,7 @@ Form = Literal["compact", "aligned", "detailed"]
 _RULE = "*" * 40
 _CURVES = ("", "D", "DD")
 _PAUSE, _END = "D", "DD"
+_CODE = re.compile(rf"(?m)^((?:N *\d+: )?)({_END}|{_PAUSE})(?=\r?$)")
 
 
 class ThreeBChoices(NamedTuple):
@@ -51,6 +53,12 @@ def written_3b(draft: Draft, choices: ThreeBChoices) -> Written:
     is_block = (told.words.count_um > 0) & ~draft.is_placed
     lines = [*_head(draft, choices), *_body(draft, choices, told, is_block)]
     return Written("\n".join([*lines, ""]), np.flatnonzero(is_block | draft.is_placed))
+
+
+def with_codes(text: str, end: str | None, pause: str | None) -> str:
+    """A written text with other words for its end and its pauses; None leaves them."""
+    codes = {_END: end or _END, _PAUSE: pause or _PAUSE}
+    return _CODE.sub(lambda found: found[1] + codes[found[2]], text)
 
 
 def _told(draft: Draft) -> Chained:

@@ -22,6 +22,9 @@ def wanted_of(to_make: ToMake, language: Language, scenario: Scenario) -> Wanted
         newline="\r\n" if writing.crlf else "\n",
         name=to_make.file.stem,
         offset_um=_offset_um(to_make.making, scenario),
+        end_code=writing.end_code,
+        pause_code=writing.pause_code,
+        encoding=writing.encoding,
     )
 
 

@@ -10,13 +10,10 @@ from parser.drawing.model import Entity, FitFigures, LeftOut
 from parser.findings.catalogue import Language, texts
 from parser.findings.findings import Finding
 from parser.findings.remarks import Remark, remark_text
-from parser.geometry.curves import Floats
-from parser.shape.contours import runs
-from parser.toolpath import Toolpath
 from sim.cam.maker import Made, NotMade
 from sim.cam.model import CutPlan, FigureCut, PassCut, Refusal
 from sim.cam.proof.result import Fault, Proof
-from sim.run.dryrun import DryRun
+from sim.cam.sums import FigureSum, figure_sums
 from sim.setup.wire import Wire
 
 SCHEMA: Final = "drycut.program/1"
@@ -49,7 +46,7 @@ def document(made: Made | NotMade, say: Say) -> dict[str, Any]:
         "made": done is not None,
         "drawing": None if plan is None else _drawing(plan),
         "fit": None if plan is None or plan.drawing.fit is None else _fit(plan.drawing.fit),
-        "figures": [] if done is None else _figures(done, run),
+        "figures": [] if done is None else [*map(_figure, done.plan.cuts, figure_sums(done))],
         "left_out": [] if plan is None else [_left_out(one, say) for one in plan.left_out],
         "length_um": None if done is None else _rounded(float(done.program.toolpath.length_um.sum())),
         "time_s": None if run is None else _rounded(run.ran_s),
@@ -72,53 +69,26 @@ def _fit(fit: FitFigures) -> dict[str, Any]:
     return {**fit._asdict(), "max_um": _rounded(fit.max_um)}
 
 
-def _figures(done: Made, run: DryRun | None) -> list[dict[str, Any]]:
-    """An entry for each figure in running order; blocks are those of the text, times those of the run."""
-    toolpath = done.program.toolpath
-    ends = _ends(toolpath, len(done.plan.cuts))
-    ran = [None] * len(ends) if run is None else _ends(run.toolpath, len(ends))
-    found = []
-    for cut, rows, of_run in zip(done.plan.cuts, ends, ran, strict=True):
-        times = None if run is None or of_run is None else _times(run, of_run, len(cut.passes) + len(cut.cut_off))
-        found.append(_figure(cut, toolpath, rows, times))
-    return found
-
-
-def _ends(toolpath: Toolpath, number: int) -> list[tuple[int, int] | None]:
-    """The first row of each figure and one past its last; None where the program has not as many contours."""
-    of = [(first, past) for first, past in runs(toolpath).tolist()]
-    return [*of] if len(of) == number else [None] * number
-
-
-def _times(run: DryRun, rows: tuple[int, int], number: int) -> list[float] | None:
-    """Time of each pass of a figure; None where the run has not as many."""
-    first, past = rows
-    time_s: Floats = np.append(run.block_time_s, 0.0)
-    of = [one for one in run.passes.passes if first <= one.first < past]
-    return [float(time_s[one.first : one.last + 1].sum()) for one in of] if len(of) == number else None
-
-
-def _figure(
-    cut: FigureCut, toolpath: Toolpath, rows: tuple[int, int] | None, times: list[float] | None
-) -> dict[str, Any]:
+def _figure(cut: FigureCut, of: FigureSum) -> dict[str, Any]:
+    """A figure: blocks and length are those of the text, times those of the run."""
     figure, thread = cut.figure, cut.thread
-    first, past = rows or (0, 0)
-    blocks = toolpath.source.block[first:past]
     passes = (*cut.passes, *cut.cut_off)
+    times = of.pass_s or [None] * len(passes)
     return {
         "number": figure.number,
         "kind": figure.kind,
         "part": figure.part,
         "layer": figure.layer,
-        "blocks": [int(blocks[0]), int(blocks[-1])] if len(blocks) else None,
-        "length_um": _rounded(float(toolpath.length_um[first:past].sum())),
+        "blocks": [of.first_block, of.first_block + of.blocks - 1] if of.blocks else None,
+        "length_um": _rounded(of.length_um),
+        "time_s": None if of.time_s is None else _rounded(of.time_s),
         "thread_um": _place(thread.place_um),
         "thread_by": thread.by,
         "side": cut.side.name.lower(),
         "direction": _direction(is_ccw=cut.is_ccw),
         "passes": [
-            _pass(cut, one, None if times is None else times[at], is_cut_off=at >= len(cut.passes))
-            for at, one in enumerate(passes)
+            _pass(cut, one, time_s, is_cut_off=at >= len(cut.passes))
+            for at, (one, time_s) in enumerate(zip(passes, times, strict=True))
         ],
     }
 

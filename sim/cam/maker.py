@@ -13,13 +13,14 @@ from sim.cam.parts.parts import parts_of
 from sim.cam.parts.walls import walls
 from sim.cam.passes.passes import figure_cut
 from sim.cam.path.drafted import draft_of_plan
+from sim.cam.path.kept import kept_draft
 from sim.cam.proof.proof import Given, proved
 from sim.cam.proof.result import Proof
 from sim.cam.threads.threads import thread_notes, threads_of
 from sim.cam.tolerances import fit_share_um
 from sim.convert.proof import Proof as Written
 from sim.convert.proof import proof as held_against
-from sim.convert.wanted import Wanted, read_with, written
+from sim.convert.wanted import Wanted, begun, encoded, read_with, written
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 from sim.table.motion import Progress, silent
@@ -92,13 +93,24 @@ def unproved(
     try:
         plan = planned(path, making, scenario, progress)
         progress("write", 0, 1)
-        draft = draft_of_plan(plan)
+        draft = begun(_drafted(plan, wanted), wanted)
     except CannotCutError as error:
         return NotMade(error.refusal)
     text = written(draft, wanted)
-    data = text.text.encode()
-    program = load_program(data, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
-    return Made(data, program, plan, draft, held_against(draft, text, program.toolpath))
+    told = text.text.encode(wanted.encoding, "replace")
+    program = load_program(told, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
+    return Made(encoded(text.text, wanted), program, plan, draft, held_against(draft, text, program.toolpath))
+
+
+def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
+    """What is written of a plan. CannotCutError where the controller cannot add its offsets."""
+    if not wanted.keeps or wanted.iso is None or not any(plan.passes_um):
+        return draft_of_plan(plan)
+    wishes = tuple(wish._replace(passes_um=(0.0,) * len(wish.passes_um)) for wish in plan.making.layers)
+    making = plan.making._replace(layers=wishes)
+    nothing = (0.0,) * len(plan.passes_um)
+    on_contour = tuple(figure_cut(cut.figure, cut.thread, nothing, making) for cut in plan.cuts)
+    return kept_draft(plan, on_contour, wanted.iso.profile)
 
 
 def _given(path: Path, done: Made, wanted: Wanted) -> Given:

@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 
 from parser.program import load_program
-from parser.text.encoding import encode_text, printable
+from parser.text.encoding import printable
 from sim.cam.maker import Made
-from sim.convert.wanted import Wanted, read_with
+from sim.convert.wanted import Wanted, encoded, read_with
 
-_LONGEST = 100
+_LONGEST = 120
 """Characters of a remark: what a controller shows in a line (assumed)."""
 
 
@@ -18,10 +18,10 @@ def remarked(done: Made, texts: Sequence[str], wanted: Wanted) -> Made:
     """
     lines = [_remark(text, is_iso=wanted.iso is not None) for text in texts]
     first, newline, rest = done.program.text.partition(wanted.newline)
-    encoding = done.program.encoding
     text = newline.join([first, *lines, rest])
-    data = encode_text(text.encode(encoding, "replace").decode(encoding), encoding)
-    return done._replace(data=data, program=load_program(data, done.program.name, read_with(done.draft, wanted)))
+    told = text.encode(wanted.encoding, "replace")
+    program = load_program(told, done.program.name, read_with(done.draft, wanted))
+    return done._replace(data=encoded(text, wanted), program=program)
 
 
 def _remark(text: str, *, is_iso: bool) -> str:

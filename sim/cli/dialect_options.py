@@ -7,7 +7,7 @@ import click
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
-_DIALECTS = "fast-wire, classroom, skd2, robofil, sodick, mitsubishi, fanuc, common, strict"
+_DIALECTS = "fast-wire, classroom, skd2, robofil, sodick, mitsubishi, fanuc, patent-mill, common, strict"
 
 
 class RegisterSet(NamedTuple):

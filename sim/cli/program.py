@@ -96,7 +96,7 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
     if isinstance(done, Made):
         if (is_proved or force) and not preview and asked.output is not None:
             written = asked.output
-            _write(written, done.data)
+            _write(written, done.data if is_proved else _with_findings(done, asked, tongue))
         if picture is not None:
             _draw(done, _Picture(picture, theme), tongue)
     if as_json:
@@ -190,8 +190,18 @@ def _made(asked: _Asked) -> "Made | NotMade":
 
     wanted = wanted_of(asked.to_make, asked.language, asked.scenario)
     stages = stages_of(replace(asked.scenario, kerf=True, drawing=None))
-    with StageProgress("drawing", *stages, "comparison") as progress:
+    with StageProgress("drawing", "figures", "write", *stages, "comparison") as progress:
         return made(asked.drawing, asked.to_make.making, wanted, asked.scenario, progress)
+
+
+def _with_findings(done: "Made", asked: _Asked, tongue: "Tongue") -> bytes:
+    """The program with what speaks against it at its head."""
+    from sim.cam.asked import wanted_of
+    from sim.cam.remarked import remarked
+    from sim.show.terminal.proof import against
+
+    wanted = wanted_of(asked.to_make, asked.language, asked.scenario)
+    return remarked(done, [*against(done, tongue)], wanted).data
 
 
 def _write(output: Path, data: bytes) -> None:

@@ -51,11 +51,12 @@ def _changed_rows(path: Toolpath, draft: Draft, made: Written, wanted: Wanted) -
     """Rows that became no block, more than one, or one of another kind."""
     blocks = np.bincount(made.row, minlength=len(draft))
     is_jump = draft.curves.kind == CurveKind.JUMP
-    first = len(path) - len(draft)
+    first = max(len(path) - len(draft), 0)
+    ran = is_jump[max(len(draft) - len(path), 0) :]
     rapids = is_jump & ~draft.is_placed & (blocks > 0) & (wanted.iso is None and draft.words is None)
     return (
         Loss("first-rapids", "", first),
-        Loss("rapids-back", "", int((path.is_jump[first:] & ~is_jump).sum())),
+        Loss("rapids-back", "", int((path.is_jump[first:] & ~ran).sum())),
         Loss("rapids", "", int(rapids.sum())),
         Loss("nothing", "", int((blocks == 0).sum())),
         Loss("split", "", int((blocks > 1).sum())),

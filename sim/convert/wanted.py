@@ -8,9 +8,9 @@ from parser.write.curve_marks import curve_marks
 from parser.write.draft import Draft, Written, draft_of
 from parser.write.iso import written_iso
 from parser.write.iso_choices import IsoChoices
-from parser.write.rapids import without_rapids
+from parser.write.rapids import with_rapid_to_start, without_rapids
 from parser.write.sides import registers_of
-from parser.write.threeb import Form, ThreeBChoices, written_3b
+from parser.write.threeb import Form, ThreeBChoices, with_codes, written_3b
 
 Language = Literal["3b", "4b", "iso"]
 _BOUND_STEPS = 3.0
@@ -37,6 +37,11 @@ class Wanted(NamedTuple):
         Of the program, for headers.
     offset_um
         Offset that is worked in, for headers; None where none is known.
+    end_code, pause_code
+        Words of 3B and 4B in place of ``DD`` and ``D``; None for those. They go into the file alone: what is read back
+        has the words that every reader knows.
+    encoding
+        Of the file.
     """
 
     language: Language
@@ -46,6 +51,9 @@ class Wanted(NamedTuple):
     newline: str = "\n"
     name: str = ""
     offset_um: float | None = None
+    end_code: str | None = None
+    pause_code: str | None = None
+    encoding: str = "utf-8"
 
     @property
     def bound_um(self) -> float:
@@ -57,8 +65,14 @@ def draft_for(toolpath: Toolpath, wanted: Wanted) -> Draft:
     """What is to be written of a toolpath: 3B and 4B have no words for offsets, nor of their own for rapids."""
     draft = draft_of(toolpath)
     if wanted.iso is not None:
-        return draft
+        return begun(draft, wanted)
     return (without_rapids(draft) if draft.words is None else draft).without_compensation()
+
+
+def begun(draft: Draft, wanted: Wanted) -> Draft:
+    """A draft that begins as the dialect does that is written."""
+    by_rapid = wanted.iso is not None and wanted.iso.habits.starts_by == "rapid"
+    return with_rapid_to_start(draft) if by_rapid else draft
 
 
 def written(draft: Draft, wanted: Wanted) -> Written:
@@ -69,6 +83,12 @@ def written(draft: Draft, wanted: Wanted) -> Written:
         marks = curve_marks(draft.curves) if wanted.language == "4b" else None
         made = written_3b(draft, ThreeBChoices(wanted.form, wanted.name, wanted.offset_um, marks))
     return made._replace(text=made.text.replace("\n", wanted.newline))
+
+
+def encoded(text: str, wanted: Wanted) -> bytes:
+    """Bytes of a file with a written text. Letters that its encoding does not have become question marks."""
+    told = text if wanted.iso is not None else with_codes(text, wanted.end_code, wanted.pause_code)
+    return told.encode(wanted.encoding, "replace")
 
 
 def read_with(draft: Draft, wanted: Wanted) -> Choices:

@@ -10,7 +10,8 @@ from places import SCENARIOS
 
 from controller.motion.limits import row_limits
 from controller.stepping.pulses import Pulses
-from parser.program import parse_program, read_program
+from parser.program import parse_program
+from sim.jobs.source import program_read, source_of
 from sim.run.dryrun import DryRun, dry_run
 from sim.run.recording import Recording, check_expectations, recorded
 from sim.setup.machine.machine import Machine, load_machine
@@ -42,14 +43,14 @@ def lawful(run: DryRun) -> DryRun:
 
 def run_folder(folder: Path) -> DryRun:
     scenario = load_scenario(folder)
-    return check_expectations(lawful(dry_run(read_program(scenario.program, scenario.choices), scenario, silent)))
+    return check_expectations(lawful(dry_run(program_read(scenario, source_of(scenario)), scenario, silent)))
 
 
 @cache
 def scenario_recording(name: str) -> Recording:
     """A scenario of the project with every step: run once for all tests of a process, which change nothing in it."""
     scenario = load_scenario(SCENARIOS / name)
-    with recorded(read_program(scenario.program, scenario.choices), scenario, silent) as found:
+    with recorded(program_read(scenario, source_of(scenario)), scenario, silent) as found:
         lawful(found.run)
         return found._replace(steps=Pulses(*(np.array(column) for column in found.steps)))
 

@@ -1,11 +1,13 @@
 """The entities of the model space, blocks opened up: what stands where, on which layer, and whether it is seen."""
 
-from collections.abc import Iterator
-from typing import NamedTuple
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
 
 from ezdxf.document import Drawing as Document
 from ezdxf.entities.dxfentity import DXFEntity
+from ezdxf.entities.dxfgfx import DXFGraphic
 from ezdxf.entities.insert import Insert
+from ezdxf.entities.layer import Layer
 
 from parser.drawing.dxf.document import MOST_ENTITIES
 from parser.drawing.dxf.forms import behind, of_insert
@@ -14,6 +16,7 @@ from parser.geometry.curves import Floats
 
 MOST_NESTED = 50
 """Blocks within blocks: drawings of parts have a few."""
+_BY_BLOCK, _BY_LAYER = 0, 256  # colours that say where the colour is from, by the DXF reference, group code 62
 
 
 class Placed(NamedTuple):
@@ -27,32 +30,43 @@ class Placed(NamedTuple):
         (4, 3) map from its block to µm; the same object for all that one INSERT places.
     layer, block
         Layer that it is drawn on, block that it stands in.
-    hidden
-        Whether a layer that is off or frozen, or its own flag, keeps it from being seen.
+    unseen
+        What keeps it from being seen: ``off`` or ``frozen``, as its layer is, or ``hidden``, by itself; else empty.
+    color
+        By the AutoCAD index, that of its layer or its INSERT where it says so; 0 where it has none of these.
+    linetype
+        Name of its linetype in small letters, that of its layer or its INSERT where it says so.
     """
 
     entity: DXFEntity
     place: Floats
     layer: str
     block: str
-    hidden: bool
+    unseen: str
+    color: int
+    linetype: str
 
 
-class _Layers(NamedTuple):
-    """Names of layers, in lower case, that are off and that are frozen."""
+class _Layer(NamedTuple):
+    """What a layer gives to what is drawn on it; see `Placed`."""
 
-    off: frozenset[str]
-    frozen: frozenset[str]
+    unseen: str = ""
+    color: int = 0
+    linetype: str = "continuous"
+
+
+_Layers = Mapping[str, _Layer]  # by their names in small letters
+_NONE = _Layer()
 
 
 class _Into(NamedTuple):
-    """Entities still to be looked at, at least so many: where they are placed, and by which INSERT."""
+    """Entities still to be looked at, at least so many: where they are placed, and what their INSERT gives to them."""
 
     entities: Iterator[DXFEntity]
     least: int
     place: Floats
     layer: str
-    frozen: bool
+    gives: _Layer
     blocks: tuple[str, ...]
 
 
@@ -63,7 +77,7 @@ def placed_entities(document: Document, place: Floats) -> Iterator[Placed]:
     Raises DrawingError, without the name of the file, where blocks multiply or nest beyond all bounds.
     """
     layers, number = _layers(document), 0
-    stack = [_Into(iter(document.modelspace()), 0, place, "0", False, ())]
+    stack = [_Into(iter(document.modelspace()), 0, place, "0", _NONE, ())]
     while stack:
         inside = stack[-1]
         entity = next(inside.entities, None)
@@ -72,7 +86,7 @@ def placed_entities(document: Document, place: Floats) -> Iterator[Placed]:
             continue
         number += 1
         placed = _placed(entity, inside, layers)
-        opened = _opened(entity, placed.layer, inside, layers) if isinstance(entity, Insert) else None
+        opened = _opened(entity, placed, inside, layers) if isinstance(entity, Insert) else None
         if number + (opened.least if opened else 0) > MOST_ENTITIES:
             raise DrawingError(f"holds more than {MOST_ENTITIES:,} entities once its blocks are inserted")
         if opened is not None:
@@ -84,44 +98,58 @@ def placed_entities(document: Document, place: Floats) -> Iterator[Placed]:
 
 
 def _layers(document: Document) -> _Layers:
-    off = frozenset(layer.dxf.name.lower() for layer in document.layers if layer.is_off())
-    return _Layers(off, frozenset(layer.dxf.name.lower() for layer in document.layers if layer.is_frozen()))
+    return {layer.dxf.name.lower(): _layer(layer) for layer in document.layers}
+
+
+def _layer(layer: Layer) -> _Layer:
+    unseen = "frozen" if layer.is_frozen() else "off" if layer.is_off() else ""
+    color, linetype = layer.dxf.get("color", 0), layer.dxf.get("linetype", _NONE.linetype)
+    return _Layer(unseen, abs(int(color)), str(linetype).lower())  # a colour below 0 is that of a layer that is off
 
 
 def _placed(entity: DXFEntity, inside: _Into, layers: _Layers) -> Placed:
-    own = str(_attribute(entity, "layer", "0"))
+    get = entity.dxf.get if isinstance(entity, DXFGraphic) else _nothing  # others are kept without any attributes
+    own = str(get("layer", "0"))
     layer = inside.layer if own == "0" and inside.blocks else own
-    unseen = layer.lower() in layers.off or layer.lower() in layers.frozen or bool(_attribute(entity, "invisible", 0))
-    return Placed(entity, inside.place, layer, inside.blocks[-1] if inside.blocks else "", inside.frozen or unseen)
+    on = layers.get(layer.lower(), _NONE)
+    unseen = inside.gives.unseen or on.unseen or ("hidden" if get("invisible", 0) else "")
+    color, linetype = int(get("color", _BY_LAYER)), str(get("linetype", "bylayer")).lower()
+    if color == _BY_LAYER:
+        color = 0 if entity.dxf.hasattr("true_color") else on.color
+    elif color == _BY_BLOCK:
+        color = inside.gives.color
+    linetype = {"bylayer": on.linetype, "byblock": inside.gives.linetype}.get(linetype, linetype)
+    return Placed(entity, inside.place, layer, inside.blocks[-1] if inside.blocks else "", unseen, color, linetype)
 
 
-def _attribute(entity: DXFEntity, name: str, default: object) -> object:
-    """An attribute of an entity; the default also for entities of other programs, which ezdxf keeps without any."""
-    return entity.dxf.get(name, default) if entity.dxf.is_supported(name) else default
+def _nothing(name: str, default: Any) -> Any:
+    """What an entity without attributes has of one."""
+    return default
 
 
-def _opened(insert: Insert, layer: str, inside: _Into, layers: _Layers) -> _Into | None:
+def _opened(insert: Insert, placed: Placed, inside: _Into, layers: _Layers) -> _Into | None:
     """What an INSERT places; an array of them is one INSERT after the other. None where it cannot be opened."""
     try:
-        return _into(insert, layer, inside, layers)
+        return _into(insert, placed, inside, layers)
     except Exception:  # damaged numbers, a block without its head
         return None
 
 
-def _into(insert: Insert, layer: str, inside: _Into, layers: _Layers) -> _Into | None:
+def _into(insert: Insert, placed: Placed, inside: _Into, layers: _Layers) -> _Into | None:
     if insert.mcount > 1:
-        return _each_of(insert, layer, inside, layers)
+        return _each_of(insert, placed, inside, layers)
     name, block = str(insert.dxf.get("name", "")), insert.block()
     if block is None or name.lower() in map(str.lower, inside.blocks):
         return None
-    frozen = inside.frozen or layer.lower() in layers.frozen or bool(insert.dxf.get("invisible", 0))
+    # A layer that is off hides what lies on it alone, and not what a block on it places on other layers.
+    gives = _Layer("" if placed.unseen == "off" else placed.unseen, placed.color, placed.linetype)
     place = behind(of_insert(insert.matrix44()), inside.place)
-    return _Into(iter(block), len(block), place, layer, frozen, (*inside.blocks, name))
+    return _Into(iter(block), len(block), place, placed.layer, gives, (*inside.blocks, name))
 
 
-def _each_of(insert: Insert, layer: str, inside: _Into, layers: _Layers) -> _Into:
+def _each_of(insert: Insert, placed: Placed, inside: _Into, layers: _Layers) -> _Into:
     """The INSERTs of an array, counted before they are made: each of them opens what the first one does."""
     first = next(insert.multi_insert(), None)
-    opened = _opened(first, layer, inside, layers) if first else None
+    opened = _opened(first, placed, inside, layers) if first else None
     least = insert.mcount * (1 + (opened.least if opened else 0)) if first else 0
     return inside._replace(entities=iter(insert.multi_insert()), least=least)

@@ -14,7 +14,7 @@ from ezdxf.filemanagement import dxf_stream_info
 from ezdxf.lldxf.encoding import decode_dxf_unicode
 from ezdxf.lldxf.tagger import binary_tags_loader
 
-from parser.drawing.dxf.marks import with_marks
+from parser.drawing.dxf.subclasses import with_marks
 from parser.files.kinds import kind_of
 from parser.files.reading import read_bytes
 from parser.findings.catalogue import term

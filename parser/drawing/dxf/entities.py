@@ -2,53 +2,60 @@
 
 import math
 from collections.abc import Callable, Mapping
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 from ezdxf.entities.dxfentity import DXFEntity
 from ezdxf.entities.lwpolyline import LWPolyline
 from ezdxf.entities.polyline import Polyline
-from ezdxf.entities.spline import Spline as DXFSpline
 from ezdxf.math import Vec3
 
 from parser.drawing.dxf.forms import (
     ReadEntity,
-    Spline,
     circle_form,
     ellipse_form,
     line_forms,
     of_extrusion,
     polyline_forms,
+    wrong,
 )
+from parser.drawing.dxf.splines import spline_of
 from parser.geometry.curves import Floats
 
 _FRAME = 16  # flag of a vertex that is a control point of a fitted spline, and not on the polyline
 
 
 def reader_of(entity: DXFEntity) -> Callable[[DXFEntity], ReadEntity] | None:
-    """What reads an entity; None for entities that are no curves. The reader raises anything on damaged numbers."""
+    """What reads an entity; None for entities that are no curves.
+
+    The reader raises WrongNumbersError where it can tell what is wrong, and anything on damaged numbers.
+    """
     if isinstance(entity, Polyline) and not (entity.is_2d_polyline or entity.is_3d_polyline):
         return None  # a mesh
     return _READERS.get(entity.dxftype())
 
 
 def _line(entity: DXFEntity) -> ReadEntity:
-    return ReadEntity(line_forms(np.array([tuple(entity.dxf.start), tuple(entity.dxf.end)])))
+    return ReadEntity(line_forms(np.array([tuple(_given(entity, "start", 10)), tuple(_given(entity, "end", 11))])))
 
 
 def _circle(entity: DXFEntity) -> ReadEntity:
-    return ReadEntity(circle_form(_place(entity.dxf.center), abs(entity.dxf.radius), 0.0, 0.0), _own(entity))
+    return ReadEntity(circle_form(*_center_radius(entity), 0.0, 0.0), _own(entity))
 
 
 def _arc(entity: DXFEntity) -> ReadEntity:
-    begin, end = math.radians(entity.dxf.start_angle), math.radians(entity.dxf.end_angle)
-    return ReadEntity(circle_form(_place(entity.dxf.center), abs(entity.dxf.radius), begin, end), _own(entity))
+    begin, end = (math.radians(_given(entity, *of)) for of in (("start_angle", 50), ("end_angle", 51)))
+    return ReadEntity(circle_form(*_center_radius(entity), begin, end), _own(entity))
+
+
+def _center_radius(entity: DXFEntity) -> tuple[Floats, float]:
+    return _place(_given(entity, "center", 10)), abs(_given(entity, "radius", 40))
 
 
 def _ellipse(entity: DXFEntity) -> ReadEntity:
-    major, normal = Vec3(entity.dxf.major_axis), Vec3(entity.dxf.extrusion).normalize()
-    minor = normal.cross(major) * entity.dxf.ratio
-    place = _place(entity.dxf.center)
+    major, normal = Vec3(_given(entity, "major_axis", 11)), Vec3(entity.dxf.extrusion).normalize()
+    minor = normal.cross(major) * _given(entity, "ratio", 40)
+    place = _place(_given(entity, "center", 10))
     return ReadEntity(ellipse_form(place, _place(major), _place(minor), entity.dxf.start_param, entity.dxf.end_param))
 
 
@@ -73,15 +80,15 @@ def _polyline(entity: DXFEntity) -> ReadEntity:
 
 
 def _spline(entity: DXFEntity) -> ReadEntity:
-    tool = cast("DXFSpline", entity).construction_tool()
-    control = np.array([tuple(point) for point in tool.control_points])
-    weight = np.array(tool.weights() or np.ones(len(control)), dtype=np.float64)
-    knot = np.array(tool.knots(), dtype=np.float64)
-    if len(weight) != len(control) or len(knot) != len(control) + tool.order:
-        raise ValueError(f"{len(control)} control points, {len(weight)} weights, {len(knot)} knots, order {tool.order}")
-    if (np.diff(knot) < 0.0).any():
-        raise ValueError("knots that decrease")
-    return ReadEntity(Spline(control, weight, knot, tool.order - 1))
+    return ReadEntity(spline_of(entity))
+
+
+def _given(entity: DXFEntity, name: str, code: int) -> Any:
+    """A number or a place of an entity. WrongNumbersError without it: the library takes a radius of none for 1."""
+    given = entity.dxf.get(name)
+    if given is None:
+        raise wrong(entity, "number-missing", code=code)
+    return given
 
 
 def _place(point: Vec3) -> Floats:

@@ -8,10 +8,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from ezdxf.entities.dxfentity import DXFEntity
 from ezdxf.math import OCS, Matrix44, Vec3
 from numpy.typing import NDArray
 
+from parser.findings.remarks import Remark
 from parser.geometry.curves import Floats
+from parser.text.encoding import printable
 
 START, END, CENTER, MAJOR, MINOR = (slice(at, at + 3) for at in range(0, 15, 3))
 BEGIN, SWEEP = 15, 16
@@ -34,6 +37,21 @@ class ReadEntity(NamedTuple):
 
     forms: Floats | Spline
     own: Floats | None = None
+
+
+class WrongNumbersError(Exception):
+    """Raised with a `Remark` on what is wrong with the numbers of an entity."""
+
+    def __init__(self, remark: Remark) -> None:
+        super().__init__(remark.name)
+        self.remark = remark
+
+
+def wrong(entity: DXFEntity, name: str, **values: int) -> WrongNumbersError:
+    """What is wrong with an entity, told by its kind and handle."""
+    return WrongNumbersError(
+        Remark(name, {"entity": printable(f"{entity.dxftype()} {entity.dxf.get('handle', '')}".strip()), **values})
+    )
 
 
 def line_forms(place: Floats) -> Floats:

@@ -11,12 +11,11 @@ gives, with q = x² + y² − h² − t² and D = q² + 4 h² (y² − t²), the
 
 import numpy as np
 
+from parser.drawing.fit.through import FLATTEST_UM
 from parser.geometry.curves import Floats
 
 MOST_BULGE = np.tan(3.0 / 8.0 * np.pi)
 """Of three quarters of a circle: the ends of more lie so near each other that they hardly tell where the arc is."""
-MOST_RADIUS_UM = 1e7
-"""Arcs of more are lines where they can be: controllers count seven digits of µm (trade knowledge, no source)."""
 _STRAIGHT = 0.25  # of the tolerance, by which the middle of an arc lies off its chord
 _BESIDE_END = 1.5  # tolerances: all arcs that come into question run by so near an end
 
@@ -41,7 +40,7 @@ def best_bulges(vertices: Floats, within_um: float) -> Floats:
     low, high = (np.where(low <= high, side, np.nan) for side in (low, high))
     middle, slack = 0.5 * (low + high), 0.5 * (high - low)
     straight = (np.abs(middle) <= slack) & (
-        (np.abs(middle) <= _STRAIGHT * slack) | (half[..., 0] > 2.0 * MOST_RADIUS_UM * np.abs(middle))
+        (np.abs(middle) <= _STRAIGHT * slack) | (half[..., 0] > 2.0 * FLATTEST_UM * np.abs(middle))
     )
     best: Floats = np.where(straight, 0.0, middle)
     return best

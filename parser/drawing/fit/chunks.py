@@ -7,7 +7,7 @@ from parser.drawing.fit.strings import Strings
 from parser.drawing.fit.through import FLATTEST_UM
 from parser.geometry.curves import Floats, Ints, total_before
 
-_ARCS_A_RUN = 96.0  # a cut costs half an arc
+_ARCS_A_RUN = 64.0  # a cut costs half an arc
 _OF_ARC = 124.7
 """The length of an arc between nodes on a curve is (124.7 t / κ')^⅓: its deviation is a cubic with three zeros, of
 which the largest value is √3/216 · κ'·L³."""

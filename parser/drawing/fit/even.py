@@ -2,21 +2,22 @@
 
 import numpy as np
 
-from parser.drawing.fit.longest import Arcs, Runs, joined_arcs, longest_arcs
+from parser.drawing.fit.longest import STEPS, Arcs, Runs, joined_arcs, longest_arcs
 from parser.drawing.fit.strings import Strings
 from parser.geometry.curves import Bools, Floats, Ints
 
 _MOST_STARTS = 24
-_STARTS_AT_ONCE = 3_000  # over all closed curves of a drawing: many have few starts each
-_ROUNDS = 5  # the last arc then is as full as the others within a thirtieth
+_STARTS_AT_ONCE = 1_000  # over all closed curves of a drawing: many have few starts each
+_ROUNDS = 5
+_FULL = 0.9  # of the length of an arc
 
 
 def best_starts(strings: Strings, runs: Runs, closed: Bools, tolerance_um: Floats) -> Runs:
     """The runs, those that are closed begun where the arcs are fewest, and of these where the last one is shortest."""
     at = np.flatnonzero(closed)
-    if not len(at):
+    number = min(_STARTS_AT_ONCE // max(len(at), 1), _MOST_STARTS)
+    if not len(at) or number < 2:
         return runs
-    number = int(np.clip(_STARTS_AT_ONCE // len(at), 1, _MOST_STARTS))
     of = np.repeat(at, number)
     length = (runs.high - runs.low)[of]
     low = runs.low[of] + length * np.tile(np.arange(number) / number, len(at))
@@ -30,21 +31,42 @@ def best_starts(strings: Strings, runs: Runs, closed: Bools, tolerance_um: Float
     return runs._replace(low=low, high=high)
 
 
-def even_arcs(strings: Strings, runs: Runs, tolerance_um: Floats) -> Arcs:
-    """Arcs as few as a tolerance (r,) allows, of the least tolerance that needs no more of them.
+def even_arcs(strings: Strings, runs: Runs, tolerance_um: Floats, steps: int = STEPS) -> Arcs:
+    """Arcs as few as a tolerance (r,) allows, of about the least tolerance that needs no more of them.
 
-    The length of an arc goes with the cube root of its tolerance, so that is what is halved.
+    The length of an arc goes with the cube root of its tolerance: so all arcs are made shorter by what the last one
+    lacks, and where that was too much, by half of it.
     """
-    best = longest_arcs(strings, runs, tolerance_um)
+    best = longest_arcs(strings, runs, tolerance_um, steps=steps)
     count, _ = _counts(best, len(runs.low))
     low, high = (count - 1) / np.maximum(count, 1), np.ones(len(count))
+    share = high * _filled(best, count)
     for _ in range(_ROUNDS):
-        middle = 0.5 * (low + high)
-        found = longest_arcs(strings, runs, tolerance_um * middle**3)
-        enough = _counts(found, len(count))[0] <= count
-        low, high = np.where(enough, low, middle), np.where(enough, middle, high)
-        best = _merged(best, found, enough)
+        todo = np.flatnonzero(share < high)
+        if not len(todo):
+            break
+        found = longest_arcs(strings, runs.picked(todo), (tolerance_um * share**3)[todo], _of_runs(best, todo), steps)
+        enough = _counts(found, len(todo))[0] <= count[todo]
+        low[todo], high[todo] = np.where(enough, low[todo], share[todo]), np.where(enough, share[todo], high[todo])
+        better = found.picked(enough[found.run])
+        best = _merged(best, better._replace(run=todo[better.run]), np.isin(np.arange(len(count)), todo[enough]))
+        count, _ = _counts(best, len(count))
+        next_share = high * _filled(best, count)
+        share = np.where(next_share < high, np.maximum(next_share, 0.5 * (low + high)), high)
     return best
+
+
+def _filled(arcs: Arcs, count: Ints) -> Floats:
+    """By what all arcs (r,) are longer than they would be if the last one were as full; 1 where that is little."""
+    last = arcs.spare[np.cumsum(count) - 1]
+    full = np.cbrt(np.clip(1.0 - last, 0.0, 1.0))
+    return np.where(full < _FULL, (count - 1 + full) / count, 1.0)
+
+
+def _of_runs(arcs: Arcs, which: Ints) -> Arcs:
+    """The arcs of some runs, by their number among these."""
+    some = arcs.picked(np.isin(arcs.run, which))
+    return some._replace(run=np.searchsorted(which, some.run))
 
 
 def _counts(arcs: Arcs, runs: int) -> tuple[Ints, Floats]:

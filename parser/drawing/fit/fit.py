@@ -8,13 +8,14 @@ from parser.drawing.fit.bounds import are_within, off_at_most
 from parser.drawing.fit.chunks import runs_of
 from parser.drawing.fit.even import best_starts, even_arcs
 from parser.drawing.fit.fitted import Fitted
-from parser.drawing.fit.longest import Arcs, Runs, joined_arcs
+from parser.drawing.fit.longest import STEPS, Arcs, Runs, joined_arcs
 from parser.drawing.fit.pieces import Pieces, tamed
 from parser.drawing.fit.strings import Strings, places_on, strings_of
 from parser.geometry.curves import Curves, Floats, Ints, curves_between
 
 _SEARCHED = 0.997  # of the tolerance: the search looks at places, and the farthest may lie between two
-_STRICTER = (1.0, 0.98, 0.9)  # of that, for runs whose bound turned out too large
+_STRICTER = ((1.0, STEPS), (1.0, 3 * STEPS), (0.98, 3 * STEPS), (0.9, 6 * STEPS))
+"""Of that, and in how many steps: for runs whose bound turned out too large."""
 _MOST_HALVINGS = 48
 
 
@@ -45,9 +46,9 @@ def _proved_arcs(strings: Strings, runs: Runs, tolerance_um: float) -> tuple[Arc
     left = np.arange(len(runs.low))
     done: list[Arcs] = []
     most = 0.0
-    for share in _STRICTER:
+    for share, steps in _STRICTER:
         some = runs.picked(left)
-        arcs = even_arcs(strings, some, np.full(len(left), _SEARCHED * share * tolerance_um))
+        arcs = even_arcs(strings, some, np.full(len(left), _SEARCHED * share * tolerance_um), steps)
         bound = off_at_most(strings, some, arcs, tolerance_um)
         fails = np.bincount(arcs.run, weights=~are_within(bound, tolerance_um)) > 0
         fine = ~fails[arcs.run]
@@ -65,7 +66,7 @@ def _proved_arcs(strings: Strings, runs: Runs, tolerance_um: float) -> tuple[Arc
 
 def _lines(strings: Strings, runs: Runs, which: Ints, tolerance_um: float) -> tuple[Arcs, float]:
     """Lines that cover some runs, halved until each is proved."""
-    todo = Arcs(which, runs.low[which], runs.high[which], np.zeros(len(which)))
+    todo = Arcs(which, runs.low[which], runs.high[which], *np.zeros((2, len(which))))
     done: list[Arcs] = []
     most = 0.0
     for _ in range(_MOST_HALVINGS):

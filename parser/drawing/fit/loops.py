@@ -1,14 +1,15 @@
 """Loops of a drawing with their dense polylines made arcs."""
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from parser.drawing.fit.fitted import Fitted
 from parser.drawing.fit.polylines import arcs_of_lines
-from parser.drawing.model import DrawnLoop, running
-from parser.geometry.curves import Curves, Ints, joined
+from parser.drawing.model import Drawing, DrawnLoop, running
+from parser.geometry.curves import Bools, Curves, Ints, joined
+
+_DRAWN_AS_LINES = frozenset(("LINE", "LWPOLYLINE", "POLYLINE"))
 
 
 class FittedLoops(NamedTuple):
@@ -23,25 +24,32 @@ class FittedLoops(NamedTuple):
     max_um: float
 
 
-def loops_with_arcs(curves: Curves, entity: Ints, loops: Sequence[DrawnLoop], tolerance_um: float) -> FittedLoops:
-    """Loops of curves (n,) of entities (n,), arcs within a tolerance in place of dense lines."""
-    fitted = [_fitted(curves, entity, loop, tolerance_um) for loop in loops]
+def loops_with_arcs(drawing: Drawing, tolerance_um: float) -> FittedLoops:
+    """Loops of a drawing, arcs within a tolerance in place of the dense lines that it was drawn with.
+
+    Lines that were fitted to splines and ellipses stay, as they lie off these already.
+    """
+    is_drawn = np.array([entity.kind in _DRAWN_AS_LINES for entity in drawing.entities])[drawing.entity]
+    fitted = [_fitted(drawing, loop, is_drawn, tolerance_um) for loop in drawing.loops]
     number = [len(one.of) for one in fitted]
     first = np.cumsum(number) - number
     return FittedLoops(
-        joined([curves.picked(slice(0)), *(one.curves for one in fitted)]),
-        np.concatenate([entity[:0], *(one.of for one in fitted)]),
-        tuple(_running_ahead(loop, int(at), len(one.of)) for loop, one, at in zip(loops, fitted, first, strict=True)),
+        joined([drawing.curves.picked(slice(0)), *(one.curves for one in fitted)]),
+        np.concatenate([drawing.entity[:0], *(one.of for one in fitted)]),
+        tuple(
+            _running_ahead(loop, int(at), len(one.of))
+            for loop, one, at in zip(drawing.loops, fitted, first, strict=True)
+        ),
         max((one.max_um for one in fitted), default=0.0),
     )
 
 
-def _fitted(curves: Curves, entity: Ints, loop: DrawnLoop, tolerance_um: float) -> Fitted:
+def _fitted(drawing: Drawing, loop: DrawnLoop, is_drawn: Bools, tolerance_um: float) -> Fitted:
     """A loop in running order, begun at its leftmost place if it is closed; `of` is the entity of each curve."""
-    part, of = running(curves, loop.row, loop.backwards), entity[loop.row]
+    part, of = running(drawing.curves, loop.row, loop.backwards), drawing.entity[loop.row]
     if (~part.is_arc).sum() < 2:
         return Fitted(part, of, 0.0)
-    fitted = arcs_of_lines(part, tolerance_um, is_closed=loop.closed)
+    fitted = arcs_of_lines(part, is_drawn[loop.row], tolerance_um, is_closed=loop.closed)
     leftmost = np.lexsort([fitted.curves.start_um[:, 1], fitted.curves.start_um[:, 0]])[0] if loop.closed else 0
     order = np.roll(np.arange(len(fitted.of)), -leftmost)
     return Fitted(fitted.curves.picked(order), of[fitted.of[order]], fitted.max_um)

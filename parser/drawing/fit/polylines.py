@@ -33,14 +33,16 @@ class _Piece(NamedTuple):
     off_um: float = 0.0
 
 
-def arcs_of_lines(curves: Curves, tolerance_um: float, *, is_closed: bool) -> Fitted:
+def arcs_of_lines(curves: Curves, is_drawn: Bools, tolerance_um: float, *, is_closed: bool) -> Fitted:
     """A loop (n,) in running order, runs of short lines in it replaced by arcs that lie within a tolerance of them.
+
+    Curves that are not drawn as they are (n,), but were fitted to others, stay.
 
     Each arc begins and ends at a vertex. Lines that run straight on become one. A closed loop may begin with another
     curve than it did. `of` is the row of the first line that each is of.
     """
     within_um = tolerance_um - SAME_WITHIN_UM
-    strokes = strokes_of(curves, within_um, is_closed=is_closed)
+    strokes = strokes_of(curves, is_drawn, within_um, is_closed=is_closed)
     if is_closed and not strokes.corner.any():
         strokes, pieces = _ring(strokes, within_um)
     else:

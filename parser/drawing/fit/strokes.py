@@ -41,10 +41,10 @@ class _Joints(NamedTuple):
     aside_um: Floats
 
 
-def strokes_of(curves: Curves, within_um: float, *, is_closed: bool) -> Strokes:
+def strokes_of(curves: Curves, is_drawn: Bools, within_um: float, *, is_closed: bool) -> Strokes:
     """Curves with lines that run straight on made one, and the corners between them."""
     row = np.arange(len(curves))
-    alone = Strokes(row, row, curves.start_um, curves.end_um, ~curves.is_arc, row == -1)
+    alone = Strokes(row, row, curves.start_um, curves.end_um, ~curves.is_arc & is_drawn, row == -1)
     joints = _joints(alone, is_closed=is_closed)
     straight = joints.is_smooth & (joints.aside_um <= SAME_WITHIN_UM) & (np.abs(joints.turn_rad) < _CORNER_RAD)
     begin = int(np.argmin(straight))

@@ -48,11 +48,10 @@ class _Kept(NamedTuple):
     last_um: Floats
 
 
-def drawn_once(curves: Curves, entity: Ints, gap_um: float) -> DrawnOnce:
+def drawn_once(curves: Curves, entity: Ints) -> DrawnOnce:
     """Curves (n,) of entities, numbers (n,) that do not decrease, without what another entity draws too.
 
-    See `drawn_again` and `covered` for which one is kept. What would be left of a curve and is no longer than `gap_um`
-    is left out as well: the gap bridges it.
+    See `drawn_again` and `covered` for which one is kept.
     """
     again = drawn_again(curves, entity)
     rest = np.flatnonzero(~again)
@@ -63,14 +62,14 @@ def drawn_once(curves: Curves, entity: Ints, gap_um: float) -> DrawnOnce:
     told = [(entity[gone], np.ones(len(gone), dtype=np.bool_), places_at(curves, gone, middle))]
     if over is None or not len(over.row):
         return DrawnOnce(once, entity[rest], _told(told))
-    kept = _kept(once, over, max(gap_um, SAME_WITHIN_UM))
+    kept = _kept(once, over)
     rows, first = np.unique(over.row, return_index=True)
     place = places_at(once, rows, 0.5 * (over.first_um + over.last_um)[first])
     told.append((entity[rest][rows], ~np.isin(rows, kept.row), place))
     return DrawnOnce(_cut(once, kept), entity[rest][kept.row], _told(told))
 
 
-def _kept(curves: Curves, over: Covered, least_um: float) -> _Kept:
+def _kept(curves: Curves, over: Covered) -> _Kept:
     """All rows that are not covered, and what is left of those that are, in the order of the rows."""
     order = np.lexsort([over.first_um, over.row])
     row, first, last = over.row[order], over.first_um[order], over.last_um[order]
@@ -82,7 +81,7 @@ def _kept(curves: Curves, over: Covered, least_um: float) -> _Kept:
     ends = np.append(np.flatnonzero(begin)[1:], len(row)) - 1
     rows = np.concatenate([row, row[ends]])
     low, high = np.concatenate([before, far[ends]]), np.concatenate([first, curves.length_um[row[ends]]])
-    long = high - low > least_um
+    long = high - low > SAME_WITHIN_UM
     rows = np.concatenate([whole, rows[long]])
     low = np.concatenate([np.zeros(len(whole)), low[long]])
     high = np.concatenate([curves.length_um[whole], high[long]])

@@ -95,7 +95,7 @@ def _of_lines(curves: Curves, row: Ints, by: Ints) -> Covered:
     first, last = np.clip(at.min(axis=0), 0.0, None), np.minimum(at.max(axis=0), curves.length_um[row])
     slope = (off[1] - off[0]) / np.where(at[1] == at[0], np.inf, at[1] - at[0])
     apart = np.maximum(*(np.abs(off[0] + slope * (end - at[0])) for end in (first, last)))
-    return _slender(Covered(row, by, first, last), apart)
+    return _slender(curves, Covered(row, by, first, last), apart)
 
 
 def _of_arcs(curves: Curves, row: Ints, by: Ints) -> tuple[Covered, Covered]:
@@ -115,7 +115,7 @@ def _of_arcs(curves: Curves, row: Ints, by: Ints) -> tuple[Covered, Covered]:
         back = curves.sweep_rad[row] < 0.0
         first, last = np.where(back, reach - last, first), np.where(back, reach - first, last)
         radius = curves.radius_um[row]
-        found.append(_slender(Covered(row, by, radius * first, radius * last), apart))
+        found.append(_slender(curves, Covered(row, by, radius * first, radius * last), apart))
     return found[0], found[1]
 
 
@@ -130,9 +130,16 @@ def _turned(curves: Curves, row: Ints, center: Floats) -> tuple[Floats, Floats]:
     return angle, np.where(whole, 2.0 * np.pi, reach)
 
 
-def _slender(found: Covered, apart_um: Floats) -> Covered:
-    over = found.last_um - found.first_um
-    return found.take((apart_um <= BESIDE_UM) & (over > np.maximum(_SLENDER * apart_um, SAME_WITHIN_UM)))
+def _slender(curves: Curves, found: Covered, apart_um: Floats) -> Covered:
+    """Those that lie beside each other for long enough. What lies beside another curve ends where that does."""
+    over_um = found.last_um - found.first_um
+    beside = (apart_um <= BESIDE_UM) & (over_um > np.maximum(_SLENDER * apart_um, SAME_WITHIN_UM))
+    found, within = found.take(beside), np.where(apart_um[beside] > SAME_WITHIN_UM, BESIDE_UM, 0.0)
+    length = curves.length_um[found.row]
+    return found._replace(
+        first_um=np.where(found.first_um <= within, 0.0, found.first_um),
+        last_um=np.where(length - found.last_um <= within, length, found.last_um),
+    )
 
 
 def _all_round(curves: Curves, found: Covered, strings: Strings) -> Bools:

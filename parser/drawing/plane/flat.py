@@ -20,7 +20,7 @@ _LONGEST_STEP_RAD = 0.5 * np.pi  # of an ellipse, however small: its lines still
 
 
 class Flat(NamedTuple):
-    """Curves (n,), which form each comes from (n,), and how many forms were treated how.
+    """Curves (n,), which form each comes from (n,), and how many forms, or which, were treated how.
 
     Attributes
     ----------
@@ -29,9 +29,9 @@ class Flat(NamedTuple):
     slanted
         Not level, so that they are seen shortened from above.
     upright
-        Ellipses that are lines seen from above; left out.
+        Rows of forms that are ellipses and lines seen from above; left out.
     beyond
-        With places beyond any table, or that are no numbers; left out.
+        Rows of those with places beyond any table, or that are no numbers; left out.
     fit_max_um
         How far arcs lie off the ellipses that they were fitted to, at most.
     """
@@ -40,8 +40,8 @@ class Flat(NamedTuple):
     form: Ints
     ellipses: int
     slanted: int
-    upright: int
-    beyond: int
+    upright: Ints
+    beyond: Ints
     fit_max_um: float
 
 
@@ -73,8 +73,8 @@ def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float, fi
         form[order],
         ellipses=int((~exact).sum()),
         slanted=int(_is_slanted(forms).sum()),
-        upright=int(upright.sum()),
-        beyond=int((~near).sum()),
+        upright=np.flatnonzero(upright),
+        beyond=np.flatnonzero(~near),
         fit_max_um=made.max_um,
     )
 

@@ -94,6 +94,8 @@ class Form(StrEnum):
     """A function of the controller, such as ``QAIC(2,1,0.1250)``."""
     MACRO = "macro"
     """Variables, sums in brackets, jumps and loops, such as ``#100 = #101 + 1`` or ``IF [#1 GT 0] GOTO 10``."""
+    FEED = "feed"
+    """A feed that is held in a variable, such as ``F#61``: it moves nothing."""
     TWO_PLANES = "two-planes"
     """Upper contour, ``:``, lower contour; the words of the block are those of the lower one."""
 

@@ -23,6 +23,7 @@ _FUNCTION = re.compile(r"[A-Za-z]{2,}\d*[ \t]*\([^()]*\)", re.ASCII)
 _MACRO = re.compile(
     r"[\[\]]|\A#|(?<![A-Z])[A-Z][ \t]*[-+]?[ \t]*#|\b(?:GOTO|DO|END)[ \t]*\d|\b(?:IF|WHILE)\b", re.IGNORECASE
 )
+_FEED = re.compile(r"F[ \t]*#[ \t]*\d+(?![\w.])", re.ASCII | re.IGNORECASE)
 _TEXT = re.compile(r"[^\W\d_]{3,}|[^\x00-\x7f]")
 _MOVING = re.compile(r"[GXY][ \t]*[-+]?[ \t]*\.?\d", re.IGNORECASE)
 
@@ -75,6 +76,15 @@ class OddLine(NamedTuple):
 
 def odd_line(line: str, at: int, *, may_be_title: bool) -> OddLine:
     """What a line holds that is not blank; its first character stands at `at` of the text (docs/iso.md §1)."""
+    feeds = [found.span() for found in _FEED.finditer(line)]
+    if not feeds:
+        return _odd_line(line, at, may_be_title=may_be_title)
+    read = _odd_line(_FEED.sub(lambda found: " " * len(found[0]), line), at, may_be_title=False)
+    stated = (Statement(Form.FEED, 0, (at + first, at + past)) for first, past in feeds)
+    return read._replace(span=(at, at + len(line)), statements=(*read.statements, *stated))
+
+
+def _odd_line(line: str, at: int, *, may_be_title: bool) -> OddLine:
     span = at, at + len(line)
     if _MACRO.search(line):
         return OddLine(span, statements=(Statement(Form.MACRO, 0, span),))

@@ -13,7 +13,18 @@ from typing import Any, Literal
 from parser.told.compensation import CompensationRules
 
 _FOLDER = Path(__file__).parent
-PROFILES = ("fast-wire", "classroom", "skd2", "robofil", "sodick", "mitsubishi", "fanuc", "common", "strict")
+PROFILES = (
+    "fast-wire",
+    "classroom",
+    "skd2",
+    "robofil",
+    "sodick",
+    "mitsubishi",
+    "fanuc",
+    "patent-mill",
+    "common",
+    "strict",
+)
 """Names of all profiles, as ``--dialect`` takes them."""
 
 

@@ -128,6 +128,7 @@ MARKS = (
     Mark("fanuc", "because-o-number", lambda seen: seen.has("O") and seen.has("D") and seen.has("S")),
     Mark("fanuc", "because-o-inches", lambda seen: seen.has("O") and seen.decimals > DIGITS_IN_MM),
     Mark("robofil", "because-g60", lambda seen: seen.has("G", 60)),
+    Mark("patent-mill", "because-cylinder", lambda seen: seen.has("M", 55, 56)),
     Mark("fast-wire", "because-long-integers", lambda seen: seen.are_long_integers and not seen.has("M", 30)),
 )
 """Marks in the order in which they decide."""

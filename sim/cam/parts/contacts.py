@@ -7,27 +7,44 @@ import numpy as np
 from controller.offset.closest import approaches
 from parser.drawing.loops.overlaps import over
 from parser.drawing.model import BESIDE_UM
-from parser.geometry.along import along_um, places
+from parser.geometry.along import along_um, places, places_at
 from parser.geometry.broad_phase_pairs import near_pairs
 from parser.geometry.broad_phase_places import nearest_um
 from parser.geometry.curves import Bools, Curves, Floats, Ints
-from parser.geometry.meets import prolonged_meet
 from sim.cam.parts.contours import Contours
 from sim.cam.parts.inside import is_inside
 
 _TOUCH_UM: Final = 0.01
 """A contour that comes so near to itself touches itself: far above rounding, far below what any wire cuts."""
-_ON: Final = 20.0  # times as near as they come, along the contour: places nearer than that are one place of it
+_LOCAL_UM: Final = 60.0
+"""Round the finest wire, of 0.02 mm: shorter loops of a contour at a corner are rounding of its drawing, and no wire
+follows them."""
 _SHARES: Final = np.linspace(0.0, 1.0, 9)[:-1]  # of each curve, at which it is looked on which side of others it lies
+_BETWEEN: Final = np.array([0.25, 0.5, 0.75])  # of each stretch from one contact to the next
 _MOST_PAIRS: Final = 20_000_000
 
 
 class Contacts(NamedTuple):
-    """Places (k, 2) where the contours `one` and `other` (k,) come within `BESIDE_UM` of each other."""
+    """Places (k, 2) where contours come near each other, or themselves.
+
+    Attributes
+    ----------
+    one, other
+        (k,) the contours.
+    row
+        (k,) row of the contours' curves, of `one`, that comes near.
+    place_um
+        (k, 2) on that row.
+    """
 
     one: Ints
     other: Ints
+    row: Ints
     place_um: Floats
+
+    def take(self, at: Ints | Bools) -> "Contacts":
+        """Those at the indices `at`."""
+        return Contacts(self.one[at], self.other[at], self.row[at], self.place_um[at])
 
 
 def overlaps(contours: Contours) -> Contacts:
@@ -38,7 +55,7 @@ def overlaps(contours: Contours) -> Contacts:
     found = over(curves, early[like], late[like])
     middle = 0.5 * (found.first_um + found.last_um)
     place = places(curves, found.row, middle / curves.length_um[found.row])
-    return Contacts(loop[found.row], loop[found.by], place)
+    return Contacts(loop[found.row], loop[found.by], found.row, place)
 
 
 def self_contacts(contours: Contours) -> Contacts:
@@ -53,40 +70,8 @@ def self_contacts(contours: Contours) -> Contacts:
     at = [before[row] + along_um(curves, row, near.place_um) for row in (near.path_row, near.row)]
     along = np.abs(at[1] - at[0])
     along = np.minimum(along, total[loop[near.row]] - along)
-    following = _follow(loop, first, near.path_row, near.row)
-    apart = np.flatnonzero((along > _ON * _TOUCH_UM) & ~following)
-    place = near.place_um[apart]
-    number = loop[near.row[apart]]
-    again, where = _meet_again(curves, loop, first)
-    return Contacts(np.append(number, again), np.append(number, again), np.concatenate([place, where]))
-
-
-def _follow(loop: Ints, first: Ints, early: Ints, late: Ints) -> Bools:
-    """Whether curves of one contour follow each other."""
-    of = loop[early]
-    follow: Bools = (late == early + 1) | ((early == first[of]) & (late == first[of + 1] - 1))
-    return follow
-
-
-def _meet_again(curves: Curves, loop: Ints, first: Ints) -> tuple[Ints, Floats]:
-    """Contours (k,) of which a curve crosses the one before it, and where (k, 2).
-
-    Curves that run into each other smoothly cross by as much as their numbers are rounded: that is no crossing.
-    """
-    after = np.arange(1, len(loop) + 1)
-    after[first[1:] - 1] = first[:-1]
-    row = np.flatnonzero(after != np.arange(len(loop)))
-    met = prolonged_meet(curves, row, after[row])
-    deep = (met.overlap_um > BESIDE_UM) & np.isfinite(met.overlap_um)
-    pair, which = np.nonzero(deep[:, None] & ~np.isnan(met.place_um[:, :, 0]))
-    place, one, other = met.place_um[pair, which], row[pair], after[row[pair]]
-    inner = np.ones(len(pair), dtype=np.bool_)
-    for curve in (one, other):
-        along = along_um(curves, curve, place)
-        on = places(curves, curve, along / curves.length_um[curve])
-        inner &= np.hypot(*(on - place).T) <= _TOUCH_UM
-        inner &= np.minimum(along, curves.length_um[curve] - along) > BESIDE_UM
-    return loop[one[inner]], place[inner]
+    apart = near.take(np.flatnonzero(along > _LOCAL_UM))
+    return Contacts(loop[apart.path_row], loop[apart.row], apart.path_row, apart.place_um)
 
 
 def contacts(contours: Contours) -> Contacts:
@@ -94,7 +79,7 @@ def contacts(contours: Contours) -> Contacts:
     near = approaches(contours.curves, contours.curves, BESIDE_UM)
     one, other = contours.loop[near.path_row], contours.loop[near.row]
     apart = np.flatnonzero(one < other)
-    return Contacts(one[apart], other[apart], near.place_um[apart])
+    return Contacts(one[apart], other[apart], near.path_row[apart], near.place_um[apart])
 
 
 def crossed(contours: Contours, found: Contacts, within_um: float) -> Contacts:
@@ -102,16 +87,25 @@ def crossed(contours: Contours, found: Contacts, within_um: float) -> Contacts:
 
     What lies within a distance of the other contour is on neither side of it.
     """
+    if not len(found.one):
+        return found
     key = found.one * (int(contours.loop[-1]) + 1) + found.other
-    pairs, of = np.unique(key, return_inverse=True)
-    numbers = np.stack(np.divmod(pairs, int(contours.loop[-1]) + 1), axis=1)
-    cross = np.array([_cross(contours, one, other, within_um) for one, other in numbers.tolist()], dtype=np.bool_)[of]
-    return Contacts(found.one[cross], found.other[cross], found.place_um[cross])
+    order = np.argsort(key, kind="stable")
+    pairs = np.split(order, np.flatnonzero(np.diff(key[order])) + 1)
+    cross = [pair for pair in pairs if _cross(contours, found.take(pair), within_um)]
+    return found.take(np.concatenate([*cross, order[:0]]))
 
 
-def _cross(contours: Contours, one: int, other: int, within_um: float) -> bool:
-    around, ring = contours.one(other), contours.one(one)
-    place = spread(ring)
+def _cross(contours: Contours, found: Contacts, within_um: float) -> bool:
+    """Whether two contours cross, by all of their contacts."""
+    around, rows = contours.one(int(found.other[0])), contours.rows(int(found.one[0]))
+    ring = contours.curves.picked(rows)
+    row, before = found.row - rows.start, ring.before_um
+    at = np.unique(before[row] + along_um(ring, row, found.place_um))
+    past = np.append(at[1:], at[0] + before[-1])
+    middle = np.mod((at[:, None] + _BETWEEN * (past - at)[:, None]).ravel(), before[-1])
+    of = np.clip(np.searchsorted(before, middle, side="right") - 1, 0, len(ring) - 1)
+    place = np.concatenate([places_at(ring, of, middle - before[of]), spread(ring)])
     clear = place[nearest_um(around, place, within_um) > within_um]
     inside = is_inside(around, clear)
     return bool(inside.any() and not inside.all())

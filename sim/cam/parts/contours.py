@@ -55,7 +55,9 @@ def contours_of(drawing: Drawing, loops: list[DrawnLoop]) -> Contours:
     ran = running(drawing.curves, row, np.concatenate([loop.backwards for loop in loops]))
     of = np.repeat(np.arange(len(loops)), [len(loop.row) for loop in loops])
     closed = _closed(ran, _after(of))
-    long = np.flatnonzero(closed.length_um > SAME_WITHIN_UM)
+    is_long = closed.length_um > SAME_WITHIN_UM
+    # What closes to a place stays as it is, for others to leave out.
+    long = np.flatnonzero(is_long | (np.bincount(of, is_long)[of] == 0))
     left = Contours(closed.picked(long), of[long], drawing.entity[row][long])
     start = left.curves.start_um[_after(left.loop)]
     return left._replace(curves=replace(left.curves, end_um=start))

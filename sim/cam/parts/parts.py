@@ -46,7 +46,7 @@ def parts_of(drawing: Drawing, making: Making) -> Parts:
     left = left_open(drawing, loose, None if drawn is None else drawn.curves, making.gap_um)
     if drawn is None:
         raise CannotCutError(Refusal("no-contour", tuple(Point(*one.place_um) for one in left if one.place_um)))
-    found, flat = _with_width(drawing, _found(closed, drawn))
+    found, flat = _with_width(drawing, _found(closed, drawn), making.gap_um)
     _refuse_itself(drawing, found)
     within = BESIDE_UM + 2.0 * (0.0 if drawing.fit is None else drawing.fit.tolerance_um)
     found, again = _once(drawing, found, within)
@@ -99,14 +99,20 @@ def _start(found: _Found, at: int) -> tuple[float, float]:
     return x, y
 
 
-def _with_width(drawing: Drawing, found: _Found) -> tuple[_Found, tuple[LeftOut, ...]]:
-    """Loops without those that are lines there and back. CannotCutError where none is left."""
+def _with_width(drawing: Drawing, found: _Found, gap_um: float) -> tuple[_Found, tuple[LeftOut, ...]]:
+    """Loops without those that are lines there and back, and those that the gap bridges from one side to the other.
+
+    CannotCutError where none is left.
+    """
     length = np.bincount(found.contours.loop, found.contours.curves.length_um, len(found.loops))
-    flat = 2.0 * np.abs(found.area_um2) <= BESIDE_UM * length
+    dot = (found.high_um - found.low_um).max(axis=1) <= gap_um
+    flat = ~dot & (2.0 * np.abs(found.area_um2) <= BESIDE_UM * length)
     flat[flat] = [_is_flat(found.contours.one(at)) for at in np.flatnonzero(flat).tolist()]
-    if flat.all():
+    if (flat | dot).all():
         raise CannotCutError(Refusal("no-contour", tuple(Point(*_start(found, at)) for at in range(len(flat)))))
-    return _kept(found, ~flat), _left_out(drawing, found, np.flatnonzero(flat), "no-width")
+    named_so = ((flat, "no-width"), (dot, "dot"))
+    left = [out for which, why in named_so for out in _left_out(drawing, found, np.flatnonzero(which), why)]
+    return _kept(found, ~(flat | dot)), tuple(left)
 
 
 def _is_flat(ring: Curves) -> bool:
@@ -117,12 +123,9 @@ def _is_flat(ring: Curves) -> bool:
 
 
 def _refuse_itself(drawing: Drawing, found: _Found) -> None:
-    itself = self_contacts(found.contours)
-    over = overlaps(found.contours)
-    for at, why in ((over.one == over.other, "crosses-itself"), (over.one != over.other, "shared-edge")):
-        places = Contacts(over.one[at], over.other[at], over.place_um[at])
-        if why == "crosses-itself":
-            places = Contacts(*(np.concatenate(two) for two in zip(places, itself, strict=True)))
+    itself, over = self_contacts(found.contours), overlaps(found.contours)
+    is_own = over.one == over.other
+    for places, why in ((itself, "crosses-itself"), (over.take(is_own), "crosses-itself"), (over, "shared-edge")):
         if len(places.one):
             raise CannotCutError(_refusal(drawing, found, places, why))
 

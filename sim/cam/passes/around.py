@@ -46,7 +46,7 @@ def _begin(figure: Figure, thread: Thread, by_um: float, way: Curves) -> Point:
         return across
     off = np.hypot(*(way.start_um - np.array(entry.place_um)).T)
     beside_um = np.hypot(*(way.start_um - np.array(across)).T)
-    near = (off >= by_um - SHORT_UM) & (off <= _FARTHEST * by_um) & (beside_um <= by_um)
+    near = (off >= by_um - SHORT_UM) & (off <= _FARTHEST * by_um)
     if not near.any():
         return across
     return Point(*way.start_um[int(np.argmin(np.where(near, beside_um, np.inf)))].tolist())

@@ -7,6 +7,7 @@ from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.distance import distance_to_curves
 from parser.geometry.feet import feet
 
+_FEW = 4096  # pairs
 _FAR = 1e6  # times the way between two centres: from there, the far side of an arc is the near one
 
 
@@ -16,8 +17,7 @@ def clearance_um(contour: Curves, curves: Curves, within_um: float) -> Floats:
     Two curves that do not cross are nearest at an end of one of them, or on a line through the centre of one and across
     the other, or through the centres of both.
     """
-    near = near_curves(contour, curves, within_um)
-    one, other = near.other, near.row
+    one, other = _pairs(contour, curves, within_um)
     away = np.minimum.reduce(
         [
             _away(contour, other, curves.start_um[one]),
@@ -33,6 +33,14 @@ def clearance_um(contour: Curves, curves: Curves, within_um: float) -> Floats:
     result = np.full(len(curves), np.inf)
     np.minimum.at(result, one, away)
     return result
+
+
+def _pairs(contour: Curves, curves: Curves, within_um: float) -> tuple[Ints, Ints]:
+    """Rows of curves and rows of the contour that may be near each other: of small ones all, which is faster."""
+    if len(contour) * len(curves) <= _FEW:
+        return np.repeat(np.arange(len(curves)), len(contour)), np.tile(np.arange(len(contour)), len(curves))
+    near = near_curves(contour, curves, within_um)
+    return near.other, near.row
 
 
 def _across(arcs: Curves, arc: Ints, curves: Curves, row: Ints) -> Floats:

@@ -1,5 +1,7 @@
 """A plan to a draft: figure after figure, with a jump and a pause between, and a pause before a tab."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from parser.geometry.curves import CurveKind, Curves, curves_between, joined
@@ -9,13 +11,18 @@ from sim.cam.model import CutPlan, FigureCut
 
 
 def draft_of_plan(plan: CutPlan) -> Draft:
-    """The draft of a plan."""
+    """The draft of a plan, its offsets worked into the path."""
+    return draft_of_cuts(plan.cuts)
+
+
+def draft_of_cuts(cuts: Sequence[FigureCut]) -> Draft:
+    """The draft of figures that are cut one behind the other."""
     parts: list[Curves] = []
     stops: list[Stop] = []
     rows = 0
-    for at, cut in enumerate(plan.cuts):
+    for at, cut in enumerate(cuts):
         if at:
-            jump = _jump(plan.cuts[at - 1], cut)
+            jump = _jump(cuts[at - 1], cut)
             stops.append(Stop("pause", rows, 0))
             parts.append(jump)
             rows += len(jump)
@@ -24,9 +31,9 @@ def draft_of_plan(plan: CutPlan) -> Draft:
                 stops.append(Stop("pause", rows, 0))
             parts += [one.into, one.along, one.out]
             rows += len(one.into) + len(one.along) + len(one.out)
-    curves = joined(parts)
     stops.append(Stop("end", rows, 0))
-    return Draft(curves, tuple(stops), np.zeros(rows, dtype=np.bool_), np.full((rows, 2), np.nan), is_meant=True)
+    nowhere = np.full((rows, 2), np.nan)
+    return Draft(joined(parts), tuple(stops), np.zeros(rows, dtype=np.bool_), nowhere, is_meant=True)
 
 
 def _jump(before: FigureCut, behind: FigureCut) -> Curves:

@@ -31,7 +31,7 @@ def print_made(done: Made, name: Path, language: Language) -> None:
     """Print figures, what was left out and taken for granted, and the proof of a program to stdout."""
     words, width = Words(language), width_of(outlet())
     sums = figure_sums(done)
-    passes = {_passes(cut, words) for cut in done.plan.cuts}
+    passes = set(map(_passes, done.plan.cuts))
     names = (*_HEADS, "passes") if len(passes) > 1 else _HEADS
     shown = table(printable(name.name), tuple(words(f"program.head-{one}") for one in names), right=(0, 3, 4, 5))
     for cut, of in list(zip(done.plan.cuts, sums, strict=False))[:_MOST_FIGURES]:
@@ -68,13 +68,12 @@ def _row(cut: FigureCut, of: FigureSum, words: Words) -> tuple[str, ...]:
         f"{mm(of.length_um):,.3f}",
         "–" if of.time_s is None else _hours(of.time_s),
         place_text(cut.thread.place_um),
-        _passes(cut, words),
+        _passes(cut),
     )
 
 
-def _passes(cut: FigureCut, words: Words) -> str:
-    offsets = ", ".join(f"{mm(one.by_um):g}" for one in cut.passes)
-    return offsets + (words("program.with-tab") if cut.cut_off else "")
+def _passes(cut: FigureCut) -> str:
+    return ", ".join(f"{mm(one.by_um):g}" for one in cut.passes)
 
 
 def _hours(time_s: float) -> str:
@@ -93,10 +92,13 @@ def _total(plan: CutPlan, sums: tuple[FigureSum, ...], words: Words, width: int)
 
 
 def _same_passes(plan: CutPlan, words: Words) -> Iterator[str]:
-    """The passes where they are the same for all figures; else the table has them."""
-    passes = {_passes(cut, words) for cut in plan.cuts}
+    """The passes where they are the same for all figures, else the table has them; and the tabs."""
+    passes = set(map(_passes, plan.cuts))
     if len(passes) == 1:
         yield words("program.passes", passes=passes.pop())
+    tabs = [str(cut.figure.number) for cut in plan.cuts if cut.cut_off]
+    if tabs:
+        yield words("program.tabs", figures=_numbers(tabs), length=f"{mm(plan.making.tab_um):g}")
 
 
 def _fit(plan: CutPlan, words: Words) -> Iterator[str]:
@@ -132,7 +134,10 @@ def _with_places(text: Said, places_um: tuple[tuple[float, float], ...]) -> Said
 
 def _chosen(plan: CutPlan, words: Words) -> Iterator[str]:
     """Thread points that nobody asked for."""
-    chosen = [cut.figure.number for cut in plan.cuts if cut.thread.by == "chosen"]
+    chosen = [str(cut.figure.number) for cut in plan.cuts if cut.thread.by == "chosen"]
     if chosen:
-        numbers = ", ".join(map(str, chosen[:_MOST_FIGURES])) + ("…" if len(chosen) > _MOST_FIGURES else "")
-        yield words("program.chosen", figures=numbers)
+        yield words("program.chosen", figures=_numbers(chosen))
+
+
+def _numbers(figures: list[str]) -> str:
+    return ", ".join(figures[:_MOST_FIGURES]) + ("…" if len(figures) > _MOST_FIGURES else "")

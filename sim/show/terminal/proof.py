@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator
 
-from parser.findings.catalogue import Language
+from parser.findings.catalogue import Language, texts
 from parser.findings.codes import Severity
 from parser.findings.facts import ReadAs
 from sim.cam.maker import Made
+from sim.cam.proof.result import Proof
 from sim.show.terminal.colours import COLOURS, painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped
@@ -27,6 +28,8 @@ def proof_lines(done: Made, name: str, language: Language, width: int) -> Iterat
             yield painted(line, finding.severity)
     if len(found) > _MOST_FINDINGS:
         yield words("program.more-findings", more=f"{len(found) - _MOST_FINDINGS:,}")
+    for text in said_of_proof(proof, words):
+        yield from wrapped(text, width, "", _INDENT)
     edge = proof.comparison
     if edge is not None and proof.run is not None:
         text = words(
@@ -38,3 +41,25 @@ def proof_lines(done: Made, name: str, language: Language, width: int) -> Iterat
         )
         yield from wrapped(text, width, "", _INDENT)
     yield styled(words(f"program.verdict-{proof.verdict}"), f"bold {COLOURS[proof.verdict]}")
+
+
+def said_of_proof(proof: Proof, words: Words) -> Iterator[str]:
+    """What the proof found wrong by itself, what it could not prove, and what it assumed."""
+    for fault in proof.faults:
+        text = words(f"program.fault-{fault.name}", **fault.values)
+        yield words("program.of-figure", figure=fault.figure, what=text) if fault.figure else text
+    for unproved in proof.unproved:
+        yield words(f"program.unproved-{unproved.name}", **unproved.values)
+    for note in proof.notes:
+        yield words("program.note", what=words(f"program.proof-{note.name}", **note.values))
+
+
+def against(done: Made, language: Language) -> Iterator[str]:
+    """What speaks against a program, a text for each: findings, faults, and what could not be proved."""
+    proof, words = done.proof, Words(language)
+    if proof is None:
+        return
+    for finding in proof.counting[:_MOST_FINDINGS]:
+        at = f" {finding.block}" if finding.block else ""
+        yield f"{finding.code}{at}: {texts(finding, language).found}"
+    yield from said_of_proof(proof._replace(notes=()), words)

@@ -8,7 +8,7 @@ import ezdxf
 import numpy as np
 import pytest
 
-from parser.drawing.dxf.marks import with_marks
+from parser.drawing.dxf.subclasses import with_marks
 from parser.drawing.read import read_drawing
 from parser.findings.remarks import remark_text
 

@@ -45,8 +45,9 @@ def test_a_drawing_becomes_a_proved_program(part: Path) -> None:
     assert int(program.toolpath.is_jump.sum()) == 1  # from the hole to the outline
     assert "proved" in said.splitlines()
     hole, outline = (line.split("│") for line in said.splitlines() if "hole of" in line or "outline of" in line)
-    assert [cell.strip() for cell in hole[1:4]] == ["2", "hole of 1", "inside"]
-    assert [cell.strip() for cell in outline[1:4]] == ["1", "outline of 1", "outside"]
+    assert [cell.strip() for cell in hole[2:4]] == ["hole of 1", "inside"]
+    assert [cell.strip() for cell in outline[2:4]] == ["outline of 1", "outside"]
+    assert {int(hole[1]), int(outline[1])} == {1, 2}
     blocks, length = int(hole[4]) + int(outline[4]), float(hole[5]) + float(outline[5])
     assert blocks == len(program.toolpath) - 1
     assert length == pytest.approx(float(program.toolpath.length_um[~program.toolpath.is_jump].sum()) / 1e3, abs=1e-3)
@@ -138,6 +139,19 @@ def test_bad_use_is_refused_in_a_line(part: Path, options: tuple[str, ...], told
     assert [file.name for file in part.parent.iterdir()] == [part.name]
 
 
+def test_force_writes_what_is_not_proved_with_what_was_found_at_its_head(part: Path) -> None:
+    out = part.with_suffix(".3b")
+    asked = (part, "-o", out, "--part-tolerance", "0.1um")
+    code, said, _ = run(*asked)
+    assert (code, out.exists()) == (1, False)
+    assert "not proved" in said
+    code, said, _ = run(*asked, "--force")
+    assert (code, out.exists()) == (1, True)
+    head = out.read_text("utf-8").splitlines()[1]
+    assert re.match(r"// not proved: .*off the drawing", head)
+    assert len(read_program(out).toolpath) > 4
+
+
 def test_options_reach_the_maker(part: Path) -> None:
     out = part.with_suffix(".3b")
     code, said, _ = run(part, "-o", out, "--offset", "0.15mm", "--wire-diameter", "0.28mm", "--form", "detailed")
@@ -153,6 +167,7 @@ fit = false
 [program]
 file = "plate.3b"
 passes_mm = [0.12, 0.1]
+tab_mm = 1
 """
 
 
@@ -197,6 +212,6 @@ def test_a_scenario_of_which_no_program_can_be_made_says_why(shop: Path) -> None
 
 
 def test_options_go_before_the_section(shop: Path) -> None:
-    code, said, _ = run(shop, "--preview", "--offset", "0.1mm")
+    code, said, _ = run(shop, "--preview", "--offset", "0.12mm")
     assert code == 0
-    assert "passes: offset 0.1 mm" in said
+    assert "passes: offset 0.12 mm" in said

@@ -5,12 +5,15 @@ import time
 import numpy as np
 import pytest
 import shapely
+from drawings_dxf import drawn as drawn_file
 
+from parser.drawing.fit import polylines
 from parser.drawing.fit.bulges import best_bulges, off_um
 from parser.drawing.fit.fitted import Fitted
 from parser.drawing.fit.loops import loops_with_arcs
-from parser.drawing.fit.polylines import FEWEST_LINES, arcs_of_lines
-from parser.drawing.model import DrawnLoop
+from parser.drawing.fit.polylines import FEWEST_LINES
+from parser.drawing.model import Drawing, DrawnLoop, Entity, running
+from parser.drawing.read import read_drawing
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, curves_between, joined
 
@@ -23,6 +26,11 @@ def _lines(vertices: Floats) -> Curves:
 
 def _closed(vertices: Floats) -> Curves:
     return _lines(np.concatenate([vertices, vertices[:1]]))
+
+
+def arcs_of_lines(curves: Curves, tolerance_um: float, *, is_closed: bool) -> Fitted:
+    """All of the curves as they are drawn."""
+    return polylines.arcs_of_lines(curves, np.ones(len(curves), dtype=np.bool_), tolerance_um, is_closed=is_closed)
 
 
 def _turn(number: int) -> Floats:
@@ -234,7 +242,9 @@ def test_loops_keep_their_entities_and_begin_at_their_leftmost_place():
         DrawnLoop(np.roll(np.arange(400), 7), np.zeros(400, dtype=np.bool_), True, 0.5),
         DrawnLoop(np.arange(403, 399, -1), np.ones(4, dtype=np.bool_), True, 0.0),
     )
-    fitted = loops_with_arcs(joined([ring, square]), entity, loops, 2.0)
+    entities = tuple(Entity("LINE", str(number), "0", "") for number in range(3))
+    drawing = Drawing("part", "R12", "mm", joined([ring, square]), entity, entities, loops, 0, 0.1, ())
+    fitted = loops_with_arcs(drawing, 2.0)
     assert [(loop.closed, loop.gap_um) for loop in fitted.loops] == [(True, 0.5), (True, 0.0)]
     assert np.concatenate([loop.row for loop in fitted.loops]).tolist() == list(range(len(fitted.curves)))
     assert set(fitted.entity[fitted.loops[0].row].tolist()) == {0, 1}
@@ -252,3 +262,39 @@ def test_ten_thousand_lines_are_fitted_in_less_than_a_second():
     fitted = arcs_of_lines(drawn, 2.0, is_closed=True)
     assert time.process_time() - began < 1.0
     assert _counts(fitted)[0] < 800
+
+
+def test_lines_that_were_fitted_to_other_curves_stay():
+    drawn = _closed(_cam(400))
+    is_drawn = np.arange(400) >= 200
+    fitted = polylines.arcs_of_lines(drawn, is_drawn, 2.0, is_closed=True)
+    assert sorted(set(range(200)) & set(fitted.of.tolist())) == list(range(200))
+    assert len(fitted.of) < 230
+
+
+def test_a_drawing_is_fitted_as_it_is_read(tmp_path):
+    """A ring of dense lines, exploded and shuffled, an ellipse that has a bound of its own, and a hexagon."""
+
+    def draw(space):
+        places = (_cam(600) / 1_000.0).tolist()
+        pairs = list(zip(places, [*places[1:], places[0]], strict=True))
+        np.random.default_rng(3).shuffle(pairs)
+        for start, end in pairs:
+            space.add_line(start, end, {"layer": "Ring"})
+        space.add_ellipse((100.0, 0.0), (20.0, 0.0), 0.5)
+        space.add_lwpolyline(_polar(np.full(6, 3.0), _turn(6)).tolist(), close=True)
+
+    path = drawn_file(tmp_path, draw)
+    drawing, plain = read_drawing(path, fit_um=5.0), read_drawing(path)
+    assert plain.fit is None
+    assert drawing.fit is not None
+    assert drawing.fit.max_um <= drawing.fit.tolerance_um == 5.0
+    assert (drawing.fit.lines, drawing.fit.arcs) == (6, int(drawing.curves.is_arc.sum()))
+    assert drawing.fit.arcs <= 13 + 18
+    kinds = {drawing.entities[entity].kind for entity in drawing.entity.tolist()}
+    assert kinds == {"LINE", "ELLIPSE", "LWPOLYLINE"}
+    assert sorted(row for loop in drawing.loops for row in loop.row.tolist()) == list(range(len(drawing.curves)))
+    for loop in drawing.loops:
+        assert loop.closed
+        ran = running(drawing.curves, loop.row, loop.backwards)
+        np.testing.assert_allclose(ran.end_um, np.roll(ran.start_um, -1, axis=0), atol=1e-6)
