@@ -16,19 +16,33 @@ from parser.text.encoding import printable
 NEVER_PLOTTED = "defpoints"
 """The layer, in small letters, on which CADs put the points that dimensions hang on, and people what helps to draw."""
 _KINDS = {
-    "text": "TEXT MTEXT ATTDEF ATTRIB RTEXT ARCALIGNEDTEXT ACAD_TABLE SHAPE",
-    "dimension": "DIMENSION ARC_DIMENSION LARGE_RADIAL_DIMENSION TOLERANCE",
-    "leader": "LEADER MULTILEADER MLEADER",
-    "hatch": "HATCH MPOLYGON",
-    "point": "POINT",
-    "solid": "SOLID TRACE 3DFACE 3DSOLID BODY REGION MESH POLYLINE SURFACE EXTRUDEDSURFACE LOFTEDSURFACE PLANESURFACE"
-    " REVOLVEDSURFACE SWEPTSURFACE",
-    "block": "INSERT",
-    "endless": "XLINE RAY",
-    "picture": "IMAGE WIPEOUT OLE2FRAME PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY",
-    "window": "VIEWPORT",
+    "text": ("TEXT", "MTEXT", "ATTDEF", "ATTRIB", "RTEXT", "ARCALIGNEDTEXT", "ACAD_TABLE", "SHAPE"),
+    "dimension": ("DIMENSION", "ARC_DIMENSION", "LARGE_RADIAL_DIMENSION", "TOLERANCE"),
+    "leader": ("LEADER", "MULTILEADER", "MLEADER"),
+    "hatch": ("HATCH", "MPOLYGON"),
+    "point": ("POINT",),
+    "solid": (
+        "SOLID",
+        "TRACE",
+        "3DFACE",
+        "3DSOLID",
+        "BODY",
+        "REGION",
+        "MESH",
+        "POLYLINE",
+        "SURFACE",
+        "EXTRUDEDSURFACE",
+        "LOFTEDSURFACE",
+        "PLANESURFACE",
+        "REVOLVEDSURFACE",
+        "SWEPTSURFACE",
+    ),
+    "block": ("INSERT",),
+    "endless": ("XLINE", "RAY"),
+    "picture": ("IMAGE", "WIPEOUT", "OLE2FRAME", "PDFUNDERLAY", "DWFUNDERLAY", "DGNUNDERLAY"),
+    "window": ("VIEWPORT",),
 }
-_WHY = {kind: why for why, kinds in _KINDS.items() for kind in kinds.split()}
+_WHY = {kind: why for why, kinds in _KINDS.items() for kind in kinds}
 
 
 class Wanted(NamedTuple):

@@ -7,6 +7,7 @@ from parser.drawing.gather import Gathered
 from parser.drawing.loops.chain import Chained
 from parser.drawing.loops.once import Again
 from parser.drawing.model import LeftOut
+from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark, remark_text
 from parser.text.encoding import printable
 from parser.units import mm
@@ -18,13 +19,8 @@ _BY_HABIT = ("broken-line", "never-plotted")  # seen, but drawn as no contour is
 
 def notes_of(left: Sequence[LeftOut], gathered: Gathered, again: Sequence[Again], chained: Chained) -> Iterator[Remark]:
     """What was left out or mended."""
-    counts, why = gathered.counts, Counter(one.why for one in left)
-    unseen = sum(why[each] for each in _UNSEEN)
-    if unseen:
-        yield Remark("other-layers", {"number": unseen})
-    for name in _BY_HABIT:
-        if why[name]:
-            yield Remark(name, {"number": why[name]})
+    counts = gathered.counts
+    yield from _not_wanted(left)
     if counts.no_curves:
         yield Remark("no-curves", {"kinds": _listed(counts.no_curves)})
     if counts.unreadable:
@@ -42,19 +38,24 @@ def notes_of(left: Sequence[LeftOut], gathered: Gathered, again: Sequence[Again]
     yield from _of_chain(chained)
 
 
-def nothing_text(left: Sequence[LeftOut], layer: str | None) -> str:
+def _not_wanted(left: Sequence[LeftOut]) -> Iterator[Remark]:
+    """What would be curves, and was not read."""
+    why = Counter(one.why for one in left)
+    unseen = sum(why[each] for each in _UNSEEN)
+    if unseen:
+        yield Remark("other-layers", {"number": unseen})
+    for name in _BY_HABIT:
+        if why[name]:
+            yield Remark(name, {"number": why[name]})
+
+
+def no_contour(left: Sequence[LeftOut], layer: str | None) -> DrawingError:
     """What is wrong with a drawing that gives no curve: what is there instead, as far as that can be told."""
     where = "" if layer is None else f" on layer {printable(layer)}"
-    count = Counter(one.why for one in left)
-    unseen = sum(count[why] for why in _UNSEEN) if layer is None else 0
-    habit = sum(count[why] for why in _BY_HABIT)
-    found = [
-        *([f"{unseen} entities on layers that are off or frozen"] if unseen else []),
-        *([f"{habit} in broken linetypes or on Defpoints, read where their layer is asked for"] if habit else []),
-        *[remark_text(one.detail) for one in left if one.detail][:1],
-    ]
-    told = f" ({'; '.join(found)})" if found else ""
-    return f"holds no line, arc or curve{where}{told}; expected the contour of a part"
+    wrong = [one.detail for one in left if one.detail][:1]
+    told = "; ".join(map(remark_text, [*([] if layer else _not_wanted(left)), *wrong]))
+    told = f" ({told})" if told else ""
+    return DrawingError(f"holds no line, arc or curve{where}{told}; expected the contour of a part")
 
 
 def _of_chain(chained: Chained) -> Iterator[Remark]:

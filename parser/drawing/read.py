@@ -18,7 +18,7 @@ from parser.drawing.loops.chain import chain
 from parser.drawing.loops.once import Again, drawn_once
 from parser.drawing.marks import marks_of
 from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, FitFigures, LeftOut
-from parser.drawing.notes import notes_of, nothing_text
+from parser.drawing.notes import no_contour, notes_of
 from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark
 from parser.text.encoding import printable
@@ -81,7 +81,7 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
     gathered = gather(wanted.kept, asked.flatten_um, asked.fit_um)
     left = tuple(left_out(wanted, gathered.counts.missed))
     if not len(gathered.curves):
-        raise DrawingError(nothing_text(left, asked.layer))
+        raise no_contour(left, asked.layer)
     once = drawn_once(gathered.curves, gathered.entity)
     number, entity = np.unique(once.entity, return_inverse=True)
     chained = chain(once.curves, entity, asked.gap_um)

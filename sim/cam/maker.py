@@ -16,7 +16,7 @@ from sim.cam.path.drafted import draft_of_plan
 from sim.cam.path.kept import kept_draft
 from sim.cam.proof.proof import Given, proved
 from sim.cam.proof.result import Proof
-from sim.cam.threads.threads import threads_of
+from sim.cam.threads.threads import thread_notes, threads_of
 from sim.cam.tolerances import fit_share_um
 from sim.convert.proof import Proof as Written
 from sim.convert.proof import proof as held_against
@@ -68,6 +68,7 @@ def planned(path: Path, making: Making, scenario: Scenario, progress: Progress =
     figures = with_sides(parts.figures, making)
     notes = (*parts.notes, *walls(figures, passes_um, scenario.wire.reach_um))
     threads = threads_of(drawing, figures, making, max(passes_um))
+    notes += thread_notes(figures, threads, making)
     order = in_order(figures, threads, making)
     cuts = tuple(figure_cut(figures[one], threads[one], passes_um, making) for one in order)
     return CutPlan(drawing, making, passes_um, cuts, parts.left_out, notes)

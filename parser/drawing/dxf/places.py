@@ -13,7 +13,7 @@ from parser.drawing.dxf.forms import of_extrusion
 from parser.geometry.curves import Floats
 
 # The attributes that tell of a place, the first one that an entity has.
-_PLACES = ("insert", "location", "start", "center", "defpoint", "vtx0", "insert_point", "start_location")
+_PLACES = ("insert", "location", "start", "center", "defpoint", "vtx0", "insert_point")
 # Kinds whose places are given in their own coordinates, by the DXF reference; those of the others are the world's.
 _OWN = frozenset(
     (
@@ -67,4 +67,5 @@ _FIRST: Mapping[str, Callable[[Any], Any]] = {
     "LEADER": lambda entity: entity.vertices[0],
     "HATCH": _of_hatch,
     "MESH": lambda entity: entity.vertices[0],
+    "MLINE": lambda entity: entity.vertices[0].location,
 }

@@ -23,9 +23,12 @@ class Room(NamedTuple):
     curves: Curves
     figure: Ints
 
-    def rows(self, at: int) -> Ints:
-        """Rows of one figure."""
-        return np.arange(*np.searchsorted(self.figure, [at, at + 1]))
+    def rows(self, figure: Ints) -> tuple[Ints, Ints]:
+        """Rows (m,) of figures (k,), all of one behind those of the other, and whose they are (m,), 0 to k − 1."""
+        first, past = np.searchsorted(self.figure, figure), np.searchsorted(self.figure, figure + 1)
+        whose = np.repeat(np.arange(len(figure)), past - first)
+        before = np.cumsum(past - first) - (past - first)
+        return np.arange(len(whose)) - before[whose] + first[whose], whose
 
 
 def room_of(figures: Sequence[Figure]) -> Room:

@@ -32,9 +32,9 @@ def walls(figures: Sequence[Figure], passes_um: Sequence[float], reach_um: float
     bad, thin = (np.flatnonzero([one is which for one in cut]) for which in (True, False))
     if len(bad):
         worst = int(bad[np.argmin(close.apart_um[bad])])
-        numbers = [str(figures[int(of[worst])].number) for of in (close.one, close.other)]
         values = (
-            ("figures", ", ".join(numbers)),
+            ("one", str(figures[int(close.one[worst])].number)),
+            ("other", str(figures[int(close.other[worst])].number)),
             ("apart_mm", f"{mm(float(close.apart_um[worst])):.4g}"),
             ("kerf_mm", f"{mm(most + reach_um):.4g}"),
         )

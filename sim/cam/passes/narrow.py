@@ -2,7 +2,8 @@
 
 The wire's way at an offset leaves a stretch of the contour out wherever two of its curves meet that do not touch the
 contour at one place. In an inside corner that is what no wire can cut. Before a slot narrower than the wire it is all
-of the slot: the contour turns outward round its lips, and goes on deeper than the offset.
+of the slot: the contour turns toward the wire round its lips, so that its sides do not run together as those of a
+corner do, or not soon, and it goes on deeper than the offset.
 """
 
 from collections.abc import Iterator, Sequence
@@ -16,8 +17,10 @@ from parser.geometry.curves import Curves, Floats, Ints, total_before
 from parser.geometry.directions import directions
 from parser.toolpath import Point
 
-_OUTWARD_RAD = 0.1
-"""How far a contour turns outward round lips, at least; fitted arcs turn by up to 0.04 rad where they meet."""
+_LIPS_RAD = 0.1
+"""How far a contour turns toward the wire round lips, at least; fitted arcs turn by up to 0.04 rad where they meet."""
+_PARALLEL_RAD = 0.05  # sides that run together by no more do not make a corner
+_DEEPEST = 2.0  # times what two straight sides would leave: what goes deeper is a slot (as in `measure/compare`)
 _NOTHING_UM = 1e-9
 
 
@@ -37,40 +40,61 @@ def mouths(contour: Curves, loops: Sequence[OffsetLoop], by_um: float, is_inside
     return tuple(mouth for loop in loops for mouth in _of_loop(contour, turned, loop, by_um))
 
 
-def _of_loop(contour: Curves, turned: tuple[Floats, Floats], loop: OffsetLoop, by_um: float) -> Iterator[Mouth]:
+class _Turned(NamedTuple):
+    """How far, rad, a contour has turned toward the wire before each row (n + 1,), and turns in each (n,); its ends."""
+
+    before: Floats
+    along: Floats
+    arriving: Floats
+    sense: float
+
+
+def _of_loop(contour: Curves, turned: _Turned, loop: OffsetLoop, by_um: float) -> Iterator[Mouth]:
     row, behind = loop.source_row, np.roll(loop.source_row, -1)
+    is_corner, to_corner = loop.corner, np.roll(loop.corner, -1)
+    ways = directions(loop.curves)
+    arriving, leaving = ways.arriving, np.roll(ways.leaving, -1, axis=0)
     place = loop.curves.end_um
-    leave, arrive = along_um(contour, row, place), along_um(contour, behind, place)
     # An arc about a corner touches the contour there alone.
-    leave = np.where(loop.corner, contour.length_um[row], leave)
-    arrive = np.where(np.roll(loop.corner, -1), contour.length_um[behind], arrive)
+    leave = np.where(is_corner, contour.length_um[row], along_um(contour, row, place))
+    arrive = np.where(to_corner, contour.length_um[behind], along_um(contour, behind, place))
     before = total_before(contour.length_um)
-    left = np.mod(before[behind] + arrive - before[row] - leave, before[-1])
+    early, late = before[row] + leave, before[behind] + arrive
+    left = np.mod(late - early, before[-1])
     outward = _until(contour, turned, behind, arrive) - _until(contour, turned, row, leave)
-    outward = np.where(before[behind] + arrive < before[row] + leave, outward + turned[0][-1], outward)
+    outward += np.where(late < early, turned.before[-1], 0.0)
+    outward += np.where(to_corner, turned.sense * _angle(turned.arriving[behind], leaving), 0.0)
+    outward -= np.where(is_corner, turned.sense * _angle(turned.arriving[row], arriving), 0.0)
+    turn = np.maximum(-turned.sense * _angle(arriving, leaving), 0.0)
     # Where two rows are nearly one line, rounding lets the way step back from one to the other.
-    is_left = (left > by_um) & (left < before[-1] - by_um) & (outward > _OUTWARD_RAD)
+    is_parallel = outward + turn >= np.pi - _PARALLEL_RAD
+    is_left = (left > by_um) & (left < before[-1] - by_um) & (is_parallel | (outward > _LIPS_RAD))
     for at in np.flatnonzero(is_left).tolist():
-        if _deepest(contour, int(row[at]), int(behind[at]), place[at]) > 2.0 * by_um:
+        deep = _deepest(contour, int(row[at]), int(behind[at]), place[at]) - by_um
+        straight = by_um / np.cos(0.5 * turn[at]) - by_um
+        if deep > by_um and (is_parallel[at] or deep > _DEEPEST * straight):
             lips = places_at(contour, np.array([row[at], behind[at]]), np.array([leave[at], arrive[at]]))
             yield Mouth(Point(*lips.mean(axis=0).tolist()), float(np.hypot(*(lips[1] - lips[0]))))
 
 
-def _outward(contour: Curves, is_inside: bool) -> tuple[Floats, Floats]:
-    """How far, rad, a contour has turned toward the wire before each row (n + 1,), and turns in each (n,)."""
+def _outward(contour: Curves, is_inside: bool) -> _Turned:
     sense = -1.0 if is_inside else 1.0
     leaving, arriving = directions(contour)
-    leaving = np.roll(leaving, -1, axis=0)
-    cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
-    kink = np.maximum(sense * np.arctan2(cross, (arriving * leaving).sum(axis=1)), 0.0)
+    kink = np.maximum(sense * _angle(arriving, np.roll(leaving, -1, axis=0)), 0.0)
     along = np.maximum(sense * contour.sweep_rad, 0.0)
-    return total_before(along + kink), along
+    return _Turned(total_before(along + kink), along, arriving, sense)
 
 
-def _until(contour: Curves, turned: tuple[Floats, Floats], row: Ints, along_um_: Floats) -> Floats:
+def _angle(one: Floats, other: Floats) -> Floats:
+    """Angles (k,) from directions to others (k, 2), positive to the left."""
+    angle: Floats = np.arctan2(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0], (one * other).sum(axis=1))
+    return angle
+
+
+def _until(contour: Curves, turned: _Turned, row: Ints, length_um: Floats) -> Floats:
     """How far (k,) the contour has turned toward the wire up to lengths along rows."""
-    before, along = turned
-    result: Floats = before[row] + along[row] * along_um_ / np.maximum(contour.length_um[row], _NOTHING_UM)
+    share = length_um / np.maximum(contour.length_um[row], _NOTHING_UM)
+    result: Floats = turned.before[row] + turned.along[row] * share
     return result
 
 

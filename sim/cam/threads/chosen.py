@@ -1,6 +1,6 @@
 """Thread points chosen in the waste."""
 
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from parser.geometry.along import along_um
 from parser.geometry.curves import Floats, Ints
 from parser.geometry.feet import feet
 from parser.toolpath import Point
+from parser.units import mm
 from sim.cam.leads.room import Room, are_free, balls_um
 from sim.cam.model import CannotCutError, Refusal, Thread
 from sim.cam.threads.entries import Entries, middles
@@ -17,37 +18,67 @@ USUAL_LEAD_UM: Final = 2000.0
 """How long leads are where nobody asks: room for a start hole of 3 mm, and little to cut (assumed)."""
 BEYOND_UM: Final = 10.0
 """A lead is longer than the largest offset by this much."""
-_WHOLE_UM: Final = 3.0  # a place moves by less when it is rounded to whole µm, from one side to the other
 _ON_UM: Final = 0.01  # a place this near to whole µm is one: files lose as much by printing decimals
 _NEARLY: Final = 0.8  # of the largest circle that any entry has beside it: so large a one is large enough
 
 
-def chosen(room: Room, side: Floats, wanted: Ints, reach_um: float, lead_um: float | None) -> dict[int, Thread]:
-    """A thread point for each of the figures `wanted`, in whole µm, across from an entry, where a lead is free.
+class Wanted(NamedTuple):
+    """What is asked of leads.
 
-    It lies as far from the entry as `lead_um` says, 2 mm where it is None, and from all contours no less, so that the
-    start hole has room. Where no entry has so much room beside it, the thread point lies in the middle of what there
-    is. CannotCutError, ``too-small``, where a lead longer than the reach has no room; ``short-lead`` where one that is
-    asked for is no longer.
+    Attributes
+    ----------
+    reach_um
+        How far all of them keep off contours.
+    lead_um
+        How long they are where there is room; `USUAL_LEAD_UM` where None.
+    spare_um
+        How much nearer to its entry than to anything else a thread point lies.
     """
-    most, least = USUAL_LEAD_UM if lead_um is None else lead_um, reach_um + BEYOND_UM
-    if lead_um is not None and lead_um < least:
-        raise CannotCutError(Refusal("short-lead", (), (("least_mm", f"{least / 1000.0:g}"),)))
-    most = max(most, least)
-    found = middles(room, side, wanted, reach_um)
-    figure = room.figure[found.row]
-    ball = balls_um(room, found.place_um, found.out, most + _WHOLE_UM)
-    largest = np.zeros(len(side))
+
+    reach_um: float
+    lead_um: float | None
+    spare_um: float
+
+    @property
+    def least_um(self) -> float:
+        """How long leads are at least."""
+        return self.reach_um + BEYOND_UM
+
+    @property
+    def most_um(self) -> float:
+        """How long leads are where there is room."""
+        return max(USUAL_LEAD_UM, self.least_um) if self.lead_um is None else self.lead_um
+
+
+def chosen(room: Room, side: Floats, figures: Ints, wanted: Wanted) -> dict[int, Thread]:
+    """A thread point for each of the figures that has room for it, in whole µm, across from an entry.
+
+    It lies as far from the entry as is wanted, and from all contours no less, so that the start hole has room. Where no
+    entry has so much room beside it, the thread point lies in the middle of what there is. The few longest curves of
+    each figure are looked at, and all of those that have room at none of them. CannotCutError, ``short-lead``, where
+    a lead that is asked for is shorter than the least.
+    """
+    if wanted.most_um < wanted.least_um:
+        raise CannotCutError(Refusal("short-lead", (), (("least_mm", f"{mm(wanted.least_um):g}"),)))
+    found = _chosen(room, middles(room, side, figures, wanted.reach_um), wanted)
+    left = np.array([at for at in figures.tolist() if at not in found], dtype=np.int64)
+    if len(left):
+        found |= _chosen(room, middles(room, side, left, wanted.reach_um, len(room.curves)), wanted)
+    return found
+
+
+def _chosen(room: Room, found: Entries, wanted: Wanted) -> dict[int, Thread]:
+    """A thread point for each figure that has room for it across from one of the entries."""
+    figure, most = room.figure[found.row], wanted.most_um
+    ball = balls_um(room, found.place_um, found.out, most + wanted.spare_um)
+    largest = np.zeros(int(room.figure[-1]) + 1)
     np.maximum.at(largest, figure, ball)
     order = np.lexsort([np.arange(len(ball)), ball < _NEARLY * largest[figure], ball < most, figure])
-    found, figure, length = found.take(order), figure[order], np.minimum(ball[order] - _WHOLE_UM, most)
+    found, figure, length = found.take(order), figure[order], np.minimum(ball[order] - wanted.spare_um, most)
     place, entries, far = _in_whole_um(room, found, length)
-    fits = np.flatnonzero((far >= least) & are_free(room, lines_between(place, entries.begin_um), reach_um))
+    is_free = are_free(room, lines_between(place, entries.begin_um), wanted.reach_um)
+    fits = np.flatnonzero((far >= wanted.least_um) & is_free)
     first = fits[np.diff(figure[fits], prepend=-1) > 0]
-    missing = np.setdiff1d(wanted, figure[first])
-    if len(missing):
-        starts = room.curves.start_um[np.searchsorted(room.figure, missing)]
-        raise CannotCutError(Refusal("too-small", tuple(Point(x, y) for x, y in starts.tolist())))
     return {
         int(figure[at]): Thread(Point(*place[at].tolist()), "chosen", entries.one(room, at)) for at in first.tolist()
     }

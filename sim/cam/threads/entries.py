@@ -55,8 +55,8 @@ class Entries(NamedTuple):
         return Entry(row - first, float(self.along_um[at]), Point(x, y), Point(out_x, out_y))
 
 
-def middles(room: Room, side: Floats, wanted: Ints, reach_um: float) -> Entries:
-    """Up to `MOST` middles of curves of each of the figures `wanted`, where a mark hurts least first.
+def middles(room: Room, side: Floats, wanted: Ints, reach_um: float, most: int = MOST) -> Entries:
+    """Up to so many middles of curves of each of the figures `wanted`, where a mark hurts least first.
 
     Lines of 1 mm and more come first, the longest before the others, then what else there is, by length; arcs of a
     radius no larger than the reach of the wire only where there is nothing else. `side` (figures,) is 1 where the waste
@@ -73,59 +73,75 @@ def middles(room: Room, side: Floats, wanted: Ints, reach_um: float) -> Entries:
     figure, grade = room.figure[row[order]], grade[order]
     start = np.flatnonzero(np.diff(figure, prepend=-1))
     of = np.cumsum(np.diff(figure, prepend=-1) > 0) - 1
-    is_best = (np.arange(len(order)) - start[of] < MOST) & ((grade < 2) | (grade[start[of]] == 2))
+    is_best = (np.arange(len(order)) - start[of] < most) & ((grade < 2) | (grade[start[of]] == 2))
     order = order[is_best]
     out = _out(room, side, row[order], headings_along(room.curves, row[order], along[order]))
     return Entries(row[order], along[order], place[order], out, np.full(len(order), reach_um))
 
 
-def across_from(room: Room, side: Floats, at: int, place_um: Floats, reach_um: float) -> Entries:
-    """Entries of one figure straight across from a place (2,), nearest first; arcs no larger than the reach last."""
-    row = room.rows(at)
-    foot = feet(room.curves, row, np.broadcast_to(place_um, (len(row), 2)))
-    along = along_um(room.curves, row, foot.place_um)
-    by = place_um - foot.place_um
+class Asked(NamedTuple):
+    """Thread points (k, 2) of figures (k,) that ask for entries, and how far leads keep off contours."""
+
+    figure: Ints
+    place_um: Floats
+    reach_um: float
+
+
+def across_from(room: Room, side: Floats, asked: Asked) -> tuple[Entries, Ints]:
+    """Entries straight across from thread points, the nearest of each first, arcs no larger than the reach last.
+
+    With them, which thread point (m,) each is for.
+    """
+    row, whose = room.rows(asked.figure)
+    place = asked.place_um[whose]
+    foot = feet(room.curves, row, place).place_um
+    along = along_um(room.curves, row, foot)
+    by = place - foot
     length = np.hypot(*by.T)
     heading = headings_along(room.curves, row, along)
-    unit = by / np.where(length > 0.0, length, 1.0)[:, None]
-    is_across = (np.abs((unit * heading).sum(axis=1)) < _ACROSS) & (length > 0.0)
-    is_small = room.curves.is_arc[row] & (room.curves.radius_um[row] <= reach_um)
+    is_across = (np.abs((by * heading).sum(axis=1)) < _ACROSS * length) & (length > 0.0)
+    is_small = room.curves.is_arc[row] & (room.curves.radius_um[row] <= asked.reach_um)
     found = np.flatnonzero(is_across)
-    found = found[np.lexsort([length[found], is_small[found]])]
-    out = _out(room, side, row[found], heading[found])
-    return Entries(row[found], along[found], foot.place_um[found], out, np.full(len(found), reach_um))
+    found = found[np.lexsort([length[found], is_small[found], whose[found]])]
+    out, aside = _out(room, side, row[found], heading[found]), np.full(len(found), asked.reach_um)
+    return Entries(row[found], along[found], foot[found], out, aside), whose[found]
+
+
+def corners(room: Room, side: Floats, asked: Asked) -> tuple[Entries, Ints]:
+    """Entries at corners, from midway between both sides, those nearest to each of the thread points first.
+
+    With them, which thread point (m,) each is for. Where the waste lies in the corner, the wire reaches no nearer to it
+    than where it touches both sides.
+    """
+    row, whose = room.rows(asked.figure)
+    leaving, arriving = (way[row] for way in directions(room.curves))
+    first = np.searchsorted(whose, whose)
+    last = np.searchsorted(whose, whose, side="right") - 1
+    at = np.arange(len(row))
+    arriving = arriving[np.where(at > first, at - 1, last)]
+    sense = side[room.figure[row], None]
+    normal, middle = sense * to_left(leaving), sense * (to_left(leaving) + to_left(arriving))
+    length = np.hypot(*middle.T)
+    off = np.hypot(*(room.curves.start_um[row] - asked.place_um[whose]).T)
+    turns = (leaving * arriving).sum(axis=1) < _STRAIGHT_COS
+    corner = np.flatnonzero(turns & (length > _ACROSS))
+    corner = corner[np.lexsort([off[corner], whose[corner]])]
+    out = middle[corner] / length[corner, None]
+    turn = (arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0])[corner]
+    aside = asked.reach_um / np.where(sense[corner, 0] * turn > 0.0, (out * normal[corner]).sum(axis=1), 1.0)
+    found = Entries(row[corner], np.zeros(len(corner)), room.curves.start_um[row[corner]], out, aside)
+    return found, whose[corner]
 
 
 def nearest_of(room: Room, side: Floats, at: int, place_um: Floats) -> Entry:
     """The entry of one figure at its place nearest to another one (2,)."""
-    row = room.rows(at)
+    row, _ = room.rows(np.array([at]))
     foot = feet(room.curves, row, np.broadcast_to(place_um, (len(row), 2))).place_um
     one = int(np.argmin(np.hypot(*(foot - place_um).T)))
     row, foot = row[one : one + 1], foot[one : one + 1]
     along = along_um(room.curves, row, foot)
     out = _out(room, side, row, headings_along(room.curves, row, along))
     return Entries(row, along, foot, out, np.zeros(1)).one(room, 0)
-
-
-def corners(room: Room, side: Floats, at: int, place_um: Floats, reach_um: float) -> Entries:
-    """Entries of one figure at its corners, from midway between both sides, those nearest to a place (2,) first.
-
-    Where the waste lies in the corner, the wire reaches no nearer to it than where it touches both sides.
-    """
-    row = room.rows(at)
-    curves = room.curves.picked(row)
-    leaving, arriving = directions(curves)
-    arriving = np.roll(arriving, 1, axis=0)
-    corner = np.flatnonzero((leaving * arriving).sum(axis=1) < _STRAIGHT_COS)
-    normal, other = (side[at] * to_left(way[corner]) for way in (leaving, arriving))
-    middle = normal + other
-    length = np.hypot(*middle.T)
-    corner, normal, middle = (of[length > _ACROSS] for of in (corner, normal, middle))
-    out = middle / length[length > _ACROSS, None]
-    turn = arriving[corner, 0] * leaving[corner, 1] - arriving[corner, 1] * leaving[corner, 0]
-    aside = np.where(side[at] * turn > 0.0, reach_um / (out * normal).sum(axis=1), reach_um)
-    found = Entries(row[corner], np.zeros(len(corner)), curves.start_um[corner], out, aside)
-    return found.take(np.argsort(np.hypot(*(found.place_um - place_um).T), kind="stable"))
 
 
 def _out(room: Room, side: Floats, row: Ints, heading: Floats) -> Floats:

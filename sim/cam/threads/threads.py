@@ -7,18 +7,21 @@ import numpy as np
 
 from parser.drawing.model import Drawing
 from parser.findings.remarks import Remark
-from parser.geometry.curves import Floats
+from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Point
 from parser.units import mm
 from sim.cam.leads.room import TOLERANCE_UM, Room, nearest, room_of
-from sim.cam.model import Figure, Thread, ThreadedBy
+from sim.cam.model import CannotCutError, Figure, Refusal, Thread, ThreadedBy
 from sim.cam.order.nested import around
-from sim.cam.threads.chosen import begun_on, chosen
+from sim.cam.threads.chosen import Wanted, begun_on, chosen
 from sim.cam.threads.entries import nearest_of
-from sim.cam.threads.given import across, at_corners, matched, on_contour, refused, waste_of
+from sim.cam.threads.given import Taken, across, at_corners, matched, on_contour, refused, waste_of
 from sim.cam.threads.marks import marks_of_layer, points_of
 from sim.setup.making import LeadIn, Making
 
+_ROUND = ("arc", "tangent")
+_SPARE_UM = 3.0  # more than places move from one side to the other as they become whole µm
+_MOST_NUMBERS = 20  # of figures that one refusal names
 _LEAST_UM = 1.0  # what leads of an offset of 0 keep off contours, but for their ends
 
 
@@ -37,7 +40,7 @@ def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reac
         threads |= waste.given(marks_of_layer(drawing, making.thread_layer), "marked", threads)
     wanted = np.array([at for at in range(len(figures)) if at not in threads], dtype=np.int64)
     if len(wanted) and (reach_um > 0.0 or making.lead_um is not None):
-        threads |= chosen(waste.room, waste.side, wanted, waste.clear_um, making.lead_um)
+        threads |= waste.chosen(wanted, making)
     elif len(wanted):
         threads |= begun_on(waste.room, waste.side, wanted)
     return waste.led(threads, making.lead)
@@ -72,11 +75,8 @@ class _Waste:
         if not len(place_um):
             return threads
         waste = waste_of(self.figures, around(self.figures), place_um)
-        is_open = np.array([at not in taken and at not in threads for at in range(len(self.figures))])
-        if by == "marked":
-            kept = (waste.is_in & is_open[:, None]).any(axis=0) | ~waste.is_in.any(axis=0)
-            waste, place_um = waste.of(kept), place_um[kept]
-        places = {at: place_um[one] for at, one in matched(waste, is_open, place_um).items()}
+        begun = Taken(frozenset(threads), frozenset(taken))
+        places = {at: place_um[one] for at, one in matched(waste, begun, place_um).items()}
         return threads | self._threaded(places, by)
 
     def _begun_at(self, place_um: Floats) -> tuple[dict[int, Thread], Floats]:
@@ -96,10 +96,11 @@ class _Waste:
         place_um = place_um[self._clear(place_um) > self.clear_um]
         if not len(place_um):
             return {}
-        is_in = waste_of(self.figures, around(self.figures), place_um).is_in
-        alone = (is_in.sum(axis=0) == 1)[None] & is_in & (is_in.sum(axis=1) == 1)[:, None] & (self.side > 0.0)[:, None]
-        pairs = zip(*(index.tolist() for index in np.nonzero(alone)), strict=True)
-        places = {at: place_um[one] for at, one in pairs if at not in taken}
+        waste = waste_of(self.figures, around(self.figures), place_um)
+        alone = (np.bincount(waste.place)[waste.place] == 1) & (np.bincount(waste.figure)[waste.figure] == 1)
+        alone &= (self.side > 0.0)[waste.figure] & ~np.isin(waste.figure, list(taken))
+        found = waste.take(alone)
+        places = {at: place_um[one] for at, one in zip(found.figure.tolist(), found.place.tolist(), strict=True)}
         entries = across(self.room, self.side, places, self.clear_um)
         return {at: Thread(Point(*places[at].tolist()), "marked", entry) for at, entry in entries.items()}
 
@@ -115,6 +116,19 @@ class _Waste:
         if any(hidden):
             raise refused("start-hidden", place_um[hidden])
         return {at: Thread(Point(*places[at].tolist()), by, entry) for at, entry in entries.items()}
+
+    def chosen(self, wanted: Ints, making: Making) -> dict[int, Thread]:
+        """Threads of the figures `wanted` at places in their waste."""
+        spare_um = _SPARE_UM if making.lead in _ROUND else 0.0
+        asked = Wanted(self.clear_um, making.lead_um, spare_um)
+        found = chosen(self.room, self.side, wanted, asked)
+        missing = [at for at in wanted.tolist() if at not in found]
+        if missing:
+            places = tuple(Point(*self.figures[at].contour.start_um[0].tolist()) for at in missing)
+            numbers = ", ".join(str(self.figures[at].number) for at in missing[:_MOST_NUMBERS])
+            values = (("figures", numbers), ("least_mm", f"{mm(asked.least_um):.4g}"))
+            raise CannotCutError(Refusal("no-room", places[:_MOST_NUMBERS], values))
+        return found
 
     def _clear(self, place_um: Floats) -> Floats:
         """(m,) how far places lie from all contours, as far as it matters."""

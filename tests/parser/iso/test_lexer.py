@@ -25,6 +25,7 @@ PIECES = [
         "; G01 X1\n",
         "TITLE\n",
         "#100=1\n",
+        "F#61",
         "G01X1Y1:G01X2Y2\n",
         "Ｇ０１",
         "加工",
@@ -145,6 +146,7 @@ def test_offset_registers_are_set(text: str, registers: list[tuple[str, tuple[ob
         ("#100 = #101 + 1", Form.MACRO),
         ("IF [#1 GT 0] GOTO 10", Form.MACRO),
         ("G01 X#100 Y5", Form.MACRO),
+        ("G01 X#100 Y5 F200", Form.MACRO),
         ("GOTO 20", Form.MACRO),
         ("G01 X5 Y0 : G01 X6 Y1 ;", Form.TWO_PLANES),
     ],
@@ -154,6 +156,20 @@ def test_other_forms_are_told_apart(text: str, form: Form) -> None:
     assert [(one.form, one.block) for one in listing.statements] == [(form, 1)]
     assert listing.blocks.is_damaged.tolist() == [False, form is Form.MACRO]
     assert not listing.findings
+
+
+def test_a_feed_in_a_variable_leaves_its_block_what_it_is() -> None:
+    listing = read_listing("N4 G03 X50. Y0 J-50. F#61 ;\nF #7\n")
+    assert words_of(listing) == [[("N", 4, -1), ("G", 3, -1), ("X", 50, 0), ("Y", 0, -1), ("J", -50, 0)], []]
+    assert [(one.form, one.block) for one in listing.statements] == [(Form.FEED, 0), (Form.FEED, 1)]
+    assert [listing.text[slice(*one.span)] for one in listing.statements] == ["F#61", "F #7"]
+    assert not listing.blocks.is_damaged.any()
+    assert not listing.findings
+
+
+@pytest.mark.parametrize("text", ["G01 X5 F#", "G01 X5 F#6.1", "G01 X5 F#6A1", "G01 X5 F-#61"])
+def test_other_signs_behind_a_feed_are_no_variable(text: str) -> None:
+    assert read_listing(f"{text}\n").blocks.is_damaged.tolist() == [True]
 
 
 def test_of_two_planes_the_words_are_those_of_the_lower_one() -> None:

@@ -166,7 +166,8 @@ file = "part.dxf"
 fit = false
 [program]
 file = "plate.3b"
-passes_mm = [0.1]
+passes_mm = [0.12, 0.1]
+tab_mm = 1
 """
 
 

@@ -33,8 +33,6 @@ SENTENCE = re.compile(r"[A-Za-z]+(?:\W* \W*[A-Za-z]+){2}")
 NO_SENTENCES = {
     "--radius in mm (travel of {})": "what the error about a number calls it",
     "--feed in mm/min": "what the error about a number calls it",
-    "holds no line, arc or curve{}{}; expected the contour of a part": "text of a DrawingError",
-    " ({} entities on layers that are off or frozen)": "of the same text",
     "a whole number ": "of the text of a ValueError",
     "drycut card log 1": "first line of a file, by which it is known",
 }

@@ -360,3 +360,47 @@ def test_circles_on_the_layer_of_thread_points_are_no_contours():
     drawing = replace(drawing, entities=(drawing.entities[0], small))
     assert len(parts_of(drawing, Making(thread_layer="START")).figures) == 1
     assert len(parts_of(drawing, Making()).figures) == 2
+
+
+# Whatever is drawn
+
+
+def _anything(rng: random.Random) -> list[list[Piece]]:
+    """Lines, arcs, polylines and circles between the places of a small grid: much touches, crosses and lies twice."""
+
+    def place() -> tuple[float, float]:
+        return float(rng.randint(0, 4)), float(rng.randint(0, 4))
+
+    def piece(start: tuple[float, float], end: tuple[float, float]) -> Piece:
+        bulge = rng.choice([0.0, 0.0, 1.0, -0.5, 0.2])
+        if not bulge:
+            return Piece(start, end)
+        lift = (1.0 - bulge**2) / (4.0 * bulge)
+        x, y = 0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])
+        return Piece(start, end, (x - (end[1] - start[1]) * lift, y + (end[0] - start[0]) * lift), 4 * math.atan(bulge))
+
+    entities = [circle(*place(), rng.choice([0.5, 1.0, 2.0])) for _ in range(rng.randint(0, 2))]
+    for _ in range(rng.randint(1, 3)):
+        through = [place() for _ in range(rng.randint(2, 5))]
+        ends = zip(through, [*through[1:], through[0]], strict=True)
+        entities.append([piece(a, b) for a, b in ends if a != b])
+    return [entity for entity in entities if entity]
+
+
+def test_what_is_accepted_of_anything_that_may_be_drawn_nests_and_does_not_cross():
+    accepted = []
+    for seed in range(120):
+        try:
+            figures = _parts(*_anything(random.Random(seed))).figures
+        except CannotCutError:
+            continue
+        rings = [shapely.LinearRing(points_on(figure.contour, 300)) for figure in figures]
+        bodies = [shapely.Polygon(ring).buffer(0.0) for ring in rings]
+        accepted.append(len(figures))
+        for figure, ring, body in zip(figures, rings, bodies, strict=True):
+            assert body.area == pytest.approx(abs(shapely.Polygon(ring).area), rel=1e-4), seed
+            within = [other.intersection(body).area / body.area for other in bodies if other.area > body.area]
+            assert all(share < 1e-3 or share > 1.0 - 1e-3 for share in within), seed
+            assert sum(share > 0.5 for share in within) == figure.depth, seed
+    assert len(accepted) > 10
+    assert max(accepted) > 1

@@ -144,6 +144,20 @@ def test_a_slot_narrower_than_the_wire_is_named_with_its_place_and_width() -> No
     assert dict(refusal.values) == {"figure": "7", "offset_mm": "0.1", "kerf_mm": "0.2", "width_mm": "0.15"}
 
 
+def test_lips_that_are_round_or_all_but_let_the_wire_in_make_a_slot_and_sides_that_run_together_none() -> None:
+    rounded_lips = [(0.0, 0.0), (5000.0, 0.0), (5000.0, 1700.0), (5200.0, 1910.0), (7000.0, 1910.0), (7000.0, 2090.0)]
+    rounded_lips += [(5200.0, 2090.0), (5000.0, 2300.0), (5000.0, 4000.0), (0.0, 4000.0)]
+    lips = contour(rounded_lips, [0.0, 0.0, -0.38, 0.0, 0.0, 0.0, -0.38, 0.0, 0.0, 0.0])
+    for closed in (lips, _with_slot(199.9, 2000.0), _with_slot(199.9, 300.0)):
+        with pytest.raises(CannotCutError) as error:
+            beside(figure(closed, inside=True), 100.0, "sharp")
+        assert error.value.refusal.why == "narrow-slot"
+    # Between arcs that bend toward the wire, the corner is deeper than between lines, and a corner still.
+    places = [(0.0, 0.0), (3000.0, 1000.0), (0.0, 2000.0), (-3000.0, 2000.0), (-3000.0, 0.0)]
+    corner = contour(places, [-0.1, -0.1, 0.0, 0.0, 0.0])
+    lies_between(beside(figure(corner, inside=True), 100.0, "round"), corner, 100.0, True)
+
+
 def test_a_slot_as_wide_as_the_wire_and_a_step_lower_than_the_wire_are_none() -> None:
     step = _with_slot(1500.0, 50.0)
     lies_between(beside(figure(step, inside=True), 100.0, "round"), step, 100.0, True)
