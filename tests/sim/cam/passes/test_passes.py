@@ -81,7 +81,7 @@ def test_passes_and_cut_off_are_the_whole_way_and_no_place_of_the_tab_is_cut_bef
     for one, full in zip(cut.passes, whole.passes, strict=True):
         left = float(full.along.length_um.sum() - one.along.length_um.sum())
         assert 0.4 * tab_um <= left <= tab_um + 4.0 * one.by_um + 6.0  # round a corner the way is longer, or shorter
-    tab = last.along.length_um.sum() - making.overcut_um
+    tab = last.along.length_um.sum() - (0.0 if last.is_back else making.overcut_um)
     assert tab == pytest.approx(whole.passes[-1].along.length_um.sum() - cut.passes[-1].along.length_um.sum(), abs=3.1)
     assert _starts_beside(cut)
     assert flat(last.out)[-1].tolist() == pytest.approx(list(thread.place_um))
