@@ -247,6 +247,14 @@ def test_what_crosses_or_shares_an_edge_is_refused_by_name_and_place(entities, w
     assert dict(refusal.values)["entity"].startswith(("LWPOLYLINE", "LINE"))
 
 
+def test_contours_that_cross_by_less_than_a_fit_may_move_them_touch():
+    drawing = drawing_of([square(0, 0, 50), circle(4.997, 25, 5)])
+    with pytest.raises(CannotCutError, match="crossing"):
+        parts_of(drawing, Making())
+    fitted = replace(drawing, fit=FitFigures(2.0, 1.9, 1, 4))
+    assert _kinds(parts_of(fitted, Making())) == [(1, "hole", 1), (1, "outline", 0)]
+
+
 def test_a_cut_there_and_back_within_one_entity_is_refused():
     slit = [(0, 0), (10, 0), (10, 5), (7, 5), (7, 6), (6, 6), (6, 5), (7, 5), (10, 5), (10, 10), (0, 10)]
     assert _refused(polygon(slit)).why == "crosses-itself"
