@@ -15,7 +15,6 @@ from sim.cam.model import Entry
 MOST: Final = 12
 """Entries of a figure that are looked at."""
 _LONG_UM: Final = 1000.0  # a line as long as this takes an entry before any arc
-_STRAIGHT_COS: Final = 1.0 - 1e-4  # curves that turn by less than 0.8° from one to the next make no corner
 _ACROSS: Final = 1e-6
 
 
@@ -108,9 +107,9 @@ def across_from(room: Room, side: Floats, asked: Asked) -> tuple[Entries, Ints]:
 
 
 def corners(room: Room, side: Floats, asked: Asked) -> tuple[Entries, Ints]:
-    """Entries at corners, from midway between both sides, those nearest to each of the thread points first.
+    """Entries where curves meet, from midway between both, those nearest to each of the thread points first.
 
-    With them, which thread point (m,) each is for. Where the waste lies in the corner, the wire reaches no nearer to it
+    With them, which thread point (m,) each is for. Where the waste lies in a corner, the wire reaches no nearer to it
     than where it touches both sides.
     """
     row, whose = room.rows(asked.figure)
@@ -123,8 +122,7 @@ def corners(room: Room, side: Floats, asked: Asked) -> tuple[Entries, Ints]:
     normal, middle = sense * to_left(leaving), sense * (to_left(leaving) + to_left(arriving))
     length = np.hypot(*middle.T)
     off = np.hypot(*(room.curves.start_um[row] - asked.place_um[whose]).T)
-    turns = (leaving * arriving).sum(axis=1) < _STRAIGHT_COS
-    corner = np.flatnonzero(turns & (length > _ACROSS))
+    corner = np.flatnonzero(length > _ACROSS)
     corner = corner[np.lexsort([off[corner], whose[corner]])]
     out = middle[corner] / length[corner, None]
     turn = (arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0])[corner]

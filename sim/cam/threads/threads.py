@@ -48,12 +48,12 @@ def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reac
 
 def thread_notes(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
     """What is to be said of leads that are not as they are asked for."""
-    straight = [
-        str(figure.number)
-        for figure, thread in zip(figures, threads, strict=True)
-        if thread.lead != making.lead and thread.by != "contour"
-    ]
-    return (Remark("straight-leads", {"figures": ", ".join(straight)}),) if straight else ()
+    straight: dict[bool, list[str]] = {True: [], False: []}
+    for figure, thread in zip(figures, threads, strict=True):
+        if thread.lead != making.lead and thread.by != "contour":
+            straight[making.lead in _ROUND and not figure.runs_inside].append(str(figure.number))
+    told = (("straight-leads", straight[False]), ("straight-to-parts", straight[True]))
+    return tuple(Remark(name, {"figures": ", ".join(numbers)}) for name, numbers in told if numbers)
 
 
 class _Waste:
@@ -135,19 +135,24 @@ class _Waste:
         return nearest(self.room, place_um, self.clear_um).distance_um
 
     def led(self, threads: Mapping[int, Thread], lead: LeadIn) -> tuple[Thread, ...]:
-        """Threads of all figures, in their order, with the lead that is asked for where that is free."""
+        """Threads of all figures, in their order, with the lead that is asked for where that may be.
+
+        Round leads are for slugs alone. A pass runs into the kerf of its own lead-in before it comes to its end: a part
+        would fall with a nib on its edge, while that of a hole is cut off the part that stays.
+        """
         lead_off = {at: one for at, one in threads.items() if one.by != "contour"}
         places = {at: np.array(one.place_um) for at, one in lead_off.items()}
         found = dict(threads)
         if lead == "point":
             for at, entry in at_corners(self.room, self.side, places, self.clear_um).items():
                 found[at] = threads[at]._replace(entry=entry, lead=lead)
-        elif lead != "perpendicular" and places:
+        elif lead in _ROUND and places:
             off = np.array([math.dist(one.place_um, one.entry.place_um) for one in lead_off.values()])
             clear = nearest(self.room, np.array(list(places.values())), float(off.max())).distance_um
             # Leads of all forms are free in the circle about the thread point that touches contours at the entry alone.
-            for at, is_free in zip(lead_off, (clear >= off - TOLERANCE_UM).tolist(), strict=True):
-                found[at] = threads[at]._replace(lead=lead) if is_free else threads[at]
+            is_round = (clear >= off - TOLERANCE_UM) & (self.side[list(lead_off)] > 0.0)
+            for at in np.array(list(lead_off))[is_round].tolist():
+                found[at] = threads[at]._replace(lead=lead)
         return tuple(found[at] for at in range(len(self.figures)))
 
 
