@@ -11,6 +11,7 @@ from sim.cam.order.order import in_order
 from sim.cam.order.sides import with_sides
 from sim.cam.parts.parts import parts_of
 from sim.cam.parts.walls import walls
+from sim.cam.passes.around import offsets_of
 from sim.cam.passes.passes import figure_cut
 from sim.cam.path.drafted import draft_of_plan
 from sim.cam.path.kept import added_draft, kept_draft
@@ -66,7 +67,8 @@ def planned(path: Path, making: Making, scenario: Scenario, progress: Progress =
     parts = parts_of(drawing, making)
     passes_um = making.passes_um or (scenario.wire.reach_um,)
     figures = with_sides(parts.figures, making)
-    notes = (*parts.notes, *walls(figures, passes_um, scenario.wire.reach_um))
+    widest_um = [max(offsets_of(figure, passes_um, making)) for figure in figures]
+    notes = (*parts.notes, *walls(figures, widest_um, scenario.wire.reach_um))
     threads = threads_of(drawing, figures, making, max(passes_um))
     notes += thread_notes(figures, threads, making)
     order = in_order(figures, threads, making)
