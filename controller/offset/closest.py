@@ -41,7 +41,11 @@ def approaches(curves: Curves, path: Curves, below_um: float) -> Approaches:
     The distance is extreme at the ends of either, where the two cross, and where they have a normal in common.
     """
     near = near_curves(curves, path, below_um)
-    own, row = near.other, near.row
+    return approaches_of(curves, path, near.other, near.row, below_um)
+
+
+def approaches_of(curves: Curves, path: Curves, own: Ints, row: Ints, below_um: float) -> Approaches:
+    """As `approaches`, of rows `own` (m,) of the path and rows `row` (m,) of the curves, pair by pair."""
     found = [(own, row, places_at(path, own, share * path.length_um[own])) for share in (0.0, 1.0)]
     feet = [along_um(path, own, end[row]) for end in (curves.start_um, curves.end_um)]
     # Where the two run parallel every place is extreme: the middle one stands for all.

@@ -4,8 +4,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from parser.drawing.fit.fitted import Fitted
-from parser.geometry.curves import Ints, curves_between, joined
+from parser.drawing.fit.fitted import Fitted, no_curves
+from parser.geometry.curves import Ints, joined
 
 _AT_ONCE = 1_000  # curves: lengths along all of them are then told apart, and arrays stay small
 
@@ -34,8 +34,7 @@ def in_batches(number: int, fitted: Callable[[Ints], Fitted]) -> tuple[Fitted, I
 
 def several(parts: Sequence[tuple[Fitted, Ints]], refused: Ints) -> tuple[Fitted, Ints]:
     """Parts in one, by rows, with all that is refused."""
-    nowhere = np.empty((0, 2))
-    curves = joined([curves_between(nowhere, nowhere, nowhere, np.empty(0)), *(made.curves for made, _ in parts)])
+    curves = joined([no_curves(), *(made.curves for made, _ in parts)])
     of = np.concatenate([np.empty(0, dtype=np.int64), *(made.of for made, _ in parts)])
     order = np.argsort(of, kind="stable")
     most = max((made.max_um for made, _ in parts), default=0.0)

@@ -11,7 +11,7 @@ _ARCS_A_RUN = 64.0  # a cut costs half an arc
 _OF_ARC = 124.7
 """The length of an arc between nodes on a curve is (124.7 t / κ')^⅓: its deviation is a cubic with three zeros, of
 which the largest value is √3/216 · κ'·L³."""
-MOST_ARCS = 300_000
+_MOST_ARCS = 300_000
 
 
 def runs_of(strings: Strings, tolerance_um: float) -> tuple[Runs, Ints]:
@@ -20,7 +20,7 @@ def runs_of(strings: Strings, tolerance_um: float) -> tuple[Runs, Ints]:
     needed = total_before(_arcs_needed(strings, tolerance_um))
     before = needed[strings.first * _steps(strings)]
     number = needed[_ends(strings) * _steps(strings)] - before
-    if number.sum() > MOST_ARCS:
+    if number.sum() > _MOST_ARCS:
         raise ValueError("arcs without number")
     parts = np.maximum(np.ceil(number / _ARCS_A_RUN), 1.0).astype(np.int64)
     of = np.repeat(np.arange(len(parts)), parts)

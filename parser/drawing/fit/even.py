@@ -10,6 +10,7 @@ _MOST_STARTS = 24
 _STARTS_AT_ONCE = 1_000  # over all closed curves of a drawing: many have few starts each
 _ROUNDS = 5
 _FULL = 0.9  # of the length of an arc
+_LEAST = 1e-3  # of the tolerance: what lies nearer needs no less
 
 
 def best_starts(strings: Strings, runs: Runs, closed: Bools, tolerance_um: Floats) -> Runs:
@@ -59,7 +60,7 @@ def even_arcs(strings: Strings, runs: Runs, tolerance_um: Floats, steps: int = S
 def _filled(arcs: Arcs, count: Ints) -> Floats:
     """By what all arcs (r,) are longer than they would be if the last one were as full; 1 where that is little."""
     last = arcs.spare[np.cumsum(count) - 1]
-    full = np.cbrt(np.clip(1.0 - last, 0.0, 1.0))
+    full = np.cbrt(np.clip(1.0 - last, _LEAST, 1.0))
     return np.where(full < _FULL, (count - 1 + full) / count, 1.0)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from parser.drawing.fit.bounds import are_within, off_at_most
 from parser.drawing.fit.chunks import runs_of
 from parser.drawing.fit.even import best_starts, even_arcs
-from parser.drawing.fit.fitted import Fitted
+from parser.drawing.fit.fitted import Fitted, no_curves
 from parser.drawing.fit.longest import STEPS, Arcs, Runs, joined_arcs
 from parser.drawing.fit.pieces import Pieces, tamed
 from parser.drawing.fit.strings import Strings, places_on, strings_of
@@ -32,7 +32,10 @@ def arcs_of_pieces(pieces: Pieces, drawn: Drawn, tolerance_um: float) -> Fitted:
     Raises ValueError where a curve is torn or needs pieces without number.
     """
     with np.errstate(all="ignore"):
-        strings = strings_of(tamed(pieces, tolerance_um))
+        tame = tamed(pieces, tolerance_um)
+        if not len(tame.of):
+            return Fitted(no_curves(), tame.of, 0.0)
+        strings = strings_of(tame)
         runs, string = runs_of(strings, tolerance_um)
         whole = np.bincount(string)[string] == 1
         runs = best_starts(strings, runs, strings.is_closed[string] & whole, np.full(len(string), tolerance_um))

@@ -2,7 +2,9 @@
 
 from typing import NamedTuple
 
-from parser.geometry.curves import Curves, Ints
+import numpy as np
+
+from parser.geometry.curves import Curves, Ints, curves_between
 
 
 class Fitted(NamedTuple):
@@ -11,3 +13,9 @@ class Fitted(NamedTuple):
     curves: Curves
     of: Ints
     max_um: float
+
+
+def no_curves() -> Curves:
+    """Curves of nothing, to which parts are joined."""
+    nowhere = np.empty((0, 2))
+    return curves_between(nowhere, nowhere, nowhere, np.empty(0))

@@ -70,7 +70,8 @@ def bends_near(place_um: Floats, tolerance_um: Floats) -> Bends:
     bend = np.where(flat, 0.0, bend)
     ahead = (np.diff(x, axis=1, prepend=-a, append=a) > 0.0).all(axis=1) & (power < 0.0).all(axis=1)
     near = ahead & (low <= high) & (~flat | ((low <= 0.0) & (high >= 0.0)))
-    spare = (high - low) / np.minimum(2.0 * np.where(free, np.inf, root).min(axis=1), 2.0 * fullest)
+    common = np.where(flat, 2.0 * np.minimum(high, -low), high - low)
+    spare = common / np.minimum(2.0 * np.where(free, np.inf, root).min(axis=1), 2.0 * fullest)
     return _with_tiny(place_um, tolerance_um, Bends(bend, near, np.where(ahead, np.maximum(spare, _FAR), _FAR)))
 
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.drawing.dxf.forms import Spline
-from parser.drawing.fit.fitted import Fitted
+from parser.drawing.fit.fitted import Fitted, no_curves
 from parser.drawing.fit.splines import arcs_of_splines
 from parser.drawing.model import SAME_WITHIN_UM
 from parser.drawing.plane.flat import is_near, refuse_many
@@ -61,8 +61,7 @@ def flat_splines(splines: Sequence[Spline], tolerance_um: float, fit_um: float |
 
 
 def _lines(splines: Sequence[Spline], rows: Ints, tolerance_um: float) -> tuple[Fitted, Ints]:
-    nowhere = np.empty((0, 2))
-    parts = [curves_between(nowhere, nowhere, nowhere, np.empty(0))]
+    parts = [no_curves()]
     of: list[int] = []
     refused: list[int] = []
     total = 0

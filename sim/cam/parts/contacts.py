@@ -4,7 +4,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from controller.offset.closest import approaches
+from controller.offset.closest import Approaches, approaches_of
 from parser.drawing.loops.overlaps import over
 from parser.drawing.model import BESIDE_UM
 from parser.geometry.along import along_um, places, places_at
@@ -61,9 +61,8 @@ def overlaps(contours: Contours) -> Contacts:
 def self_contacts(contours: Contours) -> Contacts:
     """Where contours cross or touch themselves."""
     curves, loop = contours.curves, contours.loop
-    near = approaches(curves, curves, _TOUCH_UM)
-    mine = np.flatnonzero((loop[near.path_row] == loop[near.row]) & (near.path_row < near.row))
-    near = near.take(mine)
+    early, late, _ = near_pairs(curves, loop, 0.0, _MOST_PAIRS, _TOUCH_UM)
+    near = approaches_of(curves, curves, early, late, _TOUCH_UM)
     first = np.searchsorted(loop, np.arange(int(loop[-1]) + 2))
     total = np.add.reduceat(curves.length_um, first[:-1])
     before = curves.before_um
@@ -76,10 +75,25 @@ def self_contacts(contours: Contours) -> Contacts:
 
 def contacts(contours: Contours) -> Contacts:
     """Where different contours cross or touch; `one` is less than `other`."""
-    near = approaches(contours.curves, contours.curves, BESIDE_UM)
-    one, other = contours.loop[near.path_row], contours.loop[near.row]
-    apart = np.flatnonzero(one < other)
-    return Contacts(one[apart], other[apart], near.path_row[apart], near.place_um[apart])
+    near = between_contours(contours.curves, contours.loop, BESIDE_UM)
+    return Contacts(contours.loop[near.path_row], contours.loop[near.row], near.path_row, near.place_um)
+
+
+def between_contours(curves: Curves, loop: Ints, within_um: float) -> Approaches:
+    """Where curves of a contour and of a later one come within a distance, by numbers (n,) that do not decrease."""
+    early, late, _ = near_pairs(curves, np.zeros_like(loop), 0.0, _MOST_PAIRS, within_um)
+    other = np.flatnonzero(loop[early] != loop[late])
+    early, late = early[other], late[other]
+    near = np.flatnonzero(~_are_rings_apart(curves, early, late, within_um))
+    return approaches_of(curves, curves, early[near], late[near], within_um)
+
+
+def _are_rings_apart(curves: Curves, early: Ints, late: Ints, within_um: float) -> Bools:
+    """Whether circles of pairs of arcs (k,) lie apart, most of all those one within another, whose boxes meet."""
+    between = np.hypot(*(curves.center_um[early] - curves.center_um[late]).T)
+    radius, other = curves.radius_um[early], curves.radius_um[late]
+    apart: Bools = np.maximum(between - radius - other, np.abs(radius - other) - between) > within_um
+    return apart
 
 
 def crossed(contours: Contours, found: Contacts, within_um: float) -> Contacts:

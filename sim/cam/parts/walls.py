@@ -5,14 +5,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.offset.closest import approaches
 from parser.drawing.model import BESIDE_UM
 from parser.findings.remarks import Remark
 from parser.geometry.curves import Floats, Ints, joined
 from parser.toolpath import Point
 from parser.units import mm
 from sim.cam.model import CannotCutError, Figure, Refusal
-from sim.cam.parts.contacts import spread
+from sim.cam.parts.contacts import between_contours, spread
 from sim.cam.parts.inside import is_inside
 
 _LIMIT_SHARE = 1.0 - 1e-6  # a gap as wide as the kerf is cut
@@ -56,12 +55,11 @@ class _Close(NamedTuple):
 def _closest(figures: Sequence[Figure], within_um: float) -> _Close:
     curves = joined([figure.contour for figure in figures])
     of = np.repeat(np.arange(len(figures)), [len(figure.contour) for figure in figures])
-    near = approaches(curves, curves, within_um * _LIMIT_SHARE)
+    near = between_contours(curves, of, within_um * _LIMIT_SHARE)
     one, other = of[near.path_row], of[near.row]
-    apart = np.flatnonzero(one < other)
-    key = one[apart] * len(figures) + other[apart]
-    order = np.lexsort([near.distance_um[apart], key])
-    first = apart[order[np.diff(key[order], prepend=-1) > 0]]
+    key = one * len(figures) + other
+    order = np.lexsort([near.distance_um, key])
+    first = order[np.diff(key[order], prepend=-1) > 0]
     return _Close(one[first], other[first], near.distance_um[first], near.place_um[first])
 
 

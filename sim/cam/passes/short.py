@@ -11,13 +11,13 @@ SHORT_UM = 3.0
 MOST_OFF_UM = 0.1
 """How far each of two rounds may move the way."""
 _ROUNDS = 2
-_NOTHING_UM = 0.02  # a piece so short is rounding: where its neighbours do not meet, their ends are made one
 
 
 def without_short(way: Curves) -> Curves:
     """A closed way (m,) without pieces shorter than 3 µm, as far as it moves by no more than 0.2 µm for that.
 
-    Of neighbours that are short the shorter one goes first, and the other one in a second round.
+    Of neighbours that are short the shorter one goes first, the other one in a second round. Where the neighbours of
+    a piece do not meet, as two arcs of one circle, their ends are made one in the middle of it if it is short enough.
     """
     for _ in range(_ROUNDS):
         if len(way) < 4 or float(way.length_um.min()) >= SHORT_UM:
@@ -32,7 +32,7 @@ def _once(way: Curves) -> Curves:
     middle = places(way, at, np.full(len(at), 0.5))
     met = met_near(way, at - 1, (at + 1) % number, middle)
     is_met = _moved(way, at, met) <= MOST_OFF_UM
-    gone = is_met | (length[at] <= _NOTHING_UM)
+    gone = is_met | (length[at] <= 2.0 * MOST_OFF_UM)
     place = np.where(is_met[:, None], met.place_um, middle)[gone]
     start, end = way.start_um.copy(), way.end_um.copy()
     end[at[gone] - 1], start[(at[gone] + 1) % number] = place, place

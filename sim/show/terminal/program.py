@@ -6,7 +6,7 @@ from pathlib import Path
 
 from parser.drawing.model import LeftOut
 from parser.findings.catalogue import Language, Said
-from parser.findings.remarks import remark_text
+from parser.findings.remarks import Remark, remark_text
 from parser.text.encoding import printable
 from parser.units import mm
 from sim.cam.maker import Made, NotMade
@@ -24,6 +24,8 @@ from sim.show.words.phrases import listed, same
 
 _INDENT = "    "
 _MOST_FIGURES = 40
+_LEFT_OUT = {"no-curves", "other-layers", "drawn-twice"}
+"""Notes of the reader that say in sum what `CutPlan.left_out` has one by one."""
 _HEADS = ("number", "kind", "wire", "blocks", "length", "time", "thread")
 
 
@@ -48,7 +50,8 @@ def told_lines(plan: CutPlan, language: Language, width: int) -> Iterator[str]:
     """The fit, what was left out, and what was chosen or taken for granted, in lines of `width` cells."""
     words = Words(language)
     texts = [*_same_passes(plan, words), *_fit(plan, words), *_left_out(plan.left_out, words), *_chosen(plan, words)]
-    texts += [words("program.note", what=remark_text(note, language)) for note in (*plan.drawing.notes, *plan.notes)]
+    notes = (note for note in (*plan.drawing.notes, *plan.notes) if note.name not in _LEFT_OUT or not plan.left_out)
+    texts += [words("program.note", what=_note(note, words)) for note in notes]
     for text in texts:
         yield from wrapped(text, width, "", _INDENT)
 
@@ -57,6 +60,14 @@ def not_made_lines(refused: NotMade, name: str, language: Language, width: int) 
     """Why nothing was written, in lines of `width` cells."""
     text = Words(language)("program.not-written", name=printable(name), why=why_refused(refused.refusal))
     yield from (styled(line, "red") for line in wrapped(text, width, "", _INDENT))
+
+
+def _note(note: Remark, words: Words) -> str:
+    """What the reader of drawings remarks, by the catalogue; else what the maker does, by its own words."""
+    try:
+        return remark_text(note, words.language)
+    except KeyError:
+        return words(f"program.note-{note.name}", **note.values)
 
 
 def _row(cut: FigureCut, of: FigureSum, words: Words) -> tuple[str, ...]:
