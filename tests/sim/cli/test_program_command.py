@@ -44,6 +44,7 @@ def test_a_drawing_becomes_a_proved_program(part: Path) -> None:
     program = read_program(out)
     assert int(program.toolpath.is_jump.sum()) == 1  # from the hole to the outline
     assert "proved" in said.splitlines()
+    assert max(map(cells, said.replace(str(out), "").splitlines())) <= 80
     hole, outline = (line.split("│") for line in said.splitlines() if "hole of" in line or "outline of" in line)
     assert [cell.strip() for cell in hole[2:4]] == ["hole of 1", "inside"]
     assert [cell.strip() for cell in outline[2:4]] == ["outline of 1", "outside"]
@@ -53,26 +54,15 @@ def test_a_drawing_becomes_a_proved_program(part: Path) -> None:
     assert length == pytest.approx(float(program.toolpath.length_um[~program.toolpath.is_jump].sum()) / 1e3, abs=1e-3)
 
 
-def test_its_table_fits_the_width_in_both_languages(part: Path) -> None:
-    for lang, word in (("en", "thread point"), ("zh", "穿丝点")):
-        _, said, _ = run(part, "--preview", "--pass", "0.18mm", "--pass", "0.12mm", "--lang", lang)
-        assert word in said
-        table = [line for line in said.splitlines() if not re.match(r".*:\d+:\d+: ", line)]
-        assert max(map(cells, table)) <= 80
-
-
-def test_a_preview_writes_nothing(part: Path) -> None:
-    assert run(part, "--preview")[0] == 0
-    assert [file.name for file in part.parent.iterdir()] == [part.name]
-
-
-def test_a_picture_of_the_plan_is_drawn(part: Path) -> None:
-    picture = part.with_name("plan.png")
-    assert run(part, "--preview", "--picture", picture)[0] == 0
-    with Image.open(picture) as image:
-        assert image.width == 1600
-    assert run(part, "--preview", "--picture", picture.with_suffix(".svg"), "--lang", "zh", "--theme", "dark")[0] == 0
-    assert "切割规划" in picture.with_suffix(".svg").read_text("utf-8")
+def test_a_preview_writes_a_picture_alone_and_its_table_fits_the_width(part: Path) -> None:
+    picture = part.with_name("plan.svg")
+    options = ("--preview", "--picture", picture, "--pass", "0.13mm", "--pass", "0.1mm", "--tab", "2mm")
+    code, said, _ = run(part, *options, "--lang", "zh", "--theme", "dark")
+    assert code == 0, said
+    assert "穿丝点" in said
+    assert max(map(cells, said.replace(str(picture), "").splitlines())) <= 80
+    assert "切割规划" in picture.read_text("utf-8")
+    assert sorted(file.name for file in part.parent.iterdir()) == [part.name, picture.name]
 
 
 def test_json_stands_alone_on_stdout(part: Path) -> None:
@@ -104,8 +94,12 @@ def test_the_suffix_or_as_tells_the_language(part: Path) -> None:
     assert run(part, "-o", out, "--dialect", "robofil", "--crlf")[0] == 0
     data = out.read_bytes()
     assert data.startswith(b"%\r\n")
-    assert run(part, "-o", part.with_suffix(".txt"), "--as", "4b")[0] == 0
-    assert b"DD" in part.with_suffix(".txt").read_bytes()
+    picture = part.with_name("a.png")
+    code, *_ = run(part, "-o", part.with_suffix(".txt"), "--as", "4b", "--preview", "--picture", picture)
+    assert code == 0
+    assert [file.suffix for file in sorted(part.parent.iterdir())] == [".png", ".dxf", ".iso"]
+    with Image.open(picture) as image:
+        assert image.width == 1600
 
 
 @pytest.mark.parametrize(
