@@ -208,8 +208,8 @@ def test_no_few_lines_are_left_over_before_a_long_one(number):
     spiral = _polar(2_000.0 * (1.0 + angle), angle)
     way = np.exp(1.4j) * complex(2_000.0, 2_000.0 * 2.4)  # the derivative of r(θ) exp(iθ)
     vertices = np.concatenate([spiral, spiral[-1:] + np.array([[way.real, way.imag]])])
-    fitted = arcs_of_lines(_lines(vertices), 3.0, is_closed=False)
-    assert fitted.max_um <= 3.0
+    fitted = arcs_of_lines(_lines(vertices), 1.3, is_closed=False)
+    assert fitted.max_um <= 1.3
     assert fitted.curves.is_arc.tolist() == [True] * (len(fitted.of) - 1) + [False]
     assert fitted.of[-1] == number - 1
 
