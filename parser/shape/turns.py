@@ -46,6 +46,8 @@ def find_turns(toolpath: Toolpath, contour: Ints) -> Turns:
         row = np.flatnonzero(turned)
         leave[row] = row + blocks + 1
     there = np.flatnonzero(leave >= 0)
+    # Blocks may be shorter than a step: of turns that leave by one row, the last one is no step longer than it must be.
+    there = there[np.diff(leave[there], append=n) != 0]
     back = leave[there]
     by = toolpath.start_um[back] - toolpath.end_um[there]
     way = ways.arriving[there]

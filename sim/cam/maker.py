@@ -11,9 +11,10 @@ from sim.cam.order.order import in_order
 from sim.cam.order.sides import with_sides
 from sim.cam.parts.parts import parts_of
 from sim.cam.parts.walls import walls
+from sim.cam.passes.around import offsets_of
 from sim.cam.passes.passes import figure_cut
 from sim.cam.path.drafted import draft_of_plan
-from sim.cam.path.kept import kept_draft
+from sim.cam.path.kept import added_draft, kept_draft
 from sim.cam.proof.proof import Given, proved
 from sim.cam.proof.result import Proof
 from sim.cam.threads.threads import thread_notes, threads_of
@@ -66,7 +67,8 @@ def planned(path: Path, making: Making, scenario: Scenario, progress: Progress =
     parts = parts_of(drawing, making)
     passes_um = making.passes_um or (scenario.wire.reach_um,)
     figures = with_sides(parts.figures, making)
-    notes = (*parts.notes, *walls(figures, passes_um, scenario.wire.reach_um))
+    widest_um = [max(offsets_of(figure, passes_um, making)) for figure in figures]
+    notes = (*parts.notes, *walls(figures, widest_um, scenario.wire.reach_um))
     threads = threads_of(drawing, figures, making, max(passes_um))
     notes += thread_notes(figures, threads, making)
     order = in_order(figures, threads, making)
@@ -92,6 +94,7 @@ def unproved(
     """A program as `made` gives it, before anything is run."""
     try:
         plan = planned(path, making, scenario, progress)
+        plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))
         progress("write", 0, 1)
         draft = begun(_drafted(plan, wanted), wanted)
     except CannotCutError as error:
@@ -104,13 +107,13 @@ def unproved(
 
 def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
     """What is written of a plan. CannotCutError where the controller cannot add its offsets."""
-    if not wanted.keeps or wanted.iso is None or not any(plan.passes_um):
+    if not wanted.keeps or not any(plan.passes_um):
         return draft_of_plan(plan)
     wishes = tuple(wish._replace(passes_um=(0.0,) * len(wish.passes_um)) for wish in plan.making.layers)
     making = plan.making._replace(layers=wishes)
     nothing = (0.0,) * len(plan.passes_um)
     on_contour = tuple(figure_cut(cut.figure, cut.thread, nothing, making) for cut in plan.cuts)
-    return kept_draft(plan, on_contour, wanted.iso.profile)
+    return added_draft(plan, on_contour) if wanted.iso is None else kept_draft(plan, on_contour, wanted.iso.profile)
 
 
 def _given(path: Path, done: Made, wanted: Wanted) -> Given:

@@ -166,7 +166,10 @@ class FigureCut(NamedTuple):
 
 
 class CutPlan(NamedTuple):
-    """All that is cut, in running order, with what it was made of."""
+    """All that is cut, in running order, with what it was made of.
+
+    `is_added`: the controller adds the offset, and the program, in 4B, does not say it.
+    """
 
     drawing: Drawing
     making: Making
@@ -174,3 +177,4 @@ class CutPlan(NamedTuple):
     cuts: tuple[FigureCut, ...]
     left_out: tuple[LeftOut, ...]
     notes: tuple[Remark, ...]
+    is_added: bool = False

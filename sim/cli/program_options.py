@@ -115,7 +115,11 @@ OPTIONS = (
     click.option("--as", "language", type=click.Choice(["3b", "4b", "iso"]), help="Its language; else by the suffix."),
     *READ_WITH,
     click.option("--decimals", type=click.IntRange(1, 6), help="Digits behind the point, of ISO."),
-    click.option("--compensation", type=click.Choice(["worked-in", "kept"]), help="Of ISO: worked in, or G41 and G42."),
+    click.option(
+        "--compensation",
+        type=click.Choice(["worked-in", "kept"]),
+        help="Worked in; kept: G41, or f of 4B.",
+    ),
     click.option("--form", type=click.Choice(FORMS), help="Form of 3B and 4B; compact."),
     click.option("--end-code", metavar="WORD", help="Word of 3B and 4B at the end; DD."),
     click.option("--pause-code", metavar="WORD", help="Word of 3B and 4B for a pause; D."),

@@ -271,9 +271,15 @@ def refuse_odd(making: Making, where: str) -> None:
 def refuse_misfits(writing: Writing, language: Language, where: str) -> None:
     """SettingsError for what the language that is written has nothing for."""
     usual = Writing()
-    for name in ("form", "end_code", "pause_code") if language == "iso" else ("compensation", "decimals"):
-        if getattr(writing, name) != getattr(usual, name):
-            raise SettingsError(f"{where}: {name} is for {'3B and 4B' if language == 'iso' else 'ISO'}, not {language}")
+    others = {
+        "3B and 4B": ("form", "end_code", "pause_code") if language == "iso" else (),
+        "ISO": ("decimals",) if language != "iso" else (),
+        "4B and ISO": ("compensation",) if language == "3b" else (),
+    }
+    for languages, names in others.items():
+        for name in names:
+            if getattr(writing, name) != getattr(usual, name):
+                raise SettingsError(f"{where}: {name} is for {languages}, not {language}")
 
 
 def _refuse_odd_passes(passes_um: tuple[float, ...], where: str) -> None:

@@ -7,7 +7,8 @@ from parser.drawing.fit.strings import Strings
 from parser.drawing.fit.through import FLATTEST_UM
 from parser.geometry.curves import Floats, Ints, total_before
 
-_ARCS_A_RUN = 64.0  # a cut costs half an arc
+_MOST_ARCS_A_RUN = 96.0
+_ARCS_A_RUN = 40.0  # of a string that is cut: a cut costs half an arc
 _OF_ARC = 124.7
 """The length of an arc between nodes on a curve is (124.7 t / κ')^⅓: its deviation is a cubic with three zeros, of
 which the largest value is √3/216 · κ'·L³."""
@@ -22,7 +23,7 @@ def runs_of(strings: Strings, tolerance_um: float) -> tuple[Runs, Ints]:
     number = needed[_ends(strings) * _steps(strings)] - before
     if number.sum() > _MOST_ARCS:
         raise ValueError("arcs without number")
-    parts = np.maximum(np.ceil(number / _ARCS_A_RUN), 1.0).astype(np.int64)
+    parts = np.where(number <= _MOST_ARCS_A_RUN, 1, np.ceil(number / _ARCS_A_RUN)).astype(np.int64)
     of = np.repeat(np.arange(len(parts)), parts)
     at = np.arange(len(of)) - (np.cumsum(parts) - parts)[of]
     start, end = (_at_share(strings, needed, before[of] + number[of] * (at + more) / parts[of]) for more in (0, 1))

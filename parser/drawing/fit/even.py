@@ -8,8 +8,9 @@ from parser.geometry.curves import Bools, Floats, Ints
 
 _MOST_STARTS = 24
 _STARTS_AT_ONCE = 1_000  # over all closed curves of a drawing: many have few starts each
-_ROUNDS = 5
+_ROUNDS = 3
 _FULL = 0.9  # of the length of an arc
+_TAIL = 4  # arcs
 _LEAST = 1e-3  # of the tolerance: what lies nearer needs no less
 
 
@@ -35,10 +36,27 @@ def best_starts(strings: Strings, runs: Runs, closed: Bools, tolerance_um: Float
 def even_arcs(strings: Strings, runs: Runs, tolerance_um: Floats, steps: int = STEPS) -> Arcs:
     """Arcs as few as a tolerance (r,) allows, of about the least tolerance that needs no more of them.
 
+    About vertices a little less may take one arc more: there the last arcs alone share what the very last one lacks.
+    """
+    best = _evened(strings, runs, tolerance_um, longest_arcs(strings, runs, tolerance_um, steps=steps), steps)
+    count, _ = _counts(best, len(runs.low))
+    rows = np.flatnonzero((_filled(best, count) < 1.0) & (count > _TAIL))
+    if not len(rows):
+        return best
+    last = np.cumsum(count)
+    tail = np.isin(best.run, rows) & (last[best.run] - np.arange(len(best.run)) <= _TAIL)
+    own = best.picked(tail)
+    ends = runs.picked(rows)._replace(low=best.start[last[rows] - _TAIL])
+    better = _evened(strings, ends, tolerance_um[rows], own._replace(run=np.searchsorted(rows, own.run)), steps)
+    return joined_arcs([best.picked(~tail), better._replace(run=rows[better.run])])
+
+
+def _evened(strings: Strings, runs: Runs, tolerance_um: Floats, best: Arcs, steps: int) -> Arcs:
+    """Arcs of a lower tolerance, no more of them than the `best` so far.
+
     The length of an arc goes with the cube root of its tolerance: so all arcs are made shorter by what the last one
     lacks, and where that was too much, by half of it.
     """
-    best = longest_arcs(strings, runs, tolerance_um, steps=steps)
     count, _ = _counts(best, len(runs.low))
     low, high = (count - 1) / np.maximum(count, 1), np.ones(len(count))
     share = high * _filled(best, count)

@@ -86,7 +86,7 @@ def _pieces(vertices: Floats, begin: int, within_um: float) -> list[_Piece]:
         pieces.append(found)
         guess = max(found.past - at, FEWEST_LINES)
         at = found.past
-    pieces = _evened(vertices, pieces, within_um)
+    pieces = _evened(vertices, pieces, may_begin, within_um)
     return [piece._replace(begin=begin + piece.begin, past=begin + piece.past) for piece in pieces]
 
 
@@ -132,20 +132,48 @@ def _piece(vertices: Floats, begin: int, past: int, within_um: float) -> _Piece 
     return _Piece(begin, past, float(bulge), off) if off <= within_um else None
 
 
-def _evened(vertices: Floats, pieces: list[_Piece], within_um: float) -> list[_Piece]:
-    """Pieces with a short last one, or lines left over at the end, made as long as the one before."""
-    last = max((at for at, piece in enumerate(pieces) if piece.past - piece.begin > 1), default=-1)
-    if last == len(pieces) - 1:
-        last -= 1
-    if last < 0 or pieces[last].past - pieces[last].begin < FEWEST_LINES or len(pieces) - last > FEWEST_LINES + 1:
-        return pieces
-    begin, reach, end = pieces[last].begin, pieces[last].past, pieces[-1].past
-    for middle in sorted({(begin + end) // 2, (begin + 2 * end) // 3, (begin + 4 * end) // 5, end - FEWEST_LINES}):
-        if begin + FEWEST_LINES <= middle <= min(reach, end - FEWEST_LINES):
-            one, other = _piece(vertices, begin, middle, within_um), _piece(vertices, middle, end, within_um)
+def _evened(vertices: Floats, pieces: list[_Piece], may_begin: Bools, within_um: float) -> list[_Piece]:
+    """Pieces without a few lines left over behind one of many, and without a short last one.
+
+    Lines left over, too few for an arc, go into two arcs with those before them.
+    """
+    even: list[_Piece] = []
+    at = 0
+    while at < len(pieces):
+        even.append(pieces[at])
+        at += 1
+        over = _left_over(pieces, at) if _is_arc(even[-1]) else 0
+        for taken in range(over, 0, -1):
+            past = pieces[at + taken - 1].past
+            two = _two(vertices, even[-1], past, within_um) if may_begin[past - FEWEST_LINES] else None
+            if two:
+                even[-1:] = two
+                at += taken
+                break
+    if all(map(_is_arc, even[-2:])) and len(even) > 1:
+        even[-2:] = _two(vertices, even[-2], even[-1].past, within_um) or even[-2:]
+    return even
+
+
+def _is_arc(piece: _Piece) -> bool:
+    return piece.past - piece.begin >= FEWEST_LINES
+
+
+def _left_over(pieces: list[_Piece], at: int) -> int:
+    """How many pieces from one on are single lines, fewer than would make an arc."""
+    behind = pieces[at : at + FEWEST_LINES - 1]
+    return next((number for number, piece in enumerate(behind) if _is_arc(piece)), len(behind))
+
+
+def _two(vertices: Floats, first: _Piece, past: int, within_um: float) -> tuple[_Piece, _Piece] | None:
+    """The lines of a piece and those up to `past` as two pieces, as even as can be; None where that cannot be."""
+    begin, last = first.begin, min(first.past, past - FEWEST_LINES)
+    for middle in sorted({(begin + past) // 2, (begin + 2 * past) // 3, (begin + 4 * past) // 5, last}):
+        if begin + FEWEST_LINES <= middle <= last:
+            one, other = _piece(vertices, begin, middle, within_um), _piece(vertices, middle, past, within_um)
             if one and other:
-                return [*pieces[:last], one, other]
-    return pieces
+                return one, other
+    return None
 
 
 def _fitted(curves: Curves, strokes: Strokes, pieces: list[_Piece]) -> Fitted:

@@ -13,6 +13,8 @@ from parser.toolpath import Point
 from parser.units import mm
 from sim.cam.model import CannotCutError, Refusal
 
+DOT_UM: Final = 10.0
+"""What is no larger is left of drawing, and no contour of any wire."""
 _ALMOST_UM: Final = 1000.0
 """Loose ends this near are meant to meet: no drawing leaves a contour open by less on purpose (assumed)."""
 _ALMOST_OF_LENGTH: Final = 0.4  # a bent chain open by less of its length is meant to close (assumed)
@@ -39,14 +41,14 @@ def left_open(drawing: Drawing, loops: list[DrawnLoop], contours: Curves | None,
         return ()
     chains = _chains(drawing, loops)
     near, by = _nearest(chains.end_um)
-    _refuse_almost(drawing, chains, near, by, gap_um)
+    _refuse_almost(drawing, chains, near, gap_um)
     _refuse_dividing(drawing, loops, chains, contours, gap_um)
     gap = by.min(axis=1)
     columns = zip(chains.entity.tolist(), chains.length_um.tolist(), chains.end_um[:, 0].tolist(), gap, strict=True)
     return tuple(
         LeftOut(
             drawing.entities[entity],
-            "dot" if length <= gap_um else "open",
+            "dot" if length <= DOT_UM else "open",
             (place[0], place[1]),
             float(open_um) if np.isfinite(open_um) else None,
         )
@@ -75,26 +77,23 @@ def _nearest(end_um: Floats) -> tuple[Ints, Floats]:
     return near.reshape(-1, 2), by.reshape(-1, 2)
 
 
-def _refuse_almost(drawing: Drawing, chains: _Chains, near: Ints, by: Floats, gap_um: float) -> None:
-    chain, end = np.nonzero((by > gap_um) & np.isfinite(by))
-    other, apart = near[chain, end] // 2, by[chain, end]
-    shorter = np.minimum(chains.length_um[chain], chains.length_um[other])
-    itself = (other == chain) & chains.is_bent[chain] & (apart < _ALMOST_OF_LENGTH * shorter)
-    almost = np.flatnonzero(itself | ((apart < _ALMOST_UM) & (shorter > _LONGER * apart)))
+def _refuse_almost(drawing: Drawing, chains: _Chains, near: Ints, gap_um: float) -> None:
+    """Look at each end with the one nearest to it, and at both ends of each chain."""
+    ends = chains.end_um.reshape(-1, 2)
+    each = np.arange(len(chains.length_um))
+    end, mate = np.concatenate([np.arange(len(ends)), 2 * each]), np.concatenate([near.ravel(), 2 * each + 1])
+    apart = np.hypot(*(ends[end] - ends[mate]).T)
+    shorter = np.minimum(chains.length_um[end // 2], chains.length_um[mate // 2])
+    itself = (end // 2 == mate // 2) & chains.is_bent[end // 2] & (apart < _ALMOST_OF_LENGTH * shorter)
+    close = (apart < _ALMOST_UM) & (shorter > _LONGER * apart)
+    almost = np.flatnonzero((itself | close) & (apart > gap_um))
     if not len(almost):
         return
-    place = 0.5 * (chains.end_um[chain[almost], end[almost]] + chains.end_um.reshape(-1, 2)[near[chain, end][almost]])
-    first = int(np.argmin(apart[almost]))
-    raise CannotCutError(
-        Refusal(
-            "almost-closed",
-            _points(place),
-            (
-                ("entity", named(drawing.entities[int(chains.entity[chain[almost[first]]])])),
-                ("gap_mm", f"{mm(float(apart[almost[first]])):.4g}"),
-            ),
-        )
-    )
+    first = almost[np.argmin(apart[almost])]
+    entity = drawing.entities[int(chains.entity[end[first] // 2])]
+    values = (("entity", named(entity)), ("gap_mm", f"{mm(float(apart[first])):.4g}"))
+    places = _points(0.5 * (ends[end[almost]] + ends[mate[almost]]))
+    raise CannotCutError(Refusal("almost-closed", places, values))
 
 
 def _refuse_dividing(

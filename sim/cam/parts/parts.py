@@ -12,7 +12,7 @@ from parser.toolpath import Point
 from sim.cam.model import CannotCutError, Figure, Parts, Refusal
 from sim.cam.parts.contacts import Contacts, contacts, crossed, overlaps, self_contacts, spread
 from sim.cam.parts.contours import Contours, contours_of
-from sim.cam.parts.loose import left_open, named
+from sim.cam.parts.loose import DOT_UM, left_open, named
 from sim.cam.parts.nesting import Nesting, nesting
 from sim.setup.making import Making
 
@@ -46,7 +46,7 @@ def parts_of(drawing: Drawing, making: Making) -> Parts:
     left = left_open(drawing, loose, None if drawn is None else drawn.curves, making.gap_um)
     if drawn is None:
         raise CannotCutError(Refusal("no-contour", tuple(Point(*one.place_um) for one in left if one.place_um)))
-    found, flat = _with_width(drawing, _found(closed, drawn), making.gap_um)
+    found, flat = _with_width(drawing, _found(closed, drawn))
     _refuse_itself(drawing, found)
     within = BESIDE_UM + 2.0 * (0.0 if drawing.fit is None else drawing.fit.tolerance_um)
     found, again = _once(drawing, found, within)
@@ -99,13 +99,10 @@ def _start(found: _Found, at: int) -> tuple[float, float]:
     return x, y
 
 
-def _with_width(drawing: Drawing, found: _Found, gap_um: float) -> tuple[_Found, tuple[LeftOut, ...]]:
-    """Loops without those that are lines there and back, and those that the gap bridges from one side to the other.
-
-    CannotCutError where none is left.
-    """
+def _with_width(drawing: Drawing, found: _Found) -> tuple[_Found, tuple[LeftOut, ...]]:
+    """Loops without dots and those that are lines there and back. CannotCutError where none is left."""
     length = np.bincount(found.contours.loop, found.contours.curves.length_um, len(found.loops))
-    dot = (found.high_um - found.low_um).max(axis=1) <= gap_um
+    dot = (found.high_um - found.low_um).max(axis=1) <= DOT_UM
     flat = ~dot & (2.0 * np.abs(found.area_um2) <= BESIDE_UM * length)
     flat[flat] = [_is_flat(found.contours.one(at)) for at in np.flatnonzero(flat).tolist()]
     if (flat | dot).all():

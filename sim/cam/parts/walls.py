@@ -17,25 +17,29 @@ from sim.cam.parts.inside import is_inside
 _LIMIT_SHARE = 1.0 - 1e-6  # a gap as wide as the kerf is cut
 
 
-def walls(figures: Sequence[Figure], passes_um: Sequence[float], reach_um: float) -> tuple[Remark, ...]:
+def walls(figures: Sequence[Figure], offset_um: Sequence[float], reach_um: float) -> tuple[Remark, ...]:
     """What is to be said of walls between figures that are thinner than the kerf is wide.
 
-    CannotCutError, ``too-near``, where the wire of one figure would cut another one: it removes what lies within its
-    largest offset and its reach, on its side of the contour. Nothing is looked at where the offset is 0.
+    CannotCutError, ``too-near``, where the wire of one figure would cut another one: it removes what lies within the
+    largest offset of the figure's passes and its reach, on its side of the contour. Of figures with an offset of 0
+    nothing is known.
     """
-    most = max(passes_um)
-    if most <= 0.0 or len(figures) < 2:
+    if len(figures) < 2 or max(offset_um) <= 0.0:
         return ()
-    close = _closest(figures, max(most + reach_um, 2.0 * reach_um))
-    cut = [_is_cut(figures, close, at, most + reach_um) for at in range(len(close.apart_um))]
-    bad, thin = (np.flatnonzero([one is which for one in cut]) for which in (True, False))
+    removed = [offset + reach_um if offset > 0.0 else 0.0 for offset in offset_um]
+    close = _closest(figures, max(*removed, 2.0 * reach_um))
+    lies = [_lies(figures, removed, close, at) for at in range(len(close.apart_um))]
+    across = np.array([one.removed_um for one in lies], dtype=np.float64)
+    is_wall = np.array([one.is_wall for one in lies], dtype=np.bool_)
+    bad = np.flatnonzero(close.apart_um < across * _LIMIT_SHARE)
+    thin = np.flatnonzero(is_wall & (close.apart_um < 2.0 * reach_um * _LIMIT_SHARE))
     if len(bad):
         worst = int(bad[np.argmin(close.apart_um[bad])])
         values = (
             ("one", str(figures[int(close.one[worst])].number)),
             ("other", str(figures[int(close.other[worst])].number)),
             ("apart_mm", f"{mm(float(close.apart_um[worst])):.4g}"),
-            ("kerf_mm", f"{mm(most + reach_um):.4g}"),
+            ("kerf_mm", f"{mm(float(across[worst])):.4g}"),
         )
         raise CannotCutError(Refusal("too-near", tuple(Point(x, y) for x, y in close.place_um[bad].tolist()), values))
     touch = close.apart_um[thin] <= BESIDE_UM
@@ -63,14 +67,21 @@ def _closest(figures: Sequence[Figure], within_um: float) -> _Close:
     return _Close(one[first], other[first], near.distance_um[first], near.place_um[first])
 
 
-def _is_cut(figures: Sequence[Figure], close: _Close, at: int, kerf_um: float) -> bool | None:
-    """Whether the wire of one of two figures cuts the other; None where it would, but lies far enough from it."""
-    pair = figures[int(close.one[at])], figures[int(close.other[at])]
-    for figure, other in (pair, pair[::-1]):
-        lies_inside = bool(np.mean(is_inside(figure.contour, spread(other.contour))) > 0.5)
-        if lies_inside == figure.runs_inside:
-            return True if close.apart_um[at] < kerf_um * _LIMIT_SHARE else None
-    return False
+class _Lies(NamedTuple):
+    """How much is removed between two figures by the wire of either, and whether a wall of material lies there."""
+
+    removed_um: float
+    is_wall: bool
+
+
+def _lies(figures: Sequence[Figure], removed_um: Sequence[float], close: _Close, at: int) -> _Lies:
+    one, other = int(close.one[at]), int(close.other[at])
+    removed, is_wall = 0.0, True
+    for mine, theirs in ((one, other), (other, one)):
+        lies_inside = np.mean(is_inside(figures[mine].contour, spread(figures[theirs].contour))) > 0.5
+        if lies_inside == figures[mine].runs_inside:
+            removed, is_wall = max(removed, removed_um[mine]), False
+    return _Lies(removed, is_wall)
 
 
 def _told(name: str, close: _Close, thin: Ints) -> Remark:

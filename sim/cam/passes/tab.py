@@ -72,12 +72,16 @@ def tab_passes(rounds: Rounds, making: Making) -> tuple[tuple[PassCut, ...], tup
 
 
 def _cut_off(rounds: Rounds, way: _Parted, last: PassCut, making: Making) -> PassCut:
-    """On over the tab from where the last pass ended, and over what is asked for beyond; from there back and out."""
-    tab = run_back(way.tab) if last.is_back else way.tab
-    over, _ = parted(last.along, making.overcut_um)
-    back = joined([run_back(over), run_back(tab)] if last.is_back else [run_back(over)])
-    out = lead_out(rounds.figure, rounds.thread, way.tab, making)
-    return PassCut(last.by_um, last.is_back, tab.picked(slice(0)), joined([tab, over]), joined([back, out]))
+    """On over the tab from where the last pass ended; from the entry out, with the overcut there on the way.
+
+    Where it comes out at the far end of the tab, it goes back in its own kerf.
+    """
+    nothing = way.tab.picked(slice(0))
+    over, _ = parted(way.open, making.overcut_um)
+    out = joined([run_back(over), lead_out(rounds.figure, rounds.thread, way.tab, making)])
+    if last.is_back:
+        return PassCut(last.by_um, True, nothing, run_back(way.tab), joined([way.tab, over, out]))
+    return PassCut(last.by_um, False, nothing, joined([way.tab, over]), out)
 
 
 def _end_of_open(rounds: Rounds, tab_um: float) -> Point:

@@ -1,4 +1,4 @@
-"""A plan to a draft whose offsets the controller adds: the contours of the drawing, with G41 and G42 for each pass."""
+"""A plan to a draft whose offsets the controller adds: the contours of the drawing; ISO says so by G41 and G42."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -6,11 +6,17 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.geometry.curves import Curves
+from parser.geometry.directions import directions
 from parser.iso.profiles.profile import Profile
 from parser.told.compensation import Compensation
+from parser.toolpath import Point
 from parser.write.draft import Draft
 from sim.cam.model import CannotCutError, CutPlan, FigureCut, PassCut, Refusal
 from sim.cam.path.drafted import draft_of_cuts
+
+_TANGENT_RAD = np.radians(0.5)
+"""At f = 0.1 mm the neighbours then miss each other by 0.9 µm; `drycut check` tells larger turns (3B214)."""
 
 
 class _Sided(NamedTuple):
@@ -39,6 +45,32 @@ def kept_draft(plan: CutPlan, on_contour: Sequence[FigureCut], profile: Profile)
         rules=profile.rules,
     )
     return replace(draft, compensation=compensation)
+
+
+def added_draft(plan: CutPlan, on_contour: Sequence[FigureCut]) -> Draft:
+    """The same without a word of it: f of a 4B controller, which lengthens and shortens the radii of arcs.
+
+    It has one offset, on one side, for all, and moves the neighbours of tangent joints alone (docs/3b.md §6).
+    CannotCutError where the plan needs more.
+    """
+    _refuse_misfits(plan, on_contour)
+    if len({one.by_um for cut in plan.cuts for one in cut.passes}) > 1 or len({cut.side for cut in plan.cuts}) > 1:
+        raise CannotCutError(Refusal("kept-several"))
+    for cut in on_contour:
+        for one in cut.passes:
+            _refuse_corners(cut, one.along)
+    return draft_of_cuts(on_contour)
+
+
+def _refuse_corners(cut: FigureCut, along: Curves) -> None:
+    leaving, arriving = directions(along)
+    onward = np.roll(leaving, -1, axis=0)
+    turn = np.arctan2(arriving[:, 0] * onward[:, 1] - arriving[:, 1] * onward[:, 0], (arriving * onward).sum(axis=1))
+    sharp = np.flatnonzero(np.abs(turn) > _TANGENT_RAD)
+    if len(sharp):
+        places = tuple(Point(*place) for place in along.end_um[sharp].tolist())
+        values = (("figure", str(cut.figure.number)), ("degrees", f"{np.degrees(np.abs(turn).max()):.1f}"))
+        raise CannotCutError(Refusal("kept-corner", places, values))
 
 
 def _sided(plan: CutPlan, on_contour: Sequence[FigureCut]) -> Iterator[_Sided]:

@@ -70,7 +70,12 @@ def as_run(scenario: Scenario, plan: CutPlan, toolpath: Toolpath) -> AsRun:
     wire = _wire(scenario.wire, least)
     if wire is None:
         return AsRun(replace(asked, kerf=False), edge_um, (), (Remark("no-wire", {"offset": least}),))
-    how = AsRun(replace(asked, wire=wire), edge_um, _told(scenario.wire, wire))
+    notes = _told(scenario.wire, wire)
+    if plan.is_added:
+        side = plan.cuts[0].side
+        asked = replace(asked, offset=Offset((OffsetPass(least),), side))
+        notes = (*notes, Remark("added", {"offset": least, "side": side.name.lower()}))
+    how = AsRun(replace(asked, wire=wire), edge_um, notes)
     return how if how.is_one_edge else how._replace(unproved=(Remark("edges-differ"),))
 
 

@@ -17,7 +17,7 @@ from sim.cam.threads.chosen import Wanted, begun_on, chosen
 from sim.cam.threads.entries import nearest_of
 from sim.cam.threads.given import Taken, across, at_corners, matched, on_contour, refused, waste_of
 from sim.cam.threads.marks import marks_of_layer, points_of
-from sim.setup.making import LeadIn, Making
+from sim.setup.making import Making
 
 _ROUND = ("arc", "tangent")
 _SPARE_UM = 3.0  # more than places move from one side to the other as they become whole µm
@@ -43,11 +43,13 @@ def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reac
         threads |= waste.chosen(wanted, making)
     elif len(wanted):
         threads |= begun_on(waste.room, waste.side, wanted)
-    return waste.led(threads, making.lead)
+    return waste.led(threads, making)
 
 
 def thread_notes(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
     """What is to be said of leads that are not as they are asked for."""
+    if making.lead in _ROUND and _is_back(making):
+        return (Remark("straight-back"),)
     straight: dict[bool, list[str]] = {True: [], False: []}
     for figure, thread in zip(figures, threads, strict=True):
         if thread.lead != making.lead and thread.by != "contour":
@@ -134,19 +136,21 @@ class _Waste:
         """(m,) how far places lie from all contours, as far as it matters."""
         return nearest(self.room, place_um, self.clear_um).distance_um
 
-    def led(self, threads: Mapping[int, Thread], lead: LeadIn) -> tuple[Thread, ...]:
+    def led(self, threads: Mapping[int, Thread], making: Making) -> tuple[Thread, ...]:
         """Threads of all figures, in their order, with the lead that is asked for where that may be.
 
         Round leads are for slugs alone. A pass runs into the kerf of its own lead-in before it comes to its end: a part
-        would fall with a nib on its edge, while that of a hole is cut off the part that stays.
+        would fall with a nib on its edge, while that of a hole is cut off the part that stays. Nor are they for passes
+        back and forth: the lead of a pass back would cut the slug in two.
         """
+        lead = making.lead
         lead_off = {at: one for at, one in threads.items() if one.by != "contour"}
-        places = {at: np.array(one.place_um) for at, one in lead_off.items()}
+        places = {at: np.array(one.place_um, dtype=np.float64) for at, one in lead_off.items()}
         found = dict(threads)
         if lead == "point":
             for at, entry in at_corners(self.room, self.side, places, self.clear_um).items():
                 found[at] = threads[at]._replace(entry=entry, lead=lead)
-        elif lead in _ROUND and places:
+        elif lead in _ROUND and places and not _is_back(making):
             off = np.array([math.dist(one.place_um, one.entry.place_um) for one in lead_off.values()])
             clear = nearest(self.room, np.array(list(places.values())), float(off.max())).distance_um
             # Leads of all forms are free in the circle about the thread point that touches contours at the entry alone.
@@ -154,6 +158,11 @@ class _Waste:
             for at in np.array(list(lead_off))[is_round].tolist():
                 found[at] = threads[at]._replace(lead=lead)
         return tuple(found[at] for at in range(len(self.figures)))
+
+
+def _is_back(making: Making) -> bool:
+    """Whether some passes run back."""
+    return making.returning == "back" and len(making.passes_um) > 1
 
 
 def _whole(places: Sequence[Point]) -> Floats:

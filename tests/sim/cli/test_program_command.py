@@ -120,7 +120,7 @@ def test_the_suffix_or_as_tells_the_language(part: Path) -> None:
         (("-o", "p.3b", "--on-layer", "HOLES"), "is no wish"),
         (("-o", "p.3b", "--on-layer", "HOLES:side=left"), "a layer takes side="),
         (("-o", "p.3b", "--on-layer", "HOLES:rank=one"), "a layer takes side="),
-        (("-o", "p.3b", "--compensation", "kept"), "compensation is for ISO, not 3b"),
+        (("-o", "p.3b", "--compensation", "kept"), "compensation is for 4B and ISO, not 3b"),
         (("-o", "p.iso", "--form", "aligned"), "form is for 3B and 4B, not iso"),
         (("-o", "p.3b", "--picture", "p.bmp"), "neither a .png nor a .svg"),
         (("-o", "p.3b", "--picture", "part.png", "--machine", "none"), "none"),

@@ -104,7 +104,7 @@ def test_the_program_is_that_of_the_section(tmp_path: Path) -> None:
         (f"{LEAST}order = [1.5]\n", "order: entry 1 is a whole number; found 1.5"),
         (f"{LEAST}starts_mm = [[1.0]]\n", r"starts_mm: entry 1 is \[x, y\]"),
         (f'{LEAST}side = "left"\n', "side is one of nesting, inside, outside"),
-        (f'{LEAST}compensation = "kept"\n', "compensation is for ISO, not 3b"),
+        (f'{LEAST}compensation = "kept"\n', "compensation is for 4B and ISO, not 3b"),
         (f'{LEAST}file = "a.iso"\nform = "aligned"\n', "form is for 3B and 4B, not iso"),
         (f"{LEAST}passes = [0.1]\n", "did you mean passes_mm"),
         (f'{LEAST}[[layer]]\nname = "A"\nrank = 0.5\n', "rank is a whole number"),

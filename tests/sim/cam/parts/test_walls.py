@@ -14,9 +14,11 @@ from sim.setup.making import Making
 REACH_UM = 100.0
 
 
-def _told(*entities: list[Piece], passes_um: tuple[float, ...] = (REACH_UM,)) -> list[str]:
-    parts = parts_of(drawing_of(list(entities)), Making())
-    return [remark_text(note) for note in walls(parts.figures, passes_um, REACH_UM)]
+def _told(*entities: list[Piece], offset_um: float | list[float] = REACH_UM) -> list[str]:
+    """What is told of entities with one offset for all figures, or with one for each."""
+    figures = parts_of(drawing_of(list(entities)), Making()).figures
+    each = offset_um if isinstance(offset_um, list) else [offset_um] * len(figures)
+    return [remark_text(note) for note in walls(figures, each, REACH_UM)]
 
 
 @pytest.mark.parametrize(
@@ -33,13 +35,17 @@ def test_waste_narrower_than_what_the_wire_removes_is_refused(entities, apart):
         _told(*entities)
     assert caught.value.refusal.why == "too-near"
     assert dict(caught.value.refusal.values)["apart_mm"] == apart
-    assert _told(*entities, passes_um=(0.0,)) == []  # of a program on the contour itself nothing is known
+    assert _told(*entities, offset_um=0.0) == []  # of a program on the contour itself nothing is known
 
 
 def test_waste_as_wide_as_what_the_wire_removes_is_cut():
     assert _told(square(0, 0, 10), square(10.2, 0, 10)) == []
-    with pytest.raises(CannotCutError):  # in the first of two passes it runs farther off
-        _told(square(0, 0, 10), square(10.2, 0, 10), passes_um=(150.0, 100.0))
+    pair = square(0, 0, 10), square(10.22, 0, 10)
+    assert _told(*pair, offset_um=[100.0, 0.0]) == []
+    for offsets in ([150.0, 100.0], [100.0, 150.0], [0.0, 150.0]):  # as much as the first of several passes lies off
+        with pytest.raises(CannotCutError) as caught:
+            _told(*pair, offset_um=offsets)
+        assert dict(caught.value.refusal.values)["kerf_mm"] == "0.25"
 
 
 def test_thin_walls_and_contours_that_touch_are_told_with_their_place():
@@ -61,7 +67,7 @@ def test_a_plate_of_ten_thousand_lines_is_parted_and_looked_at_in_a_part_of_a_se
     drawing = drawing_of([*holes, square(-10, -10, 650)])
     begin = time.process_time()
     parts = parts_of(drawing, Making())
-    assert walls(parts.figures, (REACH_UM,), REACH_UM) == ()
+    assert walls(parts.figures, [REACH_UM] * 2501, REACH_UM) == ()
     taken_s = time.process_time() - begin
     assert [figure.kind for figure in parts.figures] == ["hole"] * 2500 + ["outline"]
     assert taken_s < 3.0  # 0.25 s on an idle core

@@ -9,20 +9,24 @@ import pytest
 import shapely
 from cam_contours import circle, contour, figure, flat, rounded, star
 
+from parser.geometry.along import headings_along, places_at
 from parser.geometry.curves import Curves, joined
 from parser.toolpath import Point
-from sim.cam.model import CannotCutError, Figure, FigureCut, PassCut, Thread
+from sim.cam.model import CannotCutError, Entry, Figure, FigureCut, PassCut, Thread
 from sim.cam.passes.passes import figure_cut
-from sim.cam.threads.threads import entry_at
 from sim.setup.making import LayerWish, Making
 
 PASSES = (180.0, 120.0, 100.0)
 
 
 def threaded(of: Figure, row: int = 0, share: float = 0.5, lead_um: float = 2000.0) -> Thread:
-    entry = entry_at(of, row, share * float(of.contour.length_um[row]))
-    place, out = entry.place_um, entry.out
-    return Thread(Point(place.x + lead_um * out.x, place.y + lead_um * out.y), "chosen", entry)
+    """A thread point in the waste across from a place of the contour."""
+    rows, along = np.array([row]), np.array([share * float(of.contour.length_um[row])])
+    (x, y), way_um = places_at(of.contour, rows, along)[0].tolist(), headings_along(of.contour, rows, along)[0]
+    left = 1.0 if of.runs_inside else -1.0
+    out = Point(float(-way_um[1] * left), float(way_um[0] * left))
+    entry = Entry(row, float(along[0]), Point(x, y), out)
+    return Thread(Point(x + lead_um * out.x, y + lead_um * out.y), "chosen", entry)
 
 
 def way(one: PassCut) -> Curves:
@@ -77,7 +81,7 @@ def test_passes_and_cut_off_are_the_whole_way_and_no_place_of_the_tab_is_cut_bef
     for one, full in zip(cut.passes, whole.passes, strict=True):
         left = float(full.along.length_um.sum() - one.along.length_um.sum())
         assert 0.4 * tab_um <= left <= tab_um + 4.0 * one.by_um + 6.0  # round a corner the way is longer, or shorter
-    tab = last.along.length_um.sum() - making.overcut_um
+    tab = last.along.length_um.sum() - (0.0 if last.is_back else making.overcut_um)
     assert tab == pytest.approx(whole.passes[-1].along.length_um.sum() - cut.passes[-1].along.length_um.sum(), abs=3.1)
     assert _starts_beside(cut)
     assert flat(last.out)[-1].tolist() == pytest.approx(list(thread.place_um))

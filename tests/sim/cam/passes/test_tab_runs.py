@@ -6,6 +6,8 @@ import pytest
 from drawings_dxf import drawn
 from ezdxf.layouts import Modelspace
 
+from parser.shape.passes import find_passes
+from parser.toolpath import Point
 from sim.cam.maker import Made, made
 from sim.convert.wanted import Wanted
 from sim.setup.machine.machine import load_machine
@@ -45,3 +47,23 @@ def test_slug_and_part_fall_when_they_should(tmp_path: Path, making: Making) -> 
     assert part.held_after_block == pauses[-1]
     assert part.freed.block > pauses[-1]
     assert not part.early
+
+
+def test_passes_are_told_apart_where_the_open_stretch_ends_in_a_short_block(tmp_path: Path) -> None:
+    def slot(space: Modelspace) -> None:
+        space.add_lwpolyline([(-5, -3, 0), (5, -3, 1), (5, 3, 0), (-5, 3, 1)], format="xyb", close=True)
+
+    # From the middle of the lower edge, 5 mm from where the arc ends: the stretch ends with a line of 30 µm.
+    making = Making(passes_um=PASSES, tab_um=4970.0, direction="ccw", starts_um=(Point(0.0, -6000.0),))
+    found = run(drawn(tmp_path, slot), making)
+    assert found.plan.cuts[0].passes[0].along.length_um[-1] == pytest.approx(30.0, abs=1.0)
+    passes = find_passes(found.program.toolpath).passes
+    assert [(one.is_back, one.is_tab) for one in passes] == [
+        (False, False),
+        (True, False),
+        (False, False),
+        (False, True),
+    ]
+    assert [one.offset_um(100.0) for one in passes] == pytest.approx([180.0, 120.0, 100.0, 100.0], abs=2.0)
+    assert found.proof is not None
+    assert found.proof.findings == ()

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from drawings_dxf import drawn
+from ezdxf.layouts import Modelspace
 from made_programs import plate_file
 from runs import plain_scenario
 
@@ -11,6 +13,7 @@ from parser.geometry.curves import CurveKind
 from parser.write.iso_choices import iso_choices
 from sim.cam.maker import Made, NotMade, unproved
 from sim.cam.path.drafted import draft_of_plan
+from sim.cam.proof.proof import Given, proved
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands
 from sim.convert.wanted import Wanted
@@ -58,6 +61,49 @@ def test_each_pass_has_its_side_and_its_register(path: Path) -> None:
     assert runs == [(1, "D1", 150.0), (-1, "D2", 120.0), (1, "D3", 100.0)]
     assert "H001=150\nG41 H001\n" in done.program.text
     assert "H002=120\nG42 H002\n" in done.program.text
+
+
+def test_4b_has_the_contour_whose_radii_the_controller_changes(tmp_path: Path) -> None:
+    path = drawn(tmp_path, rounded)
+    wanted = Wanted("4b", keeps=True)
+    done = unproved(path, Making(passes_um=(100.0,)), wanted, plain_scenario())
+    assert isinstance(done, Made)
+    words = done.program.toolpath.words
+    assert words is not None
+    assert words.radius_um[words.turn != 0].tolist() == [5000] * 4
+    assert words.curve[words.turn != 0].tolist() == [1] * 4
+    proof = proved(Given(done.program, done.plan, done.plan.drawing, done.written, wanted.bound_um), plain_scenario())
+    assert proof.verdict == "pass"
+    assert "added" in {note.name for note in proof.notes}
+
+
+def rounded(space: Modelspace) -> None:
+    quarter = np.tan(np.pi / 8.0)
+    ends = [(5, 0, 0), (35, 0, quarter), (40, 5, 0), (40, 15, quarter)]
+    ends += [(35, 20, 0), (5, 20, quarter), (0, 15, 0), (0, 5, quarter)]
+    space.add_lwpolyline(ends, format="xyb", close=True)
+
+
+@pytest.mark.parametrize(
+    ("figures", "passes_um", "why"), [(None, (120.0, 100.0), "kept-several"), ("plate", (100.0,), "kept-several")]
+)
+def test_what_a_4b_controller_cannot_add_is_refused(
+    path: Path, tmp_path: Path, figures: str | None, passes_um: tuple[float, ...], why: str
+) -> None:
+    file = path if figures else drawn(tmp_path, rounded)
+    done = unproved(file, Making(passes_um=passes_um, direction="ccw"), Wanted("4b", keeps=True), plain_scenario())
+    assert isinstance(done, NotMade)
+    assert done.refusal.why == why
+
+
+def test_corners_are_refused_in_4b_with_their_places(tmp_path: Path) -> None:
+    corners = [(0, 0), (20, 0), (20, 10), (0, 10)]
+    path = drawn(tmp_path, lambda space: space.add_lwpolyline(corners, close=True))
+    done = unproved(path, Making(passes_um=(100.0,)), Wanted("4b", keeps=True), plain_scenario())
+    assert isinstance(done, NotMade)
+    assert done.refusal.why == "kept-corner"
+    assert sorted(place.x for place in done.refusal.places_um) == [0.0, 0.0, 20_000.0, 20_000.0]
+    assert dict(done.refusal.values)["degrees"] == "90.0"
 
 
 def test_a_tab_is_refused(path: Path) -> None:
