@@ -49,6 +49,11 @@ class WithoutOffset(Fact):
 
 
 @dataclass(frozen=True, slots=True)
+class OfAddedOffset(Fact):
+    """It tells what the offset of the program's controller does; nothing where that adds none."""
+
+
+@dataclass(frozen=True, slots=True)
 class NoEnd(Fact):
     """The program ends without an end code."""
 

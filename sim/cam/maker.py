@@ -24,7 +24,7 @@ from sim.convert.proof import proof as held_against
 from sim.convert.wanted import Wanted, begun, encoded, read_with, written
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
-from sim.table.motion import Progress, silent
+from sim.table.progress import Progress, silent
 
 
 class Made(NamedTuple):
@@ -113,7 +113,9 @@ def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
     making = plan.making._replace(layers=wishes)
     nothing = (0.0,) * len(plan.passes_um)
     on_contour = tuple(figure_cut(cut.figure, cut.thread, nothing, making) for cut in plan.cuts)
-    return added_draft(plan, on_contour) if wanted.iso is None else kept_draft(plan, on_contour, wanted.iso.profile)
+    return (
+        added_draft(plan, on_contour) if wanted.iso is None else kept_draft(plan, on_contour, wanted.iso.profile.rules)
+    )
 
 
 def _given(path: Path, done: Made, wanted: Wanted) -> Given:

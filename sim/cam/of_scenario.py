@@ -6,7 +6,7 @@ from sim.cam.maker import Made, NotMade, unproved
 from sim.setup.making import ToMake
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
-from sim.table.motion import Progress, silent
+from sim.table.progress import Progress, silent
 
 
 def program_of(scenario: Scenario, to_make: ToMake, progress: Progress = silent) -> Made | NotMade:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from parser.dialect.at_block import at_block
+from parser.findings.facts import OfAddedOffset
 from parser.findings.findings import Finding
 from parser.geometry.boxes import distinct
 from parser.geometry.curves import Floats, Ints
@@ -86,7 +87,7 @@ def _sharp(program: Program, rows: Ints, turn: Floats, shift_um: float) -> Itera
     at = int(sharp[0])
     row, after = int(rows[at]), int(np.roll(rows, -1)[at])
     angle = float(np.abs(turn[at]))
-    yield at_block(
+    found = at_block(
         toolpath,
         program.lines,
         "3B214",
@@ -97,6 +98,7 @@ def _sharp(program: Program, rows: Ints, turn: Floats, shift_um: float) -> Itera
         shift=2.0 * shift_um * float(np.sin(angle / 2.0)),
         more=len(sharp) - 1,
     )
+    yield found.with_fact(OfAddedOffset())
 
 
 def _mismarked(program: Program, words: StepWords, rows: Ints, turn: Floats) -> Iterator[Finding]:

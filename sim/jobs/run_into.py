@@ -19,7 +19,7 @@ from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.inline import inline_pictures
 from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
-from sim.table.motion import Progress, silent
+from sim.table.progress import Progress, silent
 
 FILES: Final = ("report.html", "replay.html", "cut.png", "report.json")
 """What every run writes."""

@@ -8,7 +8,7 @@ from parser.program import Program, load_program
 from parser.text.encoding import printable
 from sim.setup.making import ToMake
 from sim.setup.scenario import Scenario
-from sim.table.motion import Progress, silent
+from sim.table.progress import Progress, silent
 
 
 class Source(NamedTuple):

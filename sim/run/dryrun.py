@@ -33,7 +33,8 @@ from sim.run.prepare import Prepared, prepare
 from sim.setup.expectations import Missed
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
-from sim.table.motion import Motion, Moved, Progress, silent, simulate
+from sim.table.motion import Motion, Moved, simulate
+from sim.table.progress import Progress, silent
 from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak

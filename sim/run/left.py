@@ -14,7 +14,7 @@ from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
-from sim.table.motion import Progress
+from sim.table.progress import Progress
 from sim.table.trace import Trace
 
 _REMAINS: Final = "check-remains"  # the check of what a cut leaves, which only a run makes

@@ -19,7 +19,7 @@ from sim.run.findings import expectation_findings
 from sim.run.report import build_report
 from sim.setup.expectations import missed
 from sim.setup.scenario import Scenario
-from sim.table.motion import Progress, silent
+from sim.table.progress import Progress, silent
 
 NO_PIECES = Pieces(Frame(None, None, None, ()), (), 0)
 MOST_PASSES = 6.0

@@ -3,7 +3,7 @@
 import math
 from collections import deque
 from collections.abc import Callable
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,23 +17,13 @@ from controller.stepping.pulses import Pulses
 from parser.toolpath import Toolpath
 from sim.setup.machine.machine import Machine
 from sim.table.follow import Following, Setup
+from sim.table.progress import Progress
 from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
 from sim.table.trace import Trace, origin_um
 from sim.table.when.rhythm import rhythm
 from sim.table.when.ticks import Ticks, choose_ticks
-
-
-class Progress(Protocol):
-    """Told how far a stage has come; the stage by its name, of which people read the text in ``progress.toml``."""
-
-    def __call__(self, stage: str, done: int, total: int) -> None:
-        """`done` of `total` units of the stage."""
-
-
-def silent(stage: str, done: int, total: int) -> None:
-    """Progress that nobody watches."""
 
 
 class Motion(NamedTuple):

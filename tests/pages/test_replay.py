@@ -27,7 +27,8 @@ from sim.run.prepare import prepare
 from sim.run.recording import Recording, recorded
 from sim.setup.quiz import Question, WrittenQuestion
 from sim.show.replay.document import replay_page
-from sim.table.motion import motion_of, silent
+from sim.table.motion import motion_of
+from sim.table.progress import silent
 from sim.table.trace import Trace, origin_um
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from parser.dialect.choices import Choices
 from parser.program import parse_program
 from sim.run.recording import recorded
 from sim.show.replay.document import replay_document, replay_page
-from sim.table.motion import silent
+from sim.table.progress import silent
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

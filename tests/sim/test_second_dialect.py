@@ -32,7 +32,7 @@ from sim.run.report import build_report
 from sim.setup.part import Offset, OffsetPass
 from sim.setup.quiz import Question
 from sim.show.pictures.gallery import PICTURES
-from sim.table.motion import silent
+from sim.table.progress import silent
 
 SLOT = "10: go 4 0\narc 4 4 4 2 left\n30: go 0 4\narc 0 0 0 2 left\nend\n"
 """A slot of 4 mm between centres and 4 mm width, its path run counter-clockwise."""
@@ -270,6 +270,9 @@ _TOKEN = re.compile(rf"(?<![A-Za-z0-9_/])(?:{_WORDS}|\AG\Z|G(?=\$\{{))(?![A-Za-z
 _SPEAK_3B = {
     "sim/check/radius_rule.py": "the marks of 4B, where a program has them",
     "sim/cli/convert.py": "writes 3B, whose forms its options name",
+    "sim/cli/program.py": "makes 3B, which its help names",
+    "sim/cli/program_options.py": "makes 3B, whose forms and codes its options name",
+    "sim/setup/making.py": "asks for 3B, whose forms and codes its settings name",
     "sim/cli/scenario_options.py": "the help names the controllers of 3B, which step point by point",
     "sim/run/ballbar/circle.py": "writes the circle of the test as a 3B program",
     "sim/show/replay/assets/decisions.js": "what a counting controller does in each quadrant, where there are words",

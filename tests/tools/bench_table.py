@@ -21,7 +21,8 @@ from parser.program import parse_program
 from sim.run.ballbar.circle import circle_test, run_test
 from sim.setup.machine.machine import Machine, TableEngine, load_machine
 from sim.table.follow import Following
-from sim.table.motion import Motion, Moved, motion_of, silent, simulate
+from sim.table.motion import Motion, Moved, motion_of, simulate
+from sim.table.progress import silent
 
 FINE_TICK_S = 1e-4
 THICKNESS_MM = 40.0

@@ -9,7 +9,7 @@ from parser.program import parse_program
 from sim.run.recording import Recording, recorded
 from sim.show.html.bundle import joined
 from sim.show.replay.document import replay_document
-from sim.table.motion import silent
+from sim.table.progress import silent
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

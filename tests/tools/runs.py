@@ -16,7 +16,7 @@ from sim.run.dryrun import DryRun, dry_run
 from sim.run.recording import Recording, check_expectations, recorded
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.scenario import Scenario, load_scenario
-from sim.table.motion import silent
+from sim.table.progress import silent
 
 
 def plain_scenario(**changes: object) -> Scenario:

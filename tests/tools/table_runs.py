@@ -12,7 +12,8 @@ from parser.program import parse_program
 from sim.setup.machine.machine import Machine, TableEngine
 from sim.setup.machine.table_model import Motor, TableModel
 from sim.table.follow import Following, Setup
-from sim.table.motion import Motion, Moved, motion_of, silent, simulate
+from sim.table.motion import Motion, Moved, motion_of, simulate
+from sim.table.progress import silent
 from sim.table.when.ticks import Ticks
 
 TICK_S = 1e-4

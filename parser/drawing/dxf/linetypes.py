@@ -24,7 +24,7 @@ class Linetypes:
 
 
 def _has_gaps(entry: Linetype) -> bool:
-    return any(tag.code == _ELEMENT and tag.value < 0.0 for tag in entry.pattern_tags.tags)
+    return any(code == _ELEMENT and value < 0.0 for code, value in entry.pattern_tags.tags)
 
 
 def _sounds_broken(name: str) -> bool:

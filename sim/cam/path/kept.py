@@ -8,8 +8,7 @@ import numpy as np
 
 from parser.geometry.curves import Curves
 from parser.geometry.directions import directions
-from parser.iso.profiles.profile import Profile
-from parser.told.compensation import Compensation
+from parser.told.compensation import Compensation, CompensationRules
 from parser.toolpath import Point
 from parser.write.draft import Draft
 from sim.cam.model import CannotCutError, CutPlan, FigureCut, PassCut, Refusal
@@ -28,7 +27,7 @@ class _Sided(NamedTuple):
     register: str
 
 
-def kept_draft(plan: CutPlan, on_contour: Sequence[FigureCut], profile: Profile) -> Draft:
+def kept_draft(plan: CutPlan, on_contour: Sequence[FigureCut], rules: CompensationRules) -> Draft:
     """The draft of a plan of which `on_contour` are the same cuts on the contours themselves.
 
     Compensation is set up by the first line of a lead-in and ended by the lead-out (docs/iso.md §9). CannotCutError
@@ -42,7 +41,7 @@ def kept_draft(plan: CutPlan, on_contour: Sequence[FigureCut], profile: Profile)
         side=np.repeat(np.array([one.side for one in sided], dtype=np.int64), rows),
         by_um=np.repeat(np.array([one.by_um for one in sided], dtype=np.float64), rows),
         register=tuple(one.register for one in sided for _ in range(one.rows)),
-        rules=profile.rules,
+        rules=rules,
     )
     return replace(draft, compensation=compensation)
 

@@ -2,12 +2,13 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from parser.drawing.model import Drawing
 from parser.findings.errors import ProgramError, SettingsError
+from parser.findings.facts import OfAddedOffset, WithoutOffset
 from parser.findings.findings import Finding
 from parser.findings.remarks import Remark
 from parser.geometry.curves import Bools, Ints
@@ -28,13 +29,10 @@ from sim.measure.compare.tables import by_block, by_entity
 from sim.run.dryrun import DryRun, dry_run
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
-from sim.table.motion import Progress, silent
+from sim.table.progress import Progress, silent
 
 _MEASURED_UM = 0.05
 """A comparison of exact paths is right to 0.01 µm, and fillets of a drawing to 0.02 µm."""
-
-_OF_ADDED: Final = frozenset({"3B214"})
-"""Findings of 4B of what a controller's own offset makes of corners: none where the path has its offset already."""
 
 
 class Given(NamedTuple):
@@ -83,10 +81,10 @@ def proved(given: Given, scenario: Scenario, progress: Progress = silent) -> Pro
 
 def _of_run(run: DryRun, how: AsRun) -> tuple[tuple[Finding, ...], tuple[Remark, ...]]:
     """The findings of a run, and what is to be known to run the program so: of 4B, that its offset is worked in."""
-    is_4b = any(finding.code == "3B110" for finding in run.findings)
+    is_4b = any(isinstance(one.fact, WithoutOffset) for one in run.checked)
     if not is_4b or how.scenario.offset is not None or not how.has_offset:
         return run.findings, ()
-    return tuple(one for one in run.findings if one.code not in _OF_ADDED), (Remark("worked-in"),)
+    return tuple(one for one in run.findings if not isinstance(one.fact, OfAddedOffset)), (Remark("worked-in"),)
 
 
 class _Found(NamedTuple):

@@ -16,8 +16,9 @@ from sim.run.ballbar.parts import DeviationParts, parts_of
 from sim.run.ballbar.turn import NAMES, SENSES, MeasuredTurn, Sense
 from sim.setup.machine.machine import Machine
 from sim.setup.toml.reader import Bound, number
-from sim.table.motion import Motion, Progress, motion_of, simulate
+from sim.table.motion import Motion, motion_of, simulate
 from sim.table.physics.turning import motors_um
+from sim.table.progress import Progress
 from sim.table.record.losses import Loss
 
 FEED_MM_MIN: Final = Bound(0.1, 100_000.0)

@@ -12,7 +12,7 @@ from sim.show.film.clock import FilmClock
 from sim.show.film.plate import Pixels
 from sim.show.film.screen import Look, Screen
 from sim.show.film.writers import FORMATS, MOST_HELD_PX, Format, Frames, encoder
-from sim.table.motion import Progress
+from sim.table.progress import Progress
 
 FORMAT_NAMES: Final = ", ".join(FORMATS)
 

@@ -8,7 +8,7 @@ from sim.show.draw.sheet import drawing
 from sim.show.pictures.gallery import PICTURES, Subject
 from sim.show.pictures.path import PATH
 from sim.show.pictures.shown import label
-from sim.table.motion import Progress
+from sim.table.progress import Progress
 
 WIDTH_PX = 1600
 

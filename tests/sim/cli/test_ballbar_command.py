@@ -27,7 +27,7 @@ from sim.show.draw.dial import RING_SIZES, RINGS, ring_for
 from sim.show.draw.paints import LIGHT, Paint
 from sim.show.pictures.ballbar.plot import draw_ballbar
 from sim.show.terminal.ballbar import print_ballbar
-from sim.table.motion import silent
+from sim.table.progress import silent
 from sim.table.record.losses import Loss
 
 SMALL = ("ballbar", "--radius", "1mm")

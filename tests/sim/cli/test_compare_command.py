@@ -199,7 +199,7 @@ def test_a_layer_is_chosen(tmp_path: Path) -> None:
 
 
 def test_a_drawing_that_does_not_close_is_said(tmp_path: Path) -> None:
-    loose = Shape("line", (0.0, 0.0), [Line((0.0, 3000.0))], 1.0)
+    loose = Shape("line", (-2000.0, 0.0), [Line((0.0, 3000.0))], 1.0)
     found = compared(tmp_path, punch(L_SHAPE), L_SHAPE, loose)
     assert [remark_text(note) for note in found.notes] == ["the drawing: 1 of 2 chains of curves do not close"]
 

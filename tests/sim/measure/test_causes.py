@@ -23,7 +23,7 @@ from sim.run.dryrun import DryRun, dry_run
 from sim.setup.machine.controller_model import read_controller
 from sim.setup.scenario import load_scenario
 from sim.setup.wire import DEFAULT_WIRE
-from sim.table.motion import silent
+from sim.table.progress import silent
 from sim.table.trace import Trace
 
 RING = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 DD"

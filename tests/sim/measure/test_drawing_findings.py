@@ -17,7 +17,7 @@ from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.result import Asked
 from sim.run.dryrun import DryRun, dry_run
 from sim.setup.part import DrawingTarget
-from sim.table.motion import silent
+from sim.table.progress import silent
 
 LED_SQUARE = """B0B2000B2000GYL2
 B2000B0B2000GXL1 B0B4000B4000GYL2 B4000B0B4000GXL3 B0B4000B4000GYL4 B2000B0B2000GXL1

@@ -13,7 +13,7 @@ from sim.run.ballbar.circle import circle_test, measure, run_test
 from sim.run.ballbar.figures import circularity, figures_of, least_squares_circle
 from sim.run.ballbar.turn import SENSES, MeasuredTurn
 from sim.setup.machine.machine import load_machine
-from sim.table.motion import silent
+from sim.table.progress import silent
 from sim.units import parse_speed
 
 EXACT_UM = 0.002

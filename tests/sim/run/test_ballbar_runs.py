@@ -7,7 +7,7 @@ from runs import machine
 from parser.told.step_words import Axis
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test
 from sim.run.ballbar.parts import DeviationParts
-from sim.table.motion import silent
+from sim.table.progress import silent
 
 RADIUS_UM = 10_000.0
 FEED_UM_S = 4_000.0

@@ -22,7 +22,7 @@ from sim.run.offsetting import as_run
 from sim.run.report import build_report
 from sim.setup.part import Offset, OffsetPass
 from sim.show.terminal.cut_rows import pass_rows
-from sim.table.motion import silent
+from sim.table.progress import silent
 
 SCHEMA = json.loads((ROOT / "docs" / "report.schema.json").read_text("utf-8"))
 ASKED = Offset((OffsetPass(100.0),), Side.LEFT)

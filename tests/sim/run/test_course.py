@@ -14,7 +14,7 @@ from sim.cut.pieces.pieces import Piece
 from sim.measure.deviation.across import across_um
 from sim.run.course import Course, course_of
 from sim.run.recording import recorded
-from sim.table.motion import silent
+from sim.table.progress import silent
 from sim.table.record.losses import Loss
 
 PART = """

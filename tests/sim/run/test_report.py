@@ -17,7 +17,7 @@ from sim.jobs.run_into import run_into
 from sim.run.report import build_report
 from sim.setup.wire import DEFAULT_WIRE
 from sim.show.terminal.run import print_summary
-from sim.table.motion import silent
+from sim.table.progress import silent
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
 

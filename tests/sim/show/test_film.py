@@ -30,7 +30,7 @@ from sim.show.film.screen import Look, Screen
 from sim.show.film.strip import bar_of
 from sim.show.film.window import LEAST_PX, NO_DISPLAY, Window, open_display
 from sim.show.words import Words
-from sim.table.motion import silent
+from sim.table.progress import silent
 from sim.table.trace import Trace
 
 PART = """
