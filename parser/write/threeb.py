@@ -12,7 +12,7 @@ from parser.told.step_words import Axis, StepWords
 from parser.units import mm
 from parser.words.chained import Chained, chained_words
 from parser.words.labels import label
-from parser.words.nearest import nearest_words
+from parser.words.nearest.nearest import nearest_words
 from parser.write.draft import Draft, Written
 
 Form = Literal["compact", "aligned", "detailed"]

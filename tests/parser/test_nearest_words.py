@@ -8,7 +8,7 @@ from parser.geometry.curves import Curves, Floats, curves_between
 from parser.told.step_words import Axis
 from parser.words.chained import Chained, chained_words
 from parser.words.moves import moves
-from parser.words.nearest import nearest_words
+from parser.words.nearest.nearest import nearest_words
 
 _AIM_UM, _LINE_UM, _CLOSED_UM = 1.35, 1.1, 0.5
 _SHARES = np.linspace(0.0, 1.0, 33)

@@ -3,10 +3,10 @@
 import numpy as np
 
 from parser.drawing.dxf.forms import CENTER, END, START
-from parser.drawing.fit.batches import in_batches
-from parser.drawing.fit.fit import Drawn, arcs_of_pieces
+from parser.drawing.fit.curves.batches import in_batches
+from parser.drawing.fit.curves.fit import Drawn, arcs_of_pieces
+from parser.drawing.fit.curves.pieces import pieces_of_ellipses
 from parser.drawing.fit.fitted import Fitted
-from parser.drawing.fit.pieces import pieces_of_ellipses
 from parser.geometry.curves import Floats, Ints
 
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.drawing.fit.fitted import Fitted
-from parser.drawing.fit.polylines import arcs_of_lines
+from parser.drawing.fit.lines.polylines import arcs_of_lines
 from parser.drawing.model import Drawing, DrawnLoop, running
 from parser.geometry.curves import Bools, Curves, Ints, joined
 

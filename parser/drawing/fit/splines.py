@@ -5,10 +5,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from parser.drawing.dxf.forms import Spline
-from parser.drawing.fit.batches import in_batches, several
-from parser.drawing.fit.fit import Drawn, arcs_of_pieces
+from parser.drawing.fit.curves.batches import in_batches, several
+from parser.drawing.fit.curves.fit import Drawn, arcs_of_pieces
+from parser.drawing.fit.curves.pieces import Spans, pieces_of_spans, spans_of
 from parser.drawing.fit.fitted import Fitted
-from parser.drawing.fit.pieces import Spans, pieces_of_spans, spans_of
 from parser.geometry.curves import Floats, Ints
 
 

@@ -7,8 +7,8 @@ import numpy as np
 from parser.geometry.curves import Curves
 from parser.toolpath import Point
 from sim.cam.model import CannotCutError, Figure, Refusal, Thread
-from sim.cam.passes.beside import beside
-from sim.cam.passes.short import SHORT_UM
+from sim.cam.passes.beside.beside import beside
+from sim.cam.passes.beside.short import SHORT_UM
 from sim.cam.passes.turned import begun_at
 from sim.setup.making import Making
 

@@ -10,7 +10,7 @@ from parser.geometry.along import along_um, places_at
 from parser.geometry.curves import Curves, joined, total_before
 from parser.geometry.distance import distance_to_curves
 from parser.toolpath import Point
-from sim.cam.passes.short import SHORT_UM
+from sim.cam.passes.beside.short import SHORT_UM
 
 
 def length_to(way: Curves, place_um: Point) -> float:

@@ -11,9 +11,9 @@ from controller.offset.reach import reach
 from controller.offset.sections import Side
 from parser.geometry.curves import Curves
 from sim.cam.model import CannotCutError
-from sim.cam.passes.beside import beside
-from sim.cam.passes.convex import beside_convex
-from sim.cam.passes.short import SHORT_UM
+from sim.cam.passes.beside.beside import beside
+from sim.cam.passes.beside.convex import beside_convex
+from sim.cam.passes.beside.short import SHORT_UM
 from sim.setup.making import Corners
 
 WITHIN_UM = 0.3

@@ -15,8 +15,8 @@ import numpy as np
 from parser.geometry.curves import Bools, Curves
 from parser.told.step_words import StepWords
 from parser.words.chained import Chained
-from parser.words.looked_at import LookedAt, looked_at
-from parser.words.near_blocks import Aim, arc_to, line_to
+from parser.words.nearest.looked_at import LookedAt, looked_at
+from parser.words.nearest.near_blocks import Aim, arc_to, line_to
 from parser.words.one_arc import OneBlock, Place
 
 _ATTEMPTS, _TAIL = 24, 40

@@ -4,7 +4,7 @@ import numpy as np
 
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints
-from sim.cam.passes.ends import Met, met_near, with_ends
+from sim.cam.passes.beside.ends import Met, met_near, with_ends
 
 SHORT_UM = 3.0
 """Of a shorter line, whole µm make a direction that is off by more than 15°."""

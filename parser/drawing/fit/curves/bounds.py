@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.drawing.fit.longest import Arcs, Runs
-from parser.drawing.fit.pieces import halves
-from parser.drawing.fit.strings import Strings, places_on, where_at
-from parser.drawing.fit.through import Chords, chords_between
+from parser.drawing.fit.curves.longest import Arcs, Runs
+from parser.drawing.fit.curves.pieces import halves
+from parser.drawing.fit.curves.strings import Strings, places_on, where_at
+from parser.drawing.fit.curves.through import Chords, chords_between
 from parser.geometry.curves import Bools, Floats, Ints
 
 _MOST_ROUNDS = 12

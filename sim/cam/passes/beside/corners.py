@@ -11,8 +11,8 @@ from controller.offset.reach import OffsetLoop
 from parser.geometry.along import places
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.directions import directions
-from sim.cam.passes.clear import clearance_um
-from sim.cam.passes.ends import Met, met_near, with_ends
+from sim.cam.passes.beside.clear import clearance_um
+from sim.cam.passes.beside.ends import Met, met_near, with_ends
 from sim.setup.making import Corners
 
 MENDED_UM = 0.1

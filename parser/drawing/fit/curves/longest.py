@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.drawing.fit.strings import Strings, places_on
-from parser.drawing.fit.through import Bends, bends_near
+from parser.drawing.fit.curves.strings import Strings, places_on
+from parser.drawing.fit.curves.through import Bends, bends_near
 from parser.geometry.curves import Bools, Floats, Ints
 
 STEPS = 18

@@ -6,7 +6,7 @@ import numpy as np
 
 from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.told.step_words import Axis
-from parser.words.revisits import Revisits, revisits
+from parser.words.nearest.revisits import Revisits, revisits
 
 _SHARES = np.array([0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0])
 """Places of an arc that are looked at: between two of them an arc of a whole turn bows out by 8 % of what it is off."""

@@ -14,7 +14,7 @@ import numpy as np
 from controller.offset.reach import OffsetLoop
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.directions import directions, to_left
-from sim.cam.passes.ends import met_near, with_ends
+from sim.cam.passes.beside.ends import met_near, with_ends
 
 _SAME_UM = 1e-3
 """What files lose by printing decimals: ends so near are one. A turn that parts them no farther is none."""

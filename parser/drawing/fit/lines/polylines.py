@@ -4,7 +4,7 @@ A polyline is what is drawn, and nobody knows the curve that it was made of. So 
 of each line lies within the tolerance of it, not its ends alone: what is written is then within the tolerance of what
 is drawn. Lines too coarse for that stay lines.
 
-No arc runs through a corner; what one is says `parser.drawing.fit.strokes`.
+No arc runs through a corner; what one is says `parser.drawing.fit.lines.strokes`.
 """
 
 from collections.abc import Iterator
@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.drawing.fit.bulges import best_bulges, centers, off_um
 from parser.drawing.fit.fitted import Fitted
-from parser.drawing.fit.strokes import Strokes, strokes_of
+from parser.drawing.fit.lines.bulges import best_bulges, centers, off_um
+from parser.drawing.fit.lines.strokes import Strokes, strokes_of
 from parser.drawing.model import SAME_WITHIN_UM
 from parser.geometry.curves import Bools, Curves, Floats, curves_between, joined
 

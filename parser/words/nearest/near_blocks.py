@@ -7,7 +7,7 @@ import numpy as np
 
 from parser.geometry.curves import Floats
 from parser.told.step_words import Axis
-from parser.words.looked_at import LookedAt
+from parser.words.nearest.looked_at import LookedAt
 from parser.words.one_arc import OneBlock, Place, line_of, to_bisector, told_arc_of
 from parser.words.telling import MOST_SHIFT
 

@@ -7,10 +7,10 @@ from controller.offset.sections import Side
 from parser.geometry.curves import Curves
 from parser.toolpath import Point
 from sim.cam.model import CannotCutError, Figure, Refusal
-from sim.cam.passes.convex import beside_convex
-from sim.cam.passes.corners import with_corners
-from sim.cam.passes.narrow import mouths
-from sim.cam.passes.short import without_short
+from sim.cam.passes.beside.convex import beside_convex
+from sim.cam.passes.beside.corners import with_corners
+from sim.cam.passes.beside.narrow import mouths
+from sim.cam.passes.beside.short import without_short
 from sim.setup.making import Corners
 
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.drawing.fit.pieces import Pieces, legs_of
+from parser.drawing.fit.curves.pieces import Pieces, legs_of
 from parser.geometry.curves import Bools, Floats, Ints, total_before
 
 _CORNER_RAD = math.radians(1.0)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from parser.drawing.fit.longest import STEPS, Arcs, Runs, joined_arcs, longest_arcs
-from parser.drawing.fit.strings import Strings
+from parser.drawing.fit.curves.longest import STEPS, Arcs, Runs, joined_arcs, longest_arcs
+from parser.drawing.fit.curves.strings import Strings
 from parser.geometry.curves import Bools, Floats, Ints
 
 _MOST_STARTS = 24

@@ -4,13 +4,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.drawing.fit.bounds import are_within, off_at_most
-from parser.drawing.fit.chunks import runs_of
-from parser.drawing.fit.even import best_starts, even_arcs
+from parser.drawing.fit.curves.bounds import are_within, off_at_most
+from parser.drawing.fit.curves.chunks import runs_of
+from parser.drawing.fit.curves.even import best_starts, even_arcs
+from parser.drawing.fit.curves.longest import STEPS, Arcs, Runs, joined_arcs
+from parser.drawing.fit.curves.pieces import Pieces, tamed
+from parser.drawing.fit.curves.strings import Strings, places_on, strings_of
 from parser.drawing.fit.fitted import Fitted, no_curves
-from parser.drawing.fit.longest import STEPS, Arcs, Runs, joined_arcs
-from parser.drawing.fit.pieces import Pieces, tamed
-from parser.drawing.fit.strings import Strings, places_on, strings_of
 from parser.geometry.curves import Curves, Floats, Ints, curves_between
 
 _SEARCHED = 0.997  # of the tolerance: the search looks at places, and the farthest may lie between two

@@ -1,0 +1,1 @@
+"""Dense polylines as arcs through their vertices; the border type is `Fitted`."""
