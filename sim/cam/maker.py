@@ -3,9 +3,11 @@
 from pathlib import Path
 from typing import NamedTuple
 
+from parser.drawing.model import DEFAULT_FLATTEN_UM, Drawing
 from parser.drawing.read import read_drawing
 from parser.program import Program, load_program
 from parser.write.draft import Draft
+from sim.cam.fits import fits_um, path_off_um
 from sim.cam.model import CannotCutError, CutPlan, Refusal
 from sim.cam.order.order import in_order
 from sim.cam.order.sides import with_sides
@@ -18,13 +20,14 @@ from sim.cam.path.kept import added_draft, kept_draft
 from sim.cam.proof.proof import Given, proved
 from sim.cam.proof.result import Proof
 from sim.cam.threads.threads import thread_notes, threads_of
-from sim.cam.tolerances import fit_share_um
 from sim.convert.proof import Proof as Written
 from sim.convert.proof import proof as held_against
 from sim.convert.wanted import Wanted, begun, encoded, read_with, written
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 from sim.table.progress import Progress, silent
+
+_FLATTEN_SHARE = 0.01  # of the tolerance: how far the lines of the drawing as it is drawn lie off its curves
 
 
 class Made(NamedTuple):
@@ -42,6 +45,8 @@ class Made(NamedTuple):
         How far the path of its text lies off that which was planned, and what else of it is not the same.
     proof
         What its run shows; None where nobody asked for one.
+    drawn
+        The drawing without the fit of arcs; None where it was not read so.
     """
 
     data: bytes
@@ -50,6 +55,7 @@ class Made(NamedTuple):
     draft: Draft
     written: Written
     proof: Proof | None = None
+    drawn: Drawing | None = None
 
 
 class NotMade(NamedTuple):
@@ -59,10 +65,15 @@ class NotMade(NamedTuple):
     plan: CutPlan | None = None
 
 
-def planned(path: Path, making: Making, scenario: Scenario, progress: Progress = silent) -> CutPlan:
-    """What is to be cut, and how. CannotCutError where the drawing asks for what cannot be."""
+def planned(
+    path: Path, making: Making, scenario: Scenario, progress: Progress = silent, fit_um: float | None = None
+) -> CutPlan:
+    """What is to be cut, and how, with arcs fitted within `fit_um`, else the tolerance of the path.
+
+    CannotCutError where the drawing asks for what cannot be.
+    """
     progress("drawing", 0, 1)
-    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_share_um(making.tolerance_um))
+    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_um or making.tolerance_um)
     progress("figures", 0, 1)
     parts = parts_of(drawing, making)
     passes_um = making.passes_um or (scenario.wire.reach_um,)
@@ -76,6 +87,16 @@ def planned(path: Path, making: Making, scenario: Scenario, progress: Progress =
     return CutPlan(drawing, making, passes_um, cuts, parts.left_out, notes)
 
 
+class _Asked(NamedTuple):
+    """What `made` is asked for."""
+
+    path: Path
+    making: Making
+    wanted: Wanted
+    scenario: Scenario
+    progress: Progress
+
+
 def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress = silent) -> Made | NotMade:
     """A program of a drawing, proved on the machine of a scenario.
 
@@ -85,24 +106,70 @@ def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progres
     done = unproved(path, making, wanted, scenario, progress)
     if isinstance(done, NotMade):
         return done
-    return done._replace(proof=proved(_given(path, done, wanted), scenario, progress))
+    done = _with_drawn(done, path)
+    assert done.drawn is not None  # noqa: S101 - read before
+    given = Given(done.program, done.plan, done.drawn, done.written, wanted.bound_um)
+    return done._replace(proof=proved(given, scenario, progress))
 
 
 def unproved(
     path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress = silent
 ) -> Made | NotMade:
-    """A program as `made` gives it, before anything is run."""
+    """A program as `made` gives it, before anything is run.
+
+    Arcs are fitted within the tolerance. Where whole µm move the written path past it, they are fitted anew, nearer.
+    """
+    asked = _Asked(path, making, wanted, scenario, progress)
     try:
-        plan = planned(path, making, scenario, progress)
-        plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))
-        progress("write", 0, 1)
-        draft = begun(_drafted(plan, wanted), wanted)
+        done = _fitted(asked, making.tolerance_um)
+        fit = done.plan.drawing.fit
+        for fit_um in fits_um(making.tolerance_um, 0 if fit is None else fit.arcs)[1:]:
+            if _is_surely_within(done):
+                break
+            done = _with_drawn(done, path)
+            if not _is_rounded_off(done, asked):
+                break
+            done = _fitted(asked, fit_um)._replace(drawn=done.drawn)
     except CannotCutError as error:
         return NotMade(error.refusal)
+    return done
+
+
+def _fitted(asked: _Asked, fit_um: float) -> Made:
+    """A program whose arcs are fitted within `fit_um`. CannotCutError where there is none, or its language has none."""
+    path, making, wanted, scenario, progress = asked
+    plan = planned(path, making, scenario, progress, fit_um)
+    progress("write", 0, 1)
+    plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))
+    draft = begun(_drafted(plan, wanted), wanted)
     text = written(draft, wanted)
     told = text.text.encode(wanted.encoding, "replace")
     program = load_program(told, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
     return Made(encoded(text.text, wanted), program, plan, draft, held_against(draft, text, program.toolpath))
+
+
+def _is_surely_within(done: Made) -> bool:
+    """Whether the fit and rounding together keep the tolerance; no fit, no other fit."""
+    fit = done.plan.drawing.fit
+    return fit is None or fit.max_um <= 0.0 or fit.max_um + done.written.off_um <= done.plan.making.tolerance_um
+
+
+def _is_rounded_off(done: Made, asked: _Asked) -> bool:
+    """Whether the written path lies past the tolerance, by no more than rounding explains."""
+    assert done.drawn is not None  # noqa: S101 - read before
+    off_um = path_off_um(done.program, done.plan, done.drawn, asked.scenario.wire.reach_um)
+    return off_um is not None and 0.0 < off_um - asked.making.tolerance_um <= asked.wanted.bound_um
+
+
+def _with_drawn(done: Made, path: Path) -> Made:
+    """With the drawing as it is drawn, read again where arcs were fitted to it."""
+    if done.drawn is not None:
+        return done
+    plan = done.plan
+    if plan.drawing.fit is None:
+        return done._replace(drawn=plan.drawing)
+    flatten_um = min(DEFAULT_FLATTEN_UM, _FLATTEN_SHARE * plan.making.tolerance_um)
+    return done._replace(drawn=read_drawing(path, plan.making.layer, plan.making.gap_um, flatten_um))
 
 
 def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
@@ -113,14 +180,6 @@ def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
     making = plan.making._replace(layers=wishes)
     nothing = (0.0,) * len(plan.passes_um)
     on_contour = tuple(figure_cut(cut.figure, cut.thread, nothing, making) for cut in plan.cuts)
-    return (
-        added_draft(plan, on_contour) if wanted.iso is None else kept_draft(plan, on_contour, wanted.iso.profile.rules)
-    )
-
-
-def _given(path: Path, done: Made, wanted: Wanted) -> Given:
-    """What is proved: with the drawing as it is drawn, read again where arcs were fitted to it."""
-    plan = done.plan
-    is_fitted = plan.drawing.fit is not None
-    drawn = read_drawing(path, plan.making.layer, plan.making.gap_um) if is_fitted else plan.drawing
-    return Given(done.program, plan, drawn, done.written, wanted.bound_um)
+    if wanted.iso is None:
+        return added_draft(plan, on_contour)
+    return kept_draft(plan, on_contour, wanted.iso.profile.rules)

@@ -85,7 +85,7 @@ def _by_controller(asked: Scenario, plan: CutPlan, edge_um: tuple[float, ...]) -
     It needs a lead-in to come to that side. Without one, or with figures to both sides, the path alone is run.
     """
     sides = {cut.side for cut in plan.cuts}
-    if len(sides) != 1 or any(edge_um) or not all(len(cut.passes[0].into) for cut in plan.cuts):
+    if len(sides) != 1 or any(edge_um) or any(cut.thread.by == "contour" for cut in plan.cuts):
         return AsRun(replace(asked, kerf=False), edge_um, (Remark("contour"),))
     reach_um = asked.wire.reach_um
     offset = Offset((OffsetPass(reach_um),), next(iter(sides)))

@@ -12,7 +12,7 @@ from parser.toolpath import Point
 from parser.units import mm
 from sim.cam.leads.room import Room, are_free, balls_um
 from sim.cam.model import CannotCutError, Refusal, Thread
-from sim.cam.threads.entries import Entries, middles
+from sim.cam.threads.entries import Entries, middles, starts
 
 USUAL_LEAD_UM: Final = 2000.0
 """How long leads are where nobody asks: room for a start hole of 3 mm, and little to cut (assumed)."""
@@ -55,15 +55,15 @@ def chosen(room: Room, side: Floats, figures: Ints, wanted: Wanted) -> dict[int,
 
     It lies as far from the entry as is wanted, and from all contours no less, so that the start hole has room. Where no
     entry has so much room beside it, the thread point lies in the middle of what there is. The few longest curves of
-    each figure are looked at, and all of those that have room at none of them. CannotCutError, ``short-lead``, where
-    a lead that is asked for is shorter than the least.
+    each figure are looked at, and the middles of all of those that have room at none of them. CannotCutError,
+    ``short-lead``, where a lead that is asked for is shorter than the least.
     """
     if wanted.most_um < wanted.least_um:
         raise CannotCutError(Refusal("short-lead", (), (("least_mm", f"{mm(wanted.least_um):g}"),)))
-    found = _chosen(room, middles(room, side, figures, wanted.reach_um), wanted)
+    found = _chosen(room, starts(room, side, figures, wanted.reach_um), wanted)
     left = np.array([at for at in figures.tolist() if at not in found], dtype=np.int64)
     if len(left):
-        found |= _chosen(room, middles(room, side, left, wanted.reach_um, len(room.curves)), wanted)
+        found |= _chosen(room, middles(room, side, left, wanted.reach_um), wanted)
     return found
 
 
@@ -86,7 +86,7 @@ def _chosen(room: Room, found: Entries, wanted: Wanted) -> dict[int, Thread]:
 
 def begun_on(room: Room, side: Floats, wanted: Ints) -> dict[int, Thread]:
     """Threads of the figures `wanted` on their contours, in whole µm, at entries that are so if there are any."""
-    found = middles(room, side, wanted, 0.0)
+    found = starts(room, side, wanted, 0.0)
     figure, place = room.figure[found.row], np.round(found.place_um) + 0.0
     off = np.abs(found.place_um - place).max(axis=1)
     order = np.lexsort([np.arange(len(off)), off > _ON_UM, figure])

@@ -1,11 +1,12 @@
 """Places where the wire may come to a contour: middles of its curves, places across from a point, its corners."""
 
+import math
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from parser.geometry.along import along_um, headings_along, places_at
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.directions import directions, to_left
 from parser.geometry.feet import feet
 from parser.toolpath import Point
@@ -16,6 +17,7 @@ MOST: Final = 12
 """Entries of a figure that are looked at."""
 _LONG_UM: Final = 1000.0  # a line as long as this takes an entry before any arc
 _ACROSS: Final = 1e-6
+_SMOOTH: Final = math.cos(math.radians(2.5))  # fitted arcs meet at up to 2.4° (docs/program.md)
 
 
 class Entries(NamedTuple):
@@ -54,25 +56,45 @@ class Entries(NamedTuple):
         return Entry(row - first, float(self.along_um[at]), Point(x, y), Point(out_x, out_y))
 
 
-def middles(room: Room, side: Floats, wanted: Ints, reach_um: float, most: int = MOST) -> Entries:
-    """Up to so many middles of curves of each of the figures `wanted`, where a mark hurts least first.
+class _Looked(NamedTuple):
+    """Where entries are looked for: at a share (rows,) of the length of each curve, on so many of a figure at most."""
+
+    share: Floats
+    most: int
+
+
+def starts(room: Room, side: Floats, wanted: Ints, reach_um: float) -> Entries:
+    """As `middles`, the few best, but of an arc that goes on smoothly from another one its start.
+
+    An entry there costs no block.
+    """
+    return _entries(room, side, wanted, reach_um, _Looked(np.where(_is_joint(room), 0.0, 0.5), MOST))
+
+
+def middles(room: Room, side: Floats, wanted: Ints, reach_um: float) -> Entries:
+    """Middles of curves of each of the figures `wanted`, where a mark hurts least first.
 
     Lines of 1 mm and more come first, the longest before the others, then what else there is, by length; arcs of a
     radius no larger than the reach of the wire only where there is nothing else. `side` (figures,) is 1 where the waste
     lies within.
     """
+    return _entries(room, side, wanted, reach_um, _Looked(np.full(len(room.figure), 0.5), len(room.figure)))
+
+
+def _entries(room: Room, side: Floats, wanted: Ints, reach_um: float, looked: _Looked) -> Entries:
+    """Entries of each of the figures, the best first."""
     row = np.flatnonzero(np.isin(room.figure, wanted))
     curves = room.curves.picked(row)
     is_small = curves.is_arc & (curves.radius_um <= reach_um)
     grade = np.where(is_small, 2, np.where(~curves.is_arc & (curves.length_um >= _LONG_UM), 0, 1))
-    along = _to_whole(room, row, 0.5 * curves.length_um)
+    along = _to_whole(room, row, looked.share[row] * curves.length_um)
     place = places_at(room.curves, row, along)
     keys = (*np.round(place.T[::-1]), -np.round(curves.length_um), grade, room.figure[row])
     order = np.lexsort(keys)
     figure, grade = room.figure[row[order]], grade[order]
     start = np.flatnonzero(np.diff(figure, prepend=-1))
     of = np.cumsum(np.diff(figure, prepend=-1) > 0) - 1
-    is_best = (np.arange(len(order)) - start[of] < most) & ((grade < 2) | (grade[start[of]] == 2))
+    is_best = (np.arange(len(order)) - start[of] < looked.most) & ((grade < 2) | (grade[start[of]] == 2))
     order = order[is_best]
     out = _out(room, side, row[order], headings_along(room.curves, row[order], along[order]))
     return Entries(row[order], along[order], place[order], out, np.full(len(order), reach_um))
@@ -140,6 +162,17 @@ def nearest_of(room: Room, side: Floats, at: int, place_um: Floats) -> Entry:
     along = along_um(room.curves, row, foot)
     out = _out(room, side, row, headings_along(room.curves, row, along))
     return Entries(row, along, foot, out, np.zeros(1)).one(room, 0)
+
+
+def _is_joint(room: Room) -> Bools:
+    """Of all rows: whether an arc goes on smoothly from another one, as fitted ones do."""
+    rows = np.arange(len(room.figure))
+    first = np.searchsorted(room.figure, room.figure)
+    before = np.where(rows > first, rows - 1, np.searchsorted(room.figure, room.figure, side="right") - 1)
+    leaving, arriving = directions(room.curves)
+    runs_on = (leaving * arriving[before]).sum(axis=1) > _SMOOTH
+    smooth: Bools = runs_on & room.curves.is_arc & room.curves.is_arc[before] & (before != rows)
+    return smooth
 
 
 def _out(room: Room, side: Floats, row: Ints, heading: Floats) -> Floats:

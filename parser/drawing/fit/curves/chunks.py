@@ -4,7 +4,7 @@ import numpy as np
 
 from parser.drawing.fit.curves.longest import Runs
 from parser.drawing.fit.curves.strings import Strings
-from parser.drawing.fit.curves.through import FLATTEST_UM
+from parser.drawing.fit.fitted import FLATTEST_UM
 from parser.geometry.curves import Floats, Ints, total_before
 
 _MOST_ARCS_A_RUN = 96.0

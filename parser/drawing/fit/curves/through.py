@@ -4,10 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.drawing.fit.fitted import FLATTEST_UM
 from parser.geometry.curves import Bools, Floats
 
-FLATTEST_UM = 1e7
-"""Arcs of larger radii are lines: controllers count 7 digits of µm (10 m)."""
 _FULLEST = 3.7  # tan of half the sweep, 75°: what runs on an arc then still runs along its chord
 _TINY_OF_TOLERANCE = 0.5
 _FAR = -7.0  # half as long is looked at next

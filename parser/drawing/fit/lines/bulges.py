@@ -11,7 +11,7 @@ gives, with q = x² + y² − h² − t² and D = q² + 4 h² (y² − t²), the
 
 import numpy as np
 
-from parser.drawing.fit.curves.through import FLATTEST_UM
+from parser.drawing.fit.fitted import FLATTEST_UM
 from parser.geometry.curves import Floats
 
 MOST_BULGE = np.tan(3.0 / 8.0 * np.pi)
