@@ -40,7 +40,7 @@ def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reac
         threads |= waste.given(marks_of_layer(drawing, making.thread_layer), "marked", threads)
     wanted = np.array([at for at in range(len(figures)) if at not in threads], dtype=np.int64)
     if len(wanted) and (reach_um > 0.0 or making.lead_um is not None):
-        threads |= waste.chosen(wanted, making)
+        threads |= waste.chosen(wanted, making, threads)
     elif len(wanted):
         threads |= begun_on(waste.room, waste.side, wanted)
     return waste.led(threads, making)
@@ -119,11 +119,12 @@ class _Waste:
             raise refused("start-hidden", place_um[hidden])
         return {at: Thread(Point(*places[at].tolist()), by, entry) for at, entry in entries.items()}
 
-    def chosen(self, wanted: Ints, making: Making) -> dict[int, Thread]:
-        """Threads of the figures `wanted` at places in their waste."""
+    def chosen(self, wanted: Ints, making: Making, taken: Mapping[int, Thread]) -> dict[int, Thread]:
+        """Threads of the figures `wanted` at places in their waste, apart from those that are taken."""
         spare_um = _SPARE_UM if making.lead in _ROUND else 0.0
         asked = Wanted(self.clear_um, making.lead_um, spare_um)
-        found = chosen(self.room, self.side, wanted, asked)
+        kept_um = np.array([one.place_um for one in taken.values()]).reshape(-1, 2)
+        found = chosen(self.room, self.side, wanted, asked, kept_um)
         missing = [at for at in wanted.tolist() if at not in found]
         if missing:
             places = tuple(Point(*self.figures[at].contour.start_um[0].tolist()) for at in missing)

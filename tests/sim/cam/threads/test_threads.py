@@ -1,5 +1,6 @@
 """Thread points: in the waste, with a free lead of more than the offset; those asked for, or their refusal."""
 
+import math
 import random
 from typing import Any
 
@@ -189,6 +190,13 @@ def test_the_wire_comes_to_the_middle_of_the_longest_line_as_long_a_way_as_is_as
 def test_it_threads_a_small_hole_in_its_middle() -> None:
     (thread,) = threads_of(drawing(), [figure(1, 1, 1, circle(5000, 7000, 900))], Making(), REACH_UM)
     assert thread.place_um == Point(5000, 7000)
+
+
+def test_figures_of_one_waste_are_threaded_a_start_hole_apart() -> None:
+    """The middles of all sides lie across from one another, 1 mm apart: each pair would share one place."""
+    frame, island = box(0, 0, 20000, 10000), box(1000, 1000, 18000, 8000)
+    found = threads_of(drawing(), [figure(1, 1, 1, frame), figure(2, 2, 2, island)], Making(), REACH_UM)
+    assert math.dist(found[0].place_um, found[1].place_um) >= 1000.0
 
 
 def test_it_comes_to_no_fillet_smaller_than_the_offset_where_there_is_anything_else() -> None:
