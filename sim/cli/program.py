@@ -112,7 +112,8 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
 def _asked(path: Path, output: Path | None, options: Options, *, is_written: bool) -> _Asked:
     """What is to be made. UsageError where it is not said which drawing, or where to."""
     from sim.cam.of_scenario import drawing_to_cut
-    from sim.setup.making import ToMake, of_drawing, refuse_misfits
+    from sim.setup.making import ToMake
+    from sim.setup.program_section import of_drawing, refuse_misfits
 
     scenario = _scenario(path, output, options)
     if path.is_dir():
