@@ -13,7 +13,7 @@ from parser.units import mm
 from sim.cam.leads.room import TOLERANCE_UM, Room, nearest, room_of
 from sim.cam.model import CannotCutError, Figure, Refusal, Thread, ThreadedBy
 from sim.cam.order.nested import around
-from sim.cam.threads.chosen import Wanted, begun_on, chosen
+from sim.cam.threads.chosen import Wanted, before_corners, begun_on, chosen
 from sim.cam.threads.entries import nearest_of
 from sim.cam.threads.given import Taken, across, at_corners, matched, on_contour, refused, waste_of
 from sim.cam.threads.marks import marks_of_layer, points_of
@@ -144,6 +144,8 @@ class _Waste:
         asked = Wanted(self.clear_um, making.lead_um, spare_um)
         kept_um = np.array([one.place_um for one in taken.values()]).reshape(-1, 2)
         found = chosen(self.room, self.side, wanted, asked, kept_um)
+        if making.lead == "point":
+            found |= before_corners(self.room, self.side, found, asked, kept_um)
         missing = [at for at in wanted.tolist() if at not in found]
         if missing:
             places = tuple(Point(*self.figures[at].contour.start_um[0].tolist()) for at in missing)
