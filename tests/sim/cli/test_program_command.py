@@ -139,11 +139,22 @@ def test_force_writes_what_is_not_proved_with_what_was_found_at_its_head(part: P
     code, said, _ = run(*asked)
     assert (code, out.exists()) == (1, False)
     assert "not proved" in said
+    assert "not written; --force writes it" in said.replace("\n    ", " ")
     code, said, _ = run(*asked, "--force")
     assert (code, out.exists()) == (1, True)
+    assert "written all the same (--force)" in said.replace("\n    ", " ")
+    assert "not written" not in said
     head = out.read_text("utf-8").splitlines()[1]
     assert re.match(r"// not proved: .*off the drawing", head)
     assert len(read_program(out).toolpath) > 4
+
+
+def test_a_part_that_comes_free_early_is_told_with_the_tab_that_would_hold_it(part: Path) -> None:
+    passes = ("--pass", "0.13mm", "--pass", "0.1mm")
+    code, said, _ = run(part, "--preview", *passes)
+    assert code == 1
+    assert "--tab 3mm holds it" in said.replace("\n    ", " ")
+    assert "a preview: no program was written" in said
 
 
 def test_options_reach_the_maker(part: Path) -> None:

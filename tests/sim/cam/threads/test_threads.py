@@ -310,3 +310,11 @@ def test_leads_of_passes_back_and_forth_are_straight_and_it_is_said() -> None:
     assert {thread.lead for thread in found} == {"perpendicular"}
     assert [note.name for note in thread_notes(PLATE, found, making)] == ["straight-back"]
     assert threads(making._replace(returning="one-way"))[1].lead == "tangent"
+
+
+def test_leads_with_no_room_for_the_length_that_is_asked_for_are_told() -> None:
+    making = Making(lead_um=50_000.0)
+    notes = thread_notes(PLATE, threads(making), making)
+    assert [(note.name, dict(note.values)) for note in notes] == [("shorter-leads", {"figures": "2"})]
+    making = Making(lead_um=500.0)
+    assert thread_notes(PLATE, threads(making), making) == ()
