@@ -1,7 +1,7 @@
 """Thread points: those that are asked for, those that are marked in the drawing, and others chosen in the waste."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -48,6 +48,25 @@ def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reac
 
 def thread_notes(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
     """What is to be said of leads that are not as they are asked for."""
+    return (*_shortened(figures, threads, making), *_straightened(figures, threads, making))
+
+
+def _shortened(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> Iterator[Remark]:
+    """Leads with no room for the length that is asked for."""
+    if making.lead_um is None:
+        return
+    least_um = making.lead_um - _SPARE_UM
+    numbers = [
+        str(figure.number)
+        for figure, thread in zip(figures, threads, strict=True)
+        if thread.by == "chosen" and math.dist(thread.place_um, thread.entry.place_um) < least_um
+    ]
+    if numbers:
+        yield Remark("shorter-leads", {"figures": ", ".join(numbers)})
+
+
+def _straightened(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
+    """Leads that are not round where that is asked for."""
     if making.lead in _ROUND and _is_back(making):
         return (Remark("straight-back"),)
     straight: dict[bool, list[str]] = {True: [], False: []}
