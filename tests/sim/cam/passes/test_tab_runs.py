@@ -1,6 +1,7 @@
 """Programs with a tab, run on a machine: the part hangs on it to the last, and then falls."""
 
 from pathlib import Path
+from typing import Literal
 
 import pytest
 from drawings_dxf import drawn
@@ -8,7 +9,7 @@ from ezdxf.layouts import Modelspace
 
 from parser.shape.passes import find_passes
 from parser.toolpath import Point
-from sim.cam.maker import Made, made
+from sim.cam.maker import Made, made, unproved
 from sim.convert.wanted import Wanted
 from sim.setup.machine.machine import load_machine
 from sim.setup.making import Making
@@ -67,3 +68,19 @@ def test_passes_are_told_apart_where_the_open_stretch_ends_in_a_short_block(tmp_
     assert [one.offset_um(100.0) for one in passes] == pytest.approx([180.0, 120.0, 100.0, 100.0], abs=2.0)
     assert found.proof is not None
     assert found.proof.findings == ()
+
+
+@pytest.mark.parametrize("passes_um", [PASSES[:1], PASSES[:2], PASSES, (100.0, 100.0)])
+@pytest.mark.parametrize("direction", ["cw", "ccw"])
+def test_a_tab_round_corners_is_not_read_as_a_jump(
+    tmp_path: Path, passes_um: tuple[float, ...], direction: Literal["cw", "ccw"]
+) -> None:
+    def triangle(space: Modelspace) -> None:
+        space.add_lwpolyline([(0, 0), (7, 0), (3, 6)], close=True)
+
+    making = Making(passes_um=passes_um, tab_um=8000.0, direction=direction)
+    scenario = Scenario("part", tmp_path / "part.3b", load_machine("dk7740"))
+    found = unproved(drawn(tmp_path, triangle), making, Wanted("3b"), scenario)
+    assert isinstance(found, Made)
+    assert found.written.differs == ""
+    assert not found.program.toolpath.is_jump.any()

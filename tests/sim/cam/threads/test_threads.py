@@ -292,9 +292,9 @@ def test_a_lead_to_a_point_goes_to_the_nearest_corner_in_the_waste_or_is_straigh
 
 def test_a_lead_to_a_point_comes_midway_between_the_sides_of_its_corner() -> None:
     """Along a side it would cut free what is cut before the wire is round."""
-    for thread in threads(Making(lead="point", lead_um=1500.0)):
+    for thread, aside in zip(threads(Making(lead="point", lead_um=1500.0)), (1.0, np.sqrt(2.0)), strict=True):
         across, up = np.abs(np.array(thread.place_um) - np.array(thread.entry.place_um))
-        assert across == up == pytest.approx(REACH_UM + 1500.0 * np.sqrt(0.5), abs=1.0)
+        assert across == up == pytest.approx((aside * REACH_UM + 1500.0) * np.sqrt(0.5), abs=1.0)
 
 
 def test_round_leads_to_parts_are_straight_and_it_is_said() -> None:
