@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from parser.drawing.model import DEFAULT_FLATTEN_UM, Drawing
 from parser.drawing.read import read_drawing
+from parser.findings.remarks import Remark
 from parser.program import Program, load_program
 from parser.write.draft import Draft
 from sim.cam.fits import fits_um, path_off_um
@@ -140,6 +141,7 @@ def _fitted(asked: _Asked, fit_um: float) -> Made:
     path, making, wanted, scenario, progress = asked
     plan = planned(path, making, scenario, progress, fit_um)
     progress("write", 0, 1)
+    plan = plan._replace(notes=(*plan.notes, *_own_codes(wanted)))
     plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))
     draft = begun(_drafted(plan, wanted), wanted)
     text = written(draft, wanted)
@@ -159,6 +161,12 @@ def _is_rounded_off(done: Made, asked: _Asked) -> bool:
     assert done.drawn is not None  # noqa: S101 - read before
     off_um = path_off_um(done.program, done.plan, done.drawn, asked.scenario.wire.reach_um)
     return off_um is not None and 0.0 < off_um - asked.making.tolerance_um <= asked.wanted.bound_um
+
+
+def _own_codes(wanted: Wanted) -> tuple[Remark, ...]:
+    """What is to be said of words for the end and a pause that other readers do not know."""
+    codes = [one for one in (wanted.end_code, wanted.pause_code) if one is not None]
+    return (Remark("own-codes", {"codes": ", ".join(codes)}),) if codes else ()
 
 
 def _with_drawn(done: Made, path: Path) -> Made:

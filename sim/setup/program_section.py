@@ -120,7 +120,10 @@ def refuse_odd(making: Making, where: str) -> None:
 
 
 def refuse_misfits(writing: Writing, language: Language, where: str) -> None:
-    """SettingsError for what the language that is written has nothing for."""
+    """SettingsError for what the language that is written has nothing for, and for codes that are no words."""
+    for code in (writing.end_code, writing.pause_code):
+        if code is not None and (not code.isprintable() or len(code.split()) != 1 or code != code.strip()):
+            raise SettingsError(f"{where}: a code for the end or a pause is one word; found {code!r}")
     usual = Writing()
     others = {
         "3B and 4B": ("form", "end_code", "pause_code") if language == "iso" else (),

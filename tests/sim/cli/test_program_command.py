@@ -122,6 +122,8 @@ def test_the_suffix_or_as_tells_the_language(part: Path) -> None:
         (("-o", "p.3b", "--on-layer", "HOLES:rank=one"), "a layer takes side="),
         (("-o", "p.3b", "--compensation", "kept"), "compensation is for 4B and ISO, not 3b"),
         (("-o", "p.iso", "--form", "aligned"), "form is for 3B and 4B, not iso"),
+        (("-o", "p.3b", "--end-code", "THE END"), "is one word; found 'THE END'"),
+        (("-o", "p.3b", "--pause-code", ""), "is one word; found ''"),
         (("-o", "p.3b", "--picture", "p.bmp"), "neither a .png nor a .svg"),
         (("-o", "p.3b", "--picture", "part.png", "--machine", "none"), "none"),
     ],
@@ -191,6 +193,17 @@ def test_a_scenario_without_its_program_is_run_on_the_one_that_is_made(shop: Pat
     assert (shop / "plate.3b").read_bytes() == made
     again = run_inside("run", shop, "--json")
     assert json.loads(again.stdout)["program"]["name"] == "plate.3b"
+
+
+def test_a_scenario_with_codes_of_its_own_is_run_on_those_that_are_read(shop: Path) -> None:
+    file = shop / "scenario.toml"
+    file.write_text(file.read_text("utf-8").replace("[program]", '[program]\nend_code = "STOP"'), "utf-8")
+    code, said, _ = run(shop, "--preview")
+    assert code == 0
+    assert "its own words for end and pause, STOP" in said.replace("\n    ", " ")
+    done = run_inside("run", shop, "-o", shop / "out")
+    assert done.returncode == 0, done.stdout
+    assert (shop / "out" / "plate.3b").read_text("utf-8").split()[-1] == "DD"
 
 
 def test_it_is_compared_and_drawn_from_the_drawing_alone(shop: Path) -> None:
