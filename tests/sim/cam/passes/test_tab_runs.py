@@ -70,6 +70,21 @@ def test_passes_are_told_apart_where_the_open_stretch_ends_in_a_short_block(tmp_
     assert found.proof.findings == ()
 
 
+def test_a_step_to_the_next_pass_behind_a_corner_is_no_turn_of_its_own(tmp_path: Path) -> None:
+    def box(space: Modelspace) -> None:
+        space.add_lwpolyline([(0, 0), (16, 0), (16, 10), (0, 10)], close=True)
+
+    # The open stretch ends 100 µm behind the corner (0, 10), with a step of 8 µm back beside the side before it.
+    making = Making(passes_um=(188.0, 180.0), tab_um=7900.0, corners="round", direction="ccw")
+    making = making._replace(starts_um=(Point(8000.0, 12000.0),))
+    scenario = Scenario("part", tmp_path / "part.3b", load_machine("dk7740"))
+    found = unproved(drawn(tmp_path, box), making, Wanted("3b"), scenario)
+    assert isinstance(found, Made)
+    passes = find_passes(found.program.toolpath).passes
+    assert [(one.is_back, one.is_tab) for one in passes][:2] == [(False, False), (True, False)]
+    assert passes[2].is_tab
+
+
 @pytest.mark.parametrize("passes_um", [PASSES[:1], PASSES[:2], PASSES, (100.0, 100.0)])
 @pytest.mark.parametrize("direction", ["cw", "ccw"])
 def test_a_tab_round_corners_is_not_read_as_a_jump(
