@@ -30,6 +30,8 @@ def run(path: Path, making: Making) -> Made:
         Making(passes_um=PASSES, tab_um=2000.0),
         Making(passes_um=PASSES[1:], tab_um=1500.0, overcut_um=200.0, direction="cw"),
         Making(passes_um=PASSES[2:], tab_um=1000.0, corners="round"),
+        Making(passes_um=(100.0, 100.0), tab_um=1500.0),
+        Making(passes_um=(101.0, 100.0, 100.0), tab_um=2500.0, overcut_um=200.0),
     ],
 )
 def test_slug_and_part_fall_when_they_should(tmp_path: Path, making: Making) -> None:
