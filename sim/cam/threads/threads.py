@@ -21,6 +21,7 @@ from sim.setup.making import Making
 
 _ROUND = ("arc", "tangent")
 _SPARE_UM = 3.0  # more than places move from one side to the other as they become whole µm
+_SHORTER_UM = 2.0  # whole µm move both ends of a lead by less
 _MOST_NUMBERS = 20  # of figures that one refusal names
 _LEAST_UM = 1.0  # what leads of an offset of 0 keep off contours, but for their ends
 
@@ -48,14 +49,27 @@ def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reac
 
 def thread_notes(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
     """What is to be said of leads that are not as they are asked for."""
+    short = _short_notes(figures, threads, making)
     if making.lead in _ROUND and _is_back(making):
-        return (Remark("straight-back"),)
+        return (*short, Remark("straight-back"))
     straight: dict[bool, list[str]] = {True: [], False: []}
     for figure, thread in zip(figures, threads, strict=True):
         if thread.lead != making.lead and thread.by != "contour":
             straight[making.lead in _ROUND and not figure.runs_inside].append(str(figure.number))
     told = (("straight-leads", straight[False]), ("straight-to-parts", straight[True]))
-    return tuple(Remark(name, {"figures": ", ".join(numbers)}) for name, numbers in told if numbers)
+    return (*short, *(Remark(name, {"figures": ", ".join(numbers)}) for name, numbers in told if numbers))
+
+
+def _short_notes(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
+    """That there is no room for leads as long as they are asked for."""
+    if making.lead_um is None:
+        return ()
+    short = [
+        str(figure.number)
+        for figure, thread in zip(figures, threads, strict=True)
+        if thread.by == "chosen" and math.dist(thread.place_um, thread.entry.place_um) < making.lead_um - _SHORTER_UM
+    ]
+    return (Remark("short-leads", {"figures": ", ".join(short), "length": mm(making.lead_um)}),) if short else ()
 
 
 class _Waste:
