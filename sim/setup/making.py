@@ -270,6 +270,7 @@ def refuse_odd(making: Making, where: str) -> None:
 
 def refuse_misfits(writing: Writing, language: Language, where: str) -> None:
     """SettingsError for what the language that is written has nothing for."""
+    _refuse_one_code(writing, where)
     usual = Writing()
     others = {
         "3B and 4B": ("form", "end_code", "pause_code") if language == "iso" else (),
@@ -280,6 +281,11 @@ def refuse_misfits(writing: Writing, language: Language, where: str) -> None:
         for name in names:
             if getattr(writing, name) != getattr(usual, name):
                 raise SettingsError(f"{where}: {name} is for {languages}, not {language}")
+
+
+def _refuse_one_code(writing: Writing, where: str) -> None:
+    if (writing.end_code or "DD") == (writing.pause_code or "D"):
+        raise SettingsError(f"{where}: the end and a pause need different words, or nobody can tell them apart")
 
 
 def _refuse_odd_passes(passes_um: tuple[float, ...], where: str) -> None:
