@@ -129,6 +129,23 @@ def test_what_steps_are_off_does_not_add_up_over_arcs(arcs: int, most_um: float)
         assert off_um(path, words).max() <= 1.0
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_a_short_arc_is_run_back_about_the_centre_that_it_had_ahead(seed: int) -> None:
+    """1 µm at an end moves the centre of an arc of 41 mm that is 220 µm long by 200 µm."""
+    rng = np.random.default_rng(seed)
+    low, sweep, radius = rng.uniform(0.0, 7.0), 220.0 / 41e3, 41e3
+    ahead = radius * np.array([[np.cos(low), np.sin(low)], [np.cos(low + sweep), np.sin(low + sweep)]])
+    there, here = ahead[1:], ahead[:1]
+    path = curves_between(
+        np.concatenate([here, there]), np.concatenate([there, here]), np.zeros((2, 2)), np.array([sweep, -sweep])
+    )
+    words = told(path)
+    start = np.concatenate([here, words.end_um[:1]])
+    one, other = start + moves(words.words).center_um
+    assert np.hypot(*(one - other)) <= 8.0
+    assert np.hypot(*(words.end_um[1] - here[0])) <= _CLOSED_UM
+
+
 @pytest.mark.parametrize("reach_um", [30.0, 3e3, 3e5])
 def test_steps_of_an_arc_end_where_the_controller_makes_them(reach_um: float) -> None:
     rng = np.random.default_rng(5)

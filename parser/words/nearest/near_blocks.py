@@ -61,21 +61,26 @@ class Aim(NamedTuple):
     """Where a block is to end.
 
     `is_known`: at that very place, where the path was before. `pins`: axes on which it is to end whole µm from others.
-    `stepped`: by how much the steps so far end beside where their words do.
+    `stepped`: by how much the steps so far end beside where their words do. `center`: that of an arc that is run back.
     """
 
     end: Place
     is_known: bool
     pins: tuple[tuple[int, float], ...] = ()
     stepped: Place = (0.0, 0.0)
+    center: Place | None = None
 
 
 class Near(NamedTuple):
-    """Words of a block, how far aside of the drawn one it lies, µm, and by how much the steps up to its end are off."""
+    """Words of a block, how far aside of the drawn one it lies, µm, and by how much the steps up to its end are off.
+
+    `center`: of an arc, as it is told.
+    """
 
     block: OneBlock
     aside_um: float
     stepped: Place
+    center: Place | None = None
 
 
 def line_to(path: LookedAt, row: int, begin: Place, aim: Aim) -> Near:
@@ -99,7 +104,8 @@ def arc_to(path: LookedAt, row: int, begin: Place, aim: Aim, attempt: int) -> Ne
 
     Candidates are arcs that begin at whole µm from their centres. Each is held against the drawn arc along eight ways
     out of its centre; its end lies where the count axis allows, and on the candidate. Its steps end beside that: of
-    candidates that lie about as near, one is taken whose steps make good what those before were off.
+    candidates that lie about as near, one is taken whose steps make good what those before were off. An arc that is
+    run back is told about the centre that it had ahead: another one would look like a fault.
     """
     at, end = path.at[row], aim.end
     (x, y), radius, sweep = path.center[at], path.radius[at], path.sweep[at]
@@ -110,7 +116,8 @@ def arc_to(path: LookedAt, row: int, begin: Place, aim: Aim, attempt: int) -> Ne
     is_held = aim.is_known or bool(aim.pins)
     choice = _HELD_THERE if is_held else _FREE
     apart = 1.0 if is_held else max(1.0, round(_AT_END_UM / abs(sweep)))
-    start = apart * choice.about + np.array([round(out[0] - shift[0]), round(out[1] - shift[1])])
+    center_x, center_y = aim.center or (begin[0] - out[0] + shift[0], begin[1] - out[1] + shift[1])
+    start = apart * choice.about + np.array([round(begin[0] - center_x), round(begin[1] - center_y)])
     off = _off(start, out, path.ways[at], radius)
     beside = off[:, -1] + radius - math.hypot(end[0] - x, end[1] - y)
     turn, counted = math.copysign(1.0, sweep), path.counted[row]
@@ -123,8 +130,10 @@ def arc_to(path: LookedAt, row: int, begin: Place, aim: Aim, attempt: int) -> Ne
     best = int(np.argmin(np.where(is_near, cost + _cost_of_steps(steps), np.inf)))
     by = by[0] + float(miss[best, 0]), by[1] + float(miss[best, 1])
     told = told_arc_of((float(start[best, 0]), float(start[best, 1])), by, sweep, Axis(counted))
-    stepped_x, stepped_y = steps[best].tolist()
-    return Near(told, float(aside[best]), (stepped_x, stepped_y) if told.turn else aim.stepped)
+    if not told.turn:
+        return Near(told, float(aside[best]), aim.stepped)
+    (stepped_x, stepped_y), (start_x, start_y) = steps[best].tolist(), start[best].tolist()
+    return Near(told, float(aside[best]), (stepped_x, stepped_y), (begin[0] - start_x, begin[1] - start_y))
 
 
 def _cost_of_steps(off: Floats) -> Floats:

@@ -1,5 +1,6 @@
 """Thread points chosen in the waste."""
 
+from collections.abc import Mapping
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -10,15 +11,16 @@ from parser.geometry.curves import Floats, Ints
 from parser.geometry.feet import feet
 from parser.toolpath import Point
 from parser.units import mm
-from sim.cam.leads.room import Room, are_free, balls_um
+from sim.cam.leads.room import Room, are_free, balls_um, nearest
 from sim.cam.model import CannotCutError, Refusal, Thread
 from sim.cam.threads.apart import are_apart, crowded
-from sim.cam.threads.entries import Entries, middles, starts
+from sim.cam.threads.entries import MOST, Asked, Entries, corners, middles, starts
 
 USUAL_LEAD_UM: Final = 2000.0
 """How long leads are where nobody asks: room for a start hole of 3 mm, and little to cut (assumed)."""
 BEYOND_UM: Final = 10.0
 """A lead is longer than the largest offset by this much."""
+_SHORTER: Final = (1.0, 0.5, 0.25)  # leads to corners, where there is less room
 _ON_UM: Final = 0.01  # a place this near to whole µm is one: files lose as much by printing decimals
 _NOWHERE: Final = np.empty((0, 2))
 
@@ -103,6 +105,29 @@ def _chosen(room: Room, found: Entries, wanted: Wanted, kept_um: Floats) -> dict
     return {
         int(figure[at]): Thread(Point(*place[at].tolist()), "chosen", entries.one(room, at)) for at in first.tolist()
     }
+
+
+def before_corners(
+    room: Room, side: Floats, threads: Mapping[int, Thread], wanted: Wanted, kept_um: Floats
+) -> dict[int, Thread]:
+    """Other thread points of figures that have them: midway out from their nearest corner with room before it.
+
+    A lead to a corner from anywhere else runs along a side of it: what is cut comes free before the wire is round.
+    """
+    if not threads:
+        return {}
+    places = np.array([one.place_um for one in threads.values()])
+    found, whose = corners(room, side, Asked(np.array(list(threads)), places, wanted.reach_um))
+    best = np.flatnonzero(np.arange(len(whose)) - np.searchsorted(whose, whose) < MOST)
+    found, moved = found.take(best), dict[int, Thread]()
+    for share in _SHORTER:
+        place = np.round(found.begin_um + share * wanted.most_um * found.out) + 0.0
+        is_free = are_free(room, lines_between(place, found.begin_um), wanted.reach_um)
+        is_clear = nearest(room, place, wanted.least_um).distance_um >= wanted.least_um
+        for at in np.flatnonzero(is_free & is_clear & are_apart(place, kept_um)).tolist():
+            x, y = place[at].tolist()
+            moved.setdefault(int(room.figure[found.row[at]]), Thread(Point(x, y), "chosen", found.one(room, at)))
+    return {at: one for at, one in moved.items() if at not in crowded(moved, kept_um)}
 
 
 def begun_on(room: Room, side: Floats, wanted: Ints) -> dict[int, Thread]:

@@ -1,7 +1,7 @@
 """Thread points: those that are asked for, those that are marked in the drawing, and others chosen in the waste."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from parser.units import mm
 from sim.cam.leads.room import TOLERANCE_UM, Room, nearest, room_of
 from sim.cam.model import CannotCutError, Figure, Refusal, Thread, ThreadedBy
 from sim.cam.order.nested import around
-from sim.cam.threads.chosen import Wanted, begun_on, chosen
+from sim.cam.threads.chosen import Wanted, before_corners, begun_on, chosen
 from sim.cam.threads.entries import nearest_of
 from sim.cam.threads.given import Taken, across, at_corners, matched, on_contour, refused, waste_of
 from sim.cam.threads.marks import marks_of_layer, points_of
@@ -21,7 +21,6 @@ from sim.setup.making import Making
 
 _ROUND = ("arc", "tangent")
 _SPARE_UM = 3.0  # more than places move from one side to the other as they become whole µm
-_SHORTER_UM = 2.0  # whole µm move both ends of a lead by less
 _MOST_NUMBERS = 20  # of figures that one refusal names
 _LEAST_UM = 1.0  # what leads of an offset of 0 keep off contours, but for their ends
 
@@ -49,27 +48,33 @@ def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reac
 
 def thread_notes(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
     """What is to be said of leads that are not as they are asked for."""
-    short = _short_notes(figures, threads, making)
+    return (*_shortened(figures, threads, making), *_straightened(figures, threads, making))
+
+
+def _shortened(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> Iterator[Remark]:
+    """Leads with no room for the length that is asked for."""
+    if making.lead_um is None:
+        return
+    least_um = making.lead_um - _SPARE_UM
+    numbers = [
+        str(figure.number)
+        for figure, thread in zip(figures, threads, strict=True)
+        if thread.by == "chosen" and math.dist(thread.place_um, thread.entry.place_um) < least_um
+    ]
+    if numbers:
+        yield Remark("shorter-leads", {"figures": ", ".join(numbers)})
+
+
+def _straightened(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
+    """Leads that are not round where that is asked for."""
     if making.lead in _ROUND and _is_back(making):
-        return (*short, Remark("straight-back"))
+        return (Remark("straight-back"),)
     straight: dict[bool, list[str]] = {True: [], False: []}
     for figure, thread in zip(figures, threads, strict=True):
         if thread.lead != making.lead and thread.by != "contour":
             straight[making.lead in _ROUND and not figure.runs_inside].append(str(figure.number))
     told = (("straight-leads", straight[False]), ("straight-to-parts", straight[True]))
-    return (*short, *(Remark(name, {"figures": ", ".join(numbers)}) for name, numbers in told if numbers))
-
-
-def _short_notes(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
-    """That there is no room for leads as long as they are asked for."""
-    if making.lead_um is None:
-        return ()
-    short = [
-        str(figure.number)
-        for figure, thread in zip(figures, threads, strict=True)
-        if thread.by == "chosen" and math.dist(thread.place_um, thread.entry.place_um) < making.lead_um - _SHORTER_UM
-    ]
-    return (Remark("short-leads", {"figures": ", ".join(short), "length": mm(making.lead_um)}),) if short else ()
+    return tuple(Remark(name, {"figures": ", ".join(numbers)}) for name, numbers in told if numbers)
 
 
 class _Waste:
@@ -139,6 +144,8 @@ class _Waste:
         asked = Wanted(self.clear_um, making.lead_um, spare_um)
         kept_um = np.array([one.place_um for one in taken.values()]).reshape(-1, 2)
         found = chosen(self.room, self.side, wanted, asked, kept_um)
+        if making.lead == "point":
+            found |= before_corners(self.room, self.side, found, asked, kept_um)
         missing = [at for at in wanted.tolist() if at not in found]
         if missing:
             places = tuple(Point(*self.figures[at].contour.start_um[0].tolist()) for at in missing)

@@ -290,19 +290,18 @@ def test_a_lead_to_a_point_goes_to_the_nearest_corner_in_the_waste_or_is_straigh
     assert [(note.name, dict(note.values)) for note in notes] == [("straight-leads", {"figures": "1"})]
 
 
+def test_a_lead_to_a_point_comes_midway_between_the_sides_of_its_corner() -> None:
+    """Along a side it would cut free what is cut before the wire is round."""
+    for thread, aside in zip(threads(Making(lead="point", lead_um=1500.0)), (1.0, np.sqrt(2.0)), strict=True):
+        across, up = np.abs(np.array(thread.place_um) - np.array(thread.entry.place_um))
+        assert across == up == pytest.approx((aside * REACH_UM + 1500.0) * np.sqrt(0.5), abs=1.0)
+
+
 def test_round_leads_to_parts_are_straight_and_it_is_said() -> None:
     found = threads(Making(lead="arc"))
     assert [thread.lead for thread in found] == ["perpendicular", "arc"]
     notes = thread_notes(PLATE, found, Making(lead="arc"))
     assert [(note.name, dict(note.values)) for note in notes] == [("straight-to-parts", {"figures": "1"})]
-
-
-def test_chosen_leads_that_have_no_room_for_their_length_are_told() -> None:
-    making = Making(lead_um=4000.0)
-    notes = thread_notes(PLATE, threads(making), making)
-    assert [(note.name, dict(note.values)) for note in notes] == [("short-leads", {"figures": "2", "length": 4.0})]
-    for fitting in (Making(), Making(lead_um=1000.0), Making(lead_um=4000.0, starts_um=(Point(3000, 3000),))):
-        assert not [n for n in thread_notes(PLATE, threads(fitting), fitting) if "2" in str(n.values.get("figures"))]
 
 
 def test_chosen_thread_points_in_one_waste_lie_a_start_hole_apart() -> None:
