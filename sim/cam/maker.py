@@ -81,7 +81,7 @@ def planned(
     figures = with_sides(parts.figures, making)
     widest_um = [max(offsets_of(figure, passes_um, making)) for figure in figures]
     notes = (*parts.notes, *walls(figures, widest_um, scenario.wire.reach_um))
-    threads = threads_of(drawing, figures, making, max(passes_um))
+    threads = threads_of(drawing, figures, making, max(widest_um))
     notes += thread_notes(figures, threads, making)
     order = in_order(figures, threads, making)
     cuts = tuple(figure_cut(figures[one], threads[one], passes_um, making) for one in order)

@@ -12,13 +12,11 @@ from sim.table.progress import Progress, silent
 def program_of(scenario: Scenario, to_make: ToMake, progress: Progress = silent) -> Made | NotMade:
     """The program of a scenario's drawing, without a proof: the run that it is made for is one.
 
-    It ends and pauses with the words that the run reads, whatever a written file has in their place.
-
     Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where it cannot be written as
     it is asked for.
     """
     drawing = drawing_to_cut(scenario)
-    wanted = wanted_of(to_make, to_make.language, scenario)._replace(end_code=None, pause_code=None)
+    wanted = wanted_of(to_make, to_make.language, scenario)
     return unproved(drawing.file, to_make.making, wanted, scenario, progress)
 
 

@@ -195,7 +195,7 @@ def test_a_scenario_without_its_program_is_run_on_the_one_that_is_made(shop: Pat
     assert json.loads(again.stdout)["program"]["name"] == "plate.3b"
 
 
-def test_a_scenario_with_codes_of_its_own_is_run_on_those_that_are_read(shop: Path) -> None:
+def test_a_scenario_with_codes_of_its_own_is_read_by_them(shop: Path) -> None:
     file = shop / "scenario.toml"
     file.write_text(file.read_text("utf-8").replace("[program]", '[program]\nend_code = "STOP"'), "utf-8")
     code, said, _ = run(shop, "--preview")
@@ -203,7 +203,7 @@ def test_a_scenario_with_codes_of_its_own_is_run_on_those_that_are_read(shop: Pa
     assert "its own words for end and pause, STOP" in said.replace("\n    ", " ")
     done = run_inside("run", shop, "-o", shop / "out")
     assert done.returncode == 0, done.stdout
-    assert (shop / "out" / "plate.3b").read_text("utf-8").split()[-1] == "DD"
+    assert (shop / "out" / "plate.3b").read_text("utf-8").split()[-1] == "STOP"
 
 
 def test_it_is_compared_and_drawn_from_the_drawing_alone(shop: Path) -> None:
