@@ -28,6 +28,7 @@ from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 from sim.table.progress import Progress, silent
 
+_SURELY_ALONE = 2  # fits: of a large drawing no more is looked at than the one that is surely near enough
 _FLATTEN_SHARE = 0.01  # of the tolerance: how far the lines of the drawing as it is drawn lie off its curves
 
 
@@ -124,12 +125,14 @@ def unproved(
     try:
         done = _fitted(asked, making.tolerance_um)
         fit = done.plan.drawing.fit
-        for fit_um in fits_um(making.tolerance_um, 0 if fit is None else fit.arcs)[1:]:
+        fits = fits_um(making.tolerance_um, 0 if fit is None else fit.arcs + fit.lines)
+        for fit_um in fits[1:]:
             if _is_surely_within(done):
                 break
-            done = _with_drawn(done, path)
-            if not _is_rounded_off(done, asked):
-                break
+            if len(fits) > _SURELY_ALONE:
+                done = _with_drawn(done, path)
+                if not _is_rounded_off(done, asked):
+                    break
             done = _fitted(asked, fit_um)._replace(drawn=done.drawn)
     except CannotCutError as error:
         return NotMade(error.refusal)
