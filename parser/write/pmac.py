@@ -7,9 +7,9 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Literal, NamedTuple
 
-from parser.dialect.decoding import DecodedBlock
+from parser.dialect.decoding import DecodedBlock, Decoder
 from parser.iso.listing.lexer import read_listing
-from parser.program import Program
+from parser.toolpath import Toolpath
 from parser.units import UM_PER_MM, from_mm, mm
 
 Way = Literal["native", "gcode"]
@@ -56,16 +56,16 @@ class PmacChoices(NamedTuple):
     blocks: tuple[GBlock, ...] | None = None
 
 
-def blocks_of_program(program: Program) -> tuple[GBlock, ...] | None:
+def blocks_of_source(text: str, toolpath: Toolpath, decoder: Decoder | None) -> tuple[GBlock, ...] | None:
     """Blocks of an ISO program that can be taken over word for word; None where one holds more than moves and dwells.
 
     Offsets, subprograms, skipped blocks, values and functions are no such blocks.
     """
-    if program.decoder is None or program.toolpath.compensation is not None:
+    if decoder is None or toolpath.compensation is not None:
         return None
-    if any(line.lstrip().startswith("/") for line in program.text.splitlines()):
+    if any(line.lstrip().startswith("/") for line in text.splitlines()):
         return None
-    blocks = [_taken(block) for block in program.decoder.blocks()]
+    blocks = [_taken(block) for block in decoder.blocks()]
     return None if None in blocks else tuple(block for block in blocks if block is not None)
 
 

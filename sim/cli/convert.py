@@ -204,9 +204,11 @@ def _wanted(asked: _Asked, language: "Language", program: "Program", given: Offs
 
 
 def _pmac(asked: _Asked, program: "Program") -> "PmacChoices":
-    from parser.write.pmac import PmacChoices, blocks_of_program
+    from parser.write.pmac import PmacChoices, blocks_of_source
 
-    return PmacChoices(asked.pmac or "native", asked.card or "turbo", blocks_of_program(program))
+    return PmacChoices(
+        asked.pmac or "native", asked.card or "turbo", blocks_of_source(program.text, program.toolpath, program.decoder)
+    )
 
 
 def _iso(asked: _Asked, program: "Program") -> "IsoChoices":

@@ -11,7 +11,7 @@ from places import ROOT
 from parser.dialect.choices import Choices
 from parser.findings.codes import Severity
 from parser.program import Program, load_program, parse_program
-from parser.write.pmac import Card, PmacChoices, Way, blocks_of_program
+from parser.write.pmac import Card, PmacChoices, Way, blocks_of_source
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands
 from sim.convert.convert import Converted, Refused, converted
@@ -22,7 +22,9 @@ HEAD = "CLOSE\n&1\n#1->1000X\n#2->1000Y\n#3->1000Z\nI5113=10\nI5190=60000\n"
 
 
 def wanted(program: Program, way: Way = "native", card: Card = "turbo") -> Wanted:
-    return Wanted("pmac", pmac=PmacChoices(way, card, blocks_of_program(program)))
+    return Wanted(
+        "pmac", pmac=PmacChoices(way, card, blocks_of_source(program.text, program.toolpath, program.decoder))
+    )
 
 
 def conversion(text: str, way: Way = "native", card: Card = "turbo") -> Converted:

@@ -8,11 +8,11 @@ from fuzzing.mutate import damaged, edited
 _HEAD = "CLOSE\n&1\n#1->1000X\n#2->1000Y\nI5113=10\nI5190=60000\n"
 SEEDS = (
     _HEAD + "OPEN PROG 1\nCLEAR\nABS\nFRAX(X,Y)\nLINEAR X10 F60\nY10\nX0\nDWELL0\nX0 Y0\nCLOSE\n",
-    _HEAD + "OPEN PROG 1\nCLEAR\nNORMAL K-1\nCIRCLE2 X0 Y0 I-10 J0 F60\nSTOP\nPSET X50 Y0\nCIRCLE1 X50 R5\nCLOSE\n",
+    _HEAD + "OPEN PROG 1\nCLEAR\nNORMAL K-1\nCIRCLE2 X0 Y0 I-10 J0 F60\nSTOP\nPSET X50 Y0\nCIRCLE1 X50 I5\nCLOSE\n",
     _HEAD + "OPEN PROG 1000\nCLEAR\nRAPID RET\nN1000 LINEAR RET\nN3000 CIRCLE2 RET\nN90000 ABS\nRET\nCLOSE\n"
     "OPEN PROG 1\nCLEAR\nG90 G00 X1 Y2\nG01 X11 F120 ; there\nG03 Y12 J5\nCLOSE\n",
     "Coord[1].SegMoveTime=10\nCoord[1].FeedTime=60000\nopen prog 1\n"
-    "inc\nta 10 ts 0\nlinear x10 f60 // on\ny-(10)\nclose\n",
+    "inc\nta 10 ts 0\nlinear x10 f60 // on\ny(-10)\nclose\n",
 )
 _WORDS = (
     "OPEN PROG 99999999999999999999",
