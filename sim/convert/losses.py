@@ -18,7 +18,10 @@ def losses(program: Program, path: Toolpath, draft: Draft, made: Written, wanted
     """
     words = program.toolpath.words
     taken = wanted.pmac is not None and wanted.pmac.blocks is not None
-    of_text = lost_words(program.text, "FZ" if taken else "") if words is None else _lost_fields(program, words, wanted)
+    if words is not None:
+        of_text = _lost_fields(program, words, wanted)
+    else:
+        of_text = lost_words(program.text, "FZ" if taken else "") if program.decoder is not None else ()
     found = (*of_text, *_lost_offsets(program.toolpath, wanted), *_changed_rows(path, draft, made, wanted))
     return tuple(loss for loss in found if loss.number)
 

@@ -164,3 +164,15 @@ def test_spiral_arcs_are_refused_by_the_rule_of_the_paper() -> None:
     assert len(errors) == 4 * archimedes.TURNS
     assert {found.severity for found in errors} == {Severity.ERROR}
     assert isinstance(converted(program, wanted(program)), Refused)
+
+
+def test_a_motion_program_is_converted_to_3b_and_loses_no_words_of_iso() -> None:
+    program = conversion(LINES).program
+    done = converted(program, Wanted("3b"))
+    assert isinstance(done, Converted)
+    assert done.off_um <= 1.0
+    assert "settings" not in {loss.what for loss in done.lost}
+
+
+def test_every_shortened_time_is_said_by_power_too() -> None:
+    assert "TA10\nTS0\n" in conversion(archimedes.spiral_iso(), "gcode", "power").data.decode()
