@@ -120,7 +120,8 @@ def refuse_odd(making: Making, where: str) -> None:
 
 
 def refuse_misfits(writing: Writing, language: Language, where: str) -> None:
-    """SettingsError for what the language that is written has nothing for."""
+    """SettingsError for what the language that is written has nothing for, and for codes that nobody can tell."""
+    _refuse_odd_codes(writing, where)
     usual = Writing()
     others = {
         "3B and 4B": ("form", "end_code", "pause_code") if language == "iso" else (),
@@ -131,6 +132,14 @@ def refuse_misfits(writing: Writing, language: Language, where: str) -> None:
         for name in names:
             if getattr(writing, name) != getattr(usual, name):
                 raise SettingsError(f"{where}: {name} is for {languages}, not {language}")
+
+
+def _refuse_odd_codes(writing: Writing, where: str) -> None:
+    for code in (writing.end_code, writing.pause_code):
+        if code is not None and (not code.isprintable() or len(code.split()) != 1 or code != code.strip()):
+            raise SettingsError(f"{where}: a code for the end or a pause is one word; found {code!r}")
+    if (writing.end_code or "DD") == (writing.pause_code or "D"):
+        raise SettingsError(f"{where}: the end and a pause need different words, or nobody can tell them apart")
 
 
 def _refuse_odd_passes(passes_um: tuple[float, ...], where: str) -> None:

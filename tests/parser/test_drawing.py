@@ -207,7 +207,10 @@ def test_every_version_gives_the_same_curves(tmp_path, version, fmt):
 
 @pytest.mark.parametrize(
     ("code", "name", "um"),
-    [(1, "inch", 25400.0), (2, "foot", 304800.0), (4, "mm", 1e3), (5, "cm", 1e4), (6, "m", 1e6), (9, "mil", 25.4)],
+    [
+        *((1, "inch", 25400.0), (2, "foot", 304800.0), (4, "mm", 1e3), (5, "cm", 1e4), (6, "m", 1e6), (9, "mil", 25.4)),
+        (10, "yard", 914_400.0),
+    ],
 )
 def test_lengths_are_in_the_unit_of_the_file(tmp_path, code, name, um):
     document = new(units=code)

@@ -20,7 +20,7 @@ from sim.show.terminal.proof import proof_lines
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of, wrapped
 from sim.show.words import Words, said
-from sim.show.words.phrases import listed, same
+from sim.show.words.phrases import listed, numbered, same
 
 _INDENT = "    "
 _MOST_FIGURES = 40
@@ -110,8 +110,9 @@ def _total(plan: CutPlan, sums: tuple[FigureSum, ...], words: Words, width: int)
     more = len(plan.cuts) - _MOST_FIGURES
     if more > 0:
         yield words("program.more-figures", more=f"{more:,}")
-    length, blocks = mm(sum(one.length_um for one in sums)), sum(one.blocks for one in sums)
-    text = words("program.total", figures=f"{len(sums):,}", blocks=f"{blocks:,}", length=f"{length:,.3f}")
+    length = mm(sum(one.length_um for one in sums))
+    counted = getattr(numbered({"figure": len(sums), "block": sum(one.blocks for one in sums)}), words.language)
+    text = words("program.total", counted=counted, length=f"{length:,.3f}")
     yield from wrapped(text, width, "", _INDENT)
 
 

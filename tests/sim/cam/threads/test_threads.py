@@ -87,7 +87,7 @@ def assert_led_in_the_waste(figures: list[Figure], threads: tuple[Thread, ...], 
         assert np.hypot(*(place - thread.entry.place_um)) > reach_um
         if thread.lead == "point":
             continue
-        way = lead_in(one, thread, begun(one, thread, reach_um), Making())
+        way = lead_in(thread, begun(one, thread, reach_um))
         for row in range(len(way)):
             spread = places(way, np.full(200, row), np.linspace(0.0, 1.0, 200))
             kerf = shapely.LineString(spread).buffer(reach_um - 0.2, quad_segs=32)
@@ -304,9 +304,25 @@ def test_round_leads_to_parts_are_straight_and_it_is_said() -> None:
     assert [(note.name, dict(note.values)) for note in notes] == [("straight-to-parts", {"figures": "1"})]
 
 
+def test_chosen_thread_points_in_one_waste_lie_a_start_hole_apart() -> None:
+    # The longest sides of both face each other across 4 mm: each has room for a lead of 2 mm up to the same place.
+    left = figure(1, 1, 0, polygon([(0, 0), (6000, -3000), (6000, 9000), (0, 6000)]))
+    right = figure(2, 2, 0, polygon([(10000, -3000), (16000, 0), (16000, 6000), (10000, 9000)]))
+    one, other = (thread.place_um for thread in threads_of(drawing(), [left, right], Making(), REACH_UM))
+    assert math.dist(one, other) >= 1000.0
+
+
 def test_leads_of_passes_back_and_forth_are_straight_and_it_is_said() -> None:
     making = Making(lead="tangent", passes_um=(180.0, 120.0))
     found = threads(making)
     assert {thread.lead for thread in found} == {"perpendicular"}
     assert [note.name for note in thread_notes(PLATE, found, making)] == ["straight-back"]
     assert threads(making._replace(returning="one-way"))[1].lead == "tangent"
+
+
+def test_leads_with_no_room_for_the_length_that_is_asked_for_are_told() -> None:
+    making = Making(lead_um=50_000.0)
+    notes = thread_notes(PLATE, threads(making), making)
+    assert [(note.name, dict(note.values)) for note in notes] == [("shorter-leads", {"figures": "2"})]
+    making = Making(lead_um=500.0)
+    assert thread_notes(PLATE, threads(making), making) == ()
