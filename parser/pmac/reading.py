@@ -1,5 +1,6 @@
 """A text of PMAC motion programs, read: text to lines, the path that they make, and all that is wrong with it."""
 
+from bisect import bisect_left
 from collections.abc import Iterator, Mapping
 
 from parser.dialect.reader import BlockCounts, Damage, Reading, ReadText, Spelling
@@ -34,7 +35,8 @@ def read_pmac(text: str) -> ReadText:
     arcs = {row: arc_of(move) for row, move in enumerate(state.moves) if move.motion > 1}
     stops = [*state.stops, Stop("end", len(state.moves), main.lines[-1].line)]
     toolpath = path_of(read.lines.text, state.moves, arcs, stops)
-    damages = tuple(Damage(span, _before(state, span)) for span in read.unread)
+    starts = [move.at.span[0] for move in state.moves]
+    damages = tuple(Damage(span, bisect_left(starts, span[0])) for span in read.unread)
     findings = [*_text_findings(read, mains), *_told(read, state), *_arc_findings(read, state, arcs)]
     findings += [
         read.lines.finding(one.code, state.moves[one.row].at.span, one.row + 1, **one.values)
@@ -60,11 +62,6 @@ def _reading(read: Text, state: State, toolpath: Toolpath, damages: tuple[Damage
         remarks=read.remarks,
         threadings=sum(move.is_threaded for move in state.moves),
     )
-
-
-def _before(state: State, span: Span) -> int:
-    """How many moves stand before a place."""
-    return sum(move.at.span[0] < span[0] for move in state.moves)
 
 
 def _setting(read: Text, names: tuple[str, ...]) -> float | None:
