@@ -15,6 +15,7 @@ from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding
 from parser.iso.dialect import ISO
 from parser.iso.profiles.profile import PROFILES
+from parser.pmac.dialect import PMAC
 from parser.text.encoding import decode_text, narrow, no_program, printable
 from parser.text.lines import LineIndex
 from parser.threeb.dialect import THREE_B
@@ -23,7 +24,7 @@ from parser.toolpath import Toolpath
 _REMARK = re.compile(r"//[^\r\n]*|;[^\r\n]*|\([^()\r\n]*\)")
 _LOOKED_AT = 1 << 15  # characters: whatever a program is, it says so by then
 
-READERS: tuple[Reader, ...] = (THREE_B, ISO)
+READERS: tuple[Reader, ...] = (THREE_B, ISO, PMAC)
 """Readers in the order in which they are asked."""
 
 
@@ -121,6 +122,8 @@ def _reader(text: str, *, of_none: Reader) -> Reader:
     Raises ProgramError (ISO100) where two know it there: no machine runs both.
     """
     first = _REMARK.sub("", narrow(text[:_LOOKED_AT]))
+    if PMAC.recognises(first):  # its buffers may hold G words
+        return PMAC
     known = [reader for reader in READERS if reader.recognises(first)]
     if len({reader.name for reader in known}) > 1:
         raise ProgramError(no_program("two-languages", iso=True))

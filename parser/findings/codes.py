@@ -2,7 +2,7 @@
 
 The hundreds digit of a code names the layer: ``3B1xx`` grammar, ``3B2xx`` block, ``3B3xx`` contour, ``3B4xx`` machine,
 ``3B5xx`` wire offset, ``3B6xx`` drawing. ``ISO1xx`` to ``ISO5xx`` are the same layers of ISO, with the program's own
-compensation as the fifth. A code is stable, and never used twice.
+compensation as the fifth; ``PMC1xx`` and ``PMC2xx`` are those of PMAC. A code is stable, and never used twice.
 """
 
 from collections.abc import Mapping
@@ -193,6 +193,21 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "ISO513": FindingCode(Severity.NOTE, Check.COMPENSATION),
         "ISO514": FindingCode(Severity.WARNING, Check.COMPENSATION),
         "ISO600": FindingCode(Severity.WARNING, Check.BLOCKS),
+        "PMC101": FindingCode(Severity.ERROR, Check.GRAMMAR),
+        "PMC102": FindingCode(Severity.ERROR, Check.GRAMMAR),
+        "PMC103": FindingCode(Severity.WARNING, Check.ORDER),
+        "PMC104": FindingCode(Severity.ERROR, Check.GRAMMAR),
+        "PMC105": FindingCode(Severity.WARNING, Check.ORDER),
+        "PMC106": FindingCode(Severity.NOTE, Check.ORDER),
+        "PMC201": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "PMC202": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "PMC203": FindingCode(Severity.ERROR, Check.BLOCKS),
+        "PMC204": FindingCode(Severity.WARNING, Check.BLOCKS),
+        "PMC205": FindingCode(Severity.NOTE, Check.BLOCKS),
+        "PMC206": FindingCode(Severity.WARNING, Check.BLOCKS),
+        "PMC207": FindingCode(Severity.WARNING, Check.BLOCKS),
+        "PMC208": FindingCode(Severity.NOTE, Check.BLOCKS),
+        "PMC209": FindingCode(Severity.ERROR, Check.BLOCKS),
     }
 )
 """All codes, in their order."""

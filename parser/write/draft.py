@@ -11,7 +11,7 @@ from parser.told.compensation import Compensation
 from parser.told.step_words import StepWords
 from parser.toolpath import Stop, Toolpath
 
-_PLACED = re.compile(r"\s*(?:N\s*\d+\s*)?(?:Start|.*G\s*92(?!\d))", re.IGNORECASE)
+_PLACED = re.compile(r"\s*(?:N\s*\d+\s*)?(?:Start|PSET|.*G\s*92(?!\d))", re.IGNORECASE)
 _STAYS_UM = 1.5
 """An arc whose radii at start and end differ by no more, as rounding both to whole µm makes it, keeps its centre."""
 

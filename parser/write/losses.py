@@ -33,12 +33,12 @@ class Loss(NamedTuple):
     number: int
 
 
-def lost_words(text: str) -> tuple[Loss, ...]:
-    """Words of an ISO text that switch something, stop or call: none of them moves the wire."""
+def lost_words(text: str, kept: str = "") -> tuple[Loss, ...]:
+    """Words of an ISO text that switch something, stop or call: none of them moves the wire; but for letters kept."""
     listing = read_listing(text)
     words = listing.words
     is_m = words.letter == ord("M")
-    switches = np.isin(words.letter, [ord(letter) for letter in _SWITCHES])
+    switches = np.isin(words.letter, [ord(letter) for letter in _SWITCHES if letter not in kept])
     switches |= is_m & ~np.isin(words.value, _OF_THE_PATH)
     losses = [
         _named("switches", listing, switches),

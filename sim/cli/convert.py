@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from parser.findings.catalogue import Language as Tongue
     from parser.program import Program
     from parser.write.iso_choices import IsoChoices, Unit
+    from parser.write.pmac import PmacChoices
     from sim.convert.wanted import Language, Wanted
 
 _UNITS = click.Choice(["um", "mm", "inch"])
@@ -36,9 +37,11 @@ class _Asked(NamedTuple):
     number_step: int | None
     tape: bool | None
     crlf: bool
+    pmac: Any
+    card: Any
 
 
-@click.command(short_help="Convert a program between 3B, 4B and the dialects of ISO.")
+@click.command(short_help="Convert a program between 3B, 4B and the dialects of ISO, and to PMAC.")
 @click.argument("path", type=click.Path(path_type=Path, dir_okay=False), metavar="PROGRAM")
 @click.option(
     "-o",
@@ -46,9 +49,9 @@ class _Asked(NamedTuple):
     type=click.Path(path_type=Path, dir_okay=False),
     required=True,
     metavar="FILE",
-    help="The program that is written; its suffix says its language: .3b, .4b, .iso, .nc or .cnc.",
+    help="The program that is written; its suffix says its language: .3b, .4b, .iso, .nc, .cnc or .pmc.",
 )
-@click.option("--to", type=click.Choice(["3b", "4b", "iso"]), help="Its language, whatever its suffix.")
+@click.option("--to", type=click.Choice(["3b", "4b", "iso", "pmac"]), help="Its language, whatever its suffix.")
 @click.option("--dialect", type=Dialect(), help="Dialect of ISO: of what is written, else of what is read.")
 @click.option("--unit", type=_UNITS, help="Unit of ISO: of what is written, else of what is read.")
 @click.option("--from-dialect", type=Dialect(), help="Dialect that is read, from ISO to ISO; else told by its text.")
@@ -72,10 +75,12 @@ class _Asked(NamedTuple):
 @click.option("--decimals", type=click.IntRange(1, 6), help="Digits behind the point of mm (3) and inch (5).")
 @click.option("--number-step", type=click.IntRange(0, 1000), help="N of blocks, such as 10; 0 for none.")
 @click.option("--tape/--no-tape", default=None, help="Begin and end with %; as the dialect does.")
+@click.option("--pmac", type=click.Choice(["native", "gcode"]), help="Words of PMAC, or G words kept; native.")
+@click.option("--card", type=click.Choice(["turbo", "power"]), help="PMAC card; turbo.")
 @click.option("--crlf", is_flag=True, help="End lines as Windows does.")
 @click.option("--lang", type=click.Choice(["en", "zh"]), help="Language of messages; else that of the locale.")
 def convert(path: Path, output: Path, lang: str | None, **options: Any) -> None:
-    """Convert a program from 3B, 4B or ISO to 3B, 4B or any dialect of ISO.
+    """Convert a program from 3B, 4B, ISO or PMAC to 3B, 4B, any dialect of ISO or PMAC.
 
     The program is checked first; one with errors is not converted. What is written is read back, checked, and held
     against the path that it was written of, block by block: no more than 3 µm off, mostly less than 1. Then it is
@@ -90,6 +95,7 @@ def convert(path: Path, output: Path, lang: str | None, **options: Any) -> None:
     drycut convert part.3b -o part.iso --dialect robofil
     drycut convert part.iso -o part.3b --offset D0=0.1mm
     drycut convert part.3b -o part-caxa.3b --form detailed
+    drycut convert part.iso -o part.pmc
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.findings.errors import ProgramError
     from parser.program import read_program
@@ -127,7 +133,7 @@ def convert(path: Path, output: Path, lang: str | None, **options: Any) -> None:
 def _language(output: Path) -> "Language":
     from sim.setup.making import SUFFIXES
 
-    language = SUFFIXES.get(output.suffix.lower())
+    language: Language | None = "pmac" if output.suffix.lower() == ".pmc" else SUFFIXES.get(output.suffix.lower())
     if language is None:
         raise click.BadParameter(f"{output} does not say its language by its suffix; give --to", param_hint="-o")
     return language
@@ -144,11 +150,18 @@ def _refuse_misfits(asked: _Asked, language: "Language") -> None:
         "--number-step": asked.number_step,
         "--tape": asked.tape,
     }
-    for name, value in ({"--form": asked.form} if language == "iso" else of_iso).items():
+    misfits = {"--form": asked.form} if language == "iso" else of_iso
+    for name, value in ({**of_iso, "--form": asked.form} if language == "pmac" else misfits).items():
         if value is not None:
             raise click.UsageError(
                 f"{name} is for {'3B and 4B' if language == 'iso' else 'ISO'}, and not for {language}"
             )
+    of_pmac = {"--pmac": asked.pmac, "--card": asked.card}
+    for name, value in ({} if language == "pmac" else of_pmac).items():
+        if value is not None:
+            raise click.UsageError(f"{name} is for PMAC, and not for {language}")
+    if language == "pmac" and asked.compensation == "kept":
+        raise click.UsageError("--compensation kept: PMAC programs carry none here; it is worked in")
     if language == "3b" and asked.compensation == "kept":
         raise click.UsageError("--compensation kept: 3B carries none; it can be worked in, or kept in ISO and 4B")
 
@@ -177,7 +190,7 @@ def _with_offset(program: "Program", given: Offsets, side: str | None) -> "Progr
 def _wanted(asked: _Asked, language: "Language", program: "Program", given: Offsets) -> "Wanted":
     from sim.convert.wanted import Wanted
 
-    keeps = asked.compensation != "worked-in" and language != "3b"
+    keeps = asked.compensation != "worked-in" and language in {"4b", "iso"}
     return Wanted(
         language=language,
         iso=_iso(asked, program) if language == "iso" else None,
@@ -186,6 +199,15 @@ def _wanted(asked: _Asked, language: "Language", program: "Program", given: Offs
         newline="\r\n" if asked.crlf else "\n",
         name=program.name,
         offset_um=given.plain,
+        pmac=_pmac(asked, program) if language == "pmac" else None,
+    )
+
+
+def _pmac(asked: _Asked, program: "Program") -> "PmacChoices":
+    from parser.write.pmac import PmacChoices, blocks_of_source
+
+    return PmacChoices(
+        asked.pmac or "native", asked.card or "turbo", blocks_of_source(program.text, program.toolpath, program.decoder)
     )
 
 

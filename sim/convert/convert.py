@@ -99,7 +99,17 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     draft = draft_for(path, wanted)
     if not len(draft):
         return Refused("nothing", program)
-    return _proved(program, path, draft, wanted, is_open=any(one.is_open for one in checked.contours))
+    return _word_for_word_or_not(program, path, draft, wanted, is_open=any(one.is_open for one in checked.contours))
+
+
+def _word_for_word_or_not(
+    program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, is_open: bool
+) -> Converted | Refused:
+    """The written program; of its path, where its words mean another one to a PMAC card."""
+    done = _proved(program, path, draft, wanted, is_open=is_open)
+    if isinstance(done, Converted) or wanted.pmac is None or wanted.pmac.blocks is None:
+        return done
+    return _proved(program, path, draft, wanted._replace(pmac=wanted.pmac._replace(blocks=None)), is_open=is_open)
 
 
 def _path(program: Program, checked: Checked, wanted: Wanted) -> Toolpath:

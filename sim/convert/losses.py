@@ -17,7 +17,11 @@ def losses(program: Program, path: Toolpath, draft: Draft, made: Written, wanted
     `path` is what was drafted of it, as programmed or as the controller runs it.
     """
     words = program.toolpath.words
-    of_text = lost_words(program.text) if words is None else _lost_fields(program, words, wanted)
+    taken = wanted.pmac is not None and wanted.pmac.blocks is not None
+    if words is not None:
+        of_text = _lost_fields(program, words, wanted)
+    else:
+        of_text = lost_words(program.text, "FZ" if taken else "") if program.decoder is not None else ()
     found = (*of_text, *_lost_offsets(program.toolpath, wanted), *_changed_rows(path, draft, made, wanted))
     return tuple(loss for loss in found if loss.number)
 
@@ -53,7 +57,7 @@ def _changed_rows(path: Toolpath, draft: Draft, made: Written, wanted: Wanted) -
     is_jump = draft.curves.kind == CurveKind.JUMP
     first = max(len(path) - len(draft), 0)
     ran = is_jump[max(len(draft) - len(path), 0) :]
-    rapids = is_jump & ~draft.is_placed & (blocks > 0) & (wanted.iso is None and draft.words is None)
+    rapids = is_jump & ~draft.is_placed & (blocks > 0) & (not wanted.has_rapids and draft.words is None)
     return (
         Loss("first-rapids", "", first),
         Loss("rapids-back", "", int((path.is_jump[first:] & ~ran).sum())),

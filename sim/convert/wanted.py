@@ -1,21 +1,29 @@
 """What a program is to be converted to, and the text that is written of a toolpath."""
 
+from dataclasses import replace
 from typing import Literal, NamedTuple
+
+import numpy as np
 
 from parser.dialect.choices import STANDARD_CHOICES, Choices
 from parser.toolpath import Toolpath
 from parser.write.curve_marks import curve_marks
 from parser.write.draft import Draft, Written, draft_of
 from parser.write.iso import written_iso
-from parser.write.iso_choices import IsoChoices
+from parser.write.iso_choices import IsoChoices, iso_choices
+from parser.write.pmac import PmacChoices, blocks_of_text, written_pmac
 from parser.write.rapids import with_rapid_to_start, without_rapids
 from parser.write.sides import registers_of
 from parser.write.threeb import Form, ThreeBChoices, with_codes, written_3b
 
-Language = Literal["3b", "4b", "iso"]
+Language = Literal["3b", "4b", "iso", "pmac"]
 _BOUND_STEPS = 3.0
 """Ends and centres in whole steps, and the middle of a long arc up to twice as far off as its centre; of 100,000 arcs
 of any sweep none is farther off in ISO, and one in 3B, which has whole radii and counts too (docs/iso.md §10)."""
+
+
+_PMAC_BOUND_UM = 1.0
+_PMAC_DECIMALS = 5
 
 
 class Wanted(NamedTuple):
@@ -42,6 +50,8 @@ class Wanted(NamedTuple):
         has the words that every reader knows.
     encoding
         Of the file.
+    pmac
+        Choices of PMAC; None for other languages.
     """
 
     language: Language
@@ -54,10 +64,18 @@ class Wanted(NamedTuple):
     end_code: str | None = None
     pause_code: str | None = None
     encoding: str = "utf-8"
+    pmac: PmacChoices | None = None
+
+    @property
+    def has_rapids(self) -> bool:
+        """Whether the language has a word for a rapid."""
+        return self.iso is not None or self.pmac is not None
 
     @property
     def bound_um(self) -> float:
         """How far off the written path may be."""
+        if self.pmac is not None:
+            return _PMAC_BOUND_UM
         return _BOUND_STEPS * (1.0 if self.iso is None else max(1.0, self.iso.step_um))
 
 
@@ -66,6 +84,8 @@ def draft_for(toolpath: Toolpath, wanted: Wanted) -> Draft:
     draft = draft_of(toolpath)
     if wanted.iso is not None:
         return begun(draft, wanted)
+    if wanted.pmac is not None:
+        return draft.without_compensation()
     return (without_rapids(draft) if draft.words is None else draft).without_compensation()
 
 
@@ -79,10 +99,29 @@ def written(draft: Draft, wanted: Wanted) -> Written:
     """The text of a draft, its lines ended as wanted. SettingsError where the dialect cannot say what it needs."""
     if wanted.iso is not None:
         made = written_iso(draft, wanted.iso)
+    elif wanted.pmac is not None:
+        made = _written_pmac(draft, wanted.pmac)
     else:
         marks = curve_marks(draft.curves) if wanted.language == "4b" else None
         made = written_3b(draft, ThreeBChoices(wanted.form, wanted.name, wanted.offset_um, marks))
     return made._replace(text=made.text.replace("\n", wanted.newline))
+
+
+def _written_pmac(draft: Draft, choices: PmacChoices) -> Written:
+    """A motion program of the blocks of its source, else of those that ISO in mm would have."""
+    if choices.blocks is not None:
+        return Written(written_pmac(choices.blocks, choices), np.arange(len(draft)))
+    made = written_iso(draft, _plain_iso())
+    return Written(written_pmac(blocks_of_text(made.text), choices), made.row)
+
+
+def _plain_iso() -> IsoChoices:
+    """ISO of moves, places, pauses and an end alone, in hundredths of µm."""
+    usual = iso_choices("common", "mm", _PMAC_DECIMALS)
+    habits = replace(
+        usual.habits, head=(), end="M02", before_cut=(), behind_cut=(), arc_feed="", starts_by="place", says_unit=False
+    )
+    return usual._replace(habits=habits, distance="absolute", centers="from-start", number_step=0, tape=False)
 
 
 def encoded(text: str, wanted: Wanted) -> bytes:

@@ -161,6 +161,21 @@ VALUES: dict[str, dict[str, Value]] = {
     "ISO308": {"number": 2, "other": 1, "by": 190.0},
     "ISO309": {"left": 2000.0},
     "ISO600": {"word": "A1.5", "more": 3},
+    "PMC101": {"text": "WHILE"},
+    "PMC102": {"word": "G41", "program": 1000, "label": "N41000"},
+    "PMC103": {"number": 1, "what": "buffer-not-cleared"},
+    "PMC104": {"word": "X10", "other": "X1"},
+    "PMC105": {"number": 2, "first": 1},
+    "PMC106": {"word": "Z-1", "more": 0},
+    "PMC201": {"start": 500.0, "end": 1250.0, "off": 750.0},
+    "PMC202": {"what": "pmac-no-center"},
+    "PMC203": {"what": "pmac-radius-short"},
+    "PMC204": {"time": 12.0, "ramp": 100.0, "feed": 60.0, "runs": 7.2, "more": 0},
+    "PMC205": {"off": 88.4, "ramp": 100.0, "more": 0},
+    "PMC206": {"feed": 60.0},
+    "PMC207": {"more": 0},
+    "PMC208": {},
+    "PMC209": {"word": "F-60"},
 }
 
 

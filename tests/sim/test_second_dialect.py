@@ -309,7 +309,7 @@ def texts(tree: ast.Module) -> Iterator[str]:
             yield node.value
 
 
-DIALECTS = ("parser.threeb", "parser.iso")
+DIALECTS = ("parser.threeb", "parser.iso", "parser.pmac")
 
 
 def test_nothing_behind_the_parser_imports_a_dialect() -> None:

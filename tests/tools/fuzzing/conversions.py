@@ -21,6 +21,8 @@ _OPTIONS = (
     ("part.iso", "--dialect", "fanuc", "--distance", "absolute", "--tape"),
     ("part.iso", "--dialect", "sodick", "--decimals", "4", "--number-step", "10"),
     ("part.iso", "--centers", "absolute", "--unit", "um"),
+    ("part.pmc",),
+    ("part.pmc", "--pmac", "gcode", "--card", "power"),
 )
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from subprocess import CompletedProcess
 
 from fuzzing.iso_text import fuzzed_iso
+from fuzzing.pmac_text import fuzzed_pmac
 from fuzzing.program_text import fuzzed_program
 from fuzzing.promises import of_document, unclean
 from fuzzing.ran import answer_of, broken_by, ran
@@ -36,6 +37,11 @@ def make(rng: random.Random) -> Input:
 def make_iso(rng: random.Random) -> Input:
     """A program of ISO."""
     return fuzzed_iso(rng)
+
+
+def make_pmac(rng: random.Random) -> Input:
+    """A motion program of PMAC."""
+    return fuzzed_pmac(rng)
 
 
 def judge(data: Input, number: int, _: Path) -> Judged:

@@ -8,7 +8,8 @@ TARGETS = {
     for target in (
         Target("program", programs.make, programs.judge, 12.0),
         Target("fix", programs.make, programs.judge_fix, 5.0),
-        Target("iso", programs.make_iso, programs.judge, 12.0),
+        Target("iso", programs.make_iso, programs.judge, 8.0),
+        Target("pmac", programs.make_pmac, programs.judge, 4.0),
         Target("iso-fix", programs.make_iso, programs.judge_fix, 5.0),
         Target("convert", conversions.make, conversions.judge, 2.0, most_s=10.0),
         Target("scenario", setups.make_scenario, setups.judge_scenario, 20.0),

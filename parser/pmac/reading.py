@@ -1,0 +1,111 @@
+"""A text of PMAC motion programs, read: text to lines, the path that they make, and all that is wrong with it."""
+
+from bisect import bisect_left
+from collections.abc import Iterator, Mapping
+
+from parser.dialect.reader import BlockCounts, Damage, Reading, ReadText, Spelling
+from parser.findings.codes import Check, Severity
+from parser.findings.errors import ProgramError
+from parser.findings.facts import DamagedBlock
+from parser.findings.findings import Finding, file_order
+from parser.pmac.arcs import Arc, arc_of
+from parser.pmac.lines import Buffer, Text, read_lines
+from parser.pmac.moves import SUBPROGRAMS, State, run
+from parser.pmac.path import path_of
+from parser.pmac.speed import speed_findings
+from parser.text.encoding import no_program, printable
+from parser.text.source import Span
+from parser.toolpath import Stop, Toolpath
+
+_TIME_UNITS = ("I190", "I5190", "COORD[1].FEEDTIME")
+_SEGMENTS = ("I13", "I5113", "COORD[1].SEGMOVETIME")
+_MOST_SHOWN = 40
+
+
+def read_pmac(text: str) -> ReadText:
+    """What a text says. ProgramError (3B100) where no motion program of it moves anything in the plane."""
+    read = read_lines(text)
+    mains = [buffer for buffer in read.buffers if buffer.number not in SUBPROGRAMS]
+    if not mains:
+        raise ProgramError(no_program("no-block"))
+    main = mains[0]
+    state = run(main, {buffer.number: buffer for buffer in read.buffers if buffer.number in SUBPROGRAMS})
+    if not state.moves:
+        raise ProgramError(no_program("no-block"))
+    arcs = {row: arc_of(move) for row, move in enumerate(state.moves) if move.motion > 1}
+    stops = [*state.stops, Stop("end", len(state.moves), main.lines[-1].line)]
+    toolpath = path_of(read.lines.text, state.moves, arcs, stops)
+    starts = [move.at.span[0] for move in state.moves]
+    damages = tuple(Damage(span, bisect_left(starts, span[0])) for span in read.unread)
+    findings = [*_text_findings(read, mains), *_told(read, state), *_arc_findings(read, state, arcs)]
+    findings += [
+        read.lines.finding(one.code, state.moves[one.row].at.span, one.row + 1, **one.values)
+        for one in speed_findings(toolpath, state.moves, _setting(read, _TIME_UNITS))
+    ]
+    reading = _reading(read, state, toolpath, damages)
+    return ReadText(read.lines, reading, {}, toolpath, tuple(sorted(findings, key=file_order)))
+
+
+def _reading(read: Text, state: State, toolpath: Toolpath, damages: tuple[Damage, ...]) -> Reading:
+    n = len(toolpath)
+    return Reading(
+        dialect="PMAC",
+        counts=BlockCounts(n + len(damages), n, n),
+        damages=damages,
+        spelling=Spelling(clockwise="CIRCLE1", counter_clockwise="CIRCLE2", end="CLOSE", pause="STOP", rapid="RAPID"),
+        is_drawing=False,
+        not_asked={
+            Check.BLOCKS: "reason-no-words",
+            Check.PRINTED_ENDS: "reason-no-prints",
+            Check.HEADER: "reason-no-header",
+        },
+        remarks=read.remarks,
+        threadings=sum(move.is_threaded for move in state.moves),
+    )
+
+
+def _setting(read: Text, names: tuple[str, ...]) -> float | None:
+    return next((read.settings[name] for name in names if name in read.settings), None)
+
+
+def _text_findings(read: Text, mains: list[Buffer]) -> Iterator[Finding]:
+    """PMC101 and PMC103: what is nothing of the language, and buffers that hold more than is written."""
+    for span in read.unread:
+        shown = printable(read.lines.text[slice(*span)])[:_MOST_SHOWN]
+        yield read.lines.finding("PMC101", span, text=shown).with_fact(DamagedBlock())
+    for buffer in read.buffers:
+        if not buffer.is_cleared and not read.is_power:
+            yield read.lines.finding("PMC103", buffer.span, number=buffer.number, what="buffer-not-cleared")
+        if not buffer.is_closed:
+            yield read.lines.finding("PMC103", buffer.span, number=buffer.number, what="buffer-not-closed")
+    for other in mains[1:]:
+        yield read.lines.finding("PMC105", other.span, number=other.number, first=mains[0].number)
+
+
+def _told(read: Text, state: State) -> Iterator[Finding]:
+    """What the lines themselves have wrong, and PMC106 for axes beside the plane."""
+    for one in state.told:
+        yield read.lines.finding(one.code, one.span, 0, **one.values)
+    for axis in state.others[:1]:
+        yield read.lines.finding("PMC106", axis.span, word=f"{axis.name}{axis.value:g}", more=len(state.others) - 1)
+
+
+def _wrong_arc(read: Text, span: Span, row: int, arc: Arc) -> Finding:
+    """PMC201 to PMC203."""
+    if arc.wrong == "spiral":
+        off = abs(arc.end_um - arc.start_um)
+        return read.lines.finding("PMC201", span, row + 1, start=arc.start_um, end=arc.end_um, off=off)
+    by_radius = arc.wrong.startswith("radius")
+    return read.lines.finding("PMC203" if by_radius else "PMC202", span, row + 1, what=f"pmac-{arc.wrong}")
+
+
+def _arc_findings(read: Text, state: State, arcs: Mapping[int, Arc]) -> Iterator[Finding]:
+    """PMC201 to PMC203 at each arc that is none, and PMC207 where none is run as such."""
+    for row, arc in arcs.items():
+        if arc.wrong:
+            yield _wrong_arc(read, state.moves[row].at.span, row, arc)
+    segment_ms = _setting(read, _SEGMENTS)
+    if arcs and not segment_ms:
+        row = next(iter(arcs))
+        found = read.lines.finding("PMC207", state.moves[row].at.span, row + 1, more=len(arcs) - 1)
+        yield found if segment_ms is None else found._replace(graver=Severity.ERROR)
