@@ -81,7 +81,7 @@ class Library:
         return True
 
     def _milliseconds(self) -> int:
-        return int(self.card.time_s * 1e3)
+        return round(self.card.time_s * 1e3)
 
     def _end(self) -> None:
         """Write how the card ended; a thread that uses it still gets no answer then."""

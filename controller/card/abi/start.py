@@ -1,14 +1,12 @@
 """Start of the library in a program's process, where ``ges.c`` calls Python first."""
 
 import os
-import sys
 from collections.abc import Callable
 from typing import Any
 
 from controller.card.abi.asked import asked
 from controller.card.abi.c_text import digest
 from controller.card.abi.tasks import Tasks, all_tasks
-from controller.compiled.telling import on_compiling
 from parser.findings.errors import SettingsError
 
 
@@ -28,12 +26,7 @@ def start(made_for: str, passed: memoryview) -> tuple[Callable[..., Any], ...]:
     if made_for != digest():
         raise SettingsError("this libges was made by another drycut: make it again with 'drycut card build'")
     wanted = asked(os.environ)
-    on_compiling(_tell_of_compiling)
     before = all_tasks()
     from controller.card.abi.library import Library  # noqa: PLC0415 - loads all else, and that begins threads
 
     return Library(wanted, Tasks(all_tasks() - before), passed.cast("Q")).functions()
-
-
-def _tell_of_compiling() -> None:
-    print("drycut: compiling its loops, once: some 20 seconds", file=sys.stderr, flush=True)
