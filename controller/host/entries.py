@@ -7,8 +7,8 @@ import numpy as np
 from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
 from controller.motion.plan import Plan
 from controller.motion.planner import RowLimits
-from controller.stepping.words import words_of
 from parser.geometry.curves import Floats, Ints
+from parser.told.step_words import StepWords
 from parser.toolpath import Toolpath
 
 Interpolation = Literal["point-by-point", "card"]
@@ -44,7 +44,8 @@ class Entries(NamedTuple):
     Attributes
     ----------
     row
-        Row of the toolpath; rows without length make no entry, arcs of more than one turn several.
+        Row of the toolpath; rows without length make no entry, nor do blocks that whole µm leave no steps, arcs of more
+        than one turn several.
     end_um, center_um
         Ends, and centres of arcs.
     angle_deg
@@ -67,10 +68,11 @@ class Entries(NamedTuple):
     wait_ms: Ints
 
 
-def entries_of(drive: Drive) -> Entries:
-    """Entries of a whole toolpath."""
+def entries_of(drive: Drive, words: StepWords | None = None) -> Entries:
+    """Entries of a whole toolpath, which the card steps by its `words`, one for each row, where they are given."""
     toolpath, limits = drive.toolpath, drive.limits
-    kept = np.flatnonzero(limits.length_um > 0.0)
+    moves = limits.length_um > 0.0
+    kept = np.flatnonzero(moves if words is None else moves & (words.count_um > 0))
     if not len(kept):
         empty, pairs = np.zeros(0), np.zeros((0, 2))
         return Entries(kept, pairs, pairs, empty, empty, empty, empty, kept)
@@ -106,9 +108,9 @@ def _turns(sweep_rad: Floats, interpolation: Interpolation) -> Ints:
     return np.maximum(np.ceil(np.abs(sweep_rad) / (2.0 * np.pi) - 1e-12), 1.0).astype(np.int64)
 
 
-def blocks_told(drive: Drive, entries: Entries) -> list[tuple[float, ...]]:
+def blocks_told(drive: Drive, entries: Entries, words: StepWords) -> list[tuple[float, ...]]:
     """What `step_block` is given for each entry: the words of its block, and the length µm."""
-    words, row = words_of(drive.toolpath), entries.row
+    row = entries.row
     columns = words.x_um, words.y_um, words.count_um, words.count_axis, words.quadrant, words.turn
     return list(zip(*(column[row].tolist() for column in (*columns, drive.limits.length_um)), strict=True))
 

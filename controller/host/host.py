@@ -13,6 +13,7 @@ from controller.card.core.units import UM_S_PER_PULSE_MS
 from controller.card.ge import GECard
 from controller.host.entries import Drive, blocks_told, entries_of, shapes_told
 from controller.stepping.pulses import Pulses
+from controller.stepping.words import words_of
 from parser.findings.errors import ControllerError
 
 AXES = (1, 2)  # X and Y
@@ -48,10 +49,11 @@ class Host:
         self._until_s = until_s
         self.card = GECard(settings, on_pulses=self._pulses, on_call=on_call)
         self._drive, self._take = drive, take
-        self._entries = entries_of(drive)
+        words = words_of(drive.toolpath) if drive.interpolation == "point-by-point" else None
+        self._entries = entries_of(drive, words)
         self._row_of = np.concatenate([[0], self._entries.row]).astype(np.int32)
-        self._steps_words = drive.interpolation == "point-by-point"
-        told = blocks_told(drive, self._entries) if self._steps_words else shapes_told(self._entries)
+        self._steps_words = words is not None
+        told = shapes_told(self._entries) if words is None else blocks_told(drive, self._entries, words)
         self._told: list[tuple[float, ...]] = told
         self._end_s = drive.plan.time_at(np.cumsum(drive.limits.length_um)[self._entries.row])
         self._pushed = 0

@@ -138,6 +138,7 @@ _UNITS = {
     6: Unit("m", 1000.0 * UM_PER_MM),
     8: Unit("microinch", _INCH_MM * UM_PER_MM / 1e6),
     9: Unit("mil", _INCH_MM * UM_PER_MM / 1e3),
+    10: Unit("yard", 36.0 * _INCH_MM * UM_PER_MM),
     12: Unit("nm", 1e-3),
     13: Unit("µm", 1.0),
     14: Unit("dm", 100.0 * UM_PER_MM),

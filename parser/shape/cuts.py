@@ -11,7 +11,7 @@ from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import runs
 from parser.shape.edges import edges_of
 from parser.shape.loops import find_loops
-from parser.shape.open_edges import LEAST_ASIDE_UM, MOST_ASIDE_UM, Section, is_slot, open_sections, sections_of_tours
+from parser.shape.open_edges import MOST_ASIDE_UM, Section, is_slot, open_sections, sections_of_tours
 from parser.shape.several_loops import several_loops
 from parser.shape.tabs import cut_elsewhere
 from parser.shape.turns import Turns, find_turns
@@ -117,10 +117,10 @@ def _trimmed(loops: Cuts, edge: Ints) -> dict[int, list[tuple[int, int]]]:
 
 
 def _turned(contour: Ints, turns: Turns) -> dict[int, Turns]:
-    """Turns of the contours that step aside at one of them as from one pass to the next one, by contour."""
+    """Turns of the contours that turn back at one of them as from one pass to the next one, by contour."""
     aside = np.abs(turns.aside_um)
     of = contour[turns.leave]
-    wanted = distinct(of[(aside >= LEAST_ASIDE_UM) & (aside <= MOST_ASIDE_UM)])
+    wanted = distinct(of[aside <= MOST_ASIDE_UM])
     first, past = np.searchsorted(of, wanted), np.searchsorted(of, wanted, side="right")
     return {
         at: turns.take(slice(low, high))

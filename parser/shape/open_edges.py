@@ -43,6 +43,8 @@ def open_sections(toolpath: Toolpath, bounds: tuple[int, int], turns: Turns) -> 
     """
     aside = np.abs(turns.aside_um)
     trims = np.flatnonzero((aside >= LEAST_ASIDE_UM) & (aside <= MOST_ASIDE_UM))
+    if not len(trims):
+        return _repeated(toolpath, bounds, turns.take(np.flatnonzero(aside < LEAST_ASIDE_UM)[:1]))
     # There the part lies on the one side, back on the other; round a slot the wire goes aside to one side always.
     to_part = np.sign(turns.aside_um[trims]) * np.where(trims % 2 == 0, 1.0, -1.0)
     if (to_part != to_part[:1]).any():
@@ -55,6 +57,25 @@ def open_sections(toolpath: Toolpath, bounds: tuple[int, int], turns: Turns) -> 
         if len(edge):
             return _sections(toolpath, low, past, edge)
     return []
+
+
+def _repeated(toolpath: Toolpath, bounds: tuple[int, int], turns: Turns) -> list[Section]:
+    """Passes over an open edge that lie in one place, there and back; they are passes by the tab that they leave.
+
+    It is shorter than the edge. A slit, left on the line on which it was cut, leaves none.
+    """
+    low, past = bounds
+    if not len(turns.leave):
+        return []
+    there, back = np.arange(low, turns.arrive[0]), np.arange(turns.leave[0], past)
+    whole_um, run_um = toolpath.length_um[there].sum(), np.cumsum(toolpath.length_um[back])
+    if not len(run_um) or run_um[-1] < _LEAST_SHARE * whole_um:
+        return []  # back over less than most of it
+    edge = _common(toolpath, there, back[: np.searchsorted(run_um, whole_um)], 0.0)
+    found = _sections(toolpath, low, past, edge) if len(edge) else []
+    tabs = [section for section in found if section.is_tab]
+    lengths = [toolpath.length_um[one.first : one.last + 1].sum() for one in (*found[:1], *tabs)]
+    return found if tabs and max(lengths[1:]) < lengths[0] else []
 
 
 def is_slot(sections: list[Section], begin: int, loop: tuple[int, int] | None) -> bool:
@@ -77,10 +98,11 @@ def sections_of_tours(toolpath: Toolpath, bounds: tuple[int, int], one: Ints, ot
     return _sections(toolpath, *bounds, edge) if len(edge) else []
 
 
-def _common(toolpath: Toolpath, early: Ints, late: Ints) -> Ints:
+def _common(toolpath: Toolpath, early: Ints, late: Ints, least_um: float = LEAST_ASIDE_UM) -> Ints:
     """Rows of a later stretch up to the last that runs beside an earlier one as most of it does; none if few do.
 
-    `early` and `late` are their rows. Leads of both run on one line, not as far aside as passes.
+    `early` and `late` are their rows, and it runs `least_um` aside. Leads of both run on one line, not as far
+    aside as passes.
     """
     row, aside, _ = _row_by_row(toolpath, early, late)
     length = toolpath.length_um[row]
@@ -89,7 +111,7 @@ def _common(toolpath: Toolpath, early: Ints, late: Ints) -> Ints:
     order = np.argsort(aside)
     half = np.searchsorted(np.cumsum(length[order]), 0.5 * length.sum())
     usual = float(aside[order][half])
-    if not LEAST_ASIDE_UM <= abs(usual) <= MOST_ASIDE_UM:
+    if not least_um <= abs(usual) <= MOST_ASIDE_UM:
         return late[:0]
     like = row[np.abs(aside - usual) <= max(CLOSED_WITHIN_UM, 0.4 * abs(usual))]
     if not len(like):

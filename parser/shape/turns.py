@@ -48,7 +48,21 @@ def find_turns(toolpath: Toolpath, contour: Ints) -> Turns:
     there = np.flatnonzero(leave >= 0)
     # Blocks may be shorter than a step: of turns that leave by one row, the last one is no step longer than it must be.
     there = there[np.diff(leave[there], append=n) != 0]
+    there = _apart(there, leave[there], before)
     back = leave[there]
     by = toolpath.start_um[back] - toolpath.end_um[there]
     way = ways.arriving[there]
     return Turns(there + 1, back, way[:, 0] * by[:, 1] - way[:, 1] * by[:, 0])
+
+
+def _apart(there: Ints, back: Ints, before_um: Floats) -> Ints:
+    """Rows (k,) that turn back, without those whose way back would be the step of another one: of two the shorter step.
+
+    Behind a corner the step itself runs back beside the side before it.
+    """
+    step_um = before_um[back] - before_um[there + 1]
+    meets = back[:-1] >= there[1:] + 1
+    gone = np.zeros(len(there), dtype=np.bool_)
+    gone[:-1] |= meets & (step_um[:-1] > step_um[1:])
+    gone[1:] |= meets & (step_um[:-1] <= step_um[1:])
+    return there[~gone]

@@ -63,8 +63,9 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
     close. But if they close it, they are its last cut, behind a pause in which the slug is clamped. More blocks after a
     pause are a figure with the jump to it: their first line is the jump if the figure before is closed, and if their
     own figure does not need that line to close. No wire is threaded where the figure before has a corner: a line that
-    ends within a kerf of one goes to another pass over its edge, or cuts the tab that held the slug. More lines than
-    three are the way to a figure that closes where they end.
+    ends within a kerf of one goes to another pass over its edge, or cuts the tab that held the slug; and so do blocks
+    of which the last one ends there, since a figure of its own ends by its own thread point. More lines than three are
+    the way to a figure that closes where they end.
     """
     rows: list[int] = []
     begin = 0  # first row of the figure being cut
@@ -84,7 +85,7 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
             past = at + 1
         else:
             continue
-        if not _at_cut_corner(toolpath, begin, at, past - 1):
+        if not any(_at_cut_corner(toolpath, begin, at, row) for row in (past - 1, until - 1)):
             rows.extend(range(at, past))
             begin = past
     return np.array(rows, dtype=np.int64)

@@ -101,7 +101,7 @@ def _dialect(records: Records) -> Iterator[Finding]:
 def _idle_pauses(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
     """Pauses behind a pause with nothing between, and pauses after a closed figure that goes on without a jump.
 
-    A closed figure may go on with a trim of its edge. One that is cut once more as it was has lost a jump.
+    A closed figure may go on with a trim of its edge, or its tab. One that is cut once more as it was has lost a jump.
     """
     placed, jump = placed_marks(records.marks), toolpath.is_jump
     idle: list[tuple[Mark, int]] = []
@@ -115,14 +115,16 @@ def _idle_pauses(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
             idle.append((mark, -1 if repeated else row))
         begin = row
     passes = find_passes(toolpath) if any(row >= 0 for _, row in idle) else None
-    trimmed = {one.edge for one in passes.passes if abs(one.shift_um) > _SAME_PLACE_UM} if passes else set()
+    trimmed = (
+        {one.edge for one in passes.passes if abs(one.shift_um) > _SAME_PLACE_UM or one.is_tab} if passes else set()
+    )
     for mark, row in idle:
         if passes is None or not _before_trim(passes, trimmed, row):
             yield records.lines.finding("3B308", mark.span)
 
 
 def _before_trim(passes: Passes, trimmed: set[int], row: int) -> bool:
-    """Whether a pause before a row stands between two passes over one edge, which must be one of the trimmed."""
+    """Whether a pause before a row stands between two passes over one edge, one that is trimmed or has a tab."""
     around = passes.around(row)
     return around is not None and around[0].edge == around[1].edge and around[0].edge in trimmed
 

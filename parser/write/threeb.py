@@ -61,6 +61,14 @@ def with_codes(text: str, end: str | None, pause: str | None) -> str:
     return _CODE.sub(lambda found: found[1] + codes[found[2]], text)
 
 
+def with_usual_codes(data: bytes, end: bytes | None, pause: bytes | None) -> bytes:
+    """Bytes of a text that `with_codes` changed, with the words for its end and its pauses that every reader knows."""
+    usual = {end or _END.encode(): _END.encode(), pause or _PAUSE.encode(): _PAUSE.encode()}
+    codes = b"|".join(re.escape(code) for code in usual)
+    alone = rb"(?m)^([ \t]*(?:N[ \t]*\d+[ \t]*:[ \t]*)?)(" + codes + rb")(?=[ \t]*\r?$)"
+    return re.sub(alone, lambda found: found[1] + usual[found[2]], data)
+
+
 def _told(draft: Draft) -> Chained:
     """Words of the rows, and where they end: as they are, or told one from the end of the other."""
     if draft.words is not None:

@@ -45,7 +45,7 @@ def document(made: Made | NotMade, say: Say) -> dict[str, Any]:
         "drycut": __version__,
         "made": done is not None,
         "drawing": None if plan is None else _drawing(plan),
-        "fit": None if plan is None or plan.drawing.fit is None else _fit(plan.drawing.fit),
+        "fit": None if plan is None or plan.drawing.fit is None else _fit(plan.drawing.fit, plan.making.tolerance_um),
         "figures": [] if done is None else [*map(_figure, done.plan.cuts, figure_sums(done))],
         "left_out": [] if plan is None else [_left_out(one, say) for one in plan.left_out],
         "length_um": None if done is None else _rounded(float(done.program.toolpath.length_um.sum())),
@@ -65,8 +65,9 @@ def _drawing(plan: CutPlan) -> dict[str, Any]:
     return {"name": plan.drawing.name, "version": plan.drawing.version, "unit": plan.drawing.unit}
 
 
-def _fit(fit: FitFigures) -> dict[str, Any]:
-    return {**fit._asdict(), "max_um": _rounded(fit.max_um)}
+def _fit(fit: FitFigures, asked_um: float) -> dict[str, Any]:
+    """The tolerance is that which is asked for: arcs may have been fitted nearer, so that the written path keeps it."""
+    return {**fit._asdict(), "tolerance_um": _rounded(asked_um), "max_um": _rounded(fit.max_um)}
 
 
 def _figure(cut: FigureCut, of: FigureSum) -> dict[str, Any]:
@@ -112,6 +113,8 @@ def _left_out(one: LeftOut, say: Say) -> dict[str, Any]:
         "entity": _entity(one.entity),
         "why": one.why,
         "text": say(f"program.left-out-{one.why}"),
+        "detail": None if one.detail is None else remark_text(one.detail, say.language),
+        "gap_um": None if one.gap_um is None else _rounded(one.gap_um),
         "place_um": None if one.place_um is None else _place(one.place_um),
     }
 

@@ -13,7 +13,7 @@ from sim.measure.compare.result import Asked
 
 _STEP = 0.03  # of the tolerance, by which each fit is nearer than the one before it
 _MOST_STEPS = 6
-_MOST_ARCS = 1500
+_MOST_CURVES = 1500
 """Of all fits in steps together: of so many arcs some one is always rounded to its wrong side."""
 _ROUNDING_UM = 0.5
 """What whole µm add at most: 0.49 µm, written as 3B over an ellipse of 40 × 20 mm fitted within 0.5 … 5 µm."""
@@ -21,13 +21,13 @@ _LEAST_SHARE = 0.5
 """Of the tolerance: with less of it, a fit takes ever more arcs, each of them rounded."""
 
 
-def fits_um(tolerance_um: float, arcs: int) -> tuple[float, ...]:
+def fits_um(tolerance_um: float, curves: int) -> tuple[float, ...]:
     """How far arcs may lie off what is drawn, the first fit to be tried first, where the path may by a tolerance.
 
-    `arcs` says how many the first fit has. Other arcs are rounded otherwise, mostly by less than the last fit allows
+    `curves` says how many the first fit has. Other arcs are rounded otherwise, mostly by less than the last fit allows
     for: so as few of them as of the whole tolerance often do.
     """
-    steps = min(_MOST_STEPS, _MOST_ARCS // max(arcs, 1) - 1)
+    steps = min(_MOST_STEPS, _MOST_CURVES // max(curves, 1) - 1)
     surely_um = max(tolerance_um - _ROUNDING_UM, _LEAST_SHARE * tolerance_um)
     nearer = (round(tolerance_um * (1.0 - _STEP * step), 6) for step in range(1, steps + 1))
     return (tolerance_um, *(one for one in nearer if one > surely_um), surely_um)

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from parser.drawing.model import DEFAULT_FLATTEN_UM, Drawing
 from parser.drawing.read import read_drawing
+from parser.findings.remarks import Remark
 from parser.program import Program, load_program
 from parser.write.draft import Draft
 from sim.cam.fits import fits_um, path_off_um
@@ -27,6 +28,7 @@ from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 from sim.table.progress import Progress, silent
 
+_SURELY_ALONE = 2  # fits: of a large drawing no more is looked at than the one that is surely near enough
 _FLATTEN_SHARE = 0.01  # of the tolerance: how far the lines of the drawing as it is drawn lie off its curves
 
 
@@ -80,7 +82,7 @@ def planned(
     figures = with_sides(parts.figures, making)
     widest_um = [max(offsets_of(figure, passes_um, making)) for figure in figures]
     notes = (*parts.notes, *walls(figures, widest_um, scenario.wire.reach_um))
-    threads = threads_of(drawing, figures, making, max(passes_um))
+    threads = threads_of(drawing, figures, making, max(widest_um))
     notes += thread_notes(figures, threads, making)
     order = in_order(figures, threads, making)
     cuts = tuple(figure_cut(figures[one], threads[one], passes_um, making) for one in order)
@@ -123,12 +125,14 @@ def unproved(
     try:
         done = _fitted(asked, making.tolerance_um)
         fit = done.plan.drawing.fit
-        for fit_um in fits_um(making.tolerance_um, 0 if fit is None else fit.arcs)[1:]:
+        fits = fits_um(making.tolerance_um, 0 if fit is None else fit.arcs + fit.lines)
+        for fit_um in fits[1:]:
             if _is_surely_within(done):
                 break
-            done = _with_drawn(done, path)
-            if not _is_rounded_off(done, asked):
-                break
+            if len(fits) > _SURELY_ALONE:
+                done = _with_drawn(done, path)
+                if not _is_rounded_off(done, asked):
+                    break
             done = _fitted(asked, fit_um)._replace(drawn=done.drawn)
     except CannotCutError as error:
         return NotMade(error.refusal)
@@ -140,6 +144,7 @@ def _fitted(asked: _Asked, fit_um: float) -> Made:
     path, making, wanted, scenario, progress = asked
     plan = planned(path, making, scenario, progress, fit_um)
     progress("write", 0, 1)
+    plan = plan._replace(notes=(*plan.notes, *_own_codes(wanted)))
     plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))
     draft = begun(_drafted(plan, wanted), wanted)
     text = written(draft, wanted)
@@ -159,6 +164,12 @@ def _is_rounded_off(done: Made, asked: _Asked) -> bool:
     assert done.drawn is not None  # noqa: S101 - read before
     off_um = path_off_um(done.program, done.plan, done.drawn, asked.scenario.wire.reach_um)
     return off_um is not None and 0.0 < off_um - asked.making.tolerance_um <= asked.wanted.bound_um
+
+
+def _own_codes(wanted: Wanted) -> tuple[Remark, ...]:
+    """What is to be said of words for the end and a pause that other readers do not know."""
+    codes = [one for one in (wanted.end_code, wanted.pause_code) if one is not None]
+    return (Remark("own-codes", {"codes": ", ".join(codes)}),) if codes else ()
 
 
 def _with_drawn(done: Made, path: Path) -> Made:

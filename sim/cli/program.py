@@ -17,13 +17,14 @@ if TYPE_CHECKING:
 
 
 class _Asked(NamedTuple):
-    """What is to be made: of which drawing, on whose machine, how, in which language, and where it goes."""
+    """What is to be made: of which drawing, on whose machine, how, in which language, and whether and where it goes."""
 
     drawing: Path
     scenario: "Scenario"
     to_make: "ToMake"
     language: "Language"
     output: Path | None
+    is_written: bool
 
 
 class _Picture(NamedTuple):
@@ -94,7 +95,7 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
     is_proved = isinstance(done, Made) and done.proof is not None and done.proof.verdict == "pass"
     written = None
     if isinstance(done, Made):
-        if (is_proved or force) and not preview and asked.output is not None:
+        if (is_proved or force) and asked.is_written and asked.output is not None:
             written = asked.output
             _write(written, done.data if is_proved else _with_findings(done, asked, tongue))
         if picture is not None:
@@ -105,14 +106,16 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
 
         write(document_text(done, Words(tongue)), "json")
     else:
-        _tell(done, asked, written, picture, tongue)
+        _tell(done, asked, picture, tongue)
+        _tell_where(done, asked, written, tongue)
     raise click.exceptions.Exit(0 if is_proved else 1)
 
 
 def _asked(path: Path, output: Path | None, options: Options, *, is_written: bool) -> _Asked:
     """What is to be made. UsageError where it is not said which drawing, or where to."""
     from sim.cam.of_scenario import drawing_to_cut
-    from sim.setup.making import ToMake, of_drawing, refuse_misfits
+    from sim.setup.making import ToMake
+    from sim.setup.program_section import of_drawing, refuse_misfits
 
     scenario = _scenario(path, output, options)
     if path.is_dir():
@@ -132,7 +135,7 @@ def _asked(path: Path, output: Path | None, options: Options, *, is_written: boo
     refuse_misfits(to_make.writing, language, "drycut program")
     if output is not None:
         refuse_own_files(output, (file, *([path / "scenario.toml"] if path.is_dir() else [])))
-    return _Asked(file, scenario, to_make, language, output)
+    return _Asked(file, scenario, to_make, language, output, is_written)
 
 
 def _scenario(path: Path, output: Path | None, options: Options) -> "Scenario":
@@ -221,7 +224,7 @@ def _draw(done: "Made", picture: _Picture, tongue: "Tongue") -> None:
     write_pictures(PlanShown(done.plan), files, SIZES_PX["screen"], picture.theme, tongue)
 
 
-def _tell(done: "Made | NotMade", asked: _Asked, written: Path | None, picture: Path | None, tongue: "Tongue") -> None:
+def _tell(done: "Made | NotMade", asked: _Asked, picture: Path | None, tongue: "Tongue") -> None:
     from sim.cam.maker import Made
     from sim.show.terminal.printer import say
     from sim.show.terminal.program import not_made_lines, print_made
@@ -234,6 +237,22 @@ def _tell(done: "Made | NotMade", asked: _Asked, written: Path | None, picture: 
     else:
         for line in not_made_lines(done, str(asked.drawing), tongue, width_of(outlet())):
             say(line)
-    for file in (written, picture if isinstance(done, Made) else None):
-        if file is not None:
-            say(Words(tongue)("program.written", out=file))
+    if isinstance(done, Made) and picture is not None:
+        say(Words(tongue)("program.written", out=picture))
+
+
+def _tell_where(done: "Made | NotMade", asked: _Asked, written: Path | None, tongue: "Tongue") -> None:
+    """Where the program is, or why it is nowhere."""
+    from sim.cam.maker import Made
+    from sim.show.terminal.printer import say
+    from sim.show.terminal.streams import outlet
+    from sim.show.terminal.wrap import width_of, wrapped
+    from sim.show.words import Words
+
+    if not isinstance(done, Made):
+        return
+    is_proved = done.proof is not None and done.proof.verdict == "pass"
+    name = "written" if is_proved else "forced" if written else "held-back"
+    text = Words(tongue)(f"program.{name if written or asked.is_written else 'previewed'}", out=asked.to_make.file)
+    for line in wrapped(text, width_of(outlet()), "", "    "):
+        say(line)

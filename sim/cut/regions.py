@@ -57,7 +57,14 @@ def unions(one: Regions, other: Regions) -> Regions:
 
 def union_all(regions: Iterable[Region]) -> Region:
     """Union of all regions; empty of none."""
-    return _robust(lambda *all_of_them, **grid: shapely.union_all(all_of_them, **grid), tuple(regions))
+    return _robust(_union_all, tuple(regions))
+
+
+def _union_all(*regions: Region, grid_size: float | None = None) -> Region:
+    if grid_size is not None:
+        return shapely.union_all(list(regions), grid_size=grid_size)
+    apart: Region = shapely.disjoint_subset_union_all(list(regions))  # where most are, in a hundredth of the time
+    return apart
 
 
 def difference(one: Region, other: Region) -> Region:

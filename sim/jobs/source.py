@@ -6,6 +6,7 @@ from parser.files.reading import read_bytes
 from parser.findings.errors import DrawingError
 from parser.program import Program, load_program
 from parser.text.encoding import printable
+from parser.write.threeb import with_usual_codes
 from sim.setup.making import ToMake
 from sim.setup.scenario import Scenario
 from sim.table.progress import Progress, silent
@@ -43,5 +44,15 @@ def _made(scenario: Scenario, to_make: ToMake, progress: Progress) -> bytes:
 
 
 def program_read(scenario: Scenario, source: Source) -> Program:
-    """The program of its bytes. ProgramError where they hold none."""
-    return load_program(source.data, printable(scenario.program.name), scenario.choices)
+    """The program of its bytes, read by the words for end and pause that it is asked to have. ProgramError if none."""
+    return load_program(_in_usual_words(scenario, source.data), printable(scenario.program.name), scenario.choices)
+
+
+def _in_usual_words(scenario: Scenario, data: bytes) -> bytes:
+    """With ``DD`` and ``D``, where ``[program]`` names words of its own."""
+    if scenario.to_make is None:
+        return data
+    writing = scenario.to_make.writing
+    codes = writing.end_code, writing.pause_code
+    end, pause = (None if code is None else code.encode(writing.encoding, "replace") for code in codes)
+    return with_usual_codes(data, end, pause) if end or pause else data

@@ -15,7 +15,7 @@ from sim.setup.dialect import READ_WITH
 from sim.setup.expectations import EXPECT, Expectation, expect_section, read_expectation
 from sim.setup.machine.controller_model import INTERPOLATOR
 from sim.setup.machine.machine import Machine, load_machine
-from sim.setup.making import LAYER, PROGRAM, LayerWish, ToMake, read_to_make
+from sim.setup.making import LayerWish, ToMake
 from sim.setup.obstacles import CLAMPS, Clamp, Outline, OutlineMm, read_clamps
 from sim.setup.part import (
     DEFAULT_DENSITY_G_CM3,
@@ -29,6 +29,7 @@ from sim.setup.part import (
     read_drawing_target,
     read_offset,
 )
+from sim.setup.program_section import LAYER, PROGRAM, read_to_make
 from sim.setup.quiz import QUIZ, Question, read_quiz
 from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import FileName, Name, Number, TablePlace, Text, Truth

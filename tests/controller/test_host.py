@@ -21,7 +21,8 @@ from controller.motion.planner import plan_rows
 from controller.stepping.interpolators import EqualTime, PointByPoint
 from controller.stepping.pulses import Pulses
 from controller.stepping.words import interpolate
-from parser.program import parse_program
+from parser.program import load_program, parse_program
+from parser.toolpath import Toolpath
 
 FEEDS = Feeds(cut_um_s=500.0, jump_um_s=4000.0)
 LIMITS = MotionLimits(acceleration_um_s2=1e5, axis_acceleration_um_s2=(5e4, 7e4), junction=JunctionDeviation(0.1))
@@ -30,7 +31,10 @@ PERIOD_S = 200e-6
 
 
 def drive_of(text: str, interpolation: Interpolation, limits: MotionLimits = LIMITS) -> Drive:
-    toolpath = parse_program(text).toolpath
+    return drive_along(parse_program(text).toolpath, interpolation, limits)
+
+
+def drive_along(toolpath: Toolpath, interpolation: Interpolation, limits: MotionLimits = LIMITS) -> Drive:
     rows = row_limits(toolpath, FEEDS, limits)
     plan = plan_rows(rows, jerk_um_s3=limits.jerk_um_s3)
     assert_plan_is_lawful(plan, rows, jerk_um_s3=limits.jerk_um_s3)
@@ -153,6 +157,13 @@ def test_blocks_without_length_are_left_out_and_their_borders_joined() -> None:
     entries = entries_of(drive)
     assert entries.row.tolist() == [0, 2]
     assert entries.end_pulse_ms[0] == 0.0
+    assert set(driven(drive)[0].row.tolist()) == {0, 2}
+
+
+def test_blocks_that_whole_um_leave_no_steps_are_left_out() -> None:
+    text = "G92 X0 Y0\nG01 X1. Y0\nG01 X1.0003 Y0.0002\nG01 X1. Y1.\nM02\n"
+    drive = drive_along(load_program(text.encode(), "short.iso").toolpath, "point-by-point")
+    assert drive.limits.length_um[1] > 0.0
     assert set(driven(drive)[0].row.tolist()) == {0, 2}
 
 

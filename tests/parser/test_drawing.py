@@ -207,7 +207,10 @@ def test_every_version_gives_the_same_curves(tmp_path, version, fmt):
 
 @pytest.mark.parametrize(
     ("code", "name", "um"),
-    [(1, "inch", 25400.0), (2, "foot", 304800.0), (4, "mm", 1e3), (5, "cm", 1e4), (6, "m", 1e6), (9, "mil", 25.4)],
+    [
+        *((1, "inch", 25400.0), (2, "foot", 304800.0), (4, "mm", 1e3), (5, "cm", 1e4), (6, "m", 1e6), (9, "mil", 25.4)),
+        (10, "yard", 914_400.0),
+    ],
 )
 def test_lengths_are_in_the_unit_of_the_file(tmp_path, code, name, um):
     document = new(units=code)
@@ -378,8 +381,8 @@ def test_what_is_not_level_is_seen_from_above_and_said(tmp_path):
     drawing = _read(tmp_path, draw)
     assert drawing.curves.length_um[0] == pytest.approx(3000)
     assert np.ptp(drawing.curves.start_um[1:, 1]) == pytest.approx(4000 / math.sqrt(2), abs=1)
-    assert any(note.startswith("2 curves are not level") for note in notes(drawing))
-    assert any(note.startswith("1 circles or ellipses left out") for note in notes(drawing))
+    assert any(note.startswith("2 of the curves not level") for note in notes(drawing))
+    assert any(note.startswith("1 of the circles and ellipses left out") for note in notes(drawing))
 
 
 def test_a_block_that_inserts_itself_or_is_missing_ends_in_a_note(tmp_path):
@@ -428,7 +431,7 @@ def _layered(folder: Path) -> Path:
 def test_layers_that_are_off_or_frozen_are_left_out_and_counted(tmp_path):
     drawing = read_drawing(_layered(tmp_path))
     assert [entity.layer for entity in drawing.entities] == ["Cut", "中文", "Cut"]
-    assert any(note.startswith("2 entities on other layers") for note in notes(drawing))
+    assert any(note.startswith("2 of the entities left out: on other layers") for note in notes(drawing))
     assert "left out, as no curves: 1 TEXT" in notes(drawing)
 
 
@@ -486,7 +489,7 @@ def test_what_is_drawn_twice_is_kept_once_whichever_way_it_runs(tmp_path):
 
     drawing = _read(tmp_path, draw)
     assert len(drawing.curves) == 4
-    assert "3 curves left out, as they are drawn twice" in notes(drawing)
+    assert "3 of the curves left out: drawn twice" in notes(drawing)
 
 
 # Chaining
@@ -689,7 +692,7 @@ def test_an_entity_with_numbers_that_cannot_be_is_left_out_and_the_rest_is_read(
 
     drawing = _read(tmp_path, draw)
     assert len(drawing.curves) == 1
-    assert any(note.startswith("2 curves left out, as they lie beyond") for note in notes(drawing))
+    assert any(note.startswith("2 of the curves left out: beyond") for note in notes(drawing))
     assert any("numbers cannot be: 1 SPLINE" in note for note in notes(drawing))
 
 

@@ -34,7 +34,7 @@ INPUTS = {
         "card": 200,
         "dxf": 60,
     },
-    **{"compare": 3, "command": 50, "run": 4, "iso-run": 4},
+    **{"compare": 3, "make": 3, "command": 50, "run": 4, "iso-run": 4},
 }
 """How many of each kind are tried; `make fuzz` tries a million."""
 

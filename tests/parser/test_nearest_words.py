@@ -4,13 +4,17 @@ import numpy as np
 import pytest
 from plain_ends import plain_ends, random_path
 
+from controller.stepping.point_by_point import interpolate_words
 from parser.geometry.curves import Curves, Floats, curves_between
 from parser.told.step_words import Axis
 from parser.words.chained import Chained, chained_words
 from parser.words.moves import moves
+from parser.words.nearest.looked_at import radii_counted
 from parser.words.nearest.nearest import nearest_words
+from parser.words.nearest.stepped import steps_off_um
+from parser.words.telling import words_of_told_arcs
 
-_AIM_UM, _LINE_UM, _CLOSED_UM = 1.35, 1.1, 0.5
+_ASIDE_UM, _AHEAD_UM, _LINE_UM, _CLOSED_UM = 1.0, 2.25, 1.1, 0.5
 _SHARES = np.linspace(0.0, 1.0, 33)
 
 
@@ -94,7 +98,72 @@ def test_blocks_end_near_their_drawn_ends_by_the_plain_rules(reach_um: float) ->
     path = random_path(7, 500, reach_um)
     words = told(path)
     np.testing.assert_allclose(plain_ends(words.words, path.start_um[0]), words.end_um, atol=1e-5)
-    assert np.hypot(*(words.end_um - path.end_um).T).max() <= _AIM_UM
+    off = words.end_um - path.end_um
+    assert np.hypot(*off.T).max() <= _AHEAD_UM
+    aside = np.concatenate([off * across(path, path.end_um), off[:-1] * across(path, path.start_um)[1:]])
+    assert np.abs(aside.sum(axis=1)).max() <= _ASIDE_UM
+
+
+def across(path: Curves, place: Floats) -> Floats:
+    """Unit vectors (n, 2) across lines, and across arcs at places on them."""
+    by = path.end_um - path.start_um
+    out = np.where(path.is_arc[:, None], place - path.center_um, np.column_stack([-by[:, 1], by[:, 0]]))
+    unit: Floats = out / np.hypot(*out.T)[:, None]
+    return unit
+
+
+def stepped_off_um(path: Curves, words: Chained) -> Floats:
+    """(n,) how far the steps of the blocks so far end from where their words do."""
+    stepped = path.start_um[0] + interpolate_words(words.words, path.length_um).corner_um[1:]
+    off: Floats = np.hypot(*(stepped - words.end_um).T)
+    return off
+
+
+@pytest.mark.parametrize(("arcs", "most_um"), [(50, 2.5), (200, 4.5), (1000, 6.0)])
+def test_what_steps_are_off_does_not_add_up_over_arcs(arcs: int, most_um: float) -> None:
+    """Told without a look at the steps, they end up to 6, 19 and 81 µm beside their words."""
+    for seed in range(5):
+        path = ellipse(np.random.default_rng(seed), arcs)
+        words = told(path)
+        assert stepped_off_um(path, words).max() <= most_um
+        assert off_um(path, words).max() <= 1.0
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_short_arc_is_run_back_about_the_centre_that_it_had_ahead(seed: int) -> None:
+    """1 µm at an end moves the centre of an arc of 41 mm that is 220 µm long by 200 µm."""
+    rng = np.random.default_rng(seed)
+    low, sweep, radius = rng.uniform(0.0, 7.0), 220.0 / 41e3, 41e3
+    ahead = radius * np.array([[np.cos(low), np.sin(low)], [np.cos(low + sweep), np.sin(low + sweep)]])
+    there, here = ahead[1:], ahead[:1]
+    path = curves_between(
+        np.concatenate([here, there]), np.concatenate([there, here]), np.zeros((2, 2)), np.array([sweep, -sweep])
+    )
+    words = told(path)
+    start = np.concatenate([here, words.end_um[:1]])
+    one, other = start + moves(words.words).center_um
+    assert np.hypot(*(one - other)) <= 8.0
+    assert np.hypot(*(words.end_um[1] - here[0])) <= _CLOSED_UM
+
+
+@pytest.mark.parametrize("reach_um", [30.0, 3e3, 3e5])
+def test_steps_of_an_arc_end_where_the_controller_makes_them(reach_um: float) -> None:
+    rng = np.random.default_rng(5)
+    start = np.rint(rng.uniform(-reach_um, reach_um, (300, 2)))
+    start = start[np.hypot(*start.T) > 3.0]
+    sweep = rng.uniform(0.1, 6.2, len(start)) * rng.choice([-1.0, 1.0], len(start))
+    cosine, sine = np.cos(sweep), np.sin(sweep)
+    end = np.column_stack([start[:, 0] * cosine - start[:, 1] * sine, start[:, 0] * sine + start[:, 1] * cosine])
+    arcs = curves_between(start, end, np.zeros_like(start), sweep)
+    words = words_of_told_arcs(start, end - start, sweep)
+    rows = np.flatnonzero(words.turn)
+    assert len(rows) > 200
+    goes, radii = moves(words).by_um, radii_counted(arcs, words.count_axis)
+    made = np.diff(interpolate_words(words, np.ones(len(start))).corner_um, axis=0)
+    for row in rows.tolist():
+        at, ends, turn = start[row : row + 1], (start + goes)[row : row + 1], float(np.sign(sweep[row]))
+        off = steps_off_um(at, ends, int(radii[row]), turn, int(words.count_axis[row]))
+        np.testing.assert_allclose(goes[row] + off[0], made[row], atol=1e-6)
 
 
 def test_paths_lie_nearer_than_those_of_a_cam() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 from parser.geometry.curves import Floats
 from parser.told.step_words import Axis
 from parser.words.nearest.looked_at import LookedAt
+from parser.words.nearest.stepped import steps_off_um
 from parser.words.one_arc import OneBlock, Place, line_of, to_bisector, told_arc_of
 from parser.words.telling import MOST_SHIFT
 
@@ -18,37 +19,75 @@ _END, _SLIDE = 2.0, 0.2
 _UNLIKE = 0.1
 """By how much, from one attempt to the next, an arc may cost more that is taken for a change."""
 _TURN = 0.6180339887  # multiples of the golden section are spread evenly
+_STEPPED, _FAR_UM = 0.5, 4.0
+"""What it costs that steps end beside their words: so much by the square of µm, and beyond so many no more for each."""
+_NEAR_UM, _SPARED_UM = 1.0, 0.2
+"""No candidate is taken for its steps that lies farther off than this, or than the nearest one and so much more."""
+_AT_END_UM = 0.25  # by which centres that lie beside each other move the end of an arc across, however short it is
 
 
-def _centers(reach: int) -> tuple[Floats, Floats]:
-    """Steps (k, 2) to whole places about one, the nearest first, and what makes the nearer of two that are as good."""
-    steps = np.arange(-reach, reach + 1)
-    about = np.stack(np.meshgrid(steps, steps), axis=2).reshape(-1, 2)
-    far = np.hypot(*about.T)
+class _Choice(NamedTuple):
+    """What is tried for an arc, the likeliest first.
+
+    Attributes
+    ----------
+    about
+        (k, 2) steps to places about the whole place nearest to its centre.
+    farther_um
+        (k,) by how much farther it counts: what makes the likelier of two that are as good.
+    counted_um
+        (k,) by how much more it counts, so that it ends ahead or behind.
+    """
+
+    about: Floats
+    farther_um: Floats
+    counted_um: Floats
+
+
+def _choice(reach: int, counted: int) -> _Choice:
+    steps, more = np.arange(-reach, reach + 1), np.arange(-counted, counted + 1)
+    x, y, more = (axis.reshape(-1) for axis in np.meshgrid(steps, steps, more))
+    far = np.hypot(x, y) + np.abs(more)
     order = np.argsort(far, kind="stable")
-    return about[order].astype(np.float64), 1e-3 * far[order]
+    about = np.column_stack([x, y])[order].astype(np.float64)
+    return _Choice(about, 1e-3 * far[order], more[order].astype(np.float64))
 
 
-_NEAR, _WIDE = _centers(3), _centers(7)
-"""Arcs that decide how near a path comes to where it was before have more to choose from."""
+_FREE, _HELD_THERE = _choice(3, 1), _choice(7, 0)
+"""Of an arc that ends anywhere, and of one that decides how near a path comes to where it was before."""
 
 
 class Aim(NamedTuple):
     """Where a block is to end.
 
     `is_known`: at that very place, where the path was before. `pins`: axes on which it is to end whole µm from others.
+    `stepped`: by how much the steps so far end beside where their words do. `center`: that of an arc that is run back.
     """
 
     end: Place
     is_known: bool
     pins: tuple[tuple[int, float], ...] = ()
+    stepped: Place = (0.0, 0.0)
+    center: Place | None = None
 
 
-def line_to(path: LookedAt, row: int, begin: Place, aim: Aim) -> OneBlock:
+class Near(NamedTuple):
+    """Words of a block, how far aside of the drawn one it lies, µm, and by how much the steps up to its end are off.
+
+    `center`: of an arc, as it is told.
+    """
+
+    block: OneBlock
+    aside_um: float
+    stepped: Place
+    center: Place | None = None
+
+
+def line_to(path: LookedAt, row: int, begin: Place, aim: Aim) -> Near:
     """Words of a line: to the whole µm about its end that lie least aside of it, and of what follows."""
     x, y = aim.end[0] - begin[0], aim.end[1] - begin[1]
     if aim.is_known:
-        return line_of((x, y))
+        return Near(line_of((x, y)), 0.0, aim.stepped)
     (ax, ay), (bx, by) = path.across[row], path.across_next[row]
     best, least = (x, y), math.inf
     for i in (math.floor(x), math.ceil(x)):
@@ -57,31 +96,51 @@ def line_to(path: LookedAt, row: int, begin: Place, aim: Aim) -> OneBlock:
             cost = max(abs(ax * u + ay * v), abs(bx * u + by * v)) + _SLIDE * math.hypot(u, v)
             if cost < least:
                 best, least = (float(i), float(j)), cost
-    return line_of(best)
+    return Near(line_of(best), 0.0, aim.stepped)
 
 
-def arc_to(path: LookedAt, row: int, begin: Place, aim: Aim, attempt: int) -> tuple[OneBlock, float]:
-    """Words of an arc, of those about whole places near the centre that it should have the nearest; and how far off.
+def arc_to(path: LookedAt, row: int, begin: Place, aim: Aim, attempt: int) -> Near:
+    """Words of an arc, of those about whole places near the centre that it should have the nearest.
 
     Candidates are arcs that begin at whole µm from their centres. Each is held against the drawn arc along eight ways
-    out of its centre; its end lies where the count axis allows, and on the candidate.
+    out of its centre; its end lies where the count axis allows, and on the candidate. Its steps end beside that: of
+    candidates that lie about as near, one is taken whose steps make good what those before were off. An arc that is
+    run back is told about the centre that it had ahead: another one would look like a fault.
     """
     at, end = path.at[row], aim.end
     (x, y), radius, sweep = path.center[at], path.radius[at], path.sweep[at]
     out, by = (begin[0] - x, begin[1] - y), (end[0] - begin[0], end[1] - begin[1])
     shift = to_bisector(out, (out[0] + by[0], out[1] + by[1]), by, sweep)
     if math.hypot(*shift) > MOST_SHIFT * radius:
-        return line_of(by), 0.0
-    about, farther = _WIDE if aim.is_known or aim.pins else _NEAR
-    start = about + np.array([round(out[0] - shift[0]), round(out[1] - shift[1])])
+        return Near(line_of(by), 0.0, aim.stepped)
+    is_held = aim.is_known or bool(aim.pins)
+    choice = _HELD_THERE if is_held else _FREE
+    apart = 1.0 if is_held else max(1.0, round(_AT_END_UM / abs(sweep)))
+    center_x, center_y = aim.center or (begin[0] - out[0] + shift[0], begin[1] - out[1] + shift[1])
+    start = apart * choice.about + np.array([round(begin[0] - center_x), round(begin[1] - center_y)])
     off = _off(start, out, path.ways[at], radius)
-    miss = _miss(path, row, start, by, off[:, -1] + radius - math.hypot(end[0] - x, end[1] - y))
+    beside = off[:, -1] + radius - math.hypot(end[0] - x, end[1] - y)
+    turn, counted = math.copysign(1.0, sweep), path.counted[row]
+    whole = _from_whole(path.radii[row] * np.hypot(start[:, 0], start[:, 1]) - by[counted])
+    miss = _miss(path, row, whole + choice.counted_um, beside)
     aside = np.abs(off[:, :-1]).max(axis=1)
-    cost = _unlike(farther, attempt) + np.maximum(aside, _cost_of_end(path, row, aim, miss))
-    best = int(np.argmin(cost))
+    steps = aim.stepped + steps_off_um(start, start + by + miss, path.radii[row], turn, counted)
+    cost = _unlike(choice.farther_um, attempt) + np.maximum(aside, _cost_of_end(path, row, aim, miss))
+    is_near = cost <= max(_NEAR_UM, cost.min() + _SPARED_UM)
+    best = int(np.argmin(np.where(is_near, cost + _cost_of_steps(steps), np.inf)))
     by = by[0] + float(miss[best, 0]), by[1] + float(miss[best, 1])
-    told = told_arc_of((float(start[best, 0]), float(start[best, 1])), by, sweep, Axis(path.counted[row]))
-    return told, float(aside[best])
+    told = told_arc_of((float(start[best, 0]), float(start[best, 1])), by, sweep, Axis(counted))
+    if not told.turn:
+        return Near(told, float(aside[best]), aim.stepped)
+    (stepped_x, stepped_y), (start_x, start_y) = steps[best].tolist(), start[best].tolist()
+    return Near(told, float(aside[best]), (stepped_x, stepped_y), (begin[0] - start_x, begin[1] - start_y))
+
+
+def _cost_of_steps(off: Floats) -> Floats:
+    """(k,) what it costs that steps end beside their words by (k, 2)."""
+    far = np.hypot(off[:, 0], off[:, 1])
+    cost: Floats = _STEPPED * far * np.minimum(far, _FAR_UM)
+    return cost
 
 
 def _unlike(cost: Floats, attempt: int) -> Floats:
@@ -101,13 +160,13 @@ def _off(start: Floats, out: Place, ways: Floats, radius: float) -> Floats:
     return off
 
 
-def _miss(path: LookedAt, row: int, start: Floats, by: Place, beside: Floats) -> Floats:
-    """(k, 2) by how much candidates miss their end, `by` from their start: across it they lie `beside` (k,) outside."""
+def _miss(path: LookedAt, row: int, counted_um: Floats, beside_um: Floats) -> Floats:
+    """(k, 2) by how much candidates miss their end: (k,) on the count axis; across they lie (k,) outside of it."""
     counted, free = path.counted[row], 1 - path.counted[row]
     across = path.across[row]
-    miss = np.empty_like(start)
-    miss[:, counted] = _from_whole(path.radii[row] * np.hypot(start[:, 0], start[:, 1]) - by[counted])
-    miss[:, free] = (beside - across[counted] * miss[:, counted]) / across[free]
+    miss = np.empty((len(counted_um), 2))
+    miss[:, counted] = counted_um
+    miss[:, free] = (beside_um - across[counted] * counted_um) / across[free]
     return miss
 
 

@@ -7,6 +7,7 @@ have that one is taken whose arc lies nearest; and where the path comes to a pla
 
 import math
 from collections import ChainMap
+from collections.abc import MutableMapping
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -26,16 +27,32 @@ _CLOSED_UM, _ASIDE_UM = 0.5, 1.5
 _COLUMNS = "x_um", "y_um", "count_um", "count_axis", "quadrant", "turn"
 
 
+class _Begun(NamedTuple):
+    """Where rows begin, and by how much the steps before end beside that."""
+
+    at: Place
+    stepped: Place
+
+
+class _Seen(NamedTuple):
+    """Where a path was: ends by the numbers of their places, and centres of arcs by those of both their ends."""
+
+    ends: MutableMapping[int, Place]
+    centers: MutableMapping[tuple[int, int], Place]
+
+
 class _Told(NamedTuple):
     """Blocks of some rows, and where they end.
 
     `missed`: by how much they miss places where the path was before, or lie aside of it to meet them, at most; by what
-    is wished 1 or less.
+    is wished 1 or less. `stepped`: by how much the steps end beside the last end. `seen`: what they add to it.
     """
 
     blocks: list[OneBlock]
     ends: list[Place]
     missed: float
+    stepped: Place
+    seen: _Seen
 
 
 def nearest_words(curves: Curves, is_placed: Bools) -> Chained:
@@ -48,14 +65,16 @@ def nearest_words(curves: Curves, is_placed: Bools) -> Chained:
     path = looked_at(curves, is_placed)
     x, y = curves.start_um[0].tolist()
     ends: list[Place] = [(x, y)]
-    seen: dict[int, Place] = {path.again.first: ends[0]}
+    seen = _Seen({path.again.first: ends[0]}, {})
     blocks: list[OneBlock] = []
+    stepped: Place = (0.0, 0.0)
     for first, past in pairwise(_stretches(path)):
-        told = _closing(path, range(first, past), ends[-1], seen)
-        for place, end in zip(path.again.place[first:past], told.ends, strict=True):
-            seen.setdefault(place, end)
+        told = _closing(path, range(first, past), _Begun(ends[-1], stepped), seen)
+        seen.ends.update(told.seen.ends)
+        seen.centers.update(told.seen.centers)
         blocks += told.blocks
         ends += told.ends
+        stepped = told.stepped
     return Chained(_words(blocks), np.array(ends[1:]))
 
 
@@ -66,7 +85,7 @@ def _stretches(path: LookedAt) -> list[int]:
     return sorted({0, *closing, *tails, len(path.end)})
 
 
-def _closing(path: LookedAt, rows: range, begin: Place, seen: dict[int, Place]) -> _Told:
+def _closing(path: LookedAt, rows: range, begin: _Begun, seen: _Seen) -> _Told:
     """Some rows told so that they come near enough to where the path was before, or as near as may be."""
     best = _told(path, rows, begin, seen, 0)
     for attempt in range(1, _ATTEMPTS if len(rows) <= _TAIL else 1):
@@ -76,29 +95,32 @@ def _closing(path: LookedAt, rows: range, begin: Place, seen: dict[int, Place]) 
     return best
 
 
-def _told(path: LookedAt, rows: range, begin: Place, seen: dict[int, Place], attempt: int) -> _Told:
+def _told(path: LookedAt, rows: range, begin: _Begun, seen: _Seen, attempt: int) -> _Told:
     """Some rows told one from the end of the other."""
-    known = ChainMap({}, seen)
+    new = _Seen({}, {})
+    known, centers = ChainMap(new.ends, seen.ends), ChainMap(new.centers, seen.centers)
     blocks: list[OneBlock] = []
     ends: list[Place] = []
-    at, missed = begin, 0.0
+    (at, off), missed = begin, 0.0
     for row in rows:
-        place = path.again.place[row]
+        place, before = path.again.place[row], path.again.place[row - 1] if row else path.again.first
         pins = tuple((pin.axis, known[pin.place][pin.axis]) for pin in path.again.pinned.get(row, ()))
-        aim = Aim(known.get(place, path.end[row]), place in known, pins)
+        aim = Aim(known.get(place, path.end[row]), place in known, pins, off, centers.get((place, before)))
         if path.is_arc[row]:
-            block, aside_um = arc_to(path, row, at, aim, attempt)
+            block, aside_um, off, center = arc_to(path, row, at, aim, attempt)
         else:
-            block, aside_um = line_to(path, row, at, aim), 0.0
+            block, aside_um, off, center = line_to(path, row, at, aim)
         at = aim.end if path.is_placed[row] else (at[0] + block.by_um[0], at[1] + block.by_um[1])
         if aim.is_known:
             missed = max(missed, math.dist(at, aim.end) / _CLOSED_UM)
         if aim.is_known or pins:
             missed = max(missed, aside_um / _ASIDE_UM)
         known.setdefault(place, at)
+        if center is not None:
+            new.centers[before, place] = center
         blocks.append(block)
         ends.append(at)
-    return _Told(blocks, ends, missed)
+    return _Told(blocks, ends, missed, off, new)
 
 
 def _words(told: list[OneBlock]) -> StepWords:

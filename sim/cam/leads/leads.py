@@ -6,19 +6,18 @@ from parser.drawing.model import running
 from parser.geometry.curves import Curves
 from parser.geometry.directions import directions
 from sim.cam.leads.forms import lead_of, line
-from sim.cam.model import Figure, Thread
-from sim.setup.making import Making
+from sim.cam.model import Thread
 
 _SAME_UM = 1e-3
 
 
-def lead_in(figure: Figure, thread: Thread, along: Curves, making: Making) -> Curves:
+def lead_in(thread: Thread, along: Curves) -> Curves:
     """The way (m,) from the thread point to where a pass `along` begins; none where the wire is threaded there."""
     heading = directions(along).leaving[0]
     return lead_of(thread.lead, np.array(thread.place_um, dtype=np.float64), along.start_um[0], heading)
 
 
-def lead_out(figure: Figure, thread: Thread, along: Curves, making: Making) -> Curves:
+def lead_out(thread: Thread, along: Curves) -> Curves:
     """The way (m,) from where a pass ends back to the thread point.
 
     A pass that ends where it began goes back as it came, in the kerf of its lead-in: another way would part the slug.
@@ -26,5 +25,5 @@ def lead_out(figure: Figure, thread: Thread, along: Curves, making: Making) -> C
     end, place = along.end_um[-1], np.array(thread.place_um, dtype=np.float64)
     if np.hypot(*(end - along.start_um[0])) > _SAME_UM:
         return line(end, place)
-    into = lead_in(figure, thread, along, making)
+    into = lead_in(thread, along)
     return running(into, np.arange(len(into))[::-1], np.ones(len(into), dtype=np.bool_))

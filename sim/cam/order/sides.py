@@ -4,8 +4,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from controller.offset.sections import Side
-from sim.cam.model import Figure
+from sim.cam.model import CannotCutError, Figure, Refusal
 from sim.setup.making import Making, SideWish
+
+_MOST_NAMED = 10
 
 
 class Way(NamedTuple):
@@ -16,9 +18,21 @@ class Way(NamedTuple):
 
 
 def with_sides(figures: Sequence[Figure], making: Making) -> tuple[Figure, ...]:
-    """The figures with the sides that are asked for, for their layers or for all."""
+    """The figures with the sides that are asked for, for their layers or for all.
+
+    CannotCutError, ``no-such-layer``, where a layer for which something is asked has no figure: its name may be wrong.
+    """
+    _refuse_strange(figures, making)
     of_layer = {wish.layer.casefold(): wish.side for wish in making.layers if wish.side is not None}
     return tuple(_with_side(figure, of_layer.get(figure.layer.casefold(), making.side)) for figure in figures)
+
+
+def _refuse_strange(figures: Sequence[Figure], making: Making) -> None:
+    layers = {figure.layer.casefold(): figure.layer for figure in figures}
+    strange = [wish.layer for wish in making.layers if wish.layer.casefold() not in layers]
+    if strange:
+        values = (("layer", strange[0]), ("layers", ", ".join(sorted(layers.values())[:_MOST_NAMED])))
+        raise CannotCutError(Refusal("no-such-layer", (), values))
 
 
 def _with_side(figure: Figure, side: SideWish) -> Figure:

@@ -31,7 +31,7 @@ def _whole_passes(rounds: Rounds, making: Making) -> tuple[PassCut, ...]:
     for number, (by_um, ahead) in enumerate(zip(rounds.offsets_um, rounds.ahead, strict=True)):
         is_back = making.returning == "back" and number % 2 == 1
         along = run_back(ahead) if is_back else ahead
-        into, out = (lead(rounds.figure, rounds.thread, along, making) for lead in (lead_in, lead_out))
+        into, out = (lead(rounds.thread, along) for lead in (lead_in, lead_out))
         if making.overcut_um and number == len(rounds.ahead) - 1:
             over, _ = parted(along, making.overcut_um)
             along, out = joined([along, over]), joined([run_back(over), out])

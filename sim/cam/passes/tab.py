@@ -66,7 +66,7 @@ def tab_passes(rounds: Rounds, making: Making) -> tuple[tuple[PassCut, ...], tup
     for number, (by_um, way) in enumerate(zip(rounds.offsets_um, ways, strict=True)):
         is_back = number % 2 == 1
         along = run_back(way.open) if is_back else way.open
-        into = _step(passes[-1].along, along) if passes else lead_in(rounds.figure, rounds.thread, along, making)
+        into = _step(passes[-1].along, along) if passes else lead_in(rounds.thread, along)
         passes.append(PassCut(by_um, is_back, into, along, nothing))
     return tuple(passes), (_cut_off(rounds, ways[-1], passes[-1], making),)
 
@@ -78,7 +78,7 @@ def _cut_off(rounds: Rounds, way: _Parted, last: PassCut, making: Making) -> Pas
     """
     nothing = way.tab.picked(slice(0))
     over, _ = parted(way.open, making.overcut_um)
-    out = joined([run_back(over), lead_out(rounds.figure, rounds.thread, way.tab, making)])
+    out = joined([run_back(over), lead_out(rounds.thread, way.tab)])
     if last.is_back:
         return PassCut(last.by_um, True, nothing, run_back(way.tab), joined([way.tab, over, out]))
     return PassCut(last.by_um, False, nothing, joined([way.tab, over]), out)

@@ -1,5 +1,6 @@
 """Thread points chosen in the waste."""
 
+from collections.abc import Mapping
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -10,15 +11,20 @@ from parser.geometry.curves import Floats, Ints
 from parser.geometry.feet import feet
 from parser.toolpath import Point
 from parser.units import mm
-from sim.cam.leads.room import Room, are_free, balls_um
+from sim.cam.leads.room import Room, are_free, balls_um, nearest
 from sim.cam.model import CannotCutError, Refusal, Thread
-from sim.cam.threads.entries import Entries, middles, starts
+from sim.cam.threads.apart import are_apart, crowded
+from sim.cam.threads.entries import MOST, Asked, Entries, corners, middles, starts
 
 USUAL_LEAD_UM: Final = 2000.0
 """How long leads are where nobody asks: room for a start hole of 3 mm, and little to cut (assumed)."""
 BEYOND_UM: Final = 10.0
 """A lead is longer than the largest offset by this much."""
+_SHORTER: Final = (1.0, 0.5, 0.25)  # leads to corners, where there is less room
 _ON_UM: Final = 0.01  # a place this near to whole µm is one: files lose as much by printing decimals
+_NOWHERE: Final = np.empty((0, 2))
+
+_MOST_ROUNDS: Final = 5  # figures that were moved may lie near each other: ever fewer do
 _NEARLY: Final = 0.8  # of the largest circle that any entry has beside it: so large a one is large enough
 
 
@@ -50,25 +56,42 @@ class Wanted(NamedTuple):
         return max(USUAL_LEAD_UM, self.least_um) if self.lead_um is None else self.lead_um
 
 
-def chosen(room: Room, side: Floats, figures: Ints, wanted: Wanted) -> dict[int, Thread]:
+def chosen(room: Room, side: Floats, figures: Ints, wanted: Wanted, kept_um: Floats) -> dict[int, Thread]:
     """A thread point for each of the figures that has room for it, in whole µm, across from an entry.
 
     It lies as far from the entry as is wanted, and from all contours no less, so that the start hole has room. Where no
     entry has so much room beside it, the thread point lies in the middle of what there is. The few longest curves of
     each figure are looked at, and the middles of all of those that have room at none of them. CannotCutError,
     ``short-lead``, where a lead that is asked for is shorter than the least.
+
+    Where there is room it lies a start hole away from all others, and from the thread points (k, 2) that are kept.
     """
     if wanted.most_um < wanted.least_um:
         raise CannotCutError(Refusal("short-lead", (), (("least_mm", f"{mm(wanted.least_um):g}"),)))
-    found = _chosen(room, starts(room, side, figures, wanted.reach_um), wanted)
+    found = _chosen(room, starts(room, side, figures, wanted.reach_um), wanted, _NOWHERE)
     left = np.array([at for at in figures.tolist() if at not in found], dtype=np.int64)
     if len(left):
-        found |= _chosen(room, middles(room, side, left, wanted.reach_um), wanted)
+        found |= _chosen(room, middles(room, side, left, wanted.reach_um), wanted, _NOWHERE)
+    return _apart(room, side, found, wanted, kept_um)
+
+
+def _apart(room: Room, side: Floats, found: dict[int, Thread], wanted: Wanted, kept_um: Floats) -> dict[int, Thread]:
+    """With other places for figures whose thread points lie in one start hole with those of others."""
+    for _ in range(_MOST_ROUNDS):
+        moving = crowded(found, kept_um)
+        if not moving:
+            break
+        staying = [found[at].place_um for at in found if at not in moving]
+        all_um = np.concatenate([kept_um, np.array(staying).reshape(-1, 2)])
+        moved = _chosen(room, middles(room, side, np.array(moving), wanted.reach_um), wanted, all_um)
+        if not moved:
+            break
+        found = found | moved
     return found
 
 
-def _chosen(room: Room, found: Entries, wanted: Wanted) -> dict[int, Thread]:
-    """A thread point for each figure that has room for it across from one of the entries."""
+def _chosen(room: Room, found: Entries, wanted: Wanted, kept_um: Floats) -> dict[int, Thread]:
+    """A thread point for each figure that has room for it across from one of the entries, apart from those kept."""
     figure, most = room.figure[found.row], wanted.most_um
     ball = balls_um(room, found.place_um, found.out, most + wanted.spare_um)
     largest = np.zeros(int(room.figure[-1]) + 1)
@@ -77,11 +100,34 @@ def _chosen(room: Room, found: Entries, wanted: Wanted) -> dict[int, Thread]:
     found, figure, length = found.take(order), figure[order], np.minimum(ball[order] - wanted.spare_um, most)
     place, entries, far = _in_whole_um(room, found, length)
     is_free = are_free(room, lines_between(place, entries.begin_um), wanted.reach_um)
-    fits = np.flatnonzero((far >= wanted.least_um) & is_free)
+    fits = np.flatnonzero((far >= wanted.least_um) & is_free & are_apart(place, kept_um))
     first = fits[np.diff(figure[fits], prepend=-1) > 0]
     return {
         int(figure[at]): Thread(Point(*place[at].tolist()), "chosen", entries.one(room, at)) for at in first.tolist()
     }
+
+
+def before_corners(
+    room: Room, side: Floats, threads: Mapping[int, Thread], wanted: Wanted, kept_um: Floats
+) -> dict[int, Thread]:
+    """Other thread points of figures that have them: midway out from their nearest corner with room before it.
+
+    A lead to a corner from anywhere else runs along a side of it: what is cut comes free before the wire is round.
+    """
+    if not threads:
+        return {}
+    places = np.array([one.place_um for one in threads.values()])
+    found, whose = corners(room, side, Asked(np.array(list(threads)), places, wanted.reach_um))
+    best = np.flatnonzero(np.arange(len(whose)) - np.searchsorted(whose, whose) < MOST)
+    found, moved = found.take(best), dict[int, Thread]()
+    for share in _SHORTER:
+        place = np.round(found.begin_um + share * wanted.most_um * found.out) + 0.0
+        is_free = are_free(room, lines_between(place, found.begin_um), wanted.reach_um)
+        is_clear = nearest(room, place, wanted.least_um).distance_um >= wanted.least_um
+        for at in np.flatnonzero(is_free & is_clear & are_apart(place, kept_um)).tolist():
+            x, y = place[at].tolist()
+            moved.setdefault(int(room.figure[found.row[at]]), Thread(Point(x, y), "chosen", found.one(room, at)))
+    return {at: one for at, one in moved.items() if at not in crowded(moved, kept_um)}
 
 
 def begun_on(room: Room, side: Floats, wanted: Ints) -> dict[int, Thread]:

@@ -11,7 +11,6 @@ from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.distance import distance_to_curves
 from parser.geometry.extents import extents
 from parser.toolpath import Point
-from parser.units import mm
 from sim.cam.leads.room import Room, are_free
 from sim.cam.model import CannotCutError, Entry, Figure, Refusal
 from sim.cam.parts.inside import is_inside
@@ -150,7 +149,4 @@ def _free(
 
 def refused(why: str, place_um: Floats, values: tuple[tuple[str, str], ...] = ()) -> CannotCutError:
     """What to raise for thread points (k, 2) that cannot be."""
-    said = "; ".join(f"{mm(x):.10g}, {mm(y):.10g}" for x, y in place_um.tolist())
-    return CannotCutError(
-        Refusal(why, tuple(Point(x, y) for x, y in place_um.tolist()), (("places_mm", said), *values))
-    )
+    return CannotCutError(Refusal(why, tuple(Point(x, y) for x, y in place_um.tolist()), values))

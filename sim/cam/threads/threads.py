@@ -1,7 +1,7 @@
 """Thread points: those that are asked for, those that are marked in the drawing, and others chosen in the waste."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from parser.units import mm
 from sim.cam.leads.room import TOLERANCE_UM, Room, nearest, room_of
 from sim.cam.model import CannotCutError, Figure, Refusal, Thread, ThreadedBy
 from sim.cam.order.nested import around
-from sim.cam.threads.chosen import Wanted, begun_on, chosen
+from sim.cam.threads.chosen import Wanted, before_corners, begun_on, chosen
 from sim.cam.threads.entries import nearest_of
 from sim.cam.threads.given import Taken, across, at_corners, matched, on_contour, refused, waste_of
 from sim.cam.threads.marks import marks_of_layer, points_of
@@ -40,7 +40,7 @@ def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reac
         threads |= waste.given(marks_of_layer(drawing, making.thread_layer), "marked", threads)
     wanted = np.array([at for at in range(len(figures)) if at not in threads], dtype=np.int64)
     if len(wanted) and (reach_um > 0.0 or making.lead_um is not None):
-        threads |= waste.chosen(wanted, making)
+        threads |= waste.chosen(wanted, making, threads)
     elif len(wanted):
         threads |= begun_on(waste.room, waste.side, wanted)
     return waste.led(threads, making)
@@ -48,6 +48,25 @@ def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reac
 
 def thread_notes(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
     """What is to be said of leads that are not as they are asked for."""
+    return (*_shortened(figures, threads, making), *_straightened(figures, threads, making))
+
+
+def _shortened(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> Iterator[Remark]:
+    """Leads with no room for the length that is asked for."""
+    if making.lead_um is None:
+        return
+    least_um = making.lead_um - _SPARE_UM
+    numbers = [
+        str(figure.number)
+        for figure, thread in zip(figures, threads, strict=True)
+        if thread.by == "chosen" and math.dist(thread.place_um, thread.entry.place_um) < least_um
+    ]
+    if numbers:
+        yield Remark("shorter-leads", {"figures": ", ".join(numbers)})
+
+
+def _straightened(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[Remark, ...]:
+    """Leads that are not round where that is asked for."""
     if making.lead in _ROUND and _is_back(making):
         return (Remark("straight-back"),)
     straight: dict[bool, list[str]] = {True: [], False: []}
@@ -119,11 +138,14 @@ class _Waste:
             raise refused("start-hidden", place_um[hidden])
         return {at: Thread(Point(*places[at].tolist()), by, entry) for at, entry in entries.items()}
 
-    def chosen(self, wanted: Ints, making: Making) -> dict[int, Thread]:
-        """Threads of the figures `wanted` at places in their waste."""
+    def chosen(self, wanted: Ints, making: Making, taken: Mapping[int, Thread]) -> dict[int, Thread]:
+        """Threads of the figures `wanted` at places in their waste, apart from those that are taken."""
         spare_um = _SPARE_UM if making.lead in _ROUND else 0.0
         asked = Wanted(self.clear_um, making.lead_um, spare_um)
-        found = chosen(self.room, self.side, wanted, asked)
+        kept_um = np.array([one.place_um for one in taken.values()]).reshape(-1, 2)
+        found = chosen(self.room, self.side, wanted, asked, kept_um)
+        if making.lead == "point":
+            found |= before_corners(self.room, self.side, found, asked, kept_um)
         missing = [at for at in wanted.tolist() if at not in found]
         if missing:
             places = tuple(Point(*self.figures[at].contour.start_um[0].tolist()) for at in missing)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from parser.geometry.curves import Bools, Floats, Ints
 from sim.cut.kerf.makers import rows_that_made
@@ -16,6 +17,7 @@ from sim.cut.pieces.kept_shapes import KeptShape
 
 _ON_UM = 0.2  # a region is exact to 0.1 µm, and so is the edge of a block
 _NONE = -1
+_STRING = 64  # corners
 
 
 class KeptEdges(NamedTuple):
@@ -86,8 +88,22 @@ def lie_on(rings: list[shapely.LinearRing], place_um: Floats) -> Bools:
 def _rings_at(rings: list[shapely.LinearRing], place_um: Floats) -> Ints:
     """Indices (m,) of the rings that places (m, 2) lie on; −1 on none."""
     found = np.full(len(place_um), _NONE)
-    # The places are in the tree and the rings query it: shapely prepares what queries, here few long rings.
+    # The places are in the tree and the strings query it: shapely prepares what queries.
     tree = shapely.STRtree(list(shapely.points(place_um)))  # type: ignore[arg-type]
-    ring, at = tree.query(np.array(rings, dtype=np.object_), predicate="dwithin", distance=_ON_UM)
-    found[at] = ring
+    string, ring = _strings(rings)
+    one, at = tree.query(string, predicate="dwithin", distance=_ON_UM)
+    found[at] = ring[one]
     return found
+
+
+def _strings(rings: list[shapely.LinearRing]) -> tuple[NDArray[np.object_], Ints]:
+    """Rings in strings of some corners, and the ring of each: the box of a string has few places beside it."""
+    corner, ring = shapely.get_coordinates(rings, return_index=True)
+    first = np.flatnonzero(np.diff(ring, prepend=-1))
+    number = np.arange(len(ring)) - first[ring]
+    last = np.append(first[1:], len(ring))[ring] - 1
+    begin = np.flatnonzero((number % _STRING == 0) & (np.arange(len(ring)) < last))
+    past = np.minimum(begin + _STRING, last[begin]) + 1
+    of = np.repeat(np.arange(len(begin)), past - begin)
+    at = np.arange(len(of)) - (np.cumsum(past - begin) - past)[of]
+    return shapely.linestrings(corner[at], indices=of), ring[begin]

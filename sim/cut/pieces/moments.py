@@ -3,6 +3,9 @@
 A box tells when the kerf closes round a part, and what the part was one with just before. Was that the frame, or
 another part round which the kerf closed later, then that is when it comes free. Was it a part round which the kerf had
 closed before, then both came free together. Else it is asked again in a larger box, in the end in all of the stock.
+
+A part that lies alone in a hole of the frame, or of a part that other contours cut, came free by its own kerf: no
+larger box is needed to tell.
 """
 
 import heapq
@@ -60,13 +63,14 @@ def moments_of(cutting: Cutting) -> list[FreeMoment | None]:
     shapely.prepare(cutting.frame_um)
     tree, held = shapely.STRtree(cutting.parts_um), shapely.point_on_surface(cutting.frame_um)
     asked = {one.part: one for part in range(len(cutting.parts_um)) if (one := _first_asked(cutting, part, held))}
+    alone = _alone(cutting)
     freed_with: dict[int, int] = {}
     # Those that close last come first: what they may have hung on is settled then.
     todo = [_in_turn(one) for one in asked.values()]
     heapq.heapify(todo)
     while todo:
         part = heapq.heappop(todo)[-1]
-        other = _came_free_with(cutting, tree, asked, freed_with, part)
+        other = part if part in alone else _came_free_with(cutting, tree, asked, freed_with, part)
         if other is not None:
             freed_with[part] = other
         elif (again := _asked_again(cutting, part, asked[part].question)) is not None:
@@ -96,6 +100,20 @@ def _came_free_with(
         if asked[other].when != one.when:
             return part if asked[other].when > one.when else other
     return None
+
+
+def _alone(cutting: Cutting) -> set[int]:
+    """Parts that lie alone in a hole of the frame, or of a part that other contours cut; no others lie in them."""
+    rings = [(ring, [-1]) for ring in cutting.frame_um.interiors]
+    told = zip(cutting.parts_um, cutting.contours, strict=True)
+    rings += [(ring, contours) for part, contours in told for ring in part.interiors]
+    if not rings:
+        return set()
+    inner = shapely.STRtree(shapely.point_on_surface(cutting.parts_um))
+    hole, part = inner.query(shapely.polygons([ring for ring, _ in rings]), predicate="contains")
+    is_alone = np.bincount(hole, minlength=len(rings))[hole] == 1
+    pairs = zip(hole[is_alone].tolist(), part[is_alone].tolist(), strict=True)
+    return {at for of, at in pairs if rings[of][1] != cutting.contours[at]}
 
 
 def _last(freed_with: dict[int, int], part: int) -> int:

@@ -1,11 +1,11 @@
 """A program made of a drawing, on the terminal: its figures, what it left out and took for granted, and its proof."""
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from parser.drawing.model import LeftOut
-from parser.findings.catalogue import Language, Said
+from parser.findings.catalogue import LANGUAGES, Language, Said
 from parser.findings.remarks import Remark, remark_text
 from parser.text.encoding import printable
 from parser.units import mm
@@ -20,11 +20,22 @@ from sim.show.terminal.proof import proof_lines
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of, wrapped
 from sim.show.words import Words, said
-from sim.show.words.phrases import listed, same
+from sim.show.words.phrases import listed, numbered, same
 
 _INDENT = "    "
 _MOST_FIGURES = 40
-_LEFT_OUT = {"no-curves", "other-layers", "drawn-twice"}
+_MOST_DETAILS = 3
+_LEFT_OUT = {
+    "beyond",
+    "broken-line",
+    "drawn-twice",
+    "never-plotted",
+    "no-curves",
+    "other-layers",
+    "overlaps",
+    "unreadable",
+    "upright",
+}
 """Notes of the reader that say in sum what `CutPlan.left_out` has one by one."""
 _HEADS = ("number", "kind", "wire", "blocks", "length", "time", "thread")
 
@@ -50,7 +61,9 @@ def told_lines(plan: CutPlan, language: Language, width: int) -> Iterator[str]:
     """The fit, what was left out, and what was chosen or taken for granted, in lines of `width` cells."""
     words = Words(language)
     texts = [*_same_passes(plan, words), *_fit(plan, words), *_left_out(plan.left_out, words), *_chosen(plan, words)]
-    notes = (note for note in (*plan.drawing.notes, *plan.notes) if note.name not in _LEFT_OUT or not plan.left_out)
+    details = [one.detail for one in plan.left_out]
+    notes = (note for note in plan.drawing.notes if note not in details)
+    notes = (note for note in (*notes, *plan.notes) if note.name not in _LEFT_OUT or not plan.left_out)
     texts += [words("program.note", what=_note(note, words)) for note in notes]
     for text in texts:
         yield from wrapped(text, width, "", _INDENT)
@@ -77,7 +90,7 @@ def _row(cut: FigureCut, of: FigureSum, words: Words) -> tuple[str, ...]:
         words("program.wire-inside" if cut.figure.runs_inside else "program.wire-outside"),
         f"{of.blocks:,}",
         f"{mm(of.length_um):,.3f}",
-        "–" if of.time_s is None else _hours(of.time_s),
+        _hours(of.time_s) if of.time_s else "–",
         place_text(cut.thread.place_um),
         _passes(cut),
     )
@@ -97,8 +110,9 @@ def _total(plan: CutPlan, sums: tuple[FigureSum, ...], words: Words, width: int)
     more = len(plan.cuts) - _MOST_FIGURES
     if more > 0:
         yield words("program.more-figures", more=f"{more:,}")
-    length, blocks = mm(sum(one.length_um for one in sums)), sum(one.blocks for one in sums)
-    text = words("program.total", figures=f"{len(sums):,}", blocks=f"{blocks:,}", length=f"{length:,.3f}")
+    length = mm(sum(one.length_um for one in sums))
+    counted = getattr(numbered({"figure": len(sums), "block": sum(one.blocks for one in sums)}), words.language)
+    text = words("program.total", counted=counted, length=f"{length:,.3f}")
     yield from wrapped(text, width, "", _INDENT)
 
 
@@ -106,7 +120,7 @@ def _same_passes(plan: CutPlan, words: Words) -> Iterator[str]:
     """The passes where they are the same for all figures, else the table has them; and the tabs."""
     passes = set(map(_passes, plan.cuts))
     if len(passes) == 1:
-        yield words("program.passes", passes=passes.pop())
+        yield words("program.passes", passes=passes.pop()) if any(plan.passes_um) else words("program.passes-none")
     tabs = [str(cut.figure.number) for cut in plan.cuts if cut.cut_off]
     if tabs:
         yield words("program.tabs", figures=_numbers(tabs), length=f"{mm(plan.making.tab_um):g}")
@@ -120,7 +134,7 @@ def _fit(plan: CutPlan, words: Words) -> Iterator[str]:
             arcs=f"{fit.arcs:,}",
             lines=f"{fit.lines:,}",
             max=f"{fit.max_um:.3f}",
-            tolerance=f"{fit.tolerance_um:g}",
+            tolerance=f"{plan.making.tolerance_um:g}",
         )
 
 
@@ -129,14 +143,28 @@ def _left_out(left_out: tuple[LeftOut, ...], words: Words) -> Iterator[str]:
     by_reason: dict[str, list[LeftOut]] = defaultdict(list)
     for one in left_out:
         by_reason[one.why].append(one)
-    for why, ones in by_reason.items():
+    for ones in by_reason.values():
         kinds: dict[str, int] = defaultdict(int)
         for one in ones:
             kinds[one.entity.kind] += 1
         counted = listed(same(f"{number:,} {printable(kind)}") for kind, number in kinds.items())
         places = tuple(one.place_um for one in ones if one.place_um is not None)
-        text = said("program.left-out", what=counted, why=said(f"program.left-out-{why}"))
+        text = said("program.left-out", what=counted, why=_why(ones))
         yield getattr(_with_places(text, places), words.language)
+
+
+def _why(ones: Sequence[LeftOut]) -> Said:
+    """Why entities are in no figure, with what is wrong with the first few, or how near the nearest is to closing."""
+    why = said(f"program.left-out-{ones[0].why}")
+    wrong = [one.detail for one in ones if one.detail is not None][:_MOST_DETAILS]
+    gaps_um = [one.gap_um for one in ones if one.gap_um is not None]
+    if wrong:
+        detail = listed(Said(*(remark_text(one, language) for language in LANGUAGES)) for one in wrong)
+    elif gaps_um:
+        detail = said("program.left-out-gap", gap=f"{mm(min(gaps_um)):.3g}")
+    else:
+        return why
+    return said("program.left-out-detail", why=why, detail=detail)
 
 
 def _with_places(text: Said, places_um: tuple[tuple[float, float], ...]) -> Said:

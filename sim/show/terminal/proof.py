@@ -30,6 +30,8 @@ def proof_lines(done: Made, name: str, language: Language, width: int) -> Iterat
         yield words("program.more-findings", more=f"{len(found) - _MOST_FINDINGS:,}")
     for text in said_of_proof(proof, words):
         yield from wrapped(text, width, "", _INDENT)
+    if _is_early(done):
+        yield from wrapped(words("program.advice-tab"), width, "", _INDENT)
     edge = proof.comparison
     if edge is not None and proof.run is not None:
         text = words(
@@ -41,6 +43,15 @@ def proof_lines(done: Made, name: str, language: Language, width: int) -> Iterat
         )
         yield from wrapped(text, width, "", _INDENT)
     yield styled(words(f"program.verdict-{proof.verdict}"), f"bold {COLOURS[proof.verdict]}")
+
+
+def _is_early(done: Made) -> bool:
+    """Whether a part comes free before the last of its passes, and a tab would hold it."""
+    run = done.proof and done.proof.run
+    if not run or run.remains is None or done.plan.making.tab_um:
+        return False
+    is_trimmed = any(len(cut.passes) > 1 and not cut.figure.runs_inside for cut in done.plan.cuts)
+    return is_trimmed and any(piece.early for piece in run.remains.pieces.freed if piece.kind == "part")
 
 
 def said_of_proof(proof: Proof, words: Words) -> Iterator[str]:

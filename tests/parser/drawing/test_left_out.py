@@ -134,7 +134,7 @@ def test_circles_of_broken_linetypes_are_no_contours(tmp_path, linetype, is_left
     drawing = read_drawing(path)
     assert [one.why for one in drawing.left_out] == ["broken-line"] * is_left
     assert len(drawing.loops) == 2 - is_left
-    said = "1 entities in broken linetypes, such as centre lines, left out; --layer reads those of one layer"
+    said = "1 of the entities left out: in broken linetypes, such as centre lines; --layer reads those of one layer"
     assert (said in _notes(drawing)) == is_left
     assert len(read_drawing(path, layer="Other").loops) == 1
 
@@ -156,7 +156,7 @@ def test_what_a_block_draws_by_block_is_as_its_insert_is(tmp_path):
 def test_a_drawing_of_centre_lines_alone_is_no_contour_and_says_so(tmp_path):
     document = new()
     document.modelspace().add_circle((45, 45), 9, {"linetype": "CENTER"})
-    with pytest.raises(DrawingError, match=r"holds no line, arc or curve \(1 entities in broken linetypes, such as"):
+    with pytest.raises(DrawingError, match=r"holds no line, arc or curve \(1 of the entities left out: in broken"):
         read_drawing(saved(document, tmp_path))
 
 

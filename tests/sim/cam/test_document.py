@@ -4,6 +4,7 @@ import copy
 import json
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -15,10 +16,13 @@ from made_programs import plate_file
 from places import ROOT
 from runs import plain_scenario
 
+from parser.drawing.model import LeftOut
+from parser.findings.remarks import Remark
 from sim.cam.document import document, document_text
 from sim.cam.maker import Made, NotMade, made, unproved
 from sim.convert.wanted import Wanted
 from sim.setup.making import Making
+from sim.show.terminal.program import told_lines
 from sim.show.words import Words
 
 SCHEMA = json.loads((ROOT / "docs" / "program.schema.json").read_text(encoding="utf-8"))
@@ -78,6 +82,31 @@ def test_a_refusal_is_told_with_its_places(tmp_path: Path) -> None:
     assert entry["refusal"]["why"] == done.refusal.why
     assert entry["refusal"]["text"]
     assert "{" not in entry["refusal"]["text"]
+
+
+def test_the_fit_is_held_to_what_was_asked_and_not_to_how_near_it_was_tried(done: Made) -> None:
+    fit = done.plan.drawing.fit
+    assert fit is not None
+    drawing = replace(done.plan.drawing, fit=fit._replace(tolerance_um=1.76))
+    nearer = done._replace(plan=done.plan._replace(drawing=drawing))
+    assert document(nearer, SAY)["fit"]["tolerance_um"] == Making().tolerance_um == 2.0
+    assert not [line for line in told_lines(nearer.plan, "en", 80) if "1.76" in line]
+
+
+def test_what_is_wrong_with_an_entity_and_how_far_it_is_from_closing_is_told_once(done: Made) -> None:
+    entity = done.plan.drawing.entities[0]
+    wrong = Remark("spline-degree", {"entity": "SPLINE A", "degree": 0})
+    left = (LeftOut(entity, "unreadable", detail=wrong), LeftOut(entity, "open", (0.0, 0.0), 2500.0))
+    drawing = replace(done.plan.drawing, notes=(wrong, Remark("unreadable", {"kinds": "1 SPLINE"})))
+    plan = done.plan._replace(left_out=left, drawing=drawing)
+    entry = document(done._replace(plan=plan), SAY)
+    assert complaints(entry) == []
+    assert [one["detail"] for one in entry["left_out"]] == ["SPLINE A: degree 0; expected 1 or more", None]
+    assert [one["gap_um"] for one in entry["left_out"]] == [None, 2500.0]
+    told = " ".join(line.strip() for line in told_lines(plan, "en", 80))
+    assert told.count("degree 0") == 1
+    assert "2.5 mm away" in told
+    assert "note:" not in told
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])

@@ -15,7 +15,7 @@ from sim.cam.sums import figure_sums
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands
 from sim.convert.wanted import Wanted
-from sim.setup.making import Making
+from sim.setup.making import LayerWish, Making
 
 TO_3B = Wanted("3b")
 TO_ISO = Wanted("iso", iso_choices("fast-wire"))
@@ -103,3 +103,11 @@ def test_remarks_leave_the_program_as_it_is(path: Path, wanted: Wanted) -> None:
     codes = [[one.code for one in run_checks(each.program, Demands()).findings] for each in (done, told)]
     assert codes[0] == codes[1]
     assert b"\x1b" not in told.data
+
+
+def test_leads_are_longer_than_the_offsets_of_layers(path: Path) -> None:
+    wish = LayerWish("0", passes_um=(300.0, 100.0))
+    done = unproved(path, Making(passes_um=(100.0,), lead_um=200.0, layers=(wish,)), TO_3B, plain_scenario())
+    assert isinstance(done, NotMade)
+    assert done.refusal.why == "short-lead"
+    assert isinstance(unproved(path, Making(passes_um=(100.0,), lead_um=200.0), TO_3B, plain_scenario()), Made)

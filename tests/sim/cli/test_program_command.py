@@ -122,6 +122,8 @@ def test_the_suffix_or_as_tells_the_language(part: Path) -> None:
         (("-o", "p.3b", "--on-layer", "HOLES:rank=one"), "a layer takes side="),
         (("-o", "p.3b", "--compensation", "kept"), "compensation is for 4B and ISO, not 3b"),
         (("-o", "p.iso", "--form", "aligned"), "form is for 3B and 4B, not iso"),
+        (("-o", "p.3b", "--end-code", "THE END"), "is one word; found 'THE END'"),
+        (("-o", "p.3b", "--pause-code", ""), "is one word; found ''"),
         (("-o", "p.3b", "--picture", "p.bmp"), "neither a .png nor a .svg"),
         (("-o", "p.3b", "--picture", "part.png", "--machine", "none"), "none"),
     ],
@@ -139,11 +141,22 @@ def test_force_writes_what_is_not_proved_with_what_was_found_at_its_head(part: P
     code, said, _ = run(*asked)
     assert (code, out.exists()) == (1, False)
     assert "not proved" in said
+    assert "not written; --force writes it" in said.replace("\n    ", " ")
     code, said, _ = run(*asked, "--force")
     assert (code, out.exists()) == (1, True)
+    assert "written all the same (--force)" in said.replace("\n    ", " ")
+    assert "not written" not in said
     head = out.read_text("utf-8").splitlines()[1]
     assert re.match(r"// not proved: .*off the drawing", head)
     assert len(read_program(out).toolpath) > 4
+
+
+def test_a_part_that_comes_free_early_is_told_with_the_tab_that_would_hold_it(part: Path) -> None:
+    passes = ("--pass", "0.13mm", "--pass", "0.1mm")
+    code, said, _ = run(part, "--preview", *passes)
+    assert code == 1
+    assert "--tab 3mm holds it" in said.replace("\n    ", " ")
+    assert "a preview: no program was written" in said
 
 
 def test_options_reach_the_maker(part: Path) -> None:
@@ -180,6 +193,17 @@ def test_a_scenario_without_its_program_is_run_on_the_one_that_is_made(shop: Pat
     assert (shop / "plate.3b").read_bytes() == made
     again = run_inside("run", shop, "--json")
     assert json.loads(again.stdout)["program"]["name"] == "plate.3b"
+
+
+def test_a_scenario_with_codes_of_its_own_is_read_by_them(shop: Path) -> None:
+    file = shop / "scenario.toml"
+    file.write_text(file.read_text("utf-8").replace("[program]", '[program]\nend_code = "STOP"'), "utf-8")
+    code, said, _ = run(shop, "--preview")
+    assert code == 0
+    assert "its own words for end and pause, STOP" in said.replace("\n    ", " ")
+    done = run_inside("run", shop, "-o", shop / "out")
+    assert done.returncode == 0, done.stdout
+    assert (shop / "out" / "plate.3b").read_text("utf-8").split()[-1] == "STOP"
 
 
 def test_it_is_compared_and_drawn_from_the_drawing_alone(shop: Path) -> None:

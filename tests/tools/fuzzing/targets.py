@@ -1,6 +1,6 @@
 """All that is fuzzed."""
 
-from fuzzing import card_logs, commands, conversions, drawings, programs, runs, setups
+from fuzzing import card_logs, commands, conversions, drawings, makings, programs, runs, setups
 from fuzzing.target import Target
 
 TARGETS = {
@@ -18,6 +18,7 @@ TARGETS = {
         Target("card", card_logs.make, card_logs.judge, 25.0),
         Target("dxf", drawings.make, drawings.judge, 10.0, most_s=15.0),
         Target("compare", drawings.make, drawings.judge_compared, 0.3, most_s=20.0),
+        Target("make", makings.make, makings.judge, 0.3, most_s=20.0, most_mb=800.0),
         Target("command", commands.make, commands.judge, 4.0, most_s=20.0, most_mb=800.0),
         Target("run", runs.make, runs.judge, 0.2, most_s=20.0, most_mb=800.0),
         Target("iso-run", runs.make_iso, runs.judge, 0.2, most_s=20.0, most_mb=800.0),

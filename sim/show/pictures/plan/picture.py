@@ -17,6 +17,7 @@ from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.tones import TONES, paint_of_pass
 from sim.show.pictures.plan.ways import heading_px, line_px, plan_bounds_um
 from sim.show.words import Words, said
+from sim.show.words.phrases import numbered
 
 _PASS_WIDTH: Final = 3.6  # of the last one, which lies on top; each before it is wider, so that all show
 _WIDER: Final = 1.6
@@ -25,6 +26,7 @@ _LEAD_WIDTH: Final = 2.5
 _TAB_WIDTH: Final = 4.5
 _THREAD: Final = 17.0  # radius of the disc that has the number
 _AXES: Final = 60.0  # labels of the X axis above the legend
+_ABOVE: Final = 32.0  # the number of a figure above the middle of the disc
 _CROWDED: Final = 60  # figures; of more, the discs are smaller and have no numbers
 
 
@@ -40,15 +42,16 @@ def draw_plan(sheet: Sheet[AnyCanvas], plan: CutPlan) -> AnyCanvas:
     _draw_areas(canvas, page, plan)
     draw_axes(canvas, page)
     _draw_ways(canvas, page, plan)
-    _draw_order(canvas, page, plan)
+    _draw_order(canvas, page, plan, say)
     draw_at_foot(canvas, legend)
     return canvas
 
 
 def _note(plan: CutPlan, say: Words) -> str:
     offsets = ", ".join(f"{mm(by):g}" for by in plan.passes_um)
-    passes = say("program.passes", passes=offsets)
-    return f"{say('program.plan-not-run', figures=f'{len(plan.cuts):,}')} · {passes}"
+    passes = say("program.passes", passes=offsets) if any(plan.passes_um) else say("program.passes-none")
+    figures = getattr(numbered({"figure": len(plan.cuts)}), say.language)
+    return f"{say('program.plan-not-run', figures=figures)} · {passes}"
 
 
 def _draw_areas(canvas: Canvas, page: Page, plan: CutPlan) -> None:
@@ -76,15 +79,29 @@ def _draw_ways(canvas: Canvas, page: Page, plan: CutPlan) -> None:
     canvas.dashed(places, Paint.JUMP, style.JUMP_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
 
 
-def _draw_order(canvas: Canvas, page: Page, plan: CutPlan) -> None:
+def _draw_order(canvas: Canvas, page: Page, plan: CutPlan, say: Words) -> None:
     """Which way each figure is run, and where the wire is threaded, with the number of its turn."""
     is_crowded = len(plan.cuts) > _CROWDED
+    is_other = not is_crowded and not _is_by_number(plan)
     for turn, cut in enumerate(plan.cuts, start=1):
         heading = heading_px(cut, page.view)
         if heading is not None:
             canvas.arrow(heading.tip, heading.ahead, style.ARROW * page.unit, Paint.IDEAL)
         place = page.view.to_px(np.array(cut.thread.place_um))
         _draw_thread(canvas, place, "" if is_crowded else str(turn), page.unit * (0.4 if is_crowded else 1.0))
+        if is_other:
+            _draw_number(canvas, place, say("program.plan-number", number=cut.figure.number), page.unit)
+
+
+def _is_by_number(plan: CutPlan) -> bool:
+    """Whether each figure's turn is its number, which `--order` takes."""
+    return all(cut.figure.number == turn for turn, cut in enumerate(plan.cuts, start=1))
+
+
+def _draw_number(canvas: Canvas, place: Floats, text: str, unit: float) -> None:
+    """The number of a figure, above its thread point."""
+    at = (float(place[0]), float(place[1]) - _ABOVE * unit)
+    canvas.text(at, text, style.NUMBER * unit, Paint.INK, align=0.5)
 
 
 def _draw_thread(canvas: Canvas, place: Floats, text: str, unit: float) -> None:

@@ -132,8 +132,8 @@ def test_the_reader_tells_what_it_left_out_and_where(tmp_path: Path):
     assert [(left.entity.kind, left.why) for left in drawing.left_out] == [("ARC", "drawn-twice"), ("LINE", "overlaps")]
     np.testing.assert_allclose([left.place_um for left in drawing.left_out], [(0, 5000), (60_000, 0)], atol=1e-6)
     assert [remark_text(note) for note in drawing.notes] == [
-        "1 curves left out, as they are drawn twice",
-        "1 curves shortened, as others run over them for a part of their way",
+        "1 of the curves left out: drawn twice",
+        "1 of the curves shortened, where others run over them",
     ]
 
 

@@ -11,7 +11,7 @@ from sim.cam.leads.forms import lead_of
 from sim.cam.leads.leads import lead_in, lead_out
 from sim.cam.leads.room import are_free, balls_um, nearest, room_of
 from sim.cam.model import Entry, Figure, Thread
-from sim.setup.making import LeadIn, Making
+from sim.setup.making import LeadIn
 
 SQUARE = np.array([[0.0, 0.0], [1e4, 0.0], [1e4, 1e4], [0.0, 1e4]])
 
@@ -65,14 +65,13 @@ def test_a_lead_that_is_short_or_does_not_come_across_is_straight() -> None:
 
 @pytest.mark.parametrize("form", ["perpendicular", "arc", "tangent"])
 def test_a_pass_goes_back_as_it_came_and_from_elsewhere_straight(form: LeadIn) -> None:
-    figure, making = hole(closed(SQUARE)), Making(lead=form)
     thread = Thread(Point(5000, 2000), "asked", Entry(0, 5e3, Point(5000, 0), Point(0.0, 1.0)), form)
     around = closed(np.array([[5e3, 100.0], [9.9e3, 100.0], [9.9e3, 9.9e3], [100.0, 9.9e3], [100.0, 100.0]]))
-    into, out = (lead(figure, thread, around, making) for lead in (lead_in, lead_out))
+    into, out = (lead(thread, around) for lead in (lead_in, lead_out))
     assert out.start_um == pytest.approx(into.end_um[::-1])
     assert out.end_um == pytest.approx(into.start_um[::-1])
     assert out.sweep_rad == pytest.approx(-into.sweep_rad[::-1])
-    early = lead_out(figure, thread, around.picked(slice(2)), making)
+    early = lead_out(thread, around.picked(slice(2)))
     assert (early.start_um.tolist(), early.end_um.tolist()) == ([[9.9e3, 9.9e3]], [[5e3, 2e3]])
 
 

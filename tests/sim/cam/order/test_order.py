@@ -136,3 +136,12 @@ def test_one_side_has_the_wire_on_the_left_of_all_contours() -> None:
             asked = way_of(figure, Making(direction=direction))
             assert asked.is_ccw == (direction == "ccw")
             assert (asked.side.name == "LEFT") == (asked.is_ccw == figure.runs_inside)
+
+
+def test_a_wish_for_a_layer_without_a_figure_is_refused_by_its_name() -> None:
+    with pytest.raises(CannotCutError) as caught:
+        with_sides(PLATE, Making(layers=(LayerWish("SMALL", rank=1), LayerWish("smalls", side="inside"))))
+    refusal = caught.value.refusal
+    assert refusal.why == "no-such-layer"
+    assert dict(refusal.values)["layer"] == "smalls"
+    assert "SMALL" in dict(refusal.values)["layers"].split(", ")

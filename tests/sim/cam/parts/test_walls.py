@@ -51,13 +51,13 @@ def test_waste_as_wide_as_what_the_wire_removes_is_cut():
 def test_thin_walls_and_contours_that_touch_are_told_with_their_place():
     plate = square(0, 0, 50)
     assert _told(plate, square(10, 10, 10), square(20.1, 10, 10)) == [
-        "1 walls are thinner than the kerf is wide, the thinnest, 100 µm, at (20, 10) mm"
+        "walls thinner than the kerf is wide: 1, the thinnest of 100 µm at (20, 10) mm"
     ]
     assert _told(plate, circle(10, 10, 5), circle(20, 10, 5)) == [
-        "1 pairs of contours touch, the first at (15, 10) mm: no wall is left there"
+        "contours touch, so that no wall is left there: 1 of their pairs, the first at (15, 10) mm"
     ]
     assert _told(plate, polygon([(0, 25), (10, 20), (10, 30)])) == [
-        "1 pairs of contours touch, the first at (0, 25) mm: no wall is left there"
+        "contours touch, so that no wall is left there: 1 of their pairs, the first at (0, 25) mm"
     ]
     assert _told(plate, square(10, 10, 10), square(20.3, 10, 10)) == []
 

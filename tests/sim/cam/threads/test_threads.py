@@ -1,5 +1,6 @@
 """Thread points: in the waste, with a free lead of more than the offset; those asked for, or their refusal."""
 
+import math
 import random
 from typing import Any
 
@@ -86,7 +87,7 @@ def assert_led_in_the_waste(figures: list[Figure], threads: tuple[Thread, ...], 
         assert np.hypot(*(place - thread.entry.place_um)) > reach_um
         if thread.lead == "point":
             continue
-        way = lead_in(one, thread, begun(one, thread, reach_um), Making())
+        way = lead_in(thread, begun(one, thread, reach_um))
         for row in range(len(way)):
             spread = places(way, np.full(200, row), np.linspace(0.0, 1.0, 200))
             kerf = shapely.LineString(spread).buffer(reach_um - 0.2, quad_segs=32)
@@ -191,6 +192,13 @@ def test_it_threads_a_small_hole_in_its_middle() -> None:
     assert thread.place_um == Point(5000, 7000)
 
 
+def test_figures_of_one_waste_are_threaded_a_start_hole_apart() -> None:
+    """The middles of all sides lie across from one another, 1 mm apart: each pair would share one place."""
+    frame, island = box(0, 0, 20000, 10000), box(1000, 1000, 18000, 8000)
+    found = threads_of(drawing(), [figure(1, 1, 1, frame), figure(2, 2, 2, island)], Making(), REACH_UM)
+    assert math.dist(found[0].place_um, found[1].place_um) >= 1000.0
+
+
 def test_it_comes_to_no_fillet_smaller_than_the_offset_where_there_is_anything_else() -> None:
     fillet = curves_between(np.array([[1e3, 0.0]]), np.array([[0.0, 1e3]]), np.zeros((1, 2)), np.array([np.pi / 2]))
     lines = polygon([(0.0, 1e3), (0.0, 0.0), (1e3, 0.0)]).picked(slice(2))
@@ -282,11 +290,26 @@ def test_a_lead_to_a_point_goes_to_the_nearest_corner_in_the_waste_or_is_straigh
     assert [(note.name, dict(note.values)) for note in notes] == [("straight-leads", {"figures": "1"})]
 
 
+def test_a_lead_to_a_point_comes_midway_between_the_sides_of_its_corner() -> None:
+    """Along a side it would cut free what is cut before the wire is round."""
+    for thread, aside in zip(threads(Making(lead="point", lead_um=1500.0)), (1.0, np.sqrt(2.0)), strict=True):
+        across, up = np.abs(np.array(thread.place_um) - np.array(thread.entry.place_um))
+        assert across == up == pytest.approx((aside * REACH_UM + 1500.0) * np.sqrt(0.5), abs=1.0)
+
+
 def test_round_leads_to_parts_are_straight_and_it_is_said() -> None:
     found = threads(Making(lead="arc"))
     assert [thread.lead for thread in found] == ["perpendicular", "arc"]
     notes = thread_notes(PLATE, found, Making(lead="arc"))
     assert [(note.name, dict(note.values)) for note in notes] == [("straight-to-parts", {"figures": "1"})]
+
+
+def test_chosen_thread_points_in_one_waste_lie_a_start_hole_apart() -> None:
+    # The longest sides of both face each other across 4 mm: each has room for a lead of 2 mm up to the same place.
+    left = figure(1, 1, 0, polygon([(0, 0), (6000, -3000), (6000, 9000), (0, 6000)]))
+    right = figure(2, 2, 0, polygon([(10000, -3000), (16000, 0), (16000, 6000), (10000, 9000)]))
+    one, other = (thread.place_um for thread in threads_of(drawing(), [left, right], Making(), REACH_UM))
+    assert math.dist(one, other) >= 1000.0
 
 
 def test_leads_of_passes_back_and_forth_are_straight_and_it_is_said() -> None:
@@ -295,3 +318,11 @@ def test_leads_of_passes_back_and_forth_are_straight_and_it_is_said() -> None:
     assert {thread.lead for thread in found} == {"perpendicular"}
     assert [note.name for note in thread_notes(PLATE, found, making)] == ["straight-back"]
     assert threads(making._replace(returning="one-way"))[1].lead == "tangent"
+
+
+def test_leads_with_no_room_for_the_length_that_is_asked_for_are_told() -> None:
+    making = Making(lead_um=50_000.0)
+    notes = thread_notes(PLATE, threads(making), making)
+    assert [(note.name, dict(note.values)) for note in notes] == [("shorter-leads", {"figures": "2"})]
+    making = Making(lead_um=500.0)
+    assert thread_notes(PLATE, threads(making), making) == ()
