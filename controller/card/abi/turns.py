@@ -24,10 +24,9 @@ class Passed(Protocol):
 
 
 class _Wait(NamedTuple):
-    """A thread that waits for its turn: when that is, s; its number in the order of coming; its gate, which opens."""
+    """A thread that waits for its turn: when that is, s; its number, lower ones first; its gate."""
 
     at_s: float
-    order: int
     thread: int
     gate: threading.Lock
 
@@ -47,7 +46,7 @@ class Turns:
         self._tasks, self._passed = tasks, passed
         self._lock = threading.Lock()
         self._waits: list[_Wait] = []
-        self._order = self._depth = 0
+        self._depth = 0
         self._has_turn = 0
 
     def take(self, at_s: Callable[[], float]) -> None:
@@ -61,8 +60,7 @@ class Turns:
             if not self._has_turn and not self._waits and self._inside() == 1 and self._tasks.only_one():
                 self._has_turn = thread
                 return
-            self._order += 1
-            wait = _Wait(at_s(), self._order, thread, threading.Lock())
+            wait = _Wait(at_s(), thread, threading.Lock())
             wait.gate.acquire()
             self._waits.append(wait)
             self._give()
