@@ -4,9 +4,10 @@ from collections.abc import Generator
 
 import pytest
 from browser import browsers, open_page
+from c_library import library
 from hypothesis import settings
 
-__all__ = ["browsers", "open_page"]
+__all__ = ["browsers", "library", "open_page"]
 
 settings.register_profile("steady", deadline=None, derandomize=True)
 settings.load_profile("steady")

@@ -11,7 +11,6 @@ import numpy as np
 
 from controller.motion.path import Path
 from controller.motion.plan import Plan
-from controller.stepping.chunks import CHUNK_STEPS, chunk_of
 from controller.stepping.equal_time import ROUNDING_UM, Clock, SampledMotion
 from controller.stepping.pulses import Pulses, no_pulses, time_steps
 from controller.stepping.steps import Steps
@@ -99,6 +98,8 @@ class PointByPoint:
 
     def _work_out(self) -> None:
         """Work out the next chunk, without steps that come after the plan's end."""
+        from controller.stepping.chunks import CHUNK_STEPS, chunk_of  # noqa: PLC0415 - loads the compiler
+
         until = min(self._done + self._size, len(self._steps))
         chunk = chunk_of(self._steps, self._done, until)
         timed = time_steps(chunk, self._plan, self._began_s, self._from_um)

@@ -52,6 +52,38 @@ def replay(log: Path, as_json: bool) -> None:
     raise click.exceptions.Exit(1 if count else 0)
 
 
+@card.command()
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, file_okay=False),
+    required=True,
+    metavar="DIR",
+    help="Folder of the libraries; the headers are put in DIR/include.",
+)
+def build(output: Path) -> None:
+    """Make the card's library for programs in C: libges.so with ges.h.
+
+    The C compiler of the machine makes it, or the one that CC names. The library finds this Python and its packages
+    where they are now. libdrycut_sleep.so lets the sleeps of a program pass on the card, and windows.h and others stand
+    in for headers of Windows (docs/libges.md).
+
+    \b
+    Exit code: 0 made, 2 bad use, or no compiler or Python to make it with,
+    3 a fault of drycut itself.
+
+    \b
+    drycut card build -o ges
+    cc client.c -o client -I ges/include -L ges -lges -ldrycut_sleep
+    LD_LIBRARY_PATH=ges ./client
+    """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from sim.library.build import build as made_in
+    from sim.library.compiler import found_compiler
+
+    for path in made_in(output, found_compiler()):
+        say(str(path))
+
+
 def _text(name: str, done: "Replay", count: int, shown: "list[Difference]") -> Iterator[str]:
     for entry in shown:
         yield f"{name}:{entry.line}: error: the card differs"

@@ -9,13 +9,13 @@ from typing import Any, NamedTuple
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from places import DATA
+from places import ROOT
 
 from controller import GECard
 from controller.card.core.codes import Code
 from controller.card.lookahead.data import TLookAheadMsg, TLookData
 
-TABLE = DATA / "ge-functions.csv"
+TABLE = ROOT / "controller" / "card" / "abi" / "ge-functions.csv"
 IN_POINTERS = {"char", "CCommandHandle", "TLookData"}
 ARRAYS = {"GT_GetPrfPnt": 4, "GT_GetSegPnt": 4, "GT_GetBrkPnt": 4}
 ANSWERS_WHEN_CLOSED = {"GT_Open"}

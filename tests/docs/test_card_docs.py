@@ -49,7 +49,7 @@ def run(code: str, folder: Path) -> str:
 
 def test_every_function_stands_once_in_the_tables() -> None:
     named = [name for row in rows("## Functions") for name in re.findall(r"`(GT_\w+)`", row[0])]
-    with (ROOT / "tests" / "data" / "ge-functions.csv").open(encoding="utf-8") as file:
+    with (ROOT / "controller" / "card" / "abi" / "ge-functions.csv").open(encoding="utf-8") as file:
         assert sorted(named) == sorted(row["function"] for row in csv.DictReader(file))
 
 

@@ -1,4 +1,7 @@
-"""Settings of the card as one line of JSON, and back; what is infinite is the text ``inf`` or ``-inf``."""
+"""Settings of the card as one line of JSON, and back; what is infinite is the text ``inf`` or ``-inf``.
+
+They are read from any table of keys and values too, such as that of a file of TOML.
+"""
 
 import json
 import math
@@ -15,7 +18,12 @@ def settings_text(settings: CardSettings) -> str:
 
 def settings_from(text: str) -> CardSettings:
     """The settings of a JSON text. ValueError where they are none; keys that are left out take their defaults."""
-    given = _table(json.loads(text), CardSettings, "settings")
+    return settings_of(json.loads(text))
+
+
+def settings_of(told: Any) -> CardSettings:
+    """The settings of a table. ValueError where they are none; keys that are left out take their defaults."""
+    given = _table(told, CardSettings, "settings")
     switches = given.get("switches", [])
     if not isinstance(switches, list):
         raise ValueError("switches are a list with a table for each axis")
@@ -25,7 +33,7 @@ def settings_from(text: str) -> CardSettings:
 def _switches(entry: Any) -> Switches:
     given = _table(entry, Switches, "switches")
     home = given.pop("home", [math.inf, math.inf])
-    if not isinstance(home, list) or [_kind(place) for place in home] != [float, float]:
+    if not isinstance(home, list) or len(home) != 2 or not {_kind(place) for place in home} <= {int, float}:
         raise ValueError(f"home is two places, not {home!r}")
     return Switches(**given, home=(_read(home[0]), _read(home[1])))
 

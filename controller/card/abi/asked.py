@@ -1,0 +1,84 @@
+"""What the environment asks of the library: the card and its settings, its clock, its log.
+
+`DRYCUT_CARD` is a file of TOML with the keys of `CardSettings`, `DRYCUT_CALL_S` the time of a call in s, `DRYCUT_CLOCK`
+how many times as fast as the wall clock the card's is, or ``simulated``, `DRYCUT_CARD_LOG` the file of the log.
+"""
+
+import math
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+
+from controller.card.core.settings import CardSettings
+from controller.card.log.settings_text import settings_of
+from parser.files.reading import read_text
+from parser.findings.errors import SettingsError
+
+CARD, CALL_S, CLOCK, LOG = "DRYCUT_CARD", "DRYCUT_CALL_S", "DRYCUT_CLOCK", "DRYCUT_CARD_LOG"
+_CALL_S: Final = 1e-3
+"""Programs poll without sleeping: so a second of motion is a thousand calls."""
+_CALL_ON_WALL_S: Final = 1e-6
+"""The wall clock moves the card; a call only has to take some time."""
+_SIMULATED: Final = "simulated"
+_FASTEST: Final = 1e6
+
+
+class Asked(NamedTuple):
+    """Settings of the card; how fast its clock is, None where it is simulated; file of the log, None for none."""
+
+    settings: CardSettings
+    times: float | None
+    log: Path | None
+
+
+def asked(environment: Mapping[str, str]) -> Asked:
+    """What a program's environment asks for; empty texts ask for nothing.
+
+    SettingsError where it is none, FileUnreadableError where the file of the card cannot be read.
+    """
+    times = _times(environment.get(CLOCK, ""))
+    call_s = {"call_s": _CALL_S if times is None else _CALL_ON_WALL_S}
+    told = call_s | _table(environment.get(CARD, "")) | _call_s(environment.get(CALL_S, ""))
+    log = environment.get(LOG, "")
+    try:
+        return Asked(settings_of(told), times, Path(log) if log else None)
+    except ValueError as error:
+        raise SettingsError(f"{environment.get(CARD) or CALL_S}: {error}") from None
+
+
+def _times(text: str) -> float | None:
+    if text in ("", _SIMULATED):
+        return None
+    times = _number(text)
+    if times is None or not 0.0 < times <= _FASTEST:
+        raise SettingsError(f"{CLOCK} is {_SIMULATED}, or a number up to {_FASTEST:g}, not {text!r}")
+    return times
+
+
+def _call_s(text: str) -> dict[str, float]:
+    if not text:
+        return {}
+    seconds = _number(text)
+    if seconds is None:
+        raise SettingsError(f"{CALL_S} is a number of seconds, not {text!r}")
+    return {"call_s": seconds}
+
+
+def _number(text: str) -> float | None:
+    try:
+        number = float(text)
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None
+
+
+def _table(name: str) -> dict[str, Any]:
+    if not name:
+        return {}
+    try:
+        return tomllib.loads(read_text(Path(name)))
+    except UnicodeDecodeError:
+        raise SettingsError(f"{name}: is no text in UTF-8") from None
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise SettingsError(f"{name}: {error}") from None

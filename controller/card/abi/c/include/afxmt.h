@@ -1,0 +1,1 @@
+/* Programs for the card include this header of MFC and take nothing from it. */

@@ -1,0 +1,97 @@
+"""The functions of the card's library, read from their table: ``ge-functions.csv``, as the vendor's header has them.
+
+All that is in C is made of this table; a test holds it against the Python functions of the card.
+"""
+
+import csv
+import re
+from functools import cache
+from pathlib import Path
+from typing import Final, NamedTuple
+
+FOLDER: Final = Path(__file__).parent
+_PARAMETER: Final = re.compile(r"\s*([\w ]+?)\s*(\*?)\s*(\w+)(?:=.+)?\s*")
+_PLACE: Final = "pnt"
+"""Name of the out-parameters that are places: 4 doubles, whatever axes the card has."""
+_IN: Final = {
+    "char": "c",
+    "short": "h",
+    "unsigned short": "H",
+    "int": "i",
+    "long": "l",
+    "unsigned long": "L",
+    "double": "d",
+    "char*": "s",
+    "TLookData*": "B",
+    "CCommandHandle*": "K",
+}
+_OUT: Final = {
+    "short*": "h",
+    "unsigned short*": "H",
+    "long*": "l",
+    "unsigned long*": "L",
+    "double*": "d",
+    "TLookAheadMsg*": "M",
+}
+
+
+class Parameter(NamedTuple):
+    """A parameter: its C type, with a star behind it where it is a pointer, and its name."""
+
+    kind: str
+    name: str
+
+    @property
+    def is_out(self) -> bool:
+        """Whether the function fills it."""
+        return self.kind in _OUT
+
+    @property
+    def letter(self) -> str:
+        """How ``ges.c`` calls its type: small and large for signed and unsigned, ``P`` for a place, and so on."""
+        if self.kind == "double*" and self.name == _PLACE:
+            return "P"
+        return _OUT[self.kind] if self.is_out else _IN[self.kind]
+
+    @property
+    def declared(self) -> str:
+        """As a C declaration."""
+        return f"{self.kind.removesuffix('*')} *{self.name}" if self.kind.endswith("*") else f"{self.kind} {self.name}"
+
+
+class Prototype(NamedTuple):
+    """A function: name, parameters in order, and the group of the vendor's header in which it stands."""
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    group: str
+
+    @property
+    def form(self) -> str:
+        """Letters of the parameters that are given, then ``>`` and of those that are filled."""
+        given = "".join(one.letter for one in self.parameters if not one.is_out)
+        return f"{given}>{''.join(one.letter for one in self.parameters if one.is_out)}"
+
+    @property
+    def declared(self) -> str:
+        """As a C declaration, without its semicolon."""
+        return f"int {self.name}({', '.join(one.declared for one in self.parameters) or 'void'})"
+
+
+@cache
+def prototypes() -> tuple[Prototype, ...]:
+    """All functions, in the order of the table."""
+    with (FOLDER / "ge-functions.csv").open(encoding="utf-8", newline="") as file:
+        return tuple(_prototype(row) for row in csv.DictReader(file))
+
+
+def _prototype(row: dict[str, str]) -> Prototype:
+    texts = [] if row["args"] == "void" else row["args"].split(",")
+    return Prototype(row["function"], tuple(_parameter(text) for text in texts), row["group"])
+
+
+def _parameter(text: str) -> Parameter:
+    found = _PARAMETER.fullmatch(text)
+    assert found is not None, text  # noqa: S101 - a slip in the table
+    kind, star, name = found.groups()
+    return Parameter(kind + star, name)

@@ -1,0 +1,90 @@
+"""What makes the library: a C compiler, the headers of this Python, and Python as a library."""
+
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+from typing import NamedTuple
+
+from parser.findings.errors import DrycutError
+from parser.text.encoding import printable
+
+_NAMES = ("cc", "gcc", "clang")
+_TOLD_LINES = 12
+
+
+class CompilerError(DrycutError, RuntimeError):
+    """The library cannot be made here; says what is missing, or what the compiler said."""
+
+
+class Compiler(NamedTuple):
+    """A C compiler as it is called, the folder of Python's headers, and the file of Python's library."""
+
+    call: tuple[str, ...]
+    headers: Path
+    python: Path
+
+    def shared(self, source: Path, made: Path, *options: str) -> None:
+        """Make a shared library of a source. CompilerError with what the compiler said where it cannot."""
+        flags = ("-shared", "-fPIC", "-O2", "-fvisibility=hidden", f"-Wl,-soname,{made.name}")
+        done = subprocess.run(  # noqa: S603 - the user's own compiler
+            [*self.call, *flags, "-o", str(made), str(source), *options, "-lpthread", "-ldl"],
+            capture_output=True,
+            encoding="utf-8",
+            errors="replace",
+            check=False,
+        )
+        if done.returncode:
+            said = "\n".join(done.stderr.splitlines()[:_TOLD_LINES])
+            raise CompilerError(f"{self.call[0]} cannot make {made.name}:\n{said}")
+
+
+def found_compiler() -> Compiler:
+    """The compiler that the environment names in ``CC``, or that of the machine, with what it needs of this Python.
+
+    CompilerError where one of the three is missing.
+    """
+    if not sys.platform.startswith("linux"):
+        raise CompilerError(f"libges is made on Linux; this is {sys.platform}")
+    return Compiler(_call(), _headers(), _python())
+
+
+def _call() -> tuple[str, ...]:
+    named = os.environ.get("CC", "").strip()
+    call = tuple(shlex.split(named)) if named else ()
+    for name in call[:1] or _NAMES:
+        if path := shutil.which(name):
+            return (path, *call[1:])
+    if named:
+        raise CompilerError(f"there is no C compiler {printable(named)}, which CC names")
+    raise CompilerError(
+        f"there is no C compiler here ({', '.join(_NAMES)}); on Debian and Ubuntu: apt install gcc libc6-dev"
+    )
+
+
+def _headers() -> Path:
+    folder = Path(sysconfig.get_path("include"))
+    if not (folder / "Python.h").is_file():
+        raise CompilerError(
+            f"the headers of this Python are missing: {folder / 'Python.h'}; on Debian and Ubuntu: apt install "
+            f"python{sysconfig.get_python_version()}-dev"
+        )
+    return folder
+
+
+def _python() -> Path:
+    """Python as a library, where the build of this Python has put it."""
+    told = {key: str(sysconfig.get_config_var(key) or "") for key in ("INSTSONAME", "LDLIBRARY", "LIBDIR", "MULTIARCH")}
+    folder, beneath = Path(told["LIBDIR"]), told["MULTIARCH"]
+    for name in filter(None, (told["INSTSONAME"], told["LDLIBRARY"])):
+        for path in (folder / name, folder / beneath / name):
+            if ".so" in path.name and path.is_file():
+                return path
+    raise CompilerError(
+        f"this Python ({sys.executable}) has no shared library (libpython{sysconfig.get_python_version()}.so), which "
+        "libges needs: a Python built with --enable-shared has one; on Debian and Ubuntu: apt install "
+        f"libpython{sysconfig.get_python_version()}"
+    )
