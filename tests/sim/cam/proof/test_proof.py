@@ -18,7 +18,7 @@ from sim.convert.wanted import Wanted
 from sim.setup.making import Making
 
 REACH = 100.0
-TO_ISO = Wanted("iso", iso_choices("fast-wire"))
+WANTED = Wanted("3b"), Wanted("3b", form="detailed"), Wanted("4b"), Wanted("iso", iso_choices("fast-wire"))
 
 
 @pytest.fixture(name="path", scope="module")
@@ -26,9 +26,7 @@ def plate_path(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return plate_file(tmp_path_factory.mktemp("plate"))
 
 
-@pytest.fixture(
-    name="sound", scope="module", params=[Wanted("3b"), Wanted("3b", form="detailed"), Wanted("4b"), TO_ISO]
-)
+@pytest.fixture(name="sound", scope="module", params=WANTED)
 def sound_program(path: Path, request: pytest.FixtureRequest) -> tuple[Wanted, Proof]:
     """What a sound program is written as, and its proof."""
     return request.param, proof_of(plan_of(path), path, request.param)
