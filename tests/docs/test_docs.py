@@ -15,8 +15,8 @@ import click
 import numpy as np
 import pytest
 from command import without_progress
-from jsonschema import Draft202012Validator
 from places import MACHINES, ROOT
+from report_schema import complaints, validator
 from runs import scenario_run
 
 from controller.stepping.chunks import chunk_of
@@ -80,17 +80,6 @@ def read(path: Path) -> str:
 
 
 @cache
-def validator() -> Draft202012Validator:
-    schema = json.loads(read(DOCS / "report.schema.json"))
-    Draft202012Validator.check_schema(schema)
-    return Draft202012Validator(schema)
-
-
-def complaints(report: object) -> list[str]:
-    return [f"{error.json_path}: {error.message}" for error in validator().iter_errors(report)]
-
-
-@cache
 def run_of(folder: Path) -> DryRun:
     if folder in SCENARIOS:
         return scenario_run(folder.name)
@@ -105,11 +94,6 @@ def report_text(folder: Path) -> str:
 
 def report_of(folder: Path) -> Any:
     return json.loads(report_text(folder))
-
-
-@pytest.mark.parametrize("folder", SCENARIOS, ids=lambda folder: folder.name)
-def test_report_fits_its_schema(folder: Path) -> None:
-    assert complaints(report_of(folder)) == []
 
 
 def test_report_of_a_bad_program_fits_the_schema(tmp_path: Path) -> None:
@@ -192,6 +176,10 @@ def changed(report: object, path: tuple[str | int, ...], change: Callable[[dict[
     return report
 
 
+def is_refused(report: object) -> bool:
+    return not validator().is_valid(report)
+
+
 def shortened(node: Any) -> Any:
     """A report with no more than three entries in any list, which a schema looks at as at all others."""
     if isinstance(node, dict):
@@ -205,9 +193,9 @@ def test_schema_refuses_a_key_more_or_less_anywhere() -> None:
     paths = objects(report)
     assert len(paths) > 20
     for path in paths:
-        assert complaints(changed(report, path, lambda node: node.update(surplus=1))), path
+        assert is_refused(changed(report, path, lambda node: node.update(surplus=1))), path
         for key in report_node(report, path):
-            assert complaints(changed(report, path, lambda node, key=key: node.pop(key))), (*path, key)
+            assert is_refused(changed(report, path, lambda node, key=key: node.pop(key))), (*path, key)
 
 
 def test_schema_refuses_wrong_types_anywhere() -> None:
@@ -215,7 +203,7 @@ def test_schema_refuses_wrong_types_anywhere() -> None:
     for path in objects(report):
         for key, value in report_node(report, path).items():
             wrong = "text" if isinstance(value, int | float) else False if value is None else -1.5
-            assert complaints(changed(report, path, lambda node, key=key, wrong=wrong: node.update({key: wrong}))), (
+            assert is_refused(changed(report, path, lambda node, key=key, wrong=wrong: node.update({key: wrong}))), (
                 *path,
                 key,
             )
@@ -511,15 +499,6 @@ def test_code_flow_quotes_the_samples_of_the_table() -> None:
         (asked_x, asked_y), (x, y) = trace.commanded_um[sample], trace.table_um[sample]
         shown = f"| {asked_x:.0f}, {asked_y:.0f} | {x:.2f}, {y:.2f} | {asked_x - x:.2f}, {asked_y - y:.2f} |"
         assert f"| {row} | {trace.t_s[sample]:.6f} {shown}" in page
-
-
-def test_every_scenario_is_told_of() -> None:
-    page = read(DOCS / "scenarios.md")
-    assert re.findall(r"^\| `([a-z-]+)` \|.*\| [01] \|$", page, flags=re.MULTILINE) != []
-    for folder in SCENARIOS:
-        row = re.search(rf"^\| `{folder.name}` \|.*\| ([01]) \|$", page, flags=re.MULTILINE)
-        assert row, folder.name
-        assert (row[1] == "1") == (report_of(folder)["verdict"] == "fail")
 
 
 def test_readme_shows_the_keyhole() -> None:

@@ -8,9 +8,8 @@ from typing import Any
 import pytest
 from checking import SOUND, drycut
 from iso_at_home import DIE, ROUNDS, ROUNDS_CUT_UM
-from jsonschema import Draft202012Validator
-from places import ROOT
 from replayed import recording_of
+from report_schema import validator
 from runs import plain_scenario
 
 from parser.dialect.reader import Reading, in_codes
@@ -68,8 +67,7 @@ def checked(text: str) -> CheckResult:
 def test_a_report_says_how_the_text_was_read_and_keeps_its_schema() -> None:
     run = recording_of(ROUNDS).run
     report = build_report(run)
-    schema = json.loads((ROOT / "docs" / "report.schema.json").read_text("utf-8"))
-    assert {error.json_path for error in Draft202012Validator(schema).iter_errors(report)} <= {"$.program.header"}
+    assert {error.json_path for error in validator().iter_errors(report)} <= {"$.program.header"}
     assert report["program"]["dialect"] == "skd2"
     what = [assumption["what"] for assumption in report["assumptions"]["program"]]
     assert what[:3] == ["dialect", "unit", "centres"]

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from command import run_inside
-from jsonschema import Draft202012Validator
 from places import ROOT
 from replayed import document_of
+from report_schema import validator
 from runs import codes, plain_scenario, run_text
 from tiny_dialect import TinyReader
 
@@ -210,8 +210,7 @@ def test_the_report_has_its_header_and_no_words_of_steps(run: DryRun) -> None:
 
 
 def test_the_report_keeps_its_schema_but_for_what_it_says_of_dialects(run: DryRun) -> None:
-    schema = json.loads((ROOT / "docs" / "report.schema.json").read_text("utf-8"))
-    complaints = Draft202012Validator(schema).iter_errors(build_report(run))
+    complaints = validator().iter_errors(build_report(run))
     assert {error.json_path for error in complaints} == {"$.program.dialect", "$.program.header"}
 
 

@@ -40,9 +40,11 @@ def without_progress(stderr: bytes) -> bytes:
     return b"".join(line for line in stderr.splitlines(keepends=True) if not _PROGRESS.fullmatch(line.rstrip()))
 
 
-def run_inside(*arguments: object, cwd: Path | None = None, **environment: str) -> subprocess.CompletedProcess[bytes]:
+def run_inside(
+    *arguments: object, cwd: Path | None = None, encoding: str = "utf-8", **environment: str
+) -> subprocess.CompletedProcess[bytes]:
     """What `run_command` gives, a second sooner: no interpreter starts, and nothing is read from stdin."""
-    out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8") for _ in range(2))
+    out, err = (io.TextIOWrapper(io.BytesIO(), encoding) for _ in range(2))
     command = ["drycut", *map(str, arguments)]
     handlers = {number: signal.getsignal(number) for number in (signal.SIGTERM, HANGUP)}
     with (

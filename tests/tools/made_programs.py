@@ -22,17 +22,16 @@ from sim.convert.wanted import Wanted, read_with, written
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 
-WIDTH, HEIGHT = 20.0, 12.0
-ROUND, SQUARE, OUTLINE = 1, 2, 0
-"""Places of the figures in `plate`'s drawing: the outline is drawn first."""
+WIDTH, HEIGHT = 12.0, 6.0
+"""Sides of the plate, mm: small, as a run costs what its way is long."""
 TO_3B = Wanted("3b")
 
 
 def plate(space: Modelspace) -> None:
-    """An outline of 20 × 12 mm, a hole of R 2 at (5, 6), and a square one of 5 mm in the middle of (14, 6)."""
+    """An outline of 12 × 6 mm, a hole of R 1.5 at (3, 3), and a square one of 3 mm about (8.5, 3)."""
     space.add_lwpolyline([(0, 0), (WIDTH, 0), (WIDTH, HEIGHT), (0, HEIGHT)], close=True)
-    space.add_circle((5, 6), 2)
-    space.add_lwpolyline([(11.5, 3.5), (16.5, 3.5), (16.5, 8.5), (11.5, 8.5)], close=True)
+    space.add_circle((3, 3), 1.5)
+    space.add_lwpolyline([(7, 1.5), (10, 1.5), (10, 4.5), (7, 4.5)], close=True)
 
 
 def plate_file(folder: Path, draw: Callable[[Modelspace], object] = plate) -> Path:

@@ -1,14 +1,17 @@
 """Arcs are fitted as near as the written path needs, whole µm and all, and not nearer."""
 
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 from ezdxf.layouts import Modelspace
 
+from parser.drawing.read import read_drawing
 from parser.write.draft import draft_of
 from sim.cam.fits import fits_um
-from sim.cam.maker import Made, made, unproved
+from sim.cam.maker import Made, unproved
+from sim.cam.proof.proof import Given, proved
 from sim.convert.wanted import Wanted
 from sim.setup.machine.machine import load_machine
 from sim.setup.making import Making
@@ -16,27 +19,34 @@ from sim.setup.scenario import Scenario
 from tests.tools.drawings_dxf import drawn, farthest_um, polylines
 
 PLACES = 10_000
+WANTED = Wanted("3b")
+SCENARIO = Scenario("ellipse", Path("ellipse.3b"), load_machine("dk7740"))
 
 
 def _ellipse(space: Modelspace) -> None:
     space.add_ellipse((0, 0), (20, 0), 0.5)
 
 
-def _of_ellipse(tmp_path: Path, tolerance_um: float, offset_um: float) -> Made:
-    scenario = Scenario("ellipse", Path("ellipse.3b"), load_machine("dk7740"))
+@pytest.fixture(name="path", scope="module")
+def ellipse_path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return drawn(tmp_path_factory.mktemp("ellipse"), _ellipse)
+
+
+@cache
+def _of_ellipse(path: Path, tolerance_um: float, offset_um: float) -> Made:
     making = Making(tolerance_um=tolerance_um, passes_um=(offset_um,))
-    done = unproved(drawn(tmp_path, _ellipse), making, Wanted("3b"), scenario)
+    done = unproved(path, making, WANTED, SCENARIO)
     assert isinstance(done, Made)
     return done
 
 
 @pytest.mark.parametrize(("tolerance_um", "most_blocks"), [(1.0, 33), (2.0, 25), (5.0, 18)])
 def test_an_ellipse_takes_as_few_blocks_as_nodes_on_it_within_the_tolerance(
-    tolerance_um: float, most_blocks: int, tmp_path: Path
+    tolerance_um: float, most_blocks: int, path: Path
 ) -> None:
     """The counts are those of a greedy fit through nodes on the ellipse, written in whole µm. The path is
     held against lines within 1 % of the tolerance of what is drawn."""
-    done = _of_ellipse(tmp_path, tolerance_um, 0.0)
+    done = _of_ellipse(path, tolerance_um, 0.0)
     curves = draft_of(done.program.toolpath).curves
     angle = np.linspace(0.0, 2.0 * np.pi, PLACES)
     places = np.column_stack([20_000.0 * np.cos(angle), 10_000.0 * np.sin(angle)])
@@ -44,21 +54,19 @@ def test_an_ellipse_takes_as_few_blocks_as_nodes_on_it_within_the_tolerance(
     assert len(curves) <= most_blocks
 
 
-def test_a_path_beside_an_ellipse_takes_a_block_for_each_arc_and_two_for_its_leads(tmp_path: Path) -> None:
-    done = _of_ellipse(tmp_path, 2.0, 100.0)
+def test_a_path_beside_an_ellipse_takes_a_block_for_each_arc_and_two_for_its_leads(path: Path) -> None:
+    done = _of_ellipse(path, 2.0, 100.0)
     assert done.plan.drawing.fit is not None
     assert len(done.program.toolpath) == done.plan.drawing.fit.arcs + 2 == 26
 
 
-def test_a_fitted_contour_without_offset_or_leads_proves_its_path(tmp_path: Path) -> None:
+def test_a_fitted_contour_without_offset_or_leads_proves_its_path(path: Path) -> None:
     """It begins on an arc, at no whole µm: there is no lead on which a controller could begin to add an offset."""
-    scenario = Scenario("ellipse", Path("ellipse.3b"), load_machine("dk7740"))
-    done = made(drawn(tmp_path, _ellipse), Making(passes_um=(0.0,)), Wanted("3b"), scenario)
-    assert isinstance(done, Made)
-    assert done.proof is not None
-    assert (done.proof.verdict, [note.name for note in done.proof.notes]) == ("pass", ["contour"])
-    assert done.proof.path_um is not None
-    assert done.proof.path_um <= 2.0
+    done = _of_ellipse(path, 2.0, 0.0)
+    proof = proved(Given(done.program, done.plan, read_drawing(path), done.written, WANTED.bound_um), SCENARIO)
+    assert (proof.verdict, [note.name for note in proof.notes]) == ("pass", ["contour"])
+    assert proof.path_um is not None
+    assert proof.path_um <= 2.0
 
 
 @pytest.mark.parametrize("tolerance_um", [0.1, 0.5, 1.0, 2.0, 50.0])

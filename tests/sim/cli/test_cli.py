@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from importlib import resources
 from pathlib import Path
 
@@ -189,14 +190,14 @@ def test_bad_machine_files_are_named(short: Path, tmp_path: Path) -> None:
         assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize("encoding", ["gbk", "ascii", "cp1252"])
-def test_any_encoding_of_the_output_will_do(short: Path, encoding: str) -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", "sim.cli", "run", str(short)],
-        capture_output=True,
-        check=False,
-        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"},
-    )
+@pytest.mark.parametrize(
+    ("encoding", "run"), [("ascii", run_command), ("gbk", run_inside), ("ascii", run_inside), ("cp1252", run_inside)]
+)
+def test_any_encoding_of_the_output_will_do(
+    short: Path, encoding: str, run: Callable[..., subprocess.CompletedProcess[bytes]]
+) -> None:
+    of_its_own = {"PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"} if run is run_command else {"encoding": encoding}
+    done = run("run", short, **of_its_own)
     assert (done.returncode, without_progress(done.stderr)) == (0, b"")
     assert "0.00 um exact" in done.stdout.decode(encoding).replace("µ", "u")
 

@@ -198,12 +198,14 @@ def test_a_scenario_without_its_program_is_run_on_the_one_that_is_made(shop: Pat
 def test_a_scenario_with_codes_of_its_own_is_read_by_them(shop: Path) -> None:
     file = shop / "scenario.toml"
     file.write_text(file.read_text("utf-8").replace("[program]", '[program]\nend_code = "STOP"'), "utf-8")
-    code, said, _ = run(shop, "--preview")
+    code, said, _ = run(shop)
     assert code == 0
     assert "its own words for end and pause, STOP" in said.replace("\n    ", " ")
-    done = run_inside("run", shop, "-o", shop / "out")
+    written = shop / "plate.3b"
+    assert written.read_text("utf-8").split()[-1] == "STOP"
+    written.unlink()
+    done = run_inside("run", shop)
     assert done.returncode == 0, done.stdout
-    assert (shop / "out" / "plate.3b").read_text("utf-8").split()[-1] == "STOP"
 
 
 def test_it_is_compared_and_drawn_from_the_drawing_alone(shop: Path) -> None:

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from jsonschema import Draft202012Validator
-from places import ROOT
+from report_schema import complaints
 from runs import plain_scenario, run_text
 
 from parser.program import parse_program
@@ -145,11 +144,6 @@ PEAKS = (
     Peak("force", Axis.Y, 20.0, 1500.0, row=3, t_s=91.0, x_um=0.0, y_um=0.0),
 )
 LOSSES = (Loss("lost-steps", Axis.Y, row=2, t_s=80.5, amount_um=-12.0, x_um=13_000.0, y_um=22_500.0),)
-
-
-def complaints(report: dict) -> list[str]:
-    schema = json.loads((ROOT / "docs" / "report.schema.json").read_text("utf-8"))
-    return [f"{error.json_path}: {error.message}" for error in Draft202012Validator(schema).iter_errors(report)]
 
 
 def test_limits_and_losses_of_the_report() -> None:

@@ -1,5 +1,6 @@
 """Every scenario of the project runs and is as it expects."""
 
+import json
 import math
 import re
 from collections.abc import Iterator
@@ -7,7 +8,8 @@ from datetime import date
 from pathlib import Path
 
 import pytest
-from places import SCENARIOS
+from places import ROOT, SCENARIOS
+from report_schema import complaints
 from runs import codes, run_folder, scenario_run
 
 from parser.findings.catalogue import texts
@@ -16,6 +18,7 @@ from sim.run.report import build_report
 from sim.setup.expectations import missed, read_expectation, wanted
 from sim.setup.scenario import load_scenario
 
+PAGE = (ROOT / "docs" / "scenarios.md").read_text("utf-8")
 FOLDERS = sorted(path for path in SCENARIOS.iterdir() if path.is_dir())
 
 
@@ -28,11 +31,16 @@ def times_in(part: object) -> Iterator[float]:
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
-def test_scenario_is_as_it_expects(folder: Path) -> None:
+def test_scenario_is_as_it_expects_and_its_report_as_documented(folder: Path) -> None:
+    """In one test, so that no two processes make and run the same scenario."""
     run = scenario_run(folder.name)
     assert [finding for finding in run.findings if finding.code == "3B490"] == []
-    report = build_report(run)
+    report = json.loads(json.dumps(build_report(run), allow_nan=False))
     assert max(times_in(report), default=0.0) <= report["time_s"]["total"]
+    assert complaints(report) == []
+    row = re.search(rf"^\| `{folder.name}` \|.*\| ([01]) \|$", PAGE, flags=re.MULTILINE)
+    assert row
+    assert (row[1] == "1") == (report["verdict"] == "fail")
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)

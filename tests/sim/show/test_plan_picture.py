@@ -8,6 +8,7 @@ import pytest
 from drawings_dxf import drawn
 from ezdxf.layouts import Modelspace
 from golden_pictures import assert_golden
+from numpy.typing import NDArray
 
 from parser.toolpath import Point
 from sim.cam.maker import planned
@@ -32,9 +33,16 @@ def plate(space: Modelspace) -> None:
     space.add_circle((9, 4), 1.5)
 
 
-@pytest.fixture
-def plan(tmp_path: Path) -> CutPlan:
-    return planned(drawn(tmp_path, plate), Making(passes_um=PASSES_UM, starts_um=STARTS_UM), SCENARIO)
+@pytest.fixture(name="plan", scope="module")
+def plan_of_plate(tmp_path_factory: pytest.TempPathFactory) -> CutPlan:
+    path = drawn(tmp_path_factory.mktemp("plate"), plate)
+    return planned(path, Making(passes_um=PASSES_UM, starts_um=STARTS_UM), SCENARIO)
+
+
+@pytest.fixture(name="dots", scope="module")
+def dots_of_plan(plan: CutPlan) -> NDArray[np.uint8]:
+    """The colours (n, 3) of a picture of the plan."""
+    return np.asarray(draw_plan(pixels(1200), plan).image()).reshape(-1, 3)
 
 
 def test_plan_in_english_on_white(plan: CutPlan) -> None:
@@ -55,9 +63,8 @@ def test_all_of_it_lies_in_the_bounds(plan: CutPlan) -> None:
 
 
 @pytest.mark.parametrize("paint", [Paint.PART, Paint.SLUG, Paint.KERF, Paint.TRIM_1, Paint.TRIM_2, Paint.START])
-def test_every_pass_and_area_shows_its_colour(plan: CutPlan, paint: Paint) -> None:
-    image = np.asarray(draw_plan(pixels(1200), plan).image())
-    assert (image.reshape(-1, 3) == LIGHT[paint]).all(axis=1).sum() > 300
+def test_every_pass_and_area_shows_its_colour(dots: NDArray[np.uint8], paint: Paint) -> None:
+    assert (dots == LIGHT[paint]).all(axis=1).sum() > 300
 
 
 def test_the_turns_of_the_figures_stand_in_the_svg(plan: CutPlan) -> None:

@@ -36,8 +36,8 @@ def run(path: Path, making: Making) -> Made:
 )
 def test_slug_and_part_fall_when_they_should(tmp_path: Path, making: Making) -> None:
     def plate(space: Modelspace) -> None:
-        space.add_circle((0, 0), 2)
-        space.add_lwpolyline([(-5, -4), (5, -4), (5, 4), (-5, 4)], close=True)
+        space.add_circle((0, 0), 1)
+        space.add_lwpolyline([(-3, -2.5), (3, -2.5), (3, 2.5), (-3, 2.5)], close=True)
 
     found = run(drawn(tmp_path, plate), making)
     assert found.proof is not None
