@@ -13,7 +13,7 @@ from sim.measure.compare.result import Asked
 
 _STEP = 0.03  # of the tolerance, by which each fit is nearer than the one before it
 _MOST_STEPS = 6
-_MOST_CURVES = 1500
+_MOST_CURVES = 500
 """Of all fits in steps together: of so many arcs some one is always rounded to its wrong side."""
 _ROUNDING_UM = 0.5
 """What whole µm add at most: 0.49 µm, written as 3B over an ellipse of 40 × 20 mm fitted within 0.5 … 5 µm."""

@@ -13,14 +13,14 @@ from PIL import Image
 from parser.program import read_program
 from sim.show.terminal.wrap import cells
 
-PLATE = 10.0, 6.0
-"""Sides of the plate of these tests, mm; its hole is round, R 1.5."""
+PLATE = 6.0, 4.0
+"""Sides of the plate of these tests, mm; its hole is round, R 0.8."""
 
 
 def plate(space: Modelspace) -> None:
     width, height = PLATE
     space.add_lwpolyline([(0, 0), (width, 0), (width, height), (0, height)], close=True)
-    space.add_circle((width / 4, height / 2), 1.5)
+    space.add_circle((width / 3, height / 2), 0.8)
 
 
 def crossed(space: Modelspace) -> None:
