@@ -14,7 +14,7 @@ from strategies import program_text, programs
 from controller.motion.path import path_of
 from controller.motion.plan import EMPTY_PLAN, Plan
 from controller.motion.planner import RowLimits, plan_rows
-from controller.stepping import interpolators
+from controller.stepping import chunks
 from controller.stepping.chunks import StepChunk, chunk_of
 from controller.stepping.interpolators import EqualTime, Interpolator, PointByPoint
 from controller.stepping.pulses import Pulses
@@ -127,7 +127,7 @@ def test_no_step_is_worked_out_twice_and_few_ahead(monkeypatch: pytest.MonkeyPat
         worked_out += until - since
         return chunk_of(steps, since, until)
 
-    monkeypatch.setattr(interpolators, "chunk_of", counted)
+    monkeypatch.setattr(chunks, "chunk_of", counted)
     toolpath = toolpath_of([PlainBlock(9900, 0, 39600, "Y", "NR", 1)])
     steps, plan = interpolate(toolpath), plan_of(toolpath)
     motion = PointByPoint(steps, plan, 0.0, (0, 0))

@@ -21,6 +21,7 @@ SHIPPED = {
     *("sim/show/html/bundle.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/documents.py"),
     *("parser/iso/profiles/profile.py", "parser/write/iso_choices.py", "parser/drawing/dxf/linetypes.py"),
     "controller/compiled/loops.py",  # its own modules
+    *("controller/card/abi/c_text.py", "sim/library/build.py"),  # C that libraries are made of
 }
 """Modules that read files which drycut brings along, or its own documents."""
 OWN = {

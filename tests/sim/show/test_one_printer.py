@@ -8,8 +8,10 @@ from pathlib import Path
 from places import ROOT
 
 TERMINAL = ROOT / "sim" / "show" / "terminal"
-# Who may: the printer and the streams themselves; the bar of progress, of our own words, draws over itself.
+# Who may: the printer and the streams themselves; the bar of progress, of our own words, draws over itself; the card's
+# library says why a call fails in the process of somebody's program, which has no printer.
 MAY = {TERMINAL / "printer.py", TERMINAL / "streams.py", TERMINAL / "layout.py", ROOT / "sim" / "cli" / "progress.py"}
+MAY |= {ROOT / "controller" / "card" / "abi" / "library.py"}
 FLUSHES = {ROOT / "sim" / "cli" / "__init__.py": {"sys.stdout", "sys.stderr"}}
 WAYS = {"print", "breakpoint", "help", "pprint", "echo", "secho", "style", "pager", "echo_via_pager", "Console"}
 STREAMS = {"sys.stdout", "sys.stderr", "sys.__stdout__", "sys.__stderr__", "sys.displayhook"}

@@ -35,6 +35,9 @@ NO_SENTENCES = {
     "--feed in mm/min": "what the error about a number calls it",
     "a whole number ": "of the text of a ValueError",
     "drycut card log 1": "first line of a file, by which it is known",
+    "static const char *const {}{} = {};\n": "C",
+    'DRYCUT {} { return drycut_call({}, "{}"{}); }\n': "C",
+    "{} cannot be answered: {}: {} ({}:{})": "a fault of drycut itself, in the process of somebody's program",
 }
 """Texts of the engine that look like sentences, and why they stand there."""
 
