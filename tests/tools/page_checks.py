@@ -25,6 +25,10 @@ svg text, svg text * { fill: transparent !important }
 """
 
 
+_DRAWN = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(null))))"
+"""A page sees its new size in the frame behind a change, and draws for it in the next one."""
+
+
 def complaints(page: "Page") -> list[str]:
     """All that is wrong with a page as it stands; empty where all is well."""
     return [*untitled(page), *unnamed(page), *doubled_ids(page), *faint(page), *unreached(page), *too_wide(page)]
@@ -50,6 +54,7 @@ def too_wide(page: "Page") -> list[str]:
     """What must be scrolled sideways on a phone."""
     before = page.viewport_size
     page.set_viewport_size(PHONE)
+    page.evaluate(_DRAWN)
     found = [f"sticks out at {PHONE['width']} px: {what}" for what in _told(page, "tooWide")]
     if before:
         page.set_viewport_size(before)
