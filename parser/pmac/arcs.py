@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from parser.pmac.moves import Move
+from parser.pmac.state import Move
 
 SPIRAL_UM = 1.0
 """Radii at start and end that differ by more are a spiral that was not meant: whole µm would not explain it."""

@@ -1,95 +1,19 @@
 """Lines to moves: the modes that are in force, calls of G and M words, and what the moves of the program are told."""
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from collections.abc import Mapping
 
 from parser.findings.findings import Value
 from parser.pmac.lines import Buffer, Kind, Line, Piece
-from parser.text.source import Span
+from parser.pmac.routines import ROUTINES, called_by, routine
+from parser.pmac.state import Move, State, Told
 from parser.toolpath import Stop
 from parser.units import from_mm
 
-_ROUTINES: Mapping[str, int] = {"G": 1000, "M": 1001, "T": 1002, "D": 1003}
-SUBPROGRAMS = frozenset(_ROUTINES.values())
-"""Programs that hold the routines of G, M, T and D words (PMAC User's Manual, p. 204)."""
 _PLANE = frozenset("XY")
 _OTHER_AXES = frozenset("ZUVWABC")
 _CENTER = "IJK"
 _MOST_CALLS = 8
 _DIGITS = 6  # of a µm: sums of decimals are as exact as decimals
-
-
-class Told(NamedTuple):
-    """Something wrong with a line: the code of its finding, its place, and its values."""
-
-    code: str
-    span: Span
-    values: Mapping[str, Value]
-
-
-class Move(NamedTuple):
-    """One move in the plane, µm.
-
-    Attributes
-    ----------
-    motion
-        0 rapid, 1 straight, 2 clockwise, 3 counter-clockwise.
-    start, end
-        Places.
-    center
-        As told by I and J; None without.
-    radius
-        As told by R, signed; None without.
-    feed
-        F, in user units per time unit; None where none was told.
-    ramp_ms
-        Acceleration time: the greater of TA and twice TS.
-    blends
-        Whether it runs into this move from the one before without coming to rest.
-    at
-        Line of the program that it stands in.
-    label
-        ``N10``, or empty.
-    is_threaded
-        Whether no block moves there: the place is named behind a stop.
-    """
-
-    motion: int
-    start: tuple[float, float]
-    end: tuple[float, float]
-    center: tuple[float, float] | None
-    radius: float | None
-    feed: float | None
-    ramp_ms: float
-    blends: bool
-    at: Line
-    label: str
-    is_threaded: bool = False
-
-
-@dataclass(slots=True)
-class State:
-    """What is in force, and what the program has made so far; places in µm."""
-
-    motion: int = 1
-    absolute: dict[str, bool] = field(default_factory=lambda: {"X": True, "Y": True, "R": False})
-    place: tuple[float, float] = (0.0, 0.0)
-    shift: tuple[float, float] = (0.0, 0.0)
-    feed: float | None = None
-    ramp: float | None = None
-    half_s: float | None = None
-    blends: bool = False
-    stopped: bool = False
-    others: list[Piece] = field(default_factory=list)
-    moves: list[Move] = field(default_factory=list)
-    stops: list[Stop] = field(default_factory=list)
-    told: list[Told] = field(default_factory=list)
-
-    @property
-    def ramp_ms(self) -> float:
-        """Acceleration time in force: TA 0 and TS 50 ms where the program tells none (defaults of Turbo PMAC)."""
-        return max(self.ramp or 0.0, 2.0 * (50.0 if self.half_s is None else self.half_s))
 
 
 def run(main: Buffer, routines: Mapping[int, Buffer]) -> State:
@@ -173,7 +97,7 @@ class _Line:
             if name != "K" or piece.value >= 0.0:
                 self._at("PMC101", piece, text=f"NORMAL {_shown(piece)}")
             return
-        if name in _ROUTINES:
+        if name in ROUTINES:
             self._call(piece, depth)
         elif name == "F":
             if piece.value <= 0.0:
@@ -191,12 +115,12 @@ class _Line:
 
     def _call(self, piece: Piece, depth: int) -> None:
         """The routine of a G, M, T or D word, up to its return; PMC102 where the text holds none."""
-        hundred, below = divmod(int(abs(piece.value)), 100)
-        buffer = self.routines.get(_ROUTINES[piece.name] + 10 * hundred)
-        body = routine(buffer, below * 1000) if buffer else None
+        program, label = called_by(piece)
+        buffer = self.routines.get(program)
+        body = routine(buffer, label) if buffer else None
         if body is None or depth >= _MOST_CALLS:
-            word = f"{piece.name}{piece.value:02g}"
-            self._at("PMC102", piece, word=word, program=_ROUTINES[piece.name], label=f"N{below * 1000}")
+            word, base = f"{piece.name}{piece.value:02g}", ROUTINES[piece.name]
+            self._at("PMC102", piece, word=word, program=base, label=f"N{label}")
             return
         for one in body:
             self._take(one._replace(span=piece.span), depth + 1)
@@ -262,24 +186,6 @@ class _Line:
 
 
 _MOTIONS: Mapping[str, int] = {"RAPID": 0, "LINEAR": 1, "CIRCLE1": 2, "CIRCLE2": 3}
-
-
-def routine(buffer: Buffer, label: int) -> list[Piece] | None:
-    """The commands from a label of a buffer up to the return; None without the label. Label 0 is at the top."""
-    body: list[Piece] = []
-    inside = label == 0
-    for piece in _pieces(buffer):
-        if piece.kind is Kind.LABEL:
-            inside = inside or piece.value == label
-        elif inside and piece.name in {"RET", "RETURN"}:
-            return body
-        elif inside:
-            body.append(piece)
-    return body if inside else None
-
-
-def _pieces(buffer: Buffer) -> Iterator[Piece]:
-    return (piece for line in buffer.lines for piece in line.pieces)
 
 
 def _shown(piece: Piece) -> str:

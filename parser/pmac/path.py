@@ -8,7 +8,7 @@ import numpy as np
 
 from parser.geometry.curves import CurveKind, Curves, Floats, curves_between
 from parser.pmac.arcs import Arc
-from parser.pmac.moves import Move
+from parser.pmac.state import Move
 from parser.text.source import Field, Source, Span
 from parser.toolpath import Stop, Toolpath
 

@@ -10,9 +10,11 @@ from parser.findings.facts import DamagedBlock
 from parser.findings.findings import Finding, file_order
 from parser.pmac.arcs import Arc, arc_of
 from parser.pmac.lines import Buffer, Text, read_lines
-from parser.pmac.moves import SUBPROGRAMS, State, run
+from parser.pmac.moves import run
 from parser.pmac.path import path_of
+from parser.pmac.routines import holds_routines
 from parser.pmac.speed import speed_findings
+from parser.pmac.state import State
 from parser.text.encoding import no_program, printable
 from parser.text.source import Span
 from parser.toolpath import Stop, Toolpath
@@ -25,11 +27,11 @@ _MOST_SHOWN = 40
 def read_pmac(text: str) -> ReadText:
     """What a text says. ProgramError (3B100) where no motion program of it moves anything in the plane."""
     read = read_lines(text)
-    mains = [buffer for buffer in read.buffers if buffer.number not in SUBPROGRAMS]
+    mains = [buffer for buffer in read.buffers if not holds_routines(buffer.number)]
     if not mains:
         raise ProgramError(no_program("no-block"))
     main = mains[0]
-    state = run(main, {buffer.number: buffer for buffer in read.buffers if buffer.number in SUBPROGRAMS})
+    state = run(main, {buffer.number: buffer for buffer in read.buffers if holds_routines(buffer.number)})
     if not state.moves:
         raise ProgramError(no_program("no-block"))
     arcs = {row: arc_of(move) for row, move in enumerate(state.moves) if move.motion > 1}

@@ -10,7 +10,7 @@ import numpy as np
 
 from parser.findings.findings import Value
 from parser.geometry.curves import Bools, CurveKind, Floats, Ints
-from parser.pmac.moves import Move
+from parser.pmac.state import Move
 from parser.toolpath import Toolpath
 from parser.units import from_mm
 

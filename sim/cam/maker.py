@@ -59,6 +59,11 @@ class Made(NamedTuple):
     proof: Proof | None = None
     drawn: Drawing | None = None
 
+    @property
+    def is_proved(self) -> bool:
+        """Whether its run was looked at, all of it, and nothing speaks against it."""
+        return self.proof is not None and self.proof.verdict == "pass"
+
 
 class NotMade(NamedTuple):
     """Why there is none, and as much of the plan as there is."""

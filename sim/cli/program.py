@@ -92,7 +92,7 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
     _refuse_pictures(picture, asked)
     tongue: Tongue = chosen(lang)
     done = _made(asked)
-    is_proved = isinstance(done, Made) and done.proof is not None and done.proof.verdict == "pass"
+    is_proved = isinstance(done, Made) and done.is_proved
     written = None
     if isinstance(done, Made):
         if (is_proved or force) and asked.is_written and asked.output is not None:
@@ -106,8 +106,7 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
 
         write(document_text(done, Words(tongue)), "json")
     else:
-        _tell(done, asked, picture, tongue)
-        _tell_where(done, asked, written, tongue)
+        _tell(done, asked, written, picture, tongue)
     raise click.exceptions.Exit(0 if is_proved else 1)
 
 
@@ -224,35 +223,13 @@ def _draw(done: "Made", picture: _Picture, tongue: "Tongue") -> None:
     write_pictures(PlanShown(done.plan), files, SIZES_PX["screen"], picture.theme, tongue)
 
 
-def _tell(done: "Made | NotMade", asked: _Asked, picture: Path | None, tongue: "Tongue") -> None:
+def _tell(done: "Made | NotMade", asked: _Asked, written: Path | None, picture: Path | None, tongue: "Tongue") -> None:
     from sim.cam.maker import Made
-    from sim.show.terminal.printer import say
-    from sim.show.terminal.program import not_made_lines, print_made
-    from sim.show.terminal.streams import outlet
-    from sim.show.terminal.wrap import width_of
-    from sim.show.words import Words
+    from sim.show.terminal.program import print_made, print_not_made
 
     if isinstance(done, Made):
-        print_made(done, asked.to_make.file, tongue)
+        where = "written" if done.is_proved else "forced" if written else "held-back"
+        shown = where if written or asked.is_written else "previewed"
+        print_made(done, asked.to_make.file, shown, picture, tongue)
     else:
-        for line in not_made_lines(done, str(asked.drawing), tongue, width_of(outlet())):
-            say(line)
-    if isinstance(done, Made) and picture is not None:
-        say(Words(tongue)("program.written", out=picture))
-
-
-def _tell_where(done: "Made | NotMade", asked: _Asked, written: Path | None, tongue: "Tongue") -> None:
-    """Where the program is, or why it is nowhere."""
-    from sim.cam.maker import Made
-    from sim.show.terminal.printer import say
-    from sim.show.terminal.streams import outlet
-    from sim.show.terminal.wrap import width_of, wrapped
-    from sim.show.words import Words
-
-    if not isinstance(done, Made):
-        return
-    is_proved = done.proof is not None and done.proof.verdict == "pass"
-    name = "written" if is_proved else "forced" if written else "held-back"
-    text = Words(tongue)(f"program.{name if written or asked.is_written else 'previewed'}", out=asked.to_make.file)
-    for line in wrapped(text, width_of(outlet()), "", "    "):
-        say(line)
+        print_not_made(done, asked.drawing, tongue)

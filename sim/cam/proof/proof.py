@@ -159,9 +159,8 @@ def _off_faults(given: Given, target: Target, run: DryRun, found: Comparison, of
 
 def _cut_of_block(run: DryRun) -> Ints:
     """Index of the cut that each block is of, by its number; of a jump that of the cut behind it."""
-    block, cut = run.toolpath.source.block, np.zeros(len(run.toolpath), dtype=np.int64)
-    for at, (_, past) in enumerate(runs(run.toolpath).tolist()):
-        cut[past:] = at + 1
+    block = run.toolpath.source.block
+    cut = np.searchsorted(runs(run.toolpath)[:, 1], np.arange(len(run.toolpath)), side="right")
     of_block = np.zeros(int(block.max(initial=0)) + 1, dtype=np.int64)
     of_block[block] = np.minimum(cut, int(cut[~run.toolpath.is_jump].max(initial=0)))
     return of_block

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from parser.drawing.model import SAME_WITHIN_UM, Drawing, DrawnLoop, running
+from parser.drawing.model import SAME_WITHIN_UM, Drawing, DrawnLoop, Entity, running
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.geometry.extents import extents
 from parser.toolpath import Point
@@ -51,8 +51,9 @@ def target_of(drawn: Drawing, plan: CutPlan) -> tuple[Target | None, tuple[Fault
     found = _nearest(_features([cut.figure.contour for cut in plan.cuts]), _features(rings))
     known = np.flatnonzero(found >= 0)
     once, first = np.unique(found[known], return_index=True)
+    told = {one.entity for one in plan.left_out}
     missing = [
-        at for at in np.setdiff1d(np.arange(len(closed)), once).tolist() if not _is_told(drawn, closed[at], plan)
+        at for at in np.setdiff1d(np.arange(len(closed)), once).tolist() if not _is_told(drawn, closed[at], told)
     ]
     faults = (
         *(_of_cut("stray", plan, at) for at in np.flatnonzero(found < 0).tolist()),
@@ -114,9 +115,8 @@ def _of_cut(name: str, plan: CutPlan, at: int) -> Fault:
     return Fault(name, {}, Point(*figure.contour.start_um[0].tolist()), figure.number)
 
 
-def _is_told(drawn: Drawing, loop: DrawnLoop, plan: CutPlan) -> bool:
-    """Whether a contour is among those that are left out, and told so."""
-    told = {one.entity for one in plan.left_out}
+def _is_told(drawn: Drawing, loop: DrawnLoop, told: set[Entity]) -> bool:
+    """Whether a contour is of entities that are left out, and told so."""
     return bool(told) and {drawn.entities[int(at)] for at in drawn.entity[loop.row]} <= told
 
 

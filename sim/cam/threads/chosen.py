@@ -25,6 +25,7 @@ _ON_UM: Final = 0.01  # a place this near to whole µm is one: files lose as muc
 _NOWHERE: Final = np.empty((0, 2))
 
 _MOST_ROUNDS: Final = 5  # figures that were moved may lie near each other: ever fewer do
+_FOOT_UM: Final = 10.0  # more than what is straight across moves as a place becomes whole µm
 _NEARLY: Final = 0.8  # of the largest circle that any entry has beside it: so large a one is large enough
 
 
@@ -78,12 +79,12 @@ def chosen(room: Room, side: Floats, figures: Ints, wanted: Wanted, kept_um: Flo
 def _apart(room: Room, side: Floats, found: dict[int, Thread], wanted: Wanted, kept_um: Floats) -> dict[int, Thread]:
     """With other places for figures whose thread points lie in one start hole with those of others."""
     for _ in range(_MOST_ROUNDS):
-        moving = crowded(found, kept_um)
+        moving = set(crowded(found, kept_um))
         if not moving:
             break
-        staying = [found[at].place_um for at in found if at not in moving]
-        all_um = np.concatenate([kept_um, np.array(staying).reshape(-1, 2)])
-        moved = _chosen(room, middles(room, side, np.array(moving), wanted.reach_um), wanted, all_um)
+        staying_um = np.array([one.place_um for at, one in found.items() if at not in moving]).reshape(-1, 2)
+        entries = middles(room, side, np.array(sorted(moving)), wanted.reach_um)
+        moved = _chosen(room, entries, wanted, np.concatenate([kept_um, staying_um]))
         if not moved:
             break
         found = found | moved
@@ -127,7 +128,9 @@ def before_corners(
         for at in np.flatnonzero(is_free & is_clear & are_apart(place, kept_um)).tolist():
             x, y = place[at].tolist()
             moved.setdefault(int(room.figure[found.row[at]]), Thread(Point(x, y), "chosen", found.one(room, at)))
-    return {at: one for at, one in moved.items() if at not in crowded(moved, kept_um)}
+    staying_um = np.array([one.place_um for at, one in threads.items() if at not in moved]).reshape(-1, 2)
+    near = set(crowded(moved, np.concatenate([kept_um, staying_um])))
+    return {at: one for at, one in moved.items() if at not in near}
 
 
 def begun_on(room: Room, side: Floats, wanted: Ints) -> dict[int, Thread]:
@@ -143,11 +146,16 @@ def begun_on(room: Room, side: Floats, wanted: Ints) -> dict[int, Thread]:
 
 
 def _in_whole_um(room: Room, found: Entries, length_um: Floats) -> tuple[Floats, Entries, Floats]:
-    """Places (m, 2) out from entries, in whole µm; the entries straight across from those, and how far off (m,)."""
+    """Places (m, 2) out from entries, in whole µm; the entries straight across from those, and how far off (m,).
+
+    From near the centre of an arc all of it is straight across: there the entry stays, on the axis of a circle.
+    """
     place = np.round(found.place_um + np.maximum(length_um, 0.0)[:, None] * found.out) + 0.0
-    foot = feet(room.curves, found.row, place)
-    by = place - foot.place_um
+    foot = feet(room.curves, found.row, place).place_um
+    stays = np.hypot(*(foot - found.place_um).T) > _FOOT_UM
+    foot = np.where(stays[:, None], found.place_um, foot)
+    along = np.where(stays, found.along_um, along_um(room.curves, found.row, foot))
+    by = place - foot
     far = np.hypot(*by.T)
     out = np.where((far > 0.0)[:, None], by / np.where(far > 0.0, far, 1.0)[:, None], found.out)
-    along = along_um(room.curves, found.row, foot.place_um)
-    return place, Entries(found.row, along, foot.place_um, out, np.minimum(found.aside_um, far)), far
+    return place, Entries(found.row, along, foot, out, np.minimum(found.aside_um, far)), far

@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from parser.geometry.along import along_um, headings_along, places_at
-from parser.geometry.curves import Bools, Floats, Ints
+from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.geometry.directions import directions, to_left
 from parser.geometry.feet import feet
 from parser.toolpath import Point
@@ -87,7 +87,8 @@ def _entries(room: Room, side: Floats, wanted: Ints, reach_um: float, looked: _L
     curves = room.curves.picked(row)
     is_small = curves.is_arc & (curves.radius_um <= reach_um)
     grade = np.where(is_small, 2, np.where(~curves.is_arc & (curves.length_um >= _LONG_UM), 0, 1))
-    along = _to_whole(room, row, looked.share[row] * curves.length_um)
+    along = np.where(_is_circle(curves), _to_axis(curves), looked.share[row] * curves.length_um)
+    along = _to_whole(room, row, along)
     place = places_at(room.curves, row, along)
     keys = (*np.round(place.T[::-1]), -np.round(curves.length_um), grade, room.figure[row])
     order = np.lexsort(keys)
@@ -162,6 +163,22 @@ def nearest_of(room: Room, side: Floats, at: int, place_um: Floats) -> Entry:
     along = along_um(room.curves, row, foot)
     out = _out(room, side, row, headings_along(room.curves, row, along))
     return Entries(row, along, foot, out, np.zeros(1)).one(room, 0)
+
+
+def _is_circle(curves: Curves) -> Bools:
+    circle: Bools = curves.is_arc & (np.abs(curves.sweep_rad) >= 2.0 * np.pi - _ACROSS)
+    return circle
+
+
+def _to_axis(curves: Curves) -> Floats:
+    """Lengths (n,) µm along circles to where they cross an axis, about their middle; no numbers of lines.
+
+    There a circle begins whole µm from its centre on one axis, and closes without an error of its count.
+    """
+    turn = np.sign(curves.sweep_rad)
+    quarters = np.round((curves.start_angle_rad + np.pi * turn) / (0.5 * np.pi))
+    along: Floats = curves.radius_um * turn * (0.5 * np.pi * quarters - curves.start_angle_rad)
+    return along
 
 
 def _is_joint(room: Room) -> Bools:

@@ -40,8 +40,11 @@ _LEFT_OUT = {
 _HEADS = ("number", "kind", "wire", "blocks", "length", "time", "thread")
 
 
-def print_made(done: Made, name: Path, language: Language) -> None:
-    """Print figures, what was left out and taken for granted, and the proof of a program to stdout."""
+def print_made(done: Made, name: Path, where: str, picture: Path | None, language: Language) -> None:
+    """Print figures, what was left out and taken for granted, and the proof of a program to stdout.
+
+    `where` says what became of it: ``written``, ``forced``, ``held-back``, ``previewed``. `picture` was drawn of it.
+    """
     words, width = Words(language), width_of(outlet())
     sums = figure_sums(done)
     passes = set(map(_passes, done.plan.cuts))
@@ -55,6 +58,17 @@ def print_made(done: Made, name: Path, language: Language) -> None:
     if done.proof is not None:
         for line in proof_lines(done, str(name), language, width):
             say(line)
+    if picture is not None:
+        say(words("program.written", out=picture))
+    for line in wrapped(words(f"program.{where}", out=name), width, "", _INDENT):
+        say(line)
+
+
+def print_not_made(refused: NotMade, name: Path, language: Language) -> None:
+    """Print why nothing was written."""
+    text = Words(language)("program.not-written", name=printable(str(name)), why=why_refused(refused.refusal))
+    for line in wrapped(text, width_of(outlet()), "", _INDENT):
+        say(styled(line, "red"))
 
 
 def told_lines(plan: CutPlan, language: Language, width: int) -> Iterator[str]:
@@ -67,12 +81,6 @@ def told_lines(plan: CutPlan, language: Language, width: int) -> Iterator[str]:
     texts += [words("program.note", what=_note(note, words)) for note in notes]
     for text in texts:
         yield from wrapped(text, width, "", _INDENT)
-
-
-def not_made_lines(refused: NotMade, name: str, language: Language, width: int) -> Iterator[str]:
-    """Why nothing was written, in lines of `width` cells."""
-    text = Words(language)("program.not-written", name=printable(name), why=why_refused(refused.refusal))
-    yield from (styled(line, "red") for line in wrapped(text, width, "", _INDENT))
 
 
 def _note(note: Remark, words: Words) -> str:

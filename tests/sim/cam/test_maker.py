@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from drawings_dxf import drawn
+from ezdxf.layouts import Modelspace
 from made_programs import plate_file
 from runs import plain_scenario
 
@@ -59,6 +60,21 @@ def test_stages_are_told_in_their_order(path: Path) -> None:
 
 def test_the_same_drawing_gives_the_same_bytes(path: Path) -> None:
     assert program(path).data == program(path).data
+
+
+def test_a_circle_of_a_turned_block_begins_on_an_axis_and_closes_exactly(tmp_path: Path) -> None:
+    """There it begins whole µm from its centre: its count cannot end beside where it began."""
+
+    def turned(space: Modelspace) -> None:
+        assert space.doc is not None
+        space.doc.blocks.new("RING").add_circle((0, 0), 0.60558)
+        space.add_blockref("RING", (3.36492, 0.32456), {"rotation": 37.0})
+
+    done = program(drawn(tmp_path, turned))
+    path = done.program.toolpath
+    (arc,) = np.flatnonzero(path.is_arc)
+    assert np.array_equal(path.start_um[arc], path.end_um[arc])
+    assert np.min(np.abs(path.start_um[arc] - path.center_um[arc])) == 0.0
 
 
 def test_what_cannot_be_cut_is_refused_before_anything_is_written(tmp_path: Path) -> None:

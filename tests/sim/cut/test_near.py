@@ -56,6 +56,31 @@ def test_pieces_come_free_in_their_boxes_as_in_all_of_the_stock(path, monkeypatc
     assert [piece.cut_after_um for piece in near] == pytest.approx([piece.cut_after_um for piece in whole])
 
 
+def loops(seed: int) -> Toolpath:
+    """Squares at random places: some lie in others, some cross others, some lie alone in the frame."""
+    rng = np.random.default_rng(seed)
+    pen = Pen(0, 0)
+    for _ in range(9):
+        x, y = rng.integers(0, 24, 2) * 400.0
+        size = 500.0 + 300.0 * rng.integers(0, 8)
+        pen.jump(x, y)
+        for corner in ((x + size, y), (x + size, y + size), (x, y + size), (x, y)):
+            pen.to(*corner)
+    return pen.path()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_parts_alone_in_a_hole_come_free_when_a_larger_box_would_tell_that_they_do(seed, monkeypatch):
+    kerf = kerf_along(loops(seed))
+    near = pieces_of(kerf, None, STEEL).freed
+    skipped = []
+    alone = moments._alone
+    monkeypatch.setattr(moments, "_alone", lambda cutting: (skipped.extend(alone(cutting)), set())[1])
+    asked = pieces_of(kerf, None, STEEL).freed
+    assert skipped
+    assert [piece.freed for piece in near] == [piece.freed for piece in asked]
+
+
 @pytest.mark.parametrize("path", [lattice(4), flower()], ids=["lattice", "flower"])
 def test_pieces_touch_the_walls_near_them_as_among_all_walls(path, monkeypatch):
     pieces = pieces_along(path)

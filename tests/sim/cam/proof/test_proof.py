@@ -1,5 +1,6 @@
 """What a proof finds: nothing in a sound program, and each fault that is sown into a plan or into a text."""
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from sim.convert.wanted import Wanted
 from sim.setup.making import Making
 
 REACH = 100.0
+INTO_THE_PART_UM = 600.0
 WANTED = Wanted("3b"), Wanted("3b", form="detailed"), Wanted("4b"), Wanted("iso", iso_choices("fast-wire"))
 
 
@@ -104,9 +106,10 @@ def test_the_path_is_laid_in_the_middle_of_the_travel(sound: tuple[Wanted, Proof
 
 
 def lead_through_the_part(cut: FigureCut) -> FigureCut:
-    """Led out to the other side of the contour, as far from it as the thread point, and back to that."""
+    """Led out to the other side of the contour, `INTO_THE_PART_UM` past it, and back to the thread point."""
     entry, place = cut.thread.entry.place_um, cut.thread.place_um
-    other = (2.0 * entry.x - place.x, 2.0 * entry.y - place.y)
+    by = INTO_THE_PART_UM / math.dist(entry, place)
+    other = (entry.x + by * (entry.x - place.x), entry.y + by * (entry.y - place.y))
     one = cut.passes[0]
     corners = np.array([one.along.end_um[-1], other, place])
     out = curves_between(corners[:-1], corners[1:], np.full((2, 2), np.nan), np.zeros(2))
@@ -129,7 +132,7 @@ def test_a_lead_into_the_part_is_found(path: Path) -> None:
     assert "lead" in told(proof)
     lead = next(fault for fault in proof.faults if fault.name == "lead")
     assert lead.figure == number
-    assert float(lead.values["depth"]) > 1000.0
+    assert float(lead.values["depth"]) == pytest.approx(INTO_THE_PART_UM + REACH, abs=0.6)
 
 
 def test_a_wire_on_the_wrong_side_is_found(path: Path) -> None:
