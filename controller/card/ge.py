@@ -36,9 +36,11 @@ class GECard(
     @property
     def status(self) -> int:
         """Coordinate status of the selected card, as `GT_GetCrdSts` tells it, without a call."""
-        return self._engine.coordinate_status()
+        with self._alone:
+            return self._engine.coordinate_status()
 
     @property
     def places(self) -> list[list[int]]:
         """Where the axes of each card stand, pulses from where they stood when the card was made."""
-        return [list(engine.motion.pulses_out()) for engine in self._engines]
+        with self._alone:
+            return [list(engine.motion.pulses_out()) for engine in self._engines]

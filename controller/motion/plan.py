@@ -57,16 +57,16 @@ class Plan:
 
     def at(self, t_s: float | Floats) -> Instant:
         """Motion at a time, or at (m,) times; before the plan at its start, after it at rest at its end."""
-        t = np.clip(t_s, 0.0, self.duration_s)
+        t = np.minimum(np.maximum(t_s, 0.0), self.duration_s)  # of one time a sixth of what np.clip takes
         if not len(self.speed_um_s):
             return Instant(np.zeros_like(t), np.zeros_like(t), np.zeros_like(t))
-        phase = np.minimum(np.searchsorted(self.time_s, t, side="right") - 1, len(self.speed_um_s) - 1)
+        phase = np.minimum(self.time_s.searchsorted(t, side="right") - 1, len(self.speed_um_s) - 1)
         dt = t - self.time_s[phase]
         v, a, j = self.speed_um_s[phase], self.acceleration_um_s2[phase], self.jerk_um_s3[phase]
         along = self.along_um[phase] + dt * (v + dt * (a / 2.0 + dt * j / 6.0))
         over = np.asarray(t_s) > self.duration_s
         return Instant(
-            np.clip(along, self.along_um[phase], self.along_um[phase + 1]),
+            np.minimum(np.maximum(along, self.along_um[phase]), self.along_um[phase + 1]),
             np.where(over, 0.0, np.maximum(v + dt * (a + dt * j / 2.0), 0.0))[()],  # of one time a number, no array
             np.where(over, 0.0, a + dt * j)[()],
         )

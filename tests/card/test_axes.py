@@ -7,6 +7,7 @@ import pytest
 from controller import GECard
 from controller.card.core.codes import AxisSts, Code
 from controller.card.core.settings import CardSettings, Switches
+from controller.card.core.wiring import Wiring
 
 MACHINE = (Switches(-2000.0, 3000.0, (-600.0, -500.0), 1000.0), Switches())
 IDLE = 0x2001
@@ -99,8 +100,47 @@ def test_limit_switches_are_two_bits_an_axis_and_idle_1() -> None:
     card.GT_LnXY(-2000.0, 0.0)
     wait_idle(card)
     assert card.GT_GetLmtSwt() == (0, 0xFD)
-    card.GT_LmtSns(0x3)
-    assert card.GT_GetLmtSwt() == (0, 0xFE)
+
+
+@pytest.mark.parametrize("sense", [0x00, 0xFF, 0x0F, 0x5A])
+def test_switches_that_the_program_senses_rightly_never_answer_but_where_they_are(sense: int) -> None:
+    card = opened(switches=MACHINE)
+    card.GT_LmtSns(sense)
+    card.GT_SetSynVel(10.0)
+    assert card.GT_GetLmtSwt() == (0, sense), "idle levels are those that do not trigger"
+    card.GT_LnXYZA(2500.0, 500.0, 500.0, 500.0)
+    wait_idle(card)
+    assert card.places == [[2500, 500, 500, 500]]
+    card.GT_LnXY(4000.0, 500.0)
+    wait_idle(card)
+    assert word(card, 1) & AxisSts.POSITIVE_LIMIT
+    assert card.GT_GetLmtSwt() == (0, sense ^ 0x1)
+
+
+@pytest.mark.parametrize(
+    ("wiring", "sense", "idle", "is_right"),
+    [
+        ("normally-open", 0xFF, 0xFF, True),
+        ("normally-open", 0x00, 0xFF, False),
+        ("normally-open", None, 0xFF, False),
+        ("normally-closed", 0x00, 0x00, True),
+        ("normally-closed", 0xFF, 0x00, False),
+        ("normally-closed", None, 0x00, True),
+    ],
+)
+def test_a_level_is_that_of_the_wiring_and_a_wrong_sense_stops_all_motion(
+    wiring: Wiring, sense: int | None, idle: int, is_right: bool
+) -> None:
+    card = opened(switches=tuple(Switches(-900.0, 900.0, limit_wiring=wiring) for _ in range(4)))
+    if sense is not None:
+        card.GT_LmtSns(sense)
+    assert card.GT_GetLmtSwt() == (0, idle)
+    assert card.GT_LnXY(100.0, 0.0) == 0
+    wait_idle(card)
+    assert card.places == [[100 if is_right else 0, 0, 0, 0]]
+    assert bool(word(card, 1) & AxisSts.POSITIVE_LIMIT) is not is_right
+    card.GT_Reset()
+    assert card.GT_GetLmtSwt() == (0, idle)
 
 
 def test_home_switches_are_a_bit_an_axis_and_idle_1() -> None:
@@ -109,8 +149,10 @@ def test_home_switches_are_a_bit_an_axis_and_idle_1() -> None:
     card.GT_LnXY(-550.0, 0.0)
     wait_idle(card)
     assert card.GT_GetHomeSwt() == (0, 0xE)
-    card.GT_HomeSns(0xFFFF)
+    card.GT_HomeSns(0x0)
     assert card.GT_GetHomeSwt() == (0, 0x1)
+    card.GT_HomeSns(0x3)
+    assert card.GT_GetHomeSwt() == (0, 0x2)
 
 
 def test_a_home_switch_answers_on_both_ends_of_its_place_and_not_a_pulse_beyond() -> None:

@@ -322,7 +322,7 @@ def test_each_card_has_a_look_ahead_of_its_own():
     card = watched.card
     card.GT_SwitchLookaheadMode(1)
     card.GT_InitLookAheadEx(2.0, 0.5, 0.1, 3, 1.0)
-    card.GT_SwitchtoCardNo(2)
+    card.GT_SwitchtoCardNo(1)
     card.GT_Open()
     assert [type(mode) for mode in card._modes] == [On, Off]
     card.GT_SwitchLookaheadMode(1)

@@ -110,21 +110,27 @@ def test_several_axes_are_loaded_by_a_mask() -> None:
 
 def test_cards_are_apart() -> None:
     card = opened(cards=2)
-    assert card.GT_GetCurrentCardNo() == 1
+    assert card.GT_GetCurrentCardNo() == 0
     assert card.GT_ExOpt(1) == 0
-    assert card.GT_SwitchtoCardNo(2) == 0
-    assert card.GT_GetCurrentCardNo() == 2
+    assert card.GT_SwitchtoCardNo(1) == 0
+    assert card.GT_GetCurrentCardNo() == 1
     assert card.GT_GetExOpt() == (-1, 0), "the second card is not open"
     assert card.GT_Open() == 0
     assert card.GT_GetExOpt() == (0, 0xFFFF)
-    assert card.GT_SwitchtoCardNo(3) == Code.PARAMETER
-    assert card.GT_GetCurrentCardNo() == 2
+    assert card.GT_SwitchtoCardNo(2) == Code.PARAMETER
+    assert card.GT_GetCurrentCardNo() == 1
 
 
 def test_without_an_open_card_there_is_no_current_one() -> None:
     card = GECard(CardSettings(cards=2))
     assert card.GT_GetCurrentCardNo() == -1
-    assert card.GT_SwitchtoCardNo(2) == -1
+
+
+def test_a_card_is_selected_before_it_is_opened() -> None:
+    card = GECard(CardSettings(cards=2))
+    assert [card.GT_SwitchtoCardNo(number) for number in (0, 2, 1)] == [0, Code.PARAMETER, 0]
+    assert card.GT_Open() == 0
+    assert card.GT_GetCurrentCardNo() == 1
 
 
 def test_opening_twice_and_after_closing_is_harmless() -> None:

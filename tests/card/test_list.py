@@ -389,13 +389,24 @@ def test_a_list_can_be_started_while_it_is_open(watched):
     assert watched.places() == (100, 0, 0, 0)
 
 
-def test_a_positioning_move_comes_first_and_may_have_no_length(watched):
-    card = watched.card
+@pytest.mark.parametrize("move", ["GT_MvXY", "GT_MvXYZ"])
+def test_a_positioning_move_may_have_no_length_and_come_later(watched, move):
+    card, more = watched.card, () if move == "GT_MvXY" else (0.0,)
     card.GT_StrtList()
-    assert card.GT_MvXY(0.0, 0.0, 1.0, 0.01) == 0
-    assert card.GT_MvXY(10.0, 0.0, 1.0, 0.01) == 1
-    card.GT_LnXY(10.0, 0.0)
-    assert card.GT_MvXY(20.0, 0.0, 1.0, 0.01) == 1
+    numbers = []
+    for x in (0.0, 0.0, 10.0):
+        assert getattr(card, move)(x, 0.0, *more, 1.0, 0.01) == 0
+    assert card.GT_LnXY(20.0, 0.0) == 0
+    assert getattr(card, move)(20.0, 5.0, *more, 2.0, 0.01) == 0
+    assert getattr(card, move)(20.0, 5.0, *more, 1.0, 0.01) == 0
+    assert card.GT_LnXY(20.0, 10.0) == 0
+    card.GT_StrtMtn()
+    while not watched.status() & IDLE:
+        card.sleep(0.5)
+        numbers.append(card.GT_GetMtnNm()[1])
+    assert watched.places() == (20, 10, 0, 0)
+    assert numbers == sorted(numbers)
+    assert numbers[-1] == 6
 
 
 def test_a_list_that_begins_elsewhere_starts_with_a_line_from_here_or_not_at_all(watched):

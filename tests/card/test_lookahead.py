@@ -229,15 +229,31 @@ def in_mode(n: int = 3, **settings: Any) -> GECard:
 def test_blocks_go_to_the_list_when_more_come_than_are_kept() -> None:
     card = in_mode(n=3)
     messages = [card.GT_LnXYEx(100.0 * k, 0.0, 10.0, 0, 40 + k) for k in range(1, 6)]
-    assert messages == [
-        (0, TLookAheadMsg()),
-        (0, TLookAheadMsg()),
-        (0, TLookAheadMsg()),
-        (0, TLookAheadMsg(41, 1, 0)),
-        (0, TLookAheadMsg(42, 1, 0)),
-    ]
-    assert card.GT_M30() == (0, TLookAheadMsg(45, 3, 0))
+    assert (
+        messages
+        == [
+            (0, TLookAheadMsg()),
+        ]
+        * 5
+    )
+    card.GT_StrtMtn()
+    card.sleep(60_000.0)
+    assert card.places == [[200, 0, 0, 0]], "three are kept"
     assert card.GT_M30() == (0, TLookAheadMsg())
+    card.sleep(60_000.0)
+    assert card.places == [[500, 0, 0, 0]]
+    assert card.GT_M30() == (0, TLookAheadMsg())
+
+
+def test_a_message_tells_of_the_block_at_fault_and_how_many_before_it_are_kept() -> None:
+    card = in_mode(n=3)
+    for k in (1, 2):
+        card.GT_LnXYEx(100.0 * k, 0.0, 10.0, 0, 40 + k)
+    assert card.GT_LnXYEx(300.0, 0.0, -1.0, 0, 43) == (Code.SPEED, TLookAheadMsg(43, 2, Code.SPEED))
+    assert card.GT_ArcXYPEx(900.0, 0.0, 10.0, 1, 10.0, 0, 44) == (Code.CHORD, TLookAheadMsg(44, 2, Code.CHORD))
+    assert card.GT_LnXYEx(300.0, 0.0, 10.0, 0, 45) == (0, TLookAheadMsg())
+    card.GT_EndList()
+    assert card.GT_M30() == (Code.COMMAND, TLookAheadMsg(41, 0, Code.COMMAND))
 
 
 def test_the_list_runs_what_went_through_the_look_ahead() -> None:
@@ -276,15 +292,15 @@ def test_corners_in_the_list_are_passed_at_the_speed_of_the_look_ahead() -> None
 def test_a_full_list_refuses_and_keeps_all() -> None:
     card = in_mode(n=1, capacity=3)
     assert card.GT_LnXYEx(10.0, 0.0, 1.0, 0, 1) == (0, TLookAheadMsg())
-    assert card.GT_LnXYEx(20.0, 0.0, 1.0, 0, 2) == (0, TLookAheadMsg(1, 1, 0))
-    assert card.GT_LnXYEx(30.0, 0.0, 1.0, 0, 3) == (0, TLookAheadMsg(2, 1, 0))
-    assert card.GT_LnXYEx(40.0, 0.0, 1.0, 0, 4) == (Code.COMMAND, TLookAheadMsg())
+    assert card.GT_LnXYEx(20.0, 0.0, 1.0, 0, 2) == (0, TLookAheadMsg())
+    assert card.GT_LnXYEx(30.0, 0.0, 1.0, 0, 3) == (0, TLookAheadMsg())
+    assert card.GT_LnXYEx(40.0, 0.0, 1.0, 0, 4) == (Code.COMMAND, TLookAheadMsg(4, 1, Code.COMMAND))
     assert card.GT_GetCmdSts() == (0, 0x8000)
     assert card.GT_M30()[0] == Code.COMMAND
     card.GT_StrtMtn()
     card.sleep(10_000.0)
-    assert card.GT_LnXYEx(40.0, 0.0, 1.0, 0, 4) == (0, TLookAheadMsg(3, 1, 0))
-    assert card.GT_M30() == (0, TLookAheadMsg(4, 1, 0))
+    assert card.GT_LnXYEx(40.0, 0.0, 1.0, 0, 4) == (0, TLookAheadMsg())
+    assert card.GT_M30() == (0, TLookAheadMsg())
     card.sleep(10_000.0)
     assert card.GT_GetAtlPos(1) == (0, 40)
 
@@ -314,7 +330,7 @@ def test_bad_path_calls_are_refused_as_those_without_look_ahead() -> None:
     assert card.GT_ArcXYEx(1.0, 0.0, 361.0, 1.0, 0, 1)[0] == Code.PARAMETER
     assert card.GT_ArcXYPEx(10.0, 0.0, 4.0, 1, 1.0, 0, 1)[0] == Code.CHORD
     assert card.GT_ArcXYPEx(10.0, 0.0, 5.0, 2, 1.0, 0, 1)[0] == Code.PARAMETER
-    assert card.GT_MvXYEx(1.0, 1.0, 1.0) == Code.COMMAND, "not the first entry"
+    assert card.GT_MvXYEx(1.0, 1.0, 0.0) == Code.SPEED
     assert card.GT_BufIOBitEx(16, 0) == Code.PARAMETER
     assert card.GT_DelayEx(-1) == Code.PARAMETER
     assert card.GT_M30() == (0, TLookAheadMsg())
@@ -326,7 +342,7 @@ def test_a_list_begun_anew_forgets_the_blocks_kept_for_the_old_one() -> None:
     card.GT_LnXYEx(200.0, 0.0, 10.0, 0, 2)
     card.GT_StrtList()
     card.GT_LnXYEx(0.0, 50.0, 10.0, 0, 3)
-    assert card.GT_M30() == (0, TLookAheadMsg(3, 1, 0))
+    assert card.GT_M30() == (0, TLookAheadMsg())
     card.GT_StrtMtn()
     card.sleep(10_000.0)
     assert card.places == [[0, 50, 0, 0]]
@@ -340,7 +356,7 @@ def test_no_more_is_kept_than_the_list_can_take() -> None:
     assert card.GT_GetCmdSts() == (0, 0x8000)
     card.GT_StrtMtn()
     card.sleep(10_000.0)
-    assert card.GT_M30() == (0, TLookAheadMsg(7, 4, 0))
+    assert card.GT_M30() == (0, TLookAheadMsg())
     card.sleep(10_000.0)
     assert card.places == [[70, 0, 0, 0]]
 

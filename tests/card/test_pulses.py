@@ -150,7 +150,7 @@ def test_only_the_first_card_tells_its_pulses():
     collected = []
     card = GECard(CardSettings(cards=2), on_pulses=collected.append)
     card.GT_Open()
-    assert card.GT_SwitchtoCardNo(2) == 0
+    assert card.GT_SwitchtoCardNo(1) == 0
     card.GT_Open()
     card.GT_LnXY(100.0, 0.0)
     card.sleep(5000.0)

@@ -333,8 +333,9 @@ def test_an_arc_goes_on_round_its_centre(sleep_ms):
 SOFT = 0.002  # pulse/ms²: 250 µm to stop from V
 
 
-def limited(**card_settings):
-    return Watched(switches=(Switches(negative=-400.0, positive=500.0),), stpacc_pulse_ms2=SOFT, **card_settings)
+def limited(limit_wiring="as-sensed", **card_settings):
+    switches = (Switches(negative=-400.0, positive=500.0, limit_wiring=limit_wiring),)
+    return Watched(switches=switches, stpacc_pulse_ms2=SOFT, **card_settings)
 
 
 @pytest.mark.parametrize(("end", "limit", "bit"), [(3000.0, 500.0, POSITIVE), (-3000.0, -400.0, NEGATIVE)])
@@ -405,7 +406,7 @@ def test_a_list_stopped_by_a_limit_meets_it_again_when_it_goes_on():
     ("begins", "end", "trips"), [(0, 300, True), (0, -300, False), (600, 900, False), (600, 450, False)]
 )
 def test_a_limit_of_inverted_sense_stops_what_heads_for_it(begins, end, trips):
-    watched = limited()
+    watched = limited(limit_wiring="normally-closed")
     card = watched.card
     card.GT_LmtsOff(1)
     card.GT_LnXY(float(begins), 0.0) if begins else None
@@ -420,7 +421,7 @@ def test_a_limit_of_inverted_sense_stops_what_heads_for_it(begins, end, trips):
 
 
 def test_an_arc_that_turns_toward_a_limit_of_inverted_sense_is_stopped_there():
-    watched = Watched()  # an axis without a switch reads as on it
+    watched = Watched(switches=(Switches(limit_wiring="normally-closed"),))
     card = watched.card
     card.GT_SetEStpAcc(1e3)
     card.GT_SetStpAcc(1e3)
@@ -435,7 +436,7 @@ def test_an_arc_that_turns_toward_a_limit_of_inverted_sense_is_stopped_there():
 
 
 def test_a_limit_inverted_on_the_way_stops_at_once():
-    watched = running((3000.0, 0.0))
+    watched = running((3000.0, 0.0), switches=(Switches(limit_wiring="normally-closed"),))
     x = watched.point()[0]
     watched.card.GT_LmtSns(0x1)
     watched.until_idle()
@@ -514,7 +515,7 @@ def test_the_home_edge_is_captured_where_it_is(begins, end, edge):
 
 
 def test_a_home_switch_of_inverted_sense_is_captured_at_its_other_edge():
-    watched = Watched(switches=(Switches(home=(100.0, 150.0)),))
+    watched = Watched(switches=(Switches(home=(100.0, 150.0), home_wiring="normally-closed"),))
     card = watched.card
     card.GT_HomeSns(0x1)
     card.GT_CaptHome(1)

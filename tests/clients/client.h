@@ -6,14 +6,6 @@
 
 #include "ges.h"
 
-#ifdef WITHOUT_SENSES
-static int GT_LmtSnsLater(unsigned short word)
-{
-    return word > 0xFF;
-}
-#define GT_LmtSns GT_LmtSnsLater
-#endif
-
 enum { IDLE = 1 << 0 };
 enum { CAPTURED = 1 << 3, ON_POSITIVE = 1 << 5, ON_NEGATIVE = 1 << 6, MOVING = 1 << 10 };
 

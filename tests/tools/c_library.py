@@ -14,8 +14,6 @@ from sim.library.compiler import Compiler, CompilerError, found_compiler
 
 CLIENTS = ROOT / "tests" / "clients"
 WARNINGS = ("-Wall", "-Wextra", "-Werror", "-Wno-unused-function")
-SENSES = "-DWITHOUT_SENSES"
-"""While the card turns the levels of switches that are not there, clients do not call `GT_LmtSns`; then drop this."""
 LONGEST_S = 120.0
 
 
@@ -50,7 +48,7 @@ class Made:
         if not client.exists():
             client.parent.mkdir(exist_ok=True)
             aside = client.with_name(f"{name}.{os.getpid()}")
-            done = self.compile(CLIENTS / f"{name}.c", aside, SENSES)
+            done = self.compile(CLIENTS / f"{name}.c", aside)
             assert (done.returncode, done.stderr) == (0, "")
             aside.replace(client)
         return client

@@ -1,7 +1,11 @@
-"""The core of the card: its clock, its cards, and the one way every call goes."""
+"""The core of the card: its clock, its cards, and the one way every call goes.
+
+Threads may share it: one call at a time is made, and the others wait for it.
+"""
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from threading import RLock
+from typing import Any, NamedTuple, TypeAlias
 
 from controller.card.core.call import Function, read_arguments
 from controller.card.core.codes import Code, Refused
@@ -13,6 +17,8 @@ from controller.stepping.pulses import Pulses
 LONGEST_S = 1e9
 """A card is simulated for 31 years at most: until then its clock tells servo periods apart to a thousandth."""
 _OK = int(Code.OK)
+Hook: TypeAlias = Callable[[str, int], object]
+"""What `GT_HookCommand` is given: told the name of each call that was made, and its code."""
 
 
 class Logged(NamedTuple):
@@ -33,7 +39,7 @@ class CardBase:
     settings
         Of all cards.
     on_pulses
-        Told the pulses of X and Y of card 1 as they are worked out, in order.
+        Told the pulses of X and Y of the first card as they are worked out, in order.
     on_call
         Told every call.
     """
@@ -52,6 +58,9 @@ class CardBase:
             Engine(settings, state, on_pulses if number == 0 else None) for number, state in enumerate(self._states)
         ]
         self._now_s = 0.0
+        self._alone = RLock()
+        self._hook: Hook | None = None
+        self._is_telling = False
         self._select(0)
 
     @property
@@ -64,17 +73,12 @@ class CardBase:
 
         TypeError where ms is no number, ValueError where it is negative or goes beyond `LONGEST_S` on the card's clock.
         """
-        began = self._now_s
-        try:
-            fits = 0.0 <= ms <= (LONGEST_S - began) * 1000.0
-        except TypeError:
-            raise TypeError(f"a sleep takes a number of ms, not {ms!r}") from None
-        if not fits:
-            raise ValueError(f"a sleep takes 0 ms or more, up to {LONGEST_S:g} s on the clock, not {ms} ms")
-        self._pass(float(ms) / 1000.0)
-        for engine in self._engines:
-            engine.motion.hand_out_heard()
-        self._log(began, "sleep", (ms,), None)
+        with self._alone:
+            began = self._now_s
+            self._pass(_slept_s(ms, began))
+            for engine in self._engines:
+                engine.motion.hand_out_heard()
+            self._log(began, "sleep", (ms,), None)
 
     def _select(self, number: int) -> None:
         """Let the calls go to a card, counted from 0."""
@@ -93,11 +97,25 @@ class CardBase:
             engine.sequencer.advance(self._now_s)
 
     def _called(self, function: Function, given: tuple[Any, ...]) -> Any:
-        began = self._now_s
-        self._pass(self.settings.call_s)
-        answer = self._answer(function, given)
-        self._log(began, function.body.__name__, given, answer)
-        return answer
+        with self._alone:
+            began, hook = self._now_s, self._hook
+            self._pass(self.settings.call_s)
+            answer = self._answer(function, given)
+            name = function.body.__name__
+            self._log(began, name, given, answer)
+            if hook is not None:
+                self._tell(hook, name, answer[0] if isinstance(answer, tuple) else answer)
+            return answer
+
+    def _tell(self, hook: Hook, name: str, code: int) -> None:
+        """Tell the program's hook of a call; of those that the hook itself makes it is not told."""
+        if self._is_telling:
+            return
+        self._is_telling = True
+        try:
+            hook(name, code)
+        finally:
+            self._is_telling = False
 
     def _answer(self, function: Function, given: tuple[Any, ...]) -> Any:
         body, readers, zeros, when_closed, _ = function
@@ -107,10 +125,14 @@ class CardBase:
             values = body(self, *read_arguments(readers, given))
         except Refused as refused:
             self._refuse(function, given, refused)
-            return (int(refused.code), *zeros) if zeros else int(refused.code)
+            return (int(refused.code), *self._filled(function, given, refused)) if zeros else int(refused.code)
         if not zeros:
             return _OK
         return (_OK, *values) if len(zeros) > 1 else (_OK, values)
+
+    def _filled(self, function: Function, given: tuple[Any, ...], refused: Refused) -> tuple[Any, ...]:
+        """Values of the out-parameters of a refused call."""
+        return function.zeros
 
     def _refuse(self, function: Function, given: tuple[Any, ...], refused: Refused) -> None:
         """Keep what a refused call leaves behind."""
@@ -119,3 +141,14 @@ class CardBase:
     def _log(self, began: float, name: str, arguments: tuple[Any, ...], answer: Any) -> None:
         if self._on_call is not None:
             self._on_call(Logged(began, name, arguments, answer, self._engine.coordinate_status()))
+
+
+def _slept_s(ms: float, now_s: float) -> float:
+    """Seconds of a sleep; TypeError and ValueError as `CardBase.sleep` has them."""
+    try:
+        fits = 0.0 <= ms <= (LONGEST_S - now_s) * 1000.0
+    except TypeError:
+        raise TypeError(f"a sleep takes a number of ms, not {ms!r}") from None
+    if not fits:
+        raise ValueError(f"a sleep takes 0 ms or more, up to {LONGEST_S:g} s on the clock, not {ms} ms")
+    return float(ms) / 1000.0

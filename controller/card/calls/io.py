@@ -38,11 +38,12 @@ class IoCalls(CardBase):
         """Give input `bit` a level from outside; no function of the library. ValueError beyond 0 to 15 and 0 to 1."""
         if bit not in range(BITS) or level not in (0, 1):
             raise ValueError(f"an input is 0 to {BITS - 1} and its level 0 or 1, not {bit} and {level}")
-        fell = self._state.inputs >> bit & 1 > level
-        self._state.inputs = self._state.inputs & ~(1 << bit) | level << bit
-        if fell and bit == PROBE_INPUT and self._state.probe_armed:
-            self._capture_probe()
-        self._log(self.time_s, "set_input", (bit, level), None)
+        with self._alone:
+            fell = self._state.inputs >> bit & 1 > level
+            self._state.inputs = self._state.inputs & ~(1 << bit) | level << bit
+            if fell and bit == PROBE_INPUT and self._state.probe_armed:
+                self._capture_probe()
+            self._log(self.time_s, "set_input", (bit, level), None)
 
     def _capture_probe(self) -> None:
         self._state.probe_armed = False

@@ -1,7 +1,7 @@
 """Path calls through the look-ahead. `F` is the feed of the block in pulse/ms; after a block with `dccFlag` it rests.
 
 Where as many blocks are kept as there may be, the oldest goes to the list first, and the call is refused with 1 if the
-list has no room for it. `CodeNum` comes back in the message of the call that lets the block go (grade C).
+list has no room for it. `CodeNum` comes back in the message of a call that is refused (grade C).
 """
 
 from controller.card.calls.io import BITS
@@ -18,7 +18,7 @@ class LookAheadCalls(LookAheadModeCalls):
 
     @gt()
     def GT_MvXYEx(self, x: Double, y: Double, vel: Double) -> None:
-        """Positioning move, the first entry of the list; blocks that are kept are forgotten."""
+        """Positioning move, mostly the first entry of the list; blocks that are kept go before it."""
         self._kept_move(vel, x, y)
 
     @gt()

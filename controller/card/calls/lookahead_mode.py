@@ -7,7 +7,7 @@ from typing import Any
 
 from controller.card.calls.host_lookahead import HostLookAheadCalls, rules_of
 from controller.card.calls.path_base import PathBase, with_length
-from controller.card.core.call import Double, Short, UShort, gt
+from controller.card.core.call import Double, Function, Short, UShort, gt
 from controller.card.core.codes import LIST_FULL, Code, Refused
 from controller.card.core.units import UM_S_PER_PULSE_MS
 from controller.card.engine.entries import Output, Pace, Place, Segment, Wait, four, line
@@ -18,6 +18,7 @@ from controller.card.lookahead.host import HostBlock
 from controller.card.lookahead.list import ListLookAhead
 from controller.card.lookahead.mode import Mode, Off, On, blocks_kept, ruled, switched_off, switched_on
 
+_MOST_TOLD = 0x7FFF
 _NO_CEILING = 1e9
 """pulse/ms; the feed of each block limits its speed."""
 
@@ -75,6 +76,18 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
         """Let all blocks go; refused with 1 until the list has room for them."""
         return self._let_all_go(self._lookahead())
 
+    def _filled(self, function: Function, given: tuple[Any, ...], refused: Refused) -> tuple[Any, ...]:
+        """The message of a refused block: its `CodeNum`, how many before it are kept, and why.
+
+        `GT_M30` has no block: the oldest that is kept is told.
+        """
+        if function.zeros != (TLookAheadMsg(),):
+            return super()._filled(function, given, refused)
+        kept = self._mode.kept if isinstance(self._mode, On) else None
+        number = given[-1] if given else kept.oldest_number if kept else 0
+        before = min(len(kept), _MOST_TOLD) if given and kept else 0
+        return (TLookAheadMsg(number if isinstance(number, int) else 0, before, int(refused.code)),)
+
     def _lookahead(self) -> ListLookAhead:
         """Refused with 1 unless the mode is on, its rules are set and the list is open.
 
@@ -89,29 +102,27 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
 
     def _let_all_go(self, kept: ListLookAhead) -> TLookAheadMsg:
         self._engine.check_room(kept.entries)
-        message = TLookAheadMsg()
-        while len(kept):
-            number = self._let_go(kept)
-            message = TLookAheadMsg(number, message.num + 1)
-        return message
+        self._push_kept(kept)
+        return TLookAheadMsg()
 
-    def _let_go(self, kept: ListLookAhead) -> int:
-        number, entries = kept.oldest(max(1, self._engine.list.number))
-        for entry in entries:
+    def _push_kept(self, kept: ListLookAhead) -> None:
+        while len(kept):
+            self._let_go(kept)
+
+    def _let_go(self, kept: ListLookAhead) -> None:
+        for entry in kept.oldest(max(1, self._engine.list.number)):
             self._engine.push(entry)
-        return number
 
     def _kept_end(self, kept: ListLookAhead) -> Place:
         return kept.end() or self._engine.list_end()
 
     def _add_to(self, kept: ListLookAhead, segment: Segment, rests: int, number: int) -> TLookAheadMsg:
         self._check_axes(with_length(segment))
-        message = TLookAheadMsg()
         if kept.is_full or kept.entries >= self.settings.capacity:
             self._engine.check_room(kept.oldest_entries)
-            message = TLookAheadMsg(self._let_go(kept), 1)
+            self._let_go(kept)
         kept.add(HostBlock(segment, number, bool(rests)))
-        return message
+        return TLookAheadMsg()
 
     def _push_behind(self, entry: Output | Wait) -> None:
         kept = self._lookahead()
@@ -145,13 +156,14 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
         return self._kept_at(kept, plane[0], u), self._kept_at(kept, plane[1], v)
 
     def _kept_move(self, vel: float, *values: float) -> None:
-        kept = self._lookahead()
-        if self._engine.list.number or self._engine.list.entries:
-            raise Refused(Code.COMMAND)
-        start = self._engine.list_end()
+        kept, entries = self._lookahead(), self._engine.list
+        start = self._kept_end(kept)
         pace = Pace(checked(vel) * UM_S_PER_PULSE_MS, kept.rules.along_um_s2)
-        self._submit(line(0, pace, start, self._kept_place(kept, start, values)))
-        kept.clear(self._engine.list.begun)
+        place = self._kept_place(kept, start, values)
+        self._engine.check_room(kept.entries + 1)
+        self._push_kept(kept)
+        self._submit(line(entries.number, pace, start, place))
+        kept.clear(entries.begun)
 
     def _kept_line(self, values: tuple[float, ...], F: float, rests: int, number: int, rapid: bool) -> TLookAheadMsg:
         kept = self._lookahead()

@@ -39,23 +39,21 @@ class OpenCalls(CardBase):
 
     @gt(when_closed=True)
     def GT_SwitchtoCardNo(self, card: UShort) -> None:
-        """Select card 1, 2, …; it may be closed, so that it can be opened next, but not all of them (grade C)."""
-        self._one_is_open()
-        if not 1 <= card <= self.settings.cards:
+        """Select card 0, 1, …; it may be closed, so that it can be opened next (grade B)."""
+        if card >= self.settings.cards:
             raise Refused(Code.PARAMETER)
-        self._select(card - 1)
-
-    def _one_is_open(self) -> None:
-        if not any(state.opened for state in self._states):
-            raise Refused(Code.CLOSED)
+        self._select(card)
 
     def GT_GetCurrentCardNo(self) -> int:
-        """Number of the selected card; −1 while none is open."""
-        began = self.time_s
-        self._pass(self.settings.call_s)
-        number = self._number + 1 if any(state.opened for state in self._states) else int(Code.CLOSED)
-        self._log(began, "GT_GetCurrentCardNo", (), number)
-        return number
+        """Number of the selected card, from 0; −1 while none is open (grade C)."""
+        with self._alone:
+            began, hook = self.time_s, self._hook
+            self._pass(self.settings.call_s)
+            number = self._number if any(state.opened for state in self._states) else int(Code.CLOSED)
+            self._log(began, "GT_GetCurrentCardNo", (), number)
+            if hook is not None:
+                self._tell(hook, "GT_GetCurrentCardNo", number)
+            return number
 
     @gt(zeros=(0,))
     def GT_GetDllVrsn(self) -> int:

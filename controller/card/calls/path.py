@@ -15,7 +15,7 @@ from controller.card.engine.speeds import in_pulses
 
 
 class MoveCalls(PathBase):
-    """Positioning moves: the first entry of a list (elsewhere in it refused with 1), or at once (grade C).
+    """Positioning moves: in the list, mostly its first entry, or at once (grade C).
 
     Speed and acceleration become those of the entries that follow. The move may have no length. Refused with 4 where
     speed or acceleration is 0 or less.
@@ -38,14 +38,12 @@ class MoveCalls(PathBase):
 
     def _position(self, values: tuple[float, ...], vel: float, accel: float) -> None:
         engine, speeds = self._engine, self._engine.speeds
-        if engine.list.is_open and engine.list.number:
-            raise Refused(Code.COMMAND)
         speed = in_pulses(vel, self.settings, self._state) * UM_S_PER_PULSE_MS
         acceleration = in_pulses(accel, self.settings, self._state) * UM_S2_PER_PULSE_MS2
         start = engine.list_end() if engine.list.is_open else engine.motion.place()
         end = self._pulses(values, start)
         pace = Pace(speed, acceleration, end_um_s=speeds.end_um_s)
-        self._submit(line(0, pace, start, end))
+        self._submit(line(engine.list.number if engine.list.is_open else 0, pace, start, end))
         speeds.speed_um_s, speeds.acceleration_um_s2 = speed, acceleration
 
 

@@ -7,6 +7,7 @@ from typing import Any
 from controller.card.calls.base import CardBase
 from controller.card.calls.recording import record
 from controller.card.core.call import Double, UShort, gt
+from controller.card.core.codes import Code, Refused
 
 
 class RecordedCalls(CardBase):
@@ -82,9 +83,16 @@ class RecordedCalls(CardBase):
     def GT_GantryPrm(self, error: UShort, range: UShort = 0, kp: Double = 0) -> None:
         """Parameters of the coupling."""
 
-    @record
+    @gt()
     def GT_HookCommand(self, CommandHandle: Any) -> None:
-        """Let the library call back; it calls nothing here."""
+        """Let the library tell of each call that is made from now on: its name and its code; None ends that (grade B).
+
+        It is told when the call is over, and may make calls itself, of which it is not told. Refused with 7 where it
+        cannot be called.
+        """
+        if CommandHandle is not None and not callable(CommandHandle):
+            raise Refused(Code.PARAMETER)
+        self._hook = CommandHandle
 
 
 class GuardCalls(CardBase):

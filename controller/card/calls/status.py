@@ -1,10 +1,10 @@
-"""Status of axes and their switches. The levels are raw: 1 where a switch is idle."""
+"""Status of axes and their switches. Levels are those of the inputs, which no sense turns (`wiring`)."""
 
 from controller.card.calls.base import CardBase
 from controller.card.core.call import UShort, gt
 from controller.card.core.codes import LATCHED, AxisSts
-from controller.card.core.settings import AXES
 from controller.card.core.state import AxisState
+from controller.card.core.wiring import idle_level, sense_of
 
 
 class StatusCalls(CardBase):
@@ -40,34 +40,36 @@ class StatusCalls(CardBase):
 
     @gt()
     def GT_LmtSns(self, value: UShort) -> None:
-        """Sense of the limit switches: where a bit is 1, the switch answers the other way round (grade C).
+        """Sense of the limit switches, bits as those of `GT_GetLmtSwt`: 0 the high level triggers, 1 the low one (B).
 
-        Bits as those of `GT_GetLmtSwt`. Such a switch stops what heads for it from within, and nothing beyond it; an
-        axis without one is stopped everywhere.
+        A switch that is wired otherwise stops what heads for it from within, and nothing beyond it.
         """
         self._state.limit_sense = value
         self._engine.sequencer.replan()
 
     @gt()
     def GT_HomeSns(self, value: UShort) -> None:
-        """Sense of the home switches, as `GT_LmtSns`: the edge that is captured is the other one (grade C)."""
+        """Sense of the home switches, as `GT_LmtSns`: of one wired otherwise the other edge is captured (grade C)."""
         self._state.home_sense = value
         self._engine.sequencer.replan()
 
     @gt(zeros=(0,))
     def GT_GetLmtSwt(self) -> int:
         """Levels of the limit switches, two bits per axis: positive, negative."""
-        word = 0
+        word, sense = 0, self._state.limit_sense
         for number, place in enumerate(self._engine.motion.place()):
             switches = self.settings.switches_of(number + 1)
-            word |= ((place < switches.positive) | (place > switches.negative) << 1) << 2 * number
-        return word ^ self._state.limit_sense & (1 << 2 * AXES) - 1
+            met = place >= switches.positive, place <= switches.negative
+            for bit, is_met in enumerate(met, 2 * number):
+                word |= (idle_level(switches.limit_wiring, sense_of(sense, bit)) ^ is_met) << bit
+        return word
 
     @gt(zeros=(0,))
     def GT_GetHomeSwt(self) -> int:
         """Levels of the home switches, a bit per axis."""
-        word = 0
+        word, sense = 0, self._state.home_sense
         for number, place in enumerate(self._engine.motion.place()):
-            first, last = self.settings.switches_of(number + 1).home
-            word |= (not first <= place <= last) << number
-        return word ^ self._state.home_sense & (1 << AXES) - 1
+            switches = self.settings.switches_of(number + 1)
+            is_met = switches.home[0] <= place <= switches.home[1]
+            word |= (idle_level(switches.home_wiring, sense_of(sense, number)) ^ is_met) << number
+        return word

@@ -4,6 +4,8 @@ import math
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from controller.card.core.wiring import AS_SENSED, WIRINGS, Wiring
+
 AXES = 4
 """Axis numbers 1..4 carry the coordinates X, Y, Z, A; grade A."""
 
@@ -59,12 +61,16 @@ class Switches:
         The home switch answers from the first to the second place.
     index_every
         Distance of the index marks, which lie at its multiples; 0 for none.
+    limit_wiring, home_wiring
+        How limit switches and home switch are wired; ``as-sensed`` is right for any sense that the program says.
     """
 
     negative: float = -math.inf
     positive: float = math.inf
     home: tuple[float, float] = (math.inf, math.inf)
     index_every: float = 0.0
+    limit_wiring: Wiring = AS_SENSED
+    home_wiring: Wiring = AS_SENSED
 
     def __post_init__(self) -> None:
         _check("negative", self.negative, _PLACES, also=(-math.inf, math.inf))
@@ -75,6 +81,9 @@ class Switches:
             raise ValueError(f"home of a card lies from the lower place to the higher, not {self.home}")
         if self.index_every != 0.0:
             _check("index_every", self.index_every, (1.0, _FARTHEST))
+        for name, wiring in (("limit_wiring", self.limit_wiring), ("home_wiring", self.home_wiring)):
+            if wiring not in WIRINGS:
+                raise ValueError(f"{name} of a card is one of {', '.join(WIRINGS)}, not {wiring!r}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +95,7 @@ class CardSettings:
     axes
         Axes the card has, 2 to 4; paths in others are refused with 1 (grade C).
     cards
-        Cards in the machine, numbered from 1 (grade C).
+        Cards in the machine, numbered from 0 (grade B).
     servo_period_s
         Period at which the card's own interpolator works (grade C).
     pulse_limit_hz

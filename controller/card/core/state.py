@@ -57,7 +57,7 @@ class CardState:
     """Axes 1 to 4 in order, inputs and outputs (16 bit, active low), the last refusal, and what is only recorded.
 
     `stopped_abnormally` is latched when a limit stops a motion, until the next one begins or the list is emptied.
-    `limit_sense` and `home_sense` are 1 where a switch answers the other way round, bits as those of its levels.
+    `limit_sense` and `home_sense` are the words of the program, bits as those of the levels; None before it sends one.
     """
 
     opened: bool = False
@@ -67,8 +67,8 @@ class CardState:
     command_status: int = 0
     stopped_abnormally: bool = False
     probe_armed: bool = False
-    limit_sense: int = 0
-    home_sense: int = 0
+    limit_sense: int | None = None
+    home_sense: int | None = None
     recorded: dict[str, tuple[Any, ...]] = field(default_factory=dict)
 
     def set_outputs(self, mask: int, value: int) -> None:
@@ -79,6 +79,6 @@ class CardState:
         """All as after power on, except that the card stays open and the world outside is as it was."""
         self.axes[:] = [AxisState(number) for number in range(1, AXES + 1)]
         self.outputs, self.command_status, self.probe_armed = 0xFFFF, 0, False
-        self.limit_sense = self.home_sense = 0
+        self.limit_sense = self.home_sense = None
         self.stopped_abnormally = False
         self.recorded.clear()

@@ -11,6 +11,7 @@ from typing import NamedTuple, TypeVar
 from controller.card.core.codes import AxisSts
 from controller.card.core.settings import CardSettings, Switches
 from controller.card.core.state import AxisState, CardState
+from controller.card.core.wiring import is_taken_for_met, sense_of
 from controller.card.engine.edges import heads_beyond, heads_short, rises_through
 from controller.card.engine.entries import Entry, Output, Stepping
 from controller.card.engine.stretch import Stretch
@@ -70,13 +71,13 @@ def events_of(stretch: Stretch, card: CardState, settings: CardSettings) -> Even
     """What a stretch meets; a limit switch that the axes are beyond is met again wherever they go on that way."""
     due = zip(stretch.ends_s.tolist(), stretch.entries, strict=True)
     outputs = [Due(time, entry) for time, entry in due if isinstance(entry, Output) and time < math.inf]
-    if not stretch.rows or not (settings.switches or card.limit_sense):
+    if not stretch.rows or not settings.switches:
         return Events(outputs, ends_s=stretch.end_s)
     trips, captures = [], []
     for axis, own in enumerate(card.axes[: settings.axes]):
         switches = settings.switches_of(own.number)
-        trips += _trips(stretch, own, switches, axis, card.limit_sense >> 2 * axis)
-        captures += _captures(stretch, own, switches, axis, card.home_sense >> axis & 1)
+        trips += _trips(stretch, own, switches, axis, card.limit_sense)
+        captures += _captures(stretch, own, switches, axis, card.home_sense)
     return Events(outputs, sorted(trips), sorted(captures), stretch.end_s)
 
 
@@ -98,26 +99,26 @@ def grows_s(stretch: Stretch, entries: Sequence[Entry], now_s: float, settings: 
     return max(time_s, now_s)
 
 
-def _trips(stretch: Stretch, own: AxisState, switches: Switches, axis: int, inverted: int) -> list[Trip]:
-    """Of an axis; bit 0 of `inverted` is that of its positive switch, bit 1 that of its negative one."""
+def _trips(stretch: Stretch, own: AxisState, switches: Switches, axis: int, word: int | None) -> list[Trip]:
+    """Of an axis; `word` is the sense of the limit switches."""
     if not own.limits_on:
         return []
-    sides = (
-        (switches.positive, 1, AxisSts.POSITIVE_LIMIT, heads_short if inverted & 1 else heads_beyond),
-        (switches.negative, -1, AxisSts.NEGATIVE_LIMIT, heads_short if inverted & 2 else heads_beyond),
-    )
-    found = [
-        Trip(stretch.time_s(meets(stretch.path, axis, place, sense)), axis, bit)
-        for place, sense, bit, meets in sides
-        if math.isfinite(place) or meets is heads_short
-    ]
+    sides = ((switches.positive, 1, AxisSts.POSITIVE_LIMIT), (switches.negative, -1, AxisSts.NEGATIVE_LIMIT))
+    found: list[Trip] = []
+    for bit, (place, way, flag) in enumerate(sides, 2 * axis):
+        turned = is_taken_for_met(switches.limit_wiring, sense_of(word, bit))
+        if turned or math.isfinite(place):
+            along = (heads_short if turned else heads_beyond)(stretch.path, axis, place, way)
+            found.append(Trip(stretch.time_s(along), axis, flag))
     return [trip for trip in found if trip.time_s < math.inf]
 
 
-def _captures(stretch: Stretch, own: AxisState, switches: Switches, axis: int, inverted: int) -> list[Capture]:
+def _captures(stretch: Stretch, own: AxisState, switches: Switches, axis: int, word: int | None) -> list[Capture]:
+    """Of an axis; `word` is the sense of the home switches."""
     edges: list[tuple[AxisSts, float, int]] = []
     if own.home_armed:
-        low, high = reversed(switches.home) if inverted else switches.home
+        turned = is_taken_for_met(switches.home_wiring, sense_of(word, axis))
+        low, high = reversed(switches.home) if turned else switches.home
         edges += [(AxisSts.HOME_ARMED, low, 1), (AxisSts.HOME_ARMED, high, -1)]
     if own.index_armed and switches.index_every > 0.0:
         below, above = _marks_around(stretch.path, axis, switches.index_every)

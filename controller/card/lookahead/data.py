@@ -15,16 +15,18 @@ RAPID, LINE, CLOCKWISE, COUNTER_CLOCKWISE = range(4)
 
 
 class TLookAheadMsg(NamedTuple):
-    """What a path call through the look-ahead tells (grade C).
+    """What a path call through the look-ahead tells of an error; all 0 where there is none.
+
+    Its fields are graded A, as the vendor's header explains them; which block they tell of is graded C.
 
     Attributes
     ----------
     mtnNum
-        `CodeNum` of the block that went to the list last in this call; 0 where none did.
+        `CodeNum` of the block in which the error occurred.
     num
-        Blocks that went to the list in this call.
+        Blocks before it that were not sent to the list; 32767 stands for more, too.
     error
-        0.
+        Why: the code that the call returns.
     """
 
     mtnNum: int = 0  # noqa: N815 - the library's name

@@ -53,9 +53,14 @@ class ListLookAhead:
         if isinstance(entry, Wait):
             self._ahead.rest()
 
-    def oldest(self, number: int) -> tuple[int, list[Entry]]:
-        """Let the oldest block go, which becomes `number` of the list: the program's number of it, and its entries."""
+    @property
+    def oldest_number(self) -> int:
+        """The program's number of the oldest block; 0 without any."""
+        return self._ahead.blocks[0].number if self._behind else 0
+
+    def oldest(self, number: int) -> list[Entry]:
+        """Let the oldest block go, which becomes `number` of the list: its entries."""
         told = self._ahead.told()
         segment = told.block.segment
         pace = Pace(told.feed_um_s, self.rules.along_um_s2, segment.pace.rapid, told.end_um_s)
-        return told.block.number, [segment._replace(number=number, pace=pace), *self._behind.popleft()]
+        return [segment._replace(number=number, pace=pace), *self._behind.popleft()]

@@ -70,7 +70,6 @@ def test_stream_with_a_pause_ends_as_much_later(library: Made, tmp_path: Path) -
     assert 1000 <= took[1] - took[0] <= 1100
 
 
-@pytest.mark.xfail(reason="the card counts cards from 1", strict=True)
 def test_origin_from_a_limit_with_cards_from_zero(library: Made, tmp_path: Path) -> None:
     ran = library.run(library.client("origin"), tmp_path, card=HOMES)
     assert ran.out.splitlines() == [
@@ -79,6 +78,13 @@ def test_origin_from_a_limit_with_cards_from_zero(library: Made, tmp_path: Path)
         "capture 0 at -40000",
         "origin: 0 0 0 2001",
     ]
+    repeated(ran)
+
+
+def test_a_hook_hears_of_each_call_and_asks_the_card(library: Made, tmp_path: Path) -> None:
+    ran = library.run(library.client("hook"), tmp_path, card="capacity = 1")
+    assert (ran.code, ran.err) == (0, "")
+    assert ran.out.splitlines() == ["GT_SetSynVel 4 0000", "GT_LnXY 1 8000", "heard 5"]
     repeated(ran)
 
 
