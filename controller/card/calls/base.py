@@ -12,6 +12,7 @@ from controller.card.core.codes import Code, Refused
 from controller.card.core.settings import CardSettings
 from controller.card.core.state import AxisState, CardState
 from controller.card.engine.engine import Engine
+from controller.card.engine.motion import Driven
 from controller.stepping.pulses import Pulses
 
 LONGEST_S = 1e9
@@ -42,6 +43,8 @@ class CardBase:
         Told the pulses of X and Y of the first card as they are worked out, in order.
     on_call
         Told every call.
+    on_driven
+        Told what the first card has driven its axes along, a piece each time that its motion is planned anew or ends.
     """
 
     def __init__(
@@ -50,17 +53,20 @@ class CardBase:
         *,
         on_pulses: Callable[[Pulses], None] | None = None,
         on_call: Callable[[Logged], None] | None = None,
+        on_driven: Callable[[Driven], None] | None = None,
     ) -> None:
         self.settings = settings
         self._on_call = on_call
         self._states = [CardState() for _ in range(settings.cards)]
         self._engines = [
-            Engine(settings, state, on_pulses if number == 0 else None) for number, state in enumerate(self._states)
+            Engine(settings, state, *((on_pulses, on_driven) if number == 0 else (None, None)))
+            for number, state in enumerate(self._states)
         ]
         self._now_s = 0.0
         self._alone = RLock()
         self._hook: Hook | None = None
         self._is_telling = False
+        self._logged = 0
         self._select(0)
 
     @property
@@ -80,6 +86,19 @@ class CardBase:
                 engine.motion.hand_out_heard()
             self._log(began, "sleep", (ms,), None)
 
+    def wait_until(self, t_s: float) -> None:
+        """Let simulated time pass up to a moment; none where that has passed. No function of the library, not logged.
+
+        ValueError beyond `LONGEST_S`.
+        """
+        if not t_s <= LONGEST_S:
+            raise ValueError(f"a card is simulated up to {LONGEST_S:g} s, not {t_s} s")
+        with self._alone:
+            if t_s > self._now_s:
+                self._reach(t_s)
+            for engine in self._engines:
+                engine.motion.hand_out_heard()
+
     def _select(self, number: int) -> None:
         """Let the calls go to a card, counted from 0."""
         self._number = number
@@ -92,7 +111,10 @@ class CardBase:
         return self._state.axes[number - 1]
 
     def _pass(self, seconds: float) -> None:
-        self._now_s += seconds
+        self._reach(self._now_s + seconds)
+
+    def _reach(self, t_s: float) -> None:
+        self._now_s = t_s
         for engine in self._engines:
             engine.sequencer.advance(self._now_s)
 
@@ -139,6 +161,7 @@ class CardBase:
         self._state.command_status = refused.command_status
 
     def _log(self, began: float, name: str, arguments: tuple[Any, ...], answer: Any) -> None:
+        self._logged += 1
         if self._on_call is not None:
             self._on_call(Logged(began, name, arguments, answer, self._engine.coordinate_status()))
 

@@ -121,7 +121,7 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
         if kept.is_full or kept.entries >= self.settings.capacity:
             self._engine.check_room(kept.oldest_entries)
             self._let_go(kept)
-        kept.add(HostBlock(segment, number, bool(rests)))
+        kept.add(HostBlock(self._of_this_call(segment), number, bool(rests)))
         return TLookAheadMsg()
 
     def _push_behind(self, entry: Output | Wait) -> None:

@@ -31,6 +31,8 @@ class PathBase(CardBase):
     def _submit(self, entry: PathEntry) -> None:
         """Put a path entry into the open list, or run it at once. It uses up the end speed that was set for it."""
         self._check_axes(entry)
+        if isinstance(entry, Segment):
+            entry = self._of_this_call(entry)
         if self._engine.list.is_open:
             self._engine.check_room()
             self._engine.push(entry)
@@ -39,6 +41,9 @@ class PathBase(CardBase):
         else:
             raise Refused(Code.COMMAND)
         self._engine.speeds.end_um_s = None
+
+    def _of_this_call(self, segment: Segment) -> Segment:
+        return segment._replace(call=self._logged + 1)
 
     def _check_axes(self, entry: PathEntry) -> None:
         """Refused with 1 where an axis that it moves is off, if the settings want that."""

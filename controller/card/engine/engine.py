@@ -24,7 +24,7 @@ from controller.card.core.codes import LIST_FULL, Code, CrdSts, Refused
 from controller.card.core.settings import CardSettings
 from controller.card.core.state import CardState
 from controller.card.engine.entries import NO_NUMBER, Entry, Place, Segment
-from controller.card.engine.motion import CardMotion
+from controller.card.engine.motion import CardMotion, Driven
 from controller.card.engine.motion_list import MotionList
 from controller.card.engine.sequencer import Sequencer
 from controller.card.engine.speeds import speeds_of
@@ -57,11 +57,17 @@ class Engine:
         What time and stops do to the motion.
     """
 
-    def __init__(self, settings: CardSettings, card: CardState, on_pulses: Callable[[Pulses], None] | None) -> None:
+    def __init__(
+        self,
+        settings: CardSettings,
+        card: CardState,
+        on_pulses: Callable[[Pulses], None] | None,
+        on_driven: Callable[[Driven], None] | None,
+    ) -> None:
         self._settings, self._card = settings, card
         self.speeds = speeds_of(settings)
         self.list = MotionList()
-        self.motion = CardMotion(on_pulses)
+        self.motion = CardMotion(on_pulses, on_driven)
         self.sequencer = Sequencer(settings, card, self.speeds, self.motion, self.list)
 
     @property

@@ -40,7 +40,10 @@ class Pace(NamedTuple):
 
 
 class Segment(NamedTuple):
-    """A line or an arc; see `Path` for the columns. Without length it only counts as executed."""
+    """A line or an arc; see `Path` for the columns. Without length it only counts as executed.
+
+    `call` is the number of the card's call that made it, from 1; 0 before it is known.
+    """
 
     number: int
     pace: Pace
@@ -50,6 +53,7 @@ class Segment(NamedTuple):
     curvature: float
     length_um: float
     end: Place
+    call: int = 0
 
     @property
     def kind(self) -> Stepping | None:

@@ -1,6 +1,7 @@
 """The motion of one card at any instant: its clock, its state, and the pulses that have gone out."""
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,6 +15,13 @@ from controller.stepping.pulses import Pulses
 
 _NEAR = 0.5
 """Pulses within which the axes stand at a place."""
+
+
+class Driven(NamedTuple):
+    """A stretch that the axes were driven along, up to a time on the card's clock, s."""
+
+    stretch: Stretch
+    until_s: float
 
 
 class CardMotion:
@@ -31,14 +39,18 @@ class CardMotion:
         Pulses handed out to each axis so far; `pulses_out` hands out those due by now first.
     """
 
-    def __init__(self, on_pulses: Callable[[Pulses], None] | None) -> None:
+    def __init__(
+        self,
+        on_pulses: Callable[[Pulses], None] | None = None,
+        on_driven: Callable[[Driven], None] | None = None,
+    ) -> None:
         self.now_s = 0.0
         self.state: State = Idle()
         self.break_place = self._rest_place = ORIGIN
         self.at_um = (0, 0, 0, 0)
         self._moved = [False] * AXES
         self._latest_s = 0.0
-        self._on_pulses = on_pulses
+        self._on_pulses, self._on_driven = on_pulses, on_driven
 
     @property
     def moving(self) -> bool:
@@ -112,13 +124,20 @@ class CardMotion:
 
     def halt(self) -> None:
         """End all motion where it is, without braking: profile and break point are where the pulses are."""
+        if self._stretch is not None:
+            self._tell(self._stretch)
         place = four(map(float, self.pulses_out()))
         self.rest(Idle(), place)
         self.break_place = place
         self.take_moved()
 
+    def _tell(self, stretch: Stretch) -> None:
+        if self._on_driven is not None:
+            self._on_driven(Driven(stretch, self.now_s))
+
     def note_moved(self, stretch: Stretch) -> None:
-        """Note the axes that a stretch has moved by now."""
+        """Note the axes that a stretch has moved by now; it is over."""
+        self._tell(stretch)
         self._moved = [a or b for a, b in zip(self._moved, stretch.axes_moved(self.now_s), strict=True)]
 
     def take_moved(self) -> list[bool]:

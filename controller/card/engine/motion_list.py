@@ -91,7 +91,7 @@ class MotionList:
             return
         if not isinstance(entry, Segment) or entry.curvature:
             raise Refused(Code.COMMAND)
-        self.entries[first] = line(entry.number, entry.pace, place, entry.end)
+        self.entries[first] = line(entry.number, entry.pace, place, entry.end)._replace(call=entry.call)
 
     def replace(self, n: int, left: list[Entry]) -> None:
         """Put what is left of the first n entries in their place."""

@@ -1,0 +1,1 @@
+"""The way that a card drove X and Y along while a program used it: a `Way`."""
