@@ -49,7 +49,7 @@ class Rows(NamedTuple):
 
 
 class Motions(NamedTuple):
-    """m phases, all (m,) float64: begin and end on the card's clock, way in X and Y, speed and acceleration at first."""
+    """m phases, all (m,) float64: begin and end on the clock, way in X and Y, speed and acceleration at first, jerk."""
 
     begin_s: Floats
     end_s: Floats
