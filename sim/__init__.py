@@ -22,10 +22,11 @@ if TYPE_CHECKING:
     from sim.jobs.run_into import run_into
     from sim.jobs.trace_file import StoredTrace, read_trace
     from sim.measure.compare.compared_program import compare_program
-    from sim.run.dryrun import DryRun, dry_run
+    from sim.run.dryrun import DryRun
     from sim.run.findings import verdict
     from sim.run.recording import recorded
     from sim.run.report import build_report
+    from sim.run.running import dry_run
     from sim.setup.machine.machine import load_machine
     from sim.setup.part import DrawingTarget, Offset, OffsetPass
     from sim.setup.scenario import Scenario, load_scenario

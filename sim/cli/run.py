@@ -129,8 +129,8 @@ def _run(scenario: "Scenario", files: _Files) -> "DryRun":
     from sim.cli.progress import StageProgress
     from sim.jobs.source import program_read, source_of
     from sim.run.card_log import logging_to
-    from sim.run.dryrun import dry_run
     from sim.run.recording import check_expectations, stages_of
+    from sim.run.running import dry_run
 
     settings = scenario.machine.controller.card_settings
     _refuse_to_overwrite(files.card_log, program_file=scenario.program, output=files.output)

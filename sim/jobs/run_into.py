@@ -9,9 +9,10 @@ from controller.card.log.writer import CardLog
 from parser.program import Program
 from sim.files import StepFiles, staged
 from sim.jobs.trace_file import TRACE, write_trace
-from sim.run.dryrun import DryRun, dry_run
+from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recording_of, reported, stages_of
 from sim.run.report import report_text
+from sim.run.running import dry_run
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
 from sim.show.pictures.cut.of_run import draw_cut_of_run

@@ -1,40 +1,29 @@
 """The dry run: one program through controller, card and table, and what came of it."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
-from controller.card.log.writer import CardLog
 from controller.motion.limits import Feeds
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
-from parser.dialect.reader import in_codes
-from parser.findings.findings import Finding, file_order
+from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.program import Program
-from parser.shape.contours import Contour, find_contours
+from parser.shape.contours import Contour
 from parser.shape.passes import Passes
 from parser.toolpath import Toolpath
 from sim.check.beside import Offsetting
 from sim.check.result import Coverage
-from sim.cut.obstacles.findings import missed_work_findings, obstacle_findings
 from sim.cut.remains import Remains
-from sim.cut.wire_lag import bowed
 from sim.measure.compare.result import Comparison
-from sim.measure.deviation.measured import Deviations, Meters
+from sim.measure.deviation.measured import Deviations
 from sim.measure.deviation.meters import BlockSteps
 from sim.measure.passes.figures import PassFigures
-from sim.run.edge_passes import passes_of
-from sim.run.ending import Ending, motion_to_end, trip_of
-from sim.run.left import drawing_of, left_of
-from sim.run.prepare import Prepared, prepare
+from sim.run.ending import Ending
 from sim.setup.expectations import Missed
 from sim.setup.scenario import Scenario
-from sim.table.findings import loss_findings
-from sim.table.motion import Motion, Moved, simulate
-from sim.table.progress import Progress, silent
 from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
@@ -159,94 +148,9 @@ class DryRun:
     @property
     def cut(self) -> Trace:
         """The trace as far as the machine ran: after a trip it stands, and cuts nothing of what follows."""
-        return _cut(self.trace, self.ended)
+        return self.trace.until(self.ended.t_s) if self.ended else self.trace
 
     @property
     def toolpath(self) -> Toolpath:
         """The exact geometry that was run, the offset added."""
         return self.program.toolpath
-
-
-def dry_run(
-    program: Program,
-    scenario: Scenario,
-    progress: Progress = silent,
-    sink: PulseSink | None = None,
-    log: CardLog | None = None,
-) -> DryRun:
-    """Run a program on the machine of a scenario; its pulses go to `sink`, the calls to its card to `log`.
-
-    Raises ProgramError where the program asks for more than any table can do, and DrawingError where the scenario's
-    drawing cannot be read.
-    """
-    progress("checks", 0, 1)
-    drawing, ready = drawing_of(scenario.drawing), prepare(program, scenario)
-    progress("plan", 0, 1)
-    program, toolpath = ready.program, ready.program.toolpath
-    motion, ended = motion_to_end(ready, scenario)
-    meters = Meters(motion, ready.steps)
-    moved = simulate(motion, _handed_to(meters, sink, motion), progress, log)
-    trace = bowed(moved.trace, toolpath, scenario.wire_lag_um)
-    stepped, plan = meters.tally.result(), motion.drive.plan
-    contours = find_contours(toolpath, stepped.corner_um)
-    ended = trip_of(moved.losses) or ended
-    cut = _cut(trace, ended)
-    passes, figures, border_s = passes_of(ready, scenario, plan, cut, ended)
-    left = left_of(program, cut, contours, scenario, drawing, progress)
-    return DryRun(
-        program=program,
-        scenario=scenario,
-        offset=ready.offset,
-        feeds=ready.feeds,
-        plan=plan,
-        ended=ended,
-        stepped=stepped,
-        trace=trace,
-        losses=moved.losses,
-        peaks=moved.peaks,
-        history=moved.history,
-        deviations=meters.deviations(cut),
-        contours=contours,
-        passes=passes,
-        pass_figures=figures,
-        border_s=border_s,
-        remains=left.remains,
-        comparison=left.comparison,
-        findings=_in_order(ready, [*_met(program, scenario, moved, trace, contours), *left.findings]),
-        checked=ready.findings,
-        coverage=ready.coverage._replace(checks=(*ready.coverage.checks, left.state)),
-    )
-
-
-def _in_order(ready: Prepared, found: list[Finding]) -> tuple[Finding, ...]:
-    """All findings in file order, those that a run `found` in the codes of the program's dialect."""
-    return tuple(sorted([*ready.findings, *in_codes(ready.program.reading, found)], key=file_order))
-
-
-def _met(
-    program: Program, scenario: Scenario, moved: Moved, trace: Trace, contours: tuple[Contour, ...]
-) -> list[Finding]:
-    """Findings on what table and wire met on their way, and on what the drives lost."""
-    return [
-        *obstacle_findings(program, trace, contours, scenario),
-        *missed_work_findings(program, trace, scenario),
-        *loss_findings(program, moved.losses, scenario.machine.table.motor),
-    ]
-
-
-def _handed_to(meters: Meters, sink: PulseSink | None, motion: Motion) -> Callable[[Pulses], None]:
-    """Hands pulses to the meters, and to the sink where there is one."""
-    if sink is None:
-        return meters.take
-    sink.open(motion.drive.origin_um)
-
-    def take(pulses: Pulses) -> None:
-        meters.take(pulses)
-        sink.take(pulses)
-
-    return take
-
-
-def _cut(trace: Trace, ended: Ending | None) -> Trace:
-    """The trace as far as the machine ran: after a trip it stands, and cuts nothing of what follows."""
-    return trace.until(ended.t_s) if ended else trace

@@ -77,13 +77,29 @@ def motion_of(
     return Motion(drive, controller.card_settings, table, ticks)
 
 
-def simulate(
-    motion: Motion,
-    take: Callable[[Pulses], None],
-    progress: Progress,
-    log: CardLog | None = None,
-) -> Moved:
-    """Run the motion on card and table. Every call goes to `log`, every pulse to `take`, in program coordinates.
+Source = Callable[[Callable[[Pulses], None]], None]
+"""Runs a motion, and hands its pulses, in program coordinates and in order, to what it is given."""
+
+
+def of_host(motion: Motion, log: CardLog | None = None) -> Source:
+    """The host drives the card along the motion; every call goes to `log`, which is told the end too."""
+
+    def run(taken: Callable[[Pulses], None]) -> None:
+        def counted(pulses: Pulses) -> None:
+            if log is not None:
+                log.count(pulses)
+            taken(pulses)
+
+        host = Host(motion.drive, motion.card, counted, log, motion.until_s)
+        host.run()
+        if log is not None:
+            log.close(host.card)
+
+    return run
+
+
+def simulate(motion: Motion, source: Source, take: Callable[[Pulses], None], progress: Progress) -> Moved:
+    """Run the motion on the table by the pulses of a source. Every pulse goes to `take`, in program coordinates.
 
     The pulses end where the machine stops: at the motion's `until_s`, or where a servo trips.
     """
@@ -98,8 +114,6 @@ def simulate(
                 take(ran)
 
     def taken(pulses: Pulses) -> None:
-        if log is not None:
-            log.count(pulses)
         pulses = _up_to(pulses, motion.until_s)
         if len(pulses.t_s):
             waiting.append(pulses)
@@ -107,10 +121,7 @@ def simulate(
             hand_on(table.followed_s)
             progress("run", min(int(pulses.t_s[-1]), total), total)
 
-    host = Host(motion.drive, motion.card, taken, log, motion.until_s)
-    host.run()
-    if log is not None:
-        log.close(host.card)
+    source(taken)
     moved = Moved(*table.finish())
     hand_on(math.inf)
     return moved

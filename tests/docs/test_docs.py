@@ -32,8 +32,9 @@ from sim.check.settings.search import SettingsSearch
 from sim.cli.check.command import check
 from sim.cut.kerf.stars import rays as kerf_rays
 from sim.jobs.trace_file import trace_arrays
-from sim.run.dryrun import DryRun, dry_run
+from sim.run.dryrun import DryRun
 from sim.run.report import build_report
+from sim.run.running import dry_run
 from sim.setup import scenario
 from sim.setup.key_tables import renewed
 from sim.setup.machine import machine

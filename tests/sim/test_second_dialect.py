@@ -27,8 +27,9 @@ from sim.check.files import find_files
 from sim.check.settings import CheckSettings
 from sim.check.settings.search import SettingsSearch
 from sim.jobs.run_into import FILES
-from sim.run.dryrun import DryRun, dry_run
+from sim.run.dryrun import DryRun
 from sim.run.report import build_report
+from sim.run.running import dry_run
 from sim.setup.part import Offset, OffsetPass
 from sim.setup.quiz import Question
 from sim.show.pictures.gallery import PICTURES

@@ -21,7 +21,7 @@ from parser.program import parse_program
 from sim.run.ballbar.circle import circle_test, run_test
 from sim.setup.machine.machine import Machine, TableEngine, load_machine
 from sim.table.follow import Following
-from sim.table.motion import Motion, Moved, motion_of, simulate
+from sim.table.motion import Motion, Moved, motion_of, of_host, simulate
 from sim.table.progress import silent
 
 FINE_TICK_S = 1e-4
@@ -66,7 +66,7 @@ def rapid() -> Motion:
 def timed(run: Motion) -> tuple[float, Moved]:
     """Seconds to simulate, and what came of it."""
     began = time.perf_counter()
-    moved = simulate(run, _drop, silent)
+    moved = simulate(run, of_host(run), _drop, silent)
     return time.perf_counter() - began, moved
 
 

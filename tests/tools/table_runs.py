@@ -12,7 +12,7 @@ from parser.program import parse_program
 from sim.setup.machine.machine import Machine, TableEngine
 from sim.setup.machine.table_model import Motor, TableModel
 from sim.table.follow import Following, Setup
-from sim.table.motion import Motion, Moved, motion_of, simulate
+from sim.table.motion import Motion, Moved, motion_of, of_host, simulate
 from sim.table.progress import silent
 from sim.table.when.ticks import Ticks
 
@@ -102,7 +102,7 @@ def fixed(chosen: Motion, tick_s: float = TICK_S) -> Motion:
 
 def moved(motion: Motion) -> Moved:
     """What the table makes of a motion."""
-    return simulate(motion, _drop, silent)
+    return simulate(motion, of_host(motion), _drop, silent)
 
 
 def _drop(pulses: Pulses) -> None:

@@ -26,7 +26,8 @@ from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Asked, Comparison
 from sim.measure.compare.tables import by_block, by_entity
-from sim.run.dryrun import DryRun, dry_run
+from sim.run.dryrun import DryRun
+from sim.run.running import dry_run
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 from sim.table.progress import Progress, silent

@@ -16,7 +16,7 @@ from sim.run.ballbar.parts import DeviationParts, parts_of
 from sim.run.ballbar.turn import NAMES, SENSES, MeasuredTurn, Sense
 from sim.setup.machine.machine import Machine
 from sim.setup.toml.reader import Bound, number
-from sim.table.motion import Motion, motion_of, simulate
+from sim.table.motion import Motion, motion_of, of_host, simulate
 from sim.table.physics.turning import motors_um
 from sim.table.progress import Progress
 from sim.table.record.losses import Loss
@@ -141,7 +141,7 @@ def _run(test: CircleTest, sense: Sense, progress: Progress) -> _Run:
     def told(stage: str, done: int, total: int) -> None:
         progress(f"{stage}-{NAMES[sense]}", done, total)
 
-    trace, losses, *_ = simulate(motion, window.take, told)
+    trace, losses, *_ = simulate(motion, of_host(motion), window.take, told)
     measured = (trace.t_s >= start_s) & (trace.t_s <= end_s)
     center_um = trace.commanded_um[0] - (test.radius_um, 0.0)
     pulses = window.pulses()

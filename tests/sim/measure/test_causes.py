@@ -19,7 +19,8 @@ from sim.measure.deviation.across import across_um, summed
 from sim.measure.deviation.causes import NOTHING, Stage, added, cut_off
 from sim.measure.deviation.deviation import DeviationMeter
 from sim.measure.deviation.measured import Deviations
-from sim.run.dryrun import DryRun, dry_run
+from sim.run.dryrun import DryRun
+from sim.run.running import dry_run
 from sim.setup.machine.controller_model import read_controller
 from sim.setup.scenario import load_scenario
 from sim.setup.wire import DEFAULT_WIRE

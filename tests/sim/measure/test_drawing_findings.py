@@ -15,7 +15,8 @@ from parser.toolpath import Point
 from sim.measure.compare.as_cut import edge_as_cut
 from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.result import Asked
-from sim.run.dryrun import DryRun, dry_run
+from sim.run.dryrun import DryRun
+from sim.run.running import dry_run
 from sim.setup.part import DrawingTarget
 from sim.table.progress import silent
 

@@ -15,9 +15,10 @@ from parser.findings.catalogue import texts
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError, SettingsError
 from parser.program import Program, parse_program
-from sim.run.dryrun import DryRun, dry_run
+from sim.run.dryrun import DryRun
 from sim.run.offsetting import as_run
 from sim.run.report import build_report
+from sim.run.running import dry_run
 from sim.setup.part import Offset, OffsetPass
 from sim.show.terminal.cut_rows import pass_rows
 from sim.table.progress import silent

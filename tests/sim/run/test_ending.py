@@ -11,8 +11,9 @@ from runs import codes, machine, run_text, scenario_run
 from controller.card.log.writer import CardLog
 from parser.program import parse_program
 from parser.told.step_words import Axis
-from sim.run.dryrun import DryRun, dry_run
+from sim.run.dryrun import DryRun
 from sim.run.report import build_report
+from sim.run.running import dry_run
 from sim.show.terminal.run import summary_rows
 
 HOLE = "B100B0B100GXL1 B0B100B100GYL2 B100B0B100GXL3 B0B100B100GYL4"

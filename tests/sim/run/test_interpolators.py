@@ -11,8 +11,8 @@ from runs import run_folder, run_text, silent
 
 from parser.findings.errors import SettingsError
 from parser.program import read_program
-from sim.run.dryrun import dry_run
 from sim.run.report import build_report
+from sim.run.running import dry_run
 from sim.setup.machine.controller_model import read_controller
 from sim.setup.scenario import load_scenario
 

@@ -6,7 +6,7 @@ import pytest
 from runs import plain_scenario
 
 from parser.program import parse_program
-from sim.run.dryrun import dry_run
+from sim.run.running import dry_run
 
 
 def test_a_stepper_against_its_stop_loses_all_but_what_its_pull_out_holds() -> None:

@@ -18,9 +18,9 @@ from fuzzing.toml_trees import change, fuzzed_toml
 from parser.findings.catalogue import texts
 from parser.findings.errors import DrycutError
 from parser.program import parse_program
-from sim.run.dryrun import dry_run
 from sim.run.findings import expectation_findings
 from sim.run.report import build_report
+from sim.run.running import dry_run
 from sim.setup.expectations import missed
 from sim.setup.machine import machine as machines
 from sim.setup.machine.machine import load_machine, machine_sections
