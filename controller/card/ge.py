@@ -12,6 +12,7 @@ from controller.card.calls.speed import SpeedCalls
 from controller.card.calls.status import StatusCalls
 from controller.card.calls.step import StepCalls
 from controller.card.calls.stop import StopCalls
+from controller.card.core.state import LimitMet
 
 
 class GECard(
@@ -38,6 +39,12 @@ class GECard(
         """Coordinate status of the selected card, as `GT_GetCrdSts` tells it, without a call."""
         with self._alone:
             return self._engine.coordinate_status()
+
+    @property
+    def limits_met(self) -> tuple[LimitMet, ...]:
+        """Limit switches that stopped a motion of the selected card so far, in order."""
+        with self._alone:
+            return tuple(self._state.limits_met)
 
     @property
     def places(self) -> list[list[int]]:

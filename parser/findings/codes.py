@@ -2,7 +2,8 @@
 
 The hundreds digit of a code names the layer: ``3B1xx`` grammar, ``3B2xx`` block, ``3B3xx`` contour, ``3B4xx`` machine,
 ``3B5xx`` wire offset, ``3B6xx`` drawing. ``ISO1xx`` to ``ISO5xx`` are the same layers of ISO, with the program's own
-compensation as the fifth; ``PMC1xx`` and ``PMC2xx`` are those of PMAC. A code is stable, and never used twice.
+compensation as the fifth; ``PMC1xx`` and ``PMC2xx`` are those of PMAC, ``GEC4xx`` are of programs for the GE card. A
+code is stable, and never used twice.
 """
 
 from collections.abc import Mapping
@@ -127,6 +128,9 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B603": FindingCode(Severity.NOTE, check=None, placed=True),
         "3B604": FindingCode(Severity.ERROR, check=None),
         "3B605": FindingCode(Severity.ERROR, check=None),
+        "GEC401": FindingCode(Severity.WARNING, None),
+        "GEC402": FindingCode(Severity.WARNING, None),
+        "GEC403": FindingCode(Severity.WARNING, None),
         "ISO100": FindingCode(Severity.ERROR, Check.GRAMMAR),
         "ISO101": FindingCode(Severity.ERROR, Check.GRAMMAR),
         "ISO102": FindingCode(Severity.ERROR, Check.GRAMMAR),

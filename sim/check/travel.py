@@ -12,7 +12,7 @@ from parser.geometry.extents import extents
 from parser.program import Program
 from parser.told.step_words import Axis
 from parser.toolpath import Toolpath
-from parser.units import from_mm
+from parser.units import from_mm, mm
 
 if TYPE_CHECKING:
     from sim.setup.machine.table_model import TableModel
@@ -53,6 +53,16 @@ def beyond_um(toolpath: Toolpath, steps: Steps, table: "TableModel", start_um: t
     travel = from_mm(np.array([table.travel_x_mm, table.travel_y_mm]))
     beyond: Floats = np.maximum(-(low + shift), high + shift - travel)
     return beyond
+
+
+def middle_mm(toolpath: Toolpath, table: "TableModel") -> tuple[float, float] | None:
+    """Where a path begins, mm on the table, so that it lies in the middle of the travel; None without a path."""
+    if not len(toolpath):
+        return None
+    low, high = extents(toolpath)
+    ahead = toolpath.start_um[0] - 0.5 * (low.min(axis=0) + high.max(axis=0))
+    x, y = (0.5 * np.array([table.travel_x_mm, table.travel_y_mm]) + mm(ahead)).tolist()
+    return x, y
 
 
 ROUNDING_UM = 0.5

@@ -84,6 +84,76 @@ def build(output: Path) -> None:
         say(str(path))
 
 
+@card.command(context_settings={"ignore_unknown_options": True})
+@click.argument("command", nargs=-1, required=True, type=click.UNPROCESSED, metavar="CLIENT [ARGS]...")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, file_okay=False),
+    required=True,
+    metavar="DIR",
+    help="Write report.html, replay.html, cut.png, report.json, card.log and calls.txt here.",
+)
+@click.option(
+    "--library",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="DIR",
+    help="Folder that drycut card build made; else the library is made anew, by a C compiler.",
+)
+@click.option(
+    "--card",
+    "settings",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE.toml",
+    help="Settings and switches of the card (docs/libges.md).",
+)
+@click.option("--call-s", type=click.FloatRange(1e-9, 1.0), metavar="S", help="Time that a call takes on the card, s.")
+@click.option(
+    "--timeout",
+    "longest_s",
+    type=click.FloatRange(0.1, 86_400.0),
+    default=60.0,
+    show_default=True,
+    metavar="S",
+    help="Real time, s, after which the client is stopped.",
+)
+@click.option(
+    "--machine", metavar="NAME|FILE", help="Machine whose table follows the card; else one that follows every pulse."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print report.json; what the client prints goes to stderr.")
+@click.option("--lang", type=click.Choice(["en", "zh"]), help="Language of messages; else that of the locale.")
+def run(  # noqa: PLR0913 - click hands over each option by its name
+    *,
+    command: tuple[str, ...],
+    output: Path,
+    library: Path | None,
+    settings: Path | None,
+    call_s: float | None,
+    longest_s: float,
+    machine: str | None,
+    as_json: bool,
+    lang: str | None,
+) -> None:
+    """Run a program for the card, in C, and show what its calls did to the table, and what it did not look at.
+
+    The client is started against the card's library; its sleeps move the card and take no time. Its calls are made
+    again on the card, and the table follows the pulses.
+
+    \b
+    Exit code: 0 the client ended with 0 and nothing is an error, 1 it did not,
+    or something is, 2 bad use, or a client or library that cannot be used,
+    3 a fault of drycut itself.
+
+    \b
+    drycut card run ./client -o out/
+    drycut card run --card machine.toml --timeout 300 -o out/ ./client part.dat
+    """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from sim.cli.card_client import Asked, run_client
+
+    asked = Asked(command, output, library, settings, call_s, longest_s, machine)
+    raise click.exceptions.Exit(run_client(asked, lang, as_json=as_json))
+
+
 def _text(name: str, done: "Replay", count: int, shown: "list[Difference]") -> Iterator[str]:
     for entry in shown:
         yield f"{name}:{entry.line}: error: the card differs"

@@ -49,7 +49,7 @@ def run_into(  # noqa: PLR0913 - what it is run with, and whom it tells
     with staged(Path(folder), [*NAMES, *beside]) as stage:
         with StepFiles(stage) as files:
             run, report = reported(dry_run(program, scenario, progress, files, log))
-        _show(recording_of(run, files.paths, progress), report, stage, progress, has_trace=trace)
+        write_files(recording_of(run, files.paths, progress), report, stage, progress, has_trace=trace)
         if trace:
             progress("trace", 0, 1)
             write_trace(stage, run, files.paths)
@@ -63,8 +63,10 @@ def stages_of_files(scenario: Scenario, *, trace: bool) -> list[str]:
     return [*stages_of(scenario), "pictures", "pages", *(["trace"] if trace else [])]
 
 
-def _show(recording: Recording, report: dict[str, Any], folder: Path, progress: Progress, *, has_trace: bool) -> None:
-    """Write the report and what people look at; then nothing holds the files of the steps any more."""
+def write_files(
+    recording: Recording, report: dict[str, Any], folder: Path, progress: Progress, *, has_trace: bool = False
+) -> None:
+    """Write `FILES`: the report and what people look at; then nothing holds the files of the steps any more."""
     run, subject = recording.run, subject_of(recording)
     progress("pictures", 0, 1)
     draw_cut_of_run(pixels(), run, recording.pieces, subject.shapes).image().save(folder / "cut.png", dpi=(200, 200))

@@ -51,7 +51,7 @@ class DryRun:
     offset
         What the controller's compensation made of the program; None where it ran as written.
     feeds
-        How fast each block was to be run.
+        How fast each block was to be run; None where a program for the card set its own speeds.
     plan
         What the controller planned for the whole of it.
     ended
@@ -88,7 +88,7 @@ class DryRun:
     program: Program
     scenario: Scenario
     offset: Offsetting | None
-    feeds: Feeds
+    feeds: Feeds | None
     plan: Plan
     ended: Ending | None
     stepped: BlockSteps

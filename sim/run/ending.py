@@ -62,8 +62,14 @@ def motion_to_end(ready: Prepared, scenario: Scenario) -> tuple[Motion, Ending |
     motion = motion_of(toolpath, ready.feeds, machine, start_um, scenario.trace_spacing_um)
     if scenario.past_stop:
         return motion, None
-    ended = _travel_end(toolpath, ready.steps, motion.drive.plan, machine.table, start_um)
+    ended = travel_end(ready, motion, scenario)
     return (motion.until(ended.t_s), ended) if ended else (motion, None)
+
+
+def travel_end(ready: Prepared, motion: Motion, scenario: Scenario) -> Ending | None:
+    """Where a motion leaves the travel; None where it does not."""
+    of = ready.program.toolpath, ready.steps, motion.drive.plan
+    return _travel_end(*of, scenario.machine.table, scenario.start_um)
 
 
 def _travel_end(

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from controller.card.log.writer import CardLog
+from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from parser.dialect.reader import in_codes
 from parser.drawing.model import Drawing
@@ -26,12 +27,13 @@ from sim.table.trace import Trace
 
 
 class Along(NamedTuple):
-    """What is run: a program that is ready, its motion, where that ends early, and what makes its pulses."""
+    """What is run: a program that is ready, its motion, where that ends early, what makes its pulses, and its feeds."""
 
     ready: Prepared
     motion: Motion
     ended: Ending | None
     source: Source
+    feeds: Feeds | None
 
 
 def dry_run(
@@ -50,7 +52,7 @@ def dry_run(
     drawing, ready = drawing_of(scenario.drawing), prepare(program, scenario)
     progress("plan", 0, 1)
     motion, ended = motion_to_end(ready, scenario)
-    return run_along(Along(ready, motion, ended, of_host(motion, log)), scenario, drawing, progress, sink)
+    return run_along(Along(ready, motion, ended, of_host(motion, log), ready.feeds), scenario, drawing, progress, sink)
 
 
 def run_along(
@@ -61,7 +63,7 @@ def run_along(
     sink: PulseSink | None = None,
 ) -> DryRun:
     """Let the table follow what is run, and tell all that came of it; the pulses go to `sink`, too."""
-    ready, motion, ended, source = along
+    ready, motion, ended, source, feeds = along
     program, toolpath = ready.program, ready.program.toolpath
     meters = Meters(motion, ready.steps)
     moved = simulate(motion, source, _handed_to(meters, sink, motion), progress)
@@ -76,7 +78,7 @@ def run_along(
         program=program,
         scenario=scenario,
         offset=ready.offset,
-        feeds=ready.feeds,
+        feeds=feeds,
         plan=plan,
         ended=ended,
         stepped=stepped,

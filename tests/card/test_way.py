@@ -168,5 +168,8 @@ def test_blocks_of_the_look_ahead_come_from_their_own_calls() -> None:
     assert [seen.calls[call - 1].arguments[-1] for call in way.call.tolist()] == [1, 2, 3, 4, 5]
 
 
-def test_without_motion_there_is_none() -> None:
-    assert len(Seen().way().call) == 0
+def test_without_motion_in_the_plane_there_is_none() -> None:
+    seen = Seen()
+    assert len(seen.recorder.way().call) == 0
+    seen.card.GT_LnXYZ(0.0, 0.0, 500.0)
+    assert len(seen.way().call) == 0

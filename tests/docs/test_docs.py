@@ -301,7 +301,7 @@ def test_findings_are_documented_with_severity_and_title() -> None:
     rows = [
         row.split("|")
         for row in read(DOCS / "findings.md").splitlines()
-        if row.startswith(("| [3B", "| [ISO", "| [PMC"))
+        if row.startswith(("| [3B", "| [GEC", "| [ISO", "| [PMC"))
     ]
     written = {code[2:].partition("]")[0]: (severity.strip(), title.strip()) for _, code, severity, title, *_ in rows}
     assert written == {code: (str(of.severity), catalogue_page(code).title) for code, of in CODES.items()}

@@ -11,8 +11,8 @@ from places import ROOT
 
 from parser.findings.codes import CODES, CODES_OF_ISO
 
-CODE = re.compile(r"(?:3B|ISO|PMC)\d{3}")
-SPEAKS_OF_CODES = re.compile(r"3B\d|ISO\d|PMC\d|\.code\b|\.values\b")
+CODE = re.compile(r"(?:3B|GEC|ISO|PMC)\d{3}")
+SPEAKS_OF_CODES = re.compile(r"3B\d|GEC\d|ISO\d|PMC\d|\.code\b|\.values\b")
 MAKERS = {"Finding", "finding", "at_block", "at_word", "_at", "_at_first", "_of_span", "Bad"}
 """`Finding(code, …)`, `lines.finding(code, …)` and `at_block(toolpath, lines, code, …)` make one, and so do helpers of
 modules; what cannot be read as a word goes by its code."""

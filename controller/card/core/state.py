@@ -1,7 +1,7 @@
 """What one card remembers between calls, apart from its motion."""
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 from controller.card.core.codes import AxisSts
 from controller.card.core.settings import AXES
@@ -52,12 +52,21 @@ class AxisState:
         self.latched |= AxisSts.CAPTURED
 
 
+class LimitMet(NamedTuple):
+    """A limit switch that stopped a motion: when, s; its axis, from 1; whether the positive one."""
+
+    t_s: float
+    axis: int
+    is_positive: bool
+
+
 @dataclass(slots=True)
 class CardState:
     """Axes 1 to 4 in order, inputs and outputs (16 bit, active low), the last refusal, and what is only recorded.
 
     `stopped_abnormally` is latched when a limit stops a motion, until the next one begins or the list is emptied.
-    `limit_sense` and `home_sense` are the words of the program, bits as those of the levels; None before it sends one.
+    `limits_met` are those that stopped a motion so far, in order, whatever was reset since. `limit_sense` and
+    `home_sense` are the words of the program, bits as those of the levels; None before it sends one.
     """
 
     opened: bool = False
@@ -70,6 +79,7 @@ class CardState:
     limit_sense: int | None = None
     home_sense: int | None = None
     recorded: dict[str, tuple[Any, ...]] = field(default_factory=dict)
+    limits_met: list[LimitMet] = field(default_factory=list)
 
     def set_outputs(self, mask: int, value: int) -> None:
         """Let the outputs under a mask take the levels of `value`."""

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from controller.card.core.codes import AxisSts
 from controller.card.core.settings import CardSettings
-from controller.card.core.state import CardState
+from controller.card.core.state import CardState, LimitMet
 from controller.card.engine.entries import Entry, PathEntry
 from controller.card.engine.events import Capture, Events, Trip, events_of, grows_s, take_due
 from controller.card.engine.making import make_stretch
@@ -154,6 +154,9 @@ class Sequencer:
         A move that begins beyond the switch and goes on that way makes no pulse, or those of the start speed's braking.
         """
         self._card.axes[trip.axis].latched |= trip.bit
+        if not self._card.stopped_abnormally:  # while it brakes beyond the switch it meets that again
+            is_positive = trip.bit is AxisSts.POSITIVE_LIMIT
+            self._card.limits_met.append(LimitMet(self._motion.now_s, trip.axis + 1, is_positive))
         self.stop(self._speeds.stop_um_s2, abnormal=True)
 
     def _latch_errors(self) -> bool:

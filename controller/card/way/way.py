@@ -67,7 +67,7 @@ class WayRecorder:
 
     def way(self) -> Way:
         """All so far."""
-        if not self._rows:
+        if not any((rows.length_um > _NO_WAY_UM).any() for rows in self._rows):
             none = np.zeros(0, dtype=np.int64)
             pairs = np.empty((0, 2))
             return Way(curves_between(pairs, pairs, pairs, np.empty(0)), none, none, np.empty(0), EMPTY_PLAN)
@@ -85,7 +85,7 @@ def _way(rows: Rows, motions: Motions) -> Way:
     last = np.append(first[1:], len(rows.call)) - 1
     end = rows.end_um[last]
     start = np.concatenate([rows.start_um[first[:1]], end[:-1]])
-    sweep = np.add.reduceat(rows.sweep_rad, first) if len(first) else np.empty(0)
+    sweep = np.add.reduceat(rows.sweep_rad, first)
     curves = curves_between(start, end, rows.center_um[first], sweep)
     return Way(curves, rows.call[first], rows.number[first], rows.end_s[last], _plan(motions))
 

@@ -1,17 +1,14 @@
 """How a written program is run for its proof: with the wire that cuts so, and its path in the middle of the table."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-import numpy as np
-
 from parser.findings.errors import SettingsError
 from parser.findings.remarks import Remark
-from parser.geometry.extents import extents
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.cam.model import CutPlan, Figure
+from sim.check.travel import middle_mm
 from sim.setup.making import Making
 from sim.setup.part import Offset, OffsetPass
 from sim.setup.scenario import Scenario
@@ -62,7 +59,7 @@ def least_um(figure: Figure, making: Making, reach_um: float) -> float:
 def as_run(scenario: Scenario, plan: CutPlan, toolpath: Toolpath) -> AsRun:
     """How the program of a plan, whose path is read back as this one, is run."""
     asked = replace(scenario, kerf=True, drawing=None, offset=None, quiz=(), expect=())
-    asked = replace(asked, start_mm=scenario.start_mm or _in_the_middle(scenario, toolpath))
+    asked = replace(asked, start_mm=scenario.start_mm or middle_mm(toolpath, scenario.machine.table))
     edge_um = tuple(least_um(cut.figure, plan.making, scenario.wire.reach_um) for cut in plan.cuts)
     least = min(edge_um, default=scenario.wire.reach_um)
     if least <= 0.0:
@@ -110,14 +107,3 @@ def _told(usual: Wire, wire: Wire) -> tuple[Remark, ...]:
     if wire is usual:
         return ()
     return (Remark("wire", {"diameter": wire.diameter_um, "gap": wire.spark_gap_um, "offset": wire.reach_um}),)
-
-
-def _in_the_middle(scenario: Scenario, toolpath: Toolpath) -> tuple[float, float] | None:
-    """Where the program begins, mm on the table, so that its path lies in the middle of the travel."""
-    if not len(toolpath):
-        return None
-    low, high = extents(toolpath)
-    ahead = toolpath.start_um[0] - 0.5 * (low.min(axis=0) + high.max(axis=0))
-    travel: Sequence[float] = (scenario.machine.table.travel_x_mm, scenario.machine.table.travel_y_mm)
-    x, y = (0.5 * np.array(travel) + mm(ahead)).tolist()
-    return x, y

@@ -26,7 +26,10 @@ SCHEMA = "drycut.report/1"
 
 
 def build_report(run: DryRun) -> dict[str, Any]:
-    """Report of a run as plain lists, dicts, numbers and None; the order of keys is fixed."""
+    """Report of a run as plain lists, dicts, numbers and None; the order of keys is fixed.
+
+    ``card`` is of a program for the card, and filled by who ran it.
+    """
     scenario, toolpath = run.scenario, run.toolpath
     return {
         "schema": SCHEMA,
@@ -66,8 +69,9 @@ def build_report(run: DryRun) -> dict[str, Any]:
         "remains": remains_entry(run.remains, run.ran_s),
         "drawing": _drawing(run.comparison),
         "coverage": _coverage(run.coverage),
-        "findings": [_finding(finding) for finding in run.findings],
+        "findings": [finding_entry(finding) for finding in run.findings],
         "stops": [{"kind": s.kind, "after_block": s.after, "line": s.line} for s in toolpath.stops],
+        "card": None,
         "blocks": block_entries(run),
     }
 
@@ -110,7 +114,7 @@ def _drawing(comparison: Comparison | None) -> dict[str, Any] | None:
     }
 
 
-def _finding(finding: Finding) -> dict[str, Any]:
+def finding_entry(finding: Finding) -> dict[str, Any]:
     """One entry of ``findings[]``, its texts in English."""
     said = texts(finding)
     return {

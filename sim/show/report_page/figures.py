@@ -109,7 +109,10 @@ def _figure(name: str, report: Mapping[str, Any], entry: str, digits: int = 0, p
 def _size(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     total = report["time_s"]["total"]
     work = said("report.in-work", thickness=f"{report['work']['thickness_mm']:g}", machine=report["machine"]["name"])
-    yield Figure(said("report.time"), "time_s.total", total, lasting(total), beside=work)
+    if run.feeds is None:
+        yield Figure(said("report.card-time"), "time_s.total", total, lasting(total), beside=said("report.card-speeds"))
+    else:
+        yield Figure(said("report.time"), "time_s.total", total, lasting(total), beside=work)
     jumps, arcs = int(run.toolpath.is_jump.sum()), int(run.toolpath.is_arc.sum())
     kinds = numbered({"line": len(run.toolpath) - arcs - jumps, "arc": arcs, "jump": jumps})
     yield _figure("blocks", report, "summary.blocks")._replace(beside=kinds)

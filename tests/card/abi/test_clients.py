@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from c_library import CLIENTS, Made, Ran
+from places import ROOT
 
 from controller.card.log.lines import call_of
 from controller.card.log.replay import Replay
@@ -157,5 +158,6 @@ def test_programs_of_the_other_card_do_not_link(library: Made, tmp_path: Path) -
 
 
 def test_all_clients_are_run() -> None:
-    named = set(re.findall(r'client\("(\w+)"\)', Path(__file__).read_text("utf-8")))
+    texts = (Path(__file__), ROOT / "tests" / "sim" / "client" / "test_run.py")
+    named = {name for path in texts for name in re.findall(r'client\("(\w+)"\)', path.read_text("utf-8"))}
     assert {path.stem for path in CLIENTS.glob("*.c")} <= named

@@ -214,7 +214,7 @@ def test_explain_shows_the_page_and_lists_all_codes() -> None:
     assert "B9900B0B39600GXNR1" in out
     assert page("3B204", "zh").title in drycut("explain", "3B204", "--lang", "zh")[1]
     listed = drycut("explain")[1]
-    assert re.findall(r"^ *((?:3B|ISO|PMC)\d{3}) ", listed, re.MULTILINE) == sorted(CODES)
+    assert re.findall(r"^ *((?:3B|GEC|ISO|PMC)\d{3}) ", listed, re.MULTILINE) == sorted(CODES)
     code, _, err = drycut("explain", "3B999")
     assert code == 2
     assert "'3B999'" in err

@@ -107,6 +107,8 @@ def _pool(envelope: Envelope, first: Ints, width_s: Floats) -> Envelope:
 
 def feed_levels(run: DryRun) -> list[Level]:
     """Feeds of cuts and of jumps, mm/s, as far as there are any; of many passes the lowest and the highest."""
+    if run.feeds is None:
+        return []
     jumps = run.toolpath.is_jump
     cut = np.unique(np.broadcast_to(run.feeds.cut_um_s, len(jumps))[~jumps])
     if len(cut) > _MOST_FEEDS:
