@@ -57,10 +57,21 @@ class Draft:
 
 
 class Written(NamedTuple):
-    """A text, and (m,) the row of the draft that each of its blocks is of; a row may make no block, or some."""
+    """A text.
+
+    Attributes
+    ----------
+    text
+        All of it.
+    row
+        (m,) row of the draft that each of its blocks is of; a row may make no block, or some.
+    ramp_ms
+        Acceleration time that it sets, as its shortest blocks ask for it; 0 where it leaves that to the card.
+    """
 
     text: str
     row: Ints
+    ramp_ms: int = 0
 
 
 def draft_of(toolpath: Toolpath) -> Draft:

@@ -199,13 +199,17 @@ def _first_distance(blocks: Sequence[GBlock]) -> str:
     return next(filter(None, map(_distance, blocks)), "ABS")
 
 
-def _ramp(blocks: Sequence[GBlock]) -> list[str]:
-    """TA and TS where a block is shorter than the usual acceleration time, to which the card would stretch it."""
+def ramp_of(blocks: Sequence[GBlock]) -> int:
+    """Acceleration time, ms, where a block is shorter than the usual one, to which the card stretches it; else 0."""
     least = min(_times_ms(blocks), default=math.inf)
     if least >= _USUAL_RAMP_MS:
-        return []
-    ramp = next((one for one in _RAMPS_MS if one <= least), _RAMPS_MS[-1])
-    return [f"TA{ramp}", "TS0"]
+        return 0
+    return next((one for one in _RAMPS_MS if one <= least), _RAMPS_MS[-1])
+
+
+def _ramp(blocks: Sequence[GBlock]) -> list[str]:
+    ramp_ms = ramp_of(blocks)
+    return [f"TA{ramp_ms}", "TS0"] if ramp_ms else []
 
 
 def _times_ms(blocks: Sequence[GBlock]) -> Iterator[float]:

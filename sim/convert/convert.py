@@ -42,6 +42,8 @@ class Converted(NamedTuple):
         0 where there is none.
     registers
         Values, µm, that the controller's table has to hold, by the names of their registers.
+    ramp_ms
+        Acceleration time that it sets, ms, as its shortest blocks ask for it; 0 where it sets none.
     """
 
     data: bytes
@@ -53,6 +55,7 @@ class Converted(NamedTuple):
     told_by_itself: bool
     open_um: float
     registers: Registers
+    ramp_ms: int = 0
 
 
 class Refused(NamedTuple):
@@ -152,7 +155,9 @@ def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, i
         return Refused("off", back, values=(("off", f"{held.off_um:.3f}"), ("bound", f"{wanted.bound_um:g}")))
     alone = wanted.iso is None or _is_told_by_itself(data, draft, made, wanted, choices)
     lost = losses(program, path, draft, made, wanted)
-    return Converted(data, back, checked, held.off_um, wanted.bound_um, lost, alone, open_um, choices.registers)
+    return Converted(
+        data, back, checked, held.off_um, wanted.bound_um, lost, alone, open_um, choices.registers, made.ramp_ms
+    )
 
 
 def _is_told_by_itself(data: bytes, draft: Draft, made: Written, wanted: Wanted, choices: Choices) -> bool:

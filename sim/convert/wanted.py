@@ -11,7 +11,7 @@ from parser.write.curve_marks import curve_marks
 from parser.write.draft import Draft, Written, draft_of
 from parser.write.iso import written_iso
 from parser.write.iso_choices import IsoChoices, iso_choices
-from parser.write.pmac import PmacChoices, blocks_of_text, written_pmac
+from parser.write.pmac import PmacChoices, blocks_of_text, ramp_of, written_pmac
 from parser.write.rapids import with_rapid_to_start, without_rapids
 from parser.write.sides import registers_of
 from parser.write.threeb import Form, ThreeBChoices, with_codes, written_3b
@@ -110,9 +110,11 @@ def written(draft: Draft, wanted: Wanted) -> Written:
 def _written_pmac(draft: Draft, choices: PmacChoices) -> Written:
     """A motion program of the blocks of its source, else of those that ISO in mm would have."""
     if choices.blocks is not None:
-        return Written(written_pmac(choices.blocks, choices), np.arange(len(draft)))
-    made = written_iso(draft, _plain_iso())
-    return Written(written_pmac(blocks_of_text(made.text), choices), made.row)
+        blocks, row = choices.blocks, np.arange(len(draft))
+    else:
+        made = written_iso(draft, _plain_iso())
+        blocks, row = blocks_of_text(made.text), made.row
+    return Written(written_pmac(blocks, choices), row, ramp_of(blocks))
 
 
 def _plain_iso() -> IsoChoices:

@@ -42,6 +42,7 @@ def converted_lines(done: Converted, out: Path, wanted: Wanted, language: Langua
         words("convert.finds", counts=numbered({"warning": warnings})) if warnings else "",
         words("convert.open", gap=f"{done.open_um:.0f}") if done.open_um else "",
         words("convert.registers", options=_registers(done)) if done.registers else "",
+        words("convert.ramp", ramp=done.ramp_ms) if done.ramp_ms else "",
         words("convert.lost", parts=listed(map(_lost, done.lost))) if done.lost else "",
         "" if done.told_by_itself else words("convert.say-dialect", options=_options(wanted)),
     ]

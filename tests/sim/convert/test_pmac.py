@@ -2,20 +2,24 @@
 
 import math
 import random
+from pathlib import Path
 
 import archimedes
 import numpy as np
 import pytest
+import sound
 from places import ROOT
 
 from parser.dialect.choices import Choices
 from parser.findings.codes import Severity
+from parser.geometry.extents import extents
 from parser.program import Program, load_program, parse_program
 from parser.write.pmac import Card, PmacChoices, Way, blocks_of_source
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands
 from sim.convert.convert import Converted, Refused, converted
 from sim.convert.wanted import Wanted
+from sim.show.terminal.convert import converted_lines
 
 MM = Choices(dialect="common", unit="mm")
 HEAD = "CLOSE\n&1\n#1->1000X\n#2->1000Y\n#3->1000Z\nI5113=10\nI5190=60000\n"
@@ -110,6 +114,19 @@ def test_random_iso_comes_back_within_a_micrometre(seed: int, way: Way) -> None:
     assert np.abs(done.program.toolpath.length_um - source.length_um).max() <= 1.0
 
 
+@pytest.mark.parametrize("way", ["native", "gcode"])
+@pytest.mark.parametrize("seed", range(200, 206))
+def test_random_3b_comes_back_within_a_micrometre_and_in_its_box(seed: int, way: Way) -> None:
+    program = load_program(sound.sound_program(random.Random(seed)).data, "part.3b")
+    done = converted(program, wanted(program, way))
+    assert isinstance(done, Converted), done
+    assert done.off_um <= 1.0
+    back = done.program.toolpath
+    assert len(back) == len(program.toolpath)
+    for own, other in zip(extents(program.toolpath), extents(back), strict=True):
+        assert np.abs(own - other).max() <= 1.5, "1 µm and what the middle of a long arc is off beside"
+
+
 @pytest.mark.parametrize("name", ["round-hole/program.3b", "iso-die/program.iso", "punch/program.3b"])
 @pytest.mark.parametrize("way", ["native", "gcode"])
 def test_shipped_programs_come_back_within_a_micrometre(name: str, way: Way) -> None:
@@ -141,6 +158,9 @@ def test_the_spiral_goes_to_the_card_and_back(way: Way) -> None:
     radius, angle = np.hypot(*path.end_um.T), np.arange(1081) * math.tau / archimedes.STEPS
     assert np.abs(radius - (500.0 + 3000.0 * angle / math.tau)).max() < 0.75
     assert "TA10\nTS0\n" in done.data.decode()
+    assert done.ramp_ms == 10
+    told = " ".join(line.strip() for line in converted_lines(done, Path("a.pmc"), Wanted("pmac"), "en", 80))
+    assert "TA10 TS0 is written" in told
     assert [found for found in done.program.findings if found.severity is not Severity.NOTE] == []
 
 
