@@ -79,7 +79,7 @@ _HOMES = {
     "build_report": "sim.run.report",
     "check_program": "sim.check.batch",
     "compare_program": "sim.measure.compare.compared_program",
-    "dry_run": "sim.run.dryrun",
+    "dry_run": "sim.run.running",
     "load_machine": "sim.setup.machine.machine",
     "load_scenario": "sim.setup.scenario",
     "parse_program": "parser.program",
