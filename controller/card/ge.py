@@ -41,6 +41,12 @@ class GECard(
             return self._engine.coordinate_status()
 
     @property
+    def is_moving(self) -> bool:
+        """Whether axes of any card move, braking and waiting included."""
+        with self._alone:
+            return any(engine.motion.moving for engine in self._engines)
+
+    @property
     def limits_met(self) -> tuple[LimitMet, ...]:
         """Limit switches that stopped a motion of the selected card so far, in order."""
         with self._alone:

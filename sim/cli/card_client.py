@@ -39,7 +39,7 @@ def run_client(asked: Asked, lang: str | None, *, as_json: bool) -> int:
     from sim.show.terminal.printer import say, write
     from sim.show.words import Words
 
-    scenario = _scenario(asked)
+    scenario = scenario_of(asked)
     _refuse_settings(asked)
     with scratch() as folder, _library(asked.library, folder) as library:
         log = folder / "card.log"
@@ -57,7 +57,7 @@ def run_client(asked: Asked, lang: str | None, *, as_json: bool) -> int:
     return 0 if ended.exit_code == 0 and verdict(findings) == "pass" else 1
 
 
-def _scenario(asked: Asked) -> "Scenario":
+def scenario_of(asked: Asked) -> "Scenario":
     """The machine that is asked for, with what else is usual; its title is the client."""
     from dataclasses import replace
 

@@ -5,7 +5,6 @@ from collections.abc import Callable
 from typing import Final, NamedTuple
 
 from controller.card.calls.base import Logged
-from controller.card.core.codes import CrdSts
 from controller.card.core.state import LimitMet
 from controller.card.engine.motion import Driven
 from controller.card.ge import GECard
@@ -87,7 +86,7 @@ def _to_rest(card: GECard, since_s: float) -> bool:
     """Let the card go on until it stands; whether it comes to rest."""
     card.wait_until(since_s)
     step_s = 0.01
-    while not card.status & CrdSts.IDLE:
+    while card.is_moving:
         if card.time_s - since_s > LONGEST_S:
             return False
         card.wait_until(card.time_s + step_s)

@@ -409,6 +409,25 @@ def test_a_positioning_move_may_have_no_length_and_come_later(watched, move):
     assert numbers[-1] == 6
 
 
+def test_a_list_of_a_wait_alone_goes_on_from_where_a_stopped_move_left_the_axes(watched):
+    card = watched.card
+    card.GT_LnXY(1000.0, 0.0)
+    card.GT_AddList()
+    assert card.GT_Delay(500) == 0, "at the end of the move, as it seems"
+    card.GT_StpMtn()
+    watched.until_idle()
+    stood = watched.places()
+    assert stood[0] < 900
+    assert card.GT_StrtMtn() == 0
+    assert card.GT_LnXY(2000.0, 0.0) == 0
+    last = watched.point()[0]
+    while not watched.status() & IDLE:
+        card.sleep(5.0)
+        assert watched.point()[0] - last < 10.0, "at 1 pulse/ms"
+        last = watched.point()[0]
+    assert watched.places() == (2000, 0, 0, 0)
+
+
 def test_a_list_that_begins_elsewhere_starts_with_a_line_from_here_or_not_at_all(watched):
     card = watched.card
     card.GT_StrtList()

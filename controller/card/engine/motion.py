@@ -1,5 +1,6 @@
 """The motion of one card at any instant: its clock, its state, and the pulses that have gone out."""
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -13,6 +14,7 @@ from controller.card.engine.stretch import Stretch
 from controller.stepping.interpolators import EqualTime
 from controller.stepping.pulses import Pulses
 
+_ROUNDING = 1e-6
 _NEAR = 0.5
 """Pulses within which the axes stand at a place."""
 
@@ -122,22 +124,25 @@ class CardMotion:
         place[axis - 1] = float(self.at_um[axis - 1])
         self._rest_place = four(place)
 
-    def halt(self) -> None:
-        """End all motion where it is, without braking: profile and break point are where the pulses are."""
+    def halt(self, period_s: float) -> None:
+        """End all motion where it is, without braking: profile and break point are where the pulses are.
+
+        Those are of the servo periods that are over, of `period_s`.
+        """
         if self._stretch is not None:
-            self._tell(self._stretch)
+            self._tell(self._stretch, math.floor(self.now_s / period_s + _ROUNDING) * period_s)
         place = four(map(float, self.pulses_out()))
         self.rest(Idle(), place)
         self.break_place = place
         self.take_moved()
 
-    def _tell(self, stretch: Stretch) -> None:
-        if self._on_driven is not None:
-            self._on_driven(Driven(stretch, self.now_s))
+    def _tell(self, stretch: Stretch, until_s: float) -> None:
+        if self._on_driven is not None and until_s >= stretch.start.clock_s:
+            self._on_driven(Driven(stretch, until_s))
 
     def note_moved(self, stretch: Stretch) -> None:
         """Note the axes that a stretch has moved by now; it is over."""
-        self._tell(stretch)
+        self._tell(stretch, self.now_s)
         self._moved = [a or b for a, b in zip(self._moved, stretch.axes_moved(self.now_s), strict=True)]
 
     def take_moved(self) -> list[bool]:

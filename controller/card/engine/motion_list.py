@@ -84,10 +84,11 @@ class MotionList:
         return list(self.entries)
 
     def start_from(self, place: Place) -> None:
-        """Let the list begin at a place. Refused with 1 unless its first path entry is a line."""
+        """Let the list begin at a place. Refused with 1 unless its first path entry, if it has one, is a line."""
         paths = ((n, entry) for n, entry in enumerate(self.entries) if isinstance(entry, PathEntry))
         first, entry = next(paths, (0, None))
         if entry is None:
+            self.begin(place)
             return
         if not isinstance(entry, Segment) or entry.curvature:
             raise Refused(Code.COMMAND)

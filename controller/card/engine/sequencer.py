@@ -77,7 +77,7 @@ class Sequencer:
 
     def halt(self) -> None:
         """End all motion where it is, without braking."""
-        self._motion.halt()
+        self._motion.halt(self._settings.servo_period_s)
         self._events = Events()
         self._wake()
 
