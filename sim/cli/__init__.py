@@ -23,6 +23,7 @@ _COMMANDS = {
     "decode": "sim.cli.decode",
     "draw": "sim.cli.draw",
     "explain": "sim.cli.explain",
+    "lsp": "sim.cli.lsp",
     "program": "sim.cli.program",
     "replay": "sim.cli.replay",
     "run": "sim.cli.run",

@@ -1,22 +1,18 @@
 """Certain mends written into a program file: nothing else in it changes."""
 
-from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
 from parser.files.reading import read_bytes
 from parser.findings.catalogue import Language
-from parser.findings.codes import Severity
 from parser.findings.errors import FileUnreadableError, ProgramError
-from parser.findings.findings import Finding, edited
+from parser.findings.findings import Finding
 from parser.program import Program, load_program
-from parser.text.encoding import encode_text, printable
+from parser.text.encoding import printable
 from parser.text.excerpt import place
-from sim.check.batch import result_of
-from sim.check.engine import Checked, run_checks
-from sim.check.fixes import Choice, choices, with_edits
+from sim.check.fixes import Choice, choices
+from sim.check.mended import mended_text
 from sim.check.settings import CheckSettings
-from sim.check.silence.sift import without_known
 from sim.cli.check.patches import for_people, for_tools
 from sim.files import replace_file
 from sim.show.terminal.wrap import wrapped
@@ -63,15 +59,11 @@ def mended(path: Path, name: str, settings: CheckSettings, known: frozenset[str]
     """
     before = read_bytes(path)
     program = load_program(before, name, settings.choices)
-    checked = run_checks(program, settings.demands)
-    findings = with_edits(program, checked)
-    shown = without_known(result_of(program, checked._replace(findings=findings), settings), known).findings
-    unmended = tuple(Unmended(f, possible) for f in shown if len(possible := choices(program, f, findings)) > 1)
-    text = edited(program.text, [edit for finding in shown for edit in finding.edits])
-    after = encode_text(text, program.encoding)
-    if text == program.text or _brings_errors(load_program(after, name, settings.choices), settings, checked):
-        return Mended(program, before, program.text, before, unmended)
-    return Mended(program, before, text, after, unmended)
+    mend = mended_text(program, settings, known)
+    possible = ((finding, choices(program, finding, mend.findings)) for finding in mend.shown)
+    unmended = tuple(Unmended(finding, ways) for finding, ways in possible if len(ways) > 1)
+    after = mend.data if mend.text != program.text else before
+    return Mended(program, before, mend.text, after, unmended)
 
 
 def fix_file(path: Path, name: str, settings: CheckSettings, known: frozenset[str] = frozenset()) -> Mended | None:
@@ -103,14 +95,3 @@ def _left(name: str, unmended: Unmended, language: Language, width: int) -> list
         say("findings.left", place=where, code=finding.code),
         *wrapped(say("findings.or").join(choices), width, head="    "),
     ]
-
-
-def _brings_errors(program: Program, settings: CheckSettings, before: Checked) -> bool:
-    """Whether a mended program has an error that was not there before."""
-    return bool(_errors(run_checks(program, settings.demands)) - _errors(before))
-
-
-def _errors(checked: Checked) -> Counter[tuple[str, int]]:
-    """Errors by code and line; mends neither add lines before others nor take any away."""
-    errors = (finding for finding in checked.findings if finding.severity is Severity.ERROR)
-    return Counter((finding.code, finding.line) for finding in errors)
