@@ -365,3 +365,31 @@ def test_the_mode_is_left_without_blocks_whatever_the_list() -> None:
     card = opened()
     assert card.GT_EndLookaheadMode() == 0
     assert card.GT_M30()[0] == Code.COMMAND
+
+
+def test_a_positioning_move_lets_the_blocks_before_it_go_or_changes_nothing() -> None:
+    card = in_mode(n=5, needs_axis_on=False)
+    for k in (1, 2, 3):
+        card.GT_LnXYEx(100.0 * k, 0.0, 10.0, 0, k)
+    assert card.GT_MvXYEx(0.0, 50.0, 5.0) == 0
+    card.GT_EndList()
+    card.GT_StrtMtn()
+    card.sleep(10_000.0)
+    assert card.places == [[0, 50, 0, 0]]
+    assert card.GT_GetMtnNm() == (0, 4)
+
+
+def test_a_positioning_move_that_is_refused_keeps_the_blocks() -> None:
+    card = opened(needs_axis_on=True)
+    card.GT_AxisOn(1)
+    card.GT_SwitchLookaheadMode(1)
+    card.GT_InitLookAheadEx(2.0, 0.5, 0.1, 5, 1.0)
+    card.GT_StrtList()
+    assert card.GT_LnXYEx(100.0, 0.0, 10.0, 0, 1)[0] == 0
+    assert card.GT_MvXYEx(0.0, 50.0, 5.0) == Code.COMMAND, "axis 2 is off"
+    card.GT_StrtMtn()
+    card.sleep(5000.0)
+    assert card.places == [[0, 0, 0, 0]], "the block is kept still"
+    assert card.GT_M30()[0] == 0
+    card.sleep(5000.0)
+    assert card.places == [[100, 0, 0, 0]]

@@ -159,10 +159,11 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
         kept, entries = self._lookahead(), self._engine.list
         start = self._kept_end(kept)
         pace = Pace(checked(vel) * UM_S_PER_PULSE_MS, kept.rules.along_um_s2)
-        place = self._kept_place(kept, start, values)
+        move = line(entries.number, pace, start, self._kept_place(kept, start, values))
+        self._check_axes(move)
         self._engine.check_room(kept.entries + 1)
         self._push_kept(kept)
-        self._submit(line(entries.number, pace, start, place))
+        self._submit(move._replace(number=entries.number))
         kept.clear(entries.begun)
 
     def _kept_line(self, values: tuple[float, ...], F: float, rests: int, number: int, rapid: bool) -> TLookAheadMsg:
