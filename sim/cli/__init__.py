@@ -24,6 +24,7 @@ _COMMANDS = {
     "draw": "sim.cli.draw",
     "explain": "sim.cli.explain",
     "lsp": "sim.cli.lsp",
+    "open": "sim.cli.open",
     "program": "sim.cli.program",
     "replay": "sim.cli.replay",
     "run": "sim.cli.run",

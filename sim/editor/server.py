@@ -11,9 +11,10 @@ from pygls.uris import to_fs_path
 
 from parser import __version__
 from parser.findings.catalogue import Language
+from sim.check.as_typed import as_typed
 from sim.editor.diagnostics import actions_of, diagnostics_of
 from sim.editor.layout import layout_of
-from sim.editor.opened import Text, opened
+from sim.editor.opened import Text
 from sim.editor.places import Places
 from sim.editor.shown import hover_of, outline_of
 
@@ -43,7 +44,7 @@ class _Texts:
         place = to_fs_path(uri)
         file = Path(place) if uri.startswith("file:") and place else None
         name = file.name if file else unquote(uri.rpartition("/")[2]) or "untitled"
-        made = opened(name, file, document.source)
+        made = as_typed(name, file, document.source)
         encoding = self._server.workspace.position_encoding or types.PositionEncodingKind.Utf16
         text = Text(uri, made, Places(made.lines, encoding), self._language)
         self._open[uri] = document.version, text

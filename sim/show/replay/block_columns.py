@@ -20,7 +20,7 @@ _ANGLE_DIGITS = 12
 def block_columns(run: DryRun) -> dict[str, list[Any]]:
     """Columns of n blocks, one entry a block; `place_*`, `first_step` and `border_s` have n + 1."""
     return {
-        **_exact(run.toolpath),
+        **exact_columns(run.toolpath),
         **_words(words_of(run.toolpath)),
         **_source(run.program),
         "first_step": [0, *np.cumsum(run.stepped.count).tolist()],
@@ -38,7 +38,8 @@ def plan_columns(plan: Plan) -> dict[str, list[Any] | None]:
     }
 
 
-def _exact(toolpath: Toolpath) -> dict[str, list[Any]]:
+def exact_columns(toolpath: Toolpath) -> dict[str, list[Any]]:
+    """Columns of n curves that pages draw a path by; `place_*` have n + 1."""
     place = np.concatenate([toolpath.start_um[:1], toolpath.end_um])
     return {
         "kind": [CurveKind(kind).name.lower() for kind in toolpath.kind.tolist()],

@@ -51,6 +51,9 @@ import { element } from "../../html/assets/elements.js";
  * @property {Place[]} outline_um
  */
 
+/** @typedef {"center_x_um" | "center_y_um" | "radius_um" | "start_angle_rad" | "sweep_rad"} OfArcs */
+/** @typedef {Pick<Blocks, "kind" | "place_x_um" | "place_y_um" | OfArcs>} Curves What a path is drawn by. */
+
 /**
  * Columns of n blocks; `place_*`, `first_step` and `border_s` have n + 1. What only an arc has is null elsewhere, where
  * nothing asks for it.

@@ -1,6 +1,6 @@
 // The ideal curve of a block: the place on it that is nearest to another one.
 
-/** @import { Blocks, Place } from "./document.js" */
+/** @import { Curves, Place } from "./document.js" */
 
 const TURN = 2 * Math.PI;
 
@@ -24,7 +24,7 @@ function onLine(ax, ay, bx, by, x, y) {
 
 /**
  * Nearest place on the arc in a row.
- * @param {Blocks} blocks
+ * @param {Curves} blocks
  * @param {number} row
  * @param {number} x
  * @param {number} y
@@ -46,7 +46,7 @@ function onArc(blocks, row, x, y) {
 
 /**
  * Nearest place on the ideal curve of the block in a row.
- * @param {Blocks} blocks
+ * @param {Curves} blocks
  * @param {number} row
  * @param {number} x
  * @param {number} y

@@ -1,7 +1,7 @@
 // The exact path: boxes of its blocks, and their curves on a canvas at any scale.
 
 /**
- * @import { Blocks, Kind } from "./document.js"
+ * @import { Curves, Kind } from "./document.js"
  * @import { Pen } from "./pen.js"
  * @import { Box, View } from "./view.js"
  */
@@ -25,7 +25,7 @@ function passed(start, angle, sweep) {
 
 /**
  * Box of each block: left, bottom, right, top in turn.
- * @param {Blocks} blocks
+ * @param {Curves} blocks
  */
 function boxesOf(blocks) {
   const count = blocks.kind.length;
@@ -36,7 +36,7 @@ function boxesOf(blocks) {
 
 /**
  * Box of a block; an arc reaches each extreme that it passes.
- * @param {Blocks} blocks
+ * @param {Curves} blocks
  * @param {number} row
  */
 function boxOf(blocks, row) {
@@ -55,7 +55,7 @@ function boxOf(blocks, row) {
 
 /**
  * Curves of a program; `wayTo` adds a block to the pen's path, from where the path ends or from its own start.
- * @param {Blocks} blocks
+ * @param {Curves} blocks
  */
 export function pathOf(blocks) {
   const count = blocks.kind.length;

@@ -1,0 +1,129 @@
+"""What the page is told of a program: its findings with their mends, its path in columns, its figures and its size."""
+
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from controller.stepping.words import interpolate
+from parser.findings.catalogue import LANGUAGES, texts
+from parser.findings.findings import Finding
+from parser.program import Program
+from parser.shape.contours import find_contours
+from parser.text.encoding import decode_text, encode_text, printable
+from parser.text.lines import LINE_END
+from sim.check.as_typed import as_typed
+from sim.check.result import CheckResult
+from sim.run.report.rounded import rounded
+from sim.show.replay.block_columns import exact_columns
+
+_NEWLINES: Final = {"\r\n": "crlf", "\r": "cr", "\n": "lf"}
+
+
+class ReadFile(NamedTuple):
+    """The text of a file with lines that end with LF, as a page has it, and what brings back its bytes."""
+
+    text: str
+    encoding: str
+    newline: str
+
+
+def read_file(data: bytes) -> ReadFile:
+    """The text of a file's bytes. ProgramError (3B100) where they are no text."""
+    text, encoding = decode_text(data)
+    first = LINE_END.search(text)
+    return ReadFile(LINE_END.sub("\n", text), encoding, first[0] if first else "\n")
+
+
+def file_of(read: ReadFile) -> bytes:
+    """Its bytes; letters that its encoding lacks are told in UTF-8, all of it."""
+    text = read.text.replace("\n", read.newline if read.newline in _NEWLINES else "\n")
+    try:
+        return encode_text(text, read.encoding)
+    except (UnicodeEncodeError, LookupError):
+        return text.encode("utf-8", "replace")
+
+
+def answer(name: str, file: Path | None, text: str) -> dict[str, Any]:
+    """What is found in a text, and its path; `file` is where it stands, None where nobody knows."""
+    found, offsets = as_typed(name, file, text), Offsets(text)
+    program, result = found.program, found.result
+    return {
+        "name": printable(name),
+        "dialect": result.dialect,
+        "verdict": "none" if result.unreadable else result.verdict,
+        "settings": printable(found.wrong_settings),
+        "findings": [_finding(finding, offsets) for finding in result.findings],
+        "path": _path(program, offsets) if program and len(program.toolpath) else None,
+        "figures": _figures(program) if program and result.coverage.stepped else [],
+        "size": _size(result),
+    }
+
+
+class Offsets:
+    """Places of characters in a text, as a page counts them: in units of UTF-16."""
+
+    def __init__(self, text: str) -> None:
+        beyond = np.array([letter > "\uffff" for letter in text], dtype=np.int64) if not text.isascii() else None
+        self._before = None if beyond is None else np.concatenate([[0], np.cumsum(beyond)])
+
+    def of(self, character: int) -> int:
+        """Units before a character."""
+        return character if self._before is None else character + int(self._before[character])
+
+
+def _finding(finding: Finding, offsets: Offsets) -> dict[str, Any]:
+    said = {language: texts(finding, language) for language in LANGUAGES}
+    return {
+        "code": finding.code,
+        "severity": str(finding.severity),
+        "title": {language: text.title for language, text in said.items()},
+        "message": {language: text.message for language, text in said.items()},
+        "hint": {language: text.hint for language, text in said.items()},
+        "line": finding.line,
+        "block": finding.block,
+        "first": offsets.of(finding.span[0]),
+        "past": offsets.of(finding.span[1]),
+        "edits": [[offsets.of(edit.first), offsets.of(edit.past), edit.text] for edit in finding.edits],
+    }
+
+
+def _path(program: Program, offsets: Offsets) -> dict[str, list[Any]]:
+    """Columns of n blocks, and where each stands in the text."""
+    path, source = program.toolpath, program.toolpath.source
+    return {
+        **exact_columns(path),
+        "line": source.line.tolist(),
+        "first": [offsets.of(first) for first in source.span[:, 0].tolist()],
+        "past": [offsets.of(past) for past in source.span[:, 1].tolist()],
+        "label": list(source.label),
+    }
+
+
+def _figures(program: Program) -> list[dict[str, Any]]:
+    path = program.toolpath
+    contours = find_contours(path, interpolate(path).corner_um)
+    return [
+        {
+            "first": contour.first,
+            "last": contour.last,
+            "length_um": rounded(float(path.length_um[contour.first - 1 : contour.last].sum())),
+            "closes": None if not contour.encloses else not contour.is_open,
+            "thread_um": [rounded(place) for place in path.start_um[contour.first - 1].tolist()],
+        }
+        for contour in contours
+    ]
+
+
+def _size(result: CheckResult) -> dict[str, Any] | None:
+    told = result.programmed
+    if told is None:
+        return None
+    return {
+        "lines": told.lines,
+        "arcs": told.arcs,
+        "rapids": told.rapids,
+        "cut_um": rounded(told.cut_length_um),
+        "box_um": None if told.box_um is None else [rounded(place) for place in told.box_um],
+        "steps": result.steps,
+    }

@@ -1,0 +1,87 @@
+"""The server: on the loopback, until its life is over or a signal ends it."""
+
+import asyncio
+import contextlib
+import secrets
+import signal
+import socket
+from collections.abc import Callable, Iterator
+from types import FrameType
+from typing import Final
+
+import uvicorn
+
+from parser.findings.errors import DrycutError
+from sim.open.app import Opened, app_of
+from sim.open.guard import Address, Guard
+from sim.open.life import Life
+
+_HOST: Final = "127.0.0.1"
+_LOOK_S: Final = 0.2
+
+
+class PortError(DrycutError, OSError):
+    """A port that cannot be listened on; says why."""
+
+
+class _Server(uvicorn.Server):
+    """A server that leaves signals to who runs it."""
+
+    @contextlib.contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        yield
+
+
+def serve(opened: Opened, port: int, ready: Callable[[str], None]) -> None:
+    """Serve the page of a program until it is over; `ready` is told the address once it can be opened.
+
+    Port 0 is any free one. PortError where the port cannot be had.
+    """
+    with _listening(port) as listening:
+        address = Address(f"{_HOST}:{listening.getsockname()[1]}", secrets.token_urlsafe(24))
+        life = Life()
+        config = uvicorn.Config(
+            Guard(app_of(opened, life), address),
+            lifespan="off",
+            log_level="critical",
+            access_log=False,
+            server_header=False,
+            timeout_graceful_shutdown=2,
+        )
+        server = _Server(config)
+        with _ended_by_signals(life):
+            asyncio.run(_run(server, listening, life, lambda: ready(address.url)))
+
+
+async def _run(server: uvicorn.Server, listening: socket.socket, life: Life, ready: Callable[[], None]) -> None:
+    serving = asyncio.create_task(server.serve(sockets=[listening]))
+    while not server.started and not serving.done():
+        await asyncio.sleep(0.01)
+    ready()
+    while not life.is_over and not serving.done():
+        await asyncio.sleep(_LOOK_S)
+    server.should_exit = True
+    await serving
+
+
+@contextlib.contextmanager
+def _listening(port: int) -> Iterator[socket.socket]:
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as listening:
+        try:
+            listening.bind((_HOST, port))
+        except OSError as error:
+            raise PortError(f"port {port} cannot be listened on: {error.strerror or error}") from None
+        yield listening
+
+
+@contextlib.contextmanager
+def _ended_by_signals(life: Life) -> Iterator[None]:
+    def end(_: int, __: FrameType | None) -> None:
+        life.end()
+
+    before = {number: signal.signal(number, end) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

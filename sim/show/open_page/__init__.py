@@ -1,0 +1,1 @@
+"""The page of ``drycut open``: one file without data; what it shows it asks for."""

@@ -1,0 +1,75 @@
+// What the server answers (sim/open/answers.py): its JSON, by name and type. Places in a text count UTF-16 units.
+
+/**
+ * @import { Said } from "../../html/assets/language.js"
+ * @import { Curves } from "../../replay/assets/document.js"
+ */
+
+/**
+ * A file as a text with lines that end with LF, and what brings back its bytes.
+ * @typedef {object} FileText
+ * @property {string} name
+ * @property {string | null} text null where it is none
+ * @property {string} encoding
+ * @property {string} newline
+ */
+
+/** @typedef {[first: number, past: number, text: string]} Edit */
+
+/**
+ * @typedef {object} Finding
+ * @property {string} code
+ * @property {"error" | "warning" | "note"} severity
+ * @property {Said} title
+ * @property {Said} message
+ * @property {Said} hint
+ * @property {number} line from 1; 0 of the whole program
+ * @property {number} block
+ * @property {number} first
+ * @property {number} past
+ * @property {Edit[]} edits that certainly mend it
+ */
+
+/**
+ * Where each block stands in the text.
+ * @typedef {object} Sources
+ * @property {number[]} line
+ * @property {number[]} first
+ * @property {number[]} past
+ * @property {string[]} label
+ */
+
+/** @typedef {Curves & Sources} Path */
+
+/**
+ * @typedef {object} Figure
+ * @property {number} first
+ * @property {number} last
+ * @property {number} length_um
+ * @property {boolean | null} closes null of a parting cut
+ * @property {[x: number, y: number]} thread_um
+ */
+
+/**
+ * @typedef {object} Size
+ * @property {number} lines
+ * @property {number} arcs
+ * @property {number} rapids
+ * @property {number} cut_um
+ * @property {[left: number, bottom: number, right: number, top: number] | null} box_um
+ * @property {number} steps
+ */
+
+/**
+ * @typedef {object} Answer
+ * @property {string} name
+ * @property {string} dialect
+ * @property {"pass" | "incomplete" | "fail" | "none"} verdict
+ * @property {string} settings why the settings near its file do not count; else empty
+ * @property {Finding[]} findings
+ * @property {Path | null} path
+ * @property {Figure[]} figures
+ * @property {Size | null} size
+ */
+
+export const SEVERITIES = /** @type {const} */ (["error", "warning", "note"]);

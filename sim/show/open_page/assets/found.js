@@ -1,0 +1,68 @@
+// What was found: a list, each with its place, what is to be done, and its mend shown before it is made.
+import { make } from "../../html/assets/elements.js";
+import * as language from "../../html/assets/language.js";
+
+/** @import { Edit, Finding } from "./data.js" */
+
+const MOST = 200;
+
+/**
+ * The lines that edits change, before and after.
+ * @param {string} text
+ * @param {Edit[]} edits
+ * @returns {[before: string, after: string]}
+ */
+export function changed(text, edits) {
+  const first = Math.min(...edits.map((edit) => edit[0]));
+  const past = Math.max(...edits.map((edit) => edit[1]));
+  const from = text.lastIndexOf("\n", first - 1) + 1;
+  const end = text.indexOf("\n", past);
+  const to = end < 0 ? text.length : end;
+  let after = "";
+  let at = from;
+  for (const [begin, behind, put] of [...edits].sort((a, b) => a[0] - b[0])) {
+    after += text.slice(at, begin) + put;
+    at = behind;
+  }
+  return [text.slice(from, to), after + text.slice(at, to)];
+}
+
+/**
+ * The entry of a finding.
+ * @param {Finding} finding
+ * @param {string} text that it was found in
+ * @param {{ go: (finding: Finding) => void, mend: (finding: Finding) => void }} on
+ */
+function entryOf(finding, text, on) {
+  const place = finding.line ? language.say("line", { line: finding.line }) : language.say("whole");
+  const go = make("button", { type: "button", className: "go" }, `${place} · ${finding.code} `);
+  go.append(make("strong", {}, language.pick(finding.title)));
+  go.addEventListener("click", () => on.go(finding));
+  const entry = make("li", { className: finding.severity }, go, make("p", {}, language.pick(finding.message)));
+  const hint = language.pick(finding.hint);
+  if (hint) entry.append(make("p", { className: "hint" }, hint));
+  if (finding.edits.length) {
+    const [before, after] = changed(text, finding.edits);
+    const mend = make("button", { type: "button" }, language.say("mend"));
+    mend.addEventListener("click", () => on.mend(finding));
+    entry.append(
+      make("pre", { className: "diff" }, make("del", {}, before), "\n", make("ins", {}, after)),
+      mend,
+    );
+  }
+  return entry;
+}
+
+/**
+ * Show what was found.
+ * @param {HTMLElement} list
+ * @param {Finding[]} findings
+ * @param {string} text
+ * @param {{ go: (finding: Finding) => void, mend: (finding: Finding) => void }} on
+ */
+export function showFound(list, findings, text, on) {
+  const rows = findings.slice(0, MOST).map((finding) => entryOf(finding, text, on));
+  if (findings.length > MOST) rows.push(make("li", {}, language.say("more", { n: findings.length - MOST })));
+  if (!findings.length) rows.push(make("li", { className: "good" }, language.say("nothing-found")));
+  list.replaceChildren(...rows);
+}

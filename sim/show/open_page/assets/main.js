@@ -1,0 +1,178 @@
+// Puts the page together: a file comes in, its text is checked while it is edited, and what is found shows at once.
+import * as asked from "./asked.js";
+import { showFound } from "./found.js";
+import { pictureOf } from "./picture.js";
+import { showSize } from "./size.js";
+import { textOf } from "./text.js";
+import { element } from "../../html/assets/elements.js";
+import * as language from "../../html/assets/language.js";
+
+/** @import { Answer, FileText, Finding } from "./data.js" */
+
+const PAUSE_MS = 40; // between two keys of who types fast lies more
+const ALIVE_MS = 20_000;
+
+const list = element("#found", HTMLElement);
+const counts = element("#counts", HTMLElement);
+const title = element("#name", HTMLElement);
+const status = element("#status", HTMLElement);
+const picture = pictureOf(element("#picture", HTMLCanvasElement), goToBlock);
+const text = textOf(element("#text", HTMLTextAreaElement), element("#lines", HTMLElement), picture.markLine);
+const pick = element("#pick", HTMLInputElement);
+
+/** @type {FileText} */
+let file = { name: "", text: "", encoding: "utf-8", newline: "\n" };
+/** @type {{ answer: Answer, text: string } | null} */
+let known = null;
+let isFirst = true;
+let waiting = 0;
+let asking = new window.AbortController();
+
+/**
+ * Say something of the page itself.
+ * @param {string} key
+ * @param {Record<string, string | number>} values
+ */
+function tell(key, values = {}) {
+  status.textContent = key && language.say(key, values);
+}
+
+/**
+ * Select what a finding speaks of.
+ * @param {Finding} finding
+ */
+function go(finding) {
+  if (finding.past > finding.first && known?.text === text.value) text.select(finding.first, finding.past);
+  else if (finding.line) text.showLine(finding.line);
+}
+
+/**
+ * Make a certain mend, of the text that it was found in alone.
+ * @param {Finding} finding
+ */
+function mend(finding) {
+  if (known?.text !== text.value) return;
+  text.edit(finding.edits);
+  later();
+}
+
+/**
+ * Select the block in a row of the path.
+ * @param {number} row
+ */
+function goToBlock(row) {
+  const path = known?.answer.path;
+  if (!path) return;
+  if (known?.text === text.value) text.select(path.first[row], path.past[row]);
+  else text.showLine(path.line[row]);
+}
+
+/** Show what is known, in the language of the page. */
+function show() {
+  if (!known) return;
+  const { answer } = known;
+  showFound(list, answer.findings, known.text, { go, mend });
+  showSize(element("#size", HTMLElement), element("#figures", HTMLElement), answer);
+  const verdict = language.say(`verdict-${answer.verdict}`);
+  counts.textContent = answer.dialect ? `${answer.dialect} · ${verdict}` : verdict;
+  counts.className = answer.verdict;
+}
+
+/**
+ * Check the text as it stands.
+ * @param {boolean} isNew whether it is another program
+ */
+async function check(isNew) {
+  asking.abort();
+  asking = new window.AbortController();
+  const now = text.value;
+  try {
+    const answer = await asked.check(file.name, now, isFirst, asking.signal);
+    if (!answer) return;
+    known = { answer, text: now };
+    text.mark(answer.findings);
+    picture.show(answer.path, answer.figures, answer.findings, isNew);
+    show();
+    tell(answer.settings && "settings", { why: answer.settings });
+  } catch (error) {
+    if (!(error instanceof Error && error.name === "AbortError")) tell("no-server");
+  }
+}
+
+/** Check once nobody types any more. */
+function later() {
+  window.clearTimeout(waiting);
+  waiting = window.setTimeout(() => check(false), PAUSE_MS);
+}
+
+/**
+ * Another program.
+ * @param {FileText} read
+ */
+function begin(read) {
+  if (read.text === null) {
+    tell("no-text", { name: read.name });
+    return;
+  }
+  file = read;
+  title.textContent = read.name || language.say("untitled");
+  document.title = `${read.name || language.say("untitled")} · drycut`;
+  text.begin(read.text);
+  check(true);
+}
+
+/**
+ * Read a file that was dropped or picked.
+ * @param {File | null | undefined} chosen
+ */
+async function take(chosen) {
+  if (!chosen) return;
+  try {
+    const read = await asked.read(chosen.name, chosen);
+    isFirst = isFirst && read.text === null;
+    begin(read);
+  } catch {
+    tell("no-server");
+  }
+}
+
+/** Save the text as its file was: encoding and line ends stay. */
+async function save() {
+  try {
+    const blob = await asked.saved({ ...file, text: text.value });
+    const link = document.createElement("a");
+    link.href = window.URL.createObjectURL(blob);
+    link.download = file.name || "program.3b";
+    link.click();
+    window.setTimeout(() => window.URL.revokeObjectURL(link.href), ALIVE_MS);
+  } catch {
+    tell("no-server");
+  }
+}
+
+/** Files come by dropping them anywhere, by the button, or as a text by pasting it. */
+function wire() {
+  window.addEventListener("dragover", (event) => event.preventDefault());
+  window.addEventListener("drop", (event) => {
+    event.preventDefault();
+    take(event.dataTransfer?.files[0]);
+  });
+  pick.addEventListener("change", () => {
+    take(pick.files?.[0]);
+    pick.value = "";
+  });
+  element("#open", HTMLElement).addEventListener("click", () => pick.click());
+  element("#save", HTMLElement).addEventListener("click", save);
+  element("#fit", HTMLElement).addEventListener("click", picture.fit);
+  element("#text", HTMLTextAreaElement).addEventListener("input", later);
+  element("#close", HTMLElement).addEventListener("click", async () => {
+    await asked.close();
+    tell("closed");
+  });
+  window.setInterval(() => asked.alive().catch(() => tell("no-server")), ALIVE_MS);
+}
+
+language.onChange(show);
+language.begin();
+wire();
+asked.first().then(begin, () => tell("no-server"));

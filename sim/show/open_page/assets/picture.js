@@ -1,0 +1,176 @@
+// The path: drawn whole, moved and zoomed, the block of the caret's line on top, marks where something was found.
+import { coloursOf } from "../../replay/assets/palette.js";
+import { foot } from "../../replay/assets/nearest.js";
+import { newView } from "../../replay/assets/view.js";
+import { pathOf } from "../../replay/assets/path.js";
+import { penOf } from "../../replay/assets/pen.js";
+import { drawScaleBar } from "../../replay/assets/scale_bar.js";
+import { wirePointer } from "../../replay/assets/pointer.js";
+
+/** @import { Figure, Finding, Path } from "./data.js" */
+
+const NEAR = 12; // px from a block that still means it
+const STILL = 4; // px of a press that is a click
+
+/**
+ * The picture of the page.
+ * @param {HTMLCanvasElement} canvas
+ * @param {(row: number) => void} onBlock told the row of a block that is clicked
+ */
+export function pictureOf(canvas, onBlock) {
+  const pen = penOf(canvas);
+  const view = newView();
+  /** @type {Path | null} */
+  let path = null;
+  let drawn = /** @type {ReturnType<typeof pathOf> | null} */ (null);
+  /** @type {Figure[]} */
+  let figures = [];
+  /** @type {Finding[]} */
+  let findings = [];
+  let line = 0;
+  let isAsked = false;
+  let isFitted = false;
+  const colours = coloursOf(later);
+
+  /** Draw before the next frame. */
+  function later() {
+    if (isAsked) return;
+    isAsked = true;
+    requestAnimationFrame(() => {
+      isAsked = false;
+      draw();
+    });
+  }
+
+  /** Rows of the blocks that stand in the line of the caret. */
+  function rowsNow() {
+    return path ? path.line.flatMap((of, row) => (of === line ? [row] : [])) : [];
+  }
+
+  /**
+   * A ring, or a cross, about a place.
+   * @param {number} x
+   * @param {number} y
+   * @param {number} radius
+   */
+  function ring(x, y, radius) {
+    pen.beginPath();
+    pen.arc(view.toX(x), view.toY(y), radius, 0, 2 * Math.PI);
+    pen.stroke();
+  }
+
+  /** Where the wire is threaded, and where something is found. */
+  function drawMarks() {
+    const shades = colours();
+    pen.lineWidth = 2;
+    pen.strokeStyle = shades.start;
+    for (const { thread_um: [x, y] } of figures) ring(x, y, 5);
+    if (!path) return;
+    const style = getComputedStyle(canvas);
+    for (const { block, severity } of findings) {
+      if (!block || severity === "note") continue;
+      pen.strokeStyle = style.getPropertyValue(`--${severity}`);
+      ring(path.place_x_um[block], path.place_y_um[block], 8);
+    }
+  }
+
+  function draw() {
+    const ratio = window.devicePixelRatio || 1;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    view.resize(width, height);
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.clearRect(0, 0, width, height);
+    if (!drawn) return;
+    if (!isFitted) fit();
+    const shades = colours();
+    pen.lineCap = "round";
+    pen.lineJoin = "round";
+    pen.lineWidth = 1.5;
+    pen.strokeStyle = shades.ideal;
+    drawn.stroke(pen, view, (kind) => kind !== "jump");
+    pen.strokeStyle = shades.jump;
+    pen.setLineDash([6, 4]);
+    drawn.stroke(pen, view, (kind) => kind === "jump");
+    pen.setLineDash([]);
+    pen.lineWidth = 4;
+    pen.strokeStyle = shades.accent;
+    pen.beginPath();
+    for (const row of rowsNow()) drawn.wayOf(pen, view, row);
+    pen.stroke();
+    drawMarks();
+    drawScaleBar(pen, view, colours);
+  }
+
+  /** Show all of the path. */
+  function fit() {
+    if (!drawn) return;
+    isFitted = true;
+    const box = drawn.box();
+    view.limitTo(box);
+    view.fit(box, { top: 0, bottom: 30 });
+  }
+
+  /**
+   * The row whose block is nearest to a point of the canvas; -1 where none is near.
+   * @param {number} px
+   * @param {number} py
+   */
+  function rowAt(px, py) {
+    if (!path) return -1;
+    const [x, y] = view.placeOf(px, py);
+    let least = NEAR / view.scale;
+    let found = -1;
+    for (let row = 0; row < path.kind.length; row++) {
+      const [fx, fy] = foot(path, row, x, y);
+      const far = Math.hypot(fx - x, fy - y);
+      if (far < least) [least, found] = [far, row];
+    }
+    return found;
+  }
+
+  wirePointer(canvas, view, later);
+  /** @type {[x: number, y: number]} */
+  let pressed = [0, 0];
+  canvas.addEventListener("pointerdown", (event) => { pressed = [event.clientX, event.clientY]; });
+  canvas.addEventListener("click", (event) => {
+    if (Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > STILL) return;
+    const box = canvas.getBoundingClientRect();
+    const row = rowAt(event.clientX - box.left, event.clientY - box.top);
+    if (row >= 0) onBlock(row);
+  });
+  new ResizeObserver(later).observe(canvas);
+
+  return {
+    /**
+     * Another path; the window stays where it is unless it is a new program.
+     * @param {Path | null} newPath
+     * @param {Figure[]} newFigures
+     * @param {Finding[]} newFindings
+     * @param {boolean} isNew
+     */
+    show(newPath, newFigures, newFindings, isNew) {
+      isFitted = isFitted && !isNew && path !== null;
+      path = newPath;
+      drawn = path && pathOf(path);
+      figures = newFigures;
+      findings = newFindings;
+      later();
+    },
+    /**
+     * The line, from 1, whose blocks stand out.
+     * @param {number} newLine
+     */
+    markLine(newLine) {
+      line = newLine;
+      later();
+    },
+    fit() {
+      fit();
+      later();
+    },
+  };
+}
