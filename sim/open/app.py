@@ -120,7 +120,7 @@ def _guarded(work: Callable[[Request], Awaitable[Response]]) -> Callable[[Reques
 def _read(name: str, data: bytes) -> dict[str, Any]:
     """A file as the page has it; no text where it is none."""
     try:
-        read = read_file(data)
+        read = read_file(data) if data else ReadFile("", "utf-8", "\n")
     except ProgramError:
         return {"name": printable(name), "text": None, "encoding": "", "newline": "\n"}
     return {"name": printable(name), **read._asdict()}

@@ -1,0 +1,191 @@
+"""The page of drycut open in a real browser: a program comes in, is seen, edited, mended and saved."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from browser import LOCALES, WAIT_MS, Browsers
+from opened_page import OpenedPage, opened_page
+from places import ROOT
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+WRONG = "B9900B0B39600GXNR1\nDD\n"
+KEYHOLE = ROOT / "scenarios" / "keyhole" / "program.3b"
+MARKUP = '<img src=x onerror="document.title=1"><script>document.title=2</script>'
+
+
+class Tab:
+    """A page of the server, and what went wrong on it."""
+
+    def __init__(self, page: "Page") -> None:
+        self.page, self.found = page, list[str]()
+        page.on("console", lambda one: self.found.append(one.text) if one.type in {"error", "warning"} else None)
+        page.on("pageerror", lambda error: self.found.append(str(error)))
+        page.on("dialog", lambda shown: self.found.append(shown.message))
+
+    def text(self) -> str:
+        return self.page.input_value("#text")
+
+    def codes(self) -> list[str]:
+        return [text.split("·")[1].split()[0] for text in self.page.locator("#found .go").all_inner_texts()]
+
+    def waits_for(self, verdict: str) -> None:
+        self.page.wait_for_selector(f"#counts.{verdict}")
+
+    def selected(self) -> str:
+        return self.page.evaluate("() => { const a = document.activeElement;"
+                                  " return a.value.slice(a.selectionStart, a.selectionEnd); }")  # fmt: skip
+
+    def drops(self, name: str, text: str) -> None:
+        self.page.evaluate(
+            """([name, text]) => {
+              const data = new DataTransfer();
+              data.items.add(new File([text], name));
+              window.dispatchEvent(new DragEvent("drop", { dataTransfer: data, cancelable: true }));
+            }""",
+            [name, text],
+        )
+
+
+@contextmanager
+def tab(browsers: Browsers, address: str, width: int = 1280, lang: str = "en") -> Iterator[Tab]:
+    """A page in a browser that asks nothing but its server; complaints fail the test."""
+    context = browsers.of(False).new_context(
+        viewport={"width": width, "height": 800}, locale=LOCALES[lang], accept_downloads=True
+    )
+    context.set_default_timeout(WAIT_MS)
+    shown = Tab(context.new_page())
+    asked: list[str] = []
+    shown.page.on("request", lambda one: asked.append(one.url))
+    try:
+        shown.page.goto(address)
+        yield shown
+        assert shown.found == []
+        assert [url for url in asked if not url.startswith((address, "blob:", "data:"))] == []
+    finally:
+        context.close()
+
+
+@pytest.fixture(name="served")
+def served_wrong(tmp_path: Path) -> Iterator[OpenedPage]:
+    (tmp_path / "part.3b").write_bytes(WRONG.replace("\n", "\r\n").encode())
+    with opened_page(tmp_path / "part.3b") as served:
+        yield served
+
+
+def test_a_program_shows_at_once(browsers: Browsers) -> None:
+    with opened_page(KEYHOLE) as served, tab(browsers, served.address) as shown:
+        shown.waits_for("pass")
+        assert shown.page.title() == "program.3b · drycut"
+        assert "174.800 × 99.799 mm" in shown.page.inner_text("#size")
+        assert shown.page.locator("#figures tr").all_inner_texts() == ["1\tN1 – N6\t0.000, 0.000\t502.929\tclosed"]
+        assert shown.page.inner_text("#lines div:first-child") == "1"
+        drawn = shown.page.evaluate(
+            "() => new Set(document.querySelector('#picture').getContext('2d').getImageData(0, 0, 800, 400).data).size"
+        )
+        assert drawn > 3
+
+
+def test_a_mend_shows_what_it_changes_is_made_and_is_undone(browsers: Browsers, served: OpenedPage) -> None:
+    with tab(browsers, served.address) as shown:
+        shown.waits_for("fail")
+        assert shown.codes() == ["3B204"]
+        assert shown.page.inner_text("#found .diff").split() == ["B9900B0B39600GXNR1", "B9900B0B39600GYNR1"]
+        shown.page.click("#found .go")
+        assert shown.selected() == "GX"
+        shown.page.click("#found li button:last-child")
+        shown.waits_for("pass")
+        assert shown.text() == WRONG.replace("GX", "GY")
+        shown.page.keyboard.press("Control+z")
+        shown.waits_for("fail")
+        assert shown.text() == WRONG
+
+
+def test_it_checks_while_one_types(browsers: Browsers) -> None:
+    with opened_page() as served, tab(browsers, served.address) as shown:
+        shown.page.fill("#text", "B9900B0B39600GYNR1\nDD\n")
+        shown.waits_for("pass")
+        shown.page.press("#text", "Control+Home")
+        shown.page.keyboard.type("B1B")
+        shown.waits_for("fail")
+        assert shown.page.locator("#lines .error").first.inner_text() == "1"
+
+
+def test_files_are_dropped_and_saved_as_they_came(browsers: Browsers, tmp_path: Path) -> None:
+    data = "B100B0B100GXL1 //孔\r\nB100B0B100GXL3\r\nDD\r\n".encode("gbk")
+    (tmp_path / "孔.3b").write_bytes(data)
+    with opened_page() as served, tab(browsers, served.address) as shown:
+        shown.page.set_input_files("#pick", str(tmp_path / "孔.3b"))
+        shown.page.wait_for_function("() => document.title.startsWith('孔.3b')")
+        with shown.page.expect_download() as coming:
+            shown.page.click("#save")
+        assert coming.value.suggested_filename == "孔.3b"
+        assert Path(coming.value.path()).read_bytes() == data
+        shown.drops("other.3b", WRONG)
+        shown.page.wait_for_function("() => document.title.startsWith('other.3b')")
+        shown.waits_for("fail")
+
+
+def test_what_a_program_and_its_name_say_is_never_markup(browsers: Browsers) -> None:
+    with opened_page() as served, tab(browsers, served.address) as shown:
+        shown.drops(f"{MARKUP}.3b", f"B1{MARKUP}\n{WRONG}")
+        shown.page.wait_for_selector("#found .error")
+        assert shown.page.title().startswith("<img src=x")
+        assert shown.page.locator("main img, header img, main script").count() == 0
+        assert MARKUP in shown.text()
+
+
+def test_a_block_in_the_picture_is_its_line(browsers: Browsers) -> None:
+    with opened_page(KEYHOLE) as served, tab(browsers, served.address) as shown:
+        shown.waits_for("pass")
+        box = shown.page.locator("#picture").bounding_box()
+        assert box is not None
+        # N3 is the lower edge, from (0, -24.9) to (56.757, -24.9); the path lies from -24.9 to 149.9 across.
+        shown.page.mouse.click(box["x"] + box["width"] * 0.33, box["y"] + box["height"] * 0.665)
+        assert shown.selected().startswith("N3:") or "56757" in shown.selected()
+        assert shown.page.inner_text("#lines .now") == "3"
+
+
+def test_two_tabs_are_two_programs(browsers: Browsers, served: OpenedPage) -> None:
+    with tab(browsers, served.address) as one, tab(browsers, served.address) as other:
+        one.waits_for("fail")
+        other.page.fill("#text", WRONG.replace("GX", "GY"))
+        other.waits_for("pass")
+        assert one.codes() == ["3B204"]
+        assert one.text() == WRONG
+
+
+def test_a_large_program_is_shown_and_stays_in_hand(browsers: Browsers, tmp_path: Path) -> None:
+    square = "B1000B0B1000GXL1\nB0B1000B1000GYL2\nB1000B0B1000GXL3\nB0B1000B1000GYL4\nD\nB1500B0B1500GXL1\nD\n"
+    (tmp_path / "many.3b").write_text(f"{square * 4000}DD\n", "utf-8")
+    with opened_page(tmp_path / "many.3b") as served, tab(browsers, served.address) as shown:
+        shown.page.wait_for_function("() => document.querySelector('#counts').className !== ''")
+        assert shown.page.locator("#lines div").count() < 80, "only what shows has its number"
+        assert shown.page.locator("#figures tr").count() == 200
+        shown.page.press("#text", "Control+End")
+        shown.page.wait_for_function("() => Number(document.querySelector('#lines .now')?.textContent) > 27000")
+
+
+def test_the_button_ends_it_and_an_ended_server_is_told(browsers: Browsers, served: OpenedPage) -> None:
+    with tab(browsers, served.address) as shown:
+        shown.waits_for("fail")
+        shown.page.click("#close")
+        shown.page.wait_for_function("() => document.querySelector('#status').textContent.includes('has ended')")
+        assert served.ended() == 0
+        shown.page.fill("#text", "DD\n")
+        shown.page.wait_for_function("() => document.querySelector('#status').textContent.includes('does not answer')")
+        shown.found[:] = [text for text in shown.found if "ERR_CONNECTION_REFUSED" not in text]
+
+
+@pytest.mark.parametrize(("width", "lang"), [(390, "zh"), (1280, "zh"), (800, "en")])
+def test_nothing_runs_out_of_the_window(browsers: Browsers, served: OpenedPage, width: int, lang: str) -> None:
+    with tab(browsers, served.address, width, lang) as shown:
+        shown.waits_for("fail")
+        assert shown.page.evaluate("() => document.documentElement.scrollWidth") <= width
+        assert shown.page.locator("#found .go strong").inner_text() == (
+            "计数方向选错" if lang == "zh" else "wrong count axis"
+        )

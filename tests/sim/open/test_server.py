@@ -1,0 +1,181 @@
+"""The server of a page: who may ask it, what it answers, and when it ends."""
+
+import json
+import re
+import signal
+import socket
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from command import run_command
+from opened_page import OpenedPage, opened_page
+
+from sim.open.guard import MOST_BYTES
+from sim.open.life import AWAY_S, FIRST_S, Life
+
+WRONG = "B9900B0B39600GXNR1\nDD\n"
+
+
+@pytest.fixture(name="served", scope="module")
+def served_page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[OpenedPage]:
+    file = tmp_path_factory.mktemp("open") / "part.3b"
+    file.write_bytes(WRONG.replace("\n", "\r\n").encode())
+    with opened_page(file) as served:
+        yield served
+
+
+def checked(served: OpenedPage, text: str, name: str = "part.3b", is_first: str = "no") -> dict:
+    answer = served.ask("check", json.dumps({"name": name, "text": text, "is_first": is_first}))
+    assert answer.status == 200
+    return json.loads(answer.body)
+
+
+def test_the_first_line_is_an_address_on_the_loopback_with_a_token_nobody_guesses(served: OpenedPage) -> None:
+    assert re.fullmatch(r"http://127\.0\.0\.1:\d+/[\w-]{32}/", served.address)
+
+
+def test_the_page_may_load_nothing_and_ask_nobody_but_its_server(served: OpenedPage) -> None:
+    answer = served.ask("", method="GET")
+    assert answer.status == 200
+    policy = answer.headers["content-security-policy"]
+    assert "default-src 'none'" in policy
+    assert "connect-src 'self'" in policy
+    (nonce,) = re.findall(r"script-src 'nonce-([\w-]+)'", policy)
+    assert answer.body.decode().count(f'nonce="{nonce}"') == 1
+    assert re.findall(rb'(?:src|href)="(?!data:)', answer.body) == []
+    assert served.ask("", method="GET").headers["content-security-policy"] != policy, "a nonce is used once"
+    for name, value in {
+        "cache-control": "no-store",
+        "referrer-policy": "no-referrer",
+        "x-frame-options": "DENY",
+        "x-content-type-options": "nosniff",
+        "cross-origin-resource-policy": "same-origin",
+    }.items():
+        assert answer.headers[name] == value
+
+
+@pytest.mark.parametrize(
+    ("path", "headers", "status"),
+    [
+        ("/", {}, 404),
+        ("/check", {}, 404),
+        ("/wrong/check", {}, 404),
+        ("first", {"Host": "evil.example"}, 421),  # a name that was made to lead to the loopback
+        ("first", {"Host": "localhost"}, 421),
+        ("first", {"Origin": "http://evil.example"}, 403),
+        ("first", {"Origin": "null"}, 403),
+        ("first", {"Origin": "http://127.0.0.1:1"}, 403),
+        ("first", {"Sec_Fetch_Site": "cross-site"}, 403),
+        ("first", {"Sec_Fetch_Site": "same-site"}, 403),
+        ("nowhere", {}, 404),
+        ("../../etc/passwd", {}, 404),
+        ("%2e%2e/%2e%2e/etc/passwd", {}, 404),
+    ],
+)
+def test_whoever_is_not_the_page_gets_no_answer(
+    served: OpenedPage, path: str, headers: dict[str, str], status: int
+) -> None:
+    for method in ("POST", "GET"):
+        answer = served.ask(path, b"{}", method, **headers)
+        assert answer.status == status or (path == "first" and not headers)
+        assert b"B9900" not in answer.body
+
+
+def test_only_the_page_itself_can_be_got_by_an_address(served: OpenedPage) -> None:
+    assert {served.ask(name, method="GET").status for name in ("first", "read", "check", "save", "close")} == {405}
+
+
+def test_more_than_the_bound_is_refused_before_it_is_read(served: OpenedPage) -> None:
+    with socket.create_connection(("127.0.0.1", int(served.host.partition(":")[2])), 10.0) as link:
+        head = f"POST {served.path}read HTTP/1.1\r\nHost: {served.host}\r\nContent-Length: {MOST_BYTES + 1}\r\n\r\n"
+        link.sendall(head.encode())
+        assert link.recv(64).startswith(b"HTTP/1.1 413")
+
+
+@pytest.mark.parametrize("body", ["", "[]", "{}", '{"name": 1, "text": ""}', "[" * 100_000, "\xff", '{"name": "a"}'])
+def test_requests_that_the_page_does_not_send_are_refused(served: OpenedPage, body: str) -> None:
+    assert served.ask("check", body).status == 400
+    assert served.ask("save", body).status == 400
+
+
+def test_a_file_comes_with_its_lines_and_goes_with_its_bytes(served: OpenedPage) -> None:
+    first = json.loads(served.ask("first").body)
+    assert first == {"name": "part.3b", "text": WRONG, "encoding": "utf-8", "newline": "\r\n"}
+    data = "B100B0B100GXL1 //孔\r\nDD\r\n".encode("gbk")
+    read = json.loads(served.ask("read?name=%E5%AD%94.3b", data).body)
+    assert (read["name"], read["text"]) == ("孔.3b", "B100B0B100GXL1 //孔\nDD\n")
+    assert served.ask("save", json.dumps(read)).body == data
+    foreign = {**read, "text": read["text"] + "😀"}
+    assert served.ask("save", json.dumps(foreign)).body.decode(read["encoding"]).endswith("😀")
+    latin = {**read, "text": "B1 //é😀\n", "encoding": "latin-1"}
+    assert served.ask("save", json.dumps(latin)).body == "B1 //é😀\r\n".encode(), "what it lacks, in UTF-8"
+    assert json.loads(served.ask("read?name=a.3b", b"\0\1\2").body)["text"] is None
+
+
+def test_what_is_found_has_its_places_in_units_of_the_page(served: OpenedPage) -> None:
+    answer = checked(served, f"// 😀\n{WRONG}")
+    assert (answer["verdict"], answer["dialect"], answer["settings"]) == ("fail", "3B", "")
+    (found,) = answer["findings"]
+    # Behind "// " stand two units of one letter: the words begin at 6 + 13.
+    assert (found["code"], found["line"], found["first"], found["past"]) == ("3B204", 2, 19, 21)
+    assert found["edits"] == [[20, 21, "Y"]]
+    assert found["title"]["zh"] == "计数方向选错"
+    assert answer["size"]["box_um"] == [-19_800.0, -9_900.0, 0.0, 9_900.0]
+    assert answer["path"]["radius_um"] == [9900.0]
+    assert answer["path"]["first"] == [6]
+    assert answer["figures"][0]["thread_um"] == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("text", ["", "\0", "hello", "B1" * 5000, "DD\n", "\ufeff", "\udce4", "G90"])
+def test_a_text_that_is_no_program_is_answered(served: OpenedPage, text: str) -> None:
+    answer = checked(served, text, "<img src=x>\x1b[31m")
+    assert answer["verdict"] in {"none", "pass", "fail", "incomplete"}
+    assert "\x1b" not in answer["name"]
+
+
+def test_settings_near_the_first_file_count_for_it_alone(tmp_path: Path) -> None:
+    (tmp_path / "drycut.toml").write_text('root = true\nignore = ["3B204"]\n', "utf-8")
+    (tmp_path / "part.3b").write_text(WRONG, "utf-8")
+    with opened_page(tmp_path / "part.3b") as served:
+        assert checked(served, WRONG, is_first="yes")["findings"] == []
+        assert len(checked(served, WRONG)["findings"]) == 1
+        (tmp_path / "drycut.toml").write_text('ignored = ["3B204"]\n', "utf-8")
+        told = checked(served, WRONG, is_first="yes")
+        assert "ignored" in told["settings"]
+        assert len(told["findings"]) == 1
+
+
+@pytest.mark.parametrize("how", ["button", signal.SIGINT, signal.SIGTERM])
+def test_it_ends_well_by_its_button_and_by_signals(how: str | signal.Signals) -> None:
+    with opened_page() as served:
+        assert json.loads(served.ask("first").body)["text"] == ""
+        if isinstance(how, str):
+            assert served.ask("close").status == 204
+        else:
+            served.process.send_signal(how)
+        assert served.ended() == 0
+        assert served.process.stderr is not None
+        assert served.process.stderr.read() == ""
+
+
+def test_it_lives_while_a_page_is_seen() -> None:
+    now = [0.0]
+    life = Life(lambda: now[0])
+    now[0] = FIRST_S - 1.0
+    assert not life.is_over
+    life.seen()
+    now[0] += AWAY_S + 1.0
+    assert not life.is_over, "browsers let hidden pages say so once a minute"
+    now[0] += AWAY_S
+    assert life.is_over
+
+
+def test_what_cannot_be_opened_is_said(tmp_path: Path, served: OpenedPage) -> None:
+    done = run_command("open", "nowhere.3b", "--no-browser", cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (2, b"")
+    assert b"nowhere.3b: cannot be read" in done.stderr
+    port = served.host.partition(":")[2]
+    taken = run_command("open", "--no-browser", "--port", port)
+    assert taken.returncode == 2
+    assert f"port {port} cannot be listened on: Address already in use".encode() in taken.stderr
