@@ -1,1 +1,1 @@
-"""A page for one program, served on this machine alone: what it asks, answered; a `Served`."""
+"""A page for one program, served on this machine alone: what it asks, answered; it begins with an `Opened`."""

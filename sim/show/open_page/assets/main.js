@@ -9,6 +9,9 @@ import * as language from "../../html/assets/language.js";
 
 /** @import { Answer, FileText, Finding } from "./data.js" */
 
+const VERDICTS = {
+  pass: "verdict-pass", fail: "verdict-fail", incomplete: "verdict-incomplete", none: "verdict-none",
+};
 const PAUSE_MS = 40; // between two keys of who types fast lies more
 const ALIVE_MS = 20_000;
 
@@ -73,7 +76,7 @@ function show() {
   const { answer } = known;
   showFound(list, answer.findings, known.text, { go, mend });
   showSize(element("#size", HTMLElement), element("#figures", HTMLElement), answer);
-  const verdict = language.say(`verdict-${answer.verdict}`);
+  const verdict = language.say(VERDICTS[answer.verdict]);
   counts.textContent = answer.dialect ? `${answer.dialect} · ${verdict}` : verdict;
   counts.className = answer.verdict;
 }

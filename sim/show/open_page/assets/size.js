@@ -43,14 +43,14 @@ const nameOf = (path, block) => path?.label[block - 1] || String(block);
  */
 function figureRow(figure, number, path) {
   const [x, y] = figure.thread_um;
-  const closes = figure.closes === null ? "parting" : figure.closes ? "closed" : "open";
+  const closes = figure.closes === null ? "parting-contour" : figure.closes ? "closed-contour" : "open-contour";
   return make(
     "tr", {},
     make("td", {}, String(number)),
     make("td", {}, `${nameOf(path, figure.first)} – ${nameOf(path, figure.last)}`),
     make("td", {}, `${mm(x)}, ${mm(y)}`),
     make("td", {}, mm(figure.length_um)),
-    make("td", { className: closes }, language.say(`${closes}-contour`)),
+    make("td", { className: closes }, language.say(closes)),
   );
 }
 
