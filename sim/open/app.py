@@ -4,22 +4,27 @@ import asyncio
 import json
 from collections.abc import Awaitable, Callable
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, TypeAlias
 
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect, Request
-from starlette.responses import HTMLResponse, JSONResponse, Response
+from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
 from parser.findings.errors import ProgramError
 from parser.text.encoding import printable
 from sim.open.answers import ReadFile, answer, file_of, read_file
 from sim.open.life import Life
+from sim.open.runs import KEYS, Runs
 from sim.show.open_page.page import open_page
 
+_Work: TypeAlias = Callable[[Request], Awaitable[Response]]
 _BAD: Final = 400
-_SUPERSEDED: Final = 204
+_MISSING: Final = 404
+_NOTHING: Final = 204
+_OF_FILES: Final = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
+"""Pages of a run hold all that they show: they may ask nobody, this server neither."""
 
 
 class Opened(NamedTuple):
@@ -34,42 +39,85 @@ class Opened(NamedTuple):
         return self.file.name if self.file else ""
 
 
-def app_of(opened: Opened, life: Life) -> Starlette:
+def app_of(opened: Opened, life: Life, runs: Runs) -> Starlette:
     """The application behind the guard."""
-    checks = _Checks(opened.file)
+    files, texts, running = _Files(opened, life), _Checks(opened.file), _Running(life, runs)
+    works: list[_Work] = [files.first, files.read, files.save, files.alive, files.close]
+    works += [texts.check, running.run, running.progress, running.cancel]
+    return Starlette(
+        routes=[
+            Route("/", files.page, methods=["GET"]),
+            Route("/run/{number:int}/{name}", running.made, methods=["GET"]),
+            *(Route(f"/{_name_of(work)}", _guarded(work), methods=["POST"]) for work in works),
+        ]
+    )
 
-    async def page(_: Request) -> Response:
-        life.seen()
+
+class _Files:
+    """The page itself, and programs as they come to it and go from it."""
+
+    def __init__(self, opened: Opened, life: Life) -> None:
+        self._opened, self._life = opened, life
+
+    async def page(self, _: Request) -> Response:
+        """The page."""
+        self._life.seen()
         text, policy = open_page()
         return HTMLResponse(text, headers={"content-security-policy": policy})
 
-    async def first(_: Request) -> Response:
-        return JSONResponse(_read(opened.name, opened.data))
+    async def first(self, _: Request) -> Response:
+        """The program that is open at the start."""
+        return JSONResponse(_read(self._opened.name, self._opened.data))
 
-    async def read(request: Request) -> Response:
-        name = request.query_params.get("name", "")
-        return JSONResponse(_read(name, await request.body()))
+    async def read(self, request: Request) -> Response:
+        """The text of a file that came to the page."""
+        return JSONResponse(_read(request.query_params.get("name", ""), await request.body()))
 
-    async def save(request: Request) -> Response:
+    async def save(self, request: Request) -> Response:
+        """The bytes of a text."""
         told = await _told(request, "text", "encoding", "newline")
         data = file_of(ReadFile(told["text"], told["encoding"], told["newline"]))
         return Response(data, media_type="application/octet-stream")
 
-    async def alive(_: Request) -> Response:
-        life.seen()
-        return Response(status_code=204)
+    async def alive(self, _: Request) -> Response:
+        """The page is still open."""
+        self._life.seen()
+        return Response(status_code=_NOTHING)
 
-    async def close(_: Request) -> Response:
-        life.end()
-        return Response(status_code=204)
+    async def close(self, _: Request) -> Response:
+        """The server is to end."""
+        self._life.end()
+        return Response(status_code=_NOTHING)
 
-    routes = {"first": first, "read": read, "check": checks.check, "save": save, "alive": alive, "close": close}
-    return Starlette(
-        routes=[
-            Route("/", page, methods=["GET"]),
-            *(Route(f"/{name}", _guarded(work), methods=["POST"]) for name, work in routes.items()),
-        ]
-    )
+
+class _Running:
+    """The run of the page."""
+
+    def __init__(self, life: Life, runs: Runs) -> None:
+        self._life, self._runs = life, runs
+
+    async def run(self, request: Request) -> Response:
+        """Run a text."""
+        told = await _told(request, "name", "text", *KEYS)
+        await self._runs.start(told["name"], told["text"].encode("utf-8", "replace"), told)
+        return JSONResponse(self._runs.state)
+
+    async def progress(self, _: Request) -> Response:
+        """How far it is."""
+        self._life.seen()
+        return JSONResponse(self._runs.state)
+
+    async def cancel(self, _: Request) -> Response:
+        """End it."""
+        await self._runs.cancel()
+        return JSONResponse(self._runs.state)
+
+    async def made(self, request: Request) -> Response:
+        """A file that it made."""
+        path = self._runs.file(request.path_params["number"], request.path_params["name"])
+        if path is None:
+            return Response(status_code=_MISSING)
+        return FileResponse(path, headers={"content-security-policy": _OF_FILES})
 
 
 class _Checks:
@@ -88,7 +136,7 @@ class _Checks:
         number = self._last
         async with self._turn:
             if number != self._last:
-                return Response(status_code=_SUPERSEDED)
+                return Response(status_code=_NOTHING)
             return JSONResponse(await run_in_threadpool(answer, told["name"] or "program", file, told["text"]))
 
 
@@ -107,7 +155,12 @@ async def _told(request: Request, *names: str) -> dict[str, str]:
     return {name: told[name] for name in names}
 
 
-def _guarded(work: Callable[[Request], Awaitable[Response]]) -> Callable[[Request], Awaitable[Response]]:
+def _name_of(work: _Work) -> str:
+    """Of a request: that of the method that answers it."""
+    return str(getattr(work, "__name__", ""))
+
+
+def _guarded(work: _Work) -> _Work:
     async def answered(request: Request) -> Response:
         try:
             return await work(request)

@@ -12,9 +12,11 @@ from typing import Final
 import uvicorn
 
 from parser.findings.errors import DrycutError
+from sim.files import scratch
 from sim.open.app import Opened, app_of
 from sim.open.guard import Address, Guard
 from sim.open.life import Life
+from sim.open.runs import Runs
 
 _HOST: Final = "127.0.0.1"
 _LOOK_S: Final = 0.2
@@ -37,11 +39,11 @@ def serve(opened: Opened, port: int, ready: Callable[[str], None]) -> None:
 
     Port 0 is any free one. PortError where the port cannot be had.
     """
-    with _listening(port) as listening:
+    with _listening(port) as listening, scratch() as folder:
         address = Address(f"{_HOST}:{listening.getsockname()[1]}", secrets.token_urlsafe(24))
-        life = Life()
+        life, runs = Life(), Runs(folder)
         config = uvicorn.Config(
-            Guard(app_of(opened, life), address),
+            Guard(app_of(opened, life, runs), address),
             lifespan="off",
             log_level="critical",
             access_log=False,
@@ -50,16 +52,19 @@ def serve(opened: Opened, port: int, ready: Callable[[str], None]) -> None:
         )
         server = _Server(config)
         with _ended_by_signals(life):
-            asyncio.run(_run(server, listening, life, lambda: ready(address.url)))
+            asyncio.run(_run(server, listening, life, runs, lambda: ready(address.url)))
 
 
-async def _run(server: uvicorn.Server, listening: socket.socket, life: Life, ready: Callable[[], None]) -> None:
+async def _run(
+    server: uvicorn.Server, listening: socket.socket, life: Life, runs: Runs, ready: Callable[[], None]
+) -> None:
     serving = asyncio.create_task(server.serve(sockets=[listening]))
     while not server.started and not serving.done():
         await asyncio.sleep(0.01)
     ready()
     while not life.is_over and not serving.done():
         await asyncio.sleep(_LOOK_S)
+    await runs.cancel()
     server.should_exit = True
     await serving
 

@@ -189,3 +189,36 @@ def test_nothing_runs_out_of_the_window(browsers: Browsers, served: OpenedPage, 
         assert shown.page.locator("#found .go strong").inner_text() == (
             "计数方向选错" if lang == "zh" else "wrong count axis"
         )
+
+
+def test_a_program_is_run_and_its_files_open_beside_the_page(browsers: Browsers) -> None:
+    with opened_page(KEYHOLE) as served, tab(browsers, served.address) as shown:
+        shown.waits_for("pass")
+        shown.page.fill("input[name=thickness_mm]", "20")
+        shown.page.click("#start")
+        shown.page.wait_for_selector("#made a")
+        assert shown.page.inner_text("#stage") == "pass, on DK7740 class, stepper drives"
+        names = ["Replay", "Report", "Picture", "report.json"]
+        assert shown.page.locator("#made a").all_inner_texts() == names
+        with shown.page.context.expect_page() as coming:
+            shown.page.click("#made a")
+        replay = coming.value
+        replay.wait_for_load_state()
+        assert replay.title().startswith("program.3b")
+        assert replay.evaluate("() => fetch('../../first', {method: 'POST'}).then(() => 1, () => 0)") == 0
+
+
+def test_a_run_is_cancelled_and_another_one_begun(browsers: Browsers, tmp_path: Path) -> None:
+    square = "B9000B0B9000GXL1\nB0B9000B9000GYL2\nB9000B0B9000GXL3\nB0B9000B9000GYL4\n"
+    (tmp_path / "long.3b").write_text(f"{square * 40}DD\n", "utf-8")
+    with opened_page(tmp_path / "long.3b") as served, tab(browsers, served.address) as shown:
+        shown.page.click("#start")
+        shown.page.wait_for_function("() => document.querySelector('#progress').value > 0")
+        shown.page.click("#cancel")
+        shown.page.wait_for_function("() => document.querySelector('#stage').textContent === 'cancelled'")
+        assert shown.page.locator("#made a").count() == 0
+        shown.page.fill("#text", f"{square}DD\n")
+        shown.page.fill("input[name=thickness_mm]", "a lot")
+        shown.page.click("#start")
+        shown.page.wait_for_selector("#stage.wrong")
+        assert "thickness_mm is a number, not 'a lot'" in shown.page.inner_text("#stage")

@@ -60,6 +60,12 @@ class Machine(NamedTuple):
         return min(feed_um_s, self.controller.cut_step_limit_hz)
 
 
+def machine_names() -> tuple[str, ...]:
+    """Names of the machines that are shipped, in order."""
+    shipped = resources.files("sim.setup.machine")
+    return tuple(sorted(one.name.removesuffix(".toml") for one in shipped.iterdir() if one.name.endswith(".toml")))
+
+
 def load_machine(name: str, beside: Path | None = None) -> Machine:
     """Machine of a shipped name such as ``dk7740``, or of a ``.toml`` file (relative to the folder `beside`).
 
@@ -68,7 +74,7 @@ def load_machine(name: str, beside: Path | None = None) -> Machine:
     if name.endswith(".toml"):
         return _read(Path(beside or "") / name)
     shipped = resources.files("sim.setup.machine")
-    known = sorted(entry.name.removesuffix(".toml") for entry in shipped.iterdir() if entry.name.endswith(".toml"))
+    known = machine_names()
     if name not in known:
         raise SettingsError(f"machine {name!r} is not shipped; known: {', '.join(known)}, or give a .toml file")
     with resources.as_file(shipped / f"{name}.toml") as path:

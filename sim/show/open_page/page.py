@@ -4,6 +4,10 @@ import secrets
 from pathlib import Path
 from typing import Final
 
+from parser.units import mm
+from sim.setup.machine.machine import machine_names
+from sim.setup.scenario import DEFAULT_MACHINE, DEFAULT_THICKNESS_MM
+from sim.setup.wire import DEFAULT_WIRE
 from sim.show.html.environment import rendered
 
 _ASSETS: Final = Path(__file__).with_name("assets")
@@ -12,7 +16,16 @@ _ASSETS: Final = Path(__file__).with_name("assets")
 def open_page() -> tuple[str, str]:
     """The page, and its content security policy: its own script and style alone, and no request but to its server."""
     nonce = secrets.token_urlsafe(16)
-    return rendered(_ASSETS, "open.html.j2", nonce=nonce), policy_of(nonce)
+    page = rendered(
+        _ASSETS,
+        "open.html.j2",
+        nonce=nonce,
+        machines=machine_names(),
+        default_machine=DEFAULT_MACHINE,
+        thickness=f"{DEFAULT_THICKNESS_MM:g}",
+        wire=f"{mm(DEFAULT_WIRE.diameter_um):g}",
+    )
+    return page, policy_of(nonce)
 
 
 def policy_of(nonce: str) -> str:

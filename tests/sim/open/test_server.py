@@ -4,6 +4,7 @@ import json
 import re
 import signal
 import socket
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -179,3 +180,80 @@ def test_what_cannot_be_opened_is_said(tmp_path: Path, served: OpenedPage) -> No
     taken = run_command("open", "--no-browser", "--port", port)
     assert taken.returncode == 2
     assert f"port {port} cannot be listened on: Address already in use".encode() in taken.stderr
+
+
+def asked_run(served: OpenedPage, **values: str) -> dict:
+    told = {"name": "part.3b", "text": "B1000B0B1000GXL1\nDD\n"}
+    told |= dict.fromkeys(("machine", "thickness_mm", "wire_mm", "offset_mm", "side"), "")
+    answer = served.ask("run", json.dumps({**told, **values}))
+    assert answer.status == 200
+    return json.loads(answer.body)
+
+
+def came_to(served: OpenedPage, *states: str) -> dict:
+    """The state of the run once it is one of these."""
+    for _ in range(600):
+        state = json.loads(served.ask("progress").body)
+        if state["state"] in states:
+            return state
+        time.sleep(0.05)
+    raise AssertionError(f"the run is still {state}")
+
+
+def test_a_run_is_of_the_text_and_gives_its_files_and_no_others(served: OpenedPage) -> None:
+    assert asked_run(served, name="../../../x y;rm.3b")["state"] == "running"
+    state = came_to(served, "done", "wrong")
+    assert (state["state"], state["verdict"]) == ("done", "pass")
+    run = f"run/{state['run']}"
+    report = served.ask(f"{run}/report.json", method="GET")
+    assert json.loads(report.body)["program"]["name"] == "x_y_rm.3b"
+    page = served.ask(f"{run}/replay.html", method="GET")
+    assert "default-src 'none'" in page.headers["content-security-policy"]
+    assert "connect-src" not in page.headers["content-security-policy"]
+    for name in ("trace.npz", "..%2fprogram%2fx_y_rm.3b", "%2e%2e/program/x_y_rm.3b", "", "REPORT.JSON"):
+        assert served.ask(f"{run}/{name}", method="GET").status == 404
+    assert served.ask("run/99/report.json", method="GET").status == 404
+
+
+@pytest.mark.parametrize(
+    ("values", "why"),
+    [
+        ({"machine": "/etc/passwd.toml"}, "machine '/etc/passwd.toml' is not shipped"),
+        ({"machine": "../x.toml"}, "is not shipped"),
+        ({"thickness_mm": "-4"}, "thickness"),
+        ({"thickness_mm": "nan"}, "thickness"),
+        ({"wire_mm": "much"}, "wire_mm is a number, not 'much'"),
+        ({"offset_mm": "0.1", "text": "hello"}, "no block in the file"),
+    ],
+)
+def test_what_cannot_be_run_says_why(served: OpenedPage, values: dict[str, str], why: str) -> None:
+    asked_run(served, **values)
+    state = came_to(served, "done", "wrong")
+    assert state["state"] == "wrong"
+    assert why in state["why"]
+
+
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="asks the kernel of Linux for processes")
+def test_a_killed_server_leaves_no_run_behind(tmp_path: Path) -> None:
+    with opened_page() as served:
+        square = "B9000B0B9000GXL1\nB0B9000B9000GYL2\nB9000B0B9000GXL3\nB0B9000B9000GYL4\n"
+        asked_run(served, text=f"{square * 60}DD\n")
+        came_to(served, "running")
+        (child,) = children_of(served.process.pid)
+        served.process.kill()
+        served.ended()
+        for _ in range(400):
+            if not Path(f"/proc/{child}").exists() or state_of(child) == "Z":
+                return
+            time.sleep(0.05)
+        raise AssertionError("the run goes on")
+
+
+def children_of(process: int) -> list[int]:
+    """Processes that a process started, by what the kernel says."""
+    told = Path(f"/proc/{process}/task/{process}/children").read_text()
+    return [int(child) for child in told.split()]
+
+
+def state_of(process: int) -> str:
+    return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]

@@ -1,6 +1,6 @@
 // What the page asks of its server: paths beside its own address, and nothing else.
 
-/** @import { Answer, FileText } from "./data.js" */
+/** @import { Answer, FileText, RunState } from "./data.js" */
 
 /**
  * The answer to a request.
@@ -51,6 +51,31 @@ export async function saved(file) {
 export async function check(name, text, isFirst, signal) {
   const answer = await ask("check", JSON.stringify({ name, text, is_first: isFirst ? "yes" : "no" }), signal);
   return answer.status === 204 ? null : answer.json();
+}
+
+/**
+ * Run a text; how far it is then.
+ * @param {Record<string, string>} asked
+ * @returns {Promise<RunState>}
+ */
+export async function run(asked) {
+  return (await ask("run", JSON.stringify(asked))).json();
+}
+
+/**
+ * How far the run is.
+ * @returns {Promise<RunState>}
+ */
+export async function progress() {
+  return (await ask("progress", "")).json();
+}
+
+/**
+ * End the run.
+ * @returns {Promise<RunState>}
+ */
+export async function cancel() {
+  return (await ask("cancel", "")).json();
 }
 
 /** Say that the page is still open. */

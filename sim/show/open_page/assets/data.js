@@ -72,4 +72,18 @@
  * @property {Size | null} size
  */
 
+/**
+ * How far a run is (sim/open/runs.py).
+ * @typedef {object} RunState
+ * @property {"idle" | "running" | "done" | "wrong" | "cancelled"} state
+ * @property {number} [run]
+ * @property {string} [stage]
+ * @property {number} [at]
+ * @property {number} [of]
+ * @property {number} [share]
+ * @property {"pass" | "fail"} [verdict]
+ * @property {string} [machine]
+ * @property {string} [why]
+ */
+
 export const SEVERITIES = /** @type {const} */ (["error", "warning", "note"]);

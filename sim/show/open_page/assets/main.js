@@ -2,6 +2,7 @@
 import * as asked from "./asked.js";
 import { showFound } from "./found.js";
 import { pictureOf } from "./picture.js";
+import { wireRun } from "./running.js";
 import { showSize } from "./size.js";
 import { textOf } from "./text.js";
 import { element } from "../../html/assets/elements.js";
@@ -178,4 +179,5 @@ function wire() {
 language.onChange(show);
 language.begin();
 wire();
+wireRun(() => ({ name: file.name || "program.3b", text: text.value }), tell);
 asked.first().then(begin, () => tell("no-server"));

@@ -1,0 +1,88 @@
+"""The process of one run: what is asked comes as JSON on stdin, how far it is goes as lines of JSON to stdout.
+
+It is a process of its own so that it can be ended at any moment, and so that the page stays in hand meanwhile.
+"""
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Final
+
+from parser.findings.errors import DrycutError, ProgramError, SettingsError
+from parser.program import load_program, moving
+from parser.units import from_mm
+from sim.jobs.run_into import run_into, stages_of_files
+from sim.run.findings import verdict
+from sim.setup.machine.machine import load_machine, machine_names
+from sim.setup.part import SIDES, Offset, OffsetPass
+from sim.setup.scenario import Scenario, load_scenario
+
+_STEPS: Final = 100
+"""Of a stage, that are told."""
+
+
+def main() -> None:
+    """Run what is asked; the last line says what came of it."""
+    asked = json.loads(sys.stdin.readline())
+    try:
+        _tell(done=_run(asked, Path(asked["file"]), Path(asked["folder"])))
+    except ProgramError as error:
+        _tell(wrong=str(error))
+    except DrycutError as error:
+        _tell(wrong=str(error))
+
+
+def scenario_of(asked: dict[str, str], file: Path) -> Scenario:
+    """The scenario of a file with the values of the page; empty texts leave the usual ones.
+
+    SettingsError for a value out of its bounds, or one that is no number.
+    """
+    scenario = load_scenario(file)
+    if asked["machine"]:
+        if asked["machine"] not in machine_names():  # a page names no file of the disk
+            raise SettingsError(f"machine {asked['machine'][:40]!r} is not shipped")
+        scenario = replace(scenario, machine=load_machine(asked["machine"]), machine_by_default=False)
+    if asked["thickness_mm"]:
+        scenario = replace(scenario, thickness_mm=_number(asked, "thickness_mm"))
+    if asked["wire_mm"]:
+        wire = replace(scenario.wire, diameter_um=from_mm(_number(asked, "wire_mm")))
+        scenario = replace(scenario, wire=wire)
+    if asked["offset_mm"]:
+        by = OffsetPass(from_mm(_number(asked, "offset_mm")))
+        scenario = replace(scenario, offset=Offset((by,), SIDES["left" if asked["side"] == "left" else "right"]))
+    return replace(scenario, kerf=True)
+
+
+def _run(asked: dict[str, str], file: Path, folder: Path) -> dict[str, Any]:
+    scenario = scenario_of(asked, file)
+    stages = list(stages_of_files(scenario, trace=False))
+    told = ("", -1)
+
+    def progress(stage: str, done: int, total: int) -> None:
+        nonlocal told
+        now = stage, _STEPS * done // total if total else _STEPS
+        if now != told:
+            told = now
+            at = stages.index(stage) if stage in stages else len(stages) - 1
+            _tell(stage=stage, at=at, of=len(stages), share=now[1] / _STEPS)
+
+    program = moving(load_program(file.read_bytes(), file.name, scenario.choices))
+    run = run_into(folder, program, scenario, progress)
+    return {"verdict": verdict(run.findings), "machine": scenario.machine.name}
+
+
+def _number(asked: dict[str, str], name: str) -> float:
+    try:
+        return float(asked[name])
+    except ValueError:
+        raise SettingsError(f"{name} is a number, not {asked[name][:40]!r}") from None
+
+
+def _tell(**values: Any) -> None:
+    sys.stdout.write(f"{json.dumps(values)}\n")
+    sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    main()
