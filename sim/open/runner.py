@@ -4,11 +4,11 @@ It is a process of its own so that it can be ended at any moment, and so that th
 """
 
 import json
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
+from parser.files.reading import read_bytes, read_stdin
 from parser.findings.errors import DrycutError, ProgramError, SettingsError
 from parser.program import load_program, moving
 from parser.units import from_mm
@@ -17,6 +17,7 @@ from sim.run.findings import verdict
 from sim.setup.machine.machine import load_machine, machine_names
 from sim.setup.part import SIDES, Offset, OffsetPass
 from sim.setup.scenario import Scenario, load_scenario
+from sim.show.terminal.printer import write
 
 _STEPS: Final = 100
 """Of a stage, that are told."""
@@ -24,7 +25,7 @@ _STEPS: Final = 100
 
 def main() -> None:
     """Run what is asked; the last line says what came of it."""
-    asked = json.loads(sys.stdin.readline())
+    asked = json.loads(read_stdin())
     try:
         _tell(done=_run(asked, Path(asked["file"]), Path(asked["folder"])))
     except ProgramError as error:
@@ -67,7 +68,7 @@ def _run(asked: dict[str, str], file: Path, folder: Path) -> dict[str, Any]:
             at = stages.index(stage) if stage in stages else len(stages) - 1
             _tell(stage=stage, at=at, of=len(stages), share=now[1] / _STEPS)
 
-    program = moving(load_program(file.read_bytes(), file.name, scenario.choices))
+    program = moving(load_program(read_bytes(file), file.name, scenario.choices))
     run = run_into(folder, program, scenario, progress)
     return {"verdict": verdict(run.findings), "machine": scenario.machine.name}
 
@@ -80,8 +81,7 @@ def _number(asked: dict[str, str], name: str) -> float:
 
 
 def _tell(**values: Any) -> None:
-    sys.stdout.write(f"{json.dumps(values)}\n")
-    sys.stdout.flush()
+    write(f"{json.dumps(values)}\n", "json")
 
 
 if __name__ == "__main__":

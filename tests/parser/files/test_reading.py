@@ -28,7 +28,7 @@ OWN = {
     *("sim/files/moves.py", "sim/files/replaced.py", "sim/files/steps.py", "sim/run/recording.py"),
     *("sim/jobs/kept.py", "sim/jobs/one.py", "sim/jobs/trace_file.py"),
     "sim/show/terminal/streams.py",  # reopens closed streams on nothing
-    "sim/cli/lsp.py",  # hands a protocol its streams
+    *("sim/cli/lsp.py", "sim/open/runs.py"),  # hand a protocol, or a process of ours, its streams
 }
 """Modules that read what drycut wrote, or look whether a file is still what the door read."""
 SQUARE = b"B9B0B9GXL1\nB0B9B9GYL2\nB9B0B9GXL3\nB0B9B9GYL4\nDD\n"

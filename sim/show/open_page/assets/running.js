@@ -10,6 +10,12 @@ const FILES = /** @type {const} */ ([
   ["replay.html", "file-replay"], ["report.html", "file-report"], ["cut.png", "file-picture"], ["report.json", "file-data"],
 ]);
 
+/** @type {Record<string, string>} */
+const STAGES = {
+  checks: "stage-checks", plan: "stage-plan", run: "stage-run", kerf: "stage-kerf", pictures: "stage-pictures",
+  pages: "stage-pages",
+};
+
 /**
  * Let the form run programs.
  * @param {() => { name: string, text: string }} current the program as it stands
@@ -37,8 +43,8 @@ export function wireRun(current, tell) {
 
   /** What there is to say of the run. */
   function sentence() {
-    if (known.state === "running") return known.stage ? language.say(`stage-${known.stage}`) : language.say("starting");
-    if (known.state === "done") return language.say(`ran-${known.verdict}`, { machine: known.machine ?? "" });
+    if (known.state === "running") return known.stage ? language.say(STAGES[known.stage] ?? "starting") : language.say("starting");
+    if (known.state === "done") return language.say(known.verdict === "pass" ? "ran-pass" : "ran-fail", { machine: known.machine ?? "" });
     if (known.state === "wrong") return known.why ? known.why.replace(/^\S*\/program\//, "") : language.say("ran-broken");
     return known.state === "cancelled" ? language.say("ran-cancelled") : "";
   }
