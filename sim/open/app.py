@@ -23,7 +23,10 @@ _Work: TypeAlias = Callable[[Request], Awaitable[Response]]
 _BAD: Final = 400
 _MISSING: Final = 404
 _NOTHING: Final = 204
-_OF_FILES: Final = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
+_OF_FILES: Final = (
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; "
+    "form-action 'none'; base-uri 'none'"
+)
 """Pages of a run hold all that they show: they may ask nobody, this server neither."""
 
 

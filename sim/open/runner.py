@@ -9,14 +9,17 @@ from pathlib import Path
 from typing import Any, Final
 
 from parser.files.reading import read_bytes, read_stdin
-from parser.findings.errors import DrycutError, ProgramError, SettingsError
+from parser.findings.errors import DrycutError, SettingsError
 from parser.program import load_program, moving
 from parser.units import from_mm
 from sim.jobs.run_into import run_into, stages_of_files
 from sim.run.findings import verdict
 from sim.setup.machine.machine import load_machine, machine_names
 from sim.setup.part import SIDES, Offset, OffsetPass
-from sim.setup.scenario import Scenario, load_scenario
+from sim.setup.program_section import OR_NONE_MM
+from sim.setup.scenario import THICKNESS_MM, Scenario, load_scenario
+from sim.setup.toml.reader import Bound, number
+from sim.setup.wire import WIRE_DIAMETER_MM
 from sim.show.terminal.printer import write
 
 _STEPS: Final = 100
@@ -28,8 +31,6 @@ def main() -> None:
     asked = json.loads(read_stdin())
     try:
         _tell(done=_run(asked, Path(asked["file"]), Path(asked["folder"])))
-    except ProgramError as error:
-        _tell(wrong=str(error))
     except DrycutError as error:
         _tell(wrong=str(error))
 
@@ -45,13 +46,14 @@ def scenario_of(asked: dict[str, str], file: Path) -> Scenario:
             raise SettingsError(f"machine {asked['machine'][:40]!r} is not shipped")
         scenario = replace(scenario, machine=load_machine(asked["machine"]), machine_by_default=False)
     if asked["thickness_mm"]:
-        scenario = replace(scenario, thickness_mm=_number(asked, "thickness_mm"))
+        scenario = replace(scenario, thickness_mm=_number(asked, "thickness_mm", THICKNESS_MM))
     if asked["wire_mm"]:
-        wire = replace(scenario.wire, diameter_um=from_mm(_number(asked, "wire_mm")))
+        wire = replace(scenario.wire, diameter_um=from_mm(_number(asked, "wire_mm", WIRE_DIAMETER_MM)))
         scenario = replace(scenario, wire=wire)
     if asked["offset_mm"]:
-        by = OffsetPass(from_mm(_number(asked, "offset_mm")))
-        scenario = replace(scenario, offset=Offset((by,), SIDES["left" if asked["side"] == "left" else "right"]))
+        offset_mm = _number(asked, "offset_mm", OR_NONE_MM)
+        side = SIDES["left" if asked["side"] == "left" else "right"]
+        scenario = replace(scenario, offset=Offset((OffsetPass(from_mm(offset_mm)),), side) if offset_mm else None)
     return replace(scenario, kerf=True)
 
 
@@ -73,11 +75,12 @@ def _run(asked: dict[str, str], file: Path, folder: Path) -> dict[str, Any]:
     return {"verdict": verdict(run.findings), "machine": scenario.machine.name}
 
 
-def _number(asked: dict[str, str], name: str) -> float:
+def _number(asked: dict[str, str], name: str, bound: Bound) -> float:
     try:
-        return float(asked[name])
+        value = float(asked[name])
     except ValueError:
         raise SettingsError(f"{name} is a number, not {asked[name][:40]!r}") from None
+    return number(value, bound, name)
 
 
 def _tell(**values: Any) -> None:

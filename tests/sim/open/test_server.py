@@ -223,6 +223,9 @@ def test_a_run_is_of_the_text_and_gives_its_files_and_no_others(served: OpenedPa
         ({"thickness_mm": "-4"}, "thickness"),
         ({"thickness_mm": "nan"}, "thickness"),
         ({"wire_mm": "much"}, "wire_mm is a number, not 'much'"),
+        ({"wire_mm": "1e9"}, "wire_mm is 1000000000; it must lie between 0.01 and 1"),
+        ({"offset_mm": "inf"}, "offset_mm is inf; it must lie between 0 and 10"),
+        ({"offset_mm": "-5"}, "offset_mm is -5; it must lie between 0 and 10"),
         ({"offset_mm": "0.1", "text": "hello"}, "no block in the file"),
     ],
 )
