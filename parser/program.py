@@ -135,6 +135,15 @@ def suffixes() -> tuple[str, ...]:
     return tuple(suffix for reader in READERS for suffix in reader.suffixes)
 
 
+def usual_name(text: str) -> str:
+    """Name of a file for a text that has none: its end is the usual one of the language that the text is written in."""
+    try:
+        reader = _reader(text, of_none=READERS[0])
+    except ProgramError:
+        reader = READERS[0]
+    return f"program{reader.suffixes[0]}"
+
+
 def own_marks() -> Marks:
     """Marks that the dialects of all readers have themselves, in capitals."""
     own = [reader.own_marks for reader in READERS]

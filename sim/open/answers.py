@@ -8,7 +8,7 @@ import numpy as np
 from controller.stepping.words import interpolate
 from parser.findings.catalogue import LANGUAGES, texts
 from parser.findings.findings import Finding
-from parser.program import Program
+from parser.program import Program, usual_name
 from parser.shape.contours import find_contours
 from parser.text.encoding import decode_text, encode_text, printable
 from parser.text.lines import LINE_END
@@ -45,7 +45,11 @@ def file_of(read: ReadFile) -> bytes:
 
 
 def answer(name: str, file: Path | None, text: str) -> dict[str, Any]:
-    """What is found in a text, and its path; `file` is where it stands, None where nobody knows."""
+    """What is found in a text, and its path; an empty name is given the usual one.
+
+    `file` is where the text stands, None where nobody knows.
+    """
+    name = name or usual_name(text)
     found, offsets = as_typed(name, file, text), Offsets(text)
     program, result = found.program, found.result
     return {

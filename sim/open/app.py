@@ -140,7 +140,7 @@ class _Checks:
         async with self._turn:
             if number != self._last:
                 return Response(status_code=_NOTHING)
-            return JSONResponse(await run_in_threadpool(answer, told["name"] or "program", file, told["text"]))
+            return JSONResponse(await run_in_threadpool(answer, told["name"], file, told["text"]))
 
 
 class _BadRequestError(Exception):

@@ -101,4 +101,4 @@ class Runs:
 def _file_name(name: str) -> str:
     """A name for a file that nothing in it makes a way to another one, nor an option."""
     safe = _SAFE.sub("_", Path(name).name)[-_LONGEST_NAME:].lstrip(".-")
-    return safe or "program.3b"
+    return safe or "program"

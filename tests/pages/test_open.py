@@ -130,6 +130,15 @@ def test_files_are_dropped_and_saved_as_they_came(browsers: Browsers, tmp_path: 
         shown.waits_for("fail")
 
 
+def test_a_text_without_a_name_is_saved_under_that_of_its_language(browsers: Browsers) -> None:
+    with opened_page() as served, tab(browsers, served.address) as shown:
+        shown.page.fill("#text", "G90 G21\nG92 X0 Y0\nG01 X1. Y0\nG01 X0 Y0\nM02\n")
+        shown.waits_for("pass")
+        with shown.page.expect_download() as coming:
+            shown.page.click("#save")
+        assert coming.value.suggested_filename == "program.iso"
+
+
 def test_what_a_program_and_its_name_say_is_never_markup(browsers: Browsers) -> None:
     with opened_page() as served, tab(browsers, served.address) as shown:
         shown.drops(f"{MARKUP}.3b", f"B1{MARKUP}\n{WRONG}")

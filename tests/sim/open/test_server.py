@@ -260,3 +260,17 @@ def children_of(process: int) -> list[int]:
 
 def state_of(process: int) -> str:
     return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("B1000B0B1000GXL1\nDD\n", "program.3b"),
+        ("G90 G21\nG01 X1. Y0\nM02\n", "program.iso"),
+        ("OPEN PROG 1 CLEAR\nLINEAR INC\nX1 Y0\nCLOSE\n", "program.pmc"),
+        ("hello", "program.3b"),
+        ("", "program.3b"),
+    ],
+)
+def test_a_text_without_a_name_is_named_for_its_language(served: OpenedPage, text: str, name: str) -> None:
+    assert checked(served, text, name="")["name"] == name

@@ -140,13 +140,18 @@ async function take(chosen) {
   }
 }
 
+/** Of its file; one that has none yet is named for the language it is written in. */
+function nameOf() {
+  return file.name || (known?.answer.name ?? "program");
+}
+
 /** Save the text as its file was: encoding and line ends stay. */
 async function save() {
   try {
     const blob = await asked.saved({ ...file, text: text.value });
     const link = document.createElement("a");
     link.href = window.URL.createObjectURL(blob);
-    link.download = file.name || "program.3b";
+    link.download = nameOf();
     link.click();
     window.setTimeout(() => window.URL.revokeObjectURL(link.href), ALIVE_MS);
   } catch {
@@ -179,5 +184,5 @@ function wire() {
 language.onChange(show);
 language.begin();
 wire();
-wireRun(() => ({ name: file.name || "program.3b", text: text.value }), tell);
+wireRun(() => ({ name: nameOf(), text: text.value }), tell);
 asked.first().then(begin, () => tell("no-server"));
