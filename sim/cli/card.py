@@ -1,8 +1,8 @@
 """``drycut card``."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import click
 
@@ -13,6 +13,13 @@ if TYPE_CHECKING:
 
 SHOWN = 20
 """Differences that are printed; the others are counted."""
+_Command = TypeVar("_Command", bound=Callable[..., None])
+
+
+def _into(told: str) -> Callable[[_Command], _Command]:
+    """The option that names the folder of what is made."""
+    kind = click.Path(path_type=Path, file_okay=False)
+    return click.option("-o", "--output", type=kind, required=True, metavar="DIR", help=told)
 
 
 @click.group()
@@ -53,14 +60,7 @@ def replay(log: Path, as_json: bool) -> None:
 
 
 @card.command()
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path, file_okay=False),
-    required=True,
-    metavar="DIR",
-    help="Folder of the libraries; the headers are put in DIR/include.",
-)
+@_into("Folder of the libraries; the headers are put in DIR/include.")
 def build(output: Path) -> None:
     """Make the card's library for programs in C: libges.so with ges.h.
 
@@ -86,14 +86,7 @@ def build(output: Path) -> None:
 
 @card.command(context_settings={"ignore_unknown_options": True})
 @click.argument("command", nargs=-1, required=True, type=click.UNPROCESSED, metavar="CLIENT [ARGS]...")
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path, file_okay=False),
-    required=True,
-    metavar="DIR",
-    help="Write report.html, replay.html, cut.png, report.json, card.log and calls.txt here.",
-)
+@_into("Write report.html, replay.html, cut.png, report.json, card.log and calls.txt here.")
 @click.option(
     "--library",
     type=click.Path(path_type=Path, file_okay=False),

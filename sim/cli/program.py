@@ -92,14 +92,10 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
     _refuse_pictures(picture, asked)
     tongue: Tongue = chosen(lang)
     done = _made(asked)
-    is_proved = isinstance(done, Made) and done.is_proved
-    written = None
-    if isinstance(done, Made):
-        if (is_proved or force) and asked.is_written and asked.output is not None:
-            written = asked.output
-            _write(written, done.data if is_proved else _with_findings(done, asked, tongue))
-        if picture is not None:
-            _draw(done, _Picture(picture, theme), tongue)
+    made = done if isinstance(done, Made) else None
+    written = _written(made, asked, tongue, force=force) if made else None
+    if made and picture is not None:
+        _draw(made, _Picture(picture, theme), tongue)
     if as_json:
         from sim.cam.document import document_text
         from sim.show.words import Words
@@ -107,7 +103,15 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
         write(document_text(done, Words(tongue)), "json")
     else:
         _tell(done, asked, written, picture, tongue)
-    raise click.exceptions.Exit(0 if is_proved else 1)
+    raise click.exceptions.Exit(0 if made and made.is_proved else 1)
+
+
+def _written(made: "Made", asked: _Asked, tongue: "Tongue", *, force: bool) -> Path | None:
+    """The file that a proved program is written to, an unproved one with its findings by `force`; None if neither."""
+    if not asked.is_written or asked.output is None or not (made.is_proved or force):
+        return None
+    _write(asked.output, made.data if made.is_proved else _with_findings(made, asked, tongue))
+    return asked.output
 
 
 def _asked(path: Path, output: Path | None, options: Options, *, is_written: bool) -> _Asked:
