@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 from parser.findings.codes import CODES
-from parser.findings.findings import Finding, Value
+from parser.findings.findings import NO_NAMES, Finding, Value
 from parser.units import UM_PER_MM, mm
 
 Language = Literal["en", "zh"]
@@ -79,13 +79,18 @@ def texts(finding: Finding, language: Language = "en") -> Texts:
     """Texts of a finding in one language."""
     of = page(finding.code, language)
     templates = {"found": of.found, "expected": of.expected, "machine": of.machine, "hint": of.hint}
-    parts = {name: filled(template, finding.values, language) for name, template in templates.items()}
+    parts = {name: filled(template, finding.values, language, finding.names) for name, template in templates.items()}
     return Texts(of.title, **parts, message=_read("joints")[language]["message"].format(**parts))
 
 
-def filled(template: str, values: Mapping[str, Value], language: Language = "en") -> str:
-    """A template of a page, its places filled: they know ``{miss:um}``, ``{x:mm}``, ``{what:term}`` and the like."""
-    return _Filler(language).vformat(template, (), values)
+def filled(
+    template: str, values: Mapping[str, Value], language: Language = "en", names: Mapping[int, str] = NO_NAMES
+) -> str:
+    """A template of a page, its places filled: they know ``{miss:um}``, ``{x:mm}``, ``{what:term}`` and the like.
+
+    ``{first:block}`` is the number of a block; `names` has those that people call by another name.
+    """
+    return _Filler(language, names).vformat(template, (), values)
 
 
 def remark_template(name: str, language: Language) -> str:
@@ -110,21 +115,23 @@ def instant(t_s: float) -> str:
 
 
 class _Filler(string.Formatter):
-    """Fills templates; besides Python's own formats it knows ``um``, ``mm``, ``instant``, ``term`` and those of texts.
+    """Fills templates; besides Python's own formats it knows ``um``, ``mm``, ``instant``, ``term``, and those below.
 
+    ``block`` is the number of a block, which is called as the listing calls it.
     ``aside`` is a text in parentheses, ``or`` another choice, both nothing where there is none; ``pass`` the number of
     a pass, ``more`` how many others there are, both nothing for 0. ``known`` is a value, or the word for none;
     ``span`` is a range, two ends with `TO` between of which one may be missing, or a value that is no range.
     """
 
-    def __init__(self, language: Language) -> None:
-        self._language = language
+    def __init__(self, language: Language, names: Mapping[int, str]) -> None:
+        self._language, self._names = language, names
 
     def format_field(self, value: Any, format_spec: str) -> str:
         own: dict[str, Callable[[Any], str]] = {
             "um": lambda um: length(float(um)),
             "mm": lambda um: f"{round(mm(float(um)), 3) + 0.0:.3f}",
             "instant": lambda t_s: instant(float(t_s)),
+            "block": lambda number: self._names.get(number, str(number)),
             "term": lambda key: term(str(key), self._language),
             "known": self._known,
             "span": lambda ends: self._span(str(ends)),

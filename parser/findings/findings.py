@@ -9,6 +9,9 @@ from parser.findings.codes import CODES, Severity
 
 Value = str | int | float
 
+NO_NAMES: Mapping[int, str] = {}
+"""Of blocks that people call by their numbers; no mapping proxy, which cannot go to another process."""
+
 
 class Edit(NamedTuple):
     """A certain mend: the characters `first` up to but without `past` of the text become `text`."""
@@ -45,6 +48,8 @@ class Finding(NamedTuple):
         What later checks and mends take from it; None where none asks.
     graver
         Severity of this one, where it is graver than that of its code.
+    names
+        What the listing calls blocks that its texts may speak of, by number; others are called by their numbers.
     """
 
     code: str
@@ -56,11 +61,17 @@ class Finding(NamedTuple):
     edits: tuple[Edit, ...] = ()
     fact: Fact | None = None
     graver: Severity | None = None
+    names: Mapping[int, str] = NO_NAMES
 
     @property
     def severity(self) -> Severity:
         """Severity that the table gives this code, or a graver one of its own."""
         return self.graver or CODES[self.code].severity
+
+    @property
+    def block_name(self) -> str:
+        """What people call its block; empty where no one block is meant."""
+        return self.names.get(self.block, str(self.block)) if self.block else ""
 
     @property
     def place_mm(self) -> tuple[float, float] | None:

@@ -5,7 +5,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from parser.findings.catalogue import Language, filled, remark_template
-from parser.findings.findings import Value
+from parser.findings.findings import NO_NAMES, Value
 
 
 class Remark(NamedTuple):
@@ -18,6 +18,9 @@ class Remark(NamedTuple):
     values: Mapping[str, Value] = MappingProxyType({})
 
 
-def remark_text(remark: Remark, language: Language = "en") -> str:
-    """Text of a remark in one language. KeyError where the catalogue has no such remark."""
-    return filled(remark_template(remark.name, language), remark.values, language)
+def remark_text(remark: Remark, language: Language = "en", names: Mapping[int, str] = NO_NAMES) -> str:
+    """Text of a remark in one language. KeyError where the catalogue has no such remark.
+
+    `names` has the blocks, by number, that the listing calls by another name.
+    """
+    return filled(remark_template(remark.name, language), remark.values, language, names)

@@ -3,8 +3,10 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 
 from parser.geometry.curves import Ints
+from parser.text.block_names import BlockNames
 
 Span = tuple[int, int]
 """First character, and one past the last."""
@@ -33,7 +35,7 @@ def no_fields(text: str) -> Mapping[Field, Span]:
     return {}
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Source:
     """Where each row stands in the program text.
 
@@ -60,6 +62,11 @@ class Source:
     line: Ints
     label: tuple[str, ...]
     fields_of: Callable[[str], Mapping[Field, Span]] = no_fields
+
+    @cached_property
+    def names(self) -> BlockNames:
+        """What people call its blocks; worked out once."""
+        return BlockNames(self.block, self.label)
 
     def picked(self, row: Ints) -> "Source":
         """The source of the rows `row`."""

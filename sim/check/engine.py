@@ -50,14 +50,17 @@ class Checked(NamedTuple):
 def run_checks(program: Program, demands: Demands) -> Checked:
     """Run every check on a program, and blame the word that explains what they find."""
     checked = _every_check(program, demands)
-    if checked.steps is None or not checked.findings:
+    if not checked.findings:
         return checked
+    names = program.toolpath.source.names
+    if checked.steps is None:
+        return checked._replace(findings=names.named(checked.findings))
     from sim.check.blame.settle import settled  # noqa: PLC0415 - a sound program has nobody to blame, and starts sooner
 
     def again(text: str) -> tuple[Finding, ...]:
         return _every_check(parse_program(text, program.name, program.encoding, program.choices), demands).findings
 
-    return checked._replace(findings=settled(program, checked.findings, checked.judged, again))
+    return checked._replace(findings=names.named(settled(program, checked.findings, checked.judged, again)))
 
 
 def _every_check(program: Program, demands: Demands) -> Checked:

@@ -29,7 +29,7 @@ def too_many_steps(program: Program, steps: Steps) -> list[Finding]:
 
 def refusal(program: Program, findings: Sequence[Finding]) -> ProgramError:
     """Error of a program that asks for more than any table can do, of which one of the findings tells."""
-    finding, _ = next(telling(findings, TooLarge))
+    finding, _ = next(telling(program.toolpath.source.names.named(findings), TooLarge))
     return ProgramError(finding, excerpt=program.excerpt(finding.line))
 
 

@@ -76,7 +76,7 @@ def compare(
     if as_json:
         write(document_text(done), "json")
     else:
-        print_comparison(done, program.name, source)
+        print_comparison(done, program.name, program.toolpath.source.names, source)
     raise click.exceptions.Exit(0 if done.passes else 1)
 
 

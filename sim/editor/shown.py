@@ -27,7 +27,8 @@ def hover_of(text: Text, position: Position) -> Hover | None:
     if program is None or row is None:
         return None
     first, past = program.toolpath.source.span[row].tolist()
-    lines = "  \n".join(_block_lines(program.toolpath.block(row), Words(text.language)))
+    block, called = program.toolpath.block(row), program.toolpath.source.names.of_row(row)
+    lines = "  \n".join(_block_lines(block, called, Words(text.language)))
     return Hover(MarkupContent(MarkupKind.Markdown, lines), text.places.range_of((first, past)))
 
 
@@ -50,8 +51,8 @@ def _row_at(program: Program, character: int) -> int | None:
     return int(at[0]) if len(at) else None
 
 
-def _block_lines(block: Block, words: Words) -> Iterator[str]:
-    name = f"{block.label} ({block.number})" if block.label else f"{block.number}"
+def _block_lines(block: Block, called: str, words: Words) -> Iterator[str]:
+    name = f"{called} ({block.number})" if called != str(block.number) else called
     yield words(f"editor.block-{block.kind.name.lower()}", name=f"**{name}**", length=_mm(block.length_um))
     yield words("editor.ends", start=_place(block.start_um), end=_place(block.end_um))
     if block.center_um is None or block.sweep_rad is None:
@@ -91,8 +92,7 @@ def _block_symbol(program: Program, places: Places, row: int) -> DocumentSymbol:
 
 
 def _name(program: Program, block: int) -> str:
-    """How the listing names a block: by its label, else by its number."""
-    return program.toolpath.source.label[block - 1] or str(block)
+    return program.toolpath.source.names.at(block)
 
 
 def _mm(um: float) -> str:

@@ -86,6 +86,7 @@ def _finding(finding: Finding, offsets: Offsets) -> dict[str, Any]:
         "hint": {language: text.hint for language, text in said.items()},
         "line": finding.line,
         "block": finding.block,
+        "block_name": finding.block_name,
         "first": offsets.of(finding.span[0]),
         "past": offsets.of(finding.span[1]),
         "edits": [[offsets.of(edit.first), offsets.of(edit.past), edit.text] for edit in finding.edits],
@@ -100,7 +101,7 @@ def _path(program: Program, offsets: Offsets) -> dict[str, list[Any]]:
         "line": source.line.tolist(),
         "first": [offsets.of(first) for first in source.span[:, 0].tolist()],
         "past": [offsets.of(past) for past in source.span[:, 1].tolist()],
-        "label": list(source.label),
+        "name": source.names.of_rows(),
     }
 
 

@@ -13,6 +13,7 @@ from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.shape.passes import Passes
+from parser.text.block_names import BlockNames
 from parser.toolpath import Toolpath
 from sim.check.beside import Offsetting
 from sim.check.result import Coverage
@@ -154,3 +155,8 @@ class DryRun:
     def toolpath(self) -> Toolpath:
         """The exact geometry that was run, the offset added."""
         return self.program.toolpath
+
+    @property
+    def block_names(self) -> BlockNames:
+        """What people call its blocks."""
+        return self.toolpath.source.names

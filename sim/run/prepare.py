@@ -73,7 +73,8 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
     by_pass = np.array([scenario.pass_feed_um_s(one) for one in scenario.offset.passes])
     feeds = feeds._replace(cut_um_s=by_pass[offset.pass_of_row])
     added = (*offset.findings, *_between_passes(offset, scenario), *travel)
-    findings = (*_under_offset(checked.findings), *in_codes(program.reading, added))
+    named = program.toolpath.source.names.named(in_codes(program.reading, added))
+    findings = (*_under_offset(checked.findings), *named)
     return Prepared(offset.program, steps, offset, feeds, findings, coverage)
 
 

@@ -101,7 +101,9 @@ def run_along(
 
 def _in_order(ready: Prepared, found: list[Finding]) -> tuple[Finding, ...]:
     """All findings in file order, those that a run `found` in the codes of the program's dialect."""
-    return tuple(sorted([*ready.findings, *in_codes(ready.program.reading, found)], key=file_order))
+    program = ready.program
+    coded = program.toolpath.source.names.named(in_codes(program.reading, found))
+    return tuple(sorted([*ready.findings, *coded], key=file_order))
 
 
 def _met(

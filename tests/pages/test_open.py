@@ -31,7 +31,7 @@ class Tab:
         return self.page.input_value("#text")
 
     def codes(self) -> list[str]:
-        return [text.split("·")[1].split()[0] for text in self.page.locator("#found .go").all_inner_texts()]
+        return [text.split("·")[-1].split()[0] for text in self.page.locator("#found .go").all_inner_texts()]
 
     def waits_for(self, verdict: str) -> None:
         self.page.wait_for_selector(f"#counts.{verdict}")

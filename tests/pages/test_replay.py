@@ -182,7 +182,7 @@ def test_steps_and_blocks_go_on_and_back_one_by_one(open_page: OpenPage) -> None
     page.keyboard.press("ArrowDown")
     assert state(page)["block"] == 4
     drawn(page)  # what is read out is written with the next frame
-    assert page.locator("#live").inner_text() == "Block 5 of 7 · N5 · line"
+    assert page.locator("#live").inner_text() == "Block N5 (5 of 7) · line"
 
 
 def test_scrubbing_leads_to_the_time_under_the_pointer(open_page: OpenPage) -> None:
@@ -202,7 +202,7 @@ def test_scrubbing_leads_to_the_time_under_the_pointer(open_page: OpenPage) -> N
 def test_a_click_on_a_block_leads_there_and_marks_it(open_page: OpenPage) -> None:
     page = opened(open_page)
     page.get_by_text("B1000 B0 B2000 GY NR1").click()
-    assert (state(page)["block"], out(page, "block")) == (3, "4 / 7")
+    assert (state(page)["block"], out(page, "block")) == (3, "N4 · 4 / 7")
     running = page.locator('#program [aria-selected="true"]')
     assert running.count() == 1
     assert "N4:" in running.inner_text()
@@ -224,7 +224,7 @@ def test_hovering_a_block_tells_its_geometry_and_outlines_it(open_page: OpenPage
 def test_findings_stand_in_the_time_line_and_lead_to_their_block(open_page: OpenPage) -> None:
     page = opened(open_page)
     page.get_by_role("tab", name="Findings (1)").click()
-    assert "block 6, line 6" in page.locator("#findings").inner_text()
+    assert "block N6, line 6" in page.locator("#findings").inner_text()
     page.locator("#finding-marks button").click()
     assert state(page)["block"] == 5
     do(page, "drycut.player.seek(0)")

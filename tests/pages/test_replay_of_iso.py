@@ -54,7 +54,7 @@ def test_a_click_on_it_leads_to_its_first_call(open_page: OpenPage) -> None:
     page.get_by_text("N220 G03 X35000 Y0 I-5000 J0").click()
     assert page.evaluate("drycut.player.state().block") == SECOND
     page.locator("#program .now").hover()
-    assert page.locator("#tip").inner_text().startswith("Block 6 of 10 · N220 · arc, counter-clockwise")
+    assert page.locator("#tip").inner_text().startswith("Block N220 (6 of 10) · arc, counter-clockwise")
 
 
 def test_words_of_3b_are_not_shown_as_those_of_a_block(open_page: OpenPage) -> None:

@@ -82,15 +82,13 @@ def fix_file(path: Path, name: str, settings: CheckSettings, known: frozenset[st
 
 def left(mend: Mended, language: Language, width: int) -> str:
     """What was not mended, as there is more than one way to do it; for people, the mends in lines of `width` cells."""
-    return "".join(
-        f"{line}\n" for unmended in mend.unmended for line in _left(mend.program.name, unmended, language, width)
-    )
+    return "".join(f"{line}\n" for unmended in mend.unmended for line in _left(mend.program, unmended, language, width))
 
 
-def _left(name: str, unmended: Unmended, language: Language, width: int) -> list[str]:
-    say, finding = Words(language), unmended.finding
-    where = place(printable(name), finding.line, finding.column)
-    choices = (say("findings.choice", block=choice.block, text=choice.text) for choice in unmended.choices)
+def _left(program: Program, unmended: Unmended, language: Language, width: int) -> list[str]:
+    say, finding, names = Words(language), unmended.finding, program.toolpath.source.names
+    where = place(printable(program.name), finding.line, finding.column)
+    choices = (say("findings.choice", block=names(choice.block), text=choice.text) for choice in unmended.choices)
     return [
         say("findings.left", place=where, code=finding.code),
         *wrapped(say("findings.or").join(choices), width, head="    "),

@@ -128,6 +128,7 @@ def finding_entry(finding: Finding) -> dict[str, Any]:
         "line": finding.line or None,
         "column": finding.column or None,
         "block": finding.block or None,
+        "block_name": finding.block_name or None,
     }
 
 

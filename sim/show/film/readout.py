@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from parser.findings.catalogue import instant, page
 from parser.findings.findings import Finding
+from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.cut.pieces.pieces import Piece
 from sim.run.course import Course, Event, Moment
@@ -31,7 +32,7 @@ def read_out(course: Course, moment: Moment, speed: float, say: Words) -> list[L
     toolpath = course.run.toolpath
     first, past = toolpath.source.span[moment.row].tolist()
     return [
-        Line("", say("film.block", number=f"{moment.row + 1:,}", count=f"{len(toolpath):,}")),
+        Line("", _block(toolpath, moment.row, say)),
         Line("", toolpath.source.text[first:past], Paint.GREY),
         *_running(course, moment, say),
         Line("X", x),
@@ -43,6 +44,12 @@ def read_out(course: Course, moment: Moment, speed: float, say: Words) -> list[L
         Line(say("film.speed"), f"× {_speed(speed)}"),
         told(course, moment.t_s, speed, say),
     ]
+
+
+def _block(toolpath: Toolpath, row: int, say: Words) -> str:
+    """Which block runs: its label where it has one, and its place in the run."""
+    label, place = toolpath.source.names.label(row), {"number": f"{row + 1:,}", "count": f"{len(toolpath):,}"}
+    return say("film.labelled_block", label=label, **place) if label else say("film.block", **place)
 
 
 def _running(course: Course, moment: Moment, say: Words) -> list[Line]:

@@ -75,6 +75,7 @@ def _finding(result: CheckResult, finding: Finding, language: Language) -> dict[
         "column": at.column or None,
         "end_column": at.end_column or None,
         "block": finding.block or None,
+        "block_name": finding.block_name or None,
         "values": finding.values,
         "fixable": bool(finding.edits),
         "edits": [_edit(edit) for edit in finding.edits],

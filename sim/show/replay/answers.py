@@ -81,7 +81,7 @@ def _count_length(block: AskedBlock) -> WrittenQuestion:
     axis = "XY".index(block.axis)
     others = (block.steps, abs(block.by_um[axis]), block.length_um, abs(block.by_um[1 - axis]), block.count_um * 2)
     wrong = [round(float(other)) for other in others if other >= 1]
-    ask = said("quiz.count_length", block=block.number, axis=block.axis)
+    ask = said("quiz.count_length", block=block.name, axis=block.axis)
     why = said(f"quiz.count_length_{block.kind}_why", count=block.count_um, axis=block.axis)
     answers = sorted({block.count_um, *_some(wrong, block.count_um)})
     return _among([str(answer) for answer in answers], str(block.count_um), ask, why)
@@ -138,7 +138,7 @@ def _among(answers: list[str], right: str, ask: Said, why: Said) -> WrittenQuest
 
 
 def _ask(key: str, block: AskedBlock) -> Said:
-    return said(key, block=block.number)
+    return said(key, block=block.name)
 
 
 def _turn(block: AskedBlock) -> Said:

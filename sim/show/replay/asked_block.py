@@ -18,8 +18,8 @@ class AskedBlock(NamedTuple):
 
     Attributes
     ----------
-    number
-        Of the block in the program.
+    name
+        What people call the block.
     is_arc
         Whether it is an arc.
     start_um, end_um, center_um
@@ -38,7 +38,7 @@ class AskedBlock(NamedTuple):
         How the program writes arcs clockwise and counter-clockwise, such as ``SR`` and ``NR``.
     """
 
-    number: int
+    name: str
     is_arc: bool
     start_um: Floats
     end_um: Floats
@@ -87,7 +87,7 @@ def asked_block(run: DryRun, row: int, first_um: tuple[int, int] | None) -> Aske
     from_x, from_y = run.stepped.corner_um[row].tolist()
     to_x, to_y = first_um or (from_x, from_y)
     return AskedBlock(
-        number=int(toolpath.source.block[row]),
+        name=toolpath.source.names.of_row(row),
         is_arc=bool(toolpath.is_arc[row]),
         start_um=toolpath.start_um[row],
         end_um=toolpath.end_um[row],

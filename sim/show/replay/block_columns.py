@@ -69,7 +69,7 @@ def _words(words: StepWords) -> dict[str, list[Any]]:
 
 
 def _source(program: Program) -> dict[str, list[Any]]:
-    """Where each block stands: its number in the program, line from 1, first character of it from 0, and length."""
+    """Each block's number and name in the program, its line from 1, its first character in that from 0, its length."""
     source = program.toolpath.source
     _, first = program.lines.places(source.span[:, 0])
     return {
@@ -77,5 +77,6 @@ def _source(program: Program) -> dict[str, list[Any]]:
         "line": source.line.tolist(),
         "character": (first - 1).tolist(),
         "characters": (source.span[:, 1] - source.span[:, 0]).tolist(),
-        "label": list(source.label),
+        "name": source.names.of_rows(),
+        "label": [source.names.label(row) for row in range(len(program.toolpath))],
     }

@@ -34,6 +34,7 @@ def finding_entry(happening: Happening[Finding]) -> dict[str, Any]:
         "severity": str(finding.severity),
         "line": finding.line or None,
         "block": finding.block or None,
+        "block_name": finding.block_name,
         "row": None if happening.row < 0 else happening.row,
         "t_s": None if math.isnan(happening.t_s) else rounded(happening.t_s),
         "place_um": None if place_mm is None else [rounded(from_mm(along)) for along in place_mm],

@@ -3,9 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
+from parser.text.block_names import BlockNames
 from sim.show.report_page.tables import (
     Column,
     ReportTable,
+    called,
     column_of,
     counted,
     micrometres,
@@ -17,7 +19,7 @@ from sim.show.report_page.tables import (
 from sim.show.words import said
 
 
-def piece_table(entries: list[dict[str, Any]]) -> ReportTable:
+def piece_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable:
     """Pieces in the order in which they come free."""
     return ReportTable(
         "pieces",
@@ -26,9 +28,9 @@ def piece_table(entries: list[dict[str, Any]]) -> ReportTable:
             worded("kind", column_of(entries, "kind")),
             Column(said("report.area"), column_of(entries, "area_mm2"), unit="mm²", digits=3),
             Column(said("report.mass"), column_of(entries, "mass_g"), unit="g", digits=3),
-            counted("freed-block", column_of(entries, "freed.block")),
+            called("freed-block", column_of(entries, "freed.block"), names.at),
             timed("freed-after", column_of(entries, "freed.t_s")),
-            counted("held-after", column_of(entries, "held_after_block")),
+            called("held-after", column_of(entries, "held_after_block"), names.at),
             micrometres("cut-after", column_of(entries, "cut_after_um")),
             micrometres("can-shift", [_farthest(entry["play"]["shifts"]) for entry in entries], digits=0),
             yes_or_no("early", column_of(entries, "early")),
@@ -42,7 +44,7 @@ def _farthest(shifts: list[dict[str, Any]]) -> float | None:
     return None if None in ways else max(ways)
 
 
-def size_tables(sizes: Mapping[str, list[dict[str, Any]]]) -> list[ReportTable]:
+def size_tables(sizes: Mapping[str, list[dict[str, Any]]], names: BlockNames) -> list[ReportTable]:
     """Widths, radii and distances of what is kept, as cut and nominal."""
     boxes, radii, distances = sizes["boxes"], sizes["radii"], sizes["distances"]
     return [
@@ -51,7 +53,7 @@ def size_tables(sizes: Mapping[str, list[dict[str, Any]]]) -> list[ReportTable]:
             "radii",
             (
                 *_of_what(radii),
-                counted("block", column_of(radii, "block")),
+                called("block", column_of(radii, "block"), names.at),
                 millimetres("as-cut", column_of(radii, "cut_um")),
                 millimetres("nominal", column_of(radii, "nominal_um")),
                 _apart(radii),
@@ -62,8 +64,8 @@ def size_tables(sizes: Mapping[str, list[dict[str, Any]]]) -> list[ReportTable]:
             "distances",
             (
                 *_of_what(distances),
-                counted("block", column_of(distances, "blocks.0")),
-                counted("other-block", column_of(distances, "blocks.1")),
+                called("block", column_of(distances, "blocks.0"), names.at),
+                called("other-block", column_of(distances, "blocks.1"), names.at),
                 millimetres("as-cut", column_of(distances, "cut_um")),
                 millimetres("nominal", column_of(distances, "nominal_um")),
                 _apart(distances),
@@ -72,7 +74,7 @@ def size_tables(sizes: Mapping[str, list[dict[str, Any]]]) -> list[ReportTable]:
     ]
 
 
-def worst_table(entries: list[dict[str, Any]]) -> ReportTable:
+def worst_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable:
     """Where edge and drawing are farthest apart."""
     return ReportTable(
         "worst",
@@ -81,13 +83,13 @@ def worst_table(entries: list[dict[str, Any]]) -> ReportTable:
             micrometres("distance", column_of(entries, "max_um"), digits=3),
             millimetres("at-x", column_of(entries, "where_um.0")),
             millimetres("at-y", column_of(entries, "where_um.1")),
-            counted("block", column_of(entries, "block")),
+            called("block", column_of(entries, "block"), names),
             counted("entity", column_of(entries, "entity")),
         ),
     )
 
 
-def corner_table(entries: list[dict[str, Any]]) -> ReportTable:
+def corner_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable:
     """Sharp inside corners of the drawing that the wire cannot reach, and what it must leave in them."""
     return ReportTable(
         "corners",
@@ -96,7 +98,7 @@ def corner_table(entries: list[dict[str, Any]]) -> ReportTable:
             Column(said("report.angle"), column_of(entries, "angle_deg"), unit="°", digits=1),
             millimetres("at-x", column_of(entries, "where_um.0")),
             millimetres("at-y", column_of(entries, "where_um.1")),
-            counted("block", column_of(entries, "block")),
+            called("block", column_of(entries, "block"), names),
             counted("entity", column_of(entries, "entity")),
         ),
     )

@@ -52,7 +52,7 @@ def key_figures(run: DryRun, report: Mapping[str, Any]) -> list[Figure]:
     return [
         *_size(run, report),
         _steps(report),
-        *_worst(report),
+        *_worst(run, report),
         *_closure(run, report),
         *_pieces(report),
         *_drawing(report),
@@ -80,7 +80,7 @@ def _first(run: DryRun) -> Said:
     first = next(finding for finding in run.findings if finding.severity is Severity.ERROR)
     title = Said(*(texts(first, language).title for language in LANGUAGES))
     key = "report.why-failed-in" if first.block else "report.why-failed"
-    return said(key, counts=_counts(run.findings), code=first.code, title=title, block=first.block)
+    return said(key, counts=_counts(run.findings), code=first.code, title=title, block=first.block_name)
 
 
 def _counts(findings: tuple[Finding, ...]) -> Said:
@@ -92,7 +92,7 @@ def _ended(run: DryRun) -> list[Said]:
     ended = run.ended
     if ended is None:
         return []
-    told = {"axis": ended.axis.name, "block": ended.row + 1, "time": lasting(ended.t_s)}
+    told = {"axis": ended.axis.name, "block": run.block_names.of_row(ended.row), "time": lasting(ended.t_s)}
     return [said(f"report.ended-{ended.cause}", **told)]
 
 
@@ -124,10 +124,11 @@ def _steps(report: Mapping[str, Any]) -> Figure:
     return _figure("steps", report, "summary.steps")._replace(beside=said(f"report.{report['interpolator']['name']}"))
 
 
-def _worst(report: Mapping[str, Any]) -> Iterator[Figure]:
+def _worst(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     where = report["deviation"]["wire"]["where"]
     if where is not None:
-        place = said("report.at-place", block=where["block"], x=_mm(where["x_um"]), y=_mm(where["y_um"]))
+        block = run.block_names.at(where["block"])
+        place = said("report.at-place", block=block, x=_mm(where["x_um"]), y=_mm(where["y_um"]))
         figure = _figure("worst-deviation", report, "deviation.wire.max_um", 2)
         yield figure._replace(unit="µm", beside=place)
 
@@ -141,7 +142,8 @@ def _closure(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     contour = report["contours"][at]
     told: dict[str, object] = {"exact": f"{contour['closure_exact_um']:,.2f}"}
     if len(run.whole_contours) > 1:
-        told |= {"n": len(run.whole_contours), "first": contour["first_block"], "last": contour["last_block"]}
+        first, last = (run.block_names.at(contour[key]) for key in ("first_block", "last_block"))
+        told |= {"n": len(run.whole_contours), "first": first, "last": last}
     beside = said("report.closure-worst" if len(run.whole_contours) > 1 else "report.closure-exact", **told)
     yield _figure("closure", report, f"contours.{at}.closure_stepped_um", 2)._replace(unit="µm", beside=beside)
 

@@ -37,8 +37,10 @@ class Shown(NamedTuple):
         Its address in the page.
     code, severity, word, title
         What it is: its severity as a key and as a word.
-    line, column, block
+    line, column
         Where it is; 0 where that is not meant.
+    block
+        What people call the block it is in; empty where no one block is meant.
     texts
         What was found and expected, what the machine does, and how to mend it, each by its key; only those there are.
     source
@@ -52,7 +54,7 @@ class Shown(NamedTuple):
     title: Said
     line: int
     column: int
-    block: int
+    block: str
     texts: tuple[tuple[str, Said], ...]
     source: tuple[str, str] | None
 
@@ -91,7 +93,7 @@ def _shown(program: Program, finding: Finding, address: str) -> Shown:
         title=Said(english["title"], chinese["title"]),
         line=finding.line,
         column=finding.column,
-        block=finding.block,
+        block=finding.block_name,
         texts=tuple((part, Said(english[part], chinese[part])) for part in PARTS if english[part]),
         source=_source(program, finding),
     )

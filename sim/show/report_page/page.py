@@ -70,16 +70,16 @@ def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inlin
 
 
 def _tables(run: DryRun, report: Mapping[str, Any]) -> list[ReportTable]:
-    remains, drawing = report["remains"], report["drawing"]
+    remains, drawing, names = report["remains"], report["drawing"], run.block_names
     return [
         contour_table(run, report),
-        *([pass_table(report)] if run.has_trims else []),
-        deviation_table(report),
-        cause_table(report),
-        limit_table(report),
-        loss_table(report),
-        *([piece_table(remains["pieces"]), *size_tables(remains["sizes"])] if remains else []),
-        *([worst_table(drawing["worst"]), corner_table(drawing["unreachable"])] if drawing else []),
+        *([pass_table(run, report)] if run.has_trims else []),
+        deviation_table(run, report),
+        cause_table(run, report),
+        limit_table(run, report),
+        loss_table(run, report),
+        *([piece_table(remains["pieces"], names), *size_tables(remains["sizes"], names)] if remains else []),
+        *([worst_table(drawing["worst"], names), corner_table(drawing["unreachable"], names)] if drawing else []),
         block_table(run, report),
         check_table(run),
         _expectation_table(run),

@@ -5,11 +5,13 @@ from typing import Any
 
 from parser.findings.catalogue import LANGUAGES, Said
 from parser.shape.contours import Contour
+from parser.text.block_names import BlockNames
 from sim.run.dryrun import DryRun
 from sim.show.report_page.findings import address
 from sim.show.report_page.tables import (
     Column,
     ReportTable,
+    called,
     column_of,
     counted,
     micrometres,
@@ -37,7 +39,7 @@ def block_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     return ReportTable(
         "blocks",
         (
-            counted("block", of("block")),
+            called("block", of("block"), run.block_names.at),
             counted("line", of("line")),
             Column(said("report.text"), of("text"), "code"),
             worded("kind", of("kind"), "kind"),
@@ -80,8 +82,8 @@ def contour_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
         "contours",
         (
             counted("number", list(range(1, len(entries) + 1))),
-            counted("first-block", column_of(entries, "first_block")),
-            counted("last-block", column_of(entries, "last_block")),
+            called("first-block", column_of(entries, "first_block"), run.block_names.at),
+            called("last-block", column_of(entries, "last_block"), run.block_names.at),
             worded("state", [_state(contour) for contour in run.whole_contours]),
             micrometres("exact-closure", column_of(entries, "closure_exact_um")),
             micrometres("stepped-closure", column_of(entries, "closure_stepped_um")),
@@ -90,7 +92,7 @@ def contour_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     )
 
 
-def pass_table(report: Mapping[str, Any]) -> ReportTable:
+def pass_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     """Passes over each edge, as ``passes[]`` of the report has them."""
     entries = report["passes"]
     return ReportTable(
@@ -100,8 +102,8 @@ def pass_table(report: Mapping[str, Any]) -> ReportTable:
             counted("pass-number", column_of(entries, "number")),
             worded("pass-kind", [_pass_kind(entry) for entry in entries]),
             worded("pass-way", column_of(entries, "direction")),
-            counted("first-block", column_of(entries, "blocks.0")),
-            counted("last-block", column_of(entries, "blocks.1")),
+            called("first-block", column_of(entries, "blocks.0"), run.block_names.at),
+            called("last-block", column_of(entries, "blocks.1"), run.block_names.at),
             micrometres("pass-offset", column_of(entries, "offset_um"), digits=1),
             millimetres("length", column_of(entries, "length_um")),
             timed("seconds", column_of(entries, "time_s")),
@@ -125,7 +127,7 @@ def _state(contour: Contour) -> str:
     return "open" if contour.is_open else "closed"
 
 
-def deviation_table(report: Mapping[str, Any]) -> ReportTable:
+def deviation_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     """Deviation of steps, table and wire."""
     entries = [report["deviation"][stage] for stage in _STAGES]
     return ReportTable(
@@ -135,20 +137,21 @@ def deviation_table(report: Mapping[str, Any]) -> ReportTable:
             micrometres("largest", column_of(entries, "max_um")),
             micrometres("rms", column_of(entries, "rms_um")),
             micrometres("p95", column_of(entries, "p95_um")),
-            *_met(entries, "where."),
+            *_met(run.block_names, entries, "where."),
         ),
     )
 
 
-def cause_table(report: Mapping[str, Any]) -> ReportTable:
+def cause_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     """What each cause adds to the deviation."""
     causes = report["deviation"]["by_cause"]
     entries = list(causes.values())
     largest = micrometres("largest", column_of(entries, "max_um"))
-    return ReportTable("causes", (worded("cause", tuple(causes), "by"), largest, *_met(entries, "where.")))
+    met = _met(run.block_names, entries, "where.")
+    return ReportTable("causes", (worded("cause", tuple(causes), "by"), largest, *met))
 
 
-def limit_table(report: Mapping[str, Any]) -> ReportTable:
+def limit_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     """How near the drives came to their limits."""
     entries = report["limits"]
     return ReportTable(
@@ -160,17 +163,18 @@ def limit_table(report: Mapping[str, Any]) -> ReportTable:
             Column(said("report.limit"), column_of(entries, "limit"), digits=2),
             named("unit", [{"force": "N", "speed": "µm/s", "lag": "µm"}[entry["quantity"]] for entry in entries]),
             Column(said("report.share"), column_of(entries, "share"), unit="%", per=0.01, digits=1),
-            *_met(entries),
+            *_met(run.block_names, entries),
         ),
     )
 
 
-def loss_table(report: Mapping[str, Any]) -> ReportTable:
+def loss_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
     """What the drives lost."""
     entries = report["losses"]
     what = worded("what", column_of(entries, "kind"))
     amount = micrometres("amount", column_of(entries, "amount_um"))
-    return ReportTable("losses", (what, named("axis", column_of(entries, "axis")), amount, *_met(entries)))
+    axis, met = named("axis", column_of(entries, "axis")), _met(run.block_names, entries)
+    return ReportTable("losses", (what, axis, amount, *met))
 
 
 def check_table(run: DryRun) -> ReportTable:
@@ -192,10 +196,10 @@ def _terms(head: str, keys: list[str]) -> Column:
     return Column(said(f"report.{head}"), keys, "word", words={key: catalogued(key) for key in dict.fromkeys(keys)})
 
 
-def _met(entries: list[Any], where: str = "") -> tuple[Column, ...]:
+def _met(names: BlockNames, entries: list[Any], where: str = "") -> tuple[Column, ...]:
     """Block, place and time of what was met."""
     return (
-        counted("block", column_of(entries, f"{where}block")),
+        called("block", column_of(entries, f"{where}block"), names.at),
         millimetres("at-x", column_of(entries, f"{where}x_um")),
         millimetres("at-y", column_of(entries, f"{where}y_um")),
         timed("at-time", column_of(entries, f"{where}t_s")),

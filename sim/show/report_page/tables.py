@@ -1,6 +1,6 @@
 """Tables of the page: columns of values as the report has them, which the page shows, sorts and turns over."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
 from parser.findings.catalogue import Said
@@ -59,6 +59,14 @@ class ReportTable(NamedTuple):
 def counted(head: str, values: Sequence[Any]) -> Column:
     """Whole numbers."""
     return Column(said(f"report.{head}"), values)
+
+
+def called(head: str, values: Iterable[int | None], name: Callable[[int], str]) -> Column:
+    """Blocks by what `name` calls them; where they have numbers alone, as whole numbers."""
+    names = [None if value is None else name(value) for value in values]
+    if all(one is None or one.isdecimal() for one in names):
+        return counted(head, [one and int(one) for one in names])
+    return named(head, names)
 
 
 def micrometres(head: str, values: Sequence[Any], digits: int = 2) -> Column:

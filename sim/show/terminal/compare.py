@@ -4,6 +4,7 @@ import numpy as np
 from rich.table import Table
 
 from parser.findings.remarks import remark_text
+from parser.text.block_names import BlockNames
 from parser.units import mm
 from sim.measure.compare.result import Comparison, WorstPlace
 from sim.measure.compare.tables import by_block, by_entity, corner_places, worst_places
@@ -15,19 +16,23 @@ _SHOWN_UM = 5e-4  # what is not printed as 0.000
 _SIDES = {1: "left", -1: "gouged", 0: ""}
 
 
-def print_comparison(of: Comparison, program: str, offset: str) -> None:
-    """Print a comparison to stdout; `offset` says how large it is and where it comes from."""
+def print_comparison(of: Comparison, program: str, names: BlockNames, offset: str) -> None:
+    """Print a comparison to stdout; `offset` says how large it is and where it comes from.
+
+    `program` is the name of its file, `names` are those of its blocks.
+    """
     figures = table(f"{program} against {of.drawing.name}")
-    for row in _rows(of, offset):
+    for row in _rows(of, names, offset):
         figures.add_row(*row)
     show(figures)
-    show(_worst(of))
+    show(_worst(of, names))
     if of.unreachable:
-        show(_corners(of))
+        show(_corners(of, names))
     for note in of.notes:
         paragraph(f"note: {remark_text(note)}", "cyan")
     for named in of.names:
-        paragraph(f"{'warning' if of.passes else 'error'}: {remark_text(named)}", "yellow" if of.passes else "red")
+        text = remark_text(named, names=names.other)
+        paragraph(f"{'warning' if of.passes else 'error'}: {text}", "yellow" if of.passes else "red")
     verdict = f"verdict: {'pass' if of.passes else 'fail'}, {_um(of.max_um)} of {_um(of.asked.tolerance_um)} allowed"
     paragraph(verdict, "bold green" if of.passes else "bold red")
 
@@ -37,20 +42,20 @@ def _um(length_um: float) -> str:
     return f"{length_um:,.3f} µm" if length_um < 1000.0 else f"{mm(length_um):,.3f} mm"
 
 
-def _rows(of: Comparison, offset: str) -> list[tuple[str, str]]:
+def _rows(of: Comparison, names: BlockNames, offset: str) -> list[tuple[str, str]]:
     there, back = (max(places, key=lambda place: place.deviation_um) for places in (by_block(of), by_entity(of)))
     return [
         ("offset", offset),
-        ("edge from drawing", f"at most {_um(there.deviation_um)}, {_where(there)}"),
+        ("edge from drawing", f"at most {_um(there.deviation_um)}, {_where(there, names)}"),
         ("  root mean square", _um(of.edge_to_drawing.rms_um)),
-        ("drawing from edge", f"at most {_um(back.deviation_um)}, {_where(back)}"),
+        ("drawing from edge", f"at most {_um(back.deviation_um)}, {_where(back, names)}"),
         ("  root mean square", _um(of.drawing_to_edge.rms_um)),
         ("drawing laid", _laid(of)),
     ]
 
 
-def _where(place: WorstPlace) -> str:
-    return f"block {place.block:,} at {_xy(*place.where_um)} mm"
+def _where(place: WorstPlace, names: BlockNames) -> str:
+    return f"block {names(place.block)} at {_xy(*place.where_um)} mm"
 
 
 def _laid(of: Comparison) -> str:
@@ -62,7 +67,7 @@ def _laid(of: Comparison) -> str:
     return f"mirrored, {turned}" if mirror else turned
 
 
-def _worst(of: Comparison) -> Table:
+def _worst(of: Comparison, names: BlockNames) -> Table:
     heads = ("deviation", "side", "at, mm", "block", "entity", "measured from")
     shown = table("Worst places", heads, right=(0, 3))
     for place in worst_places(of):
@@ -70,14 +75,14 @@ def _worst(of: Comparison) -> Table:
             _um(place.deviation_um),
             _SIDES[place.side] if place.deviation_um >= _SHOWN_UM else "",
             _xy(*place.where_um),
-            f"{place.block:,}",
+            names(place.block),
             _entity(of, place.entity),
             _MEASURED_FROM[place.measured_from],
         )
     return shown
 
 
-def _corners(of: Comparison) -> Table:
+def _corners(of: Comparison, names: BlockNames) -> Table:
     """Where the wire must leave something, the deepest first."""
     corners = sorted(corner_places(of), key=lambda corner: -corner.depth_um)
     counted = "counted" if of.asked.sharp_corners == "fail" else "not counted"
@@ -89,7 +94,7 @@ def _corners(of: Comparison) -> Table:
             _um(corner.depth_um),
             f"{np.degrees(corner.angle_rad):.1f}°",
             _xy(*corner.where_um),
-            f"{corner.block:,}",
+            names(corner.block),
             _entity(of, corner.entity),
         )
     return shown

@@ -5,6 +5,7 @@ from collections import Counter
 from controller.offset.path import Made
 from parser.findings.remarks import remark_text
 from parser.shape.passes import Pass
+from parser.text.block_names import BlockNames
 from parser.units import mm
 from sim.cut.pieces.pieces import Piece
 from sim.measure.passes.figures import PassFigures
@@ -64,19 +65,21 @@ def piece_rows(run: DryRun) -> list[Row]:
     freed = run.remains.pieces.freed
     if not freed:
         return [("pieces", "none comes free")]
-    shown = [_piece(piece) for piece in freed[:_MOST_PIECES]]
+    names = run.block_names
+    shown = [_piece(piece, names) for piece in freed[:_MOST_PIECES]]
     more = [f"and {len(freed) - _MOST_PIECES} more"] if len(freed) > _MOST_PIECES else []
     return [("pieces" if at == 0 else "", text) for at, text in enumerate([*shown, *more])]
 
 
-def _piece(piece: Piece) -> str:
+def _piece(piece: Piece, names: BlockNames) -> str:
     freed = piece.freed
     mass = f"{piece.mass_g:,.1f} g" if piece.mass_g >= 1.0 else f"{piece.mass_g * 1e3:,.0f} mg"
-    told = f"{piece.kind} of {piece.area_mm2:,.2f} mm², {mass}, free in block {freed.block:,} after {clock(freed.t_s)}"
+    block = names.at(freed.block)
+    told = f"{piece.kind} of {piece.area_mm2:,.2f} mm², {mass}, free in block {block} after {clock(freed.t_s)}"
     if piece.early:
         return f"{told}, {mm(piece.cut_after_um):,.3f} mm of it still to be cut"
     if piece.held_after_block is not None:
-        return f"{told}, can be clamped at the D behind block {piece.held_after_block:,}"
+        return f"{told}, can be clamped at the D behind block {names.at(piece.held_after_block)}"
     return told
 
 
@@ -86,5 +89,5 @@ def drawing_rows(run: DryRun) -> list[Row]:
     if target is None or found is None:
         return []
     allowed = f"{target.tolerance_um:g} µm allowed"
-    names = [("", remark_text(named)) for named in found.names]
+    names = [("", remark_text(named, names=run.block_names.other)) for named in found.names]
     return [(f"off {found.drawing.name}", f"{found.max_um:,.2f} µm at most, {allowed}"), *names]

@@ -36,7 +36,7 @@ def message(finding: Finding, language: Language) -> str:
 
 def with_block(finding: Finding, text: str, language: Language) -> str:
     """A text of a finding with its block before it, where it has one."""
-    return Words(language)("findings.block", block=finding.block, message=text) if finding.block else text
+    return Words(language)("findings.block", block=finding.block_name, message=text) if finding.block else text
 
 
 def hint(finding: Finding, language: Language) -> str:

@@ -71,6 +71,6 @@ def against(done: Made, language: Language) -> Iterator[str]:
     if proof is None:
         return
     for finding in proof.counting[:_MOST_FINDINGS]:
-        at = f" {finding.block}" if finding.block else ""
+        at = f" {finding.block_name}" if finding.block else ""
         yield f"{finding.code}{at}: {texts(finding, language).found}"
     yield from said_of_proof(proof._replace(notes=()), words)

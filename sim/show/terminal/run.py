@@ -4,6 +4,8 @@ import math
 from pathlib import Path
 
 from parser.findings.facts import ReadAs
+from parser.shape.contours import Contour
+from parser.text.block_names import BlockNames
 from parser.units import mm
 from sim.measure.deviation.deviation import Where
 from sim.run.dryrun import DryRun
@@ -82,7 +84,7 @@ def summary_rows(run: DryRun) -> list[Row]:
         *piece_rows(run),
         *_deviations(run),
         *drawing_rows(run),
-        *_limits(run.peaks),
+        *_limits(run.peaks, run.block_names),
     ]
 
 
@@ -91,7 +93,13 @@ def _times(run: DryRun) -> list[Row]:
     if not 1 < len(run.whole_contours) <= _MOST_CLOSURES:
         return []
     times = [(c, float(run.block_time_s[c.first - 1 : c.last].sum())) for c in run.whole_contours]
-    return [(f"  blocks {c.first}–{c.last}", clock(time_s)) for c, time_s in times]
+    return [(f"  blocks {_span(run, contour)}", clock(time_s)) for contour, time_s in times]
+
+
+def _span(run: DryRun, contour: Contour) -> str:
+    """Names of the first and the last block of a contour."""
+    first, last = (run.block_names.at(number) for number in (contour.first, contour.last))
+    return f"{first}–{last}"
 
 
 def _closures(run: DryRun) -> list[Row]:
@@ -104,7 +112,7 @@ def _closures(run: DryRun) -> list[Row]:
     for contour in shown:
         name = "closure"
         if len(run.whole_contours) > 1:
-            name += f" {contour.first}–{contour.last}" + (" (worst)" if len(shown) < len(run.whole_contours) else "")
+            name += f" {_span(run, contour)}" + (" (worst)" if len(shown) < len(run.whole_contours) else "")
         if not contour.encloses:
             rows.append((name, "none: a parting cut"))
             continue
@@ -121,36 +129,37 @@ def _stopped(run: DryRun) -> list[Row]:
     if ended is None:
         return []
     why = {"trip": "servo tripped", "travel": "travel ends here; --past-stop goes on"}[ended.cause]
-    return [("stopped", f"in block {ended.row + 1:,} after {clock(ended.t_s)}: the {ended.axis.name} {why}")]
+    block = run.block_names.of_row(ended.row)
+    return [("stopped", f"in block {block} after {clock(ended.t_s)}: the {ended.axis.name} {why}")]
 
 
 def _deviations(run: DryRun) -> list[Row]:
     """Deviation of the cut, and what each cause adds."""
     if not len(run.stepped):
         return [("deviation, at most", "no motion")]
-    whole = run.deviations.wire
+    whole, names = run.deviations.wire, run.block_names
     causes = run.deviations.by_cause._asdict()
-    parts = [(f"  {_CAUSES[cause]}", _largest(part.max_um, part.where)) for cause, part in causes.items()]
-    return [("deviation, at most", _largest(whole.max_um, whole.where)), *parts]
+    parts = [(f"  {_CAUSES[cause]}", _largest(part.max_um, part.where, names)) for cause, part in causes.items()]
+    return [("deviation, at most", _largest(whole.max_um, whole.where, names)), *parts]
 
 
-def _largest(max_um: float, where: Where | None) -> str:
+def _largest(max_um: float, where: Where | None, names: BlockNames) -> str:
     if where is None or max_um < _LEAST_UM:
         return "none"
-    return f"{max_um:,.2f} µm in block {where.block:,} at {_mm(where.x_um)}, {_mm(where.y_um)} mm"
+    return f"{max_um:,.2f} µm in block {names.at(where.block)} at {_mm(where.x_um)}, {_mm(where.y_um)} mm"
 
 
-def _limits(peaks: tuple[Peak, ...]) -> list[Row]:
+def _limits(peaks: tuple[Peak, ...], blocks: BlockNames) -> list[Row]:
     """The limits that were come nearest to."""
     limited = sorted((peak for peak in peaks if math.isfinite(peak.limit)), key=lambda peak: -peak.share)
     names = ("limits, nearest", *[""] * (_MOST_LIMITS - 1))
-    return [(name, _limit(peak)) for name, peak in zip(names, limited, strict=False)]
+    return [(name, _limit(peak, blocks)) for name, peak in zip(names, limited, strict=False)]
 
 
-def _limit(peak: Peak) -> str:
+def _limit(peak: Peak, names: BlockNames) -> str:
     scale, unit = _UNITS[peak.quantity]
     met = f"{peak.quantity} {peak.axis.name} {_percent(peak.share)} of {in_figures(peak.limit * scale)} {unit}"
-    return f"{met}, block {peak.row + 1:,} at {_mm(peak.x_um, 1)}, {_mm(peak.y_um, 1)} mm"
+    return f"{met}, block {names.of_row(peak.row)} at {_mm(peak.x_um, 1)}, {_mm(peak.y_um, 1)} mm"
 
 
 def _mm(length_um: float, digits: int = 3) -> str:

@@ -4,6 +4,7 @@ import asyncio
 import random
 import sys
 from collections.abc import Awaitable, Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -68,7 +69,8 @@ def session(work: Callable[[Editor], Awaitable[Any]], locale: str = "en", *optio
         await editor.stop()
         return came
 
-    return asyncio.run(run())
+    with ThreadPoolExecutor(1) as own:  # a browser of other tests may keep a loop in this thread
+        return own.submit(asyncio.run, run()).result()
 
 
 def applied(text: str, edits: list[types.TextEdit]) -> str:

@@ -203,7 +203,7 @@ def test_the_summary_shows_causes_and_the_nearest_limits(capsys: pytest.CaptureF
         assert rows[name].startswith(f"{part.max_um:.2f} µm in block {part.where.block} at ")  # type: ignore[union-attr]
     assert rows["by planning"] == "none"
     assert rows["limits, nearest"] == "lag Y 80 % of 5 µm, block 4 at 12.7, 0.0 mm"
-    assert "│ force X 12 % of 2,000 N, block 2 at 13.0, 24.0 mm" in shown
+    assert "│ force X 12 % of 2,000 N, block N2 at 13.0, 24.0 mm" in shown
     assert "│ speed Y 5 % of 10 mm/s, block 3 at 13.0, 22.1 mm" in shown
     assert "1,500 N" not in shown
     assert max(map(len, shown.splitlines())) <= 80

@@ -53,11 +53,13 @@ def test_the_summary_has_a_row_for_each_pass() -> None:
 
 
 def test_the_table_of_passes_says_what_each_is() -> None:
-    columns = {column.head.en: column for column in pass_table(build_report(trimmed_run().run)).columns}
+    columns = {
+        column.head.en: column for column in pass_table(trimmed_run().run, build_report(trimmed_run().run)).columns
+    }
     kinds = columns["kind"]
     assert [kinds.words[key].en for key in kinds.values] == ["rough cut", "trim", "tab", "tab"]
     assert [kinds.words[key].zh for key in kinds.values] == ["粗切", "修刀", "切支撑段", "切支撑段"]
-    assert list(columns["first block"].values) == [2, 6, 10, 12]
+    assert list(columns["first block"].values) == ["N2", "N6", "N10", "N12"]
 
 
 @pytest.mark.parametrize(("recording", "has_table"), [(trimmed_run, True), (untrimmed_run, False)])

@@ -16,7 +16,7 @@ def told(text: str) -> tuple[str, dict[str, object]]:
     """The terminal's line on the one piece of a program, and its row of the page's table, by English heads."""
     run = run_text(text, kerf=True)
     (line,) = (value for name, value in summary_rows(run) if name == "pieces")
-    table = piece_table(build_report(run)["remains"]["pieces"])
+    table = piece_table(build_report(run)["remains"]["pieces"], run.block_names)
     return line, {column.head.en: column.values[0] for column in table.columns}
 
 

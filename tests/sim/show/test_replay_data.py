@@ -468,7 +468,7 @@ def test_blocks_are_told_exactly() -> None:
         [2, 1, 4],
     )
     assert blocks["turn"] == [0, 1, 0]
-    assert (blocks["number"], blocks["line"], blocks["label"]) == ([1, 2, 3], [1, 1, 2], ["N1", "", "N2"])
+    assert (blocks["number"], blocks["line"], blocks["name"]) == ([1, 2, 3], [1, 1, 2], ["N1", "2", "N2"])
     assert blocks["first_step"] == [0, *np.cumsum(recording.run.stepped.count).tolist()]
     assert blocks["border_s"][-1] == pytest.approx(recording.run.plan.duration_s, abs=1e-6)
     assert blocks["border_s"][1] == pytest.approx(float(recording.run.block_time_s[0]), abs=1e-6)

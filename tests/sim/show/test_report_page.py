@@ -61,7 +61,6 @@ def test_figures_are_shown_in_the_units_that_stand_beside_them(part: Made) -> No
 
 
 BLOCK_COLUMNS = {
-    "block": "block",
     "line": "line",
     "text": "text",
     "kind": "kind",
@@ -82,9 +81,11 @@ def test_the_table_of_blocks_holds_what_the_report_holds(part: Made) -> None:
     blocks = part.report["blocks"]
     for head, entry in BLOCK_COLUMNS.items():
         assert part.column("blocks", head) == [reached(block, entry) for block in blocks], head
+    assert part.column("blocks", "block") == [block["label"] or str(block["block"]) for block in blocks]
     assert part.column("blocks", "time") == part.report["time_s"]["by_block"]
     assert part.column("blocks", "G") == [f"G{block['count_axis']}" for block in blocks]
-    assert {column["head"]["en"] for column in part.tables["blocks"]} == {*BLOCK_COLUMNS, "G", "time", "findings"}
+    heads = {*BLOCK_COLUMNS, "block", "G", "time", "findings"}
+    assert {column["head"]["en"] for column in part.tables["blocks"]} == heads
 
 
 @pytest.mark.parametrize(

@@ -25,6 +25,7 @@
  * @property {Said} hint
  * @property {number} line from 1; 0 of the whole program
  * @property {number} block
+ * @property {string} block_name as the listing has it
  * @property {number} first
  * @property {number} past
  * @property {Edit[]} edits that certainly mend it
@@ -36,7 +37,7 @@
  * @property {number[]} line
  * @property {number[]} first
  * @property {number[]} past
- * @property {string[]} label
+ * @property {string[]} name of each block as the listing has it
  */
 
 /** @typedef {Curves & Sources} Path */

@@ -34,8 +34,9 @@ export function changed(text, edits) {
  * @param {{ go: (finding: Finding) => void, mend: (finding: Finding) => void }} on
  */
 function entryOf(finding, text, on) {
-  const place = finding.line ? language.say("line", { line: finding.line }) : language.say("whole");
-  const go = make("button", { type: "button", className: "go" }, `${place} · ${finding.code} `);
+  const places = [finding.line ? language.say("line", { line: finding.line }) : language.say("whole")];
+  if (finding.block_name) places.push(language.say("block", { block: finding.block_name }));
+  const go = make("button", { type: "button", className: "go" }, `${places.join(" · ")} · ${finding.code} `);
   go.append(make("strong", {}, language.pick(finding.title)));
   go.addEventListener("click", () => on.go(finding));
   const entry = make("li", { className: finding.severity }, go, make("p", {}, language.pick(finding.message)));

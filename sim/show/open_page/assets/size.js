@@ -30,13 +30,6 @@ function rowsOf(size) {
 }
 
 /**
- * The name of a block as the listing has it.
- * @param {Path | null} path
- * @param {number} block
- */
-const nameOf = (path, block) => path?.label[block - 1] || String(block);
-
-/**
  * @param {Figure} figure
  * @param {number} number
  * @param {Path | null} path
@@ -47,7 +40,7 @@ function figureRow(figure, number, path) {
   return make(
     "tr", {},
     make("td", {}, String(number)),
-    make("td", {}, `${nameOf(path, figure.first)} – ${nameOf(path, figure.last)}`),
+    make("td", {}, `${path?.name[figure.first - 1]} – ${path?.name[figure.last - 1]}`),
     make("td", {}, `${mm(x)}, ${mm(y)}`),
     make("td", {}, mm(figure.length_um)),
     make("td", { className: closes }, language.say(closes)),

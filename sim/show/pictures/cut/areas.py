@@ -89,8 +89,8 @@ def _label(board: Board, choices: list[list[str]], outline_um: shapely.Polygon) 
 def _texts(say: Words, toolpath: Toolpath, piece: "Piece") -> Iterator[list[str]]:
     """What may be written on a piece, most first."""
     what, area = say(f"cut.{piece.kind}"), area_text(piece.area_mm2)
-    number = int(toolpath.source.block[piece.freed.block - 1])
-    yield [what, area, say("cut.freed", number=number)]
+    block = toolpath.source.names.at(piece.freed.block)
+    yield [what, area, say("cut.freed", block=block)]
     yield [what, area]
     yield [f"{what} {area}"]
     yield [what]

@@ -53,7 +53,7 @@ def draw_pauses(board: Board, toolpath: Toolpath, *, numbers: bool) -> None:
     canvas, unit = board.canvas, board.page.unit
     corners = board.page.view.to_px(np.concatenate([toolpath.start_um[:1], toolpath.end_um]))
     for stop in pauses(toolpath)[:_MOST_PAUSES]:
-        number = str(toolpath.source.block[stop.after - 1]) if stop.after and numbers else ""
+        number = toolpath.source.names.at(stop.after) if stop.after and numbers else ""
         size = _pause_size(canvas, number, unit)
         corner = corners[min(stop.after, len(toolpath))]
         box = board.room.take(_beside(corner, size, unit))

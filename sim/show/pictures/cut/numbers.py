@@ -33,11 +33,11 @@ class Numbers(NamedTuple):
 
 
 def draw_numbers(board: Board, toolpath: Toolpath, kerf_px: float) -> Numbers:
-    """Draw block numbers beside a kerf of a drawn width; they are those of the program."""
+    """Draw block numbers beside a kerf of a drawn width, as the listing has them."""
     canvas, page = board.canvas, board.page
     stride = number_stride(int(toolpath.source.block.max()))
     row = _rows(toolpath, stride)
-    texts = [str(number) for number in toolpath.source.block[row].tolist()]
+    texts = [toolpath.source.names.of_row(at) for at in row.tolist()]
     sizes = np.array([number_size(canvas, text, page.unit) for text in texts]).reshape(-1, 2)
     anchors = [_anchors(page.view, toolpath, row, share) for share in NUMBERS_AT]
     gap = style.NUMBER_GAP * page.unit

@@ -94,7 +94,7 @@ def _mark_worst(canvas: Canvas, chart: Chart, samples: Samples, say: Words) -> N
     if at is None:
         return
     place = chart.to_px(np.array([[mm(samples.along_um[at]), samples.wire_um[at]]]))[0]
-    text = say("deviation.largest", most=um(samples.wire_um[at], signed=True), block=samples.where(at).block)
+    text = say("deviation.largest", most=um(samples.wire_um[at], signed=True), block=samples.block_name(at))
     mark_place(canvas, chart.frame, place, text, chart.unit)
 
 
@@ -110,24 +110,27 @@ def draw_borders(canvas: Canvas, chart: Chart, toolpath: Toolpath, height: float
     for row in np.flatnonzero(toolpath.is_jump).tolist():
         box = Box(float(x[row]), top + 0.8 * height, float(x[row + 1]), top + 0.95 * height)
         canvas.box(box, Paint.JUMP, Paint.JUMP, 0.0)
-    shown = numbers(canvas, x, unit)
+    names = toolpath.source.names.of_rows()
+    shown = numbers(canvas, x, names, unit)
     borders = x[1:-1] if all_show(chart, toolpath) else x[[row + 1 for row, _ in shown]]
     for at in borders.tolist():
         line = np.array([[at, chart.frame.top - 0.2 * height], [at, chart.frame.bottom]])
         canvas.polyline(line, Paint.FRAME, BORDER_WIDTH * unit)
     for row, at in shown:
-        canvas.text((at, top + 0.42 * height), str(row + 1), style.NUMBER * unit, Paint.INK, align=0.5)
+        canvas.text((at, top + 0.42 * height), names[row], style.NUMBER * unit, Paint.INK, align=0.5)
 
 
-def numbers(canvas: Canvas, x: Floats, unit: float) -> list[tuple[int, float]]:
+def numbers(canvas: Canvas, x: Floats, names: list[str], unit: float) -> list[tuple[int, float]]:
     """Rows whose numbers show, each with the middle of its number, px; `x` (n + 1,) px are the borders of the blocks.
+
+    `names` has for each row the number as the listing has it.
 
     No number covers another: that of the longer block stays.
     """
     blocks = len(x) - 1
     stride = number_stride(blocks)
     rows = np.arange(stride - 1, blocks, stride)
-    wide = np.array([canvas.text_width(str(row + 1), style.NUMBER * unit) + APART * unit for row in rows.tolist()])
+    wide = np.array([canvas.text_width(names[row], style.NUMBER * unit) + APART * unit for row in rows.tolist()])
     middle = np.clip((x[rows] + x[rows + 1]) / 2.0, x[0] + wide / 2.0, x[-1] - wide / 2.0)
     taken: list[int] = []
     for at in np.argsort(x[rows] - x[rows + 1], kind="stable").tolist():

@@ -77,7 +77,7 @@ def figures_text(say: Words, samples: Samples) -> str:
     at = samples.worst
     if at is None:
         return say("deviation.nothing_cut")
-    most = say("deviation.most", most=um(samples.max_um), block=samples.where(at).block)
+    most = say("deviation.most", most=um(samples.max_um), block=samples.block_name(at))
     return f"{most} · {say('deviation.p95', p95=um(samples.p95_um))}"
 
 

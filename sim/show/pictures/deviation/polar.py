@@ -86,7 +86,7 @@ def draw_polar(sheet: Sheet[AnyCanvas], samples: Samples) -> AnyCanvas | None:
         top = style.HEAD * unit + at // columns * tall
         dial = Dial(unit, ring_for(_most(around)), (x, top + CAPTION * unit + RIM * size), size)
         above = Box(x - wide / 2.0, top, x + wide / 2.0, top + CAPTION * unit)
-        write_caption(canvas, above, _caption(say, around), unit, align=0.5)
+        write_caption(canvas, above, _caption(say, samples, around), unit, align=0.5)
         _draw_dial(canvas, dial, around)
     draw_at_foot(canvas, legend)
     return canvas
@@ -173,10 +173,10 @@ def _mark_start(canvas: Canvas, dial: Dial, around: Around) -> None:
     canvas.arrow(place + ahead * (1.4 * style.MARK + style.ARROW) * unit, ahead, style.ARROW * unit, Paint.START)
 
 
-def _caption(say: Words, around: Around) -> tuple[str, str]:
+def _caption(say: Words, samples: Samples, around: Around) -> tuple[str, str]:
     """Which circle it is, and from what to what the wire is off."""
-    circle = around.circle
-    radius, first, last = f"{mm(circle.radius_um):.3f}", circle.first + 1, circle.last + 1
+    circle, radius = around.circle, f"{mm(around.circle.radius_um):.3f}"
+    first, last = (samples.run.block_names.of_row(row) for row in (circle.first, circle.last))
     key = "deviation.circle" if first == last else "deviation.circle_blocks"
     low, high = (um(float(end), signed=True) for end in (around.wire_um.min(), around.wire_um.max()))
     name = say(key, block=first, first=first, last=last, radius=radius)

@@ -75,6 +75,10 @@ class Samples:
         x, y = self.trace.wire_um[at].tolist()
         return Where(int(self.trace.row[at]) + 1, x, y, float(self.trace.t_s[at]))
 
+    def block_name(self, at: int) -> str:
+        """What the block is called that the wire was in at a sample."""
+        return self.run.block_names.of_row(int(self.trace.row[at]))
+
 
 def samples_of(run: DryRun) -> Samples:
     """Deviations of all samples of a run."""

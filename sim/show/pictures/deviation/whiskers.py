@@ -142,7 +142,7 @@ def _mark_worst(canvas: Canvas, page: Page, samples: Samples, whiskers: _Whisker
     if worst is None:
         return
     tip = page.view.to_px(whiskers.tip_um[np.searchsorted(whiskers.at, worst)])
-    text = say("deviation.largest", most=um(samples.wire_um[worst], signed=True), block=samples.where(worst).block)
+    text = say("deviation.largest", most=um(samples.wire_um[worst], signed=True), block=samples.block_name(worst))
     mark_place(canvas, page.plot, tip, text, page.unit)
 
 

@@ -102,7 +102,7 @@ def _caption(say: Words, samples: Samples, at: int, grid: float) -> tuple[str, s
     """The block of a sample and when it was cut; where it lies, and the grid, µm, of its inset."""
     where = samples.where(at)
     x, y = (f"{mm(value):.3f}".replace("-", "−") for value in (where.x_um, where.y_um))
-    return f"{say('common.block', number=where.block)} · {clock(where.t_s)}", say(
+    return f"{say('common.block', number=samples.block_name(at))} · {clock(where.t_s)}", say(
         "deviation.place", x=x, y=y, grid=f"{grid:g}"
     )
 

@@ -74,7 +74,8 @@ def draw_blocks(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> Non
     round_by = sum((rows + 1) % (times * stride) == 0 for times in (2, 5, 10)) if stride > 1 else np.zeros(len(rows))
     best = rows[np.lexsort((-run.block_time_s[rows], -round_by))]
     middle = (borders[best] + borders[best + 1]) / 2.0
-    labels = [_Label(x, f"{row + 1}", Paint.GREY) for x, row in zip(middle.tolist(), best.tolist(), strict=True)]
+    name = run.block_names.of_row
+    labels = [_Label(x, name(row), Paint.GREY) for x, row in zip(middle.tolist(), best.tolist(), strict=True)]
     _draw_labels(canvas, chart, labels, top - (TICK + 0.5 * ROW) * unit)
 
 

@@ -77,7 +77,8 @@ import { element } from "../../html/assets/elements.js";
  * @property {number[]} line
  * @property {number[]} character
  * @property {number[]} characters
- * @property {string[]} label
+ * @property {string[]} name what people call it
+ * @property {string[]} label where its number stands beside it; empty where it has none
  * @property {number[]} first_step
  * @property {number[]} border_s
  */
@@ -152,6 +153,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {"error" | "warning" | "note"} severity
  * @property {number | null} line
  * @property {number | null} block
+ * @property {string} block_name as the listing has it; empty where no block is meant
  * @property {number | null} row
  * @property {number | null} t_s
  * @property {number[] | null} place_um

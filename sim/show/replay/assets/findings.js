@@ -12,7 +12,7 @@ import * as words from "./words.js";
  */
 function where(finding) {
   const places = [];
-  if (finding.block) places.push(say("in_block", { block: finding.block }));
+  if (finding.block_name) places.push(say("in_block", { block: finding.block_name }));
   if (finding.line) places.push(say("in_line", { line: finding.line }));
   return places.join(", ");
 }

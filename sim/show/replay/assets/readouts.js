@@ -73,6 +73,15 @@ export function readoutsIn(page, doc, model) {
     return `${number(count)} ${doc.program.is_worded ? "G" : ""}${doc.blocks.count_axis[block]}`;
   }
 
+  /**
+   * The block that runs: its label where it has one, and its place among all where that has room.
+   * @param {number} row
+   */
+  function running(row) {
+    const place = rows < MANY ? `${number(row + 1)} / ${number(rows)}` : number(row + 1);
+    return [doc.blocks.label[row], place].filter(Boolean).join(" · ");
+  }
+
   return {
     /**
      * Show a moment.
@@ -84,7 +93,7 @@ export function readoutsIn(page, doc, model) {
       write("y", mm(moment.y));
       write("left", left(moment));
       write("feed", number((moment.feed_um_s * 60) / 1000, 2));
-      write("block", rows < MANY ? `${number(moment.block + 1)} / ${number(rows)}` : number(moment.block + 1));
+      write("block", running(moment.block));
       write("step", number(moment.step));
       write("elapsed", clock(moment.t));
       write("remaining", clock(moment.remaining_s));

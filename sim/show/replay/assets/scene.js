@@ -176,7 +176,7 @@ export function sceneOf(doc, path, colours) {
     outline(pen, view, [piece.outline_um, ...piece.holes_um]);
     pen.fillStyle = shades.gone;
     pen.fill("evenodd");
-    const text = words.piece(piece);
+    const text = words.piece(piece, doc.blocks);
     const room = rooms.get(piece);
     pen.font = "12px system-ui, sans-serif";
     if (!room || pen.measureText(text).width + 12 > room.width * view.scale) return;

@@ -103,7 +103,7 @@ export function timelineIn({ bar, marks, cursor, findings: lane }, doc, player, 
     for (let row = 0; row < kind.length; row++) {
       const [left, right] = [toX(border[row]), toX(border[row + 1])];
       if (right - left <= ROOMY) continue;
-      const text = String(row + 1);
+      const text = doc.blocks.name[row];
       if (right - left > pen.measureText(text).width + 8) pen.fillText(text, (left + right) / 2, height / 2 + 4);
     }
   }

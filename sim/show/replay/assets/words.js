@@ -110,14 +110,14 @@ export function geometry(doc, row) {
 }
 
 /**
- * Title of a block, such as “Block 3 of 6 · N3 · line”.
+ * Title of a block, such as “Block N18 (14 of 23) · line”.
  * @param {Blocks} blocks
  * @param {number} row
  */
 export function block(blocks, row) {
-  const count = blocks.kind.length;
-  const name = say("block", { number: number(row + 1), count: number(count) });
-  return [name, blocks.label[row], kind(blocks, row)].filter(Boolean).join(" · ");
+  const label = blocks.label[row];
+  const which = { number: number(row + 1), count: number(blocks.kind.length) };
+  return `${label ? say("labelled_block", { label, ...which }) : say("block", which)} · ${kind(blocks, row)}`;
 }
 
 /**
@@ -141,11 +141,12 @@ export const decision = (made) => `${weighed(made.f)} → ${way(made)}`;
 /**
  * What became free.
  * @param {Piece} freed
+ * @param {Blocks} blocks
  */
-export function piece({ kind: what, mass_g: grams, row }) {
+export function piece({ kind: what, mass_g: grams, row }, { name: names }) {
   const mass = grams >= 1000 ? `${number(grams / 1000, 2)} kg` : `${number(grams, grams < 10 ? 2 : 0)} g`;
-  const name = say(what === "slug" ? "slug" : "part");
-  return say("freed", { piece: name, mass, block: row + 1 });
+  const named = say(what === "slug" ? "slug" : "part");
+  return say("freed", { piece: named, mass, block: names[row] });
 }
 
 /**

@@ -4,6 +4,7 @@ import * as language from "../../html/assets/language.js";
 /** @import { Code, Column, Value } from "./data.js" */
 
 const NOTHING = "–";
+const collator = new Intl.Collator("en", { numeric: true }); // N9 before N10
 /** @type {Map<number, Intl.NumberFormat>} */
 const formats = new Map();
 
@@ -77,8 +78,7 @@ export function fill(cell, column, value) {
 function order(column, one, other) {
   if (column.kind === "number") return Number(one) - Number(other);
   if (Array.isArray(one) && Array.isArray(other)) return one.length - other.length || (String(one) < String(other) ? -1 : 1);
-  const [a, b] = [textOf(column, one), textOf(column, other)];
-  return a < b ? -1 : a > b ? 1 : 0;
+  return collator.compare(textOf(column, one), textOf(column, other));
 }
 
 /**
