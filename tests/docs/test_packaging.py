@@ -91,9 +91,11 @@ def test_every_dependency_is_locked() -> None:
 
 
 def test_what_checks_the_scripts_of_pages_is_pinned_and_locked_from_no_place() -> None:
-    wanted = json.loads((ROOT / "package.json").read_text("utf-8"))["devDependencies"]
+    package = json.loads((ROOT / "package.json").read_text("utf-8"))
+    wanted = package["devDependencies"] | package["optionalDependencies"]
     locked = json.loads((ROOT / "package-lock.json").read_text("utf-8"))["packages"]
     assert all(re.fullmatch(r"\d+\.\d+\.\d+", version) for version in wanted.values())
-    assert locked[""]["devDependencies"] == wanted
+    assert locked[""]["devDependencies"] | locked[""]["optionalDependencies"] == wanted
     assert {name: locked[f"node_modules/{name}"]["version"] for name in wanted} == wanted
-    assert all("resolved" not in entry and ("integrity" in entry or not name) for name, entry in locked.items())
+    assert not [name for name, entry in locked.items() if "resolved" in entry]
+    assert not [name for name, entry in locked.items() if name and not {"integrity", "inBundle"} & entry.keys()]

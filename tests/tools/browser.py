@@ -89,22 +89,29 @@ class Browsers:
             self._running[shipped_font] = self._launch(shipped_font)
         return self._running[shipped_font]
 
+    def connected(self, address: str) -> "Browser":
+        """A browser that listens on an address of this machine."""
+        return self._started().chromium.connect_over_cdp(address)
+
     def close(self) -> None:
         """End the browsers."""
         self._closing.close()
 
     def _launch(self, shipped_font: bool) -> "Browser":
         path = chromium.executable() or chromium.give_up()
-        if self._playwright is None:
-            from playwright.sync_api import sync_playwright
-
-            self._playwright = self._closing.enter_context(sync_playwright())
         root = hasattr(os, "geteuid") and os.geteuid() == 0
-        return self._playwright.chromium.launch(
+        return self._started().chromium.launch(
             executable_path=path,
             args=[*FLAGS, *(["--no-sandbox"] if root else [])],
             env={**os.environ, "FONTCONFIG_FILE": str(self._fonts(shipped_font))},
         )
+
+    def _started(self) -> "Playwright":
+        if self._playwright is None:
+            from playwright.sync_api import sync_playwright
+
+            self._playwright = self._closing.enter_context(sync_playwright())
+        return self._playwright
 
     def _fonts(self, shipped_font: bool) -> Path:
         """Settings of fontconfig; with the machine's fonts too, the shipped one lends what they lack, as Chinese."""

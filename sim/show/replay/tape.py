@@ -5,7 +5,8 @@ the same way did: the tape has the difference, in ticks. Times are rounded to ti
 up. The table is told by where it lies from its command, and the wire by where it lies from the table. For the deviation
 of the wire the tape has the block that each sample is measured from: the page looks for no block itself.
 
-A column of numbers is text: bytes of variable length (LEB128), deflated, in base64.
+A column of numbers is text: bytes of variable length (LEB128), deflated with the head of zlib, in base64. Browsers of
+2020 inflate that; a stream without the head they do not.
 """
 
 import base64
@@ -30,14 +31,13 @@ _WAYS = 9
 _BITS = 7
 """Of a number in each byte, the lowest first; the eighth tells that another byte follows (LEB128)."""
 _LEVEL = 6
-_RAW = -15  # window bits of a stream without head and checksum, as a page's DecompressionStream("deflate-raw") takes it
 
 
 class Packer:
     """Packs bytes as they stream in, in memory that grows with the packed text alone."""
 
     def __init__(self) -> None:
-        self._deflate = zlib.compressobj(_LEVEL, zlib.DEFLATED, _RAW)
+        self._deflate = zlib.compressobj(_LEVEL)
         self._parts: list[bytes] = []
 
     def bytes(self, values: NDArray[np.uint8]) -> None:

@@ -55,7 +55,7 @@ def empty(browsers: Browsers, tmp_path_factory: pytest.TempPathFactory) -> Itera
 
 
 def unpacked(text: str) -> bytes:
-    return zlib.decompress(base64.b64decode(text), wbits=-15)
+    return zlib.decompress(base64.b64decode(text))
 
 
 def plain_numbers(data: bytes) -> list[int]:

@@ -26,7 +26,7 @@ const WATCHED_S = 60; // how long a whole replay lasts at first
 function roundSpeed(speed, direction) {
   const decade = 10 ** Math.floor(Math.log10(speed) + 1e-9);
   const all = [0.5, 1, 2, 5, 10, 20].map((digit) => digit * decade);
-  const next = direction > 0 ? all.find((one) => one > speed * 1.001) : all.findLast((one) => one < speed * 0.999);
+  const next = direction > 0 ? all.find((one) => one > speed * 1.001) : all.reverse().find((one) => one < speed * 0.999);
   return clamp(next ?? speed, SLOWEST, FASTEST);
 }
 
