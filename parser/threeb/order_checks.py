@@ -104,7 +104,7 @@ def _idle_pauses(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
     A closed figure may go on with a trim of its edge, or its tab. One that is cut once more as it was has lost a jump.
     """
     placed, jump = placed_marks(records.marks), toolpath.is_jump
-    idle: list[tuple[Mark, int]] = []
+    idle: list[tuple[Mark, int, bool]] = []
     begin = 0  # first row of the figure being cut
     for before, (row, mark) in zip([None, *placed], placed, strict=False):
         if mark.kind != "pause":
@@ -112,15 +112,15 @@ def _idle_pauses(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
         repeated = before is not None and before[0] == row and before[1].kind == "pause"
         cuts_on = 0 < row < len(toolpath) and not jump[row - 1] and not jump[row]
         if repeated or (cuts_on and ends_closed(toolpath, begin, row)):
-            idle.append((mark, -1 if repeated else row))
+            idle.append((mark, row, repeated))
         begin = row
-    passes = find_passes(toolpath) if any(row >= 0 for _, row in idle) else None
+    passes = None if all(repeated for _, _, repeated in idle) else find_passes(toolpath)
     trimmed = (
         {one.edge for one in passes.passes if abs(one.shift_um) > _SAME_PLACE_UM or one.is_tab} if passes else set()
     )
-    for mark, row in idle:
-        if passes is None or not _before_trim(passes, trimmed, row):
-            yield records.lines.finding("3B308", mark.span)
+    for mark, row, repeated in idle:
+        if repeated or passes is None or not _before_trim(passes, trimmed, row):
+            yield records.lines.finding("3B308", mark.span, row)  # in the block that it follows
 
 
 def _before_trim(passes: Passes, trimmed: set[int], row: int) -> bool:

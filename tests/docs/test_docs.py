@@ -361,7 +361,7 @@ def test_shown_output_is_what_is_printed(tmp_path: Path, page: Path, command: st
     assert name in SHOWN_DRAWINGS or f"```\n{SHOWN_PROGRAMS[name]}```" in read(page)
     (tmp_path / name).write_text({**SHOWN_PROGRAMS, **SHOWN_DRAWINGS}[name])
     printed = subprocess.run(
-        [sys.executable, "-m", "sim.cli", *command.split()],
+        [sys.executable, "-m", "sim", *command.split()],
         cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONUTF8": "1", "LC_ALL": "C"},
         stdout=subprocess.PIPE,

@@ -64,7 +64,10 @@ def _commanded(canvas: Canvas, box: Box, unit: float) -> None:
 
 
 def _piece(canvas: Canvas, box: Box, unit: float) -> None:
-    half = 0.3 * SIZES.row * unit
-    corners = middle(box) + half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-    canvas.polygon(corners, Paint.SLUG)
-    canvas.polyline(np.concatenate([corners, corners[:1]]), Paint.SLUG_EDGE, style.GRID_WIDTH * unit)
+    """Two squares: the piece, and the hole that it leaves."""
+    half = 0.25 * SIZES.row * unit
+    square = half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    for side, paint in ((-1.2, Paint.SLUG), (1.2, Paint.PAGE)):
+        corners = middle(box) + square + np.array([side * half, 0.0])
+        canvas.polygon(corners, paint)
+        canvas.polyline(np.concatenate([corners, corners[:1]]), Paint.SLUG_EDGE, style.GRID_WIDTH * unit)

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from parser.findings.catalogue import instant, page
 from parser.findings.findings import Finding
-from parser.toolpath import Toolpath
+from parser.toolpath import Stop, Toolpath
 from parser.units import mm
 from sim.cut.pieces.pieces import Piece
 from sim.run.course import Course, Event, Moment
@@ -73,18 +73,22 @@ def told(course: Course, t_s: float, speed: float, say: Words) -> Line:
     if not shown:
         return Line("", "")
     last, paint = max(shown, key=lambda pair: pair[0].t_s)  # of what falls together the first: a finding
-    return Line("", _named(last.what, say), paint)
+    return Line("", _named(last.what, course, say), paint)
 
 
-def _named(event: Event, say: Words) -> str:
+def _named(event: Event, course: Course, say: Words) -> str:
     """Words for something that a film shows."""
     match event:
         case Finding():
             return say("film.finding", code=event.code, title=page(event.code, say.language).title)
         case Piece():
             return say(f"film.free_{event.kind}")
+        case Stop(after=0):
+            return say("film.pause_first")
+        case Stop():  # it is over when its text shows: the wire is threaded in no time of the plan
+            return say("film.pause", block=course.run.block_names.at(event.after))
         case _:
-            return say("film.pause")
+            return ""
 
 
 def _speed(speed: float) -> str:

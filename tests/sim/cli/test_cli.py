@@ -206,7 +206,7 @@ def test_any_encoding_of_the_output_will_do(
 def test_output_that_cannot_be_written_is_one_clear_line(short: Path) -> None:
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            [sys.executable, "-m", "sim.cli", "run", str(short)],
+            [sys.executable, "-m", "sim", "run", str(short)],
             stdout=full,
             stderr=subprocess.PIPE,
             check=False,

@@ -59,7 +59,7 @@ def session(work: Callable[[Editor], Awaitable[Any]], locale: str = "en", *optio
 
     async def run() -> Any:
         editor = Editor()
-        await editor.start_io(sys.executable, "-m", "sim.cli", "lsp", *options, cwd=str(ROOT))
+        await editor.start_io(sys.executable, "-m", "sim", "lsp", *options, cwd=str(ROOT))
         asked = types.InitializeParams(capabilities=types.ClientCapabilities(), locale=locale)
         await asyncio.wait_for(editor.initialize_async(asked), LONGEST_S)
         editor.initialized(types.InitializedParams())

@@ -279,6 +279,14 @@ def test_pauses_stand_at_the_ends_of_their_blocks() -> None:
     assert "pause after a block" in canvas.texts
 
 
+def test_pauses_that_have_no_mark_are_counted_in_the_legend() -> None:
+    path = spiral(200)
+    canvas = recorded(cut_of(stopped(path, range(1, 101))))
+    drawn = len(canvas.of("disc", Paint.PAUSE))
+    assert 0 < drawn <= 60
+    assert f"pause after a block, {drawn} of 100 shown" in canvas.texts
+
+
 def test_jumps_are_dashed() -> None:
     path = square(square(Pen(), 2000).jump(5000, 0), 2000).path()
     dashed = recorded(cut_of(path)).of("dashed", Paint.JUMP)

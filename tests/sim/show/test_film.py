@@ -239,7 +239,7 @@ def test_what_happens_is_told_when_it_does(course: Course) -> None:
     assert told(course, piece.t_s + 0.01, 0.1, say).value == "a slug comes free"
     pause_s = float(course.border_s[7])
     assert told(course, pause_s + 0.01, 0.001, say).value == ""
-    assert "pause" in told(course, pause_s + 0.001, 0.001, say).value
+    assert told(course, pause_s + 0.001, 0.001, say).value == "paused (D) behind block 7"
     assert told(course, course.duration_s, SPEED, say).value == "end of the program"
 
 

@@ -52,7 +52,14 @@ def scale_bar_um(page: Page) -> float:
     return nice_below(style.SCALE_BAR * page.unit / page.view.px_per_um)
 
 
-def entries(cut: Cut, page: Page, say: Words, seen: Seen, numbers: str) -> list[Entry]:
+class Drawn(NamedTuple):
+    """What found its place in a plot: what the block numbers are, and how many of the pauses."""
+
+    numbers: str = ""
+    pauses: int = 0
+
+
+def entries(cut: Cut, page: Page, say: Words, seen: Seen, drawn: Drawn) -> list[Entry]:
     """All that a legend explains, in its order."""
     kerf = say("cut.kerf" if cut.trace else "cut.kerf_programmed", width=f"{mm(cut.kerf_um):.3f}")
     wider = seen.kerf_px > cut.kerf_um * page.view.px_per_um
@@ -71,8 +78,8 @@ def entries(cut: Cut, page: Page, say: Words, seen: Seen, numbers: str) -> list[
         (True, Entry(_arrow, say("cut.direction"))),
         (True, Entry(lambda canvas, box, unit: draw_start(canvas, middle(box), unit), say("cut.start"))),
         (True, Entry(lambda canvas, box, unit: draw_end(canvas, middle(box), unit), say("cut.end"))),
-        (pauses(cut.toolpath), Entry(_pause, say("cut.pause"))),
-        (True, Entry(_number, numbers)),
+        (pauses(cut.toolpath), Entry(_pause, _pauses_text(cut, drawn.pauses, say))),
+        (True, Entry(_number, drawn.numbers)),
         ("part" in kinds, Entry(_piece(Paint.PART, Paint.PART_EDGE), say("cut.part"))),
         ("slug" in kinds, Entry(_piece(Paint.SLUG, Paint.SLUG_EDGE), say("cut.slug"))),
         (seen.work, Entry(_body(draw_work), say("cut.work"))),
@@ -81,6 +88,12 @@ def entries(cut: Cut, page: Page, say: Words, seen: Seen, numbers: str) -> list[
         (True, Entry(_scale_bar, mm_text(bar_um, bar_um) + " mm", bar)),
     )
     return [entry for is_there, entry in found if is_there]
+
+
+def _pauses_text(cut: Cut, drawn: int, say: Words) -> str:
+    """What the mark of a pause is, and how many have one where not all do."""
+    count = len(pauses(cut.toolpath))
+    return say("cut.pause") if drawn == count else say("cut.pause_some", drawn=drawn, count=count)
 
 
 def finding_entries(cut: Cut, say: Words) -> list[Entry]:

@@ -48,20 +48,23 @@ def pauses(toolpath: Toolpath) -> list[Stop]:
     return [stop for stop in toolpath.stops if stop.kind == "pause"]
 
 
-def draw_pauses(board: Board, toolpath: Toolpath, *, numbers: bool) -> None:
-    """Draw the two bars of each pause, beside the path where it stands, with the block that it follows."""
+def draw_pauses(board: Board, toolpath: Toolpath, *, numbers: bool) -> int:
+    """Draw the two bars of each pause, beside the path where it stands, with the block that it follows; how many."""
     canvas, unit = board.canvas, board.page.unit
     corners = board.page.view.to_px(np.concatenate([toolpath.start_um[:1], toolpath.end_um]))
+    drawn = 0
     for stop in pauses(toolpath)[:_MOST_PAUSES]:
         number = toolpath.source.names.at(stop.after) if stop.after and numbers else ""
         size = _pause_size(canvas, number, unit)
         corner = corners[min(stop.after, len(toolpath))]
         box = board.room.take(_beside(corner, size, unit))
         if box:
+            drawn += 1
             nearest = np.clip(corner, [box.left, box.top], [box.right, box.bottom])
             canvas.polyline(np.stack([corner, nearest]), Paint.PAUSE, style.SIZE_WIDTH * unit)
             canvas.disc(corner, 2.5 * style.SIZE_WIDTH * unit, Paint.PAUSE)
             draw_pause(canvas, box, number, unit)
+    return drawn
 
 
 def draw_pause(canvas: Canvas, box: Box, number: str, unit: float) -> None:

@@ -12,7 +12,7 @@ from sim.show.draw.legend import Entry
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.areas import Areas, draw_areas, draw_labels
 from sim.show.pictures.cut.flags import draw_flags, flag_reach, flags_of
-from sim.show.pictures.cut.legend import Seen, draw_legends, entries, finding_entries, rows_for
+from sim.show.pictures.cut.legend import Drawn, Seen, draw_legends, entries, finding_entries, rows_for
 from sim.show.pictures.cut.lines import Lines, draw_lines, path_bounds_um, shown_bounds_um
 from sim.show.pictures.cut.marks import draw_arrows, draw_ends, draw_pauses
 from sim.show.pictures.cut.numbers import draw_numbers
@@ -83,8 +83,8 @@ def _full(sheet: Sheet[AnyCanvas], cut: Cut, shapes: Shapes) -> AnyCanvas:
         draw_border(canvas, page, cut.travel_um)
     draw_lines(canvas, page.unit, lines, seen.kerf_px)
     sized = [*layout.extents.lines(page)] if layout.extents else []
-    numbers = _draw_above(Board(canvas, page, _room(page, lines, sized, names), say), cut, layout)
-    draw_legends(canvas, page, entries(cut, page, say, seen, numbers), layout.codes)
+    drawn = _draw_above(Board(canvas, page, _room(page, lines, sized, names), say), cut, layout)
+    draw_legends(canvas, page, entries(cut, page, say, seen, drawn), layout.codes)
     return canvas
 
 
@@ -95,7 +95,7 @@ def layout_of(sheet: Sheet[AnyCanvas], cut: Cut) -> CutLayout:
     bounds_um, inside = shown_bounds_um(cut), extents.margins() if extents else IN_PLOT
     page = page_for(bounds_um, sheet.width_px, inside=inside)
     seen = _seen(cut, page)
-    rows = rows_for(len(entries(cut, page, sheet.say, seen, "")), len(codes))
+    rows = rows_for(len(entries(cut, page, sheet.say, seen, Drawn())), len(codes))
     foot = style.FOOT + (rows - _FOOT_ROWS) * style.LEGEND_ROW
     page = page_for(bounds_um, sheet.width_px, BESIDE_PLOT._replace(bottom=foot), inside)
     return CutLayout(page, seen._replace(kerf_px=kerf_px(cut, page)), sizes, extents, codes)
@@ -130,21 +130,22 @@ def _room(page: Page, lines: Lines, sized: list[Floats], taken: list[Box]) -> Ro
     return Room(page.plot, ink, taken)
 
 
-def _draw_above(board: Board, cut: Cut, layout: CutLayout) -> str:
-    """Draw marks, numbers and sizes over the path, those first that must have their place; what the numbers are."""
+def _draw_above(board: Board, cut: Cut, layout: CutLayout) -> Drawn:
+    """Draw marks, numbers and sizes over the path, those first that must have their place."""
     if layout.extents:
         draw_extents(board, layout.sizes, layout.extents)
-    _draw_marks(board, cut, texts=True)
+    paused = _draw_marks(board, cut, texts=True)
     draw_arrows(board, cut.toolpath)
     numbers = draw_numbers(board, cut.toolpath, layout.seen.kerf_px)
     if cut.pieces is not None:
         draw_labels(board, cut.toolpath, cut.pieces)
     draw_rounds(board, layout.sizes)
-    return numbers.text(board.say)
+    return Drawn(numbers.text(board.say), paused)
 
 
-def _draw_marks(board: Board, cut: Cut, *, texts: bool) -> None:
+def _draw_marks(board: Board, cut: Cut, *, texts: bool) -> int:
+    """Draw ends, findings and pauses; how many of the pauses found a place."""
     apart_um = flag_reach(board.page.unit) / board.page.view.px_per_um
     draw_ends(board, cut.toolpath)
     draw_flags(board, flags_of(cut.toolpath, cut.findings, apart_um), codes=texts)
-    draw_pauses(board, cut.toolpath, numbers=texts)
+    return draw_pauses(board, cut.toolpath, numbers=texts)
