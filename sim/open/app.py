@@ -9,14 +9,15 @@ from typing import Any, Final, NamedTuple, TypeAlias
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect, Request
-from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response
+from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response, StreamingResponse
 from starlette.routing import Route
 
 from parser.findings.errors import ProgramError
 from parser.text.encoding import printable
 from sim.open.answers import ReadFile, answer, file_of, read_file
 from sim.open.life import Life
-from sim.open.runs import KEYS, Runs
+from sim.open.runs import KEYS, MORE_KEYS, Runs
+from sim.open.zipped import zipped
 from sim.show.open_page.page import open_page
 
 _Work: TypeAlias = Callable[[Request], Awaitable[Response]]
@@ -25,9 +26,18 @@ _MISSING: Final = 404
 _NOTHING: Final = 204
 _OF_FILES: Final = (
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; "
-    "form-action 'none'; base-uri 'none'"
+    "form-action 'none'; base-uri 'none'; frame-ancestors 'self'"
 )
-"""Pages of a run hold all that they show: they may ask nobody, this server neither."""
+"""Pages of a run hold all that they show: they may ask nobody, this server neither; the page itself may frame them."""
+_KINDS: Final = {
+    ".html": "text/html; charset=utf-8",
+    ".json": "application/json",
+    ".png": "image/png",
+    ".apng": "image/apng",
+    ".gif": "image/gif",
+    ".webp": "image/webp",
+    ".mp4": "video/mp4",
+}
 
 
 class Opened(NamedTuple):
@@ -46,11 +56,12 @@ def app_of(opened: Opened, life: Life, runs: Runs) -> Starlette:
     """The application behind the guard."""
     files, texts, running = _Files(opened, life), _Checks(opened.file), _Running(life, runs)
     works: list[_Work] = [files.first, files.read, files.save, files.alive, files.close]
-    works += [texts.check, running.run, running.progress, running.cancel]
+    works += [texts.check, running.run, running.more, running.progress, running.cancel]
     return Starlette(
         routes=[
             Route("/", files.page, methods=["GET"]),
             Route("/run/{number:int}/{name}", running.made, methods=["GET"]),
+            Route("/zip/{number:int}", running.zip, methods=["GET"]),
             *(Route(f"/{_name_of(work)}", _guarded(work), methods=["POST"]) for work in works),
         ]
     )
@@ -105,6 +116,11 @@ class _Running:
         await self._runs.start(told["name"], told["text"].encode("utf-8", "replace"), told)
         return JSONResponse(self._runs.state)
 
+    async def more(self, request: Request) -> Response:
+        """Make a film or pictures of the run."""
+        await self._runs.make(await _told(request, *MORE_KEYS))
+        return JSONResponse(self._runs.state)
+
     async def progress(self, _: Request) -> Response:
         """How far it is."""
         self._life.seen()
@@ -120,7 +136,16 @@ class _Running:
         path = self._runs.file(request.path_params["number"], request.path_params["name"])
         if path is None:
             return Response(status_code=_MISSING)
-        return FileResponse(path, headers={"content-security-policy": _OF_FILES})
+        kind = _KINDS.get(path.suffix, "application/octet-stream")
+        return FileResponse(path, media_type=kind, headers={"content-security-policy": _OF_FILES})
+
+    async def zip(self, request: Request) -> Response:
+        """All files of a run."""
+        number = request.path_params["number"]
+        files = [self._runs.file(number, name) for name in self._runs.files(number)]
+        if not files:
+            return Response(status_code=_MISSING)
+        return StreamingResponse(zipped(filter(None, files)), media_type="application/zip")
 
 
 class _Checks:

@@ -1,5 +1,6 @@
 """The page of drycut open in a real browser: a program comes in, is seen, edited, mended and saved."""
 
+import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -201,21 +202,58 @@ def test_nothing_runs_out_of_the_window(browsers: Browsers, served: OpenedPage, 
         )
 
 
-def test_a_program_is_run_and_its_files_open_beside_the_page(browsers: Browsers) -> None:
+def test_a_program_is_run_and_its_files_are_seen_and_saved(browsers: Browsers) -> None:
     with opened_page(KEYHOLE) as served, tab(browsers, served.address) as shown:
         shown.waits_for("pass")
         shown.page.fill("input[name=thickness_mm]", "20")
         shown.page.click("#start")
-        shown.page.wait_for_selector("#made a")
+        shown.page.wait_for_selector("#looks button")
         assert shown.page.inner_text("#stage") == "pass, on DK7740 class, stepper drives"
-        names = ["Replay", "Report", "Picture", "report.json"]
-        assert shown.page.locator("#made a").all_inner_texts() == names
+        assert shown.page.locator("#looks button").all_inner_texts() == ["Replay", "Report"]
+        assert shown.page.locator("#thumbs button").all_inner_texts() == ["the path as it will be cut"]
+        names = ["cut.png", "replay.html", "report.html", "report.json"]
+        assert shown.page.locator("#files a").all_inner_texts() == names
+        assert natural_width(shown.page, "#thumbs img") == 1600
+        with shown.page.expect_download() as coming:
+            shown.page.click("#all")
+        assert coming.value.suggested_filename == "program.3b.zip"
+        with zipfile.ZipFile(coming.value.path()) as archive:
+            assert archive.namelist() == names
+            assert archive.testzip() is None
+
+
+def test_replay_and_film_are_seen_in_the_page_and_the_replay_may_ask_nobody(
+    browsers: Browsers, served: OpenedPage
+) -> None:
+    with tab(browsers, served.address, lang="zh") as shown:
+        shown.page.fill("#text", "B100B0B100GXL1\nB100B0B100GXL3\nDD\n")
+        shown.waits_for("pass")
+        shown.page.click("#start")
+        shown.page.click("#looks button")
+        shown.page.frame_locator("#viewer iframe").locator("canvas").first.wait_for()
+        framed = shown.page.frames[-1]
+        assert framed.evaluate("() => window.origin") == "null", "it is of no origin"
+        asks = "() => fetch('../../first', {method: 'POST'}).then(() => 1, () => 0)"
+        assert framed.evaluate(asks) == 0
+        assert framed.evaluate("() => { try { return !!window.parent.document; } catch { return false; } }") is False
         with shown.page.context.expect_page() as coming:
-            shown.page.click("#made a")
-        replay = coming.value
-        replay.wait_for_load_state()
-        assert replay.title().startswith("program.3b")
-        assert replay.evaluate("() => fetch('../../first', {method: 'POST'}).then(() => 1, () => 0)") == 0
+            shown.page.click("#beside")
+        coming.value.wait_for_load_state()
+        assert coming.value.evaluate(asks) == 0
+        shown.page.click("#unview")
+        assert shown.page.locator("#viewer iframe").count() == 0
+        shown.found[:] = [text for text in shown.found if "Content Security Policy" not in text]
+        shown.page.fill("#seconds", "0.5")
+        shown.page.click("#film")
+        shown.page.click(".thumb:has(img[src*='film.webp'])")
+        assert shown.page.inner_text("#viewing") == "影片"
+        assert natural_width(shown.page, "#viewed img") == 960
+
+
+def natural_width(page: "Page", selector: str) -> int:
+    """Width of a picture as it came, px: 0 of one that the page was not let load."""
+    page.wait_for_function("(at) => document.querySelector(at).complete", arg=selector)
+    return page.eval_on_selector(selector, "(shown) => shown.naturalWidth")
 
 
 def test_a_run_is_cancelled_and_another_one_begun(browsers: Browsers, tmp_path: Path) -> None:
@@ -226,7 +264,7 @@ def test_a_run_is_cancelled_and_another_one_begun(browsers: Browsers, tmp_path: 
         shown.page.wait_for_function("() => document.querySelector('#progress').value > 0")
         shown.page.click("#cancel")
         shown.page.wait_for_function("() => document.querySelector('#stage').textContent === 'cancelled'")
-        assert shown.page.locator("#made a").count() == 0
+        assert shown.page.locator("#files a").count() == 0
         shown.page.fill("#text", f"{square}DD\n")
         shown.page.fill("input[name=thickness_mm]", "a lot")
         shown.page.click("#start")

@@ -63,6 +63,15 @@ export async function run(asked) {
 }
 
 /**
+ * Make a film or pictures of the run; how far it is then.
+ * @param {Record<string, string>} wanted
+ * @returns {Promise<RunState>}
+ */
+export async function more(wanted) {
+  return (await ask("more", JSON.stringify(wanted))).json();
+}
+
+/**
  * How far the run is.
  * @returns {Promise<RunState>}
  */

@@ -73,9 +73,17 @@
  */
 
 /**
- * How far a run is (sim/open/runs.py).
+ * A file of a run.
+ * @typedef {object} MadeFile
+ * @property {string} name
+ * @property {number} bytes
+ */
+
+/**
+ * How far a run is, or what more is made of it (sim/open/runs.py).
  * @typedef {object} RunState
  * @property {"idle" | "running" | "done" | "wrong" | "cancelled"} state
+ * @property {"run" | "film" | "pictures"} [job]
  * @property {number} [run]
  * @property {string} [stage]
  * @property {number} [at]
@@ -84,6 +92,7 @@
  * @property {"pass" | "fail"} [verdict]
  * @property {string} [machine]
  * @property {string} [why]
+ * @property {MadeFile[]} [files] once it has ended well
  */
 
 export const SEVERITIES = /** @type {const} */ (["error", "warning", "note"]);
