@@ -3,8 +3,7 @@
 import asyncio
 import json
 from collections.abc import Awaitable, Callable
-from pathlib import Path
-from typing import Any, Final, NamedTuple, TypeAlias
+from typing import Any, Final, TypeAlias
 
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
@@ -12,10 +11,12 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response, StreamingResponse
 from starlette.routing import Route
 
-from parser.findings.errors import ProgramError
+from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.text.encoding import printable
 from sim.open.answers import ReadFile, answer, file_of, read_file
 from sim.open.life import Life
+from sim.open.programs import Opened, Programs
+from sim.open.row import row_or_why
 from sim.open.runs import KEYS, MORE_KEYS, Runs
 from sim.open.zipped import zipped
 from sim.show.open_page.page import open_page
@@ -40,22 +41,11 @@ _KINDS: Final = {
 }
 
 
-class Opened(NamedTuple):
-    """The program that is open at the start: its file and bytes; no file where the page begins empty."""
-
-    file: Path | None = None
-    data: bytes = b""
-
-    @property
-    def name(self) -> str:
-        """Of its file."""
-        return self.file.name if self.file else ""
-
-
-def app_of(opened: Opened, life: Life, runs: Runs) -> Starlette:
+def app_of(opened: Opened, programs: Programs, life: Life, runs: Runs) -> Starlette:
     """The application behind the guard."""
-    files, texts, running = _Files(opened, life), _Checks(opened.file), _Running(life, runs)
+    files, texts, running = _Files(opened, programs, life), _Checks(programs), _Running(life, runs)
     works: list[_Work] = [files.first, files.read, files.save, files.alive, files.close]
+    works += [files.program, files.rows, files.again, files.row]
     works += [texts.check, running.run, running.more, running.progress, running.cancel]
     return Starlette(
         routes=[
@@ -70,8 +60,8 @@ def app_of(opened: Opened, life: Life, runs: Runs) -> Starlette:
 class _Files:
     """The page itself, and programs as they come to it and go from it."""
 
-    def __init__(self, opened: Opened, life: Life) -> None:
-        self._opened, self._life = opened, life
+    def __init__(self, opened: Opened, programs: Programs, life: Life) -> None:
+        self._opened, self._programs, self._life = opened, programs, life
 
     async def page(self, _: Request) -> Response:
         """The page."""
@@ -81,7 +71,35 @@ class _Files:
 
     async def first(self, _: Request) -> Response:
         """The program that is open at the start."""
-        return JSONResponse(_read(self._opened.name, self._opened.data))
+        return JSONResponse(_read(self._opened.name, self._opened.data, "0" if self._opened.file else ""))
+
+    async def program(self, request: Request) -> Response:
+        """The program of a number, as its file is now."""
+        number = (await _told(request, "number"))["number"]
+        try:
+            data = await run_in_threadpool(self._programs.read, number)
+        except FileUnreadableError:
+            return Response(status_code=_MISSING)
+        file = self._programs.file(number)
+        return JSONResponse(_read(file.name if file else "", data, number))
+
+    async def rows(self, request: Request) -> Response:
+        """What is known of the programs of the folder, behind those that the page knows."""
+        self._life.seen()
+        known = (await _told(request, "known"))["known"]
+        if not known.isdecimal():
+            raise _BadRequestError
+        return JSONResponse(await self._programs.rows(int(known[:9])))
+
+    async def again(self, _: Request) -> Response:
+        """Look through the folder again."""
+        await self._programs.again()
+        return JSONResponse(await self._programs.rows(0))
+
+    async def row(self, request: Request) -> Response:
+        """What a list shows of a file that came to the page."""
+        name, data = request.query_params.get("name", ""), await request.body()
+        return JSONResponse(await run_in_threadpool(row_or_why, name, None, data))
 
     async def read(self, request: Request) -> Response:
         """The text of a file that came to the page."""
@@ -151,15 +169,15 @@ class _Running:
 class _Checks:
     """Checks one text at a time; of those that wait for their turn only the last one is looked at."""
 
-    def __init__(self, first: Path | None) -> None:
-        self._first = first
+    def __init__(self, programs: Programs) -> None:
+        self._programs = programs
         self._turn = asyncio.Lock()
         self._last = 0
 
     async def check(self, request: Request) -> Response:
-        """What is found in a text; `is_first` says that it is of the file that was open at the start."""
-        told = await _told(request, "name", "text", "is_first")
-        file = self._first if told["is_first"] == "yes" else None
+        """What is found in a text; ``number`` is that of its program, empty where it came to the page."""
+        told = await _told(request, "name", "text", "number")
+        file = self._programs.file(told["number"])
         self._last += 1
         number = self._last
         async with self._turn:
@@ -198,10 +216,10 @@ def _guarded(work: _Work) -> _Work:
     return answered
 
 
-def _read(name: str, data: bytes) -> dict[str, Any]:
-    """A file as the page has it; no text where it is none."""
+def _read(name: str, data: bytes, number: str = "") -> dict[str, Any]:
+    """A file as the page has it; no text where it is none; its number, where it is one of the programs."""
     try:
         read = read_file(data) if data else ReadFile("", "utf-8", "\n")
     except ProgramError:
-        return {"name": printable(name), "text": None, "encoding": "", "newline": "\n"}
-    return {"name": printable(name), **read._asdict()}
+        return {"name": printable(name), "text": None, "encoding": "", "newline": "\n", "number": number}
+    return {"name": printable(name), **read._asdict(), "number": number}

@@ -5,14 +5,13 @@ What more is made of a finished run, a film or pictures, is made in such a proce
 
 import asyncio
 import contextlib
-import json
 import os
 import re
-import sys
 from pathlib import Path
 from typing import Any, Final
 
 from parser.text.encoding import printable
+from sim.open.child import Child, begun
 
 KEYS: Final = ("machine", "thickness_mm", "wire_mm", "offset_mm", "side")
 """What the page may say of a run, as texts; empty ones leave what is usual."""
@@ -21,7 +20,6 @@ MORE_KEYS: Final = ("job", "form", "seconds", "language")
 _SAFE: Final = re.compile(r"[^\w.-]")
 _LONGEST_NAME: Final = 60
 _IDLE: Final[dict[str, Any]] = {"state": "idle"}
-_LONGEST_LINE: Final = 1 << 20
 _MORE: Final = ("film", "pictures")
 
 
@@ -37,7 +35,7 @@ class Runs:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._number = 0
-        self._process: asyncio.subprocess.Process | None = None
+        self._child: Child | None = None
         self._following: asyncio.Task[None] | None = None
         self._state = _IDLE
         self._asked: dict[str, str] = {}
@@ -78,12 +76,11 @@ class Runs:
 
     async def cancel(self) -> None:
         """End the run that is on, if one is."""
-        process, following = self._process, self._following
-        self._process = self._following = None
-        if process is None or following is None:
+        child, following = self._child, self._following
+        self._child = self._following = None
+        if child is None or following is None:
             return
-        with contextlib.suppress(ProcessLookupError):
-            process.kill()
+        child.end()
         await following
         if self._state["state"] == "running":
             self._state = {**self._state, "state": "cancelled"}
@@ -106,38 +103,23 @@ class Runs:
         return self._folder / str(number) / "out"
 
     async def _begin(self, asked: dict[str, str]) -> None:
-        """Begin a job; nothing of the page reaches a command line: it goes through a pipe."""
         self._state = {"state": "running", "job": asked["job"], "run": self._number}
-        self._process = await asyncio.create_subprocess_exec(
-            *(sys.executable, "-m", "sim.open.runner"),
-            stdin=asyncio.subprocess.PIPE,
-            stdout=asyncio.subprocess.PIPE,
-            stderr=asyncio.subprocess.DEVNULL,
-            limit=_LONGEST_LINE,
-        )
-        self._following = asyncio.create_task(self._follow(self._process, asked))
+        self._child = await begun("sim.open.runner")
+        self._following = asyncio.create_task(self._follow(self._child, asked))
 
-    async def _follow(self, process: asyncio.subprocess.Process, asked: dict[str, str]) -> None:
-        assert process.stdin is not None  # noqa: S101 - asked for
-        assert process.stdout is not None  # noqa: S101 - asked for
+    async def _follow(self, child: Child, asked: dict[str, str]) -> None:
         last: dict[str, Any] = {}
-        begun = self._state
-        with contextlib.suppress(BrokenPipeError, ConnectionResetError):
-            process.stdin.write(f"{json.dumps(asked)}\n".encode())
-            await process.stdin.drain()
-        process.stdin.close()
-        async for line in process.stdout:
-            last = json.loads(line)
+        begin = self._state
+        async for last in child.tells(asked):
             if "stage" in last:
-                self._state = {**begun, **last}
-        await process.wait()
+                self._state = {**begin, **last}
         if "done" in last:
-            self._ran = {"run": begun["run"], **last["done"]} if asked["job"] == "run" else self._ran
-            self._state = {**begun, "state": "done"}
+            self._ran = {"run": begin["run"], **last["done"]} if asked["job"] == "run" else self._ran
+            self._state = {**begin, "state": "done"}
         elif "wrong" in last:
-            self._state = {**begun, "state": "wrong", "why": printable(last["wrong"])}
-        elif process is self._process:
-            self._state = {**begun, "state": "wrong", "why": ""}
+            self._state = {**begin, "state": "wrong", "why": printable(last["wrong"])}
+        elif child is self._child:
+            self._state = {**begin, "state": "wrong", "why": ""}
 
 
 def _file_name(name: str) -> str:

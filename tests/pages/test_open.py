@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 from browser import LOCALES, WAIT_MS, Browsers
 from opened_page import OpenedPage, opened_page
+from page_checks import complaints
 from places import ROOT
 
 if TYPE_CHECKING:
@@ -270,3 +271,44 @@ def test_a_run_is_cancelled_and_another_one_begun(browsers: Browsers, tmp_path: 
         shown.page.click("#start")
         shown.page.wait_for_selector("#stage.wrong")
         assert "thickness_mm is a number, not 'a lot'" in shown.page.inner_text("#stage")
+
+
+def test_a_folder_is_listed_and_its_programs_open_by_a_click(browsers: Browsers, tmp_path: Path) -> None:
+    (tmp_path / f"{MARKUP.replace('/', '')}.3b").write_text(WRONG)
+    (tmp_path / "b.3b").write_text("B1000B0B1000GXL1\nB1000B0B1000GXL3\nDD\n")
+    with opened_page(tmp_path) as served, tab(browsers, served.address) as shown:
+        rows = shown.page.locator("#programs tbody tr")
+        shown.page.wait_for_selector("#programs tbody tr:nth-child(2)")
+        assert rows.first.inner_text().split("\t")[-4:] == ["fail", "3B204", "19.800 × 19.800 mm", "62.204 mm"]
+        assert shown.page.inner_text("#far") == "2 programs"
+        assert shown.page.locator("#programs img").count() == 0
+        assert complaints(shown.page) == []
+        shown.page.select_option("#wanted", "pass")
+        assert rows.count() == 1
+        shown.page.select_option("#wanted", "")
+        shown.page.fill("#search", "3b204")
+        shown.page.click("#programs .go")
+        shown.waits_for("fail")
+        assert shown.text() == WRONG
+        shown.page.click("#to-list")
+        shown.page.fill("#search", "b.3b no such")
+        assert rows.count() == 0
+        (tmp_path / "c.3b").write_text(WRONG)
+        shown.page.fill("#search", "c.3b")
+        shown.page.click("#again")
+        shown.page.click("#programs .go")
+        shown.page.wait_for_function("() => document.title.startsWith('c.3b')")
+
+
+def test_several_files_that_are_dropped_are_a_list(browsers: Browsers, tmp_path: Path) -> None:
+    (tmp_path / "孔.3b").write_text(WRONG)
+    (tmp_path / "b.txt").write_text("hello")
+    with opened_page() as served, tab(browsers, served.address, 390, "zh") as shown:
+        shown.page.set_input_files("#pick", [str(tmp_path / "孔.3b"), str(tmp_path / "b.txt")])
+        shown.page.wait_for_selector("#programs tbody tr:nth-child(2)")
+        assert shown.page.locator("#programs .word").all_inner_texts() == ["不通过", "不是程序"]
+        assert shown.page.evaluate("() => document.documentElement.scrollWidth") <= 390
+        shown.page.click("#programs .go")
+        shown.waits_for("fail")
+        assert shown.page.title().startswith("孔.3b")
+        assert shown.text() == WRONG

@@ -33,8 +33,8 @@ def served_page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[OpenedPage
         yield served
 
 
-def checked(served: OpenedPage, text: str, name: str = "part.3b", is_first: str = "no") -> dict:
-    answer = served.ask("check", json.dumps({"name": name, "text": text, "is_first": is_first}))
+def checked(served: OpenedPage, text: str, name: str = "part.3b", number: str = "") -> dict:
+    answer = served.ask("check", json.dumps({"name": name, "text": text, "number": number}))
     assert answer.status == 200
     return json.loads(answer.body)
 
@@ -109,9 +109,11 @@ def test_requests_that_the_page_does_not_send_are_refused(served: OpenedPage, bo
 
 def test_a_file_comes_with_its_lines_and_goes_with_its_bytes(served: OpenedPage) -> None:
     first = json.loads(served.ask("first").body)
-    assert first == {"name": "part.3b", "text": WRONG, "encoding": "utf-8", "newline": "\r\n"}
+    assert first == {"name": "part.3b", "text": WRONG, "encoding": "utf-8", "newline": "\r\n", "number": "0"}
+    assert json.loads(served.ask("program", '{"number": "0"}').body) == first
     data = "B100B0B100GXL1 //孔\r\nDD\r\n".encode("gbk")
     read = json.loads(served.ask("read?name=%E5%AD%94.3b", data).body)
+    assert read["number"] == ""
     assert (read["name"], read["text"]) == ("孔.3b", "B100B0B100GXL1 //孔\nDD\n")
     assert served.ask("save", json.dumps(read)).body == data
     foreign = {**read, "text": read["text"] + "😀"}
@@ -146,10 +148,10 @@ def test_settings_near_the_first_file_count_for_it_alone(tmp_path: Path) -> None
     (tmp_path / "drycut.toml").write_text('root = true\nignore = ["3B204"]\n', "utf-8")
     (tmp_path / "part.3b").write_text(WRONG, "utf-8")
     with opened_page(tmp_path / "part.3b") as served:
-        assert checked(served, WRONG, is_first="yes")["findings"] == []
+        assert checked(served, WRONG, number="0")["findings"] == []
         assert len(checked(served, WRONG)["findings"]) == 1
         (tmp_path / "drycut.toml").write_text('ignored = ["3B204"]\n', "utf-8")
-        told = checked(served, WRONG, is_first="yes")
+        told = checked(served, WRONG, number="0")
         assert "ignored" in told["settings"]
         assert len(told["findings"]) == 1
 

@@ -2,6 +2,7 @@
 
 /**
  * @import { Said } from "../../html/assets/language.js"
+ * @import { Found, Verdict } from "../../index_page/assets/data.js"
  * @import { Curves } from "../../replay/assets/document.js"
  */
 
@@ -12,6 +13,7 @@
  * @property {string | null} text null where it is none
  * @property {string} encoding
  * @property {string} newline
+ * @property {string} number of the program whose file it is; empty where it came to the page
  */
 
 /** @typedef {[first: number, past: number, text: string]} Edit */
@@ -70,6 +72,31 @@
  * @property {Path | null} path
  * @property {Figure[]} figures
  * @property {Size | null} size
+ */
+
+/**
+ * A program in a list (sim/open/row.py).
+ * @typedef {object} Row
+ * @property {string} file
+ * @property {string} title
+ * @property {Verdict} verdict
+ * @property {Said | null} message why there is no program
+ * @property {Found[]} findings the worst first
+ * @property {Record<string, Said>} titles of their codes
+ * @property {string} picture data of an SVG path
+ * @property {number | null} cut_um
+ * @property {[left: number, bottom: number, right: number, top: number] | null} box_um
+ * @property {string} [number] of a program of the folder
+ */
+
+/**
+ * How far the check of a folder is (sim/open/programs.py).
+ * @typedef {object} Rows
+ * @property {string} folder empty where none is open
+ * @property {number} total
+ * @property {number} left_out
+ * @property {boolean} is_over
+ * @property {Row[]} rows
  */
 
 /**

@@ -1,6 +1,7 @@
 // Puts the page together: a file comes in, its text is checked while it is edited, and what is found shows at once.
 import * as asked from "./asked.js";
 import { showFound } from "./found.js";
+import { wireListing } from "./listing.js";
 import { pictureOf } from "./picture.js";
 import { wireRun } from "./running.js";
 import { showSize } from "./size.js";
@@ -22,13 +23,13 @@ const title = element("#name", HTMLElement);
 const status = element("#status", HTMLElement);
 const picture = pictureOf(element("#picture", HTMLCanvasElement), goToBlock);
 const text = textOf(element("#text", HTMLTextAreaElement), element("#lines", HTMLElement), picture.markLine);
+const listing = wireListing(openOne);
 const pick = element("#pick", HTMLInputElement);
 
 /** @type {FileText} */
-let file = { name: "", text: "", encoding: "utf-8", newline: "\n" };
+let file = { name: "", text: "", encoding: "utf-8", newline: "\n", number: "" };
 /** @type {{ answer: Answer, text: string } | null} */
 let known = null;
-let isFirst = true;
 let waiting = 0;
 let asking = new window.AbortController();
 
@@ -91,7 +92,7 @@ async function check(isNew) {
   asking = new window.AbortController();
   const now = text.value;
   try {
-    const answer = await asked.check(file.name, now, isFirst, asking.signal);
+    const answer = await asked.check(file.name, now, file.number, asking.signal);
     if (!answer) return;
     known = { answer, text: now };
     text.mark(answer.findings);
@@ -126,17 +127,26 @@ function begin(read) {
 }
 
 /**
- * Read a file that was dropped or picked.
- * @param {File | null | undefined} chosen
+ * Open what was dropped or picked: one file, or the list of several.
+ * @param {FileList | null | undefined} chosen
  */
 async function take(chosen) {
-  if (!chosen) return;
+  const files = [...(chosen ?? [])];
+  if (files.length > 1) listing.take(files).catch(() => tell("no-server"));
+  else if (files.length) await openOne(files[0]);
+}
+
+/**
+ * Open a program by its number, or a file; whether it could be read.
+ * @param {string | File} source
+ */
+async function openOne(source) {
   try {
-    const read = await asked.read(chosen.name, chosen);
-    isFirst = isFirst && read.text === null;
-    begin(read);
+    begin(typeof source === "string" ? await asked.program(source) : await asked.read(source.name, source));
+    return true;
   } catch {
-    tell("no-server");
+    tell("not-read");
+    return false;
   }
 }
 
@@ -164,10 +174,10 @@ function wire() {
   window.addEventListener("dragover", (event) => event.preventDefault());
   window.addEventListener("drop", (event) => {
     event.preventDefault();
-    take(event.dataTransfer?.files[0]);
+    take(event.dataTransfer?.files);
   });
   pick.addEventListener("change", () => {
-    take(pick.files?.[0]);
+    take(pick.files);
     pick.value = "";
   });
   element("#open", HTMLElement).addEventListener("click", () => pick.click());
@@ -185,4 +195,4 @@ language.onChange(show);
 language.begin();
 wire();
 wireRun(() => ({ name: nameOf(), text: text.value }), tell);
-asked.first().then(begin, () => tell("no-server"));
+asked.first().then(begin).then(listing.look).catch(() => tell("no-server"));

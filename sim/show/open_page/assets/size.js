@@ -7,7 +7,7 @@ import * as language from "../../html/assets/language.js";
 const MOST = 200;
 
 /** @param {number} um */
-const mm = (um) => (Math.round(um) / 1000).toFixed(3);
+export const mm = (um) => (Math.round(um) / 1000).toFixed(3);
 
 /**
  * Names and values.
