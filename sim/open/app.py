@@ -3,6 +3,7 @@
 import asyncio
 import json
 from collections.abc import Awaitable, Callable
+from pathlib import Path
 from typing import Any, Final, TypeAlias
 
 from starlette.applications import Starlette
@@ -15,6 +16,7 @@ from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.text.encoding import printable
 from sim.open.answers import ReadFile, answer, file_of, read_file
 from sim.open.life import Life
+from sim.open.lines import changed_lines
 from sim.open.programs import Opened, Programs
 from sim.open.row import row_or_why
 from sim.open.runs import KEYS, MORE_KEYS, Runs
@@ -46,7 +48,7 @@ def app_of(opened: Opened, programs: Programs, life: Life, runs: Runs) -> Starle
     files, texts, running = _Files(opened, programs, life), _Checks(programs), _Running(life, runs)
     works: list[_Work] = [files.first, files.read, files.save, files.alive, files.close]
     works += [files.program, files.rows, files.again, files.row]
-    works += [texts.check, running.run, running.more, running.progress, running.cancel]
+    works += [texts.check, texts.version, texts.lines, running.run, running.more, running.progress, running.cancel]
     return Starlette(
         routes=[
             Route("/", files.page, methods=["GET"]),
@@ -167,23 +169,45 @@ class _Running:
 
 
 class _Checks:
-    """Checks one text at a time; of those that wait for their turn only the last one is looked at."""
+    """What is found in texts, and how they differ."""
 
     def __init__(self, programs: Programs) -> None:
         self._programs = programs
-        self._turn = asyncio.Lock()
-        self._last = 0
+        self._checks, self._lines = _Last(), _Last()
 
     async def check(self, request: Request) -> Response:
         """What is found in a text; ``number`` is that of its program, empty where it came to the page."""
+        return await self._checks.answered(answer, *await self._asked(request))
+
+    async def version(self, request: Request) -> Response:
+        """What is found in a text that waits for its turn, however many others are asked for."""
+        return JSONResponse(await run_in_threadpool(answer, *await self._asked(request)))
+
+    async def lines(self, request: Request) -> Response:
+        """Which lines of a text are others than before."""
+        told = await _told(request, "before", "after")
+        return await self._lines.answered(changed_lines, told["before"], told["after"])
+
+    async def _asked(self, request: Request) -> tuple[str, Path | None, str]:
         told = await _told(request, "name", "text", "number")
-        file = self._programs.file(told["number"])
+        return told["name"], self._programs.file(told["number"]), told["text"]
+
+
+class _Last:
+    """Does one work at a time; of those that wait for their turn only the last one."""
+
+    def __init__(self) -> None:
+        self._turn = asyncio.Lock()
+        self._last = 0
+
+    async def answered(self, work: Callable[..., Any], *asked: object) -> Response:
+        """What comes of it; nothing where a later one was asked for meanwhile."""
         self._last += 1
         number = self._last
         async with self._turn:
             if number != self._last:
                 return Response(status_code=_NOTHING)
-            return JSONResponse(await run_in_threadpool(answer, told["name"], file, told["text"]))
+            return JSONResponse(await run_in_threadpool(work, *asked))
 
 
 class _BadRequestError(Exception):

@@ -312,3 +312,68 @@ def test_several_files_that_are_dropped_are_a_list(browsers: Browsers, tmp_path:
         shown.waits_for("fail")
         assert shown.page.title().startswith("孔.3b")
         assert shown.text() == WRONG
+
+
+def shades(page: "Page") -> set[str]:
+    """Which of the shades of a comparison are on the picture."""
+    page.wait_for_function("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    return set(
+        page.evaluate(
+            """() => {
+              const canvas = document.querySelector('#picture');
+              const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+              const seen = new Set();
+              for (let at = 0; at < data.length; at += 4) seen.add(`${data[at]},${data[at + 1]},${data[at + 2]}`);
+              const style = getComputedStyle(canvas);
+              return ['--error', '--good'].filter((name) => {
+                const hex = style.getPropertyValue(name).trim();
+                return seen.has([1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16)).join());
+              });
+            }"""
+        )
+    )
+
+
+def test_an_earlier_version_is_seen_beside_the_present_one(browsers: Browsers, tmp_path: Path) -> None:
+    square = "B3000B0B3000GXL1\nB0B2000B2000GYL2\nB3000B0B3000GXL3\nB0B2000B2000GYL4\nDD\n"
+    wider = square.replace("3000", "4000")
+    (tmp_path / "part.3b").write_text(square)
+    with opened_page(tmp_path / "part.3b") as served, tab(browsers, served.address) as shown:
+        shown.waits_for("pass")
+        shown.page.fill("#text", wider)
+        shown.page.select_option("#version", "opened")
+        both = shown.page.locator("#both tr.other")
+        both.first.wait_for()
+        assert both.all_inner_texts() == [
+            "length of the cut\t10.000 mm\t12.000 mm",
+            "steps of 1 µm\t10,000\t12,000",
+            "extent\t3.000 × 2.000 mm\t4.000 × 2.000 mm",
+            "from … to\tX 0.000 … 3.000, Y 0.000 … 2.000 mm\tX 0.000 … 4.000, Y 0.000 … 2.000 mm",
+        ]
+        assert shown.page.locator("#changes del").all_inner_texts() == ["B3000B0B3000GXL1", "B3000B0B3000GXL3"]
+        assert shown.page.locator("#changes ins").all_inner_texts() == ["B4000B0B4000GXL1", "B4000B0B4000GXL3"]
+        assert shades(shown.page) == {"--error", "--good"}
+        assert complaints(shown.page) == []
+        shown.page.click("#changes li:nth-child(2) .go")
+        assert shown.selected() == "B4000B0B4000GXL3"
+        shown.page.click("#swap")
+        shown.page.wait_for_function("() => document.querySelector('#both .other td')?.textContent === '12.000 mm'")
+        assert shown.text() == square
+        shown.page.fill("#text", wider)
+        shown.page.wait_for_selector("#changes .good")
+        assert shown.page.locator("#both tr.other").count() == 0
+        assert "--error" not in shades(shown.page)
+        shown.found[:] = [text for text in shown.found if "readback" not in text]  # of this test, twice
+
+
+def test_a_second_program_is_compared_with_the_one_that_was_open(browsers: Browsers, served: OpenedPage) -> None:
+    with tab(browsers, served.address, lang="zh") as shown:
+        shown.waits_for("fail")
+        shown.drops("other.3b", WRONG.replace("GX", "GY"))
+        shown.waits_for("pass")
+        assert shown.page.inner_text("#beside-open") == "与 part.3b 比较"
+        shown.page.click("#beside-open")
+        shown.page.wait_for_selector("#changes del")
+        verdict, findings, _ = shown.page.locator("#both tr.other").all_inner_texts()
+        assert (verdict, findings) == ("结论\t不通过\t通过", "问题\t3B204\t–")
+        assert shown.page.locator("#beside-open").is_hidden()

@@ -1,6 +1,6 @@
 // What the page asks of its server: paths beside its own address, and nothing else.
 
-/** @import { Answer, FileText, Row, Rows, RunState } from "./data.js" */
+/** @import { Answer, Changes, FileText, Row, Rows, RunState } from "./data.js" */
 
 /**
  * The answer to a request.
@@ -86,6 +86,27 @@ export async function saved(file) {
  */
 export async function check(name, text, number, signal) {
   const answer = await ask("check", JSON.stringify({ name, text, number }), signal);
+  return answer.status === 204 ? null : answer.json();
+}
+
+/**
+ * What is found in a text that stays as it is.
+ * @param {FileText} file
+ * @param {string} text
+ * @returns {Promise<Answer>}
+ */
+export async function version({ name, number }, text) {
+  return (await ask("version", JSON.stringify({ name, text, number }))).json();
+}
+
+/**
+ * Which lines are others; null where a later text was asked for meanwhile.
+ * @param {string} before
+ * @param {string} after
+ * @returns {Promise<Changes | null>}
+ */
+export async function lines(before, after) {
+  const answer = await ask("lines", JSON.stringify({ before, after }));
   return answer.status === 204 ? null : answer.json();
 }
 

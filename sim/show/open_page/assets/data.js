@@ -75,6 +75,21 @@
  */
 
 /**
+ * Lines that are others than in an earlier text (sim/open/lines.py).
+ * @typedef {object} Place
+ * @property {number} line from 1, in the text after
+ * @property {string} before
+ * @property {string} after
+ * @property {[before: number, after: number]} lines how many; of long ones the first are told
+ */
+
+/**
+ * @typedef {object} Changes
+ * @property {Place[]} places
+ * @property {number} more places that are not told
+ */
+
+/**
  * A program in a list (sim/open/row.py).
  * @typedef {object} Row
  * @property {string} file

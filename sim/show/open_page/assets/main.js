@@ -6,6 +6,7 @@ import { pictureOf } from "./picture.js";
 import { wireRun } from "./running.js";
 import { showSize } from "./size.js";
 import { textOf } from "./text.js";
+import { wireVersions } from "./versions.js";
 import { element } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 
@@ -24,6 +25,13 @@ const status = element("#status", HTMLElement);
 const picture = pictureOf(element("#picture", HTMLCanvasElement), goToBlock);
 const text = textOf(element("#text", HTMLTextAreaElement), element("#lines", HTMLElement), picture.markLine);
 const listing = wireListing(openOne);
+const versions = wireVersions({
+  now: () => ({ file, text: text.value, answer: known?.text === text.value ? known.answer : null }),
+  under: picture.under,
+  go: (version) => begin({ ...version.file, text: version.text }, false),
+  goToLine: text.showLine,
+  tell,
+});
 const pick = element("#pick", HTMLInputElement);
 
 /** @type {FileText} */
@@ -98,6 +106,7 @@ async function check(isNew) {
     text.mark(answer.findings);
     picture.show(answer.path, answer.figures, answer.findings, isNew);
     show();
+    versions.update();
     tell(answer.settings && "settings", { why: answer.settings });
   } catch (error) {
     if (!(error instanceof Error && error.name === "AbortError")) tell("no-server");
@@ -111,18 +120,21 @@ function later() {
 }
 
 /**
- * Another program.
+ * Another program; the one before it can be compared.
  * @param {FileText} read
+ * @param {boolean} isOpened whether it comes from a file; else it is a version
  */
-function begin(read) {
+function begin(read, isOpened = true) {
   if (read.text === null) {
     tell("no-text", { name: read.name });
     return;
   }
+  if (text.value && isOpened) versions.keep("before");
   file = read;
   title.textContent = read.name || language.say("untitled");
   document.title = `${read.name || language.say("untitled")} · drycut`;
   text.begin(read.text);
+  if (isOpened) versions.keep("opened");
   check(true);
 }
 
@@ -163,6 +175,7 @@ async function save() {
     link.href = window.URL.createObjectURL(blob);
     link.download = nameOf();
     link.click();
+    versions.keep("saved");
     window.setTimeout(() => window.URL.revokeObjectURL(link.href), ALIVE_MS);
   } catch {
     tell("no-server");
@@ -194,5 +207,8 @@ function wire() {
 language.onChange(show);
 language.begin();
 wire();
-wireRun(() => ({ name: nameOf(), text: text.value }), tell);
-asked.first().then(begin).then(listing.look).catch(() => tell("no-server"));
+wireRun(() => {
+  versions.keep("ran");
+  return { name: nameOf(), text: text.value };
+}, tell);
+asked.first().then((read) => begin(read)).then(listing.look).catch(() => tell("no-server"));

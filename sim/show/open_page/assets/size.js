@@ -14,7 +14,7 @@ export const mm = (um) => (Math.round(um) / 1000).toFixed(3);
  * @param {Size} size
  * @returns {[name: string, value: string][]}
  */
-function rowsOf(size) {
+export function rowsOf(size) {
   const { box_um: box } = size;
   /** @type {[name: string, value: string][]} */
   const rows = [
