@@ -5,6 +5,7 @@ import contextlib
 import secrets
 import signal
 import socket
+import sys
 from collections.abc import Awaitable, Callable, Iterator, Sequence
 from types import FrameType
 from typing import Final
@@ -81,10 +82,24 @@ async def _run(
 def _listening(port: int) -> Iterator[socket.socket]:
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as listening:
         try:
+            _claim(listening)
             listening.bind((_HOST, port))
+            listening.listen()  # from here on nobody else can have the port
         except OSError as error:
             raise PortError(f"port {port} cannot be listened on: {error.strerror or error}") from None
         yield listening
+
+
+def _claim(listening: socket.socket) -> None:
+    """Let the port be had while old connections to it are still dying, and let nobody share it.
+
+    On Windows they do not hinder, and the option that helps elsewhere would let others take a port that is in use.
+    https://learn.microsoft.com/windows/win32/winsock/using-so-reuseaddr-and-so-exclusiveaddruse
+    """
+    if sys.platform == "win32":
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_EXCLUSIVEADDRUSE, 1)
+    else:
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
 
 
 @contextlib.contextmanager
