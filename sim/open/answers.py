@@ -60,7 +60,7 @@ def answer(name: str, file: Path | None, text: str) -> dict[str, Any]:
         "findings": [_finding(finding, offsets) for finding in result.findings],
         "path": _path(program, offsets) if program and len(program.toolpath) else None,
         "figures": _figures(program) if program and result.coverage.stepped else [],
-        "size": _size(result),
+        "size": size_of(result),
     }
 
 
@@ -120,7 +120,8 @@ def _figures(program: Program) -> list[dict[str, Any]]:
     ]
 
 
-def _size(result: CheckResult) -> dict[str, Any] | None:
+def size_of(result: CheckResult) -> dict[str, Any] | None:
+    """How large a program is, lengths in µm; None where its path could not be worked out."""
     told = result.programmed
     if told is None:
         return None

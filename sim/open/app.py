@@ -4,19 +4,23 @@ import asyncio
 import json
 from collections.abc import Awaitable, Callable
 from pathlib import Path
-from typing import Any, Final, NamedTuple, TypeAlias
+from typing import Any, Final, TypeAlias
 
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect, Request
-from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response
+from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response, StreamingResponse
 from starlette.routing import Route
 
-from parser.findings.errors import ProgramError
+from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.text.encoding import printable
 from sim.open.answers import ReadFile, answer, file_of, read_file
 from sim.open.life import Life
-from sim.open.runs import KEYS, Runs
+from sim.open.lines import changed_lines
+from sim.open.programs import Opened, Programs
+from sim.open.row import row_or_why
+from sim.open.runs import KEYS, MORE_KEYS, Runs
+from sim.open.zipped import zipped
 from sim.show.open_page.page import open_page
 
 _Work: TypeAlias = Callable[[Request], Awaitable[Response]]
@@ -25,32 +29,31 @@ _MISSING: Final = 404
 _NOTHING: Final = 204
 _OF_FILES: Final = (
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; "
-    "form-action 'none'; base-uri 'none'"
+    "form-action 'none'; base-uri 'none'; frame-ancestors 'self'"
 )
-"""Pages of a run hold all that they show: they may ask nobody, this server neither."""
+"""Pages of a run hold all that they show: they may ask nobody, this server neither; the page itself may frame them."""
+_KINDS: Final = {
+    ".html": "text/html; charset=utf-8",
+    ".json": "application/json",
+    ".png": "image/png",
+    ".apng": "image/apng",
+    ".gif": "image/gif",
+    ".webp": "image/webp",
+    ".mp4": "video/mp4",
+}
 
 
-class Opened(NamedTuple):
-    """The program that is open at the start: its file and bytes; no file where the page begins empty."""
-
-    file: Path | None = None
-    data: bytes = b""
-
-    @property
-    def name(self) -> str:
-        """Of its file."""
-        return self.file.name if self.file else ""
-
-
-def app_of(opened: Opened, life: Life, runs: Runs) -> Starlette:
+def app_of(opened: Opened, programs: Programs, life: Life, runs: Runs) -> Starlette:
     """The application behind the guard."""
-    files, texts, running = _Files(opened, life), _Checks(opened.file), _Running(life, runs)
+    files, texts, running = _Files(opened, programs, life), _Checks(programs), _Running(life, runs)
     works: list[_Work] = [files.first, files.read, files.save, files.alive, files.close]
-    works += [texts.check, running.run, running.progress, running.cancel]
+    works += [files.program, files.rows, files.again, files.row]
+    works += [texts.check, texts.version, texts.lines, running.run, running.more, running.progress, running.cancel]
     return Starlette(
         routes=[
             Route("/", files.page, methods=["GET"]),
             Route("/run/{number:int}/{name}", running.made, methods=["GET"]),
+            Route("/zip/{number:int}", running.zip, methods=["GET"]),
             *(Route(f"/{_name_of(work)}", _guarded(work), methods=["POST"]) for work in works),
         ]
     )
@@ -59,8 +62,8 @@ def app_of(opened: Opened, life: Life, runs: Runs) -> Starlette:
 class _Files:
     """The page itself, and programs as they come to it and go from it."""
 
-    def __init__(self, opened: Opened, life: Life) -> None:
-        self._opened, self._life = opened, life
+    def __init__(self, opened: Opened, programs: Programs, life: Life) -> None:
+        self._opened, self._programs, self._life = opened, programs, life
 
     async def page(self, _: Request) -> Response:
         """The page."""
@@ -70,7 +73,35 @@ class _Files:
 
     async def first(self, _: Request) -> Response:
         """The program that is open at the start."""
-        return JSONResponse(_read(self._opened.name, self._opened.data))
+        return JSONResponse(_read(self._opened.name, self._opened.data, "0" if self._opened.file else ""))
+
+    async def program(self, request: Request) -> Response:
+        """The program of a number, as its file is now."""
+        number = (await _told(request, "number"))["number"]
+        try:
+            data = await run_in_threadpool(self._programs.read, number)
+        except FileUnreadableError:
+            return Response(status_code=_MISSING)
+        file = self._programs.file(number)
+        return JSONResponse(_read(file.name if file else "", data, number))
+
+    async def rows(self, request: Request) -> Response:
+        """What is known of the programs of the folder, behind those that the page knows."""
+        self._life.seen()
+        known = (await _told(request, "known"))["known"]
+        if not known.isdecimal():
+            raise _BadRequestError
+        return JSONResponse(await self._programs.rows(int(known[:9])))
+
+    async def again(self, _: Request) -> Response:
+        """Look through the folder again."""
+        await self._programs.again()
+        return JSONResponse(await self._programs.rows(0))
+
+    async def row(self, request: Request) -> Response:
+        """What a list shows of a file that came to the page."""
+        name, data = request.query_params.get("name", ""), await request.body()
+        return JSONResponse(await run_in_threadpool(row_or_why, name, None, data))
 
     async def read(self, request: Request) -> Response:
         """The text of a file that came to the page."""
@@ -105,6 +136,11 @@ class _Running:
         await self._runs.start(told["name"], told["text"].encode("utf-8", "replace"), told)
         return JSONResponse(self._runs.state)
 
+    async def more(self, request: Request) -> Response:
+        """Make a film or pictures of the run."""
+        await self._runs.make(await _told(request, *MORE_KEYS))
+        return JSONResponse(self._runs.state)
+
     async def progress(self, _: Request) -> Response:
         """How far it is."""
         self._life.seen()
@@ -120,27 +156,58 @@ class _Running:
         path = self._runs.file(request.path_params["number"], request.path_params["name"])
         if path is None:
             return Response(status_code=_MISSING)
-        return FileResponse(path, headers={"content-security-policy": _OF_FILES})
+        kind = _KINDS.get(path.suffix, "application/octet-stream")
+        return FileResponse(path, media_type=kind, headers={"content-security-policy": _OF_FILES})
+
+    async def zip(self, request: Request) -> Response:
+        """All files of a run."""
+        number = request.path_params["number"]
+        files = [self._runs.file(number, name) for name in self._runs.files(number)]
+        if not files:
+            return Response(status_code=_MISSING)
+        return StreamingResponse(zipped(filter(None, files)), media_type="application/zip")
 
 
 class _Checks:
-    """Checks one text at a time; of those that wait for their turn only the last one is looked at."""
+    """What is found in texts, and how they differ."""
 
-    def __init__(self, first: Path | None) -> None:
-        self._first = first
+    def __init__(self, programs: Programs) -> None:
+        self._programs = programs
+        self._checks, self._lines = _Last(), _Last()
+
+    async def check(self, request: Request) -> Response:
+        """What is found in a text; ``number`` is that of its program, empty where it came to the page."""
+        return await self._checks.answered(answer, *await self._asked(request))
+
+    async def version(self, request: Request) -> Response:
+        """What is found in a text that waits for its turn, however many others are asked for."""
+        return JSONResponse(await run_in_threadpool(answer, *await self._asked(request)))
+
+    async def lines(self, request: Request) -> Response:
+        """Which lines of a text are others than before."""
+        told = await _told(request, "before", "after")
+        return await self._lines.answered(changed_lines, told["before"], told["after"])
+
+    async def _asked(self, request: Request) -> tuple[str, Path | None, str]:
+        told = await _told(request, "name", "text", "number")
+        return told["name"], self._programs.file(told["number"]), told["text"]
+
+
+class _Last:
+    """Does one work at a time; of those that wait for their turn only the last one."""
+
+    def __init__(self) -> None:
         self._turn = asyncio.Lock()
         self._last = 0
 
-    async def check(self, request: Request) -> Response:
-        """What is found in a text; `is_first` says that it is of the file that was open at the start."""
-        told = await _told(request, "name", "text", "is_first")
-        file = self._first if told["is_first"] == "yes" else None
+    async def answered(self, work: Callable[..., Any], *asked: object) -> Response:
+        """What comes of it; nothing where a later one was asked for meanwhile."""
         self._last += 1
         number = self._last
         async with self._turn:
             if number != self._last:
                 return Response(status_code=_NOTHING)
-            return JSONResponse(await run_in_threadpool(answer, told["name"], file, told["text"]))
+            return JSONResponse(await run_in_threadpool(work, *asked))
 
 
 class _BadRequestError(Exception):
@@ -173,10 +240,10 @@ def _guarded(work: _Work) -> _Work:
     return answered
 
 
-def _read(name: str, data: bytes) -> dict[str, Any]:
-    """A file as the page has it; no text where it is none."""
+def _read(name: str, data: bytes, number: str = "") -> dict[str, Any]:
+    """A file as the page has it; no text where it is none; its number, where it is one of the programs."""
     try:
         read = read_file(data) if data else ReadFile("", "utf-8", "\n")
     except ProgramError:
-        return {"name": printable(name), "text": None, "encoding": "", "newline": "\n"}
-    return {"name": printable(name), **read._asdict()}
+        return {"name": printable(name), "text": None, "encoding": "", "newline": "\n", "number": number}
+    return {"name": printable(name), **read._asdict(), "number": number}

@@ -1,22 +1,26 @@
-"""The run of the page: one at a time, in a process of its own, with its files in a folder that goes with the server."""
+"""The run of the page: one at a time, in a process of its own, with its files in a folder that goes with the server.
+
+What more is made of a finished run, a film or pictures, is made in such a process too, and stands beside its files.
+"""
 
 import asyncio
 import contextlib
-import json
+import os
 import re
-import sys
 from pathlib import Path
 from typing import Any, Final
 
 from parser.text.encoding import printable
+from sim.open.child import Child, begun
 
-FILES: Final = ("replay.html", "report.html", "cut.png", "report.json")
 KEYS: Final = ("machine", "thickness_mm", "wire_mm", "offset_mm", "side")
 """What the page may say of a run, as texts; empty ones leave what is usual."""
+MORE_KEYS: Final = ("job", "form", "seconds", "language")
+"""What it may say of a film or of pictures."""
 _SAFE: Final = re.compile(r"[^\w.-]")
 _LONGEST_NAME: Final = 60
 _IDLE: Final[dict[str, Any]] = {"state": "idle"}
-_LONGEST_LINE: Final = 1 << 20
+_MORE: Final = ("film", "pictures")
 
 
 class Runs:
@@ -31,71 +35,91 @@ class Runs:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._number = 0
-        self._process: asyncio.subprocess.Process | None = None
+        self._child: Child | None = None
         self._following: asyncio.Task[None] | None = None
         self._state = _IDLE
+        self._asked: dict[str, str] = {}
+        self._ran: dict[str, Any] = {}
 
     @property
     def state(self) -> dict[str, Any]:
-        """How far it is: ``state`` is idle, running, done, wrong or cancelled; more of it by its kind."""
-        return self._state
+        """How far it is: ``state`` is idle, running, done, wrong or cancelled; more of it by its kind.
+
+        Once the run has ended well it has its number, ``verdict``, ``machine`` and ``files``, whatever comes behind it.
+        """
+        if not self._ran:
+            return self._state
+        files = [{"name": name, "bytes": size} for name, size in self.files(self._ran["run"]).items()]
+        return {**self._state, **self._ran, "files": files}
 
     async def start(self, name: str, text: bytes, asked: dict[str, str]) -> None:
         """Run a text of a name, in place of the run before."""
         await self.cancel()
         self._number += 1
+        self._ran = {}
         folder = self._folder / str(self._number)
         file = folder / "program" / _file_name(name)
         file.parent.mkdir(parents=True)
         file.write_bytes(text)
-        self._state = {"state": "running", "run": self._number}
-        # Nothing of the page reaches a command line: it goes through a pipe.
-        self._process = await asyncio.create_subprocess_exec(
-            *(sys.executable, "-m", "sim.open.runner"),
-            stdin=asyncio.subprocess.PIPE,
-            stdout=asyncio.subprocess.PIPE,
-            stderr=asyncio.subprocess.DEVNULL,
-            limit=_LONGEST_LINE,
-        )
-        told = {**{key: asked[key] for key in KEYS}, "file": str(file), "folder": str(folder / "out")}
-        self._following = asyncio.create_task(self._follow(self._process, self._number, json.dumps(told)))
+        self._asked = {
+            **{key: asked[key] for key in KEYS},
+            "file": str(file),
+            "folder": str(self._made_in(self._number)),
+        }
+        await self._begin({**self._asked, "job": "run"})
+
+    async def make(self, asked: dict[str, str]) -> None:
+        """Make a film or pictures of the finished run; nothing where there is none."""
+        if self._ran and asked["job"] in _MORE:
+            await self.cancel()
+            await self._begin({**self._asked, **{key: asked[key] for key in MORE_KEYS}})
 
     async def cancel(self) -> None:
         """End the run that is on, if one is."""
-        process, following = self._process, self._following
-        self._process = self._following = None
-        if process is None or following is None:
+        child, following = self._child, self._following
+        self._child = self._following = None
+        if child is None or following is None:
             return
-        with contextlib.suppress(ProcessLookupError):
-            process.kill()
+        child.end()
         await following
         if self._state["state"] == "running":
-            self._state = {"state": "cancelled"}
+            self._state = {**self._state, "state": "cancelled"}
 
     def file(self, number: int, name: str) -> Path | None:
-        """A file of a finished run; None where there is none of this name."""
-        path = self._folder / str(number) / "out" / name
-        return path if name in FILES and path.is_file() else None
+        """A file of a run; None where none of this name stands in its folder."""
+        return self._made_in(number) / name if name in self.files(number) else None
 
-    async def _follow(self, process: asyncio.subprocess.Process, number: int, asked: str) -> None:
-        assert process.stdin is not None  # noqa: S101 - asked for
-        assert process.stdout is not None  # noqa: S101 - asked for
+    def files(self, number: int) -> dict[str, int]:
+        """How many bytes each file of a run has, by their names: what stands in its folder, no folder and no link."""
+        made: dict[str, int] = {}
+        with contextlib.suppress(FileNotFoundError), os.scandir(self._made_in(number)) as entries:
+            for entry in sorted(entries, key=lambda entry: entry.name):
+                with contextlib.suppress(FileNotFoundError):  # a film is just being put in place of the last one
+                    if entry.is_file(follow_symlinks=False):
+                        made[entry.name] = entry.stat(follow_symlinks=False).st_size
+        return made
+
+    def _made_in(self, number: int) -> Path:
+        return self._folder / str(number) / "out"
+
+    async def _begin(self, asked: dict[str, str]) -> None:
+        self._state = {"state": "running", "job": asked["job"], "run": self._number}
+        self._child = await begun("sim.open.runner")
+        self._following = asyncio.create_task(self._follow(self._child, asked))
+
+    async def _follow(self, child: Child, asked: dict[str, str]) -> None:
         last: dict[str, Any] = {}
-        with contextlib.suppress(BrokenPipeError, ConnectionResetError):
-            process.stdin.write(f"{asked}\n".encode())
-            await process.stdin.drain()
-        process.stdin.close()
-        async for line in process.stdout:
-            last = json.loads(line)
+        begin = self._state
+        async for last in child.tells(asked):
             if "stage" in last:
-                self._state = {"state": "running", "run": number, **last}
-        await process.wait()
+                self._state = {**begin, **last}
         if "done" in last:
-            self._state = {"state": "done", "run": number, **last["done"]}
+            self._ran = {"run": begin["run"], **last["done"]} if asked["job"] == "run" else self._ran
+            self._state = {**begin, "state": "done"}
         elif "wrong" in last:
-            self._state = {"state": "wrong", "run": number, "why": printable(last["wrong"])}
-        elif process is self._process:
-            self._state = {"state": "wrong", "run": number, "why": ""}
+            self._state = {**begin, "state": "wrong", "why": printable(last["wrong"])}
+        elif child is self._child:
+            self._state = {**begin, "state": "wrong", "why": ""}
 
 
 def _file_name(name: str) -> str:

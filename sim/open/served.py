@@ -5,7 +5,8 @@ import contextlib
 import secrets
 import signal
 import socket
-from collections.abc import Callable, Iterator
+import sys
+from collections.abc import Awaitable, Callable, Iterator, Sequence
 from types import FrameType
 from typing import Final
 
@@ -13,9 +14,10 @@ import uvicorn
 
 from parser.findings.errors import DrycutError
 from sim.files import scratch
-from sim.open.app import Opened, app_of
+from sim.open.app import app_of
 from sim.open.guard import Address, Guard
 from sim.open.life import Life
+from sim.open.programs import Opened, Programs
 from sim.open.runs import Runs
 
 _HOST: Final = "127.0.0.1"
@@ -37,13 +39,14 @@ class _Server(uvicorn.Server):
 def serve(opened: Opened, port: int, ready: Callable[[str], None]) -> None:
     """Serve the page of a program until it is over; `ready` is told the address once it can be opened.
 
-    Port 0 is any free one. PortError where the port cannot be had.
+    Port 0 is any free one. PortError where the port cannot be had, FileUnreadableError for a folder without a program.
     """
+    programs = Programs(opened)
     with _listening(port) as listening, scratch() as folder:
         address = Address(f"{_HOST}:{listening.getsockname()[1]}", secrets.token_urlsafe(24))
         life, runs = Life(), Runs(folder)
         config = uvicorn.Config(
-            Guard(app_of(opened, life, runs), address),
+            Guard(app_of(opened, programs, life, runs), address),
             lifespan="off",
             log_level="critical",
             access_log=False,
@@ -52,19 +55,25 @@ def serve(opened: Opened, port: int, ready: Callable[[str], None]) -> None:
         )
         server = _Server(config)
         with _ended_by_signals(life):
-            asyncio.run(_run(server, listening, life, runs, lambda: ready(address.url)))
+            asyncio.run(_run(server, listening, life, lambda: ready(address.url), [runs.cancel, programs.end]))
 
 
 async def _run(
-    server: uvicorn.Server, listening: socket.socket, life: Life, runs: Runs, ready: Callable[[], None]
+    server: uvicorn.Server,
+    listening: socket.socket,
+    life: Life,
+    ready: Callable[[], None],
+    ends: Sequence[Callable[[], Awaitable[None]]],
 ) -> None:
+    """Serve until the life is over; `ends` end what the server has begun."""
     serving = asyncio.create_task(server.serve(sockets=[listening]))
     while not server.started and not serving.done():
         await asyncio.sleep(0.01)
     ready()
     while not life.is_over and not serving.done():
         await asyncio.sleep(_LOOK_S)
-    await runs.cancel()
+    for end in ends:
+        await end()
     server.should_exit = True
     await serving
 
@@ -73,10 +82,24 @@ async def _run(
 def _listening(port: int) -> Iterator[socket.socket]:
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as listening:
         try:
+            _claim(listening)
             listening.bind((_HOST, port))
+            listening.listen()  # from here on nobody else can have the port
         except OSError as error:
             raise PortError(f"port {port} cannot be listened on: {error.strerror or error}") from None
         yield listening
+
+
+def _claim(listening: socket.socket) -> None:
+    """Let the port be had while old connections to it are still dying, and let nobody share it.
+
+    On Windows they do not hinder, and the option that helps elsewhere would let others take a port that is in use.
+    https://learn.microsoft.com/windows/win32/winsock/using-so-reuseaddr-and-so-exclusiveaddruse
+    """
+    if sys.platform == "win32":
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_EXCLUSIVEADDRUSE, 1)
+    else:
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
 
 
 @contextlib.contextmanager

@@ -1,5 +1,6 @@
 """The page of drycut open in a real browser: a program comes in, is seen, edited, mended and saved."""
 
+import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -8,6 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 from browser import LOCALES, WAIT_MS, Browsers
 from opened_page import OpenedPage, opened_page
+from page_checks import complaints
 from places import ROOT
 
 if TYPE_CHECKING:
@@ -201,21 +203,58 @@ def test_nothing_runs_out_of_the_window(browsers: Browsers, served: OpenedPage, 
         )
 
 
-def test_a_program_is_run_and_its_files_open_beside_the_page(browsers: Browsers) -> None:
+def test_a_program_is_run_and_its_files_are_seen_and_saved(browsers: Browsers) -> None:
     with opened_page(KEYHOLE) as served, tab(browsers, served.address) as shown:
         shown.waits_for("pass")
         shown.page.fill("input[name=thickness_mm]", "20")
         shown.page.click("#start")
-        shown.page.wait_for_selector("#made a")
+        shown.page.wait_for_selector("#looks button")
         assert shown.page.inner_text("#stage") == "pass, on DK7740 class, stepper drives"
-        names = ["Replay", "Report", "Picture", "report.json"]
-        assert shown.page.locator("#made a").all_inner_texts() == names
+        assert shown.page.locator("#looks button").all_inner_texts() == ["Replay", "Report"]
+        assert shown.page.locator("#thumbs button").all_inner_texts() == ["the path as it will be cut"]
+        names = ["cut.png", "replay.html", "report.html", "report.json"]
+        assert shown.page.locator("#files a").all_inner_texts() == names
+        assert natural_width(shown.page, "#thumbs img") == 1600
+        with shown.page.expect_download() as coming:
+            shown.page.click("#all")
+        assert coming.value.suggested_filename == "program.3b.zip"
+        with zipfile.ZipFile(coming.value.path()) as archive:
+            assert archive.namelist() == names
+            assert archive.testzip() is None
+
+
+def test_replay_and_film_are_seen_in_the_page_and_the_replay_may_ask_nobody(
+    browsers: Browsers, served: OpenedPage
+) -> None:
+    with tab(browsers, served.address, lang="zh") as shown:
+        shown.page.fill("#text", "B100B0B100GXL1\nB100B0B100GXL3\nDD\n")
+        shown.waits_for("pass")
+        shown.page.click("#start")
+        shown.page.click("#looks button")
+        shown.page.frame_locator("#viewer iframe").locator("canvas").first.wait_for()
+        framed = shown.page.frames[-1]
+        assert framed.evaluate("() => window.origin") == "null", "it is of no origin"
+        asks = "() => fetch('../../first', {method: 'POST'}).then(() => 1, () => 0)"
+        assert framed.evaluate(asks) == 0
+        assert framed.evaluate("() => { try { return !!window.parent.document; } catch { return false; } }") is False
         with shown.page.context.expect_page() as coming:
-            shown.page.click("#made a")
-        replay = coming.value
-        replay.wait_for_load_state()
-        assert replay.title().startswith("program.3b")
-        assert replay.evaluate("() => fetch('../../first', {method: 'POST'}).then(() => 1, () => 0)") == 0
+            shown.page.click("#beside")
+        coming.value.wait_for_load_state()
+        assert coming.value.evaluate(asks) == 0
+        shown.page.click("#unview")
+        assert shown.page.locator("#viewer iframe").count() == 0
+        shown.found[:] = [text for text in shown.found if "Content Security Policy" not in text]
+        shown.page.fill("#seconds", "0.5")
+        shown.page.click("#film")
+        shown.page.click(".thumb:has(img[src*='film.webp'])")
+        assert shown.page.inner_text("#viewing") == "影片"
+        assert natural_width(shown.page, "#viewed img") == 960
+
+
+def natural_width(page: "Page", selector: str) -> int:
+    """Width of a picture as it came, px: 0 of one that the page was not let load."""
+    page.wait_for_function("(at) => document.querySelector(at).complete", arg=selector)
+    return page.eval_on_selector(selector, "(shown) => shown.naturalWidth")
 
 
 def test_a_run_is_cancelled_and_another_one_begun(browsers: Browsers, tmp_path: Path) -> None:
@@ -226,9 +265,115 @@ def test_a_run_is_cancelled_and_another_one_begun(browsers: Browsers, tmp_path: 
         shown.page.wait_for_function("() => document.querySelector('#progress').value > 0")
         shown.page.click("#cancel")
         shown.page.wait_for_function("() => document.querySelector('#stage').textContent === 'cancelled'")
-        assert shown.page.locator("#made a").count() == 0
+        assert shown.page.locator("#files a").count() == 0
         shown.page.fill("#text", f"{square}DD\n")
         shown.page.fill("input[name=thickness_mm]", "a lot")
         shown.page.click("#start")
         shown.page.wait_for_selector("#stage.wrong")
         assert "thickness_mm is a number, not 'a lot'" in shown.page.inner_text("#stage")
+
+
+def test_a_folder_is_listed_and_its_programs_open_by_a_click(browsers: Browsers, tmp_path: Path) -> None:
+    (tmp_path / f"{MARKUP.replace('/', '')}.3b").write_text(WRONG)
+    (tmp_path / "b.3b").write_text("B1000B0B1000GXL1\nB1000B0B1000GXL3\nDD\n")
+    with opened_page(tmp_path) as served, tab(browsers, served.address) as shown:
+        rows = shown.page.locator("#programs tbody tr")
+        shown.page.wait_for_selector("#programs tbody tr:nth-child(2)")
+        assert rows.first.inner_text().split("\t")[-4:] == ["fail", "3B204", "19.800 × 19.800 mm", "62.204 mm"]
+        assert shown.page.inner_text("#far") == "2 programs"
+        assert shown.page.locator("#programs img").count() == 0
+        assert complaints(shown.page) == []
+        shown.page.select_option("#wanted", "pass")
+        assert rows.count() == 1
+        shown.page.select_option("#wanted", "")
+        shown.page.fill("#search", "3b204")
+        shown.page.click("#programs .go")
+        shown.waits_for("fail")
+        assert shown.text() == WRONG
+        shown.page.click("#to-list")
+        shown.page.fill("#search", "b.3b no such")
+        assert rows.count() == 0
+        (tmp_path / "c.3b").write_text(WRONG)
+        shown.page.fill("#search", "c.3b")
+        shown.page.click("#again")
+        shown.page.click("#programs .go")
+        shown.page.wait_for_function("() => document.title.startsWith('c.3b')")
+
+
+def test_several_files_that_are_dropped_are_a_list(browsers: Browsers, tmp_path: Path) -> None:
+    (tmp_path / "孔.3b").write_text(WRONG)
+    (tmp_path / "b.txt").write_text("hello")
+    with opened_page() as served, tab(browsers, served.address, 390, "zh") as shown:
+        shown.page.set_input_files("#pick", [str(tmp_path / "孔.3b"), str(tmp_path / "b.txt")])
+        shown.page.wait_for_selector("#programs tbody tr:nth-child(2)")
+        assert shown.page.locator("#programs .word").all_inner_texts() == ["不通过", "不是程序"]
+        assert shown.page.evaluate("() => document.documentElement.scrollWidth") <= 390
+        shown.page.click("#programs .go")
+        shown.waits_for("fail")
+        assert shown.page.title().startswith("孔.3b")
+        assert shown.text() == WRONG
+
+
+def shades(page: "Page") -> set[str]:
+    """Which of the shades of a comparison are on the picture."""
+    page.wait_for_function("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    return set(
+        page.evaluate(
+            """() => {
+              const canvas = document.querySelector('#picture');
+              const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+              const seen = new Set();
+              for (let at = 0; at < data.length; at += 4) seen.add(`${data[at]},${data[at + 1]},${data[at + 2]}`);
+              const style = getComputedStyle(canvas);
+              return ['--error', '--good'].filter((name) => {
+                const hex = style.getPropertyValue(name).trim();
+                return seen.has([1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16)).join());
+              });
+            }"""
+        )
+    )
+
+
+def test_an_earlier_version_is_seen_beside_the_present_one(browsers: Browsers, tmp_path: Path) -> None:
+    square = "B3000B0B3000GXL1\nB0B2000B2000GYL2\nB3000B0B3000GXL3\nB0B2000B2000GYL4\nDD\n"
+    wider = square.replace("3000", "4000")
+    (tmp_path / "part.3b").write_text(square)
+    with opened_page(tmp_path / "part.3b") as served, tab(browsers, served.address) as shown:
+        shown.waits_for("pass")
+        shown.page.fill("#text", wider)
+        shown.page.select_option("#version", "opened")
+        both = shown.page.locator("#both tr.other")
+        both.first.wait_for()
+        assert both.all_inner_texts() == [
+            "length of the cut\t10.000 mm\t12.000 mm",
+            "steps of 1 µm\t10,000\t12,000",
+            "extent\t3.000 × 2.000 mm\t4.000 × 2.000 mm",
+            "from … to\tX 0.000 … 3.000, Y 0.000 … 2.000 mm\tX 0.000 … 4.000, Y 0.000 … 2.000 mm",
+        ]
+        assert shown.page.locator("#changes del").all_inner_texts() == ["B3000B0B3000GXL1", "B3000B0B3000GXL3"]
+        assert shown.page.locator("#changes ins").all_inner_texts() == ["B4000B0B4000GXL1", "B4000B0B4000GXL3"]
+        assert shades(shown.page) == {"--error", "--good"}
+        assert complaints(shown.page) == []
+        shown.page.click("#changes li:nth-child(2) .go")
+        assert shown.selected() == "B4000B0B4000GXL3"
+        shown.page.click("#swap")
+        shown.page.wait_for_function("() => document.querySelector('#both .other td')?.textContent === '12.000 mm'")
+        assert shown.text() == square
+        shown.page.fill("#text", wider)
+        shown.page.wait_for_selector("#changes .good")
+        assert shown.page.locator("#both tr.other").count() == 0
+        assert "--error" not in shades(shown.page)
+        shown.found[:] = [text for text in shown.found if "readback" not in text]  # of this test, twice
+
+
+def test_a_second_program_is_compared_with_the_one_that_was_open(browsers: Browsers, served: OpenedPage) -> None:
+    with tab(browsers, served.address, lang="zh") as shown:
+        shown.waits_for("fail")
+        shown.drops("other.3b", WRONG.replace("GX", "GY"))
+        shown.waits_for("pass")
+        assert shown.page.inner_text("#beside-open") == "与 part.3b 比较"
+        shown.page.click("#beside-open")
+        shown.page.wait_for_selector("#changes del")
+        verdict, findings, _ = shown.page.locator("#both tr.other").all_inner_texts()
+        assert (verdict, findings) == ("结论\t不通过\t通过", "问题\t3B204\t–")
+        assert shown.page.locator("#beside-open").is_hidden()

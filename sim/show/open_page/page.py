@@ -9,8 +9,11 @@ from sim.setup.machine.machine import machine_names
 from sim.setup.scenario import DEFAULT_MACHINE, DEFAULT_THICKNESS_MM
 from sim.setup.wire import DEFAULT_WIRE
 from sim.show.html.environment import rendered
+from sim.show.words.words import texts
 
 _ASSETS: Final = Path(__file__).with_name("assets")
+_PICTURE: Final = "picture_"
+"""Begins the words that say what a picture is."""
 
 
 def open_page() -> tuple[str, str]:
@@ -24,13 +27,19 @@ def open_page() -> tuple[str, str]:
         default_machine=DEFAULT_MACHINE,
         thickness=f"{DEFAULT_THICKNESS_MM:g}",
         wire=f"{mm(DEFAULT_WIRE.diameter_um):g}",
+        pictures={
+            name.removeprefix(_PICTURE): said._asdict()
+            for name, said in texts("common").items()
+            if name.startswith(_PICTURE)
+        },
     )
     return page, policy_of(nonce)
 
 
 def policy_of(nonce: str) -> str:
-    """What a page with a nonce may do."""
+    """What a page with a nonce may do: show files of its runs, and ask its server."""
     return (
-        f"default-src 'none'; script-src 'nonce-{nonce}'; style-src 'unsafe-inline'; img-src data:; "
-        "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+        f"default-src 'none'; script-src 'nonce-{nonce}'; style-src 'unsafe-inline'; img-src 'self' data:; "
+        "media-src 'self'; frame-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'none'; "
+        "frame-ancestors 'none'"
     )

@@ -1,19 +1,26 @@
 """The server of a page: who may ask it, what it answers, and when it ends."""
 
+import io
 import json
+import os
+import random
 import re
 import signal
 import socket
 import time
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from command import run_command
 from opened_page import OpenedPage, opened_page
+from PIL import Image
 
 from sim.open.guard import MOST_BYTES
 from sim.open.life import AWAY_S, FIRST_S, Life
+from sim.open.runs import Runs
+from sim.open.zipped import zipped
 
 WRONG = "B9900B0B39600GXNR1\nDD\n"
 
@@ -26,8 +33,8 @@ def served_page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[OpenedPage
         yield served
 
 
-def checked(served: OpenedPage, text: str, name: str = "part.3b", is_first: str = "no") -> dict:
-    answer = served.ask("check", json.dumps({"name": name, "text": text, "is_first": is_first}))
+def checked(served: OpenedPage, text: str, name: str = "part.3b", number: str = "") -> dict:
+    answer = served.ask("check", json.dumps({"name": name, "text": text, "number": number}))
     assert answer.status == 200
     return json.loads(answer.body)
 
@@ -102,9 +109,11 @@ def test_requests_that_the_page_does_not_send_are_refused(served: OpenedPage, bo
 
 def test_a_file_comes_with_its_lines_and_goes_with_its_bytes(served: OpenedPage) -> None:
     first = json.loads(served.ask("first").body)
-    assert first == {"name": "part.3b", "text": WRONG, "encoding": "utf-8", "newline": "\r\n"}
+    assert first == {"name": "part.3b", "text": WRONG, "encoding": "utf-8", "newline": "\r\n", "number": "0"}
+    assert json.loads(served.ask("program", '{"number": "0"}').body) == first
     data = "B100B0B100GXL1 //孔\r\nDD\r\n".encode("gbk")
     read = json.loads(served.ask("read?name=%E5%AD%94.3b", data).body)
+    assert read["number"] == ""
     assert (read["name"], read["text"]) == ("孔.3b", "B100B0B100GXL1 //孔\nDD\n")
     assert served.ask("save", json.dumps(read)).body == data
     foreign = {**read, "text": read["text"] + "😀"}
@@ -139,10 +148,10 @@ def test_settings_near_the_first_file_count_for_it_alone(tmp_path: Path) -> None
     (tmp_path / "drycut.toml").write_text('root = true\nignore = ["3B204"]\n', "utf-8")
     (tmp_path / "part.3b").write_text(WRONG, "utf-8")
     with opened_page(tmp_path / "part.3b") as served:
-        assert checked(served, WRONG, is_first="yes")["findings"] == []
+        assert checked(served, WRONG, number="0")["findings"] == []
         assert len(checked(served, WRONG)["findings"]) == 1
         (tmp_path / "drycut.toml").write_text('ignored = ["3B204"]\n', "utf-8")
-        told = checked(served, WRONG, is_first="yes")
+        told = checked(served, WRONG, number="0")
         assert "ignored" in told["settings"]
         assert len(told["findings"]) == 1
 
@@ -210,9 +219,105 @@ def test_a_run_is_of_the_text_and_gives_its_files_and_no_others(served: OpenedPa
     page = served.ask(f"{run}/replay.html", method="GET")
     assert "default-src 'none'" in page.headers["content-security-policy"]
     assert "connect-src" not in page.headers["content-security-policy"]
+    made = {file["name"]: file["bytes"] for file in state["files"]}
+    assert sorted(made) == ["cut.png", "replay.html", "report.html", "report.json"]
+    assert made["report.json"] == len(report.body)
     for name in ("trace.npz", "..%2fprogram%2fx_y_rm.3b", "%2e%2e/program/x_y_rm.3b", "", "REPORT.JSON"):
         assert served.ask(f"{run}/{name}", method="GET").status == 404
     assert served.ask("run/99/report.json", method="GET").status == 404
+    all_of_it = served.ask(f"zip/{state['run']}", method="GET")
+    with zipfile.ZipFile(io.BytesIO(all_of_it.body)) as archive:
+        assert {entry.filename: entry.file_size for entry in archive.infolist()} == made
+        assert archive.read("report.json") == report.body
+    assert served.ask("zip/99", method="GET").status == 404
+
+
+def asked_more(served: OpenedPage, job: str, **values: str) -> dict:
+    told = {"job": job, "form": "webp", "seconds": "0.5", "language": "en", **values}
+    answer = served.ask("more", json.dumps(told))
+    assert answer.status == 200
+    return json.loads(answer.body)
+
+
+def test_a_film_and_all_pictures_of_the_run_are_made_when_they_are_asked_for(served: OpenedPage) -> None:
+    asked_run(served)
+    run = came_to(served, "done")["run"]
+    assert asked_more(served, "film")["job"] == "film"
+    came_to(served, "done")
+    film = served.ask(f"run/{run}/film.webp", method="GET")
+    assert film.headers["content-type"] == "image/webp"
+    with Image.open(io.BytesIO(film.body)) as shown:
+        assert (shown.size, shown.n_frames) == ((960, 540), 10), "half a second at 20 a second"
+    asked_more(served, "pictures", language="zh")
+    state = came_to(served, "done")
+    names = {file["name"] for file in state["files"]}
+    assert {"film.webp", "cut.png", "path.png", "along.png", "worst.png", "motion.png"} <= names
+    assert state["verdict"] == "pass", "the run is still told"
+
+
+@pytest.mark.parametrize(
+    ("values", "why"),
+    [
+        ({"form": "exe"}, "films are .gif, .webp, .apng, .mp4, not 'exe'"),
+        ({"form": "a/../../program/x.gif"}, "films are"),
+        ({"seconds": "1e9"}, "seconds is 1000000000; it must lie between 0.5 and 600"),
+        ({"seconds": "600"}, "would need"),
+        ({"seconds": "long"}, "seconds is a number, not 'long'"),
+    ],
+)
+def test_a_film_that_cannot_be_says_why_and_the_run_stays(served: OpenedPage, values: dict[str, str], why: str) -> None:
+    if "files" not in came_to(served, "idle", "done", "wrong", "cancelled"):
+        asked_run(served)
+        came_to(served, "done")
+    before = came_to(served, "done", "wrong")["files"]
+    asked_more(served, "film", **values)
+    state = came_to(served, "done", "wrong")
+    assert state["state"] == "wrong"
+    assert why in state["why"]
+    assert state["files"] == before
+
+
+def test_a_film_can_be_cancelled_and_the_files_of_the_run_stay(served: OpenedPage) -> None:
+    asked_run(served)
+    files = came_to(served, "done")["files"]
+    asked_more(served, "film", seconds="60")
+    state = json.loads(served.ask("cancel").body)
+    assert (state["state"], state["files"]) == ("cancelled", files)
+
+
+def test_nothing_is_made_of_a_run_that_is_not_there() -> None:
+    with opened_page() as empty:
+        assert asked_more(empty, "film") == {"state": "idle"}
+        assert asked_more(empty, "run") == {"state": "idle"}
+
+
+def test_only_the_own_files_of_a_run_are_given_out(tmp_path: Path) -> None:
+    (tmp_path / "secret").write_text("secret")
+    out = tmp_path / "1" / "out"
+    (out / "folder").mkdir(parents=True)
+    (out / "link.html").symlink_to(tmp_path / "secret")
+    (out / "cut.png").write_bytes(b"png")
+    runs = Runs(tmp_path)
+    assert runs.files(1) == {"cut.png": 3}
+    assert runs.file(1, "cut.png") == out / "cut.png"
+    assert [runs.file(1, name) for name in ("link.html", "folder", "../../secret", "", "..", "CUT.PNG")] == [None] * 6
+    assert runs.files(2) == {}
+
+
+def test_a_zip_holds_little_at_a_time_and_is_the_same_each_time(tmp_path: Path) -> None:
+    large = tmp_path / "large.bin"
+    large.write_bytes(random.Random(1).randbytes(5_000_000))
+    (tmp_path / "孔.json").write_text("{}" * 1000)
+    files = [large, tmp_path / "孔.json"]
+    pieces = list(zipped(files))
+    assert max(map(len, pieces)) < 600_000
+    with zipfile.ZipFile(io.BytesIO(b"".join(pieces))) as archive:
+        assert archive.testzip() is None
+        assert {name: archive.read(name) for name in archive.namelist()} == {
+            one.name: one.read_bytes() for one in files
+        }
+    os.utime(large, (1, 1))
+    assert b"".join(zipped(files)) == b"".join(pieces)
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,8 @@
 // Which programs are to be seen, and in which order.
 
-/** @import { Program, Verdict } from "./data.js" */
+/** @import { Listed, Verdict } from "./data.js" */
 
-/** @typedef {"file" | "verdict" | "findings" | "time_s" | "max_um"} Column */
+/** @typedef {"file" | "verdict" | "findings" | "time_s" | "max_um" | "cut_um"} Column */
 
 /**
  * What is asked for; an empty text asks for nothing.
@@ -13,12 +13,12 @@
  */
 
 /** @type {Record<Verdict, number>} */
-const WORST = { pass: 0, refused: 1, fault: 2, fail: 3 };
+const WORST = { pass: 0, incomplete: 1, refused: 2, fault: 3, fail: 4 };
 const WEIGHT = { error: 1e8, warning: 1e4, note: 1 };
 
 /**
  * What of a program is searched.
- * @param {Program} program
+ * @param {Listed} program
  */
 export function searched(program) {
   const codes = program.findings.map((found) => found.code);
@@ -27,7 +27,7 @@ export function searched(program) {
 
 /**
  * Numbers of the programs that fit, rising.
- * @param {Program[]} programs
+ * @param {Listed[]} programs
  * @param {string[]} texts what of each is searched
  * @param {Asked} asked
  */
@@ -43,18 +43,18 @@ export function fitting(programs, texts, asked) {
 
 /**
  * What a column sorts a program by; null stands last.
- * @param {Program} program
+ * @param {Listed} program
  * @param {Column} column
  */
 function key(program, column) {
   if (column === "verdict") return WORST[program.verdict];
   if (column === "findings") return program.findings.reduce((sum, found) => sum + WEIGHT[found.severity] * found.count, 0);
-  return program[column];
+  return /** @type {Record<string, string | number | null>} */ (/** @type {unknown} */ (program))[column];
 }
 
 /**
  * Numbers of programs in the order of a column, `way` 1 rising or -1 falling; equal ones as they stand in the index.
- * @param {Program[]} programs
+ * @param {Listed[]} programs
  * @param {number[]} rows
  * @param {Column} column
  * @param {number} way

@@ -3,7 +3,7 @@ import { element } from "../../html/assets/elements.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
 
-/** @typedef {"pass" | "fail" | "refused" | "fault"} Verdict */
+/** @typedef {"pass" | "incomplete" | "fail" | "refused" | "fault"} Verdict incomplete of a check alone */
 
 /**
  * Findings of one code.
@@ -27,6 +27,8 @@ import { element } from "../../html/assets/elements.js";
  * @property {boolean} from_cache
  * @property {string} picture data of an SVG path
  */
+
+/** @typedef {Pick<Program, "file" | "title" | "verdict" | "message" | "findings" | "picture">} Listed what any list has */
 
 /**
  * All of a shop.

@@ -3,9 +3,21 @@ import { both, element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import { fitting, searched } from "./asked.js";
 import { readIndex } from "./data.js";
+import { rowOf } from "./rows.js";
 import { Table } from "./table.js";
 
 /** @import { Verdict } from "./data.js" */
+/** @import { Head } from "./table.js" */
+
+/** @type {Head[]} */
+const HEADS = [
+  ["picture", null, ""],
+  ["file", "file", ""],
+  ["verdict", "verdict", ""],
+  ["findings", "findings", ""],
+  ["time", "time_s", "time-unit"],
+  ["worst", "max_um", ""],
+];
 
 const VERDICTS = ["pass", "fail", "refused", "fault"];
 
@@ -15,7 +27,7 @@ const search = element("#search", HTMLInputElement);
 const verdict = element("#verdict", HTMLSelectElement);
 const code = element("#code", HTMLSelectElement);
 const shown = element("#shown", HTMLElement);
-const table = new Table(index);
+const table = new Table(index, HEADS, (program) => rowOf(program, index));
 
 /** Fill what can be chosen with the words of the language. */
 function offer() {

@@ -2,7 +2,8 @@
 import { both, make } from "../../html/assets/elements.js";
 import { pick, said, say } from "../../html/assets/language.js";
 
-/** @import { Found, Index, Program } from "./data.js" */
+/** @import { Said } from "../../html/assets/language.js" */
+/** @import { Found, Index, Listed, Program } from "./data.js" */
 
 const SVG = "http://www.w3.org/2000/svg";
 const NOTHING = "–";
@@ -21,7 +22,7 @@ export function rowOf(program, index) {
     make("td", { className: "picture" }, ...picture(program, index.box)),
     make("th", { scope: "row" }, ...named(program)),
     make("td", { className: "verdict" }, verdict, ...kept),
-    make("td", { className: "codes" }, ...codes(program.findings, index)),
+    make("td", { className: "codes" }, ...codes(program.findings, index.titles)),
     figure("time", program.time_s === null ? NOTHING : clock(program.time_s)),
     figure("worst", program.max_um === null ? NOTHING : program.max_um.toFixed(2), program.max_um === null ? "" : "µm"),
   );
@@ -30,10 +31,10 @@ export function rowOf(program, index) {
 
 /**
  * The path of a program, small.
- * @param {Program} program
+ * @param {Listed} program
  * @param {[number, number]} box
  */
-function picture(program, box) {
+export function picture(program, box) {
   if (!program.picture) return [];
   const drawn = document.createElementNS(SVG, "svg");
   const path = document.createElementNS(SVG, "path");
@@ -64,12 +65,12 @@ function named(program) {
 /**
  * The codes of findings, with how often each occurs.
  * @param {Found[]} findings
- * @param {Index} index
+ * @param {Record<string, Said>} titles
  */
-function codes(findings, index) {
+export function codes(findings, titles) {
   if (!findings.length) return [NOTHING];
   return findings.flatMap((found) => {
-    const title = pick(index.titles[found.code]);
+    const title = pick(titles[found.code]);
     const text = found.count > 1 ? `${found.code} ×${found.count}` : found.code;
     return [make("span", { className: `code ${found.severity}`, title }, text), " "];
   });

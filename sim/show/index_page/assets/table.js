@@ -3,28 +3,28 @@ import { both, element, make } from "../../html/assets/elements.js";
 import { onChange, said } from "../../html/assets/language.js";
 import { turningOf } from "../../html/assets/turning.js";
 import { sorted } from "./asked.js";
-import { rowOf } from "./rows.js";
 
 /** @import { Column } from "./asked.js" */
-/** @import { Index } from "./data.js" */
+/** @import { Listed } from "./data.js" */
+
+/** @typedef {[name: string, column: Column | null, unit: string]} Head of a column, by which the table may be sorted */
 
 const MOST_ROWS = 200;
-/** @type {[name: string, column: Column | null, unit: string][]} */
-const HEADS = [
-  ["picture", null, ""],
-  ["file", "file", ""],
-  ["verdict", "verdict", ""],
-  ["findings", "findings", ""],
-  ["time", "time_s", "time-unit"],
-  ["worst", "max_um", ""],
-];
-const WORST_FIRST = new Set(["verdict", "findings", "time_s", "max_um"]);
+const WORST_FIRST = new Set(["verdict", "findings", "time_s", "max_um", "cut_um"]);
 
-/** The table in its place. */
+/**
+ * The table in its place.
+ * @template {Listed} P
+ */
 export class Table {
-  /** @param {Index} index */
-  constructor(index) {
+  /**
+   * @param {{ programs: P[] }} index
+   * @param {Head[]} columns
+   * @param {(program: P) => HTMLElement} rowOf
+   */
+  constructor(index, columns, rowOf) {
     this.index = index;
+    this.rowOf = rowOf;
     /** @type {number[]} */
     this.rows = [];
     /** @type {Column | null} */
@@ -34,7 +34,7 @@ export class Table {
     /** @type {Map<Column, HTMLElement>} */
     this.heads = new Map();
     this.body = make("tbody", {});
-    const heads = HEADS.map(([name, column, unit]) => this.head(name, column, unit));
+    const heads = columns.map(([name, column, unit]) => this.head(name, column, unit));
     this.table = make("table", {}, make("thead", {}, make("tr", {}, ...heads)), this.body);
     this.none = make("p", { className: "none" });
     this.place = element("#programs", HTMLElement);
@@ -99,7 +99,7 @@ export class Table {
   /** Fill the table with the rows that are to be seen. */
   show() {
     const rows = this.rows.slice(this.first, this.first + MOST_ROWS);
-    this.body.replaceChildren(...rows.map((row) => rowOf(this.index.programs[row], this.index)));
+    this.body.replaceChildren(...rows.map((row) => this.rowOf(this.index.programs[row])));
     this.table.hidden = rows.length === 0;
     this.none.hidden = rows.length > 0;
     this.none.replaceChildren(...both(said(this.index.programs.length ? "none" : "empty")));

@@ -1,6 +1,6 @@
 // What the page asks of its server: paths beside its own address, and nothing else.
 
-/** @import { Answer, FileText, RunState } from "./data.js" */
+/** @import { Answer, Changes, FileText, Row, Rows, RunState } from "./data.js" */
 
 /**
  * The answer to a request.
@@ -33,6 +33,42 @@ export async function read(name, file) {
 }
 
 /**
+ * The program of a number.
+ * @param {string} number
+ * @returns {Promise<FileText>}
+ */
+export async function program(number) {
+  return (await ask("program", JSON.stringify({ number }))).json();
+}
+
+/**
+ * The rows of the folder's programs behind those that are known.
+ * @param {number} known
+ * @returns {Promise<Rows>}
+ */
+export async function rows(known) {
+  return (await ask("rows", JSON.stringify({ known: String(known) }))).json();
+}
+
+/**
+ * Look through the folder again.
+ * @returns {Promise<Rows>}
+ */
+export async function again() {
+  return (await ask("again", "")).json();
+}
+
+/**
+ * What a list shows of a file.
+ * @param {string} name
+ * @param {Blob} file
+ * @returns {Promise<Row>}
+ */
+export async function row(name, file) {
+  return (await ask(`row?name=${encodeURIComponent(name)}`, file)).json();
+}
+
+/**
  * The bytes of a text as its file has them.
  * @param {FileText} file
  */
@@ -44,12 +80,33 @@ export async function saved(file) {
  * What is found in a text; null where a later one was asked for meanwhile.
  * @param {string} name
  * @param {string} text
- * @param {boolean} isFirst whether it is of the file that was open at the start: settings near that count
+ * @param {string} number of its program, near whose file settings count; empty where it came to the page
  * @param {AbortSignal} signal
  * @returns {Promise<Answer | null>}
  */
-export async function check(name, text, isFirst, signal) {
-  const answer = await ask("check", JSON.stringify({ name, text, is_first: isFirst ? "yes" : "no" }), signal);
+export async function check(name, text, number, signal) {
+  const answer = await ask("check", JSON.stringify({ name, text, number }), signal);
+  return answer.status === 204 ? null : answer.json();
+}
+
+/**
+ * What is found in a text that stays as it is.
+ * @param {FileText} file
+ * @param {string} text
+ * @returns {Promise<Answer>}
+ */
+export async function version({ name, number }, text) {
+  return (await ask("version", JSON.stringify({ name, text, number }))).json();
+}
+
+/**
+ * Which lines are others; null where a later text was asked for meanwhile.
+ * @param {string} before
+ * @param {string} after
+ * @returns {Promise<Changes | null>}
+ */
+export async function lines(before, after) {
+  const answer = await ask("lines", JSON.stringify({ before, after }));
   return answer.status === 204 ? null : answer.json();
 }
 
@@ -60,6 +117,15 @@ export async function check(name, text, isFirst, signal) {
  */
 export async function run(asked) {
   return (await ask("run", JSON.stringify(asked))).json();
+}
+
+/**
+ * Make a film or pictures of the run; how far it is then.
+ * @param {Record<string, string>} wanted
+ * @returns {Promise<RunState>}
+ */
+export async function more(wanted) {
+  return (await ask("more", JSON.stringify(wanted))).json();
 }
 
 /**

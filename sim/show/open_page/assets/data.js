@@ -2,6 +2,7 @@
 
 /**
  * @import { Said } from "../../html/assets/language.js"
+ * @import { Found, Verdict } from "../../index_page/assets/data.js"
  * @import { Curves } from "../../replay/assets/document.js"
  */
 
@@ -12,6 +13,7 @@
  * @property {string | null} text null where it is none
  * @property {string} encoding
  * @property {string} newline
+ * @property {string} number of the program whose file it is; empty where it came to the page
  */
 
 /** @typedef {[first: number, past: number, text: string]} Edit */
@@ -74,9 +76,57 @@
  */
 
 /**
- * How far a run is (sim/open/runs.py).
+ * Lines that are others than in an earlier text (sim/open/lines.py).
+ * @typedef {object} Place
+ * @property {number} line from 1, in the text after
+ * @property {string} before
+ * @property {string} after
+ * @property {[before: number, after: number]} lines how many; of long ones the first are told
+ */
+
+/**
+ * @typedef {object} Changes
+ * @property {Place[]} places
+ * @property {number} more places that are not told
+ */
+
+/**
+ * A program in a list (sim/open/row.py).
+ * @typedef {object} Row
+ * @property {string} file
+ * @property {string} title
+ * @property {Verdict} verdict
+ * @property {Said | null} message why there is no program
+ * @property {Found[]} findings the worst first
+ * @property {Record<string, Said>} titles of their codes
+ * @property {string} picture data of an SVG path
+ * @property {number | null} cut_um
+ * @property {[left: number, bottom: number, right: number, top: number] | null} box_um
+ * @property {string} [number] of a program of the folder
+ */
+
+/**
+ * How far the check of a folder is (sim/open/programs.py).
+ * @typedef {object} Rows
+ * @property {string} folder empty where none is open
+ * @property {number} total
+ * @property {number} left_out
+ * @property {boolean} is_over
+ * @property {Row[]} rows
+ */
+
+/**
+ * A file of a run.
+ * @typedef {object} MadeFile
+ * @property {string} name
+ * @property {number} bytes
+ */
+
+/**
+ * How far a run is, or what more is made of it (sim/open/runs.py).
  * @typedef {object} RunState
  * @property {"idle" | "running" | "done" | "wrong" | "cancelled"} state
+ * @property {"run" | "film" | "pictures"} [job]
  * @property {number} [run]
  * @property {string} [stage]
  * @property {number} [at]
@@ -85,6 +135,7 @@
  * @property {"pass" | "fail"} [verdict]
  * @property {string} [machine]
  * @property {string} [why]
+ * @property {MadeFile[]} [files] once it has ended well
  */
 
 export const SEVERITIES = /** @type {const} */ (["error", "warning", "note"]);

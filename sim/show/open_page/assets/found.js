@@ -28,6 +28,16 @@ export function changed(text, edits) {
 }
 
 /**
+ * Lines before and after.
+ * @param {string} before
+ * @param {string} after
+ */
+export function diffOf(before, after) {
+  const shown = [...(before ? [make("del", {}, before)] : []), ...(after ? [make("ins", {}, after)] : [])];
+  return make("pre", { className: "diff" }, ...shown.flatMap((part, at) => (at ? ["\n", part] : [part])));
+}
+
+/**
  * The entry of a finding.
  * @param {Finding} finding
  * @param {string} text that it was found in
@@ -46,10 +56,7 @@ function entryOf(finding, text, on) {
     const [before, after] = changed(text, finding.edits);
     const mend = make("button", { type: "button" }, language.say("mend"));
     mend.addEventListener("click", () => on.mend(finding));
-    entry.append(
-      make("pre", { className: "diff" }, make("del", {}, before), "\n", make("ins", {}, after)),
-      mend,
-    );
+    entry.append(diffOf(before, after), mend);
   }
   return entry;
 }

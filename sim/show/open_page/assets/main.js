@@ -1,10 +1,12 @@
 // Puts the page together: a file comes in, its text is checked while it is edited, and what is found shows at once.
 import * as asked from "./asked.js";
 import { showFound } from "./found.js";
+import { wireListing } from "./listing.js";
 import { pictureOf } from "./picture.js";
 import { wireRun } from "./running.js";
 import { showSize } from "./size.js";
 import { textOf } from "./text.js";
+import { wireVersions } from "./versions.js";
 import { element } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 
@@ -22,13 +24,20 @@ const title = element("#name", HTMLElement);
 const status = element("#status", HTMLElement);
 const picture = pictureOf(element("#picture", HTMLCanvasElement), goToBlock);
 const text = textOf(element("#text", HTMLTextAreaElement), element("#lines", HTMLElement), picture.markLine);
+const listing = wireListing(openOne);
+const versions = wireVersions({
+  now: () => ({ file, text: text.value, answer: known?.text === text.value ? known.answer : null }),
+  under: picture.under,
+  go: (version) => begin({ ...version.file, text: version.text }, false),
+  goToLine: text.showLine,
+  tell,
+});
 const pick = element("#pick", HTMLInputElement);
 
 /** @type {FileText} */
-let file = { name: "", text: "", encoding: "utf-8", newline: "\n" };
+let file = { name: "", text: "", encoding: "utf-8", newline: "\n", number: "" };
 /** @type {{ answer: Answer, text: string } | null} */
 let known = null;
-let isFirst = true;
 let waiting = 0;
 let asking = new window.AbortController();
 
@@ -91,12 +100,13 @@ async function check(isNew) {
   asking = new window.AbortController();
   const now = text.value;
   try {
-    const answer = await asked.check(file.name, now, isFirst, asking.signal);
+    const answer = await asked.check(file.name, now, file.number, asking.signal);
     if (!answer) return;
     known = { answer, text: now };
     text.mark(answer.findings);
     picture.show(answer.path, answer.figures, answer.findings, isNew);
     show();
+    versions.update();
     tell(answer.settings && "settings", { why: answer.settings });
   } catch (error) {
     if (!(error instanceof Error && error.name === "AbortError")) tell("no-server");
@@ -110,33 +120,45 @@ function later() {
 }
 
 /**
- * Another program.
+ * Another program; the one before it can be compared.
  * @param {FileText} read
+ * @param {boolean} isOpened whether it comes from a file; else it is a version
  */
-function begin(read) {
+function begin(read, isOpened = true) {
   if (read.text === null) {
     tell("no-text", { name: read.name });
     return;
   }
+  if (text.value && isOpened) versions.keep("before");
   file = read;
   title.textContent = read.name || language.say("untitled");
   document.title = `${read.name || language.say("untitled")} · drycut`;
   text.begin(read.text);
+  if (isOpened) versions.keep("opened");
   check(true);
 }
 
 /**
- * Read a file that was dropped or picked.
- * @param {File | null | undefined} chosen
+ * Open what was dropped or picked: one file, or the list of several.
+ * @param {FileList | null | undefined} chosen
  */
 async function take(chosen) {
-  if (!chosen) return;
+  const files = [...(chosen ?? [])];
+  if (files.length > 1) listing.take(files).catch(() => tell("no-server"));
+  else if (files.length) await openOne(files[0]);
+}
+
+/**
+ * Open a program by its number, or a file; whether it could be read.
+ * @param {string | File} source
+ */
+async function openOne(source) {
   try {
-    const read = await asked.read(chosen.name, chosen);
-    isFirst = isFirst && read.text === null;
-    begin(read);
+    begin(typeof source === "string" ? await asked.program(source) : await asked.read(source.name, source));
+    return true;
   } catch {
-    tell("no-server");
+    tell("not-read");
+    return false;
   }
 }
 
@@ -153,6 +175,7 @@ async function save() {
     link.href = window.URL.createObjectURL(blob);
     link.download = nameOf();
     link.click();
+    versions.keep("saved");
     window.setTimeout(() => window.URL.revokeObjectURL(link.href), ALIVE_MS);
   } catch {
     tell("no-server");
@@ -164,10 +187,10 @@ function wire() {
   window.addEventListener("dragover", (event) => event.preventDefault());
   window.addEventListener("drop", (event) => {
     event.preventDefault();
-    take(event.dataTransfer?.files[0]);
+    take(event.dataTransfer?.files);
   });
   pick.addEventListener("change", () => {
-    take(pick.files?.[0]);
+    take(pick.files);
     pick.value = "";
   });
   element("#open", HTMLElement).addEventListener("click", () => pick.click());
@@ -184,5 +207,8 @@ function wire() {
 language.onChange(show);
 language.begin();
 wire();
-wireRun(() => ({ name: nameOf(), text: text.value }), tell);
-asked.first().then(begin, () => tell("no-server"));
+wireRun(() => {
+  versions.keep("ran");
+  return { name: nameOf(), text: text.value };
+}, tell);
+asked.first().then((read) => begin(read)).then(listing.look).catch(() => tell("no-server"));

@@ -4,10 +4,12 @@ import { foot } from "../../replay/assets/nearest.js";
 import { newView } from "../../replay/assets/view.js";
 import { pathOf } from "../../replay/assets/path.js";
 import { penOf } from "../../replay/assets/pen.js";
+import { differing } from "./differing.js";
 import { drawScaleBar } from "../../replay/assets/scale_bar.js";
 import { wirePointer } from "../../replay/assets/pointer.js";
 
 /** @import { Figure, Finding, Path } from "./data.js" */
+/** @import { Different } from "./differing.js" */
 
 const NEAR = 12; // px from a block that still means it
 const STILL = 4; // px of a press that is a click
@@ -23,6 +25,9 @@ export function pictureOf(canvas, onBlock) {
   /** @type {Path | null} */
   let path = null;
   let drawn = /** @type {ReturnType<typeof pathOf> | null} */ (null);
+  /** @type {Path | null} */
+  let below = null;
+  let others = differing(null, null);
   /** @type {Figure[]} */
   let figures = [];
   /** @type {Finding[]} */
@@ -59,6 +64,20 @@ export function pictureOf(canvas, onBlock) {
     pen.stroke();
   }
 
+  /**
+   * Blocks that the other version has not.
+   * @param {Different} different
+   * @param {string} shade
+   * @param {number} width
+   */
+  function drawRows(different, shade, width) {
+    pen.lineWidth = width;
+    pen.strokeStyle = getComputedStyle(canvas).getPropertyValue(shade);
+    pen.beginPath();
+    for (const row of different.rows) different.drawn.wayOf(pen, view, row);
+    pen.stroke();
+  }
+
   /** Where the wire is threaded, and where something is found. */
   function drawMarks() {
     const shades = colours();
@@ -89,6 +108,7 @@ export function pictureOf(canvas, onBlock) {
     const shades = colours();
     pen.lineCap = "round";
     pen.lineJoin = "round";
+    if (others.below) drawRows(others.below, "--error", 3);
     pen.lineWidth = 1.5;
     pen.strokeStyle = shades.ideal;
     drawn.stroke(pen, view, (kind) => kind !== "jump");
@@ -96,6 +116,7 @@ export function pictureOf(canvas, onBlock) {
     pen.setLineDash([6, 4]);
     drawn.stroke(pen, view, (kind) => kind === "jump");
     pen.setLineDash([]);
+    if (others.above) drawRows(others.above, "--good", 2.5);
     pen.lineWidth = 4;
     pen.strokeStyle = shades.accent;
     pen.beginPath();
@@ -156,6 +177,7 @@ export function pictureOf(canvas, onBlock) {
       isFitted = isFitted && !isNew && path !== null;
       path = newPath;
       drawn = path && pathOf(path);
+      others = differing(below, path);
       figures = newFigures;
       findings = newFindings;
       later();
@@ -166,6 +188,15 @@ export function pictureOf(canvas, onBlock) {
      */
     markLine(newLine) {
       line = newLine;
+      later();
+    },
+    /**
+     * The path of another version, of which what differs is shown under this one; null for none.
+     * @param {Path | null} newBelow
+     */
+    under(newBelow) {
+      below = newBelow;
+      others = differing(below, path);
       later();
     },
     fit() {

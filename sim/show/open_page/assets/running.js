@@ -1,19 +1,17 @@
-// The run of the text as it stands: what it is run with, how far it is, and its files.
+// The run of the text as it stands: what it is run with, and how far it is.
 import * as asked from "./asked.js";
-import { element, make } from "../../html/assets/elements.js";
+import { element } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
+import { wireMade } from "./made.js";
 
 /** @import { RunState } from "./data.js" */
 
 const LOOK_MS = 250;
-const FILES = /** @type {const} */ ([
-  ["replay.html", "file-replay"], ["report.html", "file-report"], ["cut.png", "file-picture"], ["report.json", "file-data"],
-]);
 
 /** @type {Record<string, string>} */
 const STAGES = {
   checks: "stage-checks", plan: "stage-plan", run: "stage-run", kerf: "stage-kerf", pictures: "stage-pictures",
-  pages: "stage-pages",
+  pages: "stage-pages", film: "stage-film",
 };
 
 /**
@@ -27,10 +25,11 @@ export function wireRun(current, tell) {
   const cancel = element("#cancel", HTMLButtonElement);
   const bar = element("#progress", HTMLProgressElement);
   const said = element("#stage", HTMLElement);
-  const made = element("#made", HTMLElement);
+  const made = wireMade((more) => take(asked.more(more)));
   let looking = 0;
   /** @type {RunState} */
   let known = { state: "idle" };
+  let ranName = "";
 
   /** The values of the form by their names. */
   function values() {
@@ -49,15 +48,6 @@ export function wireRun(current, tell) {
     return known.state === "cancelled" ? language.say("ran-cancelled") : "";
   }
 
-  /** Links to the files of a run. */
-  function links() {
-    if (known.state !== "done") return [];
-    return FILES.map(([file, key]) => {
-      const href = `run/${known.run}/${file}`;
-      return make("a", { href, target: "_blank", rel: "noopener" }, language.say(key));
-    });
-  }
-
   /** Show how far the run is. */
   function show() {
     const isRunning = known.state === "running";
@@ -66,7 +56,7 @@ export function wireRun(current, tell) {
     bar.value = isRunning && known.of ? ((known.at ?? 0) + (known.share ?? 0)) / known.of : 0;
     said.textContent = sentence();
     said.className = known.state === "done" ? known.verdict ?? "" : known.state;
-    made.replaceChildren(...links());
+    made.show(known, ranName);
   }
 
   /**
@@ -85,7 +75,11 @@ export function wireRun(current, tell) {
     show();
   }
 
-  start.addEventListener("click", () => take(asked.run({ ...current(), ...values() })));
+  start.addEventListener("click", () => {
+    const program = current();
+    ranName = program.name;
+    take(asked.run({ ...program, ...values() }));
+  });
   cancel.addEventListener("click", () => take(asked.cancel()));
   language.onChange(show);
 }

@@ -7,14 +7,14 @@ import * as language from "../../html/assets/language.js";
 const MOST = 200;
 
 /** @param {number} um */
-const mm = (um) => (Math.round(um) / 1000).toFixed(3);
+export const mm = (um) => (Math.round(um) / 1000).toFixed(3);
 
 /**
  * Names and values.
  * @param {Size} size
  * @returns {[name: string, value: string][]}
  */
-function rowsOf(size) {
+export function rowsOf(size) {
   const { box_um: box } = size;
   /** @type {[name: string, value: string][]} */
   const rows = [
