@@ -15,6 +15,7 @@ from starlette.routing import Route
 from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.text.encoding import printable
 from sim.open.answers import ReadFile, answer, file_of, read_file
+from sim.open.drawings import LOOK_KEYS, MAKE_KEYS, Drawings, is_drawing
 from sim.open.life import Life
 from sim.open.lines import changed_lines
 from sim.open.programs import Opened, Programs
@@ -43,11 +44,12 @@ _KINDS: Final = {
 }
 
 
-def app_of(opened: Opened, programs: Programs, life: Life, runs: Runs) -> Starlette:
+def app_of(opened: Opened, programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> Starlette:
     """The application behind the guard."""
-    files, texts, running = _Files(opened, programs, life), _Checks(programs), _Running(life, runs)
+    files, texts = _Files(opened, programs, drawings, life), _Checks(programs)
+    running, drawn = _Running(life, runs, drawings), _Drawn(drawings, runs)
     works: list[_Work] = [files.first, files.read, files.save, files.alive, files.close]
-    works += [files.program, files.rows, files.again, files.row]
+    works += [files.program, files.rows, files.again, files.row, drawn.look, drawn.draft, drawn.drafted]
     works += [texts.check, texts.version, texts.lines, running.run, running.more, running.progress, running.cancel]
     return Starlette(
         routes=[
@@ -62,8 +64,8 @@ def app_of(opened: Opened, programs: Programs, life: Life, runs: Runs) -> Starle
 class _Files:
     """The page itself, and programs as they come to it and go from it."""
 
-    def __init__(self, opened: Opened, programs: Programs, life: Life) -> None:
-        self._opened, self._programs, self._life = opened, programs, life
+    def __init__(self, opened: Opened, programs: Programs, drawings: Drawings, life: Life) -> None:
+        self._opened, self._programs, self._drawings, self._life = opened, programs, drawings, life
 
     async def page(self, _: Request) -> Response:
         """The page."""
@@ -72,8 +74,8 @@ class _Files:
         return HTMLResponse(text, headers={"content-security-policy": policy})
 
     async def first(self, _: Request) -> Response:
-        """The program that is open at the start."""
-        return JSONResponse(_read(self._opened.name, self._opened.data, "0" if self._opened.file else ""))
+        """The program or drawing that is open at the start."""
+        return JSONResponse(self._taken(self._opened.name, self._opened.data, "0" if self._opened.file else ""))
 
     async def program(self, request: Request) -> Response:
         """The program of a number, as its file is now."""
@@ -104,8 +106,13 @@ class _Files:
         return JSONResponse(await run_in_threadpool(row_or_why, name, None, data))
 
     async def read(self, request: Request) -> Response:
-        """The text of a file that came to the page."""
-        return JSONResponse(_read(request.query_params.get("name", ""), await request.body()))
+        """The text of a file that came to the page, or the number that it has as a drawing."""
+        return JSONResponse(self._taken(request.query_params.get("name", ""), await request.body()))
+
+    def _taken(self, name: str, data: bytes, number: str = "") -> dict[str, Any]:
+        if is_drawing(name, data):
+            return {**_read(name, b""), "drawing": self._drawings.keep(name, data)}
+        return _read(name, data, number)
 
     async def save(self, request: Request) -> Response:
         """The bytes of a text."""
@@ -124,16 +131,50 @@ class _Files:
         return Response(status_code=_NOTHING)
 
 
+class _Drawn:
+    """Drawings: laid beneath a program, and made into one."""
+
+    def __init__(self, drawings: Drawings, runs: Runs) -> None:
+        self._drawings, self._runs = drawings, runs
+
+    async def look(self, request: Request) -> Response:
+        """The curves of a drawing as they lie beneath a text, and what there is to say of it."""
+        told = await _told(request, "drawing", *LOOK_KEYS)
+        file = self._drawings.file(told["drawing"])
+        if file is None:
+            return Response(status_code=_MISSING)
+        return Response(await self._drawings.look(file, told), media_type="application/json")
+
+    async def draft(self, request: Request) -> Response:
+        """Make a program of a drawing."""
+        told = await _told(request, "drawing", *MAKE_KEYS)
+        file = self._drawings.file(told["drawing"])
+        if file is None:
+            return Response(status_code=_MISSING)
+        files = {"drawing_file": str(file), "result_file": str(self._drawings.result(told["drawing"]))}
+        await self._runs.draft({**told, **files})
+        return JSONResponse(self._runs.state)
+
+    async def drafted(self, request: Request) -> Response:
+        """The program that was made of a drawing last."""
+        number = (await _told(request, "drawing"))["drawing"]
+        result = self._drawings.result(number) if self._drawings.file(number) else None
+        if result is None or not result.is_file():
+            return Response(status_code=_MISSING)
+        return FileResponse(result, media_type="application/json")
+
+
 class _Running:
     """The run of the page."""
 
-    def __init__(self, life: Life, runs: Runs) -> None:
-        self._life, self._runs = life, runs
+    def __init__(self, life: Life, runs: Runs, drawings: Drawings) -> None:
+        self._life, self._runs, self._drawings = life, runs, drawings
 
     async def run(self, request: Request) -> Response:
         """Run a text."""
-        told = await _told(request, "name", "text", *KEYS)
-        await self._runs.start(told["name"], told["text"].encode("utf-8", "replace"), told)
+        told = await _told(request, "name", "text", "drawing", *KEYS)
+        drawing = {"drawing_file": str(self._drawings.file(told["drawing"]) or "")}
+        await self._runs.start(told["name"], told["text"].encode("utf-8", "replace"), {**told, **drawing})
         return JSONResponse(self._runs.state)
 
     async def more(self, request: Request) -> Response:

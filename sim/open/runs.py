@@ -6,19 +6,17 @@ What more is made of a finished run, a film or pictures, is made in such a proce
 import asyncio
 import contextlib
 import os
-import re
 from pathlib import Path
 from typing import Any, Final
 
 from parser.text.encoding import printable
 from sim.open.child import Child, begun
+from sim.open.file_names import safe_name
 
 KEYS: Final = ("machine", "thickness_mm", "wire_mm", "offset_mm", "side")
 """What the page may say of a run, as texts; empty ones leave what is usual."""
 MORE_KEYS: Final = ("job", "form", "seconds", "language")
 """What it may say of a film or of pictures."""
-_SAFE: Final = re.compile(r"[^\w.-]")
-_LONGEST_NAME: Final = 60
 _IDLE: Final[dict[str, Any]] = {"state": "idle"}
 _MORE: Final = ("film", "pictures")
 
@@ -53,16 +51,16 @@ class Runs:
         return {**self._state, **self._ran, "files": files}
 
     async def start(self, name: str, text: bytes, asked: dict[str, str]) -> None:
-        """Run a text of a name, in place of the run before."""
+        """Run a text of a name, in place of the run before; ``drawing_file`` is what it is held against, or empty."""
         await self.cancel()
         self._number += 1
         self._ran = {}
         folder = self._folder / str(self._number)
-        file = folder / "program" / _file_name(name)
+        file = folder / "program" / safe_name(name)
         file.parent.mkdir(parents=True)
         file.write_bytes(text)
         self._asked = {
-            **{key: asked[key] for key in KEYS},
+            **{key: asked[key] for key in (*KEYS, "drawing_file")},
             "file": str(file),
             "folder": str(self._made_in(self._number)),
         }
@@ -73,6 +71,11 @@ class Runs:
         if self._ran and asked["job"] in _MORE:
             await self.cancel()
             await self._begin({**self._asked, **{key: asked[key] for key in MORE_KEYS}})
+
+    async def draft(self, asked: dict[str, str]) -> None:
+        """Make a program of ``drawing_file``, which is told in ``result_file``."""
+        await self.cancel()
+        await self._begin({**asked, "job": "program"})
 
     async def cancel(self) -> None:
         """End the run that is on, if one is."""
@@ -104,7 +107,7 @@ class Runs:
 
     async def _begin(self, asked: dict[str, str]) -> None:
         self._state = {"state": "running", "job": asked["job"], "run": self._number}
-        self._child = await begun("sim.open.runner")
+        self._child = await begun("sim.open.drafter" if asked["job"] == "program" else "sim.open.runner")
         self._following = asyncio.create_task(self._follow(self._child, asked))
 
     async def _follow(self, child: Child, asked: dict[str, str]) -> None:
@@ -120,9 +123,3 @@ class Runs:
             self._state = {**begin, "state": "wrong", "why": printable(last["wrong"])}
         elif child is self._child:
             self._state = {**begin, "state": "wrong", "why": ""}
-
-
-def _file_name(name: str) -> str:
-    """A name for a file that nothing in it makes a way to another one, nor an option."""
-    safe = _SAFE.sub("_", Path(name).name)[-_LONGEST_NAME:].lstrip(".-")
-    return safe or "program"

@@ -15,6 +15,7 @@ import uvicorn
 from parser.findings.errors import DrycutError
 from sim.files import scratch
 from sim.open.app import app_of
+from sim.open.drawings import Drawings
 from sim.open.guard import Address, Guard
 from sim.open.life import Life
 from sim.open.programs import Opened, Programs
@@ -46,7 +47,7 @@ def serve(opened: Opened, port: int, ready: Callable[[str], None]) -> None:
         address = Address(f"{_HOST}:{listening.getsockname()[1]}", secrets.token_urlsafe(24))
         life, runs = Life(), Runs(folder)
         config = uvicorn.Config(
-            Guard(app_of(opened, programs, life, runs), address),
+            Guard(app_of(opened, programs, Drawings(folder), life, runs), address),
             lifespan="off",
             log_level="critical",
             access_log=False,

@@ -1,5 +1,6 @@
 """The page of drycut open in a real browser: a program comes in, is seen, edited, mended and saved."""
 
+import json
 import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from browser import LOCALES, WAIT_MS, Browsers
+from drawings_dxf import drawn
 from opened_page import OpenedPage, opened_page
 from page_checks import complaints
 from places import ROOT
@@ -270,7 +272,7 @@ def test_a_run_is_cancelled_and_another_one_begun(browsers: Browsers, tmp_path: 
         shown.page.fill("input[name=thickness_mm]", "a lot")
         shown.page.click("#start")
         shown.page.wait_for_selector("#stage.wrong")
-        assert "thickness_mm is a number, not 'a lot'" in shown.page.inner_text("#stage")
+        assert "the thickness in mm is a number, not 'a lot'" in shown.page.inner_text("#stage")
 
 
 def test_a_folder_is_listed_and_its_programs_open_by_a_click(browsers: Browsers, tmp_path: Path) -> None:
@@ -377,3 +379,21 @@ def test_a_second_program_is_compared_with_the_one_that_was_open(browsers: Brows
         verdict, findings, _ = shown.page.locator("#both tr.other").all_inner_texts()
         assert (verdict, findings) == ("结论\t不通过\t通过", "问题\t3B204\t–")
         assert shown.page.locator("#beside-open").is_hidden()
+
+
+def test_a_drawing_is_dropped_made_a_program_and_run_against(browsers: Browsers, tmp_path: Path) -> None:
+    dxf = drawn(tmp_path, lambda space: space.add_circle((30.0, 0.0), 4.0))
+    with opened_page() as served, tab(browsers, served.address) as shown:
+        shown.page.set_input_files("#pick", dxf)
+        shown.page.wait_for_selector("#drawing:not([hidden])")
+        assert shown.page.inner_text("#drawing-name") == "part.dxf"
+        shown.page.click("#make")
+        shown.waits_for("pass")
+        assert shown.page.inner_text("#name") == "part.3b"
+        assert shown.page.inner_text("#drawing-told li:first-child") == "proved"
+        shown.page.click("#start")
+        shown.page.wait_for_selector("#stage.pass")
+        report = json.loads(served.ask("run/1/report.json", method="GET").body)
+        assert report["drawing"]["max_um"] < 5.0
+        shown.page.click("#away")
+        assert shown.page.locator("#drawing").is_hidden()

@@ -6,6 +6,7 @@ from typing import Final
 
 from parser.units import mm
 from sim.setup.machine.machine import machine_names
+from sim.setup.making import LANGUAGES
 from sim.setup.scenario import DEFAULT_MACHINE, DEFAULT_THICKNESS_MM
 from sim.setup.wire import DEFAULT_WIRE
 from sim.show.html.environment import rendered
@@ -24,6 +25,7 @@ def open_page() -> tuple[str, str]:
         "open.html.j2",
         nonce=nonce,
         machines=machine_names(),
+        languages=LANGUAGES,
         default_machine=DEFAULT_MACHINE,
         thickness=f"{DEFAULT_THICKNESS_MM:g}",
         wire=f"{mm(DEFAULT_WIRE.diameter_um):g}",

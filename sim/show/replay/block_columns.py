@@ -6,10 +6,9 @@ import numpy as np
 
 from controller.motion.plan import Plan
 from controller.stepping.words import words_of
-from parser.geometry.curves import CurveKind, Floats
+from parser.geometry.curves import CurveKind, Curves, Floats
 from parser.program import Program
 from parser.told.step_words import Axis, StepWords
-from parser.toolpath import Toolpath
 from sim.run.dryrun import DryRun
 from sim.run.report.rounded import column
 
@@ -38,17 +37,17 @@ def plan_columns(plan: Plan) -> dict[str, list[Any] | None]:
     }
 
 
-def exact_columns(toolpath: Toolpath) -> dict[str, list[Any]]:
-    """Columns of n curves that pages draw a path by; `place_*` have n + 1."""
-    place = np.concatenate([toolpath.start_um[:1], toolpath.end_um])
+def exact_columns(path: Curves) -> dict[str, list[Any]]:
+    """Columns of n curves, each from the end of the last one, that pages draw a path by; `place_*` have n + 1."""
+    place = np.concatenate([path.start_um[:1], path.end_um])
     return {
-        "kind": [CurveKind(kind).name.lower() for kind in toolpath.kind.tolist()],
+        "kind": [CurveKind(kind).name.lower() for kind in path.kind.tolist()],
         **_pairs("place", place),
-        **_pairs("center", toolpath.center_um),
-        "radius_um": column(toolpath.radius_um),
-        "start_angle_rad": column(toolpath.start_angle_rad, _ANGLE_DIGITS),
-        "sweep_rad": column(toolpath.sweep_rad, _ANGLE_DIGITS),
-        "length_um": column(toolpath.length_um),
+        **_pairs("center", path.center_um),
+        "radius_um": column(path.radius_um),
+        "start_angle_rad": column(path.start_angle_rad, _ANGLE_DIGITS),
+        "sweep_rad": column(path.sweep_rad, _ANGLE_DIGITS),
+        "length_um": column(path.length_um),
     }
 
 

@@ -193,7 +193,7 @@ def test_what_cannot_be_opened_is_said(tmp_path: Path, served: OpenedPage) -> No
 
 def asked_run(served: OpenedPage, **values: str) -> dict:
     told = {"name": "part.3b", "text": "B1000B0B1000GXL1\nDD\n"}
-    told |= dict.fromkeys(("machine", "thickness_mm", "wire_mm", "offset_mm", "side"), "")
+    told |= dict.fromkeys(("machine", "thickness_mm", "wire_mm", "offset_mm", "side", "drawing"), "")
     answer = served.ask("run", json.dumps({**told, **values}))
     assert answer.status == 200
     return json.loads(answer.body)
@@ -260,9 +260,9 @@ def test_a_film_and_all_pictures_of_the_run_are_made_when_they_are_asked_for(ser
     [
         ({"form": "exe"}, "films are .gif, .webp, .apng, .mp4, not 'exe'"),
         ({"form": "a/../../program/x.gif"}, "films are"),
-        ({"seconds": "1e9"}, "seconds is 1000000000; it must lie between 0.5 and 600"),
+        ({"seconds": "1e9"}, "the length of the film in s is 1000000000; it must lie between 0.5 and 600"),
         ({"seconds": "600"}, "would need"),
-        ({"seconds": "long"}, "seconds is a number, not 'long'"),
+        ({"seconds": "long"}, "the length of the film in s is a number, not 'long'"),
     ],
 )
 def test_a_film_that_cannot_be_says_why_and_the_run_stays(served: OpenedPage, values: dict[str, str], why: str) -> None:
@@ -327,10 +327,13 @@ def test_a_zip_holds_little_at_a_time_and_is_the_same_each_time(tmp_path: Path) 
         ({"machine": "../x.toml"}, "is not shipped"),
         ({"thickness_mm": "-4"}, "thickness"),
         ({"thickness_mm": "nan"}, "thickness"),
-        ({"wire_mm": "much"}, "wire_mm is a number, not 'much'"),
-        ({"wire_mm": "1e9"}, "wire_mm is 1000000000; it must lie between 0.01 and 1"),
-        ({"offset_mm": "inf"}, "offset_mm is inf; it must lie between 0 and 10"),
-        ({"offset_mm": "-5"}, "offset_mm is -5; it must lie between 0 and 10"),
+        ({"wire_mm": "much"}, "the wire in mm is a number, not 'much'"),
+        ({"wire_mm": "1e9"}, "the wire in mm is 1000000000; it must lie between 0.01 and 1"),
+        ({"offset_mm": "inf"}, "the offset in mm is inf; it must lie between 0.0001 and 10"),
+        ({"offset_mm": "-5"}, "the offset in mm is -5; it must lie between 0.0001 and 10"),
+        ({"offset_mm": "0.00001"}, "the offset in mm is 0.00001; it must lie between 0.0001 and 10"),
+        ({"offset_mm": "0.2, 0"}, "the offset in mm is 0; it must lie between 0.0001 and 10"),
+        ({"offset_mm": "0.1 " * 21}, "the number of passes is 21; it must lie between 1 and 20"),
         ({"offset_mm": "0.1", "text": "hello"}, "no block in the file"),
     ],
 )

@@ -1,6 +1,6 @@
 // What the page asks of its server: paths beside its own address, and nothing else.
 
-/** @import { Answer, Changes, FileText, Row, Rows, RunState } from "./data.js" */
+/** @import { Answer, Changes, Drafted, FileText, Looked, Row, Rows, RunState } from "./data.js" */
 
 /**
  * The answer to a request.
@@ -152,4 +152,31 @@ export async function alive() {
 /** End the server. */
 export async function close() {
   await ask("close", "");
+}
+
+/**
+ * A drawing, as it lies beneath a program.
+ * @param {Record<string, string>} told
+ * @returns {Promise<Looked>}
+ */
+export async function look(told) {
+  return (await ask("look", JSON.stringify(told))).json();
+}
+
+/**
+ * Make a program of a drawing.
+ * @param {Record<string, string>} told
+ * @returns {Promise<RunState>}
+ */
+export async function draft(told) {
+  return (await ask("draft", JSON.stringify(told))).json();
+}
+
+/**
+ * The program that was made of a drawing.
+ * @param {string} drawing its number
+ * @returns {Promise<Drafted>}
+ */
+export async function drafted(drawing) {
+  return (await ask("drafted", JSON.stringify({ drawing }))).json();
 }

@@ -7,8 +7,9 @@
  */
 
 /**
- * A file as a text with lines that end with LF, and what brings back its bytes.
+ * A file as a text with lines that end with LF, and what brings back its bytes; of a drawing its number.
  * @typedef {object} FileText
+ * @property {string} [drawing]
  * @property {string} name
  * @property {string | null} text null where it is none
  * @property {string} encoding
@@ -17,6 +18,22 @@
  */
 
 /** @typedef {[first: number, past: number, text: string]} Edit */
+
+/**
+ * A drawing (sim/open/drafter.py): its curves as they lie beneath the program, and what there is to say; else why not.
+ * @typedef {object} Looked
+ * @property {Curves} [curves]
+ * @property {Said[]} told
+ * @property {string} [why]
+ */
+
+/**
+ * The program that was made of a drawing; none where it was refused, and what there is to say.
+ * @typedef {object} Drafted
+ * @property {FileText | null} program
+ * @property {Said[]} told
+ * @property {boolean} is_proved
+ */
 
 /**
  * @typedef {object} Finding
@@ -126,7 +143,7 @@
  * How far a run is, or what more is made of it (sim/open/runs.py).
  * @typedef {object} RunState
  * @property {"idle" | "running" | "done" | "wrong" | "cancelled"} state
- * @property {"run" | "film" | "pictures"} [job]
+ * @property {"run" | "film" | "pictures" | "program"} [job]
  * @property {number} [run]
  * @property {string} [stage]
  * @property {number} [at]

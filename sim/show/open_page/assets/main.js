@@ -1,6 +1,7 @@
 // Puts the page together: a file comes in, its text is checked while it is edited, and what is found shows at once.
 import * as asked from "./asked.js";
 import { showFound } from "./found.js";
+import { wireDrawing } from "./drawing.js";
 import { wireListing } from "./listing.js";
 import { pictureOf } from "./picture.js";
 import { wireRun } from "./running.js";
@@ -80,6 +81,19 @@ function goToBlock(row) {
   else text.showLine(path.line[row]);
 }
 
+const run = wireRun(() => {
+  versions.keep("ran");
+  return { name: nameOf(), text: text.value, drawing: drawing.number() };
+}, () => drawing.done(), tell);
+const drawing = wireDrawing({
+  current: () => ({ name: nameOf(), text: text.value }),
+  values: run.values,
+  follow: run.follow,
+  begin: (read) => begin(read),
+  beneath: picture.beneath,
+  tell,
+});
+
 /** Show what is known, in the language of the page. */
 function show() {
   if (!known) return;
@@ -136,6 +150,7 @@ function begin(read, isOpened = true) {
   text.begin(read.text);
   if (isOpened) versions.keep("opened");
   check(true);
+  drawing.look();
 }
 
 /**
@@ -154,7 +169,9 @@ async function take(chosen) {
  */
 async function openOne(source) {
   try {
-    begin(typeof source === "string" ? await asked.program(source) : await asked.read(source.name, source));
+    const read = typeof source === "string" ? await asked.program(source) : await asked.read(source.name, source);
+    if (read.drawing) await drawing.take(read.drawing, read.name);
+    else begin(read);
     return true;
   } catch {
     tell("not-read");
@@ -207,8 +224,5 @@ function wire() {
 language.onChange(show);
 language.begin();
 wire();
-wireRun(() => {
-  versions.keep("ran");
-  return { name: nameOf(), text: text.value };
-}, tell);
-asked.first().then((read) => begin(read)).then(listing.look).catch(() => tell("no-server"));
+asked.first().then((read) => (read.drawing ? drawing.take(read.drawing, read.name) : begin(read))).then(listing.look)
+  .catch(() => tell("no-server"));

@@ -9,7 +9,9 @@ import { drawScaleBar } from "../../replay/assets/scale_bar.js";
 import { wirePointer } from "../../replay/assets/pointer.js";
 
 /** @import { Figure, Finding, Path } from "./data.js" */
+/** @import { Curves } from "../../replay/assets/document.js" */
 /** @import { Different } from "./differing.js" */
+/** @import { Path as Drawn } from "../../replay/assets/path.js" */
 
 const NEAR = 12; // px from a block that still means it
 const STILL = 4; // px of a press that is a click
@@ -28,6 +30,8 @@ export function pictureOf(canvas, onBlock) {
   /** @type {Path | null} */
   let below = null;
   let others = differing(null, null);
+  /** @type {ReturnType<typeof pathOf> | null} */
+  let drawing = null;
   /** @type {Figure[]} */
   let figures = [];
   /** @type {Finding[]} */
@@ -103,34 +107,55 @@ export function pictureOf(canvas, onBlock) {
     view.resize(width, height);
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, width, height);
-    if (!drawn) return;
+    if (!drawn && !drawing) return;
     if (!isFitted) fit();
     const shades = colours();
     pen.lineCap = "round";
     pen.lineJoin = "round";
+    if (drawing) drawDrawing();
+    if (drawn) drawProgram(drawn, shades);
+    drawScaleBar(pen, view, colours);
+  }
+
+  /** The drawing, broad and pale, under all else. */
+  function drawDrawing() {
+    pen.lineWidth = 5;
+    pen.strokeStyle = getComputedStyle(canvas).getPropertyValue("--drawn");
+    drawing?.stroke(pen, view, (kind) => kind !== "jump");
+  }
+
+  /**
+   * The path with what differs from another version, the caret's block and the marks.
+   * @param {Drawn} program
+   * @param {Record<string, string>} shades
+   */
+  function drawProgram(program, shades) {
     if (others.below) drawRows(others.below, "--error", 3);
     pen.lineWidth = 1.5;
     pen.strokeStyle = shades.ideal;
-    drawn.stroke(pen, view, (kind) => kind !== "jump");
+    program.stroke(pen, view, (kind) => kind !== "jump");
     pen.strokeStyle = shades.jump;
     pen.setLineDash([6, 4]);
-    drawn.stroke(pen, view, (kind) => kind === "jump");
+    program.stroke(pen, view, (kind) => kind === "jump");
     pen.setLineDash([]);
     if (others.above) drawRows(others.above, "--good", 2.5);
     pen.lineWidth = 4;
     pen.strokeStyle = shades.accent;
     pen.beginPath();
-    for (const row of rowsNow()) drawn.wayOf(pen, view, row);
+    for (const row of rowsNow()) program.wayOf(pen, view, row);
     pen.stroke();
     drawMarks();
-    drawScaleBar(pen, view, colours);
   }
 
-  /** Show all of the path. */
+  /** Show all of path and drawing. */
   function fit() {
-    if (!drawn) return;
+    const boxes = [drawn, drawing].flatMap((one) => (one ? [one.box()] : []));
+    if (!boxes.length) return;
     isFitted = true;
-    const box = drawn.box();
+    const box = {
+      left: Math.min(...boxes.map((one) => one.left)), bottom: Math.min(...boxes.map((one) => one.bottom)),
+      right: Math.max(...boxes.map((one) => one.right)), top: Math.max(...boxes.map((one) => one.top)),
+    };
     view.limitTo(box);
     view.fit(box, { top: 0, bottom: 30 });
   }
@@ -197,6 +222,15 @@ export function pictureOf(canvas, onBlock) {
     under(newBelow) {
       below = newBelow;
       others = differing(below, path);
+      later();
+    },
+    /**
+     * The curves of a drawing under all else; null for none.
+     * @param {Curves | null} curves
+     */
+    beneath(curves) {
+      drawing = curves && pathOf(curves);
+      isFitted = false;
       later();
     },
     fit() {

@@ -11,15 +11,17 @@ const LOOK_MS = 250;
 /** @type {Record<string, string>} */
 const STAGES = {
   checks: "stage-checks", plan: "stage-plan", run: "stage-run", kerf: "stage-kerf", pictures: "stage-pictures",
-  pages: "stage-pages", film: "stage-film",
+  pages: "stage-pages", film: "stage-film", drawing: "stage-drawing", figures: "stage-figures", write: "stage-write",
+  comparison: "stage-comparison",
 };
 
 /**
  * Let the form run programs.
- * @param {() => { name: string, text: string }} current the program as it stands
+ * @param {() => { name: string, text: string, drawing: string }} current the program as it stands, and its drawing
+ * @param {() => void} drafted a program was made of a drawing
  * @param {(key: string) => void} tell says what went wrong
  */
-export function wireRun(current, tell) {
+export function wireRun(current, drafted, tell) {
   const form = element("#run", HTMLElement);
   const start = element("#start", HTMLButtonElement);
   const cancel = element("#cancel", HTMLButtonElement);
@@ -31,7 +33,10 @@ export function wireRun(current, tell) {
   let known = { state: "idle" };
   let ranName = "";
 
-  /** The values of the form by their names. */
+  /**
+   * The values of the form by their names.
+   * @returns {Record<string, string>}
+   */
   function values() {
     const fields = form.querySelectorAll("input, select");
     return Object.fromEntries([...fields].map((field) => {
@@ -40,10 +45,16 @@ export function wireRun(current, tell) {
     }));
   }
 
+  /** What came of a job that has ended well. */
+  function ending() {
+    if (known.job === "program") return language.say("drafted");
+    return language.say(known.verdict === "pass" ? "ran-pass" : "ran-fail", { machine: known.machine ?? "" });
+  }
+
   /** What there is to say of the run. */
   function sentence() {
-    if (known.state === "running") return known.stage ? language.say(STAGES[known.stage] ?? "starting") : language.say("starting");
-    if (known.state === "done") return language.say(known.verdict === "pass" ? "ran-pass" : "ran-fail", { machine: known.machine ?? "" });
+    if (known.state === "running") return language.say(STAGES[known.stage ?? ""] ?? "starting");
+    if (known.state === "done") return ending();
     if (known.state === "wrong") return known.why ? known.why.replace(/^\S*\/program\//, "") : language.say("ran-broken");
     return known.state === "cancelled" ? language.say("ran-cancelled") : "";
   }
@@ -67,6 +78,7 @@ export function wireRun(current, tell) {
     window.clearTimeout(looking);
     try {
       known = await coming;
+      if (known.state === "done" && known.job === "program") drafted();
       if (known.state === "running") looking = window.setTimeout(() => take(asked.progress()), LOOK_MS);
     } catch {
       known = { state: "idle" };
@@ -82,4 +94,6 @@ export function wireRun(current, tell) {
   });
   cancel.addEventListener("click", () => take(asked.cancel()));
   language.onChange(show);
+
+  return { values, follow: take };
 }

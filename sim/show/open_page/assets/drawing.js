@@ -1,0 +1,106 @@
+// The drawing of the page: laid beneath the program, made into one, and what a run is held against.
+import * as asked from "./asked.js";
+import { element, make } from "../../html/assets/elements.js";
+import * as language from "../../html/assets/language.js";
+
+/** @import { Said } from "../../html/assets/language.js" */
+/** @import { Curves } from "../../replay/assets/document.js" */
+/** @import { FileText, RunState } from "./data.js" */
+
+/**
+ * What the drawing is told, and whom it tells.
+ * @typedef {object} Around
+ * @property {() => { name: string, text: string }} current the program as it stands
+ * @property {() => Record<string, string>} values of the form of the run
+ * @property {(coming: Promise<RunState>) => void} follow shows how far a job is
+ * @property {(read: FileText) => void} begin opens a program
+ * @property {(curves: Curves | null) => void} beneath draws it under the path
+ * @property {(key: string) => void} tell says what went wrong
+ */
+
+/**
+ * The drawing of the page, and its buttons.
+ * @param {Around} around
+ */
+export function wireDrawing(around) {
+  const name = element("#drawing-name", HTMLElement);
+  const buttons = element("#drawing", HTMLElement);
+  const list = element("#drawing-told", HTMLElement);
+  const fields = { language: element("#as", HTMLSelectElement), tab_mm: element("#tab", HTMLInputElement) };
+  let number = "";
+  let file = "";
+  /** @type {Said[]} */
+  let made = [];
+  /** @type {Said[]} */
+  let seen = [];
+
+  /** Show which drawing there is, and what was told of it. */
+  function show() {
+    name.textContent = number ? file : language.say("no-drawing");
+    buttons.hidden = element("#drawn", HTMLElement).hidden = !number;
+    list.replaceChildren(...(made.length ? made : seen).map((said) => make("li", {}, language.pick(said))));
+  }
+
+  /** Take the drawing away. */
+  function away() {
+    number = "";
+    made = seen = [];
+    around.beneath(null);
+    show();
+  }
+
+  /** Lay it beneath the program as it stands. */
+  async function look() {
+    if (!number) return;
+    const before = number;
+    try {
+      const found = await asked.look({ ...around.values(), ...around.current(), drawing: number });
+      if (before !== number) return;
+      if (found.curves) {
+        seen = found.told;
+        around.beneath(found.curves);
+      } else {
+        away();
+        const why = found.why || language.say("no-look");
+        seen = [{ en: why, zh: why }];
+      }
+      show();
+    } catch {
+      around.tell("no-server");
+    }
+  }
+
+  element("#away", HTMLElement).addEventListener("click", away);
+  element("#make", HTMLElement).addEventListener("click", () => {
+    const { language: wanted, tab_mm: tab } = fields;
+    around.follow(asked.draft({ ...around.values(), drawing: number, language: wanted.value, tab_mm: tab.value.trim() }));
+  });
+  language.onChange(show);
+
+  return {
+    /** Its number; empty where there is none. */
+    number: () => number,
+    look,
+    /**
+     * Another drawing.
+     * @param {string} newNumber
+     * @param {string} newFile
+     */
+    async take(newNumber, newFile) {
+      [number, file, made] = [newNumber, newFile, []];
+      show();
+      await look();
+    },
+    /** A program was made of it. */
+    async done() {
+      try {
+        const { program, told } = await asked.drafted(number);
+        made = told;
+        if (program) around.begin(program);
+        show();
+      } catch {
+        around.tell("no-server");
+      }
+    },
+  };
+}
