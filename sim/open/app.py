@@ -17,7 +17,7 @@ from parser.text.encoding import printable
 from sim.open.answers import ReadFile, answer, file_of, read_file
 from sim.open.life import Life
 from sim.open.lines import changed_lines
-from sim.open.programs import Opened, Programs
+from sim.open.programs import Programs
 from sim.open.row import row_or_why
 from sim.open.runs import KEYS, MORE_KEYS, Runs
 from sim.open.zipped import zipped
@@ -43,9 +43,9 @@ _KINDS: Final = {
 }
 
 
-def app_of(opened: Opened, programs: Programs, life: Life, runs: Runs) -> Starlette:
+def app_of(programs: Programs, life: Life, runs: Runs) -> Starlette:
     """The application behind the guard."""
-    files, texts, running = _Files(opened, programs, life), _Checks(programs), _Running(life, runs)
+    files, texts, running = _Files(programs, life), _Checks(programs), _Running(life, runs)
     works: list[_Work] = [files.first, files.read, files.save, files.alive, files.close]
     works += [files.program, files.rows, files.again, files.row]
     works += [texts.check, texts.version, texts.lines, running.run, running.more, running.progress, running.cancel]
@@ -62,8 +62,8 @@ def app_of(opened: Opened, programs: Programs, life: Life, runs: Runs) -> Starle
 class _Files:
     """The page itself, and programs as they come to it and go from it."""
 
-    def __init__(self, opened: Opened, programs: Programs, life: Life) -> None:
-        self._opened, self._programs, self._life = opened, programs, life
+    def __init__(self, programs: Programs, life: Life) -> None:
+        self._programs, self._life = programs, life
 
     async def page(self, _: Request) -> Response:
         """The page."""
@@ -73,7 +73,9 @@ class _Files:
 
     async def first(self, _: Request) -> Response:
         """The program that is open at the start."""
-        return JSONResponse(_read(self._opened.name, self._opened.data, "0" if self._opened.file else ""))
+        opened = self._programs.opened
+        read = _read(opened.name, opened.data, "0" if opened.file else "")
+        return JSONResponse({**read, "why": printable(opened.why)} if opened.why else read)
 
     async def program(self, request: Request) -> Response:
         """The program of a number, as its file is now."""

@@ -21,11 +21,12 @@ _AT_ONCE: Final = 500
 
 
 class Opened(NamedTuple):
-    """What is open at the start: a program with its file, a folder, or nothing: then the page begins empty."""
+    """What is open at the start: a program with its file, a folder, or nothing; `why` says why that is so."""
 
     file: Path | None = None
     data: bytes = b""
     folder: Path | None = None
+    why: str = ""
 
     @property
     def name(self) -> str:
@@ -37,9 +38,15 @@ class Programs:
     """The programs that the page may open, and what the check says of those of a folder.
 
     FileUnreadableError for a folder without a program.
+
+    Attributes
+    ----------
+    opened
+        What is open at the start.
     """
 
     def __init__(self, opened: Opened) -> None:
+        self.opened = opened
         self._folder = opened.folder
         self._files: list[Path] = [opened.file] if opened.file else []
         self._first = self._left_out = 0

@@ -14,6 +14,7 @@
  * @property {string} encoding
  * @property {string} newline
  * @property {string} number of the program whose file it is; empty where it came to the page
+ * @property {string} [why] what was to be open at the start could not be
  */
 
 /** @typedef {[first: number, past: number, text: string]} Edit */

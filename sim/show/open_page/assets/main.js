@@ -107,7 +107,8 @@ async function check(isNew) {
     picture.show(answer.path, answer.figures, answer.findings, isNew);
     show();
     versions.update();
-    tell(answer.settings && "settings", { why: answer.settings });
+    if (file.why && !now) tell("not-opened", { why: file.why });
+    else tell(answer.settings && "settings", { why: answer.settings });
   } catch (error) {
     if (!(error instanceof Error && error.name === "AbortError")) tell("no-server");
   }
