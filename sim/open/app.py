@@ -90,15 +90,15 @@ class _Files:
     async def rows(self, request: Request) -> Response:
         """What is known of the programs of the folder, behind those that the page knows."""
         self._life.seen()
-        known = (await _told(request, "known"))["known"]
-        if not known.isdecimal():
+        told = await _told(request, "known", "list")
+        if not all(number.isdecimal() for number in told.values()):
             raise _BadRequestError
-        return JSONResponse(await self._programs.rows(int(known[:9])))
+        return JSONResponse(await self._programs.rows(int(told["known"][:9]), int(told["list"][:9])))
 
     async def again(self, _: Request) -> Response:
         """Look through the folder again."""
         await self._programs.again()
-        return JSONResponse(await self._programs.rows(0))
+        return JSONResponse(await self._programs.rows(0, 0))
 
     async def row(self, request: Request) -> Response:
         """What a list shows of a file that came to the page."""

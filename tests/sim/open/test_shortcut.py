@@ -16,7 +16,8 @@ from command import run_command
 from opened_page import opened_page
 from places import ROOT
 
-from parser.findings.errors import SettingsError
+from parser.findings.errors import FileUnreadableError, SettingsError
+from sim.cli.open import _programs
 from sim.open.shortcut import desktop_entry, windows_script, write_shortcut
 
 NAMES = ("part.3b", "two words.3b", "a&b;c.3b", "孔 圆.3b", "50%f %TEMP%.3b", "a'b\"c`d$HOME\\e.3b", "-o.3b", "")
@@ -115,13 +116,14 @@ def test_the_command_writes_it_and_ends(tmp_path: Path) -> None:
     assert sorted(file.name for file in (tmp_path / "new").iterdir()) == ["drycut.desktop", "drycut.svg"]
 
 
-@pytest.mark.parametrize("what", ["gone.3b", "empty folder"])
-def test_what_cannot_be_opened_from_an_icon_is_said_on_the_page(tmp_path: Path, what: str) -> None:
-    (tmp_path / "empty folder").mkdir()
-    with opened_page(tmp_path / what, "--from-icon") as served:
+def test_what_cannot_be_opened_from_an_icon_is_said_on_the_page(tmp_path: Path) -> None:
+    with opened_page(tmp_path / "gone.3b", "--from-icon") as served:
         first = json.loads(served.ask("first").body)
         assert first["text"] == ""
-        assert what in first["why"]
+        assert "gone.3b: cannot be read" in first["why"]
+    assert "no program there" in _programs(tmp_path, from_icon=True).opened.why
+    with pytest.raises(FileUnreadableError):
+        _programs(tmp_path, from_icon=False)
 
 
 @pytest.mark.skipif(not Path("/bin/sh").exists(), reason="closes what a terminal would be")

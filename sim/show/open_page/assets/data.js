@@ -109,6 +109,7 @@
  * How far the check of a folder is (sim/open/programs.py).
  * @typedef {object} Rows
  * @property {string} folder empty where none is open
+ * @property {number} list another one once the folder was looked through again
  * @property {number} total
  * @property {number} left_out
  * @property {boolean} is_over
@@ -139,3 +140,8 @@
  */
 
 export const SEVERITIES = /** @type {const} */ (["error", "warning", "note"]);
+
+/** Words of the verdicts. */
+export const VERDICTS = {
+  pass: "verdict-pass", fail: "verdict-fail", incomplete: "verdict-incomplete", none: "verdict-none",
+};

@@ -1,5 +1,6 @@
 // Puts the page together: a file comes in, its text is checked while it is edited, and what is found shows at once.
 import * as asked from "./asked.js";
+import { VERDICTS } from "./data.js";
 import { showFound } from "./found.js";
 import { wireListing } from "./listing.js";
 import { pictureOf } from "./picture.js";
@@ -12,9 +13,6 @@ import * as language from "../../html/assets/language.js";
 
 /** @import { Answer, FileText, Finding } from "./data.js" */
 
-const VERDICTS = {
-  pass: "verdict-pass", fail: "verdict-fail", incomplete: "verdict-incomplete", none: "verdict-none",
-};
 const PAUSE_MS = 40; // between two keys of who types fast lies more
 const ALIVE_MS = 20_000;
 
@@ -146,7 +144,7 @@ function begin(read, isOpened = true) {
 async function take(chosen) {
   const files = [...(chosen ?? [])];
   if (files.length > 1) listing.take(files).catch(() => tell("no-server"));
-  else if (files.length) await openOne(files[0]);
+  else if (files.length && await openOne(files[0])) listing.hide();
 }
 
 /**
