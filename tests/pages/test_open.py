@@ -222,6 +222,11 @@ def test_a_program_is_run_and_its_files_are_seen_and_saved(browsers: Browsers) -
         with zipfile.ZipFile(coming.value.path()) as archive:
             assert archive.namelist() == names
             assert archive.testzip() is None
+        before = shown.text()
+        shown.page.fill("#text", WRONG)
+        shown.page.wait_for_function("() => document.querySelector('#stage').textContent.includes('another one now')")
+        shown.page.fill("#text", before)
+        shown.page.wait_for_function("() => !document.querySelector('#stage').textContent.includes('another one now')")
 
 
 def test_replay_and_film_are_seen_in_the_page_and_the_replay_may_ask_nobody(

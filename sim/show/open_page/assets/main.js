@@ -30,6 +30,7 @@ const versions = wireVersions({
   goToLine: text.showLine,
   tell,
 });
+const retellRun = wireRun(() => ({ name: nameOf(), text: text.value }), () => versions.keep("ran"), tell);
 const pick = element("#pick", HTMLInputElement);
 
 /** @type {FileText} */
@@ -105,6 +106,7 @@ async function check(isNew) {
     picture.show(answer.path, answer.figures, answer.findings, isNew);
     show();
     versions.update();
+    retellRun();
     if (file.why && !now) tell("not-opened", { why: file.why });
     else tell(answer.settings && "settings", { why: answer.settings });
   } catch (error) {
@@ -206,8 +208,4 @@ function wire() {
 language.onChange(show);
 language.begin();
 wire();
-wireRun(() => {
-  versions.keep("ran");
-  return { name: nameOf(), text: text.value };
-}, tell);
 asked.first().then((read) => begin(read)).then(listing.look).catch(() => tell("no-server"));

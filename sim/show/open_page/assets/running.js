@@ -15,11 +15,12 @@ const STAGES = {
 };
 
 /**
- * Let the form run programs.
+ * Let the form run programs; the answer tells it that the program is another one.
  * @param {() => { name: string, text: string }} current the program as it stands
+ * @param {() => void} onStart
  * @param {(key: string) => void} tell says what went wrong
  */
-export function wireRun(current, tell) {
+export function wireRun(current, onStart, tell) {
   const form = element("#run", HTMLElement);
   const start = element("#start", HTMLButtonElement);
   const cancel = element("#cancel", HTMLButtonElement);
@@ -29,7 +30,7 @@ export function wireRun(current, tell) {
   let looking = 0;
   /** @type {RunState} */
   let known = { state: "idle" };
-  let ranName = "";
+  let ran = { name: "", text: "" };
 
   /** The values of the form by their names. */
   function values() {
@@ -54,9 +55,11 @@ export function wireRun(current, tell) {
     start.disabled = isRunning;
     cancel.hidden = bar.hidden = !isRunning;
     bar.value = isRunning && known.of ? ((known.at ?? 0) + (known.share ?? 0)) / known.of : 0;
+    const isOther = Boolean(known.files) && current().text !== ran.text;
     said.textContent = sentence();
+    if (isOther) said.append(` · ${language.say("ran-other", { name: ran.name })}`);
     said.className = known.state === "done" ? known.verdict ?? "" : known.state;
-    made.show(known, ranName);
+    made.show(known, ran.name);
   }
 
   /**
@@ -76,10 +79,11 @@ export function wireRun(current, tell) {
   }
 
   start.addEventListener("click", () => {
-    const program = current();
-    ranName = program.name;
-    take(asked.run({ ...program, ...values() }));
+    ran = current();
+    onStart();
+    take(asked.run({ ...ran, ...values() }));
   });
   cancel.addEventListener("click", () => take(asked.cancel()));
   language.onChange(show);
+  return show;
 }
