@@ -1,8 +1,12 @@
 """``drycut open``."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
+
+if TYPE_CHECKING:
+    from sim.open.programs import Programs
 
 
 @click.command(short_help="Open a program, or a folder of them, in the browser: see, edit, mend.")
@@ -11,7 +15,16 @@ import click
 @click.option(
     "--port", type=click.IntRange(0, 65_535), default=0, metavar="N", help="Port; any free one where left out."
 )
-def open(file: Path | None, no_browser: bool, port: int) -> None:  # noqa: A001 - named as the command
+@click.option(
+    "--shortcut",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="DIR",
+    help="Write into DIR what starts this without a terminal, and end.",
+)
+@click.option("--from-icon", is_flag=True, hidden=True)
+def open(  # noqa: A001 - named as the command
+    file: Path | None, no_browser: bool, port: int, shortcut: Path | None, from_icon: bool
+) -> None:
     """Open a program in the browser, on this machine alone.
 
     The page shows the path, the findings and their mends at once, and again while the text is edited. Drop a file on
@@ -26,22 +39,38 @@ def open(file: Path | None, no_browser: bool, port: int) -> None:  # noqa: A001 
     \b
     drycut open part.3b
     drycut open programs/
+    drycut open --shortcut ~/Desktop
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     import webbrowser
 
-    from parser.files.reading import read_bytes
-    from sim.open.programs import Opened
     from sim.open.served import serve
     from sim.show.terminal.printer import say
 
-    if file is not None and file.is_dir():
-        opened = Opened(folder=file)
-    else:
-        opened = Opened(file, read_bytes(file)) if file is not None else Opened()
+    if shortcut is not None:
+        from sim.open.shortcut import write_shortcut
+
+        say(f"written: {', '.join(map(str, write_shortcut(shortcut)))}")
+        return
 
     def ready(address: str) -> None:
         say(address)
         if not no_browser:
             webbrowser.open(address)
 
-    serve(opened, port, ready)
+    serve(_programs(file, from_icon=from_icon), port, ready)
+
+
+def _programs(file: Path | None, *, from_icon: bool) -> "Programs":
+    """What is to be open at the start. From an icon nobody reads a terminal: the page says what cannot be opened."""
+    from parser.files.reading import read_bytes
+    from parser.findings.errors import FileUnreadableError
+    from sim.open.programs import Opened, Programs
+
+    if file is None:
+        return Programs(Opened())
+    try:
+        return Programs(Opened(folder=file) if file.is_dir() else Opened(file, read_bytes(file)))
+    except FileUnreadableError as error:
+        if not from_icon:
+            raise
+        return Programs(Opened(why=str(error)))

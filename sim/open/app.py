@@ -18,7 +18,7 @@ from sim.open.answers import ReadFile, answer, file_of, read_file
 from sim.open.drawings import LOOK_KEYS, MAKE_KEYS, Drawings, is_drawing
 from sim.open.life import Life
 from sim.open.lines import changed_lines
-from sim.open.programs import Opened, Programs
+from sim.open.programs import Programs
 from sim.open.row import row_or_why
 from sim.open.runs import KEYS, MORE_KEYS, Runs
 from sim.open.zipped import zipped
@@ -44,9 +44,9 @@ _KINDS: Final = {
 }
 
 
-def app_of(opened: Opened, programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> Starlette:
+def app_of(programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> Starlette:
     """The application behind the guard."""
-    files, texts = _Files(opened, programs, drawings, life), _Checks(programs)
+    files, texts = _Files(programs, drawings, life), _Checks(programs)
     running, drawn = _Running(life, runs, drawings), _Drawn(drawings, runs)
     works: list[_Work] = [files.first, files.read, files.save, files.alive, files.close]
     works += [files.program, files.rows, files.again, files.row, drawn.look, drawn.draft, drawn.drafted]
@@ -64,8 +64,8 @@ def app_of(opened: Opened, programs: Programs, drawings: Drawings, life: Life, r
 class _Files:
     """The page itself, and programs as they come to it and go from it."""
 
-    def __init__(self, opened: Opened, programs: Programs, drawings: Drawings, life: Life) -> None:
-        self._opened, self._programs, self._drawings, self._life = opened, programs, drawings, life
+    def __init__(self, programs: Programs, drawings: Drawings, life: Life) -> None:
+        self._programs, self._drawings, self._life = programs, drawings, life
 
     async def page(self, _: Request) -> Response:
         """The page."""
@@ -75,7 +75,9 @@ class _Files:
 
     async def first(self, _: Request) -> Response:
         """The program or drawing that is open at the start."""
-        return JSONResponse(self._taken(self._opened.name, self._opened.data, "0" if self._opened.file else ""))
+        opened = self._programs.opened
+        read = self._taken(opened.name, opened.data, "0" if opened.file else "")
+        return JSONResponse({**read, "why": printable(opened.why)} if opened.why else read)
 
     async def program(self, request: Request) -> Response:
         """The program of a number, as its file is now."""
@@ -90,15 +92,15 @@ class _Files:
     async def rows(self, request: Request) -> Response:
         """What is known of the programs of the folder, behind those that the page knows."""
         self._life.seen()
-        known = (await _told(request, "known"))["known"]
-        if not known.isdecimal():
+        told = await _told(request, "known", "list")
+        if not all(number.isdecimal() for number in told.values()):
             raise _BadRequestError
-        return JSONResponse(await self._programs.rows(int(known[:9])))
+        return JSONResponse(await self._programs.rows(int(told["known"][:9]), int(told["list"][:9])))
 
     async def again(self, _: Request) -> Response:
         """Look through the folder again."""
         await self._programs.again()
-        return JSONResponse(await self._programs.rows(0))
+        return JSONResponse(await self._programs.rows(0, 0))
 
     async def row(self, request: Request) -> Response:
         """What a list shows of a file that came to the page."""

@@ -40,9 +40,9 @@ class Child:
 
 
 async def begun(module: str) -> Child:
-    """A new process of a module of drycut."""
+    """A new process of a module of drycut; nothing is imported from the folder that drycut was started in."""
     pipe = asyncio.subprocess.PIPE
-    command = (sys.executable, "-m", module)
+    command = (sys.executable, "-P", "-m", module)
     nowhere = asyncio.subprocess.DEVNULL
     return Child(
         await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, stderr=nowhere, limit=_LONGEST_LINE)

@@ -21,11 +21,12 @@ _AT_ONCE: Final = 500
 
 
 class Opened(NamedTuple):
-    """What is open at the start: a program with its file, a folder, or nothing: then the page begins empty."""
+    """What is open at the start: a program with its file, a folder, or nothing; `why` says why that is so."""
 
     file: Path | None = None
     data: bytes = b""
     folder: Path | None = None
+    why: str = ""
 
     @property
     def name(self) -> str:
@@ -37,13 +38,20 @@ class Programs:
     """The programs that the page may open, and what the check says of those of a folder.
 
     FileUnreadableError for a folder without a program.
+
+    Attributes
+    ----------
+    opened
+        What is open at the start.
     """
 
     def __init__(self, opened: Opened) -> None:
+        self.opened = opened
         self._folder = opened.folder
         self._files: list[Path] = [opened.file] if opened.file else []
         self._first = self._left_out = 0
         self._rows: list[dict[str, Any]] = []
+        self._turn = asyncio.Lock()  # two tabs may ask at the same moment
         self._child: Child | None = None
         self._following: asyncio.Task[None] | None = None
         if opened.folder is not None:
@@ -63,29 +71,38 @@ class Programs:
 
     async def again(self) -> None:
         """Look through the folder again, and check what is there; nothing where none is open."""
-        if self._folder is not None:
-            await self.end()
-            await asyncio.to_thread(self._look, self._folder)
+        async with self._turn:
+            if self._folder is not None:
+                await self._end()
+                await asyncio.to_thread(self._look, self._folder)
 
-    async def rows(self, known: int) -> dict[str, Any]:
-        """How far the check of the folder is, and the rows behind the first `known` ones; it begins when first asked.
+    async def rows(self, known: int, list_: int) -> dict[str, Any]:
+        """How far the check of the folder is, and the rows behind those that are `known` of a list.
 
-        ``left_out`` are files beyond `MOST`, and links that lead out of the folder.
+        The check begins when it is first asked for. ``list`` is another one once the folder was looked through again:
+        then nothing of it is known. ``left_out`` are files beyond `MOST`, and links that lead out of the folder.
         """
-        found = self._files[self._first :] if self._folder is not None else []
-        if found and self._following is None:
-            self._child = await begun("sim.open.lister")
-            self._following = asyncio.create_task(self._follow(self._child, self._named(found)))
+        async with self._turn:
+            found = self._files[self._first :] if self._folder is not None else []
+            if found and self._following is None:
+                self._child = await begun("sim.open.lister")
+                self._following = asyncio.create_task(self._follow(self._child, self._named(found)))
+        first = known if list_ == self._first else 0
         return {
             "folder": printable(self._folder.resolve().name) if self._folder is not None else "",
+            "list": self._first,
             "total": len(found),
             "left_out": self._left_out,
             "is_over": self._following is None or self._following.done(),
-            "rows": self._rows[known : known + _AT_ONCE],
+            "rows": self._rows[first : first + _AT_ONCE],
         }
 
     async def end(self) -> None:
         """End the check."""
+        async with self._turn:
+            await self._end()
+
+    async def _end(self) -> None:
         child, following = self._child, self._following
         self._child = self._following = None
         if child is not None and following is not None:

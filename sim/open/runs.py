@@ -36,6 +36,7 @@ class Runs:
         self._child: Child | None = None
         self._following: asyncio.Task[None] | None = None
         self._state = _IDLE
+        self._turn = asyncio.Lock()  # two tabs may ask at the same moment
         self._asked: dict[str, str] = {}
         self._ran: dict[str, Any] = {}
 
@@ -52,7 +53,29 @@ class Runs:
 
     async def start(self, name: str, text: bytes, asked: dict[str, str]) -> None:
         """Run a text of a name, in place of the run before; ``drawing_file`` is what it is held against, or empty."""
-        await self.cancel()
+        async with self._turn:
+            await self._start(name, text, asked)
+
+    async def make(self, asked: dict[str, str]) -> None:
+        """Make a film or pictures of the finished run; nothing where there is none."""
+        async with self._turn:
+            if self._ran and asked["job"] in _MORE:
+                await self._end()
+                await self._begin({**self._asked, **{key: asked[key] for key in MORE_KEYS}})
+
+    async def draft(self, asked: dict[str, str]) -> None:
+        """Make a program of ``drawing_file``, which is told in ``result_file``."""
+        async with self._turn:
+            await self._end()
+            await self._begin({**asked, "job": "program"})
+
+    async def cancel(self) -> None:
+        """End the run that is on, if one is."""
+        async with self._turn:
+            await self._end()
+
+    async def _start(self, name: str, text: bytes, asked: dict[str, str]) -> None:
+        await self._end()
         self._number += 1
         self._ran = {}
         folder = self._folder / str(self._number)
@@ -66,19 +89,7 @@ class Runs:
         }
         await self._begin({**self._asked, "job": "run"})
 
-    async def make(self, asked: dict[str, str]) -> None:
-        """Make a film or pictures of the finished run; nothing where there is none."""
-        if self._ran and asked["job"] in _MORE:
-            await self.cancel()
-            await self._begin({**self._asked, **{key: asked[key] for key in MORE_KEYS}})
-
-    async def draft(self, asked: dict[str, str]) -> None:
-        """Make a program of ``drawing_file``, which is told in ``result_file``."""
-        await self.cancel()
-        await self._begin({**asked, "job": "program"})
-
-    async def cancel(self) -> None:
-        """End the run that is on, if one is."""
+    async def _end(self) -> None:
         child, following = self._child, self._following
         self._child = self._following = None
         if child is None or following is None:

@@ -18,7 +18,7 @@ from sim.open.app import app_of
 from sim.open.drawings import Drawings
 from sim.open.guard import Address, Guard
 from sim.open.life import Life
-from sim.open.programs import Opened, Programs
+from sim.open.programs import Programs
 from sim.open.runs import Runs
 
 _HOST: Final = "127.0.0.1"
@@ -37,17 +37,16 @@ class _Server(uvicorn.Server):
         yield
 
 
-def serve(opened: Opened, port: int, ready: Callable[[str], None]) -> None:
-    """Serve the page of a program until it is over; `ready` is told the address once it can be opened.
+def serve(programs: Programs, port: int, ready: Callable[[str], None]) -> None:
+    """Serve the page of programs until it is over; `ready` is told the address once it can be opened.
 
-    Port 0 is any free one. PortError where the port cannot be had, FileUnreadableError for a folder without a program.
+    Port 0 is any free one. PortError where the port cannot be had.
     """
-    programs = Programs(opened)
     with _listening(port) as listening, scratch() as folder:
         address = Address(f"{_HOST}:{listening.getsockname()[1]}", secrets.token_urlsafe(24))
         life, runs = Life(), Runs(folder)
         config = uvicorn.Config(
-            Guard(app_of(opened, programs, Drawings(folder), life, runs), address),
+            Guard(app_of(programs, Drawings(folder), life, runs), address),
             lifespan="off",
             log_level="critical",
             access_log=False,

@@ -217,12 +217,18 @@ def test_a_program_is_run_and_its_files_are_seen_and_saved(browsers: Browsers) -
         names = ["cut.png", "replay.html", "report.html", "report.json"]
         assert shown.page.locator("#files a").all_inner_texts() == names
         assert natural_width(shown.page, "#thumbs img") == 1600
+        assert complaints(shown.page) == []
         with shown.page.expect_download() as coming:
             shown.page.click("#all")
         assert coming.value.suggested_filename == "program.3b.zip"
         with zipfile.ZipFile(coming.value.path()) as archive:
             assert archive.namelist() == names
             assert archive.testzip() is None
+        before = shown.text()
+        shown.page.fill("#text", WRONG)
+        shown.page.wait_for_function("() => document.querySelector('#stage').textContent.includes('another one now')")
+        shown.page.fill("#text", before)
+        shown.page.wait_for_function("() => !document.querySelector('#stage').textContent.includes('another one now')")
 
 
 def test_replay_and_film_are_seen_in_the_page_and_the_replay_may_ask_nobody(
@@ -295,6 +301,10 @@ def test_a_folder_is_listed_and_its_programs_open_by_a_click(browsers: Browsers,
         shown.page.click("#to-list")
         shown.page.fill("#search", "b.3b no such")
         assert rows.count() == 0
+        shown.drops("d.3b", WRONG)
+        shown.page.wait_for_function("() => document.title.startsWith('d.3b')")
+        assert shown.page.locator("#list").is_hidden()
+        shown.page.click("#to-list")
         (tmp_path / "c.3b").write_text(WRONG)
         shown.page.fill("#search", "c.3b")
         shown.page.click("#again")

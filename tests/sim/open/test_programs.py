@@ -8,14 +8,17 @@ from pathlib import Path
 import pytest
 from command import run_command
 from opened_page import OpenedPage, opened_page
+from page_types import types_of, unlike
 
 from parser.findings.errors import FileUnreadableError
 from sim.open import programs
 from sim.open.programs import Opened, Programs
 from sim.open.row import row_or_why
+from sim.show import open_page
 
 SQUARE = "B3000B0B3000GXL1\nB0B2000B2000GYL2\nB3000B0B3000GXL3\nB0B2000B2000GYL4\nDD\n"
 WRONG = "B9900B0B39600GXNR1\nDD\n"
+ALL = '{"known": "0", "list": "0"}'
 
 
 @pytest.fixture(name="shop", scope="module")
@@ -42,12 +45,12 @@ def served_shop(shop: Path) -> Iterator[OpenedPage]:
 
 def rows_of(served: OpenedPage) -> dict:
     """What is told of the folder once all is checked; the rows come in the order of the files."""
-    told = json.loads(served.ask("rows", '{"known": "0"}').body)
+    told = json.loads(served.ask("rows", ALL).body)
     for _ in range(600):
         if len(told["rows"]) == told["total"]:
             return told
         time.sleep(0.05)
-        told = json.loads(served.ask("rows", '{"known": "0"}').body)
+        told = json.loads(served.ask("rows", ALL).body)
     raise AssertionError(told)
 
 
@@ -94,17 +97,15 @@ def test_a_number_is_the_file_that_was_found_and_nothing_else_is_read(served: Op
     for number in ("999", "-1", "", "a", "../secret.3b", "a&b.3b", "²", "9" * 5000):
         assert program(served, number) == (404, b"")
     for known in ("-1", "", "a"):
-        assert served.ask("rows", json.dumps({"known": known})).status == 400
+        assert served.ask("rows", json.dumps({"known": known, "list": "0"})).status == 400
 
 
 def test_settings_near_a_program_of_the_folder_count_for_it(tmp_path: Path) -> None:
     (tmp_path / "drycut.toml").write_text('root = true\nignore = ["3B204"]\n', "utf-8")
     (tmp_path / "part.3b").write_text(WRONG)
-    with opened_page(tmp_path) as served:
-        (row,) = rows_of(served)["rows"]
-        assert row["verdict"] == "pass"
-        asked = {"name": "part.3b", "text": WRONG, "number": row["number"]}
-        assert json.loads(served.ask("check", json.dumps(asked)).body)["findings"] == []
+    found = Programs(Opened(folder=tmp_path))
+    assert row_or_why("part.3b", found.file("0"), found.read("0"))["verdict"] == "pass"
+    assert row_or_why("part.3b", None, found.read("0"))["verdict"] == "fail"
 
 
 def test_what_came_and_went_shows_after_another_look_and_numbers_stay(tmp_path: Path) -> None:
@@ -121,6 +122,23 @@ def test_what_came_and_went_shows_after_another_look_and_numbers_stay(tmp_path: 
         (tmp_path / "a.3b").unlink()
         again = json.loads(served.ask("again").body)
         assert (again["total"], again["rows"], again["is_over"]) == (0, [], True)
+
+
+def test_rows_come_behind_those_that_are_known_of_the_same_list(served: OpenedPage) -> None:
+    told = rows_of(served)
+    asked = {"known": "3", "list": str(told["list"])}
+    assert json.loads(served.ask("rows", json.dumps(asked)).body)["rows"] == told["rows"][3:]
+    asked = {"known": "3", "list": str(told["list"] + 9)}
+    assert json.loads(served.ask("rows", json.dumps(asked)).body)["rows"] == told["rows"]
+
+
+def test_rows_are_what_the_page_takes_them_for(served: OpenedPage) -> None:
+    types = types_of(Path(open_page.__file__).with_name("assets") / "data.js")
+    told = rows_of(served)
+    assert list(unlike(types, "Rows", {**told, "rows": []})) == []
+    for row in told["rows"]:
+        del row["number"]
+        assert list(unlike(types, "Row", row)) == []
 
 
 def test_a_file_that_became_a_link_out_of_the_folder_is_not_read(tmp_path: Path) -> None:

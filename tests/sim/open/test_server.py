@@ -1,5 +1,6 @@
 """The server of a page: who may ask it, what it answers, and when it ends."""
 
+import asyncio
 import io
 import json
 import os
@@ -17,8 +18,10 @@ from command import run_command
 from opened_page import OpenedPage, opened_page
 from PIL import Image
 
+from parser.findings.errors import SettingsError
 from sim.open.guard import MOST_BYTES
 from sim.open.life import AWAY_S, FIRST_S, Life
+from sim.open.runner import _film
 from sim.open.runs import Runs
 from sim.open.zipped import zipped
 
@@ -255,6 +258,9 @@ def test_a_film_and_all_pictures_of_the_run_are_made_when_they_are_asked_for(ser
     assert state["verdict"] == "pass", "the run is still told"
 
 
+FILM = {"job": "film", "form": "webp", "seconds": "1", "language": "en", "file": "part.3b", "folder": "nowhere"}
+
+
 @pytest.mark.parametrize(
     ("values", "why"),
     [
@@ -265,16 +271,18 @@ def test_a_film_and_all_pictures_of_the_run_are_made_when_they_are_asked_for(ser
         ({"seconds": "long"}, "the length of the film in s is a number, not 'long'"),
     ],
 )
-def test_a_film_that_cannot_be_says_why_and_the_run_stays(served: OpenedPage, values: dict[str, str], why: str) -> None:
-    if "files" not in came_to(served, "idle", "done", "wrong", "cancelled"):
-        asked_run(served)
-        came_to(served, "done")
-    before = came_to(served, "done", "wrong")["files"]
-    asked_more(served, "film", **values)
+def test_a_film_that_cannot_be_is_refused_before_anything_is_read_or_run(values: dict[str, str], why: str) -> None:
+    with pytest.raises(SettingsError, match=re.escape(why)):
+        _film({**FILM, **values})
+
+
+def test_what_is_wrong_with_a_film_is_said_and_the_run_stays(served: OpenedPage) -> None:
+    asked_run(served)
+    before = came_to(served, "done")["files"]
+    asked_more(served, "film", form="exe")
     state = came_to(served, "done", "wrong")
-    assert state["state"] == "wrong"
-    assert why in state["why"]
-    assert state["files"] == before
+    assert (state["state"], state["files"]) == ("wrong", before)
+    assert "films are" in state["why"]
 
 
 def test_a_film_can_be_cancelled_and_the_files_of_the_run_stay(served: OpenedPage) -> None:
@@ -285,10 +293,11 @@ def test_a_film_can_be_cancelled_and_the_files_of_the_run_stay(served: OpenedPag
     assert (state["state"], state["files"]) == ("cancelled", files)
 
 
-def test_nothing_is_made_of_a_run_that_is_not_there() -> None:
-    with opened_page() as empty:
-        assert asked_more(empty, "film") == {"state": "idle"}
-        assert asked_more(empty, "run") == {"state": "idle"}
+def test_nothing_is_made_of_a_run_that_is_not_there(tmp_path: Path) -> None:
+    runs = Runs(tmp_path)
+    for job in ("film", "pictures", "run"):
+        asyncio.run(runs.make({**FILM, "job": job}))
+        assert runs.state == {"state": "idle"}
 
 
 def test_only_the_own_files_of_a_run_are_given_out(tmp_path: Path) -> None:

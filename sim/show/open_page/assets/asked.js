@@ -44,10 +44,11 @@ export async function program(number) {
 /**
  * The rows of the folder's programs behind those that are known.
  * @param {number} known
+ * @param {number} list that they are of
  * @returns {Promise<Rows>}
  */
-export async function rows(known) {
-  return (await ask("rows", JSON.stringify({ known: String(known) }))).json();
+export async function rows(known, list) {
+  return (await ask("rows", JSON.stringify({ known: String(known), list: String(list) }))).json();
 }
 
 /**

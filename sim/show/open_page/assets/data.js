@@ -15,6 +15,7 @@
  * @property {string} encoding
  * @property {string} newline
  * @property {string} number of the program whose file it is; empty where it came to the page
+ * @property {string} [why] what was to be open at the start could not be
  */
 
 /** @typedef {[first: number, past: number, text: string]} Edit */
@@ -126,6 +127,7 @@
  * How far the check of a folder is (sim/open/programs.py).
  * @typedef {object} Rows
  * @property {string} folder empty where none is open
+ * @property {number} list another one once the folder was looked through again
  * @property {number} total
  * @property {number} left_out
  * @property {boolean} is_over
@@ -156,3 +158,8 @@
  */
 
 export const SEVERITIES = /** @type {const} */ (["error", "warning", "note"]);
+
+/** Words of the verdicts. */
+export const VERDICTS = {
+  pass: "verdict-pass", fail: "verdict-fail", incomplete: "verdict-incomplete", none: "verdict-none",
+};

@@ -1,5 +1,6 @@
 // A list of programs: those of the folder that is open, or several files that were dropped; each is opened by a click.
 import * as asked from "./asked.js";
+import { VERDICTS as SAID } from "./data.js";
 import { element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import { fitting, searched } from "../../index_page/assets/asked.js";
@@ -22,7 +23,7 @@ const HEADS = [
   ["extent", null, ""], ["cut", "cut_um", ""],
 ];
 const VERDICTS = {
-  pass: "verdict-pass", fail: "verdict-fail", incomplete: "verdict-incomplete", refused: "verdict-none", fault: "fault",
+  pass: SAID.pass, incomplete: SAID.incomplete, fail: SAID.fail, refused: SAID.none, fault: "fault",
 };
 
 /**
@@ -36,7 +37,7 @@ export function wireListing(open) {
   let texts = [];
   /** @type {(string | File)[]} */
   let sources = [];
-  let [total, leftOut, title, serial] = [0, 0, "", 0];
+  let [total, leftOut, title, serial, listNow] = [0, 0, "", 0, 0];
   const search = element("#search", HTMLInputElement);
   const verdict = element("#wanted", HTMLSelectElement);
   const again = element("#again", HTMLButtonElement);
@@ -117,13 +118,14 @@ export function wireListing(open) {
    * @param {number} mine the list that it is for
    */
   async function follow(coming, mine) {
-    const { rows, total: all, left_out: left, is_over: isOver } = await coming;
+    const { folder, list, rows, total: all, left_out: left, is_over: isOver } = await coming;
     if (mine !== serial) return;
-    [total, leftOut] = [all, left];
+    if (list !== listNow && index.programs.length) mine = begin(folder); // another tab had the folder looked through
+    [total, leftOut, listNow] = [all, left, list];
     add(rows, rows.map((row) => row.number ?? ""));
     const known = index.programs.length;
     if (known < total && !(isOver && !rows.length)) {
-      window.setTimeout(() => follow(asked.rows(known), mine), rows.length ? 0 : LOOK_MS);
+      window.setTimeout(() => follow(asked.rows(known, list), mine), rows.length ? 0 : LOOK_MS);
     }
   }
 
@@ -137,9 +139,11 @@ export function wireListing(open) {
   });
 
   return {
+    /** Show the program that is open. */
+    hide() { showList(false); },
     /** List the folder that is open, if one is. */
     async look() {
-      const found = await asked.rows(0);
+      const found = await asked.rows(0, 0);
       if (!found.folder) return;
       showList(true);
       await follow(Promise.resolve(found), begin(found.folder));

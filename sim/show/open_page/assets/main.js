@@ -1,5 +1,6 @@
 // Puts the page together: a file comes in, its text is checked while it is edited, and what is found shows at once.
 import * as asked from "./asked.js";
+import { VERDICTS } from "./data.js";
 import { showFound } from "./found.js";
 import { wireDrawing } from "./drawing.js";
 import { wireListing } from "./listing.js";
@@ -13,9 +14,6 @@ import * as language from "../../html/assets/language.js";
 
 /** @import { Answer, FileText, Finding } from "./data.js" */
 
-const VERDICTS = {
-  pass: "verdict-pass", fail: "verdict-fail", incomplete: "verdict-incomplete", none: "verdict-none",
-};
 const PAUSE_MS = 40; // between two keys of who types fast lies more
 const ALIVE_MS = 20_000;
 
@@ -31,6 +29,18 @@ const versions = wireVersions({
   under: picture.under,
   go: (version) => begin({ ...version.file, text: version.text }, false),
   goToLine: text.showLine,
+  tell,
+});
+const run = wireRun(
+  () => ({ name: nameOf(), text: text.value, drawing: drawing.number() }),
+  () => versions.keep("ran"), () => drawing.done(), tell,
+);
+const drawing = wireDrawing({
+  current: () => ({ name: nameOf(), text: text.value }),
+  values: run.values,
+  follow: run.follow,
+  begin: (read) => begin(read),
+  beneath: picture.beneath,
   tell,
 });
 const pick = element("#pick", HTMLInputElement);
@@ -81,19 +91,6 @@ function goToBlock(row) {
   else text.showLine(path.line[row]);
 }
 
-const run = wireRun(() => {
-  versions.keep("ran");
-  return { name: nameOf(), text: text.value, drawing: drawing.number() };
-}, () => drawing.done(), tell);
-const drawing = wireDrawing({
-  current: () => ({ name: nameOf(), text: text.value }),
-  values: run.values,
-  follow: run.follow,
-  begin: (read) => begin(read),
-  beneath: picture.beneath,
-  tell,
-});
-
 /** Show what is known, in the language of the page. */
 function show() {
   if (!known) return;
@@ -121,7 +118,9 @@ async function check(isNew) {
     picture.show(answer.path, answer.figures, answer.findings, isNew);
     show();
     versions.update();
-    tell(answer.settings && "settings", { why: answer.settings });
+    run.show();
+    if (file.why && !now) tell("not-opened", { why: file.why });
+    else tell(answer.settings && "settings", { why: answer.settings });
   } catch (error) {
     if (!(error instanceof Error && error.name === "AbortError")) tell("no-server");
   }
@@ -160,7 +159,7 @@ function begin(read, isOpened = true) {
 async function take(chosen) {
   const files = [...(chosen ?? [])];
   if (files.length > 1) listing.take(files).catch(() => tell("no-server"));
-  else if (files.length) await openOne(files[0]);
+  else if (files.length && await openOne(files[0])) listing.hide();
 }
 
 /**

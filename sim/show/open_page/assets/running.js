@@ -16,12 +16,13 @@ const STAGES = {
 };
 
 /**
- * Let the form run programs.
+ * Let the form run programs; the answer tells it that the program is another one.
  * @param {() => { name: string, text: string, drawing: string }} current the program as it stands, and its drawing
- * @param {() => void} drafted a program was made of a drawing
+ * @param {() => void} onStart
+ * @param {() => void} onDrafted a program was made of a drawing
  * @param {(key: string) => void} tell says what went wrong
  */
-export function wireRun(current, drafted, tell) {
+export function wireRun(current, onStart, onDrafted, tell) {
   const form = element("#run", HTMLElement);
   const start = element("#start", HTMLButtonElement);
   const cancel = element("#cancel", HTMLButtonElement);
@@ -31,7 +32,7 @@ export function wireRun(current, drafted, tell) {
   let looking = 0;
   /** @type {RunState} */
   let known = { state: "idle" };
-  let ranName = "";
+  let ran = { name: "", text: "" };
 
   /**
    * The values of the form by their names.
@@ -65,9 +66,11 @@ export function wireRun(current, drafted, tell) {
     start.disabled = isRunning;
     cancel.hidden = bar.hidden = !isRunning;
     bar.value = isRunning && known.of ? ((known.at ?? 0) + (known.share ?? 0)) / known.of : 0;
+    const isOther = Boolean(known.files) && current().text !== ran.text;
     said.textContent = sentence();
+    if (isOther) said.append(` · ${language.say("ran-other", { name: ran.name })}`);
     said.className = known.state === "done" ? known.verdict ?? "" : known.state;
-    made.show(known, ranName);
+    made.show(known, ran.name);
   }
 
   /**
@@ -78,7 +81,7 @@ export function wireRun(current, drafted, tell) {
     window.clearTimeout(looking);
     try {
       known = await coming;
-      if (known.state === "done" && known.job === "program") drafted();
+      if (known.state === "done" && known.job === "program") onDrafted();
       if (known.state === "running") looking = window.setTimeout(() => take(asked.progress()), LOOK_MS);
     } catch {
       known = { state: "idle" };
@@ -88,12 +91,11 @@ export function wireRun(current, drafted, tell) {
   }
 
   start.addEventListener("click", () => {
-    const program = current();
-    ranName = program.name;
-    take(asked.run({ ...program, ...values() }));
+    ran = current();
+    onStart();
+    take(asked.run({ ...ran, ...values() }));
   });
   cancel.addEventListener("click", () => take(asked.cancel()));
   language.onChange(show);
-
-  return { values, follow: take };
+  return { show, values, follow: take };
 }

@@ -1,11 +1,12 @@
 // An earlier version beside the present one: its path under it, the lines that changed, and the figures of both.
 import * as asked from "./asked.js";
+import { VERDICTS } from "./data.js";
 import { diffOf } from "./found.js";
 import { rowsOf } from "./size.js";
 import { element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 
-/** @import { Answer, Changes, FileText, Path } from "./data.js" */
+/** @import { Answer, Changes, FileText, Finding, Path } from "./data.js" */
 
 /** @typedef {"opened" | "saved" | "ran" | "before"} Kind */
 
@@ -17,13 +18,20 @@ import * as language from "../../html/assets/language.js";
  * @property {Answer | null} answer
  */
 
+const MOST_CODES = 6;
 /** @type {[kind: Kind, words: string][]} */
 const KINDS = [
   ["opened", "version-opened"], ["saved", "version-saved"], ["ran", "version-ran"], ["before", "version-before"],
 ];
-const VERDICTS = {
-  pass: "verdict-pass", fail: "verdict-fail", incomplete: "verdict-incomplete", none: "verdict-none",
-};
+
+/**
+ * Codes of findings, the first of many.
+ * @param {Finding[]} findings
+ */
+function codesOf(findings) {
+  const codes = findings.slice(0, MOST_CODES).map(({ code }) => code).join(" ");
+  return findings.length > MOST_CODES ? `${codes} … (${findings.length})` : codes || "–";
+}
 
 /**
  * What of an answer is compared: names and values.
@@ -33,7 +41,7 @@ const VERDICTS = {
 function figuresOf({ verdict, findings, size, figures }) {
   return [
     [language.say("verdict"), language.say(VERDICTS[verdict])],
-    [language.say("findings"), findings.map(({ code }) => code).slice(0, 6).join(" ") + (findings.length > 6 ? ` … (${findings.length})` : "") || "–"],
+    [language.say("findings"), codesOf(findings)],
     [language.say("figures"), String(figures.length)],
     ...(size ? rowsOf(size) : []),
   ];
