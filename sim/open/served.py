@@ -42,9 +42,10 @@ def serve(programs: Programs, port: int, ready: Callable[[str], None]) -> None:
 
     Port 0 is any free one. PortError where the port cannot be had.
     """
-    with _listening(port) as listening, scratch() as folder:
+    life = Life()
+    with _ended_by_signals(life), _listening(port) as listening, scratch() as folder:
         address = Address(f"{_HOST}:{listening.getsockname()[1]}", secrets.token_urlsafe(24))
-        life, runs = Life(), Runs(folder)
+        runs = Runs(folder)
         config = uvicorn.Config(
             Guard(app_of(programs, Drawings(folder), life, runs), address),
             lifespan="off",
@@ -54,8 +55,7 @@ def serve(programs: Programs, port: int, ready: Callable[[str], None]) -> None:
             timeout_graceful_shutdown=2,
         )
         server = _Server(config)
-        with _ended_by_signals(life):
-            asyncio.run(_run(server, listening, life, lambda: ready(address.url), [runs.cancel, programs.end]))
+        asyncio.run(_run(server, listening, life, lambda: ready(address.url), [runs.cancel, programs.end]))
 
 
 async def _run(
