@@ -34,6 +34,7 @@ _TOKEN = re.compile(
 _REMARK = re.compile(r";[^\r\n]*|//[^\r\n]*")
 _LINE = re.compile(r"[^\r\n]+")
 _SPACES = re.compile(r"[ \t]+")
+_LARGEST = 1e9  # ten kilometres in the finest unit, the hour in µs: no table, no time and no label is beyond
 _NAMED = re.compile(rf"([A-Z]+)\(?({_NUMBER})\)?", re.ASCII)
 
 Kind = Enum("Kind", ["ONLINE", "SETTING", "AXES", "MODE", "NORMAL", "TIMED", "LABEL", "WORD"])
@@ -89,7 +90,7 @@ class Text(NamedTuple):
     buffers
         In order.
     settings
-        Values of I variables and elements outside of buffers, by their names in capitals.
+        Values of I variables and elements that hold for the whole program, by their names in capitals.
     unread
         Pieces that are nothing of the language, and words outside of buffers.
     remarks
@@ -111,7 +112,7 @@ class _Opened:
 
     def __init__(self, number: int, span: Span) -> None:
         self.number, self.span, self.lines = number, span, list[Line]()
-        self.is_cleared = False
+        self.is_cleared = self.has_words = False
 
     def closed(self, *, by_close: bool) -> Buffer:
         return Buffer(self.number, self.span, tuple(self.lines), self.is_cleared, by_close)
@@ -136,7 +137,12 @@ class _Reading:
         self.opened = None
 
     def take(self, piece: Piece, kept: list[Piece]) -> None:
-        """A piece: a command to the card itself is done at once, all others are of the buffer that is open."""
+        """A piece: a command to the card itself is done at once, all others are of the buffer that is open.
+
+        A setting in a buffer is made when it runs: it holds for the whole program in front of its first word alone.
+        """
+        if piece.kind is Kind.SETTING and self.opened is not None and self.opened.has_words:
+            return
         if piece.kind is Kind.SETTING:
             self.settings[piece.name] = piece.value
         elif piece.kind is Kind.ONLINE:
@@ -144,6 +150,7 @@ class _Reading:
         elif self.opened is None:
             self.unread.append(piece.span)
         else:
+            self.opened.has_words |= piece.kind is Kind.WORD
             kept.append(piece)
 
     def _online(self, piece: Piece) -> None:
@@ -181,10 +188,18 @@ def _take_line(reading: _Reading, bare: str, span: Span, lines: LineIndex) -> No
         if match["OPEN"]:
             reading.open(int(match["number"][-9:]), match.span())
         else:
-            reading.take(_piece(match), kept)
+            _take(reading, _piece(match), kept)
     _leave(reading, bare, (at, past))
     if kept and reading.opened is not None:
         reading.opened.lines.append(Line(tuple(kept), (kept[0].span[0], kept[-1].span[1]), lines.line(span[0])))
+
+
+def _take(reading: _Reading, piece: Piece, kept: list[Piece]) -> None:
+    """A piece that was read; one with a number beyond any that is meant is not."""
+    if abs(piece.value) > _LARGEST:  # NaN, of a piece without a number, is not
+        reading.unread.append(piece.span)
+    else:
+        reading.take(piece, kept)
 
 
 def _leave(reading: _Reading, bare: str, span: Span) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from parser.findings.findings import Value
 from parser.pmac.lines import Buffer, Kind, Line, Piece
-from parser.pmac.routines import ROUTINES, called_by, routine
+from parser.pmac.routines import ROUTINES, Routines, called_by
 from parser.pmac.state import Move, State, Told
 from parser.toolpath import Stop
 from parser.units import from_mm
@@ -12,39 +12,40 @@ from parser.units import from_mm
 _PLANE = frozenset("XY")
 _OTHER_AXES = frozenset("ZUVWABC")
 _CENTER = "IJK"
-_MOST_CALLS = 8
+_MOST_PIECES = 1_000_000  # of routines: the calls of a few lines may stand for more than anyone waits for
 _DIGITS = 6  # of a µm: sums of decimals are as exact as decimals
 
 
 def run(main: Buffer, routines: Mapping[int, Buffer]) -> State:
     """What a program makes that calls the routines of other buffers, by their numbers."""
-    state = State()
+    state, bodies = State(), Routines(routines)
     for line in main.lines:
-        _Line(state, line, routines).run()
+        _Line(state, line, bodies).run()
     return state
 
 
 class _Line:
     """One line as it runs: modes at once, its letters together at its end."""
 
-    def __init__(self, state: State, line: Line, routines: Mapping[int, Buffer]) -> None:
+    def __init__(self, state: State, line: Line, routines: Routines) -> None:
         self.state, self.line, self.routines = state, line, routines
         self.words: dict[str, Piece] = {}
         self.label = ""
         self.names_place = self.is_normal = False
         self.modes: dict[str, Piece] = {}
+        self.running: list[tuple[int, int]] = []
 
     def run(self) -> None:
         for piece in self.line.pieces:
-            self._take(piece, 0)
+            self._take(piece)
         if self.names_place:
             self._name_place()
         elif self.words.keys() & (_PLANE | _OTHER_AXES | set("IJR")):
             self._move()
 
-    def _take(self, piece: Piece, depth: int) -> None:
+    def _take(self, piece: Piece) -> None:
         if piece.kind is Kind.WORD:
-            self._word(piece, depth)
+            self._word(piece)
         elif piece.kind is Kind.LABEL:
             self.label = f"N{piece.value:.0f}"
         elif piece.kind is Kind.TIMED:
@@ -88,17 +89,15 @@ class _Line:
             state.blends = False
         else:
             self._at("PMC101", piece, text=_shown(piece))
-        if piece.name in {"TA", "TS"} and state.ramp == 0.0 and state.half_s == 0.0:
-            self._at("PMC209", piece, word="TA0 TS0")
 
-    def _word(self, piece: Piece, depth: int) -> None:
+    def _word(self, piece: Piece) -> None:
         name = piece.name
         if self.is_normal and name in _CENTER:
             if name != "K" or piece.value >= 0.0:
                 self._at("PMC101", piece, text=f"NORMAL {_shown(piece)}")
             return
         if name in ROUTINES:
-            self._call(piece, depth)
+            self._call(piece)
         elif name == "F":
             if piece.value <= 0.0:
                 self._at("PMC209", piece, word=_shown(piece))
@@ -113,18 +112,29 @@ class _Line:
         elif name != "S":
             self._at("PMC101", piece, text=_shown(piece))
 
-    def _call(self, piece: Piece, depth: int) -> None:
-        """The routine of a G, M, T or D word, up to its return; PMC102 where the text holds none."""
-        program, label = called_by(piece)
-        buffer = self.routines.get(program)
-        body = routine(buffer, label) if buffer else None
-        if body is None or depth >= _MOST_CALLS:
+    def _call(self, piece: Piece) -> None:
+        """The routine of a G, M, T or D word, up to its return; PMC102 where it cannot be run."""
+        called = called_by(piece)
+        body = self.routines.body(*called)
+        why = self._why_not(called, body)
+        if body is None or why:
             word, base = f"{piece.name}{piece.value:02g}", ROUTINES[piece.name]
-            self._at("PMC102", piece, word=word, program=base, label=f"N{label}")
+            self._at("PMC102", piece, word=word, program=base, label=f"N{called[1]}", what=why)
             return
+        self.state.pieces_called += len(body) + 1
+        self.running.append(called)
         for one in body:
-            self._take(one._replace(span=piece.span), depth + 1)
+            self._take(one._replace(span=piece.span))
+        self.running.pop()
         self.is_normal = False  # its words stand in the routine
+
+    def _why_not(self, called: tuple[int, int], body: list[Piece] | None) -> str:
+        """Term that says why a routine does not run; empty where it does."""
+        if body is None:
+            return "call-without-routine"
+        if called in self.running:
+            return "call-recursive"
+        return "call-too-long" if self.state.pieces_called > _MOST_PIECES else ""
 
     def _name_place(self) -> None:
         """PSET: the place has another name from here; behind a stop the wire is threaded there."""
@@ -158,6 +168,9 @@ class _Line:
     ) -> None:
         state, turn = self.state, self.words.get("R")
         radius = from_mm(turn.value) if turn and motion > 1 and center is None else None
+        if state.ramp_ms == 0.0 and not state.is_steep_told:
+            state.is_steep_told = True
+            self._at("PMC209", self.line.pieces[0], word="TA0 TS0")
         told = (center, radius, state.feed, state.ramp_ms, state.blends and motion > 0)
         state.moves.append(Move(motion, state.place, end, *told, self.line, self.label, is_threaded))
         state.place = end

@@ -42,7 +42,7 @@ def read_pmac(text: str) -> ReadText:
     findings = [*_text_findings(read, mains), *_told(read, state), *_arc_findings(read, state, arcs)]
     findings += [
         read.lines.finding(one.code, state.moves[one.row].at.span, one.row + 1, **one.values)
-        for one in speed_findings(toolpath, state.moves, _setting(read, _TIME_UNITS))
+        for one in speed_findings(toolpath, state.moves, _time_unit_ms(read))
     ]
     reading = _reading(read, state, toolpath, damages)
     return ReadText(read.lines, reading, {}, toolpath, tuple(sorted(findings, key=file_order)))
@@ -64,6 +64,12 @@ def _reading(read: Text, state: State, toolpath: Toolpath, damages: tuple[Damage
         remarks=read.remarks,
         threadings=sum(move.is_threaded for move in state.moves),
     )
+
+
+def _time_unit_ms(read: Text) -> float | None:
+    """The time unit of F; None where none is told, or one that is none."""
+    told = _setting(read, _TIME_UNITS)
+    return told if told is not None and told > 0.0 else None
 
 
 def _setting(read: Text, names: tuple[str, ...]) -> float | None:

@@ -19,8 +19,28 @@ def called_by(piece: Piece) -> tuple[int, int]:
     return ROUTINES[piece.name] + 10 * hundred, below * 1000
 
 
-def routine(buffer: Buffer, label: int) -> list[Piece] | None:
-    """The commands from a label of a buffer up to the return; None without the label. Label 0 is at the top."""
+class Routines:
+    """The routines of a text, each looked up once.
+
+    Parameters
+    ----------
+    buffers
+        Programs that hold routines, by their numbers.
+    """
+
+    def __init__(self, buffers: Mapping[int, Buffer]) -> None:
+        self._buffers = buffers
+        self._bodies: dict[tuple[int, int], list[Piece] | None] = {}
+
+    def body(self, program: int, label: int) -> list[Piece] | None:
+        """The commands from a label up to the return; None where the text holds none. Label 0 is at the top."""
+        if (program, label) not in self._bodies:
+            buffer = self._buffers.get(program)
+            self._bodies[program, label] = _body(buffer, label) if buffer else None
+        return self._bodies[program, label]
+
+
+def _body(buffer: Buffer, label: int) -> list[Piece] | None:
     body: list[Piece] = []
     inside = label == 0
     for piece in _pieces(buffer):

@@ -75,6 +75,8 @@ class State:
     moves: list[Move] = field(default_factory=list)
     stops: list[Stop] = field(default_factory=list)
     told: list[Told] = field(default_factory=list)
+    pieces_called: int = 0
+    is_steep_told: bool = False
 
     @property
     def ramp_ms(self) -> float:

@@ -165,7 +165,7 @@ VALUES: dict[str, dict[str, Value]] = {
     "ISO309": {"left": 2000.0},
     "ISO600": {"word": "A1.5", "more": 3},
     "PMC101": {"text": "WHILE"},
-    "PMC102": {"word": "G41", "program": 1000, "label": "N41000"},
+    "PMC102": {"word": "G41", "program": 1000, "label": "N41000", "what": "call-without-routine"},
     "PMC103": {"number": 1, "what": "buffer-not-cleared"},
     "PMC104": {"word": "X10", "other": "X1"},
     "PMC105": {"number": 2, "first": 1},

@@ -2,6 +2,7 @@
 
 import math
 import random
+import time
 
 import numpy as np
 import pytest
@@ -77,6 +78,10 @@ def test_case_blanks_and_power_are_read_alike() -> None:
         ("LINEAR X10", ["PMC208"]),
         ("LINEAR X10 F-60\nDWELL0\nX20 F60", ["PMC208", "PMC209"]),
         ("TA0\nTS0\nLINEAR X10 F60", ["PMC209"]),
+        ("TS0\nLINEAR X10 F60", ["PMC209"]),  # TA is 0 where none is written
+        ("TA0\nTS0\nTA20\nLINEAR X10 F60", []),
+        (f"LINEAR X10 F60\nG{'9' * 310}", ["PMC101"]),
+        (f"LINEAR X10 F60\nX{'9' * 310}\nX20", ["PMC101"]),
     ],
 )
 def test_what_pmac_hides_is_found(body: str, found: list[str]) -> None:
@@ -89,6 +94,29 @@ def test_settings_that_are_missing_are_found() -> None:
     (off,) = read("CIRCLE2 X20 I10 F60", "I5190=60000\nI5113=0\n").findings
     assert off.severity is Severity.ERROR
     assert codes(parse_program("I5190=60000\nOPEN PROG 1\nLINEAR X10 F60\n", "a.pmc")) == ["PMC103", "PMC103"]
+
+
+def test_a_setting_in_the_program_counts_in_front_of_its_first_word_alone() -> None:
+    assert codes(read("I5190=60000\nI5113=10\nCIRCLE2 X20 I10 F60", "\n")) == []
+    assert codes(read("F60\nCIRCLE2 X20 I10\nI5190=60000\nI5113=10", "\n")) == ["PMC206", "PMC207"]
+    assert codes(read("LINEAR X10 F60", "I5190=0\nI5113=10\n")) == ["PMC206"]
+
+
+@pytest.mark.parametrize("calls", [3, 60])
+def test_a_routine_that_calls_itself_ends_and_is_told(calls: int) -> None:
+    text = f"OPEN PROG 1000\nCLEAR\n{'G00 ' * calls}\nRET\nCLOSE\n{HEAD}OPEN PROG 1\nCLEAR\nG00 X1\nX2 F60\nCLOSE\n"
+    found = [finding for finding in parse_program(text, "a.pmc").findings if finding.code == "PMC102"]
+    assert {finding.values["what"] for finding in found} == {"call-recursive"}
+    assert len(found) == calls
+
+
+def test_routines_that_call_one_another_very_often_end_and_are_told() -> None:
+    chain = "".join(f"N{number}000 {f'G{number + 1:02} ' * 10}\nRET\n" for number in range(10, 19))
+    text = f"OPEN PROG 1000\nCLEAR\n{chain}N19000 LINEAR\nRET\nCLOSE\n{HEAD}OPEN PROG 1\nCLEAR\nG10 X1 F60\nCLOSE\n"
+    begin = time.process_time()
+    found = {finding.values["what"] for finding in parse_program(text, "a.pmc").findings if finding.code == "PMC102"}
+    assert found == {"call-too-long"}
+    assert time.process_time() - begin < 20.0
 
 
 @pytest.mark.parametrize(("feed", "off"), [(60.0, 17.678), (300.0, 88.388)])
