@@ -8,14 +8,12 @@ from controller.card.calls.base import Logged
 from controller.card.core.state import LimitMet
 from controller.card.engine.motion import Driven
 from controller.card.ge import GECard
-from controller.card.log.lines import CardLogError, Damaged
+from controller.card.log.lines import LONGEST_S, CardLogError, Damaged
 from controller.card.log.replay import call
 from controller.card.way.way import Way, WayRecorder
 from controller.stepping.pulses import Pulses
 from sim.client.said import Session, Told
 
-LONGEST_S: Final = 1e6
-"""What the axes still have to do when the program is over is waited for so long: 11 days."""
 _MOMENT_S: Final = 1e-9
 
 
@@ -31,9 +29,9 @@ class Again(NamedTuple):
     moving_s
         Spans in which it moved, waits in its list included, s.
     limits
-        Limit switches that stopped it.
+        Limit switches that stopped it, those of the first card: the table follows that one.
     places, status
-        Where its axes stand when all is over, pulses, and the coordinate status.
+        Where the axes of each card stand when all is over, pulses, and the coordinate status of the first card.
     went_on_s
         For how long it moved after the last call; inf where it had not come to rest by then.
     """
@@ -66,6 +64,7 @@ def again(name: str, session: Session) -> Again:
         if heard.pop() != one.call:
             raise CardLogError(f"{name}:{one.line}: the card answers otherwise when the call is made again")
     stands = _to_rest(card, session.end_s)
+    card.GT_SwitchtoCardNo(0)
     last_s = spans.joined[-1][1] if spans.joined else 0.0
     went_on_s = max(last_s - session.end_s, 0.0) if stands else math.inf
     return Again(recorder.way(), told, tuple(spans.joined), card.limits_met, card.places, card.status, went_on_s)

@@ -10,7 +10,7 @@ from typing import Final, NamedTuple, TypeAlias
 
 from controller.card.calls.base import Logged
 from controller.card.core.settings import CardSettings
-from controller.card.log.lines import CardLogError, Damaged, call_of, check_format, settings_of
+from controller.card.log.lines import CardLogError, Damaged, call_of, check_format, settings_of, time_of
 
 _HEAD: Final = 2
 """Lines before the first call: the format, and the settings."""
@@ -125,13 +125,13 @@ def _add(events: list[Event], name: str, number: int, text: str) -> float:
     """Add the call of a line; when it was made."""
     found = _LINE.fullmatch(text)
     asks = found is not None and (found[3].startswith("GT_Get") or found[3] in _QUESTIONS)
-    if found is not None and asks and (found[5] == "0" or found[3] == _ALWAYS_ANSWERED):
-        t_s = float(found[1])
-        if not events or not isinstance(events[-1], Asked):
-            events.append(Asked(number, t_s))
-        events[-1].add(found[2], t_s)  # type: ignore[union-attr]  # the one just added
-        return t_s
     try:
+        if found is not None and asks and (found[5] == "0" or found[3] == _ALWAYS_ANSWERED):
+            t_s = time_of(found[1])
+            if not events or not isinstance(events[-1], Asked):
+                events.append(Asked(number, t_s))
+            events[-1].add(found[2], t_s)  # type: ignore[union-attr]  # the one just added
+            return t_s
         call = call_of(text)
     except Damaged as error:
         raise CardLogError(f"{name}:{number}: {error}") from None

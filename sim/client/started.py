@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import re
 import signal
 import subprocess
 import time
@@ -68,6 +69,8 @@ def started(wanted: Wanted, log: Path, *, out: int | None = None) -> Ended:
     for name in (LIBRARY, SLEEP):
         if not (wanted.library / name).is_file():
             raise FileUnreadableError(f"{wanted.library / name}: no such file; 'drycut card build' makes it")
+    if re.search(r"[\s:;]", str(wanted.library.resolve())):  # the loader parts its lists there, and nothing hinders it
+        raise StartError(f"{printable(str(wanted.library))}: a library is not found in a folder with a blank or colon")
     command = [_program(wanted.command[0]), *wanted.command[1:]]
     try:
         child = subprocess.Popen(  # noqa: S603 - the user's own program

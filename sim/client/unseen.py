@@ -73,13 +73,15 @@ def unseen_of(session: Session, again: Again) -> Unseen:
     """What a program did not look at."""
     events, times = session.events, [_began_s(one) for one in session.events]
     refused = [at for at, one in enumerate(events) if isinstance(one, Told) and one.answered]
-    into_list = _into_list(events)
-    wanted_rest = (at for at in refused if at not in into_list)
-    short = (sleep for at in wanted_rest if (sleep := _short_sleep(events, at, again)) is not None)
+    first_card = _to_first_card(events)
+    wanted_rest = set(refused) & first_card - _into_list(events)
+    short = _short_sleeps(events, wanted_rest, again.moving_s)
     unread = (Refusal(at, then) for at in refused if (then := _went_on(events, at)) is not None)
     before = (max(bisect_right(times, met.t_s) - 1, 0) for met in again.limits)
     pairs = zip(again.limits, before, strict=True)
-    on_limit = (one for met, at in pairs if (one := _on_limit(events, met, at, session.settings.call_s)) is not None)
+    call_s = session.settings.call_s
+    found = (_on_limit(events, met, at, first_card, call_s) for met, at in pairs)
+    on_limit = (one for one in found if one is not None)
     return Unseen(len(refused), tuple(unread), tuple(on_limit), tuple(_by_sleep(short)))
 
 
@@ -99,6 +101,17 @@ def _went_on(events: Sequence[Event], at: int) -> int | None:
     return first
 
 
+def _to_first_card(events: Sequence[Event]) -> set[int]:
+    """Events that are about the first card, whose way is known: it is the one that is selected at first."""
+    card, about = 0, set[int]()
+    for index, one in enumerate(events):
+        if isinstance(one, Told) and one.call.name == "GT_SwitchtoCardNo" and not one.answered:
+            card = one.call.arguments[0]
+        if card == 0:
+            about.add(index)
+    return about
+
+
 def _into_list(events: Sequence[Event]) -> set[int]:
     """Path calls that were made while the list was open: those are stored, and need no rest."""
     is_open, stored = False, set[int]()
@@ -110,7 +123,9 @@ def _into_list(events: Sequence[Event]) -> set[int]:
     return stored
 
 
-def _on_limit(events: Sequence[Event], met: LimitMet, before: int, call_s: float) -> OnLimit | None:
+def _on_limit(
+    events: Sequence[Event], met: LimitMet, before: int, first_card: set[int], call_s: float
+) -> OnLimit | None:
     """The move that a limit ended behind an event; None where the program looked before it moved again.
 
     A question is answered `call_s` after it was asked.
@@ -118,7 +133,7 @@ def _on_limit(events: Sequence[Event], met: LimitMet, before: int, call_s: float
     asked_s = met.t_s - call_s - _MOMENT_S
     ways = (f"GT_GetSts({met.axis})", "GT_GetLmtSwt()")
     clears = {("GT_ClrSts", met.axis), ("GT_RstSts", met.axis)}
-    for at in range(before, len(events)):
+    for at in (at for at in range(before, len(events)) if at in first_card):
         one = events[at]
         if isinstance(one, Asked):
             if any(way in one.calls and one.calls[way].last_s >= asked_s for way in ways):
@@ -130,26 +145,29 @@ def _on_limit(events: Sequence[Event], met: LimitMet, before: int, call_s: float
     return OnLimit(met, before, None)
 
 
-def _short_sleep(events: Sequence[Event], at: int, again: Again) -> ShortSleep | None:
-    """The sleep before a call that was refused because the axes still moved; None where the program did not wait so."""
-    call = _told(events[at]).call
-    if _told(events[at]).answered != Code.COMMAND or not call.name.startswith(_NEEDS_REST):
-        return None
-    span = next((span for span in again.moving_s if span[0] <= call.t_s < span[1]), None)
-    if span is None:
-        return None
-    slept, first = 0.0, None
-    for index in range(at - 1, -1, -1):
-        one = events[index]
-        if _began_s(one) < span[0]:
-            break
-        if isinstance(one, Asked) and _asks(one, *_STATUS):
-            return None
-        if isinstance(one, Told) and one.is_sleep:
-            slept, first = slept + float(one.call.arguments[0]) / 1e3, index
-    if first is None:
-        return None
-    return ShortSleep(first, (at,), slept, span[1] - _began_s(events[first]))
+def _short_sleeps(
+    events: Sequence[Event], wanted_rest: set[int], moving_s: Sequence[tuple[float, float]]
+) -> Iterator[ShortSleep]:
+    """The sleep before each call that was refused because the axes still moved, where the program waited so alone."""
+    begins = [begin for begin, _ in moving_s]
+    span, slept, first, has_asked = -1, 0.0, -1, False
+    for index, one in enumerate(events):
+        now = bisect_right(begins, _began_s(one)) - 1
+        if now != span:  # what was slept and asked before this motion is not about it
+            span, slept, first, has_asked = now, 0.0, -1, False
+        if isinstance(one, Asked):
+            has_asked = has_asked or _asks(one, *_STATUS)
+        elif one.is_sleep:
+            slept, first = slept + float(one.call.arguments[0]) / 1e3, first if first >= 0 else index
+        elif index in wanted_rest and _is_for_rest(one) and first >= 0 and not has_asked:
+            end_s = moving_s[span][1] if span >= 0 else 0.0
+            if one.call.t_s < end_s:
+                yield ShortSleep(first, (index,), slept, end_s - _began_s(events[first]))
+
+
+def _is_for_rest(one: Told) -> bool:
+    """Whether a call was refused because the axes are to stand for it."""
+    return one.answered == Code.COMMAND and one.call.name.startswith(_NEEDS_REST)
 
 
 def _by_sleep(sleeps: Iterable[ShortSleep]) -> Iterator[ShortSleep]:

@@ -20,7 +20,7 @@ from controller import GECard
 from controller.card.calls.base import Logged
 from controller.card.core.codes import AxisSts
 from controller.card.core.settings import CardSettings, Switches
-from controller.card.log.lines import CardLogError, call_of
+from controller.card.log.lines import LONGEST_S, CardLogError, call_of
 from controller.card.log.replay import Difference, Replay, replay_file
 from controller.card.log.settings_text import settings_from, settings_text
 from controller.card.log.writer import CardLog, call_text
@@ -164,7 +164,7 @@ NUMBERS = st.one_of(st.integers(), st.floats(allow_nan=False), st.text(), st.non
 VALUES = st.recursive(NUMBERS, lambda inner: st.lists(inner, max_size=4).map(tuple), max_leaves=8)
 
 
-@given(st.floats(0.0, 1e9), st.lists(VALUES, max_size=5).map(tuple), VALUES, st.integers(0, 0xFFFF))
+@given(st.floats(0.0, LONGEST_S), st.lists(VALUES, max_size=5).map(tuple), VALUES, st.integers(0, 0xFFFF))
 def test_every_call_reads_back_as_it_was_written(
     t_s: float, arguments: tuple[object, ...], answer: object, status: int
 ) -> None:

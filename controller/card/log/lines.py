@@ -14,6 +14,8 @@ from parser.findings.errors import DrycutError
 
 _CALL = re.compile(r"(\S+) +([0-9a-f]{4,8}) ([A-Za-z]\w*)\((.*)\) = (.*)")
 _NAMES = {"inf": math.inf, "nan": math.nan}
+LONGEST_S = 1e6
+"""Of a session: 11 days. What the axes still have to do behind it is waited for as long."""
 
 
 class CardLogError(DrycutError, ValueError):
@@ -59,7 +61,7 @@ def call_of(line: str) -> Logged:
     if found is None:
         raise Damaged("no call as a log has them: time, status, NAME(arguments) = answer")
     t_s, status, name, arguments, answer = found.groups()
-    return Logged(_time(t_s), name, _value(f"({arguments},)" if arguments else "()"), _value(answer), int(status, 16))
+    return Logged(time_of(t_s), name, _value(f"({arguments},)" if arguments else "()"), _value(answer), int(status, 16))
 
 
 def end_of(line: str) -> End:
@@ -71,11 +73,15 @@ def end_of(line: str) -> End:
         raise Damaged("the last line tells time, status, places and pulses as JSON") from None
 
 
-def _time(text: str) -> float:
+def time_of(text: str) -> float:
+    """The time of a call, s. Damaged for what is no number, or lies beyond any session."""
     try:
-        return float(text)
+        t_s = float(text)
     except ValueError:
         raise Damaged(f"the time is a number, not {text[:40]!r}") from None
+    if not 0.0 <= t_s <= LONGEST_S:
+        raise Damaged(f"the time lies between 0 and {LONGEST_S:g} s; found {text[:40]!r}")
+    return t_s
 
 
 def _value(text: str) -> Any:

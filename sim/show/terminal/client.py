@@ -3,10 +3,10 @@
 import math
 from collections.abc import Iterator
 
+from controller.card.log.lines import LONGEST_S
 from parser.findings.catalogue import Language
 from parser.text.encoding import printable
 from parser.units import mm
-from sim.client.again import LONGEST_S
 from sim.client.result import ClientRun
 from sim.client.said import Asked
 from sim.client.started import Ended

@@ -2,6 +2,7 @@
 
 import json
 import re
+import shutil
 import signal
 from pathlib import Path
 from typing import Any
@@ -137,3 +138,12 @@ def test_a_client_that_is_not_there_is_said(library: Made, tmp_path: Path) -> No
     done, _ = card_run(library, tmp_path, tmp_path / "nowhere")
     assert done.returncode == 2
     assert b"nowhere: cannot be started: No such file or directory" in done.stderr
+
+
+def test_a_library_that_the_loader_would_not_find_is_refused(library: Made, tmp_path: Path) -> None:
+    odd = tmp_path / "my lib"
+    shutil.copytree(library.folder, odd, ignore=shutil.ignore_patterns("clients"))
+    done = run_inside("card", "run", "--library", str(odd), "-o", "out", "--", "/bin/true", cwd=tmp_path)
+    assert done.returncode == 2
+    assert b"not found in a folder with a blank or colon" in b" ".join(done.stderr.split())
+    assert not (tmp_path / "out").exists()

@@ -1,6 +1,7 @@
 """What a program did not look at: sessions of the card, told as programs make them, and what each is told of."""
 
 import io
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -8,9 +9,11 @@ import pytest
 
 from controller import GECard
 from controller.card.core.settings import CardSettings, Switches
+from controller.card.log.lines import CardLogError
 from controller.card.log.writer import CardLog
 from sim.client.run import Read, read_again
 from sim.client.said import session_of
+from sim.client.unseen import unseen_of
 
 LIMITED = {"switches": (Switches(negative=-4000.0, positive=9000.0),)}
 
@@ -210,3 +213,48 @@ def test_many_refusals_are_looked_at_in_time_that_grows_with_them() -> None:
     found = read(work, capacity=2)
     assert found.unseen.refused > 2000
     assert codes(found) == []
+
+
+def test_sleeps_before_many_refusals_are_looked_at_in_time_that_grows_with_them() -> None:
+    def work(calls: int) -> Callable[[GECard], None]:
+        def polls(card: GECard) -> None:
+            card.GT_LnXY(1e6, 0.0)
+            for _ in range(calls):
+                card.sleep(1.0)
+                card.GT_LnXY(0.0, 0.0)
+
+        return polls
+
+    took = []
+    for calls in (1000, 8000):
+        found = read(work(calls))
+        begin = time.process_time()
+        assert len(unseen_of(found.session, found.again).short_sleeps) == 1
+        took.append(time.process_time() - begin)
+    assert took[1] < 30.0 * took[0] + 0.2  # 64 times as long where it grows with the square
+
+
+def test_calls_to_another_card_are_not_about_the_first_one() -> None:
+    def work(card: GECard) -> None:
+        card.GT_LnXY(50_000.0, 0.0)
+        wait(card)
+        card.GT_SwitchtoCardNo(1)
+        card.GT_Open()
+        card.GT_SetSynVel(10.0)
+        card.GT_SetSynAcc(0.1)
+        card.GT_LnXY(100.0, 0.0)
+
+    found = read(work, cards=2, **LIMITED)
+    (limit,) = found.unseen.on_limit
+    assert (limit.met.axis, limit.then) == (1, None)
+    assert found.again.status & 1
+
+
+@pytest.mark.parametrize("time_s", ["x", "nan", "1e300", "inf", "-1"])
+@pytest.mark.parametrize("call", ["GT_GetSts(1) = (0, 1)", "GT_Open() = 0"])
+def test_a_damaged_time_names_its_line(time_s: str, call: str) -> None:
+    stream = io.StringIO()
+    CardLog(stream, CardSettings())
+    lines = [*stream.getvalue().splitlines(keepends=True), f"{time_s} 0000 {call}\n"]
+    with pytest.raises(CardLogError, match=r"card\.log:3: the time"):
+        session_of("card.log", lines)
