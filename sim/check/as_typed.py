@@ -41,7 +41,7 @@ class AsTyped(NamedTuple):
 
 def as_typed(name: str, file: Path | None, text: str) -> AsTyped:
     """Read and check a text under a name; `file` is where it stands, None where it stands nowhere yet."""
-    settings, wrong = _settings(name, file)
+    settings, wrong = settings_near(name, file)
     # Characters keep their places: a mark of the byte order is a blank, half a pair a question mark.
     plain = f" {text[1:]}" if text.startswith(_BOM) else text
     data = plain.encode("utf-8", "replace")
@@ -52,7 +52,11 @@ def as_typed(name: str, file: Path | None, text: str) -> AsTyped:
     return AsTyped(program.lines, settings, program, check_program(program, settings), wrong)
 
 
-def _settings(name: str, file: Path | None) -> tuple[CheckSettings, str]:
+def settings_near(name: str, file: Path | None) -> tuple[CheckSettings, str]:
+    """The settings that count for a text under a name; why those near its file do not, empty where they do.
+
+    `file` is where it stands; None where it stands nowhere yet: no settings count for it.
+    """
     search = SettingsSearch()
     if file is None:
         return NO_SETTINGS.settings_of(search.working / name), ""

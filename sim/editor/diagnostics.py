@@ -16,7 +16,6 @@ from lsprotocol.types import (
 from parser.findings.catalogue import texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
-from sim.check.mended import mended_text
 from sim.editor.opened import Text
 from sim.editor.places import Places
 from sim.show.words import Words
@@ -47,8 +46,8 @@ def actions_of(text: Text, asked: Range, kinds: Sequence[str]) -> list[CodeActio
     actions = []
     if _wanted(CodeActionKind.QuickFix, kinds):
         actions += list(_quick_fixes(text, asked))
-    if _wanted(CodeActionKind.SourceFixAll, kinds) and (edits := _all_mends(text)):
-        title = Words(text.language)("editor.mend-all")
+    if _wanted(CodeActionKind.SourceFixAll, kinds) and text.mended is not None:
+        title, edits = Words(text.language)("editor.mend-all"), [TextEdit(text.places.whole, text.mended)]
         actions.append(CodeAction(title, kind=CodeActionKind.SourceFixAll, edit=WorkspaceEdit({text.uri: edits})))
     return actions
 
@@ -88,15 +87,6 @@ def _quick_fixes(text: Text, asked: Range) -> Iterator[CodeAction]:
 
 def _edits(finding: Finding, places: Places) -> list[TextEdit]:
     return [TextEdit(places.range_of((edit.first, edit.past)), edit.text) for edit in finding.edits]
-
-
-def _all_mends(text: Text) -> list[TextEdit]:
-    """The whole text mended as ``drycut check --fix`` does it; none where nothing is certain."""
-    program = text.opened.program
-    if program is None:
-        return []
-    mended = mended_text(program, text.opened.settings)
-    return [TextEdit(text.places.whole, mended.text)] if mended.text != program.text else []
 
 
 def _wanted(kind: CodeActionKind, kinds: Sequence[str]) -> bool:

@@ -47,7 +47,7 @@ _KINDS: Final = {
 def app_of(programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> Starlette:
     """The application behind the guard."""
     files, texts = _Files(programs, drawings, life), _Checks(programs)
-    running, drawn = _Running(life, runs, drawings), _Drawn(drawings, runs)
+    running, drawn = _Running(life, runs, programs, drawings), _Drawn(drawings, runs)
     works: list[_Work] = [files.first, files.read, files.save, files.alive, files.close]
     works += [files.program, files.rows, files.again, files.row, drawn.look, drawn.draft, drawn.drafted]
     works += [texts.check, texts.version, texts.lines, running.run, running.more, running.progress, running.cancel]
@@ -169,14 +169,17 @@ class _Drawn:
 class _Running:
     """The run of the page."""
 
-    def __init__(self, life: Life, runs: Runs, drawings: Drawings) -> None:
-        self._life, self._runs, self._drawings = life, runs, drawings
+    def __init__(self, life: Life, runs: Runs, programs: Programs, drawings: Drawings) -> None:
+        self._life, self._runs, self._programs, self._drawings = life, runs, programs, drawings
 
     async def run(self, request: Request) -> Response:
         """Run a text."""
-        told = await _told(request, "name", "text", "drawing", *KEYS)
-        drawing = {"drawing_file": str(self._drawings.file(told["drawing"]) or "")}
-        await self._runs.start(told["name"], told["text"].encode("utf-8", "replace"), {**told, **drawing})
+        told = await _told(request, "name", "text", "number", "drawing", *KEYS)
+        files = {
+            "drawing_file": str(self._drawings.file(told["drawing"]) or ""),
+            "near_file": str(self._programs.file(told["number"]) or ""),
+        }
+        await self._runs.start(told["name"], told["text"].encode("utf-8", "replace"), {**told, **files})
         return JSONResponse(self._runs.state)
 
     async def more(self, request: Request) -> Response:

@@ -6,6 +6,7 @@ against the own address, and the path begins with a token that no other page kno
 """
 
 import hmac
+from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -53,6 +54,9 @@ class Guard:
         if refused:
             await _answer(send, refused)
             return
+        if scope["path"] == f"/{self._address.token}":  # the address without its last slash, as people copy it
+            await _answer(send, 308, [(b"location", f"{self._address.url}".encode())])
+            return
         begins = len(self._address.token) + 1
         inner = {**scope, "path": scope["path"][begins:], "raw_path": scope["raw_path"][begins:]}
         await self._app(inner, _bounded(receive), _with_headers(send))
@@ -73,8 +77,8 @@ class Guard:
         return 413 if not length.isdigit() or int(length) > MOST_BYTES else 0
 
 
-async def _answer(send: Send, status: int) -> None:
-    await send({"type": "http.response.start", "status": status, "headers": list(_HEADERS)})
+async def _answer(send: Send, status: int, more: Sequence[tuple[bytes, bytes]] = ()) -> None:
+    await send({"type": "http.response.start", "status": status, "headers": [*_HEADERS, *more]})
     await send({"type": "http.response.body", "body": b""})
 
 

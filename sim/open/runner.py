@@ -13,6 +13,7 @@ from parser.files.reading import read_bytes
 from parser.findings.catalogue import Language
 from parser.findings.errors import SettingsError
 from parser.program import Program, load_program, moving
+from sim.check.as_typed import settings_near
 from sim.jobs.run_into import run_into, stages_of_files
 from sim.open.form import number_of, scenario_of
 from sim.open.telling import Asked, do, telling
@@ -80,8 +81,10 @@ def _again(asked: Asked, last: str) -> Iterator[tuple[Recording, Progress]]:
 
 
 def _program(asked: Asked, scenario: Scenario) -> Program:
-    file = Path(asked["file"])
-    return moving(load_program(read_bytes(file), file.name, scenario.choices))
+    """The program, read with the settings near the file that it comes from, as its check on the page is."""
+    file, near = Path(asked["file"]), asked["near_file"]
+    choices = settings_near(file.name, Path(near))[0].choices if near else scenario.choices
+    return moving(load_program(read_bytes(file), file.name, choices))
 
 
 def _language(asked: Asked) -> Language:

@@ -6,6 +6,7 @@ What more is made of a finished run, a film or pictures, is made in such a proce
 import asyncio
 import contextlib
 import os
+import shutil
 from pathlib import Path
 from typing import Any, Final
 
@@ -52,7 +53,10 @@ class Runs:
         return {**self._state, **self._ran, "files": files}
 
     async def start(self, name: str, text: bytes, asked: dict[str, str]) -> None:
-        """Run a text of a name, in place of the run before; ``drawing_file`` is what it is held against, or empty."""
+        """Run a text of a name, in place of the run before; ``drawing_file`` is what it is held against.
+
+        Settings near ``near_file`` say how it is read; each is empty where there is none.
+        """
         async with self._turn:
             await self._start(name, text, asked)
 
@@ -78,12 +82,14 @@ class Runs:
         await self._end()
         self._number += 1
         self._ran = {}
+        # Who still looks at the run before this one may; the one before that goes.
+        shutil.rmtree(self._folder / str(self._number - 2), ignore_errors=True)
         folder = self._folder / str(self._number)
         file = folder / "program" / safe_name(name)
         file.parent.mkdir(parents=True)
         file.write_bytes(text)
         self._asked = {
-            **{key: asked[key] for key in (*KEYS, "drawing_file")},
+            **{key: asked[key] for key in (*KEYS, "drawing_file", "near_file")},
             "file": str(file),
             "folder": str(self._made_in(self._number)),
         }
@@ -131,6 +137,14 @@ class Runs:
             self._ran = {"run": begin["run"], **last["done"]} if asked["job"] == "run" else self._ran
             self._state = {**begin, "state": "done"}
         elif "wrong" in last:
-            self._state = {**begin, "state": "wrong", "why": printable(last["wrong"])}
+            self._state = {**begin, "state": "wrong", "why": printable(_by_names(last["wrong"], asked))}
         elif child is self._child:
             self._state = {**begin, "state": "wrong", "why": ""}
+
+
+def _by_names(why: str, asked: dict[str, str]) -> str:
+    """A message in which files of the page stand by their names alone."""
+    folders = {str(Path(asked[key]).parent) for key in ("file", "drawing_file") if asked.get(key)}
+    for folder in folders:
+        why = why.replace(f"{folder}{os.sep}", "")
+    return why

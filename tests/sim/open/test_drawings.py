@@ -149,7 +149,7 @@ def test_what_cannot_be_made_says_why(served: OpenedPage, dxf: bytes, values: di
 def test_a_run_is_held_against_it(served: OpenedPage, dxf: bytes) -> None:
     told = dict.fromkeys(("machine", "thickness_mm", "wire_mm", "offset_mm", "side"), "")
     for text, verdict in ((PUNCH, "pass"), (PUNCH.replace("10200", "10300"), "fail")):
-        asked = {**told, "name": "part.3b", "text": text, "drawing": came(served, dxf)}
+        asked = {**told, "name": "part.3b", "text": text, "number": "", "drawing": came(served, dxf)}
         assert served.ask("run", json.dumps(asked)).status == 200
         state = ended(served)
         assert (state["state"], state["verdict"]) == ("done", verdict)

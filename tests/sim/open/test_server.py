@@ -196,7 +196,7 @@ def test_what_cannot_be_opened_is_said(tmp_path: Path, served: OpenedPage) -> No
 
 def asked_run(served: OpenedPage, **values: str) -> dict:
     told = {"name": "part.3b", "text": "B1000B0B1000GXL1\nDD\n"}
-    told |= dict.fromkeys(("machine", "thickness_mm", "wire_mm", "offset_mm", "side", "drawing"), "")
+    told |= dict.fromkeys(("machine", "thickness_mm", "wire_mm", "offset_mm", "side", "drawing", "number"), "")
     answer = served.ask("run", json.dumps({**told, **values}))
     assert answer.status == 200
     return json.loads(answer.body)
@@ -391,3 +391,30 @@ def state_of(process: int) -> str:
 )
 def test_a_text_without_a_name_is_named_for_its_language(served: OpenedPage, text: str, name: str) -> None:
     assert checked(served, text, name="")["name"] == name
+
+
+def test_the_address_without_its_last_slash_leads_to_the_page(served: OpenedPage) -> None:
+    answer = served.ask(served.path.rstrip("/"), method="GET")
+    assert (answer.status, answer.headers["location"]) == (308, served.address)
+
+
+def test_a_run_is_read_as_the_check_beside_it_is(tmp_path: Path) -> None:
+    (tmp_path / "drycut.toml").write_text('root = true\nunit = "inch"\n', "utf-8")
+    text = "G92 X0 Y0\nG01 X10000 F1\nG01 X-10000\nM02\n"
+    (tmp_path / "part.iso").write_text(text, "utf-8")
+    with opened_page(tmp_path / "part.iso") as served:
+        length = checked(served, text, "part.iso", "0")["size"]["cut_um"]
+        asked_run(served, name="part.iso", text=text, number="0")
+        state = came_to(served, "done", "wrong")
+        report = json.loads(served.ask(f"run/{state['run']}/report.json", method="GET").body)
+        assert report["summary"]["length_um"] == pytest.approx(length)
+        assert length == pytest.approx(2 * 25_400.0)
+
+
+def test_of_earlier_runs_only_the_last_one_is_kept(served: OpenedPage) -> None:
+    numbers = []
+    for _ in range(3):
+        asked_run(served)
+        numbers.append(came_to(served, "done")["run"])
+    there = [served.ask(f"run/{number}/report.json", method="GET").status for number in numbers]
+    assert there == [404, 200, 200]

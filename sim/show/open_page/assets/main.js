@@ -32,7 +32,7 @@ const versions = wireVersions({
   tell,
 });
 const run = wireRun(
-  () => ({ name: nameOf(), text: text.value, drawing: drawing.number() }),
+  () => ({ name: nameOf(), text: text.value, number: file.number, drawing: drawing.number() }),
   () => versions.keep("ran"), () => drawing.done(), tell,
 );
 const drawing = wireDrawing({

@@ -17,7 +17,7 @@ const STAGES = {
 
 /**
  * Let the form run programs; the answer tells it that the program is another one.
- * @param {() => { name: string, text: string, drawing: string }} current the program as it stands, and its drawing
+ * @param {() => { name: string, text: string, number: string, drawing: string }} current the program as it stands
  * @param {() => void} onStart
  * @param {() => void} onDrafted a program was made of a drawing
  * @param {(key: string) => void} tell says what went wrong
@@ -56,7 +56,7 @@ export function wireRun(current, onStart, onDrafted, tell) {
   function sentence() {
     if (known.state === "running") return language.say(STAGES[known.stage ?? ""] ?? "starting");
     if (known.state === "done") return ending();
-    if (known.state === "wrong") return known.why ? known.why.replace(/^\S*\/program\//, "") : language.say("ran-broken");
+    if (known.state === "wrong") return known.why || language.say("ran-broken");
     return known.state === "cancelled" ? language.say("ran-cancelled") : "";
   }
 
