@@ -60,7 +60,7 @@
  * @property {string[]} name of each block as the listing has it
  */
 
-/** @typedef {Curves & Sources} Path */
+/** @typedef {Curves & Sources & { length_um: number[] }} Path */
 
 /**
  * @typedef {object} Figure

@@ -14,7 +14,7 @@ import * as language from "../../html/assets/language.js";
 
 /** @import { Answer, FileText, Finding } from "./data.js" */
 
-const PAUSE_MS = 40; // between two keys of who types fast lies more
+const PAUSE_MS = 15; // between two keys of who types fast lies more; a check that is out of date is dropped
 const ALIVE_MS = 20_000;
 
 const list = element("#found", HTMLElement);
@@ -22,7 +22,11 @@ const counts = element("#counts", HTMLElement);
 const title = element("#name", HTMLElement);
 const status = element("#status", HTMLElement);
 const picture = pictureOf(element("#picture", HTMLCanvasElement), goToBlock);
-const text = textOf(element("#text", HTMLTextAreaElement), element("#lines", HTMLElement), picture.markLine);
+const text = textOf(element("#text", HTMLTextAreaElement), element("#lines", HTMLElement), (line) => {
+  picture.markLine(line);
+  caret = line;
+  run.show();
+});
 const listing = wireListing(openOne);
 const versions = wireVersions({
   now: () => ({ file, text: text.value, answer: known?.text === text.value ? known.answer : null }),
@@ -32,7 +36,7 @@ const versions = wireVersions({
   tell,
 });
 const run = wireRun(
-  () => ({ name: nameOf(), text: text.value, number: file.number, drawing: drawing.number() }),
+  () => ({ name: nameOf(), text: text.value, number: file.number, drawing: drawing.number(), block: blockAtCaret() }),
   () => versions.keep("ran"), () => drawing.done(), tell,
 );
 const drawing = wireDrawing({
@@ -50,6 +54,7 @@ let file = { name: "", text: "", encoding: "utf-8", newline: "\n", number: "" };
 /** @type {{ answer: Answer, text: string } | null} */
 let known = null;
 let waiting = 0;
+let caret = 0;
 let asking = new window.AbortController();
 
 /**
@@ -176,6 +181,12 @@ async function openOne(source) {
     tell("not-read");
     return false;
   }
+}
+
+/** Name of the first block in the line of the caret; empty where none is known. */
+function blockAtCaret() {
+  const path = known?.text === text.value ? known.answer.path : null;
+  return path?.name[path.line.indexOf(caret)] ?? "";
 }
 
 /** Of its file; one that has none yet is named for the language it is written in. */

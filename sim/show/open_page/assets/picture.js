@@ -1,10 +1,11 @@
 // The path: drawn whole, moved and zoomed, the block of the caret's line on top, marks where something was found.
 import { coloursOf } from "../../replay/assets/palette.js";
-import { foot } from "../../replay/assets/nearest.js";
 import { newView } from "../../replay/assets/view.js";
 import { pathOf } from "../../replay/assets/path.js";
 import { penOf } from "../../replay/assets/pen.js";
 import { differing } from "./differing.js";
+import { wireMeasuring } from "./measuring.js";
+import { rowAt } from "./snap.js";
 import { drawScaleBar } from "../../replay/assets/scale_bar.js";
 import { wirePointer } from "../../replay/assets/pointer.js";
 
@@ -40,6 +41,7 @@ export function pictureOf(canvas, onBlock) {
   let isAsked = false;
   let isFitted = false;
   const colours = coloursOf(later);
+  const measuring = wireMeasuring(view, later);
 
   /** Draw before the next frame. */
   function later() {
@@ -114,6 +116,7 @@ export function pictureOf(canvas, onBlock) {
     pen.lineJoin = "round";
     if (drawing) drawDrawing();
     if (drawn) drawProgram(drawn, shades);
+    measuring.draw(pen, shades.accent);
     drawScaleBar(pen, view, colours);
   }
 
@@ -160,24 +163,6 @@ export function pictureOf(canvas, onBlock) {
     view.fit(box, { top: 0, bottom: 30 });
   }
 
-  /**
-   * The row whose block is nearest to a point of the canvas; -1 where none is near.
-   * @param {number} px
-   * @param {number} py
-   */
-  function rowAt(px, py) {
-    if (!path) return -1;
-    const [x, y] = view.placeOf(px, py);
-    let least = NEAR / view.scale;
-    let found = -1;
-    for (let row = 0; row < path.kind.length; row++) {
-      const [fx, fy] = foot(path, row, x, y);
-      const far = Math.hypot(fx - x, fy - y);
-      if (far < least) [least, found] = [far, row];
-    }
-    return found;
-  }
-
   wirePointer(canvas, view, later);
   /** @type {[x: number, y: number]} */
   let pressed = [0, 0];
@@ -185,8 +170,17 @@ export function pictureOf(canvas, onBlock) {
   canvas.addEventListener("click", (event) => {
     if (Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > STILL) return;
     const box = canvas.getBoundingClientRect();
-    const row = rowAt(event.clientX - box.left, event.clientY - box.top);
+    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+    if (measuring.isOn()) {
+      measuring.click(x, y);
+      return;
+    }
+    const row = path && drawn ? rowAt(path, drawn, view.placeOf(x, y), NEAR / view.scale) : -1;
     if (row >= 0) onBlock(row);
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const box = canvas.getBoundingClientRect();
+    if (measuring.isOn() && !event.buttons) measuring.move(event.clientX - box.left, event.clientY - box.top);
   });
   new ResizeObserver(later).observe(canvas);
 
@@ -202,6 +196,7 @@ export function pictureOf(canvas, onBlock) {
       isFitted = isFitted && !isNew && path !== null;
       path = newPath;
       drawn = path && pathOf(path);
+      measuring.show(path, drawn);
       others = differing(below, path);
       figures = newFigures;
       findings = newFindings;

@@ -7,6 +7,7 @@ import { wireMade } from "./made.js";
 /** @import { RunState } from "./data.js" */
 
 const LOOK_MS = 250;
+const NOTHING = { name: "", text: "", number: "", drawing: "", block: "" };
 
 /** @type {Record<string, string>} */
 const STAGES = {
@@ -17,7 +18,8 @@ const STAGES = {
 
 /**
  * Let the form run programs; the answer tells it that the program is another one.
- * @param {() => { name: string, text: string, number: string, drawing: string }} current the program as it stands
+ * @param {() => { name: string, text: string, number: string, drawing: string, block: string }} current
+ *   the program as it stands, and the block of the caret
  * @param {() => void} onStart
  * @param {() => void} onDrafted a program was made of a drawing
  * @param {(key: string) => void} tell says what went wrong
@@ -28,11 +30,12 @@ export function wireRun(current, onStart, onDrafted, tell) {
   const cancel = element("#cancel", HTMLButtonElement);
   const bar = element("#progress", HTMLProgressElement);
   const said = element("#stage", HTMLElement);
+  const moment = element("#moment", HTMLAnchorElement);
   const made = wireMade((more) => take(asked.more(more)));
   let looking = 0;
   /** @type {RunState} */
   let known = { state: "idle" };
-  let ran = { name: "", text: "" };
+  let ran = { ...NOTHING };
 
   /**
    * The values of the form by their names.
@@ -60,6 +63,17 @@ export function wireRun(current, onStart, onDrafted, tell) {
     return known.state === "cancelled" ? language.say("ran-cancelled") : "";
   }
 
+  /**
+   * A link to the block of the caret in the replay, where that is of the text as it stands.
+   * @param {boolean} isOther
+   */
+  function showMoment(isOther) {
+    const { block } = current();
+    moment.hidden = !known.files || isOther || !block;
+    moment.href = `run/${known.run}/replay.html#block=${encodeURIComponent(block)}`;
+    moment.textContent = language.say("replay-at", { block });
+  }
+
   /** Show how far the run is. */
   function show() {
     const isRunning = known.state === "running";
@@ -71,6 +85,7 @@ export function wireRun(current, onStart, onDrafted, tell) {
     if (isOther) said.append(` · ${language.say("ran-other", { name: ran.name })}`);
     said.className = known.state === "done" ? known.verdict ?? "" : known.state;
     made.show(known, ran.name);
+    showMoment(isOther);
   }
 
   /**

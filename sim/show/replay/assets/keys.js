@@ -13,7 +13,7 @@ const KEYS = {
   " ": "toggle", ArrowLeft: "stepBack", ArrowRight: "stepOn", ArrowUp: "blockBack", ArrowDown: "blockOn",
   PageUp: "hundredBack", PageDown: "hundredOn", Home: "toStart", End: "toEnd", "[": "slower", "]": "faster",
   "+": "zoomIn", "=": "zoomIn", "-": "zoomOut", 0: "fit", 9: "fitTable", z: "toSteps", f: "follow", m: "magnify",
-  a: "loopFrom", b: "loopTo", l: "loop", c: "clearLoop", q: "quiz", g: "language", "?": "help",
+  a: "loopFrom", b: "loopTo", l: "loop", c: "clearLoop", k: "link", q: "quiz", g: "language", "?": "help",
 };
 /** @type {Record<string, string>} */
 const SHIFTED = { ArrowLeft: "panLeft", ArrowRight: "panRight", ArrowUp: "panUp", ArrowDown: "panDown" };

@@ -6,6 +6,7 @@ import { decodingIn } from "./decoding.js";
 import { findingsIn } from "./findings.js";
 import { wireKeys } from "./keys.js";
 import { modelOf } from "./model.js";
+import { wireMoment } from "./moment.js";
 import { pageStateOf } from "./page_state.js";
 import { passOfRows } from "./passes.js";
 import { playerOf } from "./player.js";
@@ -79,7 +80,8 @@ export function buildPage(replay) {
     doc,
     player,
   );
-  const actions = actionsOf({ player, stage, quiz, page, redraw });
+  const address = wireMoment(doc, player);
+  const actions = { ...actionsOf({ player, stage, quiz, page, redraw }), link: address.link };
   const outs = readoutsIn(document.body, doc, model);
   const tip = tipIn(found("tip"));
   const timeline = timelineIn(

@@ -149,5 +149,15 @@ export function pathOf(blocks) {
     pen.stroke();
   }
 
-  return { box, wayOf, stroke };
+  /**
+   * Rows of the blocks that come near a box.
+   * @param {Box} near
+   */
+  function rowsNear(near) {
+    const rows = [];
+    for (let row = 0; row < count; row++) if (shows(row, near)) rows.push(row);
+    return rows;
+  }
+
+  return { box, wayOf, stroke, rowsNear };
 }

@@ -1,0 +1,62 @@
+"""The page of ``drycut open`` in a browser."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from browser import LOCALES, WAIT_MS, Browsers
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+
+class Tab:
+    """A page of the server, and what went wrong on it."""
+
+    def __init__(self, page: "Page") -> None:
+        self.page, self.found = page, list[str]()
+        page.on("console", lambda one: self.found.append(one.text) if one.type in {"error", "warning"} else None)
+        page.on("pageerror", lambda error: self.found.append(str(error)))
+        page.on("dialog", lambda shown: self.found.append(shown.message))
+
+    def text(self) -> str:
+        return self.page.input_value("#text")
+
+    def codes(self) -> list[str]:
+        return [text.split("·")[-1].split()[0] for text in self.page.locator("#found .go").all_inner_texts()]
+
+    def waits_for(self, verdict: str) -> None:
+        self.page.wait_for_selector(f"#counts.{verdict}")
+
+    def selected(self) -> str:
+        return self.page.evaluate("() => { const a = document.activeElement;"
+                                  " return a.value.slice(a.selectionStart, a.selectionEnd); }")  # fmt: skip
+
+    def drops(self, name: str, text: str) -> None:
+        self.page.evaluate(
+            """([name, text]) => {
+              const data = new DataTransfer();
+              data.items.add(new File([text], name));
+              window.dispatchEvent(new DragEvent("drop", { dataTransfer: data, cancelable: true }));
+            }""",
+            [name, text],
+        )
+
+
+@contextmanager
+def tab(browsers: Browsers, address: str, width: int = 1280, lang: str = "en") -> Iterator[Tab]:
+    """A page in a browser that asks nothing but its server; complaints fail the test."""
+    context = browsers.of(False).new_context(
+        viewport={"width": width, "height": 800}, locale=LOCALES[lang], accept_downloads=True
+    )
+    context.set_default_timeout(WAIT_MS)
+    shown = Tab(context.new_page())
+    asked: list[str] = []
+    shown.page.on("request", lambda one: asked.append(one.url))
+    try:
+        shown.page.goto(address)
+        yield shown
+        assert shown.found == []
+        assert [url for url in asked if not url.startswith((address, "blob:", "data:"))] == []
+    finally:
+        context.close()
