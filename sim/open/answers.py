@@ -1,12 +1,14 @@
 """What the page is told of a program: its findings with their mends, its path in columns, its figures and its size."""
 
+from functools import cache
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 
+from controller.motion.limits import Feeds
 from controller.stepping.words import interpolate
-from parser.findings.catalogue import LANGUAGES, texts
+from parser.findings.catalogue import LANGUAGES, Said, texts
 from parser.findings.findings import Finding
 from parser.program import Program, usual_name
 from parser.shape.contours import find_contours
@@ -15,7 +17,11 @@ from parser.text.lines import LINE_END
 from sim.check.as_typed import as_typed
 from sim.check.result import CheckResult
 from sim.run.report.rounded import rounded
+from sim.setup.machine.machine import load_machine
+from sim.setup.scenario import DEFAULT_MACHINE, DEFAULT_THICKNESS_MM
 from sim.show.replay.block_columns import exact_columns
+from sim.show.words import said
+from sim.show.words.phrases import lasting
 
 _NEWLINES: Final = {"\r\n": "crlf", "\r": "cr", "\n": "lf"}
 
@@ -121,7 +127,7 @@ def _figures(program: Program) -> list[dict[str, Any]]:
 
 
 def size_of(result: CheckResult) -> dict[str, Any] | None:
-    """How large a program is, lengths in µm; None where its path could not be worked out."""
+    """How large a program is, lengths in µm, and about how long it takes; None where its path is not known."""
     told = result.programmed
     if told is None:
         return None
@@ -132,4 +138,17 @@ def size_of(result: CheckResult) -> dict[str, Any] | None:
         "cut_um": rounded(told.cut_length_um),
         "box_um": None if told.box_um is None else [rounded(place) for place in told.box_um],
         "steps": result.steps,
+        "time": _about(told.cut_length_um, result.length_um)._asdict(),
     }
+
+
+def _about(cut_um: float, length_um: float) -> Said:
+    """How long the feeds of the default machine take, without accelerations and stops: a run tells it exactly."""
+    feeds = _usual_feeds()
+    time_s = cut_um / float(feeds.cut_um_s) + (length_um - cut_um) / feeds.jump_um_s
+    return said("open.time", time=lasting(time_s), machine=DEFAULT_MACHINE, thickness=f"{DEFAULT_THICKNESS_MM:g}")
+
+
+@cache
+def _usual_feeds() -> Feeds:
+    return load_machine(DEFAULT_MACHINE).feeds(DEFAULT_THICKNESS_MM)

@@ -79,6 +79,7 @@
  * @property {number} cut_um
  * @property {[left: number, bottom: number, right: number, top: number] | null} box_um
  * @property {number} steps
+ * @property {Said} time about how long the cut takes
  */
 
 /**

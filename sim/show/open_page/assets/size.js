@@ -20,6 +20,7 @@ export function rowsOf(size) {
   const rows = [
     [language.say("blocks"), language.say("blocks-of", { lines: size.lines, arcs: size.arcs, rapids: size.rapids })],
     [language.say("cut"), `${mm(size.cut_um)} mm`],
+    [language.say("time"), language.pick(size.time)],
     [language.say("steps"), size.steps.toLocaleString("en")],
   ];
   if (box) {
