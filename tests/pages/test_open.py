@@ -345,9 +345,11 @@ def test_a_drawing_is_dropped_made_a_program_and_run_against(browsers: Browsers,
         shown.page.set_input_files("#pick", dxf)
         shown.page.wait_for_selector("#drawing:not([hidden])")
         assert shown.page.inner_text("#drawing-name") == "part.dxf"
+        shown.page.fill("#passes", "0.15 0.1")
         shown.page.click("#make")
         shown.waits_for("pass")
         assert shown.page.inner_text("#name") == "part.3b"
+        assert shown.page.input_value("input[name=offset_mm]") == "", "no controller adds what is worked in"
         assert shown.page.inner_text("#drawing-told li:first-child") == "proved"
         shown.page.click("#start")
         shown.page.wait_for_selector("#stage.pass")

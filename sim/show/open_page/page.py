@@ -29,6 +29,7 @@ def open_page() -> tuple[str, str]:
         default_machine=DEFAULT_MACHINE,
         thickness=f"{DEFAULT_THICKNESS_MM:g}",
         wire=f"{mm(DEFAULT_WIRE.diameter_um):g}",
+        reach=f"{mm(DEFAULT_WIRE.reach_um):g}",
         pictures={
             name.removeprefix(_PICTURE): said._asdict()
             for name, said in texts("common").items()

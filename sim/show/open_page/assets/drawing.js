@@ -26,7 +26,9 @@ export function wireDrawing(around) {
   const name = element("#drawing-name", HTMLElement);
   const buttons = element("#drawing", HTMLElement);
   const list = element("#drawing-told", HTMLElement);
-  const fields = { language: element("#as", HTMLSelectElement), tab_mm: element("#tab", HTMLInputElement) };
+  const written = element("#as", HTMLSelectElement);
+  const passes = element("#passes", HTMLInputElement);
+  const tab = element("#tab", HTMLInputElement);
   let number = "";
   let file = "";
   /** @type {Said[]} */
@@ -72,8 +74,9 @@ export function wireDrawing(around) {
 
   element("#away", HTMLElement).addEventListener("click", away);
   element("#make", HTMLElement).addEventListener("click", () => {
-    const { language: wanted, tab_mm: tab } = fields;
-    around.follow(asked.draft({ ...around.values(), drawing: number, language: wanted.value, tab_mm: tab.value.trim() }));
+    // Its offsets are worked into the program; those of the form of the run a controller would add to them.
+    const own = { language: written.value, offset_mm: passes.value.trim(), tab_mm: tab.value.trim() };
+    around.follow(asked.draft({ ...around.values(), drawing: number, ...own }));
   });
   language.onChange(show);
 
