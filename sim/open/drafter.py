@@ -22,6 +22,7 @@ from parser.text.encoding import printable
 from parser.units import from_mm
 from sim.cam.asked import wanted_of
 from sim.cam.maker import Made, made
+from sim.cam.remarked import remarked
 from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.placement import IN_PLACE, Placement, placed
 from sim.measure.compare.result import Asked as Compared
@@ -64,11 +65,13 @@ def _make(asked: Asked) -> dict[str, Any]:
     to_make = ToMake()._replace(file=file, making=_making(asked))
     scenario = scenario_of({**asked, "offset_mm": "", "drawing_file": ""}, file)
     progress = telling(["drawing", "figures", "write", *stages_of(scenario), "comparison"])
-    done = made(drawing, to_make.making, wanted_of(to_make, to_make.language, scenario), scenario, progress)
+    wanted = wanted_of(to_make, to_make.language, scenario)
+    done = made(drawing, to_make.making, wanted, scenario, progress)
     if not isinstance(done, Made):
         return _kept(asked, {"program": None, "told": _both([why_refused(done.refusal)]), "is_proved": False})
     told = [Said(*both) for both in zip(*(_told(done, language) for language in LANGUAGES), strict=True)]
-    program = {"name": printable(file.name), **read_file(done.data)._asdict(), "number": ""}
+    data = done.data if done.is_proved else remarked(done, [*against(done, "en")], wanted).data
+    program = {"name": printable(file.name), **read_file(data)._asdict(), "number": ""}
     return _kept(asked, {"program": program, "told": _both(told), "is_proved": done.is_proved})
 
 

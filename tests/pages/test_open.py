@@ -346,6 +346,7 @@ def test_a_drawing_is_dropped_made_a_program_and_run_against(browsers: Browsers,
         shown.page.wait_for_selector("#drawing:not([hidden])")
         assert shown.page.inner_text("#drawing-name") == "part.dxf"
         shown.page.fill("#passes", "0.15 0.1")
+        shown.page.fill("#tab", "3")
         shown.page.click("#make")
         shown.waits_for("pass")
         assert shown.page.inner_text("#name") == "part.3b"

@@ -132,6 +132,14 @@ def test_passes_and_language_of_the_program_are_those_of_the_form(served: Opened
     assert json.loads(served.ask("check", json.dumps(asked)).body)["size"]["cut_um"] > 2 * 60_000.0
 
 
+def test_a_program_that_is_not_proved_says_so_at_its_head(served: OpenedPage, dxf: bytes) -> None:
+    number = came(served, dxf)
+    assert draft(served, number, offset_mm="0.2 0.1")["state"] == "done"  # the first pass sets the part free
+    made = json.loads(served.ask("drafted", json.dumps({"drawing": number})).body)
+    assert (made["is_proved"], made["told"][0]["en"]) == (False, "not proved: the program fails its own proof")
+    assert "3B406" in made["program"]["text"][:400]
+
+
 @pytest.mark.parametrize(
     ("values", "why"),
     [

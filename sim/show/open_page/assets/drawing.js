@@ -91,14 +91,16 @@ export function wireDrawing(around) {
      */
     async take(newNumber, newFile) {
       [number, file, made] = [newNumber, newFile, []];
+      list.className = "";
       show();
       await look();
     },
     /** A program was made of it. */
     async done() {
       try {
-        const { program, told } = await asked.drafted(number);
+        const { program, told, is_proved: isProved } = await asked.drafted(number);
         made = told;
+        list.className = isProved ? "proved" : "unproved";
         if (program) around.begin(program);
         show();
       } catch {
