@@ -4,6 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from parser.findings.errors import SettingsError
+from parser.text.encoding import narrow
 from parser.units import from_mm
 from sim.open.telling import Asked
 from sim.setup.machine.machine import load_machine, machine_names
@@ -35,7 +36,7 @@ def scenario_of(asked: Asked, file: Path) -> Scenario:
 
 def offsets_um(asked: Asked, bound: Bound) -> tuple[float, ...]:
     """The offsets of the passes; none where nothing is said. SettingsError where one is out of its bounds."""
-    words = asked["offset_mm"].replace(",", " ").replace("，", " ").split()
+    words = narrow(asked["offset_mm"]).replace(",", " ").split()  # digits and commas of a Chinese keyboard, too
     if words:
         number(len(words), PASSES, "the number of passes")
     return tuple(from_mm(number_of(word, bound, "the offset in mm")) for word in words)
