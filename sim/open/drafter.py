@@ -19,6 +19,7 @@ from parser.findings.remarks import remark_text
 from parser.geometry.curves import CurveKind, Curves
 from parser.program import load_program, moving
 from parser.text.encoding import printable
+from parser.toolpath import Toolpath
 from parser.units import from_mm
 from sim.cam.asked import wanted_of
 from sim.cam.maker import Made, made
@@ -100,7 +101,8 @@ def _placement(asked: Asked, drawing: Drawing, target: DrawingTarget) -> tuple[P
         return IN_PLACE, [same(str(error))]
 
 
-def _path(asked: Asked, scenario: Scenario) -> Any:
+def _path(asked: Asked, scenario: Scenario) -> Toolpath:
+    """The path of the page's program, as the controller makes it."""
     program = moving(load_program(asked["text"].encode("utf-8", "replace"), asked["name"], scenario.choices))
     return as_run(program, scenario.offset).toolpath
 

@@ -30,6 +30,7 @@ export function wireDrawing(around) {
   const passes = element("#passes", HTMLInputElement);
   const tab = element("#tab", HTMLInputElement);
   let number = "";
+  let making = "";
   let file = "";
   /** @type {Said[]} */
   let made = [];
@@ -40,6 +41,7 @@ export function wireDrawing(around) {
   function show() {
     name.textContent = number ? file : language.say("no-drawing");
     buttons.hidden = element("#drawn", HTMLElement).hidden = !number;
+    if (!made.length) list.className = "";
     list.replaceChildren(...(made.length ? made : seen).map((said) => make("li", {}, language.pick(said))));
   }
 
@@ -53,6 +55,7 @@ export function wireDrawing(around) {
 
   /** Lay it beneath the program as it stands. */
   async function look() {
+    made = []; // that was of the program before
     if (!number) return;
     const before = number;
     try {
@@ -75,6 +78,7 @@ export function wireDrawing(around) {
   element("#away", HTMLElement).addEventListener("click", away);
   element("#make", HTMLElement).addEventListener("click", () => {
     // Its offsets are worked into the program; those of the form of the run a controller would add to them.
+    making = number;
     const own = { language: written.value, offset_mm: passes.value.trim(), tab_mm: tab.value.trim() };
     around.follow(asked.draft({ ...around.values(), drawing: number, ...own }));
   });
@@ -91,17 +95,16 @@ export function wireDrawing(around) {
      */
     async take(newNumber, newFile) {
       [number, file, made] = [newNumber, newFile, []];
-      list.className = "";
       show();
       await look();
     },
     /** A program was made of it. */
     async done() {
       try {
-        const { program, told, is_proved: isProved } = await asked.drafted(number);
+        const { program, told, is_proved: isProved } = await asked.drafted(making);
+        if (program) around.begin(program);
         made = told;
         list.className = isProved ? "proved" : "unproved";
-        if (program) around.begin(program);
         show();
       } catch {
         around.tell("no-server");
