@@ -144,7 +144,6 @@ def test_a_program_that_is_not_proved_says_so_at_its_head(served: OpenedPage, dx
     ("values", "why"),
     [
         ({"tab_mm": "a lot"}, "the tab in mm is a number, not 'a lot'"),
-        ({"offset_mm": "11"}, "the offset in mm is 11; it must lie between 0 and 10"),
         ({"language": "/etc/passwd"}, "programs are written in 3b, 4b, iso"),
     ],
 )
