@@ -67,6 +67,16 @@ def test_it_checks_while_one_types(browsers: Browsers) -> None:
         assert shown.page.locator("#lines .error").first.inner_text() == "1"
 
 
+def test_what_is_typed_before_the_page_has_its_first_answer_stays(browsers: Browsers) -> None:
+    with opened_page() as served, tab(browsers, served.address) as shown:
+        shown.page.route("**/first", lambda route: (shown.page.wait_for_timeout(500), route.continue_()))
+        shown.page.goto(served.address, wait_until="commit")
+        shown.page.fill("#text", "B9900B0B39600GYNR1\nDD\n")
+        shown.waits_for("pass")
+        shown.page.wait_for_timeout(800)
+        assert shown.text().startswith("B9900")
+
+
 def test_files_are_dropped_and_saved_as_they_came(browsers: Browsers, tmp_path: Path) -> None:
     data = "B100B0B100GXL1 //孔\r\nB100B0B100GXL3\r\nDD\r\n".encode("gbk")
     (tmp_path / "孔.3b").write_bytes(data)

@@ -234,5 +234,15 @@ function wire() {
 language.onChange(show);
 language.begin();
 wire();
-asked.first().then((read) => (read.drawing ? drawing.take(read.drawing, read.name) : begin(read))).then(listing.look)
-  .catch(() => tell("no-server"));
+
+/**
+ * Open what drycut was started with; who typed meanwhile, where that is nothing, has begun a program.
+ * @param {FileText} read
+ */
+function start(read) {
+  if (read.drawing) drawing.take(read.drawing, read.name);
+  else if (read.text !== "" || !text.value) begin(read);
+  else title.textContent = language.say("untitled");
+}
+
+asked.first().then(start).then(listing.look).catch(() => tell("no-server"));
