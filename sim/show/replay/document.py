@@ -24,6 +24,7 @@ from sim.show.replay.happenings import (
 from sim.show.replay.questions import question_entries
 from sim.show.replay.scene import piece_entry, scene
 from sim.show.replay.tape import tape
+from sim.show.words.phrases import machine_name
 from sim.table.trace import origin_um
 
 SCHEMA = "drycut.replay/1"
@@ -34,7 +35,8 @@ _ASSETS = Path(__file__).with_name("assets")
 def replay_page(recording: Recording) -> str:
     """HTML of ``replay.html`` for a recorded run."""
     tones = tones_of(one for one, _ in passes_of(recording.run))
-    return rendered(_ASSETS, "replay.html.j2", document=replay_document(recording), tones=tones)
+    machine = machine_name(recording.run.scenario.machine)
+    return rendered(_ASSETS, "replay.html.j2", document=replay_document(recording), machine=machine, tones=tones)
 
 
 def replay_document(recording: Recording) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
 from sim.show.report_page.tables import reached
 from sim.show.words import said
-from sim.show.words.phrases import catalogued, lasting, listed, numbered, same
+from sim.show.words.phrases import catalogued, lasting, listed, machine_name, numbered, same
 
 _NONE = same("")
 
@@ -108,7 +108,8 @@ def _figure(name: str, report: Mapping[str, Any], entry: str, digits: int = 0, p
 
 def _size(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     total = report["time_s"]["total"]
-    work = said("report.in-work", thickness=f"{report['work']['thickness_mm']:g}", machine=report["machine"]["name"])
+    machine, thickness_mm = machine_name(run.scenario.machine), report["work"]["thickness_mm"]
+    work = said("report.in-work", thickness=f"{thickness_mm:g}", machine=machine)
     if run.feeds is None:
         yield Figure(said("report.card-time"), "time_s.total", total, lasting(total), beside=said("report.card-speeds"))
     else:

@@ -30,6 +30,7 @@ from sim.show.report_page.results import (
 from sim.show.report_page.settings import setting_groups
 from sim.show.report_page.tables import Column, ReportTable, yes_or_no
 from sim.show.words import said
+from sim.show.words.phrases import machine_name
 
 _ASSETS: Final = Path(__file__).with_name("assets")
 
@@ -63,7 +64,7 @@ def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inlin
         tables_data=[table.data() for table in tables],
         groups=setting_groups(run.scenario, run.program),
         has_trace=has_trace,
-        machine=report["machine"]["name"],
+        machine=machine_name(run.scenario.machine),
         reproduction=reproduction(run),
         dark_pictures=_recoloured(DARK),
     )
