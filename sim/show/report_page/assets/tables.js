@@ -7,7 +7,8 @@ import { turningOf } from "../../html/assets/turning.js";
 /** @import { Column, TableData } from "./data.js" */
 
 const MOST_ROWS = 200;
-const LONG = 25; // rows of a table that may be parted between two sheets of paper
+const MOST_PRINTED = 2000; // rows: some forty sheets of paper
+const LONG = 12; // rows of a table that may be parted between two sheets of paper
 
 /** A table in the place that the page has for it. */
 export class Table {
@@ -34,6 +35,27 @@ export class Table {
     if (this.turning) place.append(this.turning.box);
     this.show();
     language.onChange(() => this.show());
+    if (isTurned && this.rows.length <= MOST_PRINTED) this.printAll();
+  }
+
+  /** Have all rows while the page is printed. */
+  printAll() {
+    window.addEventListener("beforeprint", () => {
+      this.box.parentElement?.classList.add("whole");
+      this.fill(this.rows);
+    });
+    window.addEventListener("afterprint", () => {
+      this.box.parentElement?.classList.remove("whole");
+      this.show();
+    });
+  }
+
+  /**
+   * Fill the body with rows.
+   * @param {number[]} rows
+   */
+  fill(rows) {
+    this.body.replaceChildren(...rows.map((row) => this.row(row)));
   }
 
   /**
@@ -77,7 +99,7 @@ export class Table {
   /** Fill the body with the rows that are to be seen. */
   show() {
     const rows = this.rows.slice(this.first, this.first + MOST_ROWS);
-    this.body.replaceChildren(...rows.map((row) => this.row(row)));
+    this.fill(rows);
     this.turning?.tell(this.first, this.first + rows.length);
   }
 
