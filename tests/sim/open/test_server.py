@@ -8,6 +8,8 @@ import random
 import re
 import signal
 import socket
+import subprocess
+import sys
 import time
 import zipfile
 from collections.abc import Iterator
@@ -18,6 +20,7 @@ import pytest
 from command import run_command
 from opened_page import OpenedPage, opened_page
 from PIL import Image
+from places import ROOT
 
 from parser.findings.errors import SettingsError
 from sim.open.guard import MOST_BYTES
@@ -412,3 +415,9 @@ def test_of_earlier_runs_only_the_last_one_is_kept(tmp_path: Path) -> None:
     with ThreadPoolExecutor(1) as own:  # a browser of other tests may keep a loop in this thread
         own.submit(asyncio.run, thrice()).result()
     assert sorted(folder.name for folder in tmp_path.iterdir()) == ["2", "3"]
+
+
+def test_the_page_is_there_before_any_engine_is_loaded() -> None:
+    code = "import sys, sim.open.served, sim.open.lister; print(*sys.modules)"
+    told = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert not {"numba", "sim.run.dryrun", "sim.cut.remains", "shapely", "PIL"} & set(told.split())
