@@ -3,8 +3,8 @@
 from typing import Any
 
 from sim.measure.threadings import Threading, threadings
+from sim.rounded import moment, rounded
 from sim.run.dryrun import DryRun
-from sim.run.report.rounded import moment, rounded
 
 
 def thread_entries(run: DryRun) -> list[dict[str, Any]]:
