@@ -133,7 +133,7 @@ export function buildPage(replay) {
     const shown = moment();
     if (page.isFollowing) stage.view.lookAt(...shown.wire);
     const falls = wasPlaying || (stage.isFalling && shown.t >= player.duration); // on after the end
-    stage.draw(shown, page.times, falls, now);
+    stage.draw(shown, page, falls, now);
     outs.show(shown);
     text.run(shown.block);
     decoding.run(shown.block);
