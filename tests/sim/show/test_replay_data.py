@@ -600,7 +600,8 @@ def test_a_million_steps_are_small_and_soon_decoded(empty: "Page") -> None:
         """async (doc) => {
         const began = performance.now();
         const one = await decode(doc);
-        return [performance.now() - began, one.way.x(one.steps), one.way.y(one.steps), one.way.t(one.steps), one.samples.t.length];
+        const {steps, way: {x, y, t}} = one;
+        return [performance.now() - began, x(steps), y(steps), t(steps), one.samples.t.length];
     }""",
         document,
     )
