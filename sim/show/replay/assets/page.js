@@ -85,11 +85,11 @@ export function buildPage(replay) {
   const outs = readoutsIn(document.body, doc, model);
   const tip = tipIn(found("tip"));
   const timeline = timelineIn(
-    { bar, marks: element("#marks", HTMLCanvasElement), cursor: found("cursor"), findings: found("finding-marks") },
+    { bar, marks: element("#marks", HTMLCanvasElement), cursor: found("cursor"), findings: found("finding-marks"), whole: found("whole-run") },
     doc,
     player,
     stage.colours,
-    { onSeek: player.seek, onFinding },
+    { onSeek: player.seek, onBlock: player.seekBlock, onFinding },
   );
   const list = findingsIn(found("findings"), doc, onFinding);
   const text = programIn(found("program"), doc, {
