@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Final, Literal, NamedTuple
 
 from parser.findings.catalogue import Said
+from sim.show.html.packed import packed
 from sim.show.words import said
 
 _LONG_S: Final = 600.0
@@ -54,7 +55,7 @@ class ReportTable(NamedTuple):
         return len(self.columns[0].values)
 
     def data(self) -> dict[str, Any]:
-        """The table for the page's script."""
+        """The table for the page's script; long columns are packed."""
         return {"name": self.name, "columns": [_data(column) for column in self.columns]}
 
 
@@ -126,4 +127,4 @@ def _under(keys: Iterable[str], entry: Any) -> Any:
 
 def _data(column: Column) -> dict[str, Any]:
     words = {key: text._asdict() for key, text in column.words.items()}
-    return column._asdict() | {"head": column.head._asdict(), "words": words}
+    return column._asdict() | {"head": column.head._asdict(), "values": packed(column.values), "words": words}
