@@ -95,7 +95,7 @@ def test_while_it_is_zoomed_the_last_drawing_is_shown(page: "Page", tools: "CDPS
     assert np.median(drawn) < 100
     took_s = (cpu_s(tools) - before) / len(drawn)
     print(f"{1000 * took_s:.0f} ms of CPU a frame")
-    assert took_s < 0.06
+    assert took_s < 0.04
 
 
 def test_a_view_that_rests_is_drawn_as_if_it_had_not_moved(page: "Page") -> None:

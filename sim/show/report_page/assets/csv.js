@@ -9,16 +9,23 @@ const MARK = "\ufeff"; // tells spreadsheets that it is UTF-8
 const DIGITS = 12; // of a number in another unit
 
 /**
- * What a file has for a value: numbers bare, and no text that a spreadsheet takes for a formula.
+ * A text as a cell: one that a spreadsheet would take for a formula is a text there too.
+ * @param {string} text
+ */
+function quoted(text) {
+  const bare = /^[=+\-@\t\r]/.test(text) ? `'${text}` : text;
+  return /[",\r\n]/.test(bare) ? `"${bare.replace(/"/g, '""')}"` : bare;
+}
+
+/**
+ * What a file has for a value: numbers bare.
  * @param {Filled} column
  * @param {Value} value
  */
 function cellOf(column, value) {
   if (value === null) return "";
   if (column.kind === "number") return String(Number((Number(value) / column.per).toPrecision(DIGITS)));
-  const text = Array.isArray(value) ? value.map(([code]) => code).join(" ") : textOf(column, value);
-  const bare = /^[=+\-@\t\r]/.test(text) ? `'${text}` : text;
-  return /[",\r\n]/.test(bare) ? `"${bare.replace(/"/g, '""')}"` : bare;
+  return quoted(Array.isArray(value) ? value.map(([code]) => code).join(" ") : textOf(column, value));
 }
 
 /**
@@ -27,7 +34,7 @@ function cellOf(column, value) {
  * @param {number[]} rows
  */
 export function csvOf(columns, rows) {
-  const heads = columns.map(({ head, unit }) => (unit ? `${pick(head)} ${unit}` : pick(head)));
+  const heads = columns.map(({ head, unit }) => quoted(unit ? `${pick(head)} ${unit}` : pick(head)));
   const lines = rows.map((row) => columns.map((column) => cellOf(column, column.values[row])).join(","));
   return `${MARK}${[heads.join(","), ...lines, ""].join("\r\n")}`;
 }

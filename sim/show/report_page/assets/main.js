@@ -4,15 +4,18 @@ import { columnsOf, readTables } from "./data.js";
 import { wireLinks } from "./links.js";
 import { Table, tellUnread } from "./tables.js";
 
-/** Show each table once its columns are unpacked; a browser that is too old to do so is told. */
-async function showTables() {
-  for (const { name, columns } of readTables().map((table) => ({ name: table.name, columns: columnsOf(table) }))) {
-    try {
-      new Table(name, await columns);
-    } catch (error) {
-      tellUnread(name);
-      throw error;
-    }
+/** @import { TableData } from "./data.js" */
+
+/**
+ * Show a table once its columns are unpacked; a browser that is too old to do so is told.
+ * @param {TableData} data
+ */
+async function show(data) {
+  try {
+    new Table(data.name, await columnsOf(data));
+  } catch (error) {
+    tellUnread(data.name);
+    throw error;
   }
 }
 
@@ -20,4 +23,4 @@ language.begin();
 wireLinks();
 
 /** For tests and other scripts: `ready` once all tables are shown. */
-export const tables = { ready: showTables() };
+export const tables = { ready: Promise.all(readTables().map(show)) };
