@@ -25,6 +25,7 @@ from sim.show.replay.happenings import (
 from sim.show.replay.questions import question_entries
 from sim.show.replay.scene import piece_entry, scene
 from sim.show.replay.tape import tape
+from sim.show.words.phrases import machine_name
 from sim.table.trace import origin_um
 
 SCHEMA = "drycut.replay/1"
@@ -35,7 +36,8 @@ _ASSETS = Path(__file__).with_name("assets")
 def replay_page(recording: Recording) -> str:
     """HTML of ``replay.html`` for a recorded run."""
     tones = tones_of(one for one, _ in passes_of(recording.run))
-    return rendered(_ASSETS, "replay.html.j2", document=_handed_over(replay_document(recording)), tones=tones)
+    document, machine = _handed_over(replay_document(recording)), machine_name(recording.run.scenario.machine)
+    return rendered(_ASSETS, "replay.html.j2", document=document, machine=machine, tones=tones)
 
 
 def _handed_over(document: dict[str, Any]) -> dict[str, Any]:

@@ -1,11 +1,13 @@
 """Tables of the page: columns of values as the report has them, which the page shows, sorts and turns over."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, Literal, NamedTuple
+from typing import Any, Final, Literal, NamedTuple
 
 from parser.findings.catalogue import Said
 from sim.show.html.packed import packed
 from sim.show.words import said
+
+_LONG_S: Final = 600.0
 
 Kind = Literal["number", "text", "code", "word", "codes"]
 
@@ -81,8 +83,10 @@ def millimetres(head: str, values: Sequence[Any]) -> Column:
 
 
 def timed(head: str, values: Sequence[Any]) -> Column:
-    """Times in s."""
-    return Column(said(f"report.{head}"), values, unit="s", digits=2)
+    """Times in s, shown in min where any is as long as ten of them."""
+    long = max((value for value in values if value is not None), default=0.0) >= _LONG_S
+    unit, per = ("min", 60.0) if long else ("s", 1.0)
+    return Column(said(f"report.{head}"), values, unit=unit, per=per, digits=2)
 
 
 def worded(head: str, values: Sequence[str], prefix: str = "is") -> Column:

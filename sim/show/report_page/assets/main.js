@@ -1,7 +1,9 @@
-// Puts the page together: its language, its tables and its links.
+// Puts the page together: its language, its tables, its links, and what of it is printed.
+import { element } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import { columnsOf, readTables } from "./data.js";
 import { wireLinks } from "./links.js";
+import { printBy } from "./paper.js";
 import { Table, tellUnread } from "./tables.js";
 
 /** @import { TableData } from "./data.js" */
@@ -21,6 +23,7 @@ async function show(data) {
 
 language.begin();
 wireLinks();
+printBy(element("#print-everything", HTMLInputElement));
 
 /** For tests and other scripts: `ready` once all tables are shown. */
 export const tables = { ready: Promise.all(readTables().map(show)) };

@@ -9,8 +9,8 @@ import { fittingOf, searchOf } from "./search.js";
 /** @import { Filled } from "./data.js" */
 
 const MOST_ROWS = 200;
-const MOST_PRINTED = 1000; // rows: some twenty sheets of paper
-const LONG = 25; // rows of a table that may be parted between two sheets of paper
+const MOST_PRINTED = 2000; // rows: some forty sheets of paper
+const LONG = 12; // rows of a table that may be parted between two sheets of paper
 
 /** @param {string} name */
 const placeOf = (name) => element(`[data-table="${name}"]`, HTMLElement);
