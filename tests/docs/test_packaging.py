@@ -15,6 +15,7 @@ from places import ROOT
 
 from parser.findings.codes import CODES
 from sim import __version__
+from sim.show.terminal.documents import files
 
 
 def test_no_other_distribution_owns_our_names() -> None:

@@ -13,7 +13,7 @@ WRITTEN = [page for page in CHINESE if page.stem != "findings.zh"]
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PROGRAM = re.compile(r"(?:[BDGMN][\w .;-]*\n)+")
-CODE = re.compile(r"`([^`\n]+)`|\b((?:3B|GEC|ISO|PMAC)\d{3})\b")
+CODE = re.compile(r"`([^`]+)`|\b((?:3B|GEC|ISO|PMAC)\d{3})\b")
 NUMBER = re.compile(r"\d[\d,.]*\d")
 
 
@@ -67,7 +67,7 @@ def commands(kind: str, body: str) -> list[str]:
 
 def spoken(command: str) -> str:
     """The command in any language."""
-    return command.replace(" --lang zh", "")
+    return " ".join(command.replace(" --lang zh", "").split())
 
 
 def is_shortened(page: Path, number: int) -> bool:
