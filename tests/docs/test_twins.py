@@ -62,7 +62,7 @@ def commands(kind: str, body: str) -> list[str]:
         return [re.sub(r"\s+# .*", "", line) for line in body.splitlines()]
     if body.startswith("$ "):
         return [spoken(body.splitlines()[0])]
-    return body.splitlines() if kind or PROGRAM.fullmatch(body) else ["output"]
+    return body.splitlines() if kind or PROGRAM.fullmatch(body) or body.startswith("drycut ") else ["output"]
 
 
 def spoken(command: str) -> str:

@@ -17,7 +17,7 @@ _CHINESE = ".zh"
 _TWIN = re.compile(r"^\[[^\[\]]+\]\([\w.-]+\.md\)\n\n", re.MULTILINE)
 """The paragraph that leads to the same document in the other language."""
 _LINK = re.compile(r"\[([^\[\]]+)\]\([^)]+\)")
-_CITED = re.compile(r"\b(?:docs/)?(\w+)(\.zh)?\.md\b")
+_CITED = re.compile(r"\b(?:docs/)?(\w+)(\.zh)?\.md\b", re.ASCII)
 _HEADING = re.compile(r"^#+ ")
 _FENCE = "```"
 
