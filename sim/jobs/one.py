@@ -14,9 +14,9 @@ from parser.program import load_program, moving
 from sim.files import scratch
 from sim.jobs.index import Row
 from sim.jobs.run_into import FILES, run_into
+from sim.rounded import rounded
 from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
-from sim.run.report.rounded import rounded
 from sim.setup.scenario import Scenario
 from sim.show.index_page.thumbnail import thumbnail
 from sim.show.words.phrases import same

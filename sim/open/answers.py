@@ -16,10 +16,10 @@ from parser.text.encoding import decode_text, encode_text, printable
 from parser.text.lines import LINE_END
 from sim.check.as_typed import as_typed
 from sim.check.result import CheckResult
-from sim.run.report.rounded import rounded
+from sim.rounded import rounded
 from sim.setup.machine.machine import load_machine
 from sim.setup.scenario import DEFAULT_MACHINE, DEFAULT_THICKNESS_MM
-from sim.show.replay.block_columns import exact_columns
+from sim.show.replay.curve_columns import exact_columns
 from sim.show.words import said
 from sim.show.words.phrases import lasting
 

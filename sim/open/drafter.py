@@ -38,7 +38,7 @@ from sim.setup.part import DrawingTarget
 from sim.setup.program_section import OR_NONE_MM, OVERCUT_MM, refuse_odd
 from sim.setup.scenario import Scenario
 from sim.show.refusals import why_refused
-from sim.show.replay.block_columns import exact_columns
+from sim.show.replay.curve_columns import exact_columns
 from sim.show.terminal.program import told_lines
 from sim.show.terminal.proof import against
 from sim.show.words import Words

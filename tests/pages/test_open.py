@@ -22,15 +22,29 @@ KEYHOLE = ROOT / "scenarios" / "keyhole" / "program.3b"
 MARKUP = '<img src=x onerror="document.title=1"><script>document.title=2</script>'
 
 
-@pytest.fixture(name="served")
-def served_wrong(tmp_path: Path) -> Iterator[OpenedPage]:
-    (tmp_path / "part.3b").write_bytes(WRONG.replace("\n", "\r\n").encode())
-    with opened_page(tmp_path / "part.3b") as served:
+# A server has no more of a page than its last run: tests of pages share it.
+@pytest.fixture(name="served", scope="module")
+def served_wrong(tmp_path_factory: pytest.TempPathFactory) -> Iterator[OpenedPage]:
+    file = tmp_path_factory.mktemp("open") / "part.3b"
+    file.write_bytes(WRONG.replace("\n", "\r\n").encode())
+    with opened_page(file) as served:
         yield served
 
 
-def test_a_program_shows_at_once(browsers: Browsers) -> None:
-    with opened_page(KEYHOLE) as served, tab(browsers, served.address) as shown:
+@pytest.fixture(name="keyhole", scope="module")
+def served_keyhole() -> Iterator[OpenedPage]:
+    with opened_page(KEYHOLE) as served:
+        yield served
+
+
+@pytest.fixture(name="empty", scope="module")
+def served_nothing() -> Iterator[OpenedPage]:
+    with opened_page() as served:
+        yield served
+
+
+def test_a_program_shows_at_once(browsers: Browsers, keyhole: OpenedPage) -> None:
+    with tab(browsers, keyhole.address) as shown:
         shown.waits_for("pass")
         assert shown.page.title() == "program.3b · drycut"
         assert "174.800 × 99.799 mm" in shown.page.inner_text("#size")
@@ -57,8 +71,8 @@ def test_a_mend_shows_what_it_changes_is_made_and_is_undone(browsers: Browsers, 
         assert shown.text() == WRONG
 
 
-def test_it_checks_while_one_types(browsers: Browsers) -> None:
-    with opened_page() as served, tab(browsers, served.address) as shown:
+def test_it_checks_while_one_types(browsers: Browsers, empty: OpenedPage) -> None:
+    with tab(browsers, empty.address) as shown:
         shown.page.fill("#text", "B9900B0B39600GYNR1\nDD\n")
         shown.waits_for("pass")
         shown.page.press("#text", "Control+Home")
@@ -67,20 +81,20 @@ def test_it_checks_while_one_types(browsers: Browsers) -> None:
         assert shown.page.locator("#lines .error").first.inner_text() == "1"
 
 
-def test_what_is_typed_before_the_page_has_its_first_answer_stays(browsers: Browsers) -> None:
-    with opened_page() as served, tab(browsers, served.address) as shown:
+def test_what_is_typed_before_the_page_has_its_first_answer_stays(browsers: Browsers, empty: OpenedPage) -> None:
+    with tab(browsers, empty.address) as shown:
         shown.page.route("**/first", lambda route: (shown.page.wait_for_timeout(500), route.continue_()))
-        shown.page.goto(served.address, wait_until="commit")
+        shown.page.goto(empty.address, wait_until="commit")
         shown.page.fill("#text", "B9900B0B39600GYNR1\nDD\n")
         shown.waits_for("pass")
         shown.page.wait_for_timeout(800)
         assert shown.text().startswith("B9900")
 
 
-def test_files_are_dropped_and_saved_as_they_came(browsers: Browsers, tmp_path: Path) -> None:
+def test_files_are_dropped_and_saved_as_they_came(browsers: Browsers, empty: OpenedPage, tmp_path: Path) -> None:
     data = "B100B0B100GXL1 //孔\r\nB100B0B100GXL3\r\nDD\r\n".encode("gbk")
     (tmp_path / "孔.3b").write_bytes(data)
-    with opened_page() as served, tab(browsers, served.address) as shown:
+    with tab(browsers, empty.address) as shown:
         shown.page.set_input_files("#pick", str(tmp_path / "孔.3b"))
         shown.page.wait_for_function("() => document.title.startsWith('孔.3b')")
         with shown.page.expect_download() as coming:
@@ -92,8 +106,8 @@ def test_files_are_dropped_and_saved_as_they_came(browsers: Browsers, tmp_path: 
         shown.waits_for("fail")
 
 
-def test_a_text_without_a_name_is_saved_under_that_of_its_language(browsers: Browsers) -> None:
-    with opened_page() as served, tab(browsers, served.address) as shown:
+def test_a_text_without_a_name_is_saved_under_that_of_its_language(browsers: Browsers, empty: OpenedPage) -> None:
+    with tab(browsers, empty.address) as shown:
         shown.page.fill("#text", "G90 G21\nG92 X0 Y0\nG01 X1. Y0\nG01 X0 Y0\nM02\n")
         shown.waits_for("pass")
         with shown.page.expect_download() as coming:
@@ -101,8 +115,8 @@ def test_a_text_without_a_name_is_saved_under_that_of_its_language(browsers: Bro
         assert coming.value.suggested_filename == "program.iso"
 
 
-def test_what_a_program_and_its_name_say_is_never_markup(browsers: Browsers) -> None:
-    with opened_page() as served, tab(browsers, served.address) as shown:
+def test_what_a_program_and_its_name_say_is_never_markup(browsers: Browsers, empty: OpenedPage) -> None:
+    with tab(browsers, empty.address) as shown:
         shown.drops(f"{MARKUP}.3b", f"B1{MARKUP}\n{WRONG}")
         # The page that still holds nothing shows an error too (3B100), so the name says that this program is shown.
         shown.page.wait_for_function("() => document.title.startsWith('<img src=x')")
@@ -111,8 +125,8 @@ def test_what_a_program_and_its_name_say_is_never_markup(browsers: Browsers) -> 
         assert MARKUP in shown.text()
 
 
-def test_a_block_in_the_picture_is_its_line(browsers: Browsers) -> None:
-    with opened_page(KEYHOLE) as served, tab(browsers, served.address) as shown:
+def test_a_block_in_the_picture_is_its_line(browsers: Browsers, keyhole: OpenedPage) -> None:
+    with tab(browsers, keyhole.address) as shown:
         shown.waits_for("pass")
         box = shown.page.locator("#picture").bounding_box()
         assert box is not None
@@ -142,9 +156,9 @@ def test_a_large_program_is_shown_and_stays_in_hand(browsers: Browsers, tmp_path
         shown.page.wait_for_function("() => Number(document.querySelector('#lines .now')?.textContent) > 27000")
 
 
-def test_the_button_ends_it_and_an_ended_server_is_told(browsers: Browsers, served: OpenedPage) -> None:
-    with tab(browsers, served.address) as shown:
-        shown.waits_for("fail")
+def test_the_button_ends_it_and_an_ended_server_is_told(browsers: Browsers) -> None:
+    with opened_page(KEYHOLE) as served, tab(browsers, served.address) as shown:
+        shown.waits_for("pass")
         shown.page.click("#close")
         shown.page.wait_for_function("() => document.querySelector('#status').textContent.includes('has ended')")
         assert served.ended() == 0
@@ -153,18 +167,22 @@ def test_the_button_ends_it_and_an_ended_server_is_told(browsers: Browsers, serv
         shown.found[:] = [text for text in shown.found if "ERR_CONNECTION_REFUSED" not in text]
 
 
-@pytest.mark.parametrize(("width", "lang"), [(390, "zh"), (1280, "zh"), (800, "en")])
-def test_nothing_runs_out_of_the_window(browsers: Browsers, served: OpenedPage, width: int, lang: str) -> None:
-    with tab(browsers, served.address, width, lang) as shown:
+@pytest.mark.parametrize(("widths", "lang"), [((390, 1280), "zh"), ((800, 390), "en")])
+def test_nothing_runs_out_of_the_window(
+    browsers: Browsers, served: OpenedPage, widths: tuple[int, ...], lang: str
+) -> None:
+    with tab(browsers, served.address, widths[0], lang) as shown:
         shown.waits_for("fail")
-        assert shown.page.evaluate("() => document.documentElement.scrollWidth") <= width
+        for width in widths:
+            shown.page.set_viewport_size({"width": width, "height": 800})
+            assert shown.page.evaluate("() => document.documentElement.scrollWidth") <= width
         assert shown.page.locator("#found .go strong").inner_text() == (
             "计数方向选错" if lang == "zh" else "wrong count axis"
         )
 
 
-def test_a_program_is_run_and_its_files_are_seen_and_saved(browsers: Browsers) -> None:
-    with opened_page(KEYHOLE) as served, tab(browsers, served.address) as shown:
+def test_a_program_is_run_and_its_files_are_seen_and_saved(browsers: Browsers, keyhole: OpenedPage) -> None:
+    with tab(browsers, keyhole.address) as shown:
         shown.waits_for("pass")
         shown.page.fill("input[name=thickness_mm]", "20")
         shown.page.click("#start")
@@ -270,10 +288,10 @@ def test_a_folder_is_listed_and_its_programs_open_by_a_click(browsers: Browsers,
         shown.page.wait_for_function("() => document.title.startsWith('c.3b')")
 
 
-def test_several_files_that_are_dropped_are_a_list(browsers: Browsers, tmp_path: Path) -> None:
+def test_several_files_that_are_dropped_are_a_list(browsers: Browsers, empty: OpenedPage, tmp_path: Path) -> None:
     (tmp_path / "孔.3b").write_text(WRONG)
     (tmp_path / "b.txt").write_text("hello")
-    with opened_page() as served, tab(browsers, served.address, 390, "zh") as shown:
+    with tab(browsers, empty.address, 390, "zh") as shown:
         shown.page.set_input_files("#pick", [str(tmp_path / "孔.3b"), str(tmp_path / "b.txt")])
         shown.page.wait_for_selector("#programs tbody tr:nth-child(2)")
         assert shown.page.locator("#programs .word").all_inner_texts() == ["不通过", "不是程序"]
@@ -350,9 +368,11 @@ def test_a_second_program_is_compared_with_the_one_that_was_open(browsers: Brows
         assert shown.page.locator("#beside-open").is_hidden()
 
 
-def test_a_drawing_is_dropped_made_a_program_and_run_against(browsers: Browsers, tmp_path: Path) -> None:
+def test_a_drawing_is_dropped_made_a_program_and_run_against(
+    browsers: Browsers, empty: OpenedPage, tmp_path: Path
+) -> None:
     dxf = drawn(tmp_path, lambda space: space.add_circle((30.0, 0.0), 1.0))
-    with opened_page() as served, tab(browsers, served.address) as shown:
+    with tab(browsers, empty.address) as shown:
         shown.page.set_input_files("#pick", dxf)
         shown.page.wait_for_selector("#drawing:not([hidden])")
         assert shown.page.inner_text("#drawing-name") == "part.dxf"
@@ -365,7 +385,8 @@ def test_a_drawing_is_dropped_made_a_program_and_run_against(browsers: Browsers,
         assert shown.page.inner_text("#drawing-told li:first-child") == "proved"
         shown.page.click("#start")
         shown.page.wait_for_selector("#stage.pass")
-        report = json.loads(served.ask("run/1/report.json", method="GET").body)
+        run = json.loads(empty.ask("progress").body)["run"]
+        report = json.loads(empty.ask(f"run/{run}/report.json", method="GET").body)
         assert report["drawing"]["max_um"] < 5.0
         shown.page.click("#away")
         assert shown.page.locator("#drawing").is_hidden()

@@ -265,7 +265,7 @@ def test_numbers_of_blocks_that_have_no_room_are_not_measured(open_page: OpenPag
         CanvasRenderingContext2D.prototype.measureText = measure;
         return count;
     }""")
-    assert measured == 0  # 400 blocks on a bar of 600 px
+    assert measured < 10  # of 400 blocks on a bar of 600 px the sizes of the groups that they are shown in
 
 
 def test_the_number_of_a_block_of_very_many_is_not_cut_off(open_page: OpenPage) -> None:

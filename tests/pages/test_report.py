@@ -231,7 +231,72 @@ def test_it_prints_on_a_few_sheets_of_a4(open_page: OpenPage, many: Made) -> Non
     assert "report.json" in page.locator(f"{BLOCKS} .rest").inner_text()
 
 
-@pytest.mark.parametrize(("sheet_mm", "where"), [(210 - 24, "main > :not(.wide)"), (297 - 20, ".wide *")])
+def grid(holes: int) -> str:
+    """A program of so many squares round start holes in a row, each five blocks with the jump before it."""
+    square = ["B300B0B300GXL1", "B0B300B300GYL2", "B300B0B300GXL3", "B0B300B300GYL4"]
+    return "\n".join(
+        [*square, *(line for _ in range(holes - 1) for line in ("D", "B900B0B900GXL1", "D", *square)), "DD"]
+    )
+
+
+@pytest.mark.parametrize("holes", [1, 12, 40])
+def test_the_job_sheet_is_one_sheet_with_all_that_stands_on_it(open_page: OpenPage, holes: int) -> None:
+    page = open_page(made(grid(holes), kerf=True).html, int((210 - 24) * MM_PX), 1000).page
+    assert sheets(page.pdf(prefer_css_page_size=True)).count((210, 297)) == 1
+    page.emulate_media(media="print")
+    sheet = page.locator(".sheet")
+    assert sheet.evaluate("sheet => sheet.scrollHeight <= sheet.clientHeight")
+    bottom = sheet.locator(".signed").evaluate("line => line.getBoundingClientRect().bottom")
+    assert bottom <= sheet.evaluate("sheet => sheet.getBoundingClientRect().bottom")
+    assert sheet.locator(".threads tbody tr").count() == min(holes, 12)
+    assert sheet.locator(".picture").evaluate("box => box.clientHeight") > 60 * MM_PX
+    assert page.locator('[data-table="threads"] tbody tr').count() == (holes if holes > 12 else 0)
+
+
+def test_a_program_of_24_blocks_takes_two_sheets(open_page: OpenPage) -> None:
+    part = made(grid(5), kerf=True)
+    assert part.report["summary"]["blocks"] == 24
+    assert sheets(open_page(part.html).page.pdf(prefer_css_page_size=True)) == [(210, 297), (297, 210)]
+
+
+def test_all_rows_go_on_paper_beneath_heads_that_can_be_repeated(open_page: OpenPage) -> None:
+    page = open_page(made(staircase(700), may_stay_open=True).html).page
+    rows = page.locator(f"{BLOCKS} tbody tr")
+    assert rows.count() == 200
+    page.evaluate("""() => {
+        window.addEventListener('afterprint', () => { window.printed = window.atPrint; });
+        window.addEventListener('beforeprint', () => {
+            window.atPrint = document.querySelectorAll('[data-table="blocks"] tbody tr').length;
+        });
+    }""")
+    assert len(sheets(page.pdf(prefer_css_page_size=True))) < 25
+    assert page.evaluate("window.printed") == 700
+    assert rows.count() == 200
+    page.emulate_media(media="print")
+    heads = page.locator(f"{BLOCKS} thead button")
+    assert set(heads.evaluate_all("all => all.map(one => getComputedStyle(one).display)")) == {"contents"}
+
+
+def test_a_tick_puts_all_of_the_page_on_paper(open_page: OpenPage, bad: Made) -> None:
+    page = open_page(bad.html).page
+    page.emulate_media(media="print")
+    assert not page.locator("#settings").is_visible()
+    page.emulate_media(media="screen")
+    assert not page.locator("#picture-histogram").is_visible(), "behind the accuracy"
+    page.locator("#print-everything").check()
+    page.evaluate("""() => window.addEventListener('beforeprint', () => {
+        window.folded = document.querySelectorAll('details:not([open])').length;
+    })""")
+    page.pdf(prefer_css_page_size=True)
+    assert page.evaluate("window.folded") == 0
+    assert page.locator("details[open]").count() == 0
+    page.emulate_media(media="print")
+    assert page.locator("#settings").is_visible()
+
+
+@pytest.mark.parametrize(
+    ("sheet_mm", "where"), [(210 - 24, ".sheet *:not(svg *):visible"), (297 - 20, ".behind *:not(svg *):visible")]
+)
 def test_nothing_is_cut_off_at_the_edge_of_the_paper(
     open_page: OpenPage, bad: Made, sheet_mm: float, where: str
 ) -> None:

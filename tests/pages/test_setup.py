@@ -64,6 +64,32 @@ def test_a_sound_page_is_open_in_its_language_colours_and_size(open_page: OpenPa
     assert open_page(GOOD, reduced_motion="reduce").problems() == []
 
 
+def test_nothing_is_left_of_a_page_before(browsers: Browsers, tmp_path: Path) -> None:
+    file = tmp_path / "page.html"
+    file.write_text(GOOD, "utf-8")
+    found = []
+    for lang, width in (("en", 900), ("en", 390), ("zh", 900)):
+        pages = Pages(browsers.of, tmp_path)
+        page = pages.open(file, width, lang=lang).page
+        found.append(page.evaluate("[localStorage.length, sessionStorage.length, history.length, innerWidth]"))
+        assert page.evaluate("(async () => (await indexedDB.databases()).length)()") == 0
+        page.evaluate("localStorage.a = sessionStorage.b = 1; history.pushState(1, ''); indexedDB.open('kept')")
+        pages.close()
+    assert found == [[0, 0, first[2], width] for first, width in zip(found, (900, 390, 900), strict=True)]
+    assert len({history for _, _, history, _ in found}) == 1
+
+
+def test_a_page_that_was_closed_complains_to_no_later_test(browsers: Browsers, tmp_path: Path) -> None:
+    pages = Pages(browsers.of, tmp_path)
+    before = pages.open(GOOD)
+    pages.close()
+    other = Pages(browsers.of, tmp_path)
+    other.open(GOOD + "<script>console.error('oh')</script>")
+    with pytest.raises(pytest.fail.Exception, match="oh"):
+        other.close()
+    assert before.found == []
+
+
 def test_a_page_is_opened_from_its_own_file(open_page: OpenPage, tmp_path: Path) -> None:
     path = tmp_path / "零件 #1.html"
     path.write_text(GOOD, "utf-8")

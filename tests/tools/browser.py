@@ -8,16 +8,19 @@ import os
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 from xml.sax.saxutils import escape
 
 import chromium
 import pytest
+from browser_contexts import Contexts, Lent
 
 from sim.show.draw import style
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Dialog, Page, Playwright, Request
+
+    Heard = dict[str, Callable[[Any], None]]
 
 FLAGS = (
     "--disable-background-networking",
@@ -46,12 +49,18 @@ class Watched(NamedTuple):
 
     page: "Page"
     found: list[str]
+    heard: "Heard"
 
     def problems(self) -> list[str]:
         """Errors and warnings of the console, errors of scripts, dialogs, windows, and requests beside the page."""
         if not self.page.is_closed():
             self.page.wait_for_function("() => true")  # has a time limit, and what is under way is told before
         return list(self.found)
+
+    def leave(self, context: "BrowserContext") -> None:
+        """Write down no more of what a context tells."""
+        for event, handler in self.heard.items():
+            context.remove_listener(event, handler)
 
 
 class OpenPage(Protocol):
@@ -81,12 +90,12 @@ class Browsers:
         self._folder = folder
         self._closing = ExitStack()
         self._playwright: Playwright | None = None
-        self._running: dict[bool, Browser] = {}
+        self._running: dict[bool, Contexts] = {}
 
-    def of(self, shipped_font: bool) -> "Browser":
+    def of(self, shipped_font: bool) -> Contexts:
         """The browser with these fonts; a test without any browser is skipped here, or fails in CI."""
         if shipped_font not in self._running:
-            self._running[shipped_font] = self._launch(shipped_font)
+            self._running[shipped_font] = Contexts(self._launch(shipped_font))
         return self._running[shipped_font]
 
     def connected(self, address: str) -> "Browser":
@@ -123,12 +132,11 @@ class Browsers:
 
 
 class Pages:
-    """The pages of one test: each in a context of its own, as if nobody had opened one before."""
+    """The pages of one test: each in a context that no other has meanwhile, as if nobody had opened one before."""
 
-    def __init__(self, browser: Callable[[bool], "Browser"], folder: Path) -> None:
+    def __init__(self, browser: Callable[[bool], Contexts], folder: Path) -> None:
         self._browser, self._folder = browser, folder
-        self._contexts: list[BrowserContext] = []
-        self._opened: list[Watched] = []
+        self._opened: list[tuple[Contexts, Lent, Watched]] = []
 
     def open(
         self,
@@ -143,25 +151,31 @@ class Pages:
     ) -> Watched:
         """`OpenPage`."""
         settings = {
-            "viewport": {"width": width, "height": height},
             "locale": LOCALES[lang],
             "color_scheme": "dark" if dark else "light",
             "offline": True,
             "timezone_id": "UTC",
         }
-        self._contexts.append(self._browser(shipped_font).new_context(**{**settings, **context}))
-        self._opened.append(watch(self._contexts[-1]))
-        self._opened[-1].page.goto(self._file(page).as_uri())
-        return self._opened[-1]
+        contexts = self._browser(shipped_font)
+        lent = contexts.lend({**settings, **context}, width, height)
+        watched = watch(lent.context, lent.page)
+        self._opened.append((contexts, lent, watched))
+        watched.page.goto(self._file(page).as_uri())
+        return watched
 
     def close(self) -> None:
         """Close the pages, and complain of what was wrong on any."""
         with ExitStack() as closing:
-            for context in self._contexts:
-                closing.callback(context.close)
-            problems = [problem for watched in self._opened for problem in watched.problems()]
+            for _, lent, _ in self._opened:
+                closing.callback(lent.context.close)
+            problems = [problem for _, _, watched in self._opened for problem in watched.problems()]
+            if not problems:
+                closing.pop_all()
         if problems:
             pytest.fail("\n".join(problems), pytrace=False)
+        for contexts, lent, watched in self._opened:
+            watched.leave(lent.context)
+            contexts.take_back(lent)
 
     def _file(self, page: Path | str) -> Path:
         if isinstance(page, Path):
@@ -171,10 +185,10 @@ class Pages:
         return path
 
 
-def watch(context: "BrowserContext") -> Watched:
-    """A page whose complaints, and those of all that it opens, are written down."""
+def watch(context: "BrowserContext", page: "Page") -> Watched:
+    """A page of a context whose complaints, and those of all that it opens, are written down."""
     context.set_default_timeout(WAIT_MS)
-    page, found = context.new_page(), []
+    found: list[str] = []
 
     def console(message: "ConsoleMessage") -> None:
         if message.type in {"error", "warning", "assert"}:
@@ -189,12 +203,16 @@ def watch(context: "BrowserContext") -> Watched:
         found.append(f"dialog: {shown.message}")
         shown.dismiss()
 
-    context.on("console", console)
-    context.on("weberror", lambda error: found.append(f"script: {error.error}"))
-    context.on("request", request)
-    context.on("dialog", dialog)
-    context.on("page", lambda other: found.append(f"window: {other.url}"))
-    return Watched(page, found)
+    heard: Heard = {
+        "console": console,
+        "weberror": lambda error: found.append(f"script: {error.error}"),
+        "request": request,
+        "dialog": dialog,
+        "page": lambda other: found.append(f"window: {other.url}"),
+    }
+    for event, handler in heard.items():
+        context.on(event, handler)
+    return Watched(page, found, heard)
 
 
 @pytest.fixture(scope="session")

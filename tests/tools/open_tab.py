@@ -1,8 +1,9 @@
 """The page of ``drycut open`` in a browser."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
 
 from browser import LOCALES, WAIT_MS, Browsers
 
@@ -46,17 +47,18 @@ class Tab:
 @contextmanager
 def tab(browsers: Browsers, address: str, width: int = 1280, lang: str = "en") -> Iterator[Tab]:
     """A page in a browser that asks nothing but its server; complaints fail the test."""
-    context = browsers.of(False).new_context(
-        viewport={"width": width, "height": 800}, locale=LOCALES[lang], accept_downloads=True
-    )
-    context.set_default_timeout(WAIT_MS)
-    shown = Tab(context.new_page())
-    asked: list[str] = []
-    shown.page.on("request", lambda one: asked.append(one.url))
-    try:
+    contexts = browsers.of(False)
+    settings = {"locale": LOCALES[lang], "accept_downloads": True}
+    lent = contexts.lend(settings, width, 800, "http://" + urlsplit(address).netloc)
+    with ExitStack() as closing:
+        closing.callback(lent.context.close)
+        lent.context.set_default_timeout(WAIT_MS)
+        shown = Tab(lent.page)
+        asked: list[str] = []
+        shown.page.on("request", lambda one: asked.append(one.url))
         shown.page.goto(address)
         yield shown
         assert shown.found == []
         assert [url for url in asked if not url.startswith((address, "blob:", "data:"))] == []
-    finally:
-        context.close()
+        closing.pop_all()
+    contexts.take_back(lent)

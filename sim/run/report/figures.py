@@ -11,9 +11,9 @@ from sim.check.beside import Offsetting
 from sim.measure.deviation.causes import Part
 from sim.measure.deviation.deviation import Deviation, Where
 from sim.measure.deviation.measured import Deviations
+from sim.rounded import DEG_DIGITS, column, moment, points, rounded, rows
 from sim.run.dryrun import DryRun
 from sim.run.ending import Ending
-from sim.run.report.rounded import DEG_DIGITS, column, moment, points, rounded, rows
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
 

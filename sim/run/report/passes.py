@@ -4,8 +4,8 @@ from typing import Any
 
 from sim.measure.passes.figures import PassFigures
 from sim.measure.passes.stock import Stock
+from sim.rounded import rounded
 from sim.run.dryrun import DryRun
-from sim.run.report.rounded import rounded
 
 
 def pass_entries(run: DryRun) -> list[dict[str, Any]]:

@@ -14,8 +14,8 @@ from sim.cut.pieces.pieces import Frame, Piece
 from sim.cut.play.freedom import Play
 from sim.cut.remains import Remains
 from sim.cut.sizes.sizes import BoxSize, DistanceSize, RadiusSize, Sizes
+from sim.rounded import column, known, moment, points, rounded, rows
 from sim.run.outlines import simpler
-from sim.run.report.rounded import column, known, moment, points, rounded, rows
 
 _OUTLINE_UM = 1.0  # one step, as exact as the cut is known anyway
 

@@ -6,14 +6,11 @@ import numpy as np
 
 from controller.motion.plan import Plan
 from controller.stepping.words import words_of
-from parser.geometry.curves import CurveKind, Curves, Floats
 from parser.program import Program
 from parser.told.step_words import Axis, StepWords
+from sim.rounded import column
 from sim.run.dryrun import DryRun
-from sim.run.report.rounded import column
-
-_ANGLE_DIGITS = 12
-"""On a radius of a metre they tell a place to 10⁻⁶ µm, as its own digits do."""
+from sim.show.replay.curve_columns import exact_columns
 
 
 def block_columns(run: DryRun) -> dict[str, list[Any]]:
@@ -35,24 +32,6 @@ def plan_columns(plan: Plan) -> dict[str, list[Any] | None]:
         "acceleration_um_s2": column(plan.acceleration_um_s2),
         "jerk_um_s3": column(plan.jerk_um_s3) if plan.jerk_um_s3.any() else None,
     }
-
-
-def exact_columns(path: Curves) -> dict[str, list[Any]]:
-    """Columns of n curves, each from the end of the last one, that pages draw a path by; `place_*` have n + 1."""
-    place = np.concatenate([path.start_um[:1], path.end_um])
-    return {
-        "kind": [CurveKind(kind).name.lower() for kind in path.kind.tolist()],
-        **_pairs("place", place),
-        **_pairs("center", path.center_um),
-        "radius_um": column(path.radius_um),
-        "start_angle_rad": column(path.start_angle_rad, _ANGLE_DIGITS),
-        "sweep_rad": column(path.sweep_rad, _ANGLE_DIGITS),
-        "length_um": column(path.length_um),
-    }
-
-
-def _pairs(name: str, place_um: Floats) -> dict[str, list[float | None]]:
-    return {f"{name}_{axis}_um": column(place_um[:, at]) for at, axis in enumerate("xy")}
 
 
 def _words(words: StepWords) -> dict[str, list[Any]]:

@@ -9,9 +9,9 @@ from parser.findings.findings import Finding
 from parser.shape.contours import Contour
 from parser.toolpath import Stop
 from parser.units import from_mm
+from sim.rounded import rounded
 from sim.run.course import Happening, PassOf
 from sim.run.ending import Ending
-from sim.run.report.rounded import rounded
 from sim.show.draw.tones import paint_of_pass
 from sim.show.words.phrases import named_pass
 from sim.table.record.losses import Loss

@@ -6,10 +6,10 @@ import numpy as np
 import shapely
 
 from sim.cut.pieces.pieces import Piece
+from sim.rounded import rounded
 from sim.run.course import Happening
 from sim.run.dryrun import DryRun
 from sim.run.outlines import simpler
-from sim.run.report.rounded import rounded
 from sim.setup.obstacles import Outline
 from sim.table.follow import Setup
 from sim.table.trace import origin_um

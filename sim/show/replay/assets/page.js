@@ -85,11 +85,11 @@ export function buildPage(replay) {
   const outs = readoutsIn(document.body, doc, model);
   const tip = tipIn(found("tip"));
   const timeline = timelineIn(
-    { bar, marks: element("#marks", HTMLCanvasElement), cursor: found("cursor"), findings: found("finding-marks") },
+    { bar, marks: element("#marks", HTMLCanvasElement), cursor: found("cursor"), findings: found("finding-marks"), whole: found("whole-run") },
     doc,
     player,
     stage.colours,
-    { onSeek: player.seek, onFinding },
+    { onSeek: player.seek, onBlock: player.seekBlock, onFinding },
   );
   const list = findingsIn(found("findings"), doc, onFinding);
   const text = programIn(found("program"), doc, {
@@ -133,7 +133,7 @@ export function buildPage(replay) {
     const shown = moment();
     if (page.isFollowing) stage.view.lookAt(...shown.wire);
     const falls = wasPlaying || (stage.isFalling && shown.t >= player.duration); // on after the end
-    stage.draw(shown, page.times, falls, now);
+    stage.draw(shown, page, falls, now);
     outs.show(shown);
     text.run(shown.block);
     decoding.run(shown.block);
