@@ -45,6 +45,8 @@ export function timelineIn({ bar, marks, cursor, findings: lane, whole }, doc, p
   let groups = [];
   let looped = player.loop;
   let shownAt = 0;
+  /** @type {number[]} */
+  let asked = []; // rows before which the quiz asks
   let pressedAt = 0;
   /**
    * The group of several blocks under a pointer, if any.
@@ -117,7 +119,7 @@ export function timelineIn({ bar, marks, cursor, findings: lane, whole }, doc, p
     pen.fillStyle = shades.end;
     for (const stop of doc.stops) pen.fillRect(Math.round(toX(border[stop.after])) - 1, 0, 3, height);
     pen.fillStyle = shades.accent;
-    for (const { row } of doc.quiz) {
+    for (const row of asked) {
       const x = toX(border[row]);
       pen.beginPath();
       pen.moveTo(x - 5, 0);
@@ -215,6 +217,15 @@ export function timelineIn({ bar, marks, cursor, findings: lane, whole }, doc, p
   new ResizeObserver(redo).observe(bar);
 
   return {
+    /**
+     * Mark where the quiz asks.
+     * @param {number[]} rows
+     */
+    ask(rows) {
+      if (rows.join() === asked.join()) return;
+      asked = rows;
+      draw();
+    },
     redo,
     /**
      * Show a loop, where it is another one.
