@@ -300,23 +300,6 @@ def sheets(pdf: bytes) -> list[tuple[int, int]]:
     return [(round(float(w) / 72 * 25.4), round(float(h) / 72 * 25.4)) for w, h in boxes]
 
 
-@pytest.mark.parametrize(("blocks", "on_paper"), [(600, 600), (2200, 200)])
-def test_on_paper_a_table_has_all_its_rows_unless_they_are_too_many(
-    open_page: OpenPage, blocks: int, on_paper: int
-) -> None:
-    page = shown(open_page, made(staircase(blocks), may_stay_open=True).html)
-    rows, rest = page.locator(f"{BLOCKS} tbody tr"), page.locator(f"{BLOCKS} .rest")
-    assert rows.count() == 200
-    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
-    page.emulate_media(media="print")
-    assert rows.count() == on_paper
-    assert rest.is_visible() == (on_paper < blocks)
-    page.emulate_media(media="screen")
-    page.evaluate("window.dispatchEvent(new Event('afterprint'))")
-    assert rows.count() == 200
-    assert page.locator(f"{BLOCKS} .count").inner_text() == f"rows 1–200 of {blocks:,}"
-
-
 def test_lines_that_the_languages_share_are_drawn_in_both(open_page: OpenPage, many: Made) -> None:
     page = shown(open_page, many.html, lang="zh")
     used = page.evaluate("""() => [...document.querySelectorAll('.picture [lang=zh-CN] use')].map(use => {
