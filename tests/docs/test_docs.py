@@ -14,7 +14,7 @@ from typing import Any
 import click
 import numpy as np
 import pytest
-from command import without_progress
+from command import run_inside, without_progress
 from places import MACHINES, ROOT
 from report_schema import complaints, validator
 from runs import scenario_run
@@ -364,15 +364,8 @@ def test_shown_output_is_what_is_printed(tmp_path: Path, page: Path, command: st
     name = command.split()[1]
     assert name in SHOWN_DRAWINGS or f"```\n{SHOWN_PROGRAMS[name]}```" in read(page)
     (tmp_path / name).write_text({**SHOWN_PROGRAMS, **SHOWN_DRAWINGS}[name])
-    printed = subprocess.run(
-        [sys.executable, "-m", "sim", *command.split()],
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONUTF8": "1", "LC_ALL": "C"},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        check=False,
-    ).stdout
-    printed = without_progress(printed).decode("utf-8")
+    done = run_inside(*command.split(), cwd=tmp_path, COLUMNS="80")
+    printed = (without_progress(done.stderr) + done.stdout).decode("utf-8")
     # A line that ends in … was cut off for the page.
     pairs = zip(output.splitlines(), printed.splitlines(), strict=True)
     for shown, real in pairs:

@@ -1,11 +1,9 @@
 """The replay's page in a browser: played, stepped, scrubbed, asked, in both languages, with mouse, keys and fingers."""
 
-import base64
 import csv
 import functools
 import io
 import re
-from dataclasses import replace
 from itertools import combinations, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,24 +12,17 @@ import numpy as np
 import page_checks
 import pytest
 from browser import OpenPage
-from chunked import chunks_of
 from golden_pictures import assert_golden_screen
-from PIL import Image
-from replayed import exports, recording_of
+from long_replays import long_page
+from replayed import canvas, drawn, exports, recording_of
 from runs import plain_scenario, scenario_recording
 
-from controller.stepping.pulses import Pulses, time_steps
 from parser.findings.catalogue import Said
 from parser.program import parse_program
-from sim.measure.deviation.meters import StepTally
-from sim.run.dryrun import DryRun
-from sim.run.prepare import prepare
-from sim.run.recording import Recording, recorded
+from sim.run.recording import recorded
 from sim.setup.quiz import Question, WrittenQuestion
 from sim.show.replay.document import replay_page
-from sim.table.motion import motion_of
 from sim.table.progress import silent
-from sim.table.trace import Trace, origin_um
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page
@@ -72,11 +63,6 @@ def opened(open_page: OpenPage, page: str | None = None, width: int = 1000, heig
     return shown
 
 
-def drawn(page: "Page") -> None:
-    """Wait until what was asked for is drawn."""
-    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-
-
 def until(page: "Page", condition: str) -> None:
     """Wait for something; what Playwright has for that evaluates texts, which the page forbids."""
     page.evaluate(f"async () => {{ while (!({condition})) await new Promise(requestAnimationFrame); }}")
@@ -95,14 +81,6 @@ def out(page: "Page", name: str) -> str:
 def do(page: "Page", script: str) -> None:
     page.evaluate(f"() => {{ {script} }}")
     drawn(page)
-
-
-def canvas(page: "Page") -> np.ndarray:
-    """What the table shows, (height, width, 3) levels."""
-    drawn(page)
-    picture = page.evaluate("document.getElementById('table').toDataURL()")
-    drawing = Image.open(io.BytesIO(base64.b64decode(picture.partition(",")[2])))
-    return np.asarray(drawing.convert("RGB"), dtype=int)
 
 
 def colour(page: "Page", x_um: float, y_um: float) -> list[int]:
@@ -712,39 +690,7 @@ def test_a_phone_shows_table_controls_and_text_one_below_the_other(open_page: Op
 
 @functools.cache
 def million_steps() -> str:
-    """Page of a million steps on a table that stands where it is told: dry-running one takes half a minute."""
-    small = recording_of("B0B300B300GYL2 B300B200B300GXL4 B300B100B300GXL3 DD")
-    program = parse_program(f"{ZIGZAG} {ZIGZAG} DD")
-    scenario = plain_scenario(may_stay_open=True)
-    ready = prepare(program, scenario)
-    motion = motion_of(program.toolpath, scenario.machine.feeds(40.0), scenario.machine, scenario.start_um, 5.0)
-    timed = [time_steps(chunk, motion.drive.plan) for chunk in chunks_of(ready.steps)]
-    pulses = Pulses._make(np.concatenate(column) for column in zip(*timed, strict=True))
-    return replay_page(Recording(_ran(small.run, program, motion.drive.plan, pulses), small.pieces, pulses))
-
-
-def _ran(run: DryRun, program: object, plan: object, pulses: Pulses) -> DryRun:
-    tally = StepTally(len(program.toolpath), origin_um(program.toolpath))
-    tally.take(pulses)
-    stepped = tally.result()
-    ends = np.cumsum(stepped.count) - 1
-    border = np.concatenate([[0.0], pulses.t_s[ends][:-1], [plan.duration_s]])
-    every = np.arange(0, len(pulses.t_s), 5)
-    place = np.column_stack([pulses.x_um[every], pulses.y_um[every]]).astype(float)
-    t = np.concatenate([[0.0], pulses.t_s[every] + 1e-3])
-    place, row = np.vstack([[[0.0, 0.0]], place]), np.concatenate([[0], pulses.row[every]]).astype(np.int64)
-    wobble = np.column_stack([np.sin(t * 3.0), np.cos(t * 2.0)])
-    trace = Trace(t, place, place + wobble, place + wobble, row)
-    return replace(
-        run,
-        program=program,
-        plan=plan,
-        stepped=stepped,
-        trace=trace,
-        border_s=border,
-        findings=(),
-        contours=(),
-    )
+    return long_page(f"{ZIGZAG} {ZIGZAG} DD")
 
 
 def test_a_million_steps_load_soon_and_play_smoothly(open_page: OpenPage) -> None:

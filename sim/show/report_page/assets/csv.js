@@ -24,6 +24,6 @@ function filled(column, value) {
  * @param {number[]} rows
  */
 export function csvOf(columns, rows) {
-  const heads = columns.map(({ head, unit }) => (unit ? `${pick(head)} ${unit}` : pick(head)));
+  const heads = columns.map(({ head, unit }) => cellOf(unit ? `${pick(head)} ${unit}` : pick(head)));
   return fileOf([heads, ...rows.map((row) => columns.map((column) => filled(column, column.values[row])))]);
 }
