@@ -5,7 +5,7 @@ import js from "@eslint/js";
 // The globals of a browser that the scripts use: any other one, as `name` or `event`, is a mistake.
 const BROWSER = [
   "Blob", "DecompressionStream", "Element", "HTMLAnchorElement", "HTMLCanvasElement", "HTMLDetailsElement",
-  "HTMLButtonElement", "HTMLDialogElement", "HTMLElement", "HTMLInputElement", "HTMLProgressElement", "HTMLSelectElement", "HTMLTextAreaElement", "ResizeObserver", "Response", "atob",
+  "HTMLButtonElement", "HTMLDialogElement", "HTMLElement", "HTMLInputElement", "HTMLProgressElement", "HTMLSelectElement", "HTMLTextAreaElement", "ResizeObserver", "Response", "URL", "atob",
   "document", "getComputedStyle", "performance", "requestAnimationFrame", "window",
 ];
 

@@ -11,6 +11,7 @@ import click
 from controller.compiled.telling import on_compiling
 from parser import __version__
 from parser.findings.errors import DrycutError
+from sim.cli.spoken import SpokenGroup, spoken, words
 from sim.show.terminal.printer import say, write
 from sim.show.terminal.streams import OutputError, prepare_streams
 
@@ -31,7 +32,7 @@ _COMMANDS = {
 }
 
 
-class _LazyGroup(click.Group):
+class _LazyGroup(SpokenGroup):
     """Group whose commands are imported when they are asked for."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -46,6 +47,7 @@ class _LazyGroup(click.Group):
 
 
 @click.group(
+    name="drycut",
     cls=_LazyGroup,
     invoke_without_command=True,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
@@ -67,7 +69,7 @@ def main() -> None:
     """
     prepare_streams()
     _end_on_signals()
-    on_compiling(lambda: say("drycut: compiling its loops, once: some 20 seconds", err=True))
+    on_compiling(lambda: say(words()("commands.compiling"), err=True))
     code = _run()
     try:
         sys.stdout.flush()
@@ -120,12 +122,11 @@ def _message(error: click.ClickException | DrycutError | OSError) -> str:
 
 
 def _complain(message: str) -> int:
-    say(f"drycut: error: {message}", err=True)
+    say(words()("commands.error", message=message), err=True)
     return 2
 
 
 def _tell_fault(told: str) -> int:
     from sim.cli.faults import tell_faults
-    from sim.cli.scenario_options import chosen
 
-    return tell_faults({"": told}, chosen(None))
+    return tell_faults({"": told}, spoken())

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.scenario_options import ENGINE_OPTION, Length
+from sim.cli.spoken import Spoken, spoken, words
 
 if TYPE_CHECKING:
     from sim.run.ballbar.circle import Ballbar
@@ -24,25 +25,23 @@ class Speed(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
         return value if isinstance(value, float) else parse_speed(value)
 
 
-@click.command()
-@click.option("--radius", type=Length(), default="50mm", show_default=True, help="Radius of the circle.")
-@click.option("--feed", type=Speed(), help="Feed along the circle, such as 500mm/min; that of the machine's jumps.")
-@click.option("--machine", default="dk7740", show_default=True, metavar="NAME|FILE", help="Machine to test.")
+@click.command(cls=Spoken)
+@click.option("--radius", type=Length(), default="50mm", show_default=True)
+@click.option("--feed", type=Speed())
+@click.option("--machine", default="dk7740", show_default=True, metavar="NAME|FILE")
 @click.option(
     "--interpolator",
     type=click.Choice(["point-by-point", "card"]),
-    help="How the path becomes steps, in place of the machine's own.",
 )
 @ENGINE_OPTION
-@click.option("--tolerance", type=Length(), help="Largest circularity G(b) that passes, such as 10um.")
+@click.option("--tolerance", type=Length())
 @click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path),
     metavar="FILE.png|DIR",
-    help="Write the polar plot here, or ballbar.png and ballbar.json into a folder.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print ballbar.json instead of the table.")
+@click.option("--json", "as_json", is_flag=True)
 def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     radius: float,
     feed: float | None,
@@ -54,12 +53,6 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     as_json: bool,
 ) -> None:
     """Run the circular test of ISO 230-4 on a machine.
-
-    Moves the table round a circle in both directions and tells how round it went: circularity, the steps and spikes at
-    the reversals of the axes, and what else the deviation consists of.
-
-    Exit code: 0 good, 1 steps were lost, a drive tripped or --tolerance is exceeded, 2 bad use or unreadable input,
-    3 a fault of drycut itself.
 
     \b
     drycut ballbar --radius 50mm --feed 500mm/min -o ballbar.png
@@ -87,9 +80,9 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     if as_json:
         write(document_text(done, tolerance), "json")
     else:
-        print_ballbar(done, tolerance)
+        print_ballbar(done, tolerance, spoken())
         if written:
-            say(f"written: {', '.join(written)}")
+            say(words()("commands.written", names=", ".join(written)))
     raise click.exceptions.Exit(0 if done.passes(tolerance) else 1)
 
 
@@ -105,7 +98,7 @@ def _write(done: "Ballbar", tolerance_um: float | None, output: Path) -> list[st
         if done.measured is not None:
             from sim.show.pictures.ballbar.plot import draw_ballbar
 
-            draw_ballbar(done, done.measured).save(stage / picture, dpi=(200, 200))
+            draw_ballbar(done, done.measured, spoken()).save(stage / picture, dpi=(200, 200))
         if not alone:
             (stage / "ballbar.json").write_text(document_text(done, tolerance_um), encoding="utf-8")
     return [str(folder / name) for name in names]

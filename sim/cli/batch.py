@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from sim.cli.overrides import Overrides, overridden
+from sim.cli.spoken import spoken
 from sim.cli.spread import Spread, pool_of
 
 
@@ -42,11 +43,10 @@ def run_shop(names: Sequence[str], output: Path | None, spread: Spread, options:
     if as_json:
         write(index_text(done.document), "json")
     else:
-        print_batch(done.document, output)
+        print_batch(done.document, output, spoken())
     if done.faults:
         from sim.cli.faults import tell_faults
-        from sim.cli.scenario_options import chosen
 
-        return tell_faults(done.faults, chosen(None))
+        return tell_faults(done.faults, spoken())
     counts = done.document["counts"]
     return 0 if counts["pass"] == counts["programs"] else 1

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 import click
 
+from sim.cli.spoken import SpokenGroup
 from sim.show.terminal.printer import say, write
 
 if TYPE_CHECKING:
@@ -19,25 +20,19 @@ _Command = TypeVar("_Command", bound=Callable[..., None])
 def _into(told: str) -> Callable[[_Command], _Command]:
     """The option that names the folder of what is made."""
     kind = click.Path(path_type=Path, file_okay=False)
-    return click.option("-o", "--output", type=kind, required=True, metavar="DIR", help=told)
+    return click.option("-o", "--output", type=kind, required=True, metavar="DIR")
 
 
-@click.group()
+@click.group(cls=SpokenGroup)
 def card() -> None:
     """Work with the emulated motion card."""
 
 
 @card.command()
 @click.argument("log", type=click.Path(path_type=Path), metavar="FILE")
-@click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")
+@click.option("--json", "as_json", is_flag=True)
 def replay(log: Path, as_json: bool) -> None:
     """Replay a log of the card and compare.
-
-    Makes the same calls at the same simulated times, and compares time, answer and status of each, and the end.
-
-    \b
-    Exit code: 0 all is equal, 1 something differs, 2 bad use or unreadable input,
-    3 a fault of drycut itself.
 
     \b
     drycut card replay part.log
@@ -64,14 +59,6 @@ def replay(log: Path, as_json: bool) -> None:
 def build(output: Path) -> None:
     """Make the card's library for programs in C: libges.so with ges.h.
 
-    The C compiler of the machine makes it, or the one that CC names. The library finds this Python and its packages
-    where they are now. libdrycut_sleep.so lets the sleeps of a program pass on the card, and windows.h and others stand
-    in for headers of Windows (docs/libges.md).
-
-    \b
-    Exit code: 0 made, 2 bad use, or no compiler or Python to make it with,
-    3 a fault of drycut itself.
-
     \b
     drycut card build -o ges
     cc client.c -o client -I ges/include -L ges -lges -ldrycut_sleep
@@ -91,16 +78,14 @@ def build(output: Path) -> None:
     "--library",
     type=click.Path(path_type=Path, file_okay=False),
     metavar="DIR",
-    help="Folder that drycut card build made; else the library is made anew, by a C compiler.",
 )
 @click.option(
     "--card",
     "settings",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE.toml",
-    help="Settings and switches of the card (docs/libges.md).",
 )
-@click.option("--call-s", type=click.FloatRange(1e-9, 1.0), metavar="S", help="Time that a call takes on the card, s.")
+@click.option("--call-s", type=click.FloatRange(1e-9, 1.0), metavar="S")
 @click.option(
     "--timeout",
     "longest_s",
@@ -108,13 +93,9 @@ def build(output: Path) -> None:
     default=60.0,
     show_default=True,
     metavar="S",
-    help="Real time, s, after which the client is stopped.",
 )
-@click.option(
-    "--machine", metavar="NAME|FILE", help="Machine whose table follows the card; else one that follows every pulse."
-)
-@click.option("--json", "as_json", is_flag=True, help="Print report.json; what the client prints goes to stderr.")
-@click.option("--lang", type=click.Choice(["en", "zh"]), help="Language of messages; else that of the locale.")
+@click.option("--machine", metavar="NAME|FILE")
+@click.option("--json", "as_json", is_flag=True)
 def run(  # noqa: PLR0913 - click hands over each option by its name
     *,
     command: tuple[str, ...],
@@ -125,17 +106,8 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     longest_s: float,
     machine: str | None,
     as_json: bool,
-    lang: str | None,
 ) -> None:
     """Run a program for the card, in C, and show what its calls did to the table, and what it did not look at.
-
-    The client is started against the card's library; its sleeps move the card and take no time. Its calls are made
-    again on the card, and the table follows the pulses.
-
-    \b
-    Exit code: 0 the client ended with 0 and nothing is an error, 1 it did not,
-    or something is, 2 bad use, or a client or library that cannot be used,
-    3 a fault of drycut itself.
 
     \b
     drycut card run ./client -o out/
@@ -144,7 +116,7 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     from sim.cli.card_client import Asked, run_client
 
     asked = Asked(command, output, library, settings, call_s, longest_s, machine)
-    raise click.exceptions.Exit(run_client(asked, lang, as_json=as_json))
+    raise click.exceptions.Exit(run_client(asked, as_json=as_json))
 
 
 def _text(name: str, done: "Replay", count: int, shown: "list[Difference]") -> Iterator[str]:

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from sim.cli.scenario_options import chosen
+from sim.cli.spoken import spoken
 
 if TYPE_CHECKING:
     from sim.setup.scenario import Scenario
@@ -27,7 +27,7 @@ class Asked(NamedTuple):
     machine: str | None
 
 
-def run_client(asked: Asked, lang: str | None, *, as_json: bool) -> int:
+def run_client(asked: Asked, *, as_json: bool) -> int:
     """Start the client, run its calls again and print what came of it; the exit code."""
     from sim.cli.progress import StageProgress
     from sim.client.started import Wanted, started
@@ -50,7 +50,7 @@ def run_client(asked: Asked, lang: str | None, *, as_json: bool) -> int:
     if as_json:
         write(report_text(done.report), "json")
     else:
-        tongue = chosen(lang)
+        tongue = spoken()
         print_client(done, scenario.title, asked.longest_s, tongue)
         say(Words(tongue)("client.written", out=asked.output, names=", ".join(names_of(done))))
     findings = done.run.findings if done.run else done.read.program.findings

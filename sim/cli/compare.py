@@ -6,30 +6,29 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.dialect_options import Offsets, OrRegister, offsets_of, with_dialect
-from sim.cli.scenario_options import SHARP_CORNERS, Length
+from sim.cli.scenario_options import Length
+from sim.cli.spoken import Spoken, spoken, words
 
 if TYPE_CHECKING:
     from parser.program import Program
     from sim.setup.scenario import Scenario
 
 
-@click.command()
+@click.command(cls=Spoken)
 @click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
 @click.argument("drawing", type=click.Path(path_type=Path), metavar="[DRAWING.dxf]", required=False)
 @click.option(
     "--offset",
     type=OrRegister(Length()),
     multiple=True,
-    help="How far the wire cuts past its path, such as 0.1mm; else that of the program's header, else of the wire. Or "
-    "the value of a register that an ISO program names, such as D0=0.1mm; this may be given again.",
 )
 @with_dialect
-@click.option("--tolerance", type=Length(), help="Largest deviation that passes; 5um where left out.")
-@click.option("--layer", metavar="NAME", help="The drawing's layer to compare with; all of them where left out.")
-@click.option("--gap", type=Length(), help="Gap between curves that is bridged; 10um where left out.")
-@click.option("--no-fit", is_flag=True, help="Compare in place, without a fit of position and turn.")
-@click.option("--sharp-corners", type=click.Choice(["tell", "fail"]), help=SHARP_CORNERS)
-@click.option("--json", "as_json", is_flag=True, help="Print the comparison as JSON instead of the summary.")
+@click.option("--tolerance", type=Length())
+@click.option("--layer", metavar="NAME")
+@click.option("--gap", type=Length())
+@click.option("--no-fit", is_flag=True)
+@click.option("--sharp-corners", type=click.Choice(["tell", "fail"]))
+@click.option("--json", "as_json", is_flag=True)
 def compare(
     *,
     path: Path,
@@ -40,14 +39,6 @@ def compare(
     **options: Any,
 ) -> None:
     """Compare the edge that a program cuts with a drawing (DXF).
-
-    Measures how far the cut edge lies from the drawing and the drawing from the cut edge, after the drawing is turned
-    and shifted on to it. Mirrored programs, slips of units and offsets to the wrong side are named. A scenario may have
-    a drawing of its own, with layer, tolerance and gap.
-
-    \b
-    Exit code: 0 within the tolerance, 1 outside, 2 bad use or unreadable input,
-    3 a fault of drycut itself.
 
     \b
     drycut compare part.3b part.dxf --offset 0.1mm --tolerance 5um
@@ -76,7 +67,7 @@ def compare(
     if as_json:
         write(document_text(done), "json")
     else:
-        print_comparison(done, program.name, program.toolpath.source.names, source)
+        print_comparison(done, program.name, program.toolpath.source.names, source, spoken())
     raise click.exceptions.Exit(0 if done.passes else 1)
 
 
@@ -115,9 +106,9 @@ def _offset(given: float | None, program: "Program", scenario: "Scenario") -> tu
     from parser.units import mm
 
     if given is not None:
-        return given, f"{mm(given):g} mm, as given"
+        return given, words()("compare.as-given", offset=f"{mm(given):g}")
     told = program.header.get("offset_um")
     if isinstance(told, float) and told and scenario.offset is None:
         offset_um = abs(told)
-        return offset_um, f"{mm(offset_um):g} mm, of the program's header"
-    return scenario.wire.reach_um, f"{mm(scenario.wire.reach_um):g} mm, of the wire and its spark gap"
+        return offset_um, words()("compare.of-header", offset=f"{mm(offset_um):g}")
+    return scenario.wire.reach_um, words()("compare.of-wire", offset=f"{mm(scenario.wire.reach_um):g}")

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from sim.cli.dialect_options import Dialect, Offsets, OrRegister, offsets_of
-from sim.cli.scenario_options import Length, chosen
+from sim.cli.scenario_options import Length
+from sim.cli.spoken import Spoken, spoken
 
 if TYPE_CHECKING:
     from parser.dialect.choices import Choices
@@ -41,7 +42,7 @@ class _Asked(NamedTuple):
     card: Any
 
 
-@click.command(short_help="Convert a program between 3B, 4B and the dialects of ISO, and to PMAC.")
+@click.command(cls=Spoken)
 @click.argument("path", type=click.Path(path_type=Path, dir_okay=False), metavar="PROGRAM")
 @click.option(
     "-o",
@@ -49,46 +50,33 @@ class _Asked(NamedTuple):
     type=click.Path(path_type=Path, dir_okay=False),
     required=True,
     metavar="FILE",
-    help="The program that is written; its suffix says its language: .3b, .4b, .iso, .nc, .cnc or .pmc.",
 )
-@click.option("--to", type=click.Choice(["3b", "4b", "iso", "pmac"]), help="Its language, whatever its suffix.")
-@click.option("--dialect", type=Dialect(), help="Dialect of ISO: of what is written, else of what is read.")
-@click.option("--unit", type=_UNITS, help="Unit of ISO: of what is written, else of what is read.")
-@click.option("--from-dialect", type=Dialect(), help="Dialect that is read, from ISO to ISO; else told by its text.")
-@click.option("--from-unit", type=_UNITS, help="Unit that is read, from ISO to ISO.")
+@click.option("--to", type=click.Choice(["3b", "4b", "iso", "pmac"]))
+@click.option("--dialect", type=Dialect())
+@click.option("--unit", type=_UNITS)
+@click.option("--from-dialect", type=Dialect())
+@click.option("--from-unit", type=_UNITS)
 @click.option(
     "--offset",
     type=OrRegister(Length()),
     multiple=True,
-    help="Value of a register that the program names, such as D0=0.1mm; may be given again. Or an offset to work in, "
-    "such as 0.1mm, with --side.",
 )
-@click.option("--side", type=click.Choice(["left", "right"]), help="Side of the contour on which the wire runs.")
+@click.option("--side", type=click.Choice(["left", "right"]))
 @click.option(
     "--compensation",
     type=click.Choice(["kept", "worked-in"]),
-    help="Leave G41 and G42 to the controller, or work them into the path. 3B carries none: worked in; else kept.",
 )
-@click.option("--form", type=click.Choice(["compact", "aligned", "detailed"]), help="Form of 3B; compact.")
-@click.option("--distance", type=click.Choice(["absolute", "incremental"]), help="G90 or G91; as the dialect begins.")
-@click.option("--centers", type=click.Choice(["from-start", "absolute"]), help="I J; as the dialect has them.")
-@click.option("--decimals", type=click.IntRange(1, 6), help="Digits behind the point of mm (3) and inch (5).")
-@click.option("--number-step", type=click.IntRange(0, 1000), help="N of blocks, such as 10; 0 for none.")
-@click.option("--tape/--no-tape", default=None, help="Begin and end with %; as the dialect does.")
-@click.option("--pmac", type=click.Choice(["native", "gcode"]), help="Words of PMAC, or G words kept; native.")
-@click.option("--card", type=click.Choice(["turbo", "power"]), help="PMAC card; turbo.")
-@click.option("--crlf", is_flag=True, help="End lines as Windows does.")
-@click.option("--lang", type=click.Choice(["en", "zh"]), help="Language of messages; else that of the locale.")
-def convert(path: Path, output: Path, lang: str | None, **options: Any) -> None:
+@click.option("--form", type=click.Choice(["compact", "aligned", "detailed"]))
+@click.option("--distance", type=click.Choice(["absolute", "incremental"]))
+@click.option("--centers", type=click.Choice(["from-start", "absolute"]))
+@click.option("--decimals", type=click.IntRange(1, 6))
+@click.option("--number-step", type=click.IntRange(0, 1000))
+@click.option("--tape/--no-tape", default=None)
+@click.option("--pmac", type=click.Choice(["native", "gcode"]))
+@click.option("--card", type=click.Choice(["turbo", "power"]))
+@click.option("--crlf", is_flag=True)
+def convert(path: Path, output: Path, **options: Any) -> None:
     """Convert a program from 3B, 4B, ISO or PMAC to 3B, 4B, any dialect of ISO or PMAC.
-
-    The program is checked first; one with errors is not converted. What is written is read back, checked, and held
-    against the path that it was written of, block by block: no more than 3 µm off, mostly less than 1. Then it is
-    given, with a list of what it could not take over.
-
-    \b
-    Exit code: 0 written and proved, 1 not, and nothing is written, 2 bad use or
-    unreadable input, 3 a fault of drycut itself.
 
     \b
     drycut convert part.iso -o part.3b
@@ -110,7 +98,7 @@ def convert(path: Path, output: Path, lang: str | None, **options: Any) -> None:
     language = asked.to or _language(output)
     _refuse_misfits(asked, language)
     given = offsets_of(asked.offset)
-    tongue: Tongue = chosen(lang)
+    tongue: Tongue = spoken()
     try:
         program = _with_offset(read_program(path, _choices(asked, language, given)), given, asked.side)
         wanted = _wanted(asked, language, program, given)

@@ -7,7 +7,8 @@ import click
 
 from parser.findings.errors import ProgramError
 from sim.cli.dialect_options import RegisterSet, RegisterValue, with_dialect
-from sim.cli.scenario_options import chosen, describe
+from sim.cli.scenario_options import describe
+from sim.cli.spoken import Spoken, spoken
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -15,20 +16,16 @@ if TYPE_CHECKING:
     from sim.decode.blocks import Decoded
 
 
-@click.command(short_help="Show how each block of an ISO program is decoded and compensated.")
+@click.command(cls=Spoken)
 @click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM")
 @click.option(
     "--block",
     "number",
     type=int,
-    help="Only the blocks with this number behind N; where none has one, the block in this place.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print the blocks as JSON.")
+@click.option("--json", "as_json", is_flag=True)
 @with_dialect
-@click.option(
-    "--offset", "registers", type=RegisterValue(), multiple=True, help="Value of a register; may be repeated."
-)
-@click.option("--lang", type=click.Choice(["en", "zh"]), help="Language; that of the locale where left out.")
+@click.option("--offset", "registers", type=RegisterValue(), multiple=True)
 def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     path: Path,
     number: int | None,
@@ -36,15 +33,8 @@ def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     dialect: str | None,
     unit: str | None,
     registers: tuple[RegisterSet, ...],
-    lang: str | None,
 ) -> None:
     """Show how a controller decodes an ISO program, block by block, and what it then does to each block.
-
-    Each word sets a field of the block's buffer, in the order of the words. Then come the end of the contour, its place
-    moved aside by the offset to either side, and how the block is joined to the one before.
-
-    \b
-    Exit code: 0 good, 2 bad use or unreadable input, 3 a fault of drycut itself.
 
     \b
     drycut decode part.iso
@@ -58,7 +48,7 @@ def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.show.terminal.printer import say, write
     from sim.show.words import Words
 
-    language = chosen(lang)
+    language = spoken()
     try:
         program = read_program(path, Choices(dialect=dialect or "", unit=unit or "", registers=registers))
     except ProgramError as error:

@@ -95,11 +95,10 @@ def register_set(text: str) -> RegisterSet:
 
 
 READ_WITH = (
-    click.option("--dialect", type=Dialect(), help=f"Dialect of ISO programs, else told by their text: {_DIALECTS}."),
+    click.option("--dialect", type=Dialect()),
     click.option(
         "--unit",
         type=click.Choice(["um", "mm", "inch"]),
-        help="Unit of ISO programs: um is whole numbers in µm and others in mm, inch whole numbers in 0.0001 inch.",
     ),
 )
 """Of every command that reads programs."""

@@ -9,11 +9,11 @@ import click
 from parser.findings.errors import ProgramError
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
+from sim.cli.spoken import Spoken, spoken, words
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
-    from parser.findings.catalogue import Language
     from parser.findings.findings import Finding
     from sim.setup.scenario import Scenario
     from sim.show.draw.paints import ThemeName
@@ -43,7 +43,7 @@ class Width(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
         raise click.BadParameter(f"{value!r} is none of {names}, nor a width of {widths}", ctx, param)
 
 
-@click.command(short_help="Draw a program, or pictures of a dry run, as PNG or SVG.")
+@click.command(cls=Spoken)
 @click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
 @click.option(
     "-o",
@@ -51,20 +51,16 @@ class Width(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
     type=click.Path(path_type=Path),
     required=True,
     metavar="FILE|DIR",
-    help="Write one picture here, .png or .svg, or one each into a folder.",
 )
 @click.option(
     "--picture",
     "names",
     multiple=True,
     metavar="NAME",
-    help="path, cut, along, whiskers, polar, histogram, worst or motion; path for a file, all for a folder. "
-    "May be repeated.",
 )
-@click.option("--size", type=Width(), default="screen", show_default=True, help="thumbnail, screen, a4, a3, or px.")
-@click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True, help="Colours.")
-@click.option("--lang", type=click.Choice(["en", "zh"]), default="en", show_default=True, help="Language of texts.")
-@click.option("--svg", is_flag=True, help="Write the pictures of a folder as SVG, for documents.")
+@click.option("--size", type=Width(), default="screen", show_default=True)
+@click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True)
+@click.option("--svg", is_flag=True)
 @scenario_options
 def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     path: Path,
@@ -72,20 +68,10 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     names: tuple[str, ...],
     size: int,
     theme: "ThemeName",
-    lang: "Language",
     svg: bool,
     **options: Any,
 ) -> None:
     """Draw a 3B or ISO program, or a scenario folder that holds one: its path, or pictures of a dry run of it.
-
-    path: the path as it is programmed, with what the check finds; nothing runs for it. All others need a dry run.
-    cut: the path as it will be cut, with kerf, parts and findings. along, whiskers, polar, histogram: how far wire
-    and steps lie from the ideal path. worst: the worst places, down to single steps of 1 µm. motion: speed,
-    acceleration, following error and force of each axis over time.
-
-    \b
-    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input,
-    3 a fault of drycut itself.
 
     \b
     drycut draw part.3b -o part.png
@@ -101,10 +87,10 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     scenario = overridden(path, Overrides(**options))
     try:
         with _shown(asked, scenario) as (shown, findings):
-            written = write_pictures(shown, asked, size, theme, lang)
+            written = write_pictures(shown, asked, size, theme, spoken())
     except ProgramError as error:
         raise refused(scenario, error) from None
-    say(f"written: {', '.join(map(str, written))}")
+    say(words()("commands.written", names=", ".join(map(str, written))))
     raise click.exceptions.Exit(0 if verdict(findings) == "pass" else 1)
 
 

@@ -7,21 +7,14 @@ import click
 
 from parser.findings.catalogue import Language
 from parser.findings.codes import CODES
-from sim.cli.scenario_options import chosen
+from sim.cli.spoken import Spoken, spoken
 
 
-@click.command()
+@click.command(cls=Spoken)
 @click.argument("name", metavar="[CODE|DOCUMENT]", required=False)
 @click.argument("sections", metavar="[SECTION]...", nargs=-1)
-@click.option("--lang", type=click.Choice(["en", "zh"]), help="Language; that of the locale where left out.")
-def explain(name: str | None, sections: tuple[str, ...], lang: str | None) -> None:
+def explain(name: str | None, sections: tuple[str, ...]) -> None:
     """Show the page of a finding: what it is, why it matters, an example, how to mend it.
-
-    Pages cite documents, which it shows as well, whole or some of their numbered sections; documents are in English.
-    Without a code, list all codes with their titles, and all documents.
-
-    \b
-    Exit code: 0 good, 2 bad use, 3 a fault of drycut itself.
 
     \b
     drycut explain 3B204
@@ -33,7 +26,7 @@ def explain(name: str | None, sections: tuple[str, ...], lang: str | None) -> No
     from sim.show.terminal.streams import outlet
     from sim.show.terminal.wrap import width_of
 
-    for text, is_heading in shown(_markdown(name, sections, chosen(lang)), width_of(outlet())):
+    for text, is_heading in shown(_markdown(name, sections, spoken()), width_of(outlet())):
         say(styled(text, "bold" if is_heading else ""))
 
 
@@ -48,7 +41,7 @@ def _markdown(name: str | None, sections: tuple[str, ...], language: Language) -
         return cited(page_text(code, language))
     if code not in of_documents:
         raise click.UsageError(f"no finding has the code {name!r}, and no document the name; drycut explain lists them")
-    text = document(of_documents[code])
+    text = document(of_documents[code], language)
     try:
         return cited("\n\n".join(section(text, one) for one in _numbers(sections)) if sections else text)
     except KeyError as error:

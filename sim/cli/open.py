@@ -5,36 +5,26 @@ from typing import TYPE_CHECKING
 
 import click
 
+from sim.cli.spoken import Spoken, words
+
 if TYPE_CHECKING:
     from sim.open.programs import Programs
 
 
-@click.command(short_help="Open a program, or a folder of them, in the browser: see, edit, mend.")
+@click.command(cls=Spoken)
 @click.argument("file", required=False, type=click.Path(path_type=Path), metavar="[FILE|FOLDER]")
-@click.option("--no-browser", is_flag=True, help="Start no browser; the address is the first line of the output.")
-@click.option(
-    "--port", type=click.IntRange(0, 65_535), default=0, metavar="N", help="Port; any free one where left out."
-)
+@click.option("--no-browser", is_flag=True)
+@click.option("--port", type=click.IntRange(0, 65_535), default=0, metavar="N")
 @click.option(
     "--shortcut",
     type=click.Path(path_type=Path, file_okay=False),
     metavar="DIR",
-    help="Write into DIR what starts this without a terminal, and end.",
 )
 @click.option("--from-icon", is_flag=True, hidden=True)
 def open(  # noqa: A001 - named as the command
     file: Path | None, no_browser: bool, port: int, shortcut: Path | None, from_icon: bool
 ) -> None:
     """Open a program in the browser, on this machine alone.
-
-    The page shows the path, the findings and their mends at once, and again while the text is edited. Drop a file on
-    it, paste one, or pick one. Nothing leaves the machine. Of a folder it lists all programs, with what the check says
-    of each.
-
-    \b
-    Exit code: 0 when it was closed: by its button, by Ctrl-C, or when no page has
-    been open for two minutes; 2 bad use or unreadable input, 3 a fault of drycut
-    itself.
 
     \b
     drycut open part.3b
@@ -49,7 +39,7 @@ def open(  # noqa: A001 - named as the command
     if shortcut is not None:
         from sim.open.shortcut import write_shortcut
 
-        say(f"written: {', '.join(map(str, write_shortcut(shortcut)))}")
+        say(words()("commands.written", names=", ".join(map(str, write_shortcut(shortcut)))))
         return
 
     def ready(address: str) -> None:

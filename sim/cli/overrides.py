@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from parser.findings.errors import SettingsError
 from parser.units import mm
 from sim.cli.dialect_options import offsets_of
+from sim.cli.spoken import words
 from sim.setup.toml.reader import number
 from sim.show.terminal.printer import say
 
@@ -175,5 +176,5 @@ def _stepping_by(scenario: "Scenario", interpolator: str | None) -> "Scenario":
     kept = not_of_steps(scenario.expect)
     left_out = ", ".join(e.path for e in scenario.expect if e not in kept)
     if left_out:
-        say(f"drycut: [expect]: not held, since another interpolator steps: {left_out}", err=True)
+        say(words()("commands.not-expected", names=left_out), err=True)
     return replace(scenario, machine=scenario.machine.stepping_by(interpolator), expect=kept)  # type: ignore[arg-type]

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from sim.cli.program_options import Options, making_of, program_options, refuse_own_files, writing_of
-from sim.cli.scenario_options import chosen
+from sim.cli.spoken import Spoken, spoken
 
 if TYPE_CHECKING:
     from parser.findings.catalogue import Language as Tongue
@@ -34,28 +34,24 @@ class _Picture(NamedTuple):
     theme: "ThemeName"
 
 
-@click.command(short_help="Make a program of a drawing, and prove it by a run.")
+@click.command(cls=Spoken)
 @click.argument("path", type=click.Path(path_type=Path), metavar="DRAWING.dxf|SCENARIO")
 @click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="The program that is written; its suffix says its language: .3b, .4b, .iso, .nc or .cnc. Of a scenario its "
-    "own file.",
 )
 @program_options
-@click.option("--preview", is_flag=True, help="Plan and prove, and write no program.")
-@click.option("--force", is_flag=True, help="Write a program that is not proved too, with what was found at its head.")
+@click.option("--preview", is_flag=True)
+@click.option("--force", is_flag=True)
 @click.option(
     "--picture",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="Draw the plan here, .png or .svg: order, leads, passes, thread points and waste.",
 )
-@click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True, help="Its colours.")
-@click.option("--json", "as_json", is_flag=True, help="Print what was made as JSON instead of the tables.")
-@click.option("--lang", type=click.Choice(["en", "zh"]), help="Language of messages; else that of the locale.")
+@click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True)
+@click.option("--json", "as_json", is_flag=True)
 def program(  # noqa: PLR0913 - click hands over each option by its name
     *,
     path: Path,
@@ -65,18 +61,9 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
     picture: Path | None,
     theme: "ThemeName",
     as_json: bool,
-    lang: str | None,
     **options: Any,
 ) -> None:
     """Make a program of a drawing (DXF) or of a scenario that has one, and prove it by a run before it is written.
-
-    Curves become arcs within the tolerance, loops become parts with their holes, each figure gets its thread point,
-    leads and passes. The program is checked, run on the machine and held against the drawing; one that fails is not
-    written.
-
-    \b
-    Exit code: 0 written and proved, 1 refused or not proved, 2 bad use or
-    unreadable input, 3 a fault of drycut itself.
 
     \b
     drycut program part.dxf -o part.3b
@@ -90,7 +77,7 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
 
     asked = _asked(path, output, Options(**options), is_written=not preview)
     _refuse_pictures(picture, asked)
-    tongue: Tongue = chosen(lang)
+    tongue: Tongue = spoken()
     done = _made(asked)
     made = done if isinstance(done, Made) else None
     written = _written(made, asked, tongue, force=force) if made else None

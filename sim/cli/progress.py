@@ -11,13 +11,12 @@ from typing import Final, Self
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TaskID, TextColumn
 
+from sim.cli.spoken import words
 from sim.show.terminal.printer import coloured, moves_cursor, say
 from sim.show.terminal.streams import OutputError, outlet
 from sim.show.terminal.wrap import width_of
-from sim.show.words.words import Words
-from sim.units import clock
+from sim.show.words.phrases import lasting
 
-SAY: Final = Words("en")
 WEIGHTS: Final[Mapping[str, float]] = {"run": 4.0, "kerf": 4.0, "comparison": 3.0, "pieces": 3.0, "pictures": 3.0}
 """About how long stages take beside the others, which count 1: of a part of six blocks and of one of ten thousand."""
 _QUIET_S = 1.0
@@ -97,7 +96,7 @@ class StageProgress:
                 else:
                     line, share = self._line()
                     with suppress(OutputError):  # the command itself meets it too, and tells it
-                        say(f"drycut: {line}, {share:.0%}", err=True)
+                        say(words()("progress.line", line=line, share=f"{share:.0%}"), err=True)
                     wait_s = _BETWEEN_LINES_S
 
     def _update(self, bar: Progress, task: TaskID) -> None:
@@ -108,14 +107,14 @@ class StageProgress:
         """The stage, which of how many it is, about how long the rest will take; and how much is done."""
         now_s = time.monotonic()
         share = self._share(now_s)
-        at, text = self._stages.index(self._stage) + 1, SAY(f"progress.{self._stage}")
+        at, text = self._stages.index(self._stage) + 1, words()(f"progress.{self._stage}")
         if len(self._stages) > 1:
-            text = SAY("progress.step", number=at, count=len(self._stages), stage=text)
+            text = words()("progress.step", number=at, count=len(self._stages), stage=text)
         if share < _LEAST_SHARE:
             return text, share
         left_s = (now_s - self._began_s) * (1.0 / share - 1.0)
-        left = clock(left_s) if left_s >= 60.0 else f"{math.ceil(left_s)} s"
-        return SAY("progress.left", stage=text, left=left), share
+        left = lasting(left_s) if left_s >= 60.0 else f"{math.ceil(left_s)}{words()('phrases.seconds')}"
+        return words()("progress.left", stage=text, left=left), share
 
 
 def _bar() -> tuple[Progress, TaskID]:

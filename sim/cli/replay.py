@@ -10,9 +10,9 @@ import click
 from parser.findings.errors import ProgramError
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
+from sim.cli.spoken import Spoken, spoken, words
 
 if TYPE_CHECKING:
-    from parser.findings.catalogue import Language
     from sim.run.recording import Recording
     from sim.show.draw.paints import ThemeName
     from sim.show.film.screen import Look
@@ -52,28 +52,23 @@ class Seconds(click.FloatRange):
         return seconds
 
 
-@click.command(short_help="Play a dry run in a window, or write a film of it.")
+@click.command(cls=Spoken)
 @click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
 @click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="Write a film here, .mp4, .webp, .apng or .gif, instead of opening a window.",
 )
 @click.option(
     "--seconds",
     type=Seconds(0.5, 600.0),
     default=10.0,
     show_default=True,
-    help="How long the whole run takes.",
 )
-@click.option(
-    "--fps", type=click.IntRange(1, 60), default=25, show_default=True, help="Frames in each second of a film."
-)
-@click.option("--size", type=FrameSize(), default="1280x720", show_default=True, help="Size of the frames, px.")
-@click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True, help="Colours.")
-@click.option("--lang", type=click.Choice(["en", "zh"]), default="en", show_default=True, help="Language of texts.")
+@click.option("--fps", type=click.IntRange(1, 60), default=25, show_default=True)
+@click.option("--size", type=FrameSize(), default="1280x720", show_default=True)
+@click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True)
 @scenario_options
 def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     path: Path,
@@ -82,17 +77,9 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     fps: int,
     size: tuple[int, int],
     theme: "ThemeName",
-    lang: "Language",
     **options: Any,
 ) -> None:
     """Dry-run a 3B or ISO program, or a scenario folder that holds one, and watch it being cut.
-
-    Without -o a window opens and plays the run; h shows its keys. With -o a film of it is written, whose last second
-    shows the end. An .mp4 needs an encoder: pip install 'drycut[film]'.
-
-    \b
-    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input,
-    3 a fault of drycut itself.
 
     \b
     drycut replay part.3b
@@ -108,7 +95,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.show.film.screen import Look
     from sim.show.terminal.printer import say
 
-    look = Look(*size, theme, lang)
+    look = Look(*size, theme, spoken())
     _refuse(output, seconds, fps, look)
     scenario = overridden(path, Overrides(**options))
     try:
@@ -122,7 +109,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     except ProgramError as error:
         raise refused(scenario, error) from None
     if output is not None:
-        say(f"written: {output}")
+        say(words()("commands.written", names=output))
     raise click.exceptions.Exit(0 if passed else 1)
 
 

@@ -9,6 +9,7 @@ from parser.findings.errors import ProgramError
 from sim.cli.batch import is_shop, run_shop
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
+from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spread import Spread, spread_options
 
 if TYPE_CHECKING:
@@ -16,14 +17,13 @@ if TYPE_CHECKING:
     from sim.setup.scenario import Scenario
 
 
-@click.command()
+@click.command(cls=Spoken)
 @click.argument("names", nargs=-1, required=True, metavar="PROGRAM|SCENARIO|FOLDER|GLOB...")
 @click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="Write report.html, replay.html, cut.png and report.json here; of many programs, a folder of each.",
 )
 @spread_options
 @scenario_options
@@ -31,10 +31,9 @@ if TYPE_CHECKING:
     "--card-log",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="Write every call to the card here, to be replayed by drycut card replay.",
 )
-@click.option("--trace", is_flag=True, help="Write trace.npz too: every step, and every sample of the table.")
-@click.option("--json", "as_json", is_flag=True, help="Print report.json, of many index.json, instead of the summary.")
+@click.option("--trace", is_flag=True)
+@click.option("--json", "as_json", is_flag=True)
 def run(  # noqa: PLR0913 - click hands over each option by its name
     *,
     names: tuple[str, ...],
@@ -47,14 +46,6 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     **options: Any,
 ) -> None:
     """Dry-run a 3B or ISO program, or a scenario folder that holds one; or all of them in folders and globs.
-
-    Plans and steps the program as its controller does, lets the table follow, and compares both with the ideal
-    geometry.
-
-    \b
-    Exit code: 0 the verdict is pass, 1 it is not, 2 bad use or unreadable input,
-    3 a fault of drycut itself. Of many programs: 0 all pass, 1 one does not
-    or cannot be run.
 
     \b
     drycut run part.3b -o out/
@@ -114,13 +105,14 @@ def _run_one(scenario: "Scenario", files: _Files, *, as_json: bool) -> int:
     if as_json:
         write(report_text(build_report(done)), "json")
     else:
-        print_summary(done, files.output)
+        print_summary(done, files.output, spoken())
         if files.output is not None:
             from sim.jobs.run_into import FILES
             from sim.jobs.trace_file import TRACE
 
             made = [done.program.name] if scenario.to_make is not None and not scenario.program.exists() else []
-            say(f"written: {files.output}/ {', '.join([*FILES, *([TRACE] if files.trace else []), *made])}")
+            names = ", ".join([*FILES, *([TRACE] if files.trace else []), *made])
+            say(words()("commands.written", names=f"{files.output}/ {names}"))
     return 0 if verdict(done.findings) == "pass" else 1
 
 

@@ -12,10 +12,8 @@ if TYPE_CHECKING:
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 _OPTIONS = (
-    click.option("--jobs", type=click.IntRange(1), metavar="N", help="Programs done at once [one a core]."),
-    click.option(
-        "--scheduler", metavar="ADDRESS", help="Let the workers of a Dask scheduler do them: tcp://host:8786."
-    ),
+    click.option("--jobs", type=click.IntRange(1), metavar="N"),
+    click.option("--scheduler", metavar="ADDRESS"),
 )
 
 

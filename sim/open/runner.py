@@ -27,6 +27,7 @@ from sim.show.film.screen import Look
 from sim.show.film.writers import FORMATS
 from sim.show.pictures.files import PictureFiles, write_pictures
 from sim.show.pictures.gallery import PICTURES, subject_of
+from sim.show.words.phrases import machine_name
 from sim.table.progress import Progress
 
 _FILM_PX: Final = (960, 540)
@@ -39,7 +40,7 @@ def _run(asked: Asked) -> dict[str, Any]:
     scenario = scenario_of(asked, Path(asked["file"]))
     progress = telling(stages_of_files(scenario, trace=False))
     run = run_into(asked["folder"], _program(asked, scenario), scenario, progress)
-    return {"verdict": verdict(run.findings), "machine": scenario.machine.name}
+    return {"verdict": verdict(run.findings), "machine": machine_name(scenario.machine)._asdict()}
 
 
 def _film(asked: Asked) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from parser.dialect.reader import Assumption
 from sim.run.dryrun import DryRun
+from sim.setup.machine.machine import Machine
 
 
 class Assumptions(NamedTuple):
@@ -12,7 +13,7 @@ class Assumptions(NamedTuple):
     Attributes
     ----------
     machine
-        Name of the machine.
+        The machine.
     by_default
         Whether nobody named one.
     program
@@ -25,7 +26,7 @@ class Assumptions(NamedTuple):
         Whether the wire bows back; else it runs straight.
     """
 
-    machine: str
+    machine: Machine
     by_default: bool
     program: tuple[Assumption, ...]
     values: tuple[str, ...]
@@ -37,7 +38,7 @@ def assumptions_of(run: DryRun) -> Assumptions:
     """What was taken for granted in a run."""
     scenario = run.scenario
     return Assumptions(
-        machine=scenario.machine.name,
+        machine=scenario.machine,
         by_default=scenario.machine_by_default,
         program=run.program.reading.assumptions,
         values=scenario.machine.assumed,

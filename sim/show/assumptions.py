@@ -6,14 +6,15 @@ from sim.run.dryrun import DryRun
 from sim.setup.key_words import words_of
 from sim.setup.machine.machine import SECTIONS
 from sim.show.words import said
-from sim.show.words.phrases import as_read, listed
+from sim.show.words.phrases import as_read, listed, machine_name
 
 
 def taken_for_granted(run: DryRun) -> list[Said]:
     """A sentence for each: how the program was read, the machine, and what nobody has measured or looked at."""
     found = assumptions_of(run)
     told = [said("assumptions.program", parts=as_read(found.program))] if found.program else []
-    told.append(said("assumptions.by-default" if found.by_default else "assumptions.chosen", machine=found.machine))
+    key = "by-default" if found.by_default else "chosen"
+    told.append(said(f"assumptions.{key}", machine=machine_name(found.machine)))
     if found.values:
         names = {key.name: words_of(section, key).name for section in SECTIONS for key in section.keys}
         told.append(

@@ -8,6 +8,7 @@ from sim.run.ballbar.circle import Ballbar
 from sim.run.ballbar.figures import Figures
 from sim.run.ballbar.parts import DeviationParts
 from sim.run.ballbar.turn import NAMES, Sense
+from sim.show.words.phrases import machine_name
 from sim.show.words.words import Words
 from sim.table.record.losses import Loss
 
@@ -24,7 +25,7 @@ def setup_rows(ballbar: Ballbar, say: Words) -> list[Row]:
     controller = ballbar.test.machine.controller
     cut, jump = _mm_min(controller.cut_step_limit_hz), f"{controller.jump_feed_mm_s * 60.0:,.6g}"
     return [
-        Row(say("ballbar.machine"), ballbar.test.machine.name),
+        Row(say("ballbar.machine"), getattr(machine_name(ballbar.test.machine), say.language)),
         Row(say("ballbar.radius"), f"{mm(float(ballbar.test.radius_um)):g} mm"),
         Row(say("ballbar.feed"), _feed(ballbar, say)),
         Row(say("ballbar.feeds"), say("ballbar.feeds-of-machine", cut=cut, jump=jump)),

@@ -40,11 +40,12 @@ from sim.setup.key_tables import renewed
 from sim.setup.machine import machine
 from sim.setup.scenario import load_scenario
 from sim.setup.toml.kinds import Number
-from sim.show.findings.catalogue_document import NAMES, anchor, documents, findings_document
+from sim.show.findings.catalogue_document import NAMES, anchor, count_of_codes, documents, findings_document
 from sim.show.terminal.run import summary_rows
 
 DOCS = ROOT / "docs"
 PAGES = sorted([*ROOT.glob("*.md"), *DOCS.glob("*.md")])
+TOURS: list[tuple[str, Language]] = [("start.md", "en"), ("start.zh.md", "zh")]
 SCENARIOS = sorted(path.parent for path in (ROOT / "scenarios").glob("*/scenario.toml"))
 
 OPEN_PART = """
@@ -315,7 +316,9 @@ def rows_of(page: Path, beginning: str) -> list[list[str]]:
 
 def test_options_of_the_check_are_documented() -> None:
     written = {cells[0].split()[0] for cells in rows_of(DOCS / "check.md", "`--")}
-    assert written == {option.opts[0] for option in check.params if isinstance(option, click.Option)}
+    assert written == {
+        option.opts[0] for option in check.get_params(click.Context(check))[:-1] if isinstance(option, click.Option)
+    }
 
 
 def test_settings_of_the_check_are_documented_with_their_bounds() -> None:
@@ -369,7 +372,8 @@ def test_shown_output_is_what_is_printed(tmp_path: Path, page: Path, command: st
 
 
 def test_outputs_and_the_number_of_codes_are_shown() -> None:
-    assert f"There are {len(CODES)} codes" in " ".join(read(ROOT / "README.md").split())
+    for page, language in TOURS:
+        assert count_of_codes(language) in " ".join(read(DOCS / page).split())
     assert {"check part.3b", "check part.3b --fix"} <= {command for _, command, _ in SHOWN}
 
 
@@ -395,7 +399,7 @@ def test_findings_documents_are_those_of_the_pages(language: Language) -> None:
 
 def test_pages_that_tell_of_codes_are_renewed() -> None:
     renewed = documents(ROOT)
-    assert {path.name for path in renewed} == {*NAMES.values(), "check.md", "README.md"}
+    assert {path.name for path in renewed} == {*NAMES.values(), *dict(TOURS), "check.md"}
     for path, text in renewed.items():
         assert read(path) == text, "renew it: make pages"
 
@@ -427,7 +431,8 @@ def test_quoted_commands_are_make_targets() -> None:
     for page in PAGES:
         quoted = re.findall(r"(?:`|^)make (?:[A-Z]+=\S+ )?([a-z]+)", read(page), flags=re.MULTILINE)
         assert set(quoted) <= targets, page.name
-    assert {"demo", "test", "bench"} <= set(re.findall(r"make ([a-z]+)", read(ROOT / "README.md")))
+    assert {"demo", "test"} == set(re.findall(r"make ([a-z]+)", read(ROOT / "README.md")))
+    assert "bench" in re.findall(r"make ([a-z]+)", read(DOCS / "speed.md"))
 
 
 def test_code_flow_names_what_exists() -> None:
@@ -495,15 +500,12 @@ def test_code_flow_quotes_the_samples_of_the_table() -> None:
         assert f"| {row} | {trace.t_s[sample]:.6f} {shown}" in page
 
 
-def test_readme_shows_the_keyhole() -> None:
-    page = read(ROOT / "README.md")
-    report = report_of(ROOT / "scenarios" / "keyhole")
-    assert f"{report['summary']['steps']:,} of 1 µm" in page
-    assert f"{report['summary']['length_um'] / 1000:.3f} mm" in page
-    assert dict(summary_rows(scenario_run("keyhole")))["closure"] in page
-    deviation = report["deviation"]
-    for largest in (
-        deviation["wire"],
-        *(deviation["by_cause"][cause] for cause in ("interpolation", "carried", "table")),
-    ):
-        assert f"{largest['max_um']:.2f} µm in block {largest['where']['block']}" in page
+@pytest.mark.parametrize(("page", "language"), TOURS)
+def test_the_tour_shows_what_the_demo_prints(page: str, language: Language) -> None:
+    run = scenario_run("keyhole")
+    block = re.search(r"^```\n(.+)\n┌.*\n((?:│.*\n)+)└", read(DOCS / page), flags=re.MULTILINE)
+    assert block
+    title, rows = block.groups()
+    assert title == run.scenario.title
+    cells = [cell for row in rows.splitlines() for cell in row.split("│")[1:-1]]
+    assert "".join("".join(cells).split()) == "".join("".join(map("".join, summary_rows(run, language))).split())

@@ -16,7 +16,7 @@ from sim.cli import main
 
 HANGUP = getattr(signal, "SIGHUP", signal.SIGTERM)
 """What a closed terminal sends; Windows has no such signal."""
-_PROGRESS = re.compile(rb"drycut: (?!error: ).*\d ?%.*")
+_PROGRESS = re.compile(rb"drycut(?:: (?!error: )|\xef\xbc\x9a).*\d ?%.*")
 _PLAIN = {"PYTHONPATH": str(ROOT), "PYTHONUTF8": "1", "COLUMNS": "100", "LC_ALL": "C.UTF-8", "NO_COLOR": "1"}
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from sim.cli.check.options import check_options
-from sim.cli.scenario_options import chosen
+from sim.cli.spoken import Spoken, spoken
 from sim.cli.spread import Spread, pool_of, spread_options
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ _OF_FILES = {
 }
 
 
-@click.command()
+@click.command(cls=Spoken)
 @click.argument("files", nargs=-1, required=True, metavar="FILE|DIR|GLOB|-...")
 @check_options
 @spread_options
@@ -35,7 +35,6 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     files: tuple[str, ...],
     formats: tuple["Output", ...],
     output_file: Path | None,
-    lang: str | None,
     statistics: bool,
     quiet: bool,
     fix: bool,
@@ -48,13 +47,6 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
 ) -> None:
     """Find all that is wrong with 3B and ISO programs, before a wire is threaded.
 
-    Reads files, all .3b, .4b, .iso, .nc and .cnc files of folders, globs, and - for the standard input. Settings stand
-    in drycut.toml, or in [tool.drycut] of pyproject.toml, in the folder of the file or above it in its project; options
-    come first.
-
-    Exit code: 0 nothing as severe as --fail-on, 1 a finding that is, or a check that could not look at everything,
-    2 bad use or unreadable input, 3 a fault of drycut itself.
-
     \b
     drycut check part.3b
     drycut check programs/ --format text --format sarif=drycut.sarif
@@ -66,7 +58,7 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     from sim.show.findings.options import Options
 
     _refuse_contradictions(files, formats, asked, {"--fix": fix, "--diff": diff, "--watch": watch})
-    options, style = Asked(**asked), Options(chosen(lang), quiet=quiet, statistics=statistics)
+    options, style = Asked(**asked), Options(spoken(), quiet=quiet, statistics=statistics)
     outputs = outputs_of(formats, output_file, options.write_baseline)
     work = _Work(files, options, outputs, style, Spread(jobs, scheduler))
     if watch:

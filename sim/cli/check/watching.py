@@ -46,9 +46,9 @@ def watch(names: Sequence[str], check: Callable[[], object], language: Language)
         try:
             check()
         except DrycutError as error:
-            say(f"drycut: error: {error}", err=True)
+            say(Words(language)("commands.error", message=error), err=True)
         except click.ClickException as error:
-            say(f"drycut: error: {error.format_message()}", err=True)
+            say(Words(language)("commands.error", message=error.format_message()), err=True)
 
 
 def rest_s(look_s: float) -> float:

@@ -20,6 +20,7 @@ from sim.run.report.drawing import comparison_document
 from sim.run.report.figures import deviation_entries, ended_entry, limit_entry, loss_entry, offset_entry
 from sim.run.report.passes import pass_entries
 from sim.run.report.remains import remains_entry
+from sim.run.report.threads import thread_entries
 from sim.setup.scenario import Scenario
 
 SCHEMA = "drycut.report/1"
@@ -61,6 +62,7 @@ def build_report(run: DryRun) -> dict[str, Any]:
         "time_s": {"total": rounded(run.ran_s), "by_block": column(run.block_time_s)},
         "ended": ended_entry(run),
         "contours": [_contour(contour, run.block_time_s) for contour in run.whole_contours],
+        "thread_points": thread_entries(run),
         "passes": pass_entries(run),
         "interpolator": _interpolator(run),
         "deviation": deviation_entries(run.deviations, run.ran_s),

@@ -15,7 +15,11 @@ from sim.setup.toml.keys import Key, Section, WrittenSection
 from sim.setup.toml.kinds import Keys, Number, Text
 from sim.setup.toml.reader import AREA_RATE_MM2_MIN, load_toml
 
-TOP = Section("machine", (Key("name", Text()), Key("assumed", Keys(), default=())), form="top")
+TOP = Section(
+    "machine",
+    (Key("name", Text()), Key("name_zh", Text(), default=None), Key("assumed", Keys(), default=())),
+    form="top",
+)
 CUTTING = Section("cutting", (Key("area_rate_mm2_min", Number(AREA_RATE_MM2_MIN, "mm²/min")),))
 SECTIONS = (TOP, TABLE, MOTOR, CONTROLLER, CUTTING, ARM)
 """Sections of a machine file."""
@@ -29,7 +33,8 @@ class Machine(NamedTuple):
     """One machine as its file gives it; units as named.
 
     `arm_um` is the outline of the arm round the wire, if known. `assumed` are the keys of the values that nobody has
-    measured. `engine` is what its table is worked out with, which is no matter of the file.
+    measured. `name_zh` is its name in Chinese, None where that is the same. `engine` is what its table is worked out
+    with, which is no matter of the file.
     """
 
     name: str
@@ -37,6 +42,7 @@ class Machine(NamedTuple):
     controller: ControllerModel
     area_rate_mm2_min: float
     arm_um: Outline | None = None
+    name_zh: str | None = None
     assumed: tuple[str, ...] = ()
     engine: TableEngine = "compiled"
 

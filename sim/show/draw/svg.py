@@ -12,11 +12,17 @@ from sim.show.draw.canvas import arrow_head, dashes
 from sim.show.draw.layout import Box
 from sim.show.draw.letters import Letters
 from sim.show.draw.paints import LIGHT, Paint, Theme, hexadecimal
+from sim.show.draw.simplify import CHORD_PX, simplify
 
 FAMILIES: Final = "'Noto Sans CJK SC','Noto Sans SC','Source Han Sans SC','Microsoft YaHei','PingFang SC',sans-serif"
 """Faces that have Chinese; texts are fitted to the width that they have in the shipped one, the first of these."""
 RISE: Final = 0.436
 """Of a size, from the middle of a line to its baseline: half of the face's ascent, 1.16, less its descent, 0.288."""
+
+MOST_PLACES: Final = 5000
+"""Of one line, where these tell it to `COARSEST_PX`: 100,000 blocks up and down within a pixel would be megabytes."""
+COARSEST_PX: Final = 1.0
+"""How far a line of more places may leave the true one."""
 
 
 class Svg:
@@ -30,6 +36,7 @@ class Svg:
         self.width_px, self.height_px = width_px, height_px
         self._theme, self._letters = theme, Letters()
         self._made: list[str] = []
+        self._strokes: dict[str, list[str]] = {}  # path data by attributes: those that were stroked last
         self._rect(Box(0.0, 0.0, width_px, height_px), Paint.PAGE)
 
     def polyline(self, points: Floats, paint: Paint, width: float) -> None:
@@ -43,11 +50,11 @@ class Svg:
     def ring(self, center: Floats, radius: float, paint: Paint, width: float) -> None:
         """Stroke a circle; `radius` is that of its middle line."""
         stroke = f'{self._colour("s", paint)} fill="none" stroke-width="{_figure(width)}"'
-        self._made.append(f"<circle {_circle(center, radius)} {stroke}/>")
+        self._add(f"<circle {_circle(center, radius)} {stroke}/>")
 
     def disc(self, center: Floats, radius: float, paint: Paint) -> None:
         """Fill a circle."""
-        self._made.append(f"<circle {_circle(center, radius)} {self._colour('f', paint)}/>")
+        self._add(f"<circle {_circle(center, radius)} {self._colour('f', paint)}/>")
 
     def arrow(self, tip: Floats, direction: Floats, size: float, paint: Paint) -> None:
         """Fill an arrow head of length `size`; `direction` has length 1."""
@@ -59,7 +66,7 @@ class Svg:
 
     def region(self, rings: Sequence[Floats], paint: Paint) -> None:
         """Fill what lies inside of an odd number of rings, each (n, 2) with n ≥ 3: outlines with their holes."""
-        self._made.append(f'<path d="{_path(rings, "Z")}" {self._colour("f", paint)} fill-rule="evenodd"/>')
+        self._add(f'<path d="{_path(rings, "Z")}" {self._colour("f", paint)} fill-rule="evenodd"/>')
 
     @contextmanager
     def clipped(self, box: Box) -> Iterator[None]:
@@ -68,9 +75,9 @@ class Svg:
         left, top, right, bottom = box
         size = f'width="{_figure(right - left)}" height="{_figure(bottom - top)}"'
         view = " ".join(_figure(number) for number in (left, top, right - left, bottom - top))
-        self._made.append(f'<svg x="{_figure(left)}" y="{_figure(top)}" {size} viewBox="{view}" overflow="hidden">')
+        self._add(f'<svg x="{_figure(left)}" y="{_figure(top)}" {size} viewBox="{view}" overflow="hidden">')
         yield
-        self._made.append("</svg>")
+        self._add("</svg>")
 
     def box(self, box: Box, fill: Paint, edge: Paint, width: float) -> None:
         """Fill a rectangle and stroke its border inwards."""
@@ -84,7 +91,7 @@ class Svg:
         width = self.text_width(text, size)
         place = f'x="{_figure(at[0] - align * width)}" y="{_figure(at[1] + RISE * size)}"'
         fitted = f'font-size="{_figure(size)}" textLength="{_figure(width)}" lengthAdjust="spacingAndGlyphs"'
-        self._made.append(f"<text {place} {fitted} {self._colour('f', paint)}>{escape(text)}</text>")
+        self._add(f"<text {place} {fitted} {self._colour('f', paint)}>{escape(text)}</text>")
 
     def text_width(self, text: str, size: float) -> float:
         """Width that `text` takes, px."""
@@ -94,6 +101,7 @@ class Svg:
         """The picture as an element of a page, with a label for those who cannot see it."""
         head = f'viewBox="0 0 {self.width_px} {self.height_px}" font-family="{FAMILIES}" xml:space="preserve"'
         name = escape(label, quote=True)
+        self._add()
         body = "\n".join(self._made)
         return f'<svg xmlns="http://www.w3.org/2000/svg" {head} role="img" aria-label="{name}">\n{body}\n</svg>'
 
@@ -104,15 +112,26 @@ class Svg:
         return '<?xml version="1.0" encoding="UTF-8"?>\n' + self.fragment(label).replace("<svg ", sized, 1) + "\n"
 
     def _stroke(self, path: str, paint: Paint, width: float) -> None:
+        """Strokes alike in turn are one path: thousands of whiskers have no attributes of their own."""
         if not path:
             return
         line = f'fill="none" stroke-width="{_figure(width)}" stroke-linecap="round" stroke-linejoin="round"'
-        self._made.append(f'<path d="{path}" {self._colour("s", paint)} {line}/>')
+        attributes = f"{self._colour('s', paint)} {line}"
+        if attributes not in self._strokes:
+            self._add()
+            self._strokes[attributes] = []
+        self._strokes[attributes].append(path)
+
+    def _add(self, *elements: str) -> None:
+        """Add elements over what was stroked before."""
+        self._made += [f'<path d="{"".join(paths)}" {attributes}/>' for attributes, paths in self._strokes.items()]
+        self._strokes.clear()
+        self._made += elements
 
     def _rect(self, box: Box, paint: Paint) -> None:
         left, top, right, bottom = box
         size = f'width="{_figure(right - left)}" height="{_figure(bottom - top)}"'
-        self._made.append(f'<rect x="{_figure(left)}" y="{_figure(top)}" {size} {self._colour("f", paint)}/>')
+        self._add(f'<rect x="{_figure(left)}" y="{_figure(top)}" {size} {self._colour("f", paint)}/>')
 
     def _colour(self, what: str, paint: Paint) -> str:
         """Class and attribute of a fill (``f``) or a stroke (``s``)."""
@@ -129,6 +148,15 @@ def _path(lines: Sequence[Floats], end: str = "") -> str:
     return "".join(f"M{_places(line)}{end}" for line in _drawn(lines))
 
 
+def _fewer(line: Floats) -> Floats:
+    """A line (n, 2) by fewer places, where it has more than `MOST_PLACES`: as near as these let it be."""
+    tolerance, fewer = CHORD_PX, line
+    while len(fewer) > MOST_PLACES and tolerance < COARSEST_PX:
+        tolerance = min(1.25 * tolerance, COARSEST_PX)
+        fewer = simplify(line, tolerance)
+    return fewer
+
+
 def _places(line: Floats) -> str:
     """Places (n, 2), all formatted at once: the lines of a picture have tens of thousands of them."""
     figures = np.round(line, 2) + 0.0  # no −0
@@ -137,7 +165,7 @@ def _places(line: Floats) -> str:
 
 def _drawn(lines: Sequence[Floats]) -> Iterator[Floats]:
     """A place alone becomes a line to itself, which round ends show as a dot."""
-    return (np.repeat(line, 2, axis=0) if len(line) == 1 else line for line in lines)
+    return (np.repeat(line, 2, axis=0) if len(line) == 1 else _fewer(line) for line in lines)
 
 
 def _figure(number: float) -> str:

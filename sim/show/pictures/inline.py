@@ -1,7 +1,8 @@
-"""Pictures of a run for its report: SVG in both languages."""
+"""Pictures of a run for its report: SVG in both languages, of which the second one uses the long lines of the first."""
 
+import re
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from parser.findings.catalogue import LANGUAGES, Language
 from sim.show.draw.sheet import drawing
@@ -11,6 +12,9 @@ from sim.show.pictures.shown import label
 from sim.table.progress import Progress
 
 WIDTH_PX = 1600
+
+_LINE: Final = re.compile(r"<path [^>]{1000,}/>")
+"""What is long enough to be shared."""
 
 
 class Inline(NamedTuple):
@@ -34,4 +38,17 @@ def _inline(name: str, subject: Subject) -> Inline:
     """A picture in both languages; in none where the run has nothing to show there."""
     drawn = {one: subject.draw(name, drawing(WIDTH_PX, language=one)) for one in LANGUAGES}
     svg = {one: svg.fragment(label(name, subject.title, one)) for one, svg in drawn.items() if svg is not None}
-    return Inline(name, svg)
+    return Inline(name, _sharing(name, svg) if svg else svg)
+
+
+def _sharing(name: str, svg: Mapping[Language, str]) -> dict[Language, str]:
+    """Pictures whose long lines stand in the first language alone; the others use them there, by ids of their own."""
+    first, *others = svg
+    lines = [line for line in dict.fromkeys(_LINE.findall(svg[first])) if all(line in svg[other] for other in others)]
+    shared = dict(svg)
+    for number, line in enumerate(lines, 1):
+        own = f"{name}-line-{number}"
+        shared[first] = shared[first].replace(line, line.replace("<path", f'<path id="{own}"', 1), 1)
+        for other in others:
+            shared[other] = shared[other].replace(line, f'<use href="#{own}"/>')
+    return shared

@@ -11,6 +11,7 @@ from sim.run.findings import verdict
 from sim.run.recording import Recording
 from sim.show.draw.tones import tones_of
 from sim.show.html.environment import rendered
+from sim.show.html.packed import packed
 from sim.show.replay.block_columns import block_columns, plan_columns
 from sim.show.replay.decoding import decoding
 from sim.show.replay.happenings import (
@@ -21,9 +22,10 @@ from sim.show.replay.happenings import (
     pass_entries,
     stop_entry,
 )
-from sim.show.replay.questions import question_entries
+from sim.show.replay.quiz import quiz_of
 from sim.show.replay.scene import piece_entry, scene
 from sim.show.replay.tape import tape
+from sim.show.words.phrases import machine_name
 from sim.table.trace import origin_um
 
 SCHEMA = "drycut.replay/1"
@@ -34,7 +36,19 @@ _ASSETS = Path(__file__).with_name("assets")
 def replay_page(recording: Recording) -> str:
     """HTML of ``replay.html`` for a recorded run."""
     tones = tones_of(one for one, _ in passes_of(recording.run))
-    return rendered(_ASSETS, "replay.html.j2", document=replay_document(recording), tones=tones)
+    document, machine = _handed_over(replay_document(recording)), machine_name(recording.run.scenario.machine)
+    return rendered(_ASSETS, "replay.html.j2", document=document, machine=machine, tones=tones)
+
+
+def _handed_over(document: dict[str, Any]) -> dict[str, Any]:
+    """A document as the page has it, the long columns of blocks and plan packed.
+
+    The lines of the program are not: a browser that is too old to unpack them lists them all the same.
+    """
+    columns = {
+        key: {name: value and packed(value) for name, value in document[key].items()} for key in ("blocks", "plan")
+    }
+    return {**document, **columns}
 
 
 def replay_document(recording: Recording) -> dict[str, Any]:
@@ -52,6 +66,7 @@ def replay_document(recording: Recording) -> dict[str, Any]:
         "duration_s": course.duration_s,
         "program": _program(run.program),
         **scene(run),
+        "has_jumps": bool(run.toolpath.is_jump.any()),
         "blocks": block_columns(run),
         "decoding": decoding(run),
         "plan": plan_columns(run.plan),
@@ -62,7 +77,7 @@ def replay_document(recording: Recording) -> dict[str, Any]:
         "losses": [loss_entry(one.what) for one in course.losses],
         "ended": None if run.ended is None else ending_entry(run.ended),
         "pieces": [piece_entry(one) for one in course.pieces],
-        "quiz": question_entries(run, course.steps),
+        "quiz": quiz_of(run, course.steps),
         "tape": tape(course.steps, origin_um(run.toolpath), course.trace, course.across.row),
     }
 

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
-from parser.findings.catalogue import LANGUAGES, Said, texts
+from parser.findings.catalogue import LANGUAGES, Said, length, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.units import mm
@@ -12,7 +12,7 @@ from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
 from sim.show.report_page.tables import reached
 from sim.show.words import said
-from sim.show.words.phrases import catalogued, lasting, listed, numbered, same
+from sim.show.words.phrases import catalogued, lasting, listed, machine_name, numbered, same
 
 _NONE = same("")
 
@@ -108,7 +108,8 @@ def _figure(name: str, report: Mapping[str, Any], entry: str, digits: int = 0, p
 
 def _size(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     total = report["time_s"]["total"]
-    work = said("report.in-work", thickness=f"{report['work']['thickness_mm']:g}", machine=report["machine"]["name"])
+    machine, thickness_mm = machine_name(run.scenario.machine), report["work"]["thickness_mm"]
+    work = said("report.in-work", thickness=f"{thickness_mm:g}", machine=machine)
     if run.feeds is None:
         yield Figure(said("report.card-time"), "time_s.total", total, lasting(total), beside=said("report.card-speeds"))
     else:
@@ -140,12 +141,14 @@ def _closure(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
         return
     at = max(closing, key=lambda at: (run.whole_contours[at].is_open, run.whole_contours[at].closure_stepped_um))
     contour = report["contours"][at]
-    told: dict[str, object] = {"exact": f"{contour['closure_exact_um']:,.2f}"}
+    told: dict[str, object] = {"exact": length(contour["closure_exact_um"])}
     if len(run.whole_contours) > 1:
         first, last = (run.block_names.at(contour[key]) for key in ("first_block", "last_block"))
         told |= {"n": len(run.whole_contours), "first": first, "last": last}
     beside = said("report.closure-worst" if len(run.whole_contours) > 1 else "report.closure-exact", **told)
-    yield _figure("closure", report, f"contours.{at}.closure_stepped_um", 2)._replace(unit="µm", beside=beside)
+    stepped, unit = length(contour["closure_stepped_um"]).split(" ")
+    figure = _figure("closure", report, f"contours.{at}.closure_stepped_um")
+    yield figure._replace(shown=same(stepped), unit=unit, beside=beside)
 
 
 def _pieces(report: Mapping[str, Any]) -> Iterator[Figure]:

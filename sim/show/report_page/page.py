@@ -28,8 +28,10 @@ from sim.show.report_page.results import (
     pass_table,
 )
 from sim.show.report_page.settings import setting_groups
+from sim.show.report_page.sheet import MOST_THREADS, sheet_of, thread_table
 from sim.show.report_page.tables import Column, ReportTable, yes_or_no
 from sim.show.words import said
+from sim.show.words.phrases import machine_name
 
 _ASSETS: Final = Path(__file__).with_name("assets")
 
@@ -43,6 +45,7 @@ def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inlin
     """
     findings = shown_findings(run)
     tables = [table for table in _tables(run, report) if table.rows]
+    shown = {one.name: {language: Markup(svg) for language, svg in one.svg.items()} for one in pictures}  # noqa: S704 - escaped by `sim.show.draw.svg`
     return rendered(
         _ASSETS,
         "report.html.j2",
@@ -58,12 +61,14 @@ def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inlin
         findings=findings,
         unshown=len(run.findings) - len(findings),
         explained=explained(run.findings),
-        pictures=[(picture.name, {name: Markup(svg) for name, svg in picture.svg.items()}) for picture in pictures],  # noqa: S704 - escaped by `sim.show.draw.svg`
+        pictures=list(shown.items()),
+        cut=shown.get("cut"),
+        sheet=sheet_of(run, report, findings),
         tables={table.name: table for table in tables},
         tables_data=[table.data() for table in tables],
         groups=setting_groups(run.scenario, run.program),
         has_trace=has_trace,
-        machine=report["machine"]["name"],
+        machine=machine_name(run.scenario.machine),
         reproduction=reproduction(run),
         dark_pictures=_recoloured(DARK),
     )
@@ -71,7 +76,9 @@ def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inlin
 
 def _tables(run: DryRun, report: Mapping[str, Any]) -> list[ReportTable]:
     remains, drawing, names = report["remains"], report["drawing"], run.block_names
+    threads = report["thread_points"]
     return [
+        *([thread_table(threads, names)] if len(threads) > MOST_THREADS else []),
         contour_table(run, report),
         *([pass_table(run, report)] if run.has_trims else []),
         deviation_table(run, report),

@@ -1,10 +1,13 @@
 """Tables of the page: columns of values as the report has them, which the page shows, sorts and turns over."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, Literal, NamedTuple
+from typing import Any, Final, Literal, NamedTuple
 
 from parser.findings.catalogue import Said
+from sim.show.html.packed import packed
 from sim.show.words import said
+
+_LONG_S: Final = 600.0
 
 Kind = Literal["number", "text", "code", "word", "codes"]
 
@@ -52,7 +55,7 @@ class ReportTable(NamedTuple):
         return len(self.columns[0].values)
 
     def data(self) -> dict[str, Any]:
-        """The table for the page's script."""
+        """The table for the page's script; long columns are packed."""
         return {"name": self.name, "columns": [_data(column) for column in self.columns]}
 
 
@@ -80,8 +83,10 @@ def millimetres(head: str, values: Sequence[Any]) -> Column:
 
 
 def timed(head: str, values: Sequence[Any]) -> Column:
-    """Times in s."""
-    return Column(said(f"report.{head}"), values, unit="s", digits=2)
+    """Times in s, shown in min where any is as long as ten of them."""
+    long = max((value for value in values if value is not None), default=0.0) >= _LONG_S
+    unit, per = ("min", 60.0) if long else ("s", 1.0)
+    return Column(said(f"report.{head}"), values, unit=unit, per=per, digits=2)
 
 
 def worded(head: str, values: Sequence[str], prefix: str = "is") -> Column:
@@ -122,4 +127,4 @@ def _under(keys: Iterable[str], entry: Any) -> Any:
 
 def _data(column: Column) -> dict[str, Any]:
     words = {key: text._asdict() for key, text in column.words.items()}
-    return column._asdict() | {"head": column.head._asdict(), "words": words}
+    return column._asdict() | {"head": column.head._asdict(), "values": packed(column.values), "words": words}

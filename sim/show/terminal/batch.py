@@ -4,32 +4,33 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Final
 
+from parser.findings.catalogue import Language
 from sim.show.terminal.colours import COLOURS, styled
 from sim.show.terminal.printer import say
 from sim.show.terminal.wrap import wrapped
+from sim.show.words import Words
 
 _MOST: Final = 20
-_SAID: Final = {
-    "pass": "pass",
-    "fail": "fail",
-    "refused": "cannot be run",
-    "fault": "faults of drycut",
-    "from_cache": "from the last run",
-}
+_COUNTED: Final = ("pass", "fail", "refused", "fault", "from_cache")
 
 
-def print_batch(index: Mapping[str, Any], output: Path) -> None:
+def print_batch(index: Mapping[str, Any], output: Path, language: Language) -> None:
     """Print what came of a shop: the programs that did not pass, counts, and where the index is."""
+    tell = Words(language)
     bad = [program for program in index["programs"] if program["verdict"] != "pass"]
     for program in bad[:_MOST]:
-        for line in wrapped(f"{program['file']}: {program['verdict']}: {_why(program)}", indent="    "):
+        verdict = tell(f"batch.verdict-{program['verdict']}")
+        told = tell("batch.bad", file=program["file"], verdict=verdict, why=_why(program))
+        for line in wrapped(told, indent="    "):
             say(styled(line, COLOURS["fail"]))
     if len(bad) > _MOST:
-        say(f"… and {len(bad) - _MOST:,} more, in index.html")
+        say(tell("batch.more", n=f"{len(bad) - _MOST:,}"))
     counts = index["counts"]
-    told = ", ".join(f"{counts[name]:,} {word}" for name, word in _SAID.items() if counts[name])
-    say(f"{counts['programs']:,} program{'s' * (counts['programs'] != 1)}: {told}")
-    say(f"written: {output}/ index.html, index.json, and a folder for each program that ran")
+    told = tell("phrases.comma").join(
+        tell(f"batch.count-{name}", n=f"{counts[name]:,}") for name in _COUNTED if counts[name]
+    )
+    say(tell("batch.one" if counts["programs"] == 1 else "batch.some", n=f"{counts['programs']:,}", counts=told))
+    say(tell("batch.written", output=output))
 
 
 def _why(program: Mapping[str, Any]) -> str:

@@ -3,37 +3,42 @@
 import numpy as np
 from rich.table import Table
 
+from parser.findings.catalogue import Language
 from parser.findings.remarks import remark_text
 from parser.text.block_names import BlockNames
 from parser.units import mm
 from sim.measure.compare.result import Comparison, WorstPlace
 from sim.measure.compare.tables import by_block, by_entity, corner_places, worst_places
 from sim.show.terminal.layout import paragraph, show, table
+from sim.show.words import Words
 
-_MEASURED_FROM = {"edge": "cut edge", "drawing": "drawing", "lead": "lead"}
 _MOST_CORNERS = 10
 _SHOWN_UM = 5e-4  # what is not printed as 0.000
-_SIDES = {1: "left", -1: "gouged", 0: ""}
+_SIDES = {1: "left", -1: "gouged"}
 
 
-def print_comparison(of: Comparison, program: str, names: BlockNames, offset: str) -> None:
+def print_comparison(of: Comparison, program: str, names: BlockNames, offset: str, language: Language) -> None:
     """Print a comparison to stdout; `offset` says how large it is and where it comes from.
 
     `program` is the name of its file, `names` are those of its blocks.
     """
-    figures = table(f"{program} against {of.drawing.name}")
-    for row in _rows(of, names, offset):
+    tell = Words(language)
+    figures = table(tell("compare.title", program=program, drawing=of.drawing.name))
+    for row in _rows(of, names, offset, tell):
         figures.add_row(*row)
     show(figures)
-    show(_worst(of, names))
+    show(_worst(of, names, tell))
     if of.unreachable:
-        show(_corners(of, names))
+        show(_corners(of, names, tell))
     for note in of.notes:
-        paragraph(f"note: {remark_text(note)}", "cyan")
+        paragraph(tell("compare.note", text=remark_text(note, language)), "cyan")
     for named in of.names:
-        text = remark_text(named, names=names.other)
-        paragraph(f"{'warning' if of.passes else 'error'}: {text}", "yellow" if of.passes else "red")
-    verdict = f"verdict: {'pass' if of.passes else 'fail'}, {_um(of.max_um)} of {_um(of.asked.tolerance_um)} allowed"
+        text = remark_text(named, language, names.other)
+        paragraph(
+            tell("compare.warning" if of.passes else "compare.error", text=text), "yellow" if of.passes else "red"
+        )
+    figures_of = {"most": _um(of.max_um), "tolerance": _um(of.asked.tolerance_um)}
+    verdict = tell("compare.pass" if of.passes else "compare.fail", **figures_of)
     paragraph(verdict, "bold green" if of.passes else "bold red")
 
 
@@ -42,53 +47,60 @@ def _um(length_um: float) -> str:
     return f"{length_um:,.3f} µm" if length_um < 1000.0 else f"{mm(length_um):,.3f} mm"
 
 
-def _rows(of: Comparison, names: BlockNames, offset: str) -> list[tuple[str, str]]:
+def _rows(of: Comparison, names: BlockNames, offset: str, tell: Words) -> list[tuple[str, str]]:
     there, back = (max(places, key=lambda place: place.deviation_um) for places in (by_block(of), by_entity(of)))
     return [
-        ("offset", offset),
-        ("edge from drawing", f"at most {_um(there.deviation_um)}, {_where(there, names)}"),
-        ("  root mean square", _um(of.edge_to_drawing.rms_um)),
-        ("drawing from edge", f"at most {_um(back.deviation_um)}, {_where(back, names)}"),
-        ("  root mean square", _um(of.drawing_to_edge.rms_um)),
-        ("drawing laid", _laid(of)),
+        (tell("compare.offset"), offset),
+        (tell("compare.edge-from-drawing"), _most(there, names, tell)),
+        (tell("compare.rms"), _um(of.edge_to_drawing.rms_um)),
+        (tell("compare.drawing-from-edge"), _most(back, names, tell)),
+        (tell("compare.rms"), _um(of.drawing_to_edge.rms_um)),
+        (tell("compare.laid"), _laid(of, tell)),
     ]
 
 
-def _where(place: WorstPlace, names: BlockNames) -> str:
-    return f"block {names(place.block)} at {_xy(*place.where_um)} mm"
+def _most(place: WorstPlace, names: BlockNames, tell: Words) -> str:
+    most = _um(place.deviation_um)
+    return tell("compare.at-most", most=most, block=names(place.block), place=_xy(*place.where_um))
 
 
-def _laid(of: Comparison) -> str:
+def _laid(of: Comparison, tell: Words) -> str:
     """How the drawing lies in the program's coordinates."""
     if not of.asked.fitted:
-        return "as it is, not fitted"
+        return tell("compare.laid-as-is")
     turn, (x, y), mirror = of.placement
-    turned = f"turned {round(float(np.degrees(turn)), 4) + 0.0:.4f}°, shifted {_xy(x, y)} mm"
-    return f"mirrored, {turned}" if mirror else turned
+    turned = f"{round(float(np.degrees(turn)), 4) + 0.0:.4f}"
+    return tell("compare.laid-mirrored" if mirror else "compare.laid-turned", turn=turned, place=_xy(x, y))
 
 
-def _worst(of: Comparison, names: BlockNames) -> Table:
-    heads = ("deviation", "side", "at, mm", "block", "entity", "measured from")
-    shown = table("Worst places", heads, right=(0, 3))
+def _heads(tell: Words, *names: str) -> tuple[str, ...]:
+    return tuple(tell(f"compare.head-{name}") for name in names)
+
+
+def _worst(of: Comparison, names: BlockNames, tell: Words) -> Table:
+    heads = _heads(tell, "deviation", "side", "at", "block", "entity", "from")
+    shown = table(tell("compare.worst"), heads, right=(0, 3))
     for place in worst_places(of):
+        has_side = place.side in _SIDES and place.deviation_um >= _SHOWN_UM
         shown.add_row(
             _um(place.deviation_um),
-            _SIDES[place.side] if place.deviation_um >= _SHOWN_UM else "",
+            tell(f"compare.side-{_SIDES[place.side]}") if has_side else "",
             _xy(*place.where_um),
             names(place.block),
             _entity(of, place.entity),
-            _MEASURED_FROM[place.measured_from],
+            tell(f"compare.from-{place.measured_from}"),
         )
     return shown
 
 
-def _corners(of: Comparison, names: BlockNames) -> Table:
+def _corners(of: Comparison, names: BlockNames, tell: Words) -> Table:
     """Where the wire must leave something, the deepest first."""
     corners = sorted(corner_places(of), key=lambda corner: -corner.depth_um)
-    counted = "counted" if of.asked.sharp_corners == "fail" else "not counted"
-    deepest = f", the {_MOST_CORNERS} deepest" if len(corners) > _MOST_CORNERS else ""
-    title = f"Sharp inside corners out of the wire's reach: {len(corners):,}, {counted}{deepest}"
-    shown = table(title, ("left at least", "angle", "at, mm", "block", "entity"), right=(0, 1, 3))
+    counted = "counted" if of.asked.sharp_corners == "fail" else "not-counted"
+    title = tell(f"compare.corners-{counted}", number=f"{len(corners):,}")
+    if len(corners) > _MOST_CORNERS:
+        title = tell("compare.corners-deepest", title=title, most=_MOST_CORNERS)
+    shown = table(title, _heads(tell, "left", "angle", "at", "block", "entity"), right=(0, 1, 3))
     for corner in corners[:_MOST_CORNERS]:
         shown.add_row(
             _um(corner.depth_um),

@@ -11,6 +11,7 @@ from sim.show.terminal.colours import COLOURS, painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped
 from sim.show.words import Words
+from sim.show.words.phrases import machine_name
 
 _INDENT = "    "
 _MOST_FINDINGS = 20
@@ -39,7 +40,7 @@ def proof_lines(done: Made, name: str, language: Language, width: int) -> Iterat
             there=f"{float(edge.edge_to_drawing.max_um.max()):.2f}",
             back=f"{float(edge.drawing_to_edge.max_um.max()):.2f}",
             tolerance=f"{edge.asked.tolerance_um:g}",
-            machine=proof.run.scenario.machine.name,
+            machine=machine_name(proof.run.scenario.machine),
         )
         yield from wrapped(text, width, "", _INDENT)
     yield styled(words(f"program.verdict-{proof.verdict}"), f"bold {COLOURS[proof.verdict]}")

@@ -3,6 +3,7 @@
 import math
 from pathlib import Path
 
+from parser.findings.catalogue import Language, length
 from parser.findings.facts import ReadAs
 from parser.shape.contours import Contour
 from parser.text.block_names import BlockNames
@@ -19,16 +20,12 @@ from sim.show.terminal.layout import paragraph, show, table
 from sim.show.terminal.printer import say
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of
+from sim.show.words import Words
+from sim.show.words.phrases import lasting, machine_name, numbered
 from sim.table.record.peaks import Peak
-from sim.units import clock, in_figures
+from sim.units import in_figures
 
-_CAUSES = {
-    "interpolation": "by interpolation",
-    "carried": "carried over",
-    "planning": "by planning",
-    "table": "by the table",
-    "wire": "by the wire",
-}
+_CAUSES = ("interpolation", "carried", "planning", "table", "wire")
 _UNITS = {"force": (1.0, "N"), "speed": (1e-3, "mm/s"), "lag": (1.0, "µm")}
 _MOST_FINDINGS = 20
 _MOST_CLOSURES = 4
@@ -36,130 +33,148 @@ _MOST_LIMITS = 3
 _LEAST_UM = 0.005  # shown as 0.00
 
 
-def print_summary(run: DryRun, output: Path | None) -> None:
+def print_summary(run: DryRun, output: Path | None, language: Language = "en") -> None:
     """Print the figures of a run, its findings and its verdict to stdout."""
     figures = table(run.scenario.title)
-    for row in summary_rows(run):
+    for row in summary_rows(run, language):
         figures.add_row(*row)
     show(figures)
-    _print_findings(run, output)
-    paragraph(" ".join(sentence.en for sentence in taken_for_granted(run)), "dim")
+    _print_findings(run, output, language)
+    gap = {"en": " ", "zh": ""}[language]  # Chinese has no blank behind a full stop
+    paragraph(gap.join(getattr(sentence, language) for sentence in taken_for_granted(run)), "dim")
     reached = verdict(run.findings)
-    say(styled(f"verdict: {reached}", f"bold {COLOURS[reached]}"))
+    say(styled(Words(language)(f"summary.verdict-{reached}"), f"bold {COLOURS[reached]}"))
 
 
-def _print_findings(run: DryRun, output: Path | None) -> None:
+def _print_findings(run: DryRun, output: Path | None, language: Language) -> None:
     name, width = str(run.scenario.program), width_of(outlet())
     findings = [found for found in run.findings if not isinstance(found.fact, ReadAs)]  # told with what was assumed
     for finding in findings[:_MOST_FINDINGS]:
         excerpt = run.program.excerpt(finding.line) if finding.column else None
-        for line in finding_lines(name, finding, excerpt, "en", width):
+        for line in finding_lines(name, finding, excerpt, language, width):
             say(painted(line, finding.severity))
     if len(findings) > _MOST_FINDINGS:
-        there = "in report.json" if output else "in the report; -o DIR or --json shows them"
-        say(f"… and {len(findings) - _MOST_FINDINGS} findings more, {there}")
+        where = "in-report" if output else "unseen"
+        say(Words(language)(f"summary.more-{where}", n=len(findings) - _MOST_FINDINGS))
 
 
-def summary_rows(run: DryRun) -> list[Row]:
+def summary_rows(run: DryRun, language: Language = "en") -> list[Row]:
     """Names and figures, in the order of the table."""
-    toolpath, scenario = run.toolpath, run.scenario
-    jumps = int(toolpath.is_jump.sum())
-    arcs = int(toolpath.is_arc.sum())
-    numbers = {"line": len(toolpath) - arcs - jumps, "arc": arcs, "jump": jumps}
-    kinds = ", ".join(f"{number:,} {kind}{'s' * (number > 1)}" for kind, number in numbers.items() if number)
-    wire = f"wire {mm(scenario.wire.diameter_um):g} mm + 2 × {scenario.wire.spark_gap_um:g} µm gap"
+    tell = Words(language)
     return [
-        ("machine", scenario.machine.name),
-        ("blocks", f"{len(toolpath):,} ({kinds})"),
-        ("path length", f"{mm(run.ran_um):,.3f} mm"),
-        ("kerf", f"{mm(scenario.wire.kerf_um):g} mm ({wire})"),
-        *([("wire lag", f"{scenario.wire_lag_um:g} µm")] if scenario.wire_lag_um else []),
-        ("steps", f"{len(run.stepped):,} of 1 µm, {value_word(scenario.machine.controller.interpolation).en}"),
-        ("estimated cutting time", f"{clock(run.ran_s)} in {scenario.thickness_mm:g} mm"),
-        *_times(run),
-        *pass_rows(run),
-        *_closures(run),
-        *_stopped(run),
-        *offset_rows(run),
-        *piece_rows(run),
-        *_deviations(run),
-        *drawing_rows(run),
-        *_limits(run.peaks, run.block_names),
+        *_work_rows(run, tell),
+        *_times(run, tell),
+        *pass_rows(run, tell),
+        *_closures(run, tell),
+        *_stopped(run, tell),
+        *offset_rows(run, tell),
+        *piece_rows(run, tell),
+        *_deviations(run, tell),
+        *drawing_rows(run, tell),
+        *_limits(run.peaks, run.block_names, tell),
     ]
 
 
-def _times(run: DryRun) -> list[Row]:
+def _work_rows(run: DryRun, tell: Words) -> list[Row]:
+    """Machine, program, and what it comes to in all."""
+    toolpath, scenario = run.toolpath, run.scenario
+    jumps, arcs = int(toolpath.is_jump.sum()), int(toolpath.is_arc.sum())
+    kinds = numbered({"line": len(toolpath) - arcs - jumps, "arc": arcs, "jump": jumps})
+    wire, how = scenario.wire, value_word(scenario.machine.controller.interpolation)
+    widths = {"kerf": f"{mm(wire.kerf_um):g}", "wire": f"{mm(wire.diameter_um):g}", "gap": f"{wire.spark_gap_um:g}"}
+    time = tell("summary.time-of", time=lasting(run.ran_s), thickness=f"{scenario.thickness_mm:g}")
+    lag = [(tell("summary.wire-lag"), f"{scenario.wire_lag_um:g} µm")] if scenario.wire_lag_um else []
+    return [
+        (tell("summary.machine"), getattr(machine_name(scenario.machine), tell.language)),
+        (tell("summary.blocks"), tell("summary.blocks-of", number=f"{len(toolpath):,}", kinds=kinds)),
+        (tell("summary.length"), f"{mm(run.ran_um):,.3f} mm"),
+        (tell("summary.kerf"), tell("summary.kerf-of", **widths)),
+        *lag,
+        (tell("summary.steps"), tell("summary.steps-of", number=f"{len(run.stepped):,}", how=how)),
+        (tell("summary.time"), time),
+    ]
+
+
+def _times(run: DryRun, tell: Words) -> list[Row]:
     """Time of each contour, where there are some but few."""
     if not 1 < len(run.whole_contours) <= _MOST_CLOSURES:
         return []
     times = [(c, float(run.block_time_s[c.first - 1 : c.last].sum())) for c in run.whole_contours]
-    return [(f"  blocks {_span(run, contour)}", clock(time_s)) for contour, time_s in times]
+    return [
+        (tell("summary.time-blocks", **_span(run, contour)), getattr(lasting(time_s), tell.language))
+        for contour, time_s in times
+    ]
 
 
-def _span(run: DryRun, contour: Contour) -> str:
+def _span(run: DryRun, contour: Contour) -> dict[str, str]:
     """Names of the first and the last block of a contour."""
     first, last = (run.block_names.at(number) for number in (contour.first, contour.last))
-    return f"{first}–{last}"
+    return {"first": first, "last": last}
 
 
-def _closures(run: DryRun) -> list[Row]:
+def _closures(run: DryRun, tell: Words) -> list[Row]:
     """Closure of each contour; of many, the worst."""
-    shown = run.whole_contours
-    if len(shown) > _MOST_CLOSURES:
-        worst = max(shown, key=lambda contour: contour.encloses * (contour.closure_stepped_um + contour.is_open * 1e9))
-        shown = (worst,)
-    rows = []
-    for contour in shown:
-        name = "closure"
-        if len(run.whole_contours) > 1:
-            name += f" {_span(run, contour)}" + (" (worst)" if len(shown) < len(run.whole_contours) else "")
-        if not contour.encloses:
-            rows.append((name, "none: a parting cut"))
-            continue
-        figures = f"{contour.closure_exact_um:,.2f} µm exact, {contour.closure_stepped_um:,.2f} µm stepped"
-        if contour.returns and contour.closure_exact_um > contour.tolerance_um:
-            figures += ", closed on its path"
-        rows.append((name, figures))
-    return rows
+    contours, key = run.whole_contours, "closure-of"
+    if len(contours) > _MOST_CLOSURES:
+        worst = max(contours, key=lambda one: one.encloses * (one.closure_stepped_um + one.is_open * 1e9))
+        contours, key = (worst,), "closure-worst"
+    elif len(contours) == 1:
+        key = "closure"
+    return [(tell(f"summary.{key}", **_span(run, one)), _closure(one, tell)) for one in contours]
 
 
-def _stopped(run: DryRun) -> list[Row]:
+def _closure(contour: Contour, tell: Words) -> str:
+    if not contour.encloses:
+        return tell("summary.closure-none")
+    exact, stepped = length(contour.closure_exact_um), length(contour.closure_stepped_um)
+    figures = tell("summary.closure-figures", exact=exact, stepped=stepped)
+    if contour.returns and contour.closure_exact_um > contour.tolerance_um:
+        return tell("summary.closure-on-path", figures=figures)
+    return figures
+
+
+def _stopped(run: DryRun, tell: Words) -> list[Row]:
     """Where the machine stopped before its program was through, so that what follows is not cut."""
     ended = run.ended
     if ended is None:
         return []
-    why = {"trip": "servo tripped", "travel": "travel ends here; --past-stop goes on"}[ended.cause]
-    block = run.block_names.of_row(ended.row)
-    return [("stopped", f"in block {block} after {clock(ended.t_s)}: the {ended.axis.name} {why}")]
+    where = {"block": run.block_names.of_row(ended.row), "time": lasting(ended.t_s), "axis": ended.axis.name}
+    return [(tell("summary.stopped"), tell(f"summary.stopped-{ended.cause}", **where))]
 
 
-def _deviations(run: DryRun) -> list[Row]:
+def _deviations(run: DryRun, tell: Words) -> list[Row]:
     """Deviation of the cut, and what each cause adds."""
     if not len(run.stepped):
-        return [("deviation, at most", "no motion")]
+        return [(tell("summary.deviation"), tell("summary.no-motion"))]
     whole, names = run.deviations.wire, run.block_names
     causes = run.deviations.by_cause._asdict()
-    parts = [(f"  {_CAUSES[cause]}", _largest(part.max_um, part.where, names)) for cause, part in causes.items()]
-    return [("deviation, at most", _largest(whole.max_um, whole.where, names)), *parts]
+    parts = [
+        (tell(f"summary.by-{cause}"), _largest(causes[cause].max_um, causes[cause].where, names, tell))
+        for cause in _CAUSES
+    ]
+    return [(tell("summary.deviation"), _largest(whole.max_um, whole.where, names, tell)), *parts]
 
 
-def _largest(max_um: float, where: Where | None, names: BlockNames) -> str:
+def _largest(max_um: float, where: Where | None, names: BlockNames, tell: Words) -> str:
     if where is None or max_um < _LEAST_UM:
-        return "none"
-    return f"{max_um:,.2f} µm in block {names.at(where.block)} at {_mm(where.x_um)}, {_mm(where.y_um)} mm"
+        return tell("summary.none")
+    place = {"block": names.at(where.block), "x": _mm(where.x_um), "y": _mm(where.y_um)}
+    return tell("summary.largest", most=length(max_um), **place)
 
 
-def _limits(peaks: tuple[Peak, ...], blocks: BlockNames) -> list[Row]:
+def _limits(peaks: tuple[Peak, ...], blocks: BlockNames, tell: Words) -> list[Row]:
     """The limits that were come nearest to."""
     limited = sorted((peak for peak in peaks if math.isfinite(peak.limit)), key=lambda peak: -peak.share)
-    names = ("limits, nearest", *[""] * (_MOST_LIMITS - 1))
-    return [(name, _limit(peak, blocks)) for name, peak in zip(names, limited, strict=False)]
+    names = (tell("summary.limits"), *[""] * (_MOST_LIMITS - 1))
+    return [(name, _limit(peak, blocks, tell)) for name, peak in zip(names, limited, strict=False)]
 
 
-def _limit(peak: Peak, names: BlockNames) -> str:
+def _limit(peak: Peak, names: BlockNames, tell: Words) -> str:
     scale, unit = _UNITS[peak.quantity]
-    met = f"{peak.quantity} {peak.axis.name} {_percent(peak.share)} of {in_figures(peak.limit * scale)} {unit}"
-    return f"{met}, block {names.of_row(peak.row)} at {_mm(peak.x_um, 1)}, {_mm(peak.y_um, 1)} mm"
+    what = tell(f"summary.limit-{peak.quantity}")
+    met = {"share": _percent(peak.share), "limit": in_figures(peak.limit * scale), "unit": unit}
+    place = {"block": names.of_row(peak.row), "x": _mm(peak.x_um, 1), "y": _mm(peak.y_um, 1)}
+    return tell("summary.limit", what=what, axis=peak.axis.name, **met, **place)
 
 
 def _mm(length_um: float, digits: int = 3) -> str:

@@ -2,12 +2,16 @@
 
 from collections.abc import Iterable, Mapping
 from itertools import groupby
+from typing import TYPE_CHECKING
 
 from parser.dialect.reader import Assumption
 from parser.findings.catalogue import LANGUAGES, Said, term
 from parser.shape.passes import Pass
 from sim.show.words.words import said
 from sim.units import clock
+
+if TYPE_CHECKING:
+    from sim.setup.machine.machine import Machine
 
 _UNITS_OF_TIME = {" h": "phrases.hours", " min": "phrases.minutes", " s": "phrases.seconds"}
 
@@ -64,6 +68,11 @@ def counted_pass(one: Pass, among: int) -> Said:
     way = said("phrases.back" if one.is_back else "phrases.forward")
     key = "phrases.counted-tab" if one.is_tab else "phrases.counted-pass"
     return said(key, number=one.number, among=among, way=way)
+
+
+def machine_name(machine: "Machine") -> Said:
+    """Name of a machine, in Chinese where its file has one."""
+    return Said(machine.name, machine.name_zh or machine.name)
 
 
 def named_pass(one: Pass, among: int) -> Said:

@@ -115,7 +115,7 @@ def test_options_are_documented() -> None:
 def test_figures_and_parts_are_documented_by_the_names_they_are_printed_with(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    print_ballbar(with_known_errors(), None)
+    print_ballbar(with_known_errors(), None, "en")
     names = re.findall(r"^│ ([a-z][^│]*?) +│ .*\d", capsys.readouterr().out, flags=re.MULTILINE)
     assert "hysteresis H" in names
     assert [name for name in names[3:] if f"| {name} |" not in PAGE] == []
@@ -131,14 +131,14 @@ def test_a_tolerance_decides_the_exit_code() -> None:
 def test_what_is_lost_fails_the_test_and_is_named(capsys: pytest.CaptureFixture[str]) -> None:
     lost = replace(with_known_errors(), losses=((1, LOSS),))
     assert not lost.passes(None)
-    print_ballbar(lost, None)
+    print_ballbar(lost, None, "en")
     told = " ".join(capsys.readouterr().out.split())
     assert "ccw: the X stepper lost −12 µm at 1.250 s, −0.300, 0.040 mm from the start" in told
 
 
 def test_a_turn_that_does_not_go_round_has_no_figures(capsys: pytest.CaptureFixture[str]) -> None:
     assert not tripped().passes(1000.0)
-    print_ballbar(tripped(), 1000.0)
+    print_ballbar(tripped(), 1000.0, "en")
     printed = capsys.readouterr().out
     assert "cw: the X servo tripped on a following error of −12.0 µm" in printed
     assert "no figures: the table does not go round, cw" in printed

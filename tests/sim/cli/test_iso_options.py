@@ -18,11 +18,12 @@ from parser.dialect.choices import UNITS, Choices, merged, register_name
 from parser.program import dialects, load_program
 from sim.check.programmed import Programmed, programmed_of
 from sim.check.settings import CheckSettings
-from sim.cli.dialect_options import READ_WITH, offsets_of, register_set
+from sim.cli.dialect_options import offsets_of, register_set
 from sim.setup.key_words import value_word
 from sim.setup.machine.machine import load_machine
 from sim.setup.scenario import MACHINE_FILE, load_scenario, scenario_sections
 from sim.setup.toml.writer import toml_text
+from sim.show.words.words import texts
 
 SCHEMA = json.loads((ROOT / "docs" / "check.schema.json").read_text("utf-8"))
 
@@ -190,8 +191,9 @@ def test_names_of_registers_are_told_without_leading_zeros() -> None:
 
 
 def test_the_help_names_every_dialect() -> None:
-    (dialect, _) = (option(lambda: None).__click_params__[0] for option in READ_WITH)  # type: ignore[attr-defined]
-    assert ", ".join(dialects()) in dialect.help
+    told = texts("options")["dialect"]
+    assert ", ".join(dialects()) in told.en
+    assert "、".join(dialects()) in told.zh
 
 
 @pytest.mark.parametrize("schema", ["check", "report"])

@@ -115,10 +115,13 @@ def test_a_terminal_is_cleared_before_each_check(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "sim", "check", "a.3b", "--watch"]
     with subprocess.Popen(command, cwd=tmp_path, env=environment, stdout=theirs, stderr=theirs) as process:
         shown = b""
-        while b"watching" not in shown:
-            shown += os.read(ours, 1024)
-        process.send_signal(signal.SIGINT)
-        assert process.wait(LONGEST_S) == 130
+        try:
+            while b"watching" not in shown:
+                shown += os.read(ours, 1024)
+            process.send_signal(signal.SIGINT)
+            assert process.wait(LONGEST_S) == 130
+        finally:  # where Ctrl-C is ignored, as beneath nohup, it would go on for ever
+            process.kill()
     for end in (ours, theirs):
         os.close(end)
     assert shown.startswith(b"\x1b[2J\x1b[1;1Ha.3b: pass")

@@ -1,10 +1,10 @@
 """A process of drycut's own: what it is told and tells, and what it is not to import."""
 
-import asyncio
 from pathlib import Path
 from typing import Any
 
 import pytest
+from awaited import awaited
 from places import ROOT
 
 from sim.open.child import begun
@@ -22,7 +22,7 @@ def test_it_imports_nothing_from_the_folder_that_drycut_was_started_in(
     (tmp_path / "part.3b").write_text("B1000B0B1000GXL1\nDD\n")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
-    assert [row["verdict"] for row in asyncio.run(rows(tmp_path / "part.3b"))] == ["pass"]
+    assert [row["verdict"] for row in awaited(rows(tmp_path / "part.3b"))] == ["pass"]
 
 
 def test_one_that_is_ended_tells_no_more(tmp_path: Path) -> None:
@@ -32,4 +32,4 @@ def test_one_that_is_ended_tells_no_more(tmp_path: Path) -> None:
         child.end()
         return [row async for row in child.tells([["part.3b", str(tmp_path / "part.3b")]])]
 
-    assert asyncio.run(ended()) == []
+    assert awaited(ended()) == []

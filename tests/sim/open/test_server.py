@@ -1,6 +1,5 @@
 """The server of a page: who may ask it, what it answers, and when it ends."""
 
-import asyncio
 import io
 import json
 import os
@@ -13,10 +12,10 @@ import sys
 import time
 import zipfile
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from awaited import awaited
 from command import run_command
 from opened_page import OpenedPage, opened_page
 from PIL import Image
@@ -305,7 +304,7 @@ def test_a_film_can_be_cancelled_and_the_files_of_the_run_stay(served: OpenedPag
 def test_nothing_is_made_of_a_run_that_is_not_there(tmp_path: Path) -> None:
     runs = Runs(tmp_path)
     for job in ("film", "pictures", "run"):
-        asyncio.run(runs.make({**FILM, "job": job}))
+        awaited(runs.make({**FILM, "job": job}))
         assert runs.state == {"state": "idle"}
 
 
@@ -410,8 +409,7 @@ def test_of_earlier_runs_only_the_last_one_is_kept(tmp_path: Path) -> None:
             await runs.start("part.3b", b"DD", dict.fromkeys((*KEYS, "drawing_file", "near_file"), ""))
         await runs.cancel()
 
-    with ThreadPoolExecutor(1) as own:  # a browser of other tests may keep a loop in this thread
-        own.submit(asyncio.run, thrice()).result()
+    awaited(thrice())
     assert sorted(folder.name for folder in tmp_path.iterdir()) == ["2", "3"]
 
 

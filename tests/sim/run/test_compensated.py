@@ -21,6 +21,7 @@ from sim.run.report import build_report
 from sim.run.running import dry_run
 from sim.setup.part import Offset, OffsetPass
 from sim.show.terminal.cut_rows import pass_rows
+from sim.show.words import Words
 from sim.table.progress import silent
 
 ASKED = Offset((OffsetPass(100.0),), Side.LEFT)
@@ -185,5 +186,6 @@ def test_passes_have_the_offsets_of_their_registers_and_not_the_reach_of_the_wir
     wanted = list(registers.values())
     assert [one["offset_um"] for one in report["passes"]] == pytest.approx(wanted)
     assert [one["by_um"] for one in report["offset"]["passes"]] == pytest.approx(wanted)
-    assert [figures.split(",")[1] for _, figures in pass_rows(ran)] == [f" offset {um:.0f} µm" for um in wanted]
+    told = [figures.split(",")[1] for _, figures in pass_rows(ran, Words("en"))]
+    assert told == [f" offset {um:.0f} µm" for um in wanted]
     assert [one["stock_um"]["mean"] for one in report["passes"]] == pytest.approx([200.0, 68.58, 52.07], abs=1.0)

@@ -5,10 +5,10 @@ import re
 import pytest
 from places import ROOT
 
-from sim.cli.draw import draw
+from parser.findings.catalogue import LANGUAGES
 from sim.show.pictures.gallery import PICTURES
 from sim.show.pictures.plan.shown import PLAN
-from sim.show.words.words import texts
+from sim.show.words.words import Words, texts
 
 COUNTS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]
 
@@ -26,12 +26,13 @@ def test_no_name_is_left_of_a_picture_that_there_is_not() -> None:
 
 
 def test_the_help_of_draw_names_every_picture_and_says_what_it_shows() -> None:
-    (option,) = (one for one in draw.params if one.name == "names")
-    listed = re.findall(r"\w+", getattr(option, "help", "").split(";")[0].replace(" or ", ", "))
-    assert listed == [*PICTURES], "the help of --picture in sim/cli/draw.py names others than PICTURES"
-    told = re.findall(r"\b(\w+)(?=,|:)", (draw.help or "").split("Exit code")[0])
-    missing = [name for name in PICTURES if name not in told]
-    assert missing == [], "the help of draw in sim/cli/draw.py does not say what these show"
+    for language in LANGUAGES:
+        say = Words(language)
+        listed = re.findall(r"[a-z]{3,}", re.split("[;；]", say("options.draw-picture"))[0])
+        assert listed == [*PICTURES], "the help of --picture in options.toml names others than PICTURES"
+        told = re.findall(r"\b([a-z]+)(?=[,:、：])", say("commands.draw-more"))
+        missing = [name for name in PICTURES if name not in told]
+        assert missing == [], "the help of draw in commands.toml does not say what these show"
 
 
 def test_the_manual_has_a_row_for_every_picture() -> None:
@@ -40,9 +41,9 @@ def test_the_manual_has_a_row_for_every_picture() -> None:
     assert rows == [*PICTURES], "the table of docs/pictures.md has other pictures than PICTURES"
 
 
-def test_the_readme_counts_the_pictures() -> None:
+def test_the_tour_counts_the_pictures() -> None:
     told = f"`drycut draw` draws {COUNTS[len(PICTURES)]} pictures"
-    assert told in (ROOT / "README.md").read_text("utf-8"), f"README.md does not say: {told}"
+    assert told in (ROOT / "docs" / "start.md").read_text("utf-8"), f"docs/start.md does not say: {told}"
 
 
 @pytest.mark.parametrize("name", PICTURES)

@@ -34,9 +34,10 @@ from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.obstacles import Clamp
 from sim.setup.quiz import Question
 from sim.setup.wire import Wire
+from sim.show.html.packed import Packer, varints
 from sim.show.replay import tape as tape_module
 from sim.show.replay.document import replay_document
-from sim.show.replay.tape import GRAIN_UM, TICK_S, Packer, tape, varints
+from sim.show.replay.tape import GRAIN_UM, TICK_S, tape
 from sim.table.trace import Trace
 
 if TYPE_CHECKING:
@@ -156,7 +157,8 @@ def test_a_step_of_two_pulses_on_an_axis_is_refused() -> None:
 def assert_replayed(page: Any, recording: Recording) -> None:
     """The page has every step of the recording and its time, and the samples."""
     run, steps = recording.run, recording.steps
-    made = page.evaluate("() => ({x: Array.from(replay.x), y: Array.from(replay.y), t: Array.from(replay.t)})")
+    made = page.evaluate("""() => Object.fromEntries(["x", "y", "t"].map((name) =>
+        [name, Array.from({length: replay.steps + 1}, (_, step) => replay.way[name](step))]))""")
     assert made["x"][1:] == steps.x_um.tolist()
     assert made["y"][1:] == steps.y_um.tolist()
     assert made["t"][0] == 0.0
@@ -167,7 +169,10 @@ def assert_replayed(page: Any, recording: Recording) -> None:
     for name, place_um in (("table", run.trace.table_um), ("wire", run.trace.wire_um)):
         column = np.stack([samples[f"{name}X"], samples[f"{name}Y"]], axis=1)
         assert np.abs(column - place_um).max() <= 1.01 * GRAIN_UM, name
-    commanded = np.stack([samples["commandedX"], samples["commandedY"]], axis=1)
+    commanded = np.array(
+        page.evaluate("""() => Array.from(replay.samples.t, (t) => replay.way.doneBy(t))
+        .map((step) => [replay.way.x(step), replay.way.y(step)])""")
+    )
     # A sample may fall in the tick of a step: then the step counts as done.
     apart = np.abs(commanded - run.trace.commanded_um).max(axis=1)
     near = np.abs(run.trace.t_s[:, None] - steps.t_s[None, :]).min(axis=1) < 1.01 * TICK_S
@@ -311,7 +316,8 @@ def test_every_decision_of_the_keyhole_is_its_step(empty: "Page") -> None:
         let astray = 0;
         for (let step = 1; step <= replay.steps; step++) {
             const {f, axis, sign} = model.decision(step);
-            const [dx, dy] = [replay.x[step] - replay.x[step - 1], replay.y[step] - replay.y[step - 1]];
+            const {x, y} = replay.way;
+            const [dx, dy] = [x(step) - x(step - 1), y(step) - y(step - 1)];
             if (dx !== (axis === "X" ? sign : 0) || dy !== (axis === "Y" ? sign : 0)) astray++;
             if (step % 101 === 0) checked.push([Number(f), axis, sign]);
         }
@@ -335,7 +341,7 @@ def test_a_decision_far_along_a_long_line_is_exact(empty: "Page", quadrant: int,
         f"([blocks, x, y]) => {{ const {{ decisionAt }} = {exports('decisions')};"
         """
             const doc = {interpolator: "point-by-point", blocks: {...blocks, count_axis: ["X"]}};
-            const made = decisionAt({doc, steps: 2, x: [0, x], y: [0, y]}, 2, 0);
+            const made = decisionAt({doc, steps: 2, way: {x: (step) => [0, x][step], y: (step) => [0, y][step]}}, 2, 0);
             return [String(made.f), made.axis];
         }""",
         [blocks, done_x if quadrant == 1 else -done_x, done_y],
@@ -521,7 +527,7 @@ def test_the_replay_ends_where_a_servo_trips(empty: "Page") -> None:
     assert document["duration_s"] == trip.t_s
     assert document["ended"]["row"] == trip.row < len(recording.run.toolpath) - 1
     page = replay_of(empty, document)
-    made, latest, sampled = page.evaluate("[replay.steps, replay.t[replay.steps], replay.samples.t.at(-1)]")
+    made, latest, sampled = page.evaluate("[replay.steps, replay.way.t(replay.steps), replay.samples.t.at(-1)]")
     assert 0 < made == len(recording.steps.t_s) < recording.run.toolpath.length_um.sum()  # µm, one step each
     assert max(latest, sampled) <= trip.t_s + TICK_S
     assert document["blocks"]["first_step"][-1] == made
@@ -594,7 +600,8 @@ def test_a_million_steps_are_small_and_soon_decoded(empty: "Page") -> None:
         """async (doc) => {
         const began = performance.now();
         const one = await decode(doc);
-        return [performance.now() - began, one.x[one.steps], one.y[one.steps], one.t[one.steps], one.samples.t.length];
+        const {steps, way: {x, y, t}} = one;
+        return [performance.now() - began, x(steps), y(steps), t(steps), one.samples.t.length];
     }""",
         document,
     )

@@ -24,8 +24,9 @@ ESCAPE = re.compile(r"(?:\\u\{?|\\U0000|\\|&#x)0{0,4}([0-9a-f]{4})(?![0-9a-f])|&
 """A character by its number: in Python and scripts, in style sheets, in pages."""
 COUNTED = ("findings.one-", "findings.some-", "phrases.one-", "phrases.some-")
 OF_REPORT = ("report.is-", "report.of-", "report.by-", "report.kind-", "report.as-cut-", "report.nominal-")
-FROM_DATA = (*OF_REPORT, *COUNTED, "progress.run-")
-"""Texts of kinds, axes, numbers and directions: of the report, of the findings of a check, of a circular test."""
+FROM_DATA = (*OF_REPORT, *COUNTED, "progress.run-", "commands.", "options.")
+"""Texts of kinds, axes, numbers, directions: of the report, of the findings of a check, of a circular test; and
+help, of which tests/sim/cli/test_help.py holds every text to its command or option."""
 
 ENGINE = ("sim/run", "sim/measure", "sim/cut", "sim/table", "parser/drawing", "controller")
 SENTENCE = re.compile(r"[A-Za-z]+(?:\W* \W*[A-Za-z]+){2}")
@@ -142,7 +143,7 @@ def test_scripts_ask_for_texts_that_their_page_hands_over(page: str) -> None:
 def test_every_stage_of_the_work_has_a_text() -> None:
     source = "\n".join(sources(".py").values())
     stages = set(re.findall(r"""\bprogress\("([\w-]+)",""", source)) | {f"run-{NAMES[sense]}" for sense in SENSES}
-    assert stages | {"step", "left"} == set(texts("progress"))
+    assert stages | {"step", "left", "line"} == set(texts("progress"))
 
 
 def spelled_out(line: str) -> str:

@@ -153,7 +153,7 @@
  * @property {number} [of]
  * @property {number} [share]
  * @property {"pass" | "fail"} [verdict]
- * @property {string} [machine]
+ * @property {Said} [machine]
  * @property {string} [why]
  * @property {MadeFile[]} [files] once it has ended well
  */

@@ -52,7 +52,7 @@ export function wireRun(current, onStart, onDrafted, tell) {
   /** What came of a job that has ended well. */
   function ending() {
     if (known.job === "program") return language.say("drafted");
-    return language.say(known.verdict === "pass" ? "ran-pass" : "ran-fail", { machine: known.machine ?? "" });
+    return language.say(known.verdict === "pass" ? "ran-pass" : "ran-fail", { machine: known.machine ? language.pick(known.machine) : "" });
   }
 
   /** What there is to say of the run. */

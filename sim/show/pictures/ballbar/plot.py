@@ -6,6 +6,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from PIL import Image
 
+from parser.findings.catalogue import Language
 from parser.geometry.curves import Floats
 from sim.run.ballbar.circle import Ballbar, Measured
 from sim.run.ballbar.parts import Reversal
@@ -28,23 +29,22 @@ ASPECT: Final = 0.72
 """Height over width."""
 CENTER: Final = (572.0, 638.0)
 """Middle of the dial."""
-SAY: Final = Words("en")
 
 
-def draw_ballbar(ballbar: Ballbar, measured: Measured, width_px: int = 1600) -> Image.Image:
+def draw_ballbar(ballbar: Ballbar, measured: Measured, language: Language = "en", width_px: int = 1600) -> Image.Image:
     """Draw both paths about their common least-squares centre, deviations magnified, with figures and parts.
 
     The same test gives the same pixels. ValueError where the picture would be narrower than 600 px.
     """
     if width_px < style.LEAST_WIDTH:
         raise ValueError(f"a picture is at least {style.LEAST_WIDTH} px wide, not {width_px}")
-    unit = width_px / style.BASE_WIDTH
+    unit, say = width_px / style.BASE_WIDTH, Words(language)
     curves = [_curve(ballbar, measured, row) for row in (0, 1)]
     lowest = min(float(curve.ends_um.min()) for curve in curves)
     highest = max(float(curve.ends_um.max()) for curve in curves)
     dial = Dial(unit, ring_for(max(-lowest, highest)), (CENTER[0] * unit, CENTER[1] * unit), unit)
     canvas = Raster(width_px, round(ASPECT * width_px))
-    _write_head(canvas, unit, ballbar, measured)
+    _write_head(canvas, ballbar, measured, unit, say)
     for curve in curves:
         draw_band(canvas, dial, curve.sense, CELL_RAD, curve.ends_um)
     draw_rings(canvas, dial)
@@ -54,10 +54,11 @@ def draw_ballbar(ballbar: Ballbar, measured: Measured, width_px: int = 1600) -> 
         draw_curve(canvas, dial, curve.sense, CELL_RAD, curve.mean_um)
     draw_ring_values(canvas, dial)
     _write_middle(canvas, dial, measured)
-    write_reversals(canvas, dial, measured.parts.reversals, SAY)
+    write_reversals(canvas, dial, measured.parts.reversals, say)
     for reversal in measured.parts.reversals:
         _mark(canvas, dial, reversal, curves[0 if reversal.sense == 1 else 1])
-    _write_panel(canvas, dial, width_px, ballbar, measured)
+    magnified = f"{dial.magnification(ballbar.test.radius_um):,.0f}"
+    _write_panel(FiguresPanel(canvas, unit, width_px), measured, magnified, say)
     return canvas.image()
 
 
@@ -82,11 +83,11 @@ def _curve(ballbar: Ballbar, measured: Measured, row: int) -> _Curve:
     return _Curve(turn.sense, mean, ends)
 
 
-def _write_head(canvas: Canvas, unit: float, ballbar: Ballbar, measured: Measured) -> None:
-    machine, *rest = setup_rows(ballbar, SAY)
+def _write_head(canvas: Canvas, ballbar: Ballbar, measured: Measured, unit: float, say: Words) -> None:
+    machine, *rest = setup_rows(ballbar, say)
     radius, feed = rest[0], rest[1]
     note = f"{machine.value} · R {radius.value} · {feed.value} · G(b) {um(measured.figures.circularity_um)}"
-    draw_header(canvas, unit, SAY("ballbar.title"), note)
+    draw_header(canvas, unit, say("ballbar.title"), note)
 
 
 def _write_middle(canvas: Canvas, dial: Dial, measured: Measured) -> None:
@@ -105,16 +106,14 @@ def _mark(canvas: Canvas, dial: Dial, reversal: Reversal, curve: _Curve) -> None
         mark_spike(canvas, place, reversal, dial.unit)
 
 
-def _write_panel(canvas: Canvas, dial: Dial, width_px: int, ballbar: Ballbar, measured: Measured) -> None:
-    magnified = f"{dial.magnification(ballbar.test.radius_um):,.0f}"
-    panel = FiguresPanel(canvas, dial.unit, width_px)
+def _write_panel(panel: FiguresPanel, measured: Measured, magnified: str, say: Words) -> None:
     panel.legend(
         [
-            SAY("ballbar.curve-ccw"),
-            SAY("ballbar.curve-cw"),
-            SAY("ballbar.nominal", magnified=magnified),
-            SAY("ballbar.zone"),
+            say("ballbar.curve-ccw"),
+            say("ballbar.curve-cw"),
+            say("ballbar.nominal", magnified=magnified),
+            say("ballbar.zone"),
         ]
     )
-    panel.table(SAY("ballbar.figures"), figure_rows(measured.figures, SAY))
-    panel.table(SAY("ballbar.parts"), part_rows(measured.parts, measured.interpolation_um, SAY))
+    panel.table(say("ballbar.figures"), figure_rows(measured.figures, say))
+    panel.table(say("ballbar.parts"), part_rows(measured.parts, measured.interpolation_um, say))

@@ -8,7 +8,7 @@ from sim.show.pictures.cut.shapes import Shapes
 from sim.show.pictures.cut.subject import Cut
 from sim.show.pictures.cut.surroundings import bodies_of, note_of, travel_um
 from sim.show.words import Words
-from sim.units import clock
+from sim.show.words.phrases import lasting
 
 
 def draw_cut_of_run(
@@ -25,7 +25,7 @@ def cut_of_run(run: DryRun, pieces: Pieces | None, say: Words) -> Cut:
         toolpath=run.toolpath,
         kerf_um=scenario.wire.kerf_um,
         title=scenario.title,
-        note=note_of(run.toolpath, run.offset, run.findings, clock(run.ran_s), say),
+        note=note_of(run.toolpath, run.offset, run.findings, getattr(lasting(run.ran_s), say.language), say),
         trace=run.cut,
         passes=run.passes if run.has_trims else None,
         contour=None if run.offset is None else run.offset.passed.drawn,

@@ -32,7 +32,7 @@ from sim.show.pictures.deviation.inset_drawing import (
 from sim.show.pictures.deviation.places import worst_places
 from sim.show.pictures.deviation.samples import Samples
 from sim.show.words import Words
-from sim.units import clock
+from sim.show.words.phrases import lasting
 
 MAP: Final = 0.24
 """Width of the key map, of the page's."""
@@ -102,7 +102,7 @@ def _caption(say: Words, samples: Samples, at: int, grid: float) -> tuple[str, s
     """The block of a sample and when it was cut; where it lies, and the grid, µm, of its inset."""
     where = samples.where(at)
     x, y = (f"{mm(value):.3f}".replace("-", "−") for value in (where.x_um, where.y_um))
-    return f"{say('common.block', number=samples.block_name(at))} · {clock(where.t_s)}", say(
+    return f"{say('common.block', number=samples.block_name(at))} · {getattr(lasting(where.t_s), say.language)}", say(
         "deviation.place", x=x, y=y, grid=f"{grid:g}"
     )
 

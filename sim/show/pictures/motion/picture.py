@@ -19,7 +19,7 @@ from sim.show.pictures.motion.events import ROW, TICK, draw_blocks, draw_marks, 
 from sim.show.pictures.motion.legend import legend_of
 from sim.show.pictures.motion.panels import Level, Panel, panels_of
 from sim.show.words import Words
-from sim.units import clock
+from sim.show.words.phrases import lasting, machine_name
 
 HEIGHT: Final = 0.13
 """Height of a panel over the width of the picture."""
@@ -101,7 +101,7 @@ def _time_of(run: DryRun) -> _Time:
 def _note(run: DryRun, say: Words) -> str:
     count = len(run.toolpath)
     blocks = say("motion.blocks_one") if count == 1 else say("motion.blocks", count=count)
-    return say("motion.note", blocks=blocks, time=clock(run.ran_s), machine=run.scenario.machine.name)
+    return say("motion.note", blocks=blocks, time=lasting(run.ran_s), machine=machine_name(run.scenario.machine))
 
 
 def _draw_panels(canvas: Canvas, layout: _Layout, run: DryRun, time: _Time, sheet: Sheet[AnyCanvas]) -> list[Chart]:

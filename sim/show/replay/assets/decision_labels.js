@@ -61,7 +61,7 @@ function flags(px, py, width) {
  * @param {Model} model
  * @param {Colours} colours
  */
-export function decisionLabels({ x, y }, model, colours) {
+export function decisionLabels({ steps: last, way: { x, y } }, model, colours) {
   /**
    * A text on a light ground, framed where it is of the next step.
    * @param {Pen} pen
@@ -101,9 +101,9 @@ export function decisionLabels({ x, y }, model, colours) {
     const text = words.decision(decision);
     pen.font = isNext ? "700 13px system-ui, sans-serif" : "12px system-ui, sans-serif";
     const width = pen.measureText(text).width + 8;
-    const middleX = (view.toX(x[at - 1]) + view.toX(x[at])) / 2;
-    const middleY = (view.toY(y[at - 1]) + view.toY(y[at])) / 2;
-    const spots = x[at] === x[at - 1] ? beside(middleX, middleY, width) : flags(middleX, middleY, width);
+    const middleX = (view.toX(x(at - 1)) + view.toX(x(at))) / 2;
+    const middleY = (view.toY(y(at - 1)) + view.toY(y(at))) / 2;
+    const spots = x(at) === x(at - 1) ? beside(middleX, middleY, width) : flags(middleX, middleY, width);
     const spot = spots.find(({ plate, pole }) => free.isFree(plate) && free.isFree(pole));
     if (!spot) return;
     free.take(spot.plate);
@@ -119,7 +119,7 @@ export function decisionLabels({ x, y }, model, colours) {
    */
   function takeStep(view, free, at) {
     const before = Math.max(0, at - 1);
-    const [ax, ay, bx, by] = [view.toX(x[before]), view.toY(y[before]), view.toX(x[at]), view.toY(y[at])];
+    const [ax, ay, bx, by] = [view.toX(x(before)), view.toY(y(before)), view.toX(x(at)), view.toY(y(at))];
     free.take([Math.min(ax, bx) - 3, Math.min(ay, by) - 3, Math.max(ax, bx) + 3, Math.max(ay, by) + 3]);
   }
 
@@ -136,12 +136,12 @@ export function decisionLabels({ x, y }, model, colours) {
       const free = freeRoom(view.width, view.height);
       for (const box of covered) free.take(box);
       for (const at of steps) takeStep(view, free, at);
-      for (const [atX, atY] of [[x[step], y[step]], wire]) {
+      for (const [atX, atY] of [[x(step), y(step)], wire]) {
         const [px, py] = [view.toX(atX), view.toY(atY)];
         free.take([px - CROSS, py - CROSS, px + CROSS, py + CROSS]);
       }
       const next = step + 1;
-      if (next < x.length) write(pen, view, free, next, true);
+      if (next <= last) write(pen, view, free, next, true);
       const others = steps.filter((at) => at > 0 && at !== next);
       others.sort((a, b) => Math.abs(a - next) - Math.abs(b - next));
       for (const at of others.slice(0, WRITTEN)) write(pen, view, free, at, false);

@@ -119,7 +119,7 @@ function onLine(wordX, wordY, quadrant, x, y) {
 
 /**
  * The decision before a step of the block in a row; null where the card interpolates.
- * @param {Pick<Replay, "doc" | "steps" | "x" | "y">} replay
+ * @param {Pick<Replay, "doc" | "steps" | "way">} replay
  * @param {number} step
  * @param {number} row
  * @returns {Decision | null}
@@ -129,7 +129,8 @@ export function decisionAt(replay, step, row) {
   if (replay.doc.interpolator !== "point-by-point" || !(step >= 1 && step <= replay.steps)) return null;
   const begin = blocks.first_step[row];
   const [wordX, wordY] = [blocks.word_x_um[row], blocks.word_y_um[row]];
-  const [dx, dy] = [replay.x[step - 1] - replay.x[begin], replay.y[step - 1] - replay.y[begin]];
+  const { x, y } = replay.way;
+  const [dx, dy] = [x(step - 1) - x(begin), y(step - 1) - y(begin)];
   const quadrant = blocks.quadrant[row];
   const [sx, sy] = SIGNS[quadrant];
   const turn = blocks.turn[row];

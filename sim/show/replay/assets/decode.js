@@ -1,120 +1,24 @@
-// The tape of a replay document as typed arrays: the steps with their times, and the samples of table and wire.
-
-/** @import { ReplayDocument, Tape } from "./document.js" */
+// The tape of a replay document unpacked: the way of the axes, and the samples of table and wire.
+import { inflated, numbersOf } from "../../html/assets/packed.js";
+import { wayOf } from "./way.js";
 
 /**
- * Where the axes stand after each step, the start first; when; and how many of the steps so far moved X.
- * @typedef {object} Steps
- * @property {Int32Array} x
- * @property {Int32Array} y
- * @property {Int32Array} xSteps
- * @property {Float64Array} t
+ * @import { ReplayDocument, Tape } from "./document.js"
+ * @import { Way } from "./way.js"
  */
 
 /**
- * When and where the axes were commanded, the table stood, and the wire cut.
+ * When and where the table stood, and the wire cut.
  * @typedef {object} Samples
  * @property {Float64Array} t
  * @property {Float64Array} tableX
  * @property {Float64Array} tableY
  * @property {Float64Array} wireX
  * @property {Float64Array} wireY
- * @property {Float64Array} commandedX
- * @property {Float64Array} commandedY
- * @property {Float64Array} footRow the row that the deviation is measured from
+ * @property {Int32Array} footRow the row that the deviation is measured from
  */
 
-/** @typedef {Steps & { doc: ReplayDocument, steps: number, samples: Samples }} Replay */
-
-/**
- * Bytes of a text in base64.
- * @param {string} base64
- */
-function bytesOf(base64) {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let at = 0; at < text.length; at++) bytes[at] = text.charCodeAt(at);
-  return bytes;
-}
-
-/**
- * Bytes of a packed column, inflated.
- * @param {string} base64
- */
-async function inflated(base64) {
-  const stream = new Blob([bytesOf(base64)]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
-}
-
-/**
- * So many signed numbers of a packed column, seven bits a byte, the lowest first (sim/show/replay/tape.py).
- * @param {Uint8Array} bytes
- * @param {number} count
- */
-function numbers(bytes, count) {
-  const values = new Float64Array(count);
-  let at = 0;
-  for (let index = 0; index < count; index++) {
-    const byte = bytes[at++];
-    if (byte < 128) {
-      values[index] = (byte >>> 1) ^ -(byte & 1);
-      continue;
-    }
-    let value = byte & 127;
-    let weight = 128;
-    for (let next = 128; next > 127; weight *= 128) {
-      next = bytes[at++];
-      value += (next & 127) * weight;
-    }
-    values[index] = value % 2 ? -(value + 1) / 2 : value / 2;
-  }
-  return values;
-}
-
-/** By how much a step of each way moves X and Y. */
-const BY_X = Int32Array.of(-1, -1, -1, 0, 0, 0, 1, 1, 1);
-const BY_Y = Int32Array.of(-1, 0, 1, -1, 0, 1, -1, 0, 1);
-
-/**
- * Where the axes stand after each step, the start first, and how many of the steps so far moved X.
- * @param {Tape} tape
- * @param {Uint8Array} ways
- */
-function places(tape, ways) {
-  const x = new Int32Array(tape.steps + 1);
-  const y = new Int32Array(tape.steps + 1);
-  const xSteps = new Int32Array(tape.steps + 1);
-  let [atX, atY] = tape.origin_um;
-  let inX = 0;
-  x[0] = atX;
-  y[0] = atY;
-  for (let step = 0; step < tape.steps; step++) {
-    const by = BY_X[ways[step]];
-    x[step + 1] = atX += by;
-    y[step + 1] = atY += BY_Y[ways[step]];
-    xSteps[step + 1] = inX += by & 1;
-  }
-  return { x, y, xSteps };
-}
-
-/**
- * Times of all steps, the start first: each took so much more than the last one of the same way.
- * @param {Tape} tape
- * @param {Uint8Array} ways
- * @param {Float64Array} more
- */
-function stepTimes(tape, ways, more) {
-  const t = new Float64Array(tape.steps + 1);
-  const took = new Float64Array(BY_X.length);
-  const tick = tape.tick_s;
-  let ticks = 0;
-  for (let step = 0; step < tape.steps; step++) {
-    const way = ways[step];
-    ticks += took[way] += more[step];
-    t[step + 1] = ticks * tick;
-  }
-  return t;
-}
+/** @typedef {{ doc: ReplayDocument, steps: number, way: Way, samples: Samples }} Replay */
 
 /**
  * Times of the samples, of which the second differences are kept.
@@ -135,18 +39,16 @@ function sampleTimes(tape, changes) {
 /**
  * Where the steps command the axes at each of the sample times.
  * @param {Float64Array} sampleT
- * @param {Steps} steps
+ * @param {Way} way
  */
-function commandedAt(sampleT, steps) {
-  const commandedX = new Float64Array(sampleT.length);
-  const commandedY = new Float64Array(sampleT.length);
-  let step = 0;
-  for (let sample = 0; sample < sampleT.length; sample++) {
-    while (step + 1 < steps.t.length && steps.t[step + 1] <= sampleT[sample]) step++;
-    commandedX[sample] = steps.x[step];
-    commandedY[sample] = steps.y[step];
-  }
-  return { commandedX, commandedY };
+function commandedAt(sampleT, way) {
+  const [x, y] = [new Float64Array(sampleT.length), new Float64Array(sampleT.length)];
+  sampleT.forEach((t, sample) => {
+    const step = way.doneBy(t);
+    x[sample] = way.x(step);
+    y[sample] = way.y(step);
+  });
+  return { x, y };
 }
 
 /**
@@ -171,7 +73,7 @@ function beside(column, changes, grain) {
  */
 async function sampleColumns(tape) {
   /** @param {string} column */
-  const unpacked = async (column) => numbers(await inflated(column), tape.samples);
+  const unpacked = (column) => numbersOf(column, tape.samples);
   const [ticks, footRow, tableX, tableY, wireX, wireY] = await Promise.all([
     unpacked(tape.sample_ticks),
     unpacked(tape.foot_row),
@@ -187,18 +89,18 @@ async function sampleColumns(tape) {
  * Samples of a tape.
  * @param {Tape} tape
  * @param {Awaited<ReturnType<typeof sampleColumns>>} columns
- * @param {Steps} steps
+ * @param {Way} way
  * @returns {Samples}
  */
-function samplesOf(tape, columns, steps) {
+function samplesOf(tape, columns, way) {
   const t = sampleTimes(tape, columns.ticks);
-  const { commandedX, commandedY } = commandedAt(t, steps);
-  const tableX = beside(commandedX, columns.tableX, tape.grain_um);
-  const tableY = beside(commandedY, columns.tableY, tape.grain_um);
+  const { x, y } = commandedAt(t, way);
+  const tableX = beside(x, columns.tableX, tape.grain_um);
+  const tableY = beside(y, columns.tableY, tape.grain_um);
   const wireX = columns.wireX ? beside(tableX, columns.wireX, tape.grain_um) : tableX;
   const wireY = columns.wireY ? beside(tableY, columns.wireY, tape.grain_um) : tableY;
-  const footRow = beside(new Float64Array(tape.samples), columns.footRow, 1);
-  return { t, tableX, tableY, wireX, wireY, commandedX, commandedY, footRow };
+  const footRow = Int32Array.from(beside(new Float64Array(tape.samples), columns.footRow, 1));
+  return { t, tableX, tableY, wireX, wireY, footRow };
 }
 
 /**
@@ -208,7 +110,7 @@ function samplesOf(tape, columns, steps) {
  */
 export async function decode(doc) {
   const { tape } = doc;
-  const [ways, ticks, columns] = await Promise.all([inflated(tape.moves), inflated(tape.step_ticks), sampleColumns(tape)]);
-  const steps = { ...places(tape, ways), t: stepTimes(tape, ways, numbers(ticks, tape.steps)) };
-  return { doc, steps: tape.steps, ...steps, samples: samplesOf(tape, columns, steps) };
+  const [ways, more, columns] = await Promise.all([inflated(tape.moves), inflated(tape.step_ticks), sampleColumns(tape)]);
+  const way = wayOf(tape, ways, more);
+  return { doc, steps: tape.steps, way, samples: samplesOf(tape, columns, way) };
 }

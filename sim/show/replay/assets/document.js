@@ -1,6 +1,5 @@
 // The document that Python hands over to the page (sim/show/replay/document.py): its JSON, by name and type.
 // Rows of blocks count from 0, steps from 1; places and lengths are µm of the program.
-import { element } from "../../html/assets/elements.js";
 
 /** @import { Said } from "../../html/assets/language.js" */
 
@@ -23,6 +22,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {[Place, Place]} travel_um
  * @property {Place[] | null} work_um
  * @property {Clamp[]} clamps
+ * @property {boolean} has_jumps
  * @property {Blocks} blocks
  * @property {Decoding | null} decoding null where the dialect decodes no words, and of long programs
  * @property {Plan} plan
@@ -33,7 +33,7 @@ import { element } from "../../html/assets/elements.js";
  * @property {Loss[]} losses
  * @property {Ending | null} ended
  * @property {Piece[]} pieces
- * @property {Question[]} quiz
+ * @property {{ own: Question[], pool: Question[], sets: number[][] }} quiz of the scenario, of any program, and which of these make a set
  * @property {Tape} tape
  */
 
@@ -205,11 +205,13 @@ import { element } from "../../html/assets/elements.js";
  * @typedef {object} Question
  * @property {number} row
  * @property {number} block
+ * @property {string} name of the block
  * @property {string | null} about
  * @property {Said} ask
  * @property {Said[]} answers
  * @property {number} right
  * @property {Said} why
+ * @property {[number, number][]} hidden first character from the beginning of the block, and one past the last, of what tells the answer
  */
 
 /**
@@ -239,12 +241,4 @@ import { element } from "../../html/assets/elements.js";
  */
 export function isTimed(finding) {
   return finding.t_s !== null;
-}
-
-/**
- * The document of the page.
- * @returns {ReplayDocument}
- */
-export function readDocument() {
-  return JSON.parse(element("#document", HTMLElement).textContent);
 }

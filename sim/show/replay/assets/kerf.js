@@ -1,6 +1,7 @@
 // The kerf: a band as wide as wire and spark gaps, wherever the wire really was while it cut. Each pass over an edge
 // draws it anew in its own colour, so that the band shows how far the running pass is.
 import { detailOf } from "./detail.js";
+import { inkOf } from "./ink.js";
 import { newLayer } from "./layer.js";
 
 /**
@@ -58,39 +59,41 @@ export function kerfOf(samples, cuts, widthUm, colours) {
    */
   function draw(first, last) {
     const { pen, view } = layer;
+    const ink = inkOf(pen);
     /** @type {Cut} */
     let paint = "kerf";
     dip(pen, view.scale, paint);
-    pen.beginPath();
-    line.visit(view.scale, first, last, view.bounds(pen.lineWidth), (points, at, past) => {
+    line.visit(view.scale / layer.coarseness, first, last, view.bounds(pen.lineWidth), (points, at, past) => {
       let before = points[at];
       pen.moveTo(view.toX(wireX[before]), view.toY(wireY[before]));
       for (let next = at + 1; next < past; next++) {
         const index = points[next];
         const cut = cuts[index];
-        if (cut && cut !== paint) {
-          pen.stroke();
+        const isOther = cut !== null && cut !== paint;
+        if (isOther) {
+          ink.flush();
           paint = cut;
           dip(pen, view.scale, paint);
-          pen.beginPath();
-          pen.moveTo(view.toX(wireX[before]), view.toY(wireY[before]));
         }
+        if (ink.took(1) || isOther) pen.moveTo(view.toX(wireX[before]), view.toY(wireY[before]));
         if (cut) pen.lineTo(view.toX(wireX[index]), view.toY(wireY[index]));
         else pen.moveTo(view.toX(wireX[index]), view.toY(wireY[index]));
         before = index;
       }
     });
-    pen.stroke();
+    ink.flush();
+    layer.took(ink.points);
   }
 
   /**
    * Bring the layer to sample `last`; only what is new is drawn, unless the view or the way back asks for all.
    * @param {View} view
    * @param {number} ratio
+   * @param {boolean} isMoving
    * @param {number} last
    */
-  function bring(view, ratio, last) {
-    const isNew = layer.cover(view, ratio);
+  function bring(view, ratio, isMoving, last) {
+    const isNew = layer.cover(view, ratio, isMoving);
     if (!isNew && last < drawn) layer.clear();
     const first = isNew || last < drawn ? 0 : drawn;
     if (last > first) draw(first, last);
@@ -103,11 +106,12 @@ export function kerfOf(samples, cuts, widthUm, colours) {
      * @param {Pen} pen
      * @param {View} view
      * @param {number} ratio
+     * @param {boolean} isMoving
      * @param {number} last
      * @param {Place} wire
      */
-    draw(pen, view, ratio, last, wire) {
-      bring(view, ratio, last);
+    draw(pen, view, ratio, isMoving, last, wire) {
+      bring(view, ratio, isMoving, last);
       layer.copyTo(pen, view);
       const cut = cuts[last + 1];
       if (!cut) return;
@@ -117,6 +121,7 @@ export function kerfOf(samples, cuts, widthUm, colours) {
       pen.lineTo(view.toX(wire[0]), view.toY(wire[1]));
       pen.stroke();
     },
+    get isTrue() { return layer.isTrue; },
     spoil: layer.spoil,
   };
 }

@@ -2,7 +2,7 @@
 import { element } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import { decode } from "./decode.js";
-import { readDocument } from "./document.js";
+import { readDocument } from "./handed.js";
 import { buildPage } from "./page.js";
 
 /**
@@ -17,7 +17,7 @@ function publicPart({ player: all, view }) {
 /** Decode and build; what goes wrong stands in the page. */
 async function start() {
   try {
-    const page = buildPage(await decode(readDocument()));
+    const page = buildPage(await decode(await readDocument()));
     Object.assign(player, publicPart(page));
   } catch (error) {
     element("#loading", HTMLElement).textContent = language.say("cannot_play", { error: String(error) });

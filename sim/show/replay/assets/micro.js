@@ -14,38 +14,7 @@ import { countUpTo } from "./numbers.js";
 
 const GRID_FROM = 14; // px per µm
 const TEXT_FROM = 22;
-const RUN = 512; // steps that share one box
 const MOST = 1500; // steps shown at once: those near the one that runs
-
-/**
- * Boxes of runs of steps: left, bottom, right, top in turn.
- * @param {Replay} replay
- */
-function boxesOf({ x, y }) {
-  const boxes = new Int32Array(4 * Math.ceil(x.length / RUN));
-  for (let run = 0, box = 0; run < x.length; run += RUN, box += 4) {
-    const past = Math.min(run + RUN, x.length);
-    let [left, bottom, right, top] = [x[run], y[run], x[run], y[run]];
-    for (let at = run + 1; at < past; at++) {
-      if (x[at] < left) left = x[at];
-      else if (x[at] > right) right = x[at];
-      if (y[at] < bottom) bottom = y[at];
-      else if (y[at] > top) top = y[at];
-    }
-    boxes.set([left, bottom, right, top], box);
-  }
-  return boxes;
-}
-
-/**
- * Whether a box, whose numbers begin at an index, comes near another one.
- * @param {Int32Array} boxes
- * @param {number} at
- * @param {Box} near
- */
-function meets(boxes, at, near) {
-  return boxes[at] <= near.right && boxes[at + 2] >= near.left && boxes[at + 1] <= near.top && boxes[at + 3] >= near.bottom;
-}
 
 /**
  * Single steps of a replay.
@@ -54,8 +23,7 @@ function meets(boxes, at, near) {
  * @param {Colours} colours
  */
 export function microOf(replay, model, colours) {
-  const { x, y } = replay;
-  const boxes = boxesOf(replay);
+  const { steps: last, way: { x, y, visitNear } } = replay;
   const labels = decisionLabels(replay, model, colours);
 
   /**
@@ -64,14 +32,14 @@ export function microOf(replay, model, colours) {
    * @param {number} step
    */
   function stepsIn(near, step) {
+    /** @type {number[]} */
     const found = [];
-    for (let run = 0, box = 0; box < boxes.length; run += RUN, box += 4) {
-      if (!meets(boxes, box, near)) continue;
-      const past = Math.min(run + RUN, x.length);
-      for (let at = run; at < past; at++) {
-        if (x[at] >= near.left && x[at] <= near.right && y[at] >= near.bottom && y[at] <= near.top) found.push(at);
+    visitNear(near, (run) => {
+      for (let index = 0; index < run.size; index++) {
+        const [atX, atY] = [run.x[index], run.y[index]];
+        if (atX >= near.left && atX <= near.right && atY >= near.bottom && atY <= near.top) found.push(run.first + index);
       }
-    }
+    });
     if (found.length <= MOST) return found;
     const middle = countUpTo(found, step);
     const since = Math.max(0, Math.min(middle - MOST / 2, found.length - MOST));
@@ -110,9 +78,9 @@ export function microOf(replay, model, colours) {
   function edges(pen, view, steps) {
     pen.beginPath();
     for (const at of steps) {
-      if (at === 0 || at >= x.length) continue;
-      pen.moveTo(view.toX(x[at - 1]), view.toY(y[at - 1]));
-      pen.lineTo(view.toX(x[at]), view.toY(y[at]));
+      if (at === 0 || at > last) continue;
+      pen.moveTo(view.toX(x(at - 1)), view.toY(y(at - 1)));
+      pen.lineTo(view.toX(x(at)), view.toY(y(at)));
     }
     pen.stroke();
   }
@@ -128,7 +96,7 @@ export function microOf(replay, model, colours) {
     edges(pen, view, steps);
     for (const at of steps) {
       pen.beginPath();
-      pen.arc(view.toX(x[at]), view.toY(y[at]), at === step ? 5 : 3, 0, 2 * Math.PI);
+      pen.arc(view.toX(x(at)), view.toY(y(at)), at === step ? 5 : 3, 0, 2 * Math.PI);
       pen.fill();
     }
   }

@@ -68,7 +68,7 @@ const between = (column, { at, next, share }) => column[at] + share * (column[ne
  * @param {Replay} replay
  */
 export function modelOf(replay) {
-  const { doc, samples } = replay;
+  const { doc, samples, way } = replay;
   const blocks = doc.blocks;
   const rows = blocks.kind.length;
 
@@ -76,12 +76,12 @@ export function modelOf(replay) {
    * Number of steps done by a time.
    * @param {number} t
    */
-  const stepAt = (t) => Math.max(countUpTo(replay.t, t) - 1, 0);
+  const stepAt = (t) => way.doneBy(t);
   /**
    * Time at which a step is done.
    * @param {number} step
    */
-  const timeOf = (step) => replay.t[clamp(step, 0, replay.steps)];
+  const timeOf = (step) => way.t(clamp(step, 0, replay.steps));
   /**
    * Row of the block that runs at a time.
    * @param {number} t
@@ -102,7 +102,7 @@ export function modelOf(replay) {
     if (doc.interpolator !== "point-by-point") return null;
     const begin = blocks.first_step[row];
     const done = clamp(step, begin, blocks.first_step[row + 1]);
-    const inX = replay.xSteps[done] - replay.xSteps[begin];
+    const inX = way.inX(done) - way.inX(begin);
     return blocks.count_um[row] - (blocks.count_axis[row] === "X" ? inX : done - begin - inX);
   }
 
@@ -119,8 +119,8 @@ export function modelOf(replay) {
       t,
       step,
       block: row,
-      x: replay.x[step],
-      y: replay.y[step],
+      x: way.x(step),
+      y: way.y(step),
       wire: [between(samples.wireX, sample), between(samples.wireY, sample)],
       table: [between(samples.tableX, sample), between(samples.tableY, sample)],
       feed_um_s: plannedSpeed(doc.plan, t),

@@ -1,4 +1,6 @@
-// The exact path: boxes of its blocks, and their curves on a canvas at any scale.
+// The exact path: curves of its blocks on a canvas at any scale.
+import { boxesOf, passed } from "./boxes.js";
+import { inkOf } from "./ink.js";
 
 /**
  * @import { Curves, Kind } from "./document.js"
@@ -11,80 +13,14 @@
 const FAR = 4000; // px: arcs of a larger radius are drawn by points, for a canvas places them coarsely
 const POINTS = 96; // of such an arc in the window
 const TURN = 2 * Math.PI;
-
-/**
- * Angle from `start` on to `angle` in the sense of `sweep`, from 0 up to a turn.
- * @param {number} start
- * @param {number} angle
- * @param {number} sweep
- */
-function passed(start, angle, sweep) {
-  const turn = (sweep > 0 ? angle - start : start - angle) % TURN;
-  return turn < 0 ? turn + TURN : turn;
-}
-
-/**
- * Box of each block: left, bottom, right, top in turn.
- * @param {Curves} blocks
- */
-function boxesOf(blocks) {
-  const count = blocks.kind.length;
-  const boxes = new Float64Array(4 * count);
-  for (let row = 0; row < count; row++) boxes.set(boxOf(blocks, row), 4 * row);
-  return boxes;
-}
-
-/**
- * Box of a block; an arc reaches each extreme that it passes.
- * @param {Curves} blocks
- * @param {number} row
- */
-function boxOf(blocks, row) {
-  const xs = [blocks.place_x_um[row], blocks.place_x_um[row + 1]];
-  const ys = [blocks.place_y_um[row], blocks.place_y_um[row + 1]];
-  if (blocks.kind[row] === "arc") {
-    const [start, sweep, radius] = [blocks.start_angle_rad[row], blocks.sweep_rad[row], blocks.radius_um[row]];
-    for (let quarter = 0; quarter < 4; quarter++) {
-      if (passed(start, (quarter * Math.PI) / 2, sweep) > Math.abs(sweep)) continue;
-      xs.push(blocks.center_x_um[row] + radius * [1, 0, -1, 0][quarter]);
-      ys.push(blocks.center_y_um[row] + radius * [0, 1, 0, -1][quarter]);
-    }
-  }
-  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
-}
+const LEAST = 0.35; // px: smaller blocks in turn are drawn as one line, up to where it is that long
 
 /**
  * Curves of a program; `wayTo` adds a block to the pen's path, from where the path ends or from its own start.
  * @param {Curves} blocks
  */
 export function pathOf(blocks) {
-  const count = blocks.kind.length;
   const boxes = boxesOf(blocks);
-
-  /**
-   * Box of all blocks.
-   * @returns {Box}
-   */
-  function box() {
-    const all = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };
-    for (let row = 0; row < count; row++) {
-      all.left = Math.min(all.left, boxes[4 * row]);
-      all.bottom = Math.min(all.bottom, boxes[4 * row + 1]);
-      all.right = Math.max(all.right, boxes[4 * row + 2]);
-      all.top = Math.max(all.top, boxes[4 * row + 3]);
-    }
-    return all;
-  }
-
-  /**
-   * Whether a block comes near what shows.
-   * @param {number} row
-   * @param {Box} near
-   */
-  function shows(row, near) {
-    return boxes[4 * row] <= near.right && near.left <= boxes[4 * row + 2]
-      && boxes[4 * row + 1] <= near.top && near.bottom <= boxes[4 * row + 3];
-  }
 
   /**
    * The stretch of a far arc that can show, by points about the window.
@@ -135,18 +71,42 @@ export function pathOf(blocks) {
   }
 
   /**
-   * Stroke all blocks of some kinds that come near the window, as the pen is set.
+   * Stroke all blocks of some kinds that come near the window, as the pen is set; how many points that took. A line may
+   * be so many times as far off as else.
    * @param {Pen} pen
    * @param {View} view
    * @param {(kind: Kind) => boolean} isWanted
    */
-  function stroke(pen, view, isWanted) {
-    const near = view.bounds(4);
-    pen.beginPath();
-    for (let row = 0; row < count; row++) {
-      if (isWanted(blocks.kind[row]) && shows(row, near)) wayOf(pen, view, row);
+  function stroke(pen, view, isWanted, coarseness = 1) {
+    const [xs, ys, least] = [blocks.place_x_um, blocks.place_y_um, (LEAST * coarseness) / view.scale];
+    const ink = inkOf(pen);
+    let [first, past] = [0, 0]; // rows of the small blocks that are not drawn yet
+
+    /** Draw those as one line. */
+    function drawSmall() {
+      if (first === past) return;
+      pen.moveTo(view.toX(xs[first]), view.toY(ys[first]));
+      pen.lineTo(view.toX(xs[past]), view.toY(ys[past]));
+      ink.took(1);
+      first = past;
     }
-    pen.stroke();
+
+    boxes.visitNear(view.bounds(4), (row) => {
+      if (!isWanted(blocks.kind[row])) return;
+      const isSmall = boxes.size(row) < least;
+      if (row !== past || !isSmall) drawSmall();
+      if (isSmall) {
+        if (first === past) first = row;
+        past = row + 1;
+        if (Math.max(Math.abs(xs[past] - xs[first]), Math.abs(ys[past] - ys[first])) >= least) drawSmall();
+      } else {
+        wayOf(pen, view, row);
+        ink.took(1);
+      }
+    });
+    drawSmall();
+    ink.flush();
+    return ink.points;
   }
 
   /**
@@ -154,10 +114,11 @@ export function pathOf(blocks) {
    * @param {Box} near
    */
   function rowsNear(near) {
+    /** @type {number[]} */
     const rows = [];
-    for (let row = 0; row < count; row++) if (shows(row, near)) rows.push(row);
+    boxes.visitNear(near, (row) => rows.push(row));
     return rows;
   }
 
-  return { box, wayOf, stroke, rowsNear };
+  return { box: boxes.all, wayOf, stroke, rowsNear };
 }

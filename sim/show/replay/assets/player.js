@@ -204,7 +204,7 @@ export function playerOf(replay, model) {
     /** All that is known of the moment. */
     state() {
       const { step, block } = place;
-      const commanded = { x: replay.x[step], y: replay.y[step], count_left: model.countLeft(block, step) };
+      const commanded = { x: replay.way.x(step), y: replay.way.y(step), count_left: model.countLeft(block, step) };
       return { ...model.stateAt(place.t), ...place, ...commanded, playing, speed, loop };
     },
   };

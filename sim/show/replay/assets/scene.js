@@ -4,6 +4,7 @@ import * as words from "./words.js";
 
 /**
  * @import { Piece, Place, ReplayDocument } from "./document.js"
+ * @import { Layer } from "./layer.js"
  * @import { Colours } from "./palette.js"
  * @import { Path } from "./path.js"
  * @import { Pen } from "./pen.js"
@@ -110,23 +111,23 @@ export function sceneOf(doc, path, colours) {
   }
 
   /**
-   * The path as the drawing means it, thin, jumps dashed.
-   * @param {Pen} pen
-   * @param {View} view
+   * The path as the drawing means it, thin, jumps dashed; how many points that took.
+   * @param {Layer} layer
    */
-  function drawIdeal(pen, view) {
+  function drawIdeal({ pen, view, coarseness }) {
     const shades = colours();
     const isClose = view.scale > CLOSE;
     pen.strokeStyle = shades.ideal;
     pen.globalAlpha = isClose ? 1 : 0.6;
     pen.lineWidth = isClose ? 1.75 : 1;
-    path.stroke(pen, view, (kind) => kind !== "jump");
+    const solid = path.stroke(pen, view, (kind) => kind !== "jump", coarseness);
     pen.globalAlpha = 1;
     pen.strokeStyle = shades.jump;
     pen.lineWidth = 1.5;
     pen.setLineDash([7, 5]);
-    path.stroke(pen, view, (kind) => kind === "jump");
+    const dashed = path.stroke(pen, view, (kind) => kind === "jump", coarseness);
     pen.setLineDash([]);
+    return solid + dashed;
   }
 
   /**
@@ -203,9 +204,10 @@ export function sceneOf(doc, path, colours) {
      * @param {Pen} pen
      * @param {View} view
      * @param {number} ratio
+     * @param {boolean} isMoving
      */
-    drawIdeal(pen, view, ratio) {
-      if (ideal.cover(view, ratio)) drawIdeal(ideal.pen, ideal.view);
+    drawIdeal(pen, view, ratio, isMoving) {
+      if (ideal.cover(view, ratio, isMoving)) ideal.took(drawIdeal(ideal));
       ideal.copyTo(pen, view);
       drawStart(pen, view);
     },
@@ -231,6 +233,7 @@ export function sceneOf(doc, path, colours) {
     },
     /** Whether something falls still, so that frames are needed. */
     get isFalling() { return falls.size > 0; },
+    get isTrue() { return ideal.isTrue; },
     spoil: ideal.spoil,
   };
 }

@@ -2,6 +2,7 @@
 import { elements } from "../../html/assets/elements.js";
 import { kerfOf } from "./kerf.js";
 import { microOf } from "./micro.js";
+import { motionOf } from "./motion.js";
 import { countUpTo } from "./numbers.js";
 import { coloursOf } from "./palette.js";
 import { passOfRows } from "./passes.js";
@@ -18,6 +19,7 @@ import { deviationPlate, drawWire } from "./wire.js";
  * @import { Room } from "./free_room.js"
  * @import { Cut } from "./kerf.js"
  * @import { Model } from "./model.js"
+ * @import { PageState } from "./page_state.js"
  * @import { Moment } from "./player.js"
  * @import { Box } from "./view.js"
  */
@@ -57,6 +59,7 @@ export function stageOn(canvas, replay, model, onNeed) {
   const scene = sceneOf(doc, path, colours);
   const kerf = kerfOf(replay.samples, cutSamples(replay), 2 * doc.offset_um, colours);
   const micro = microOf(replay, model, colours);
+  const motion = motionOf(view, () => !(kerf.isTrue && scene.isTrue) && onNeed());
   const isCalm = window.matchMedia("(prefers-reduced-motion: reduce)");
   let ratio = 1;
   /** @type {number | null} */
@@ -155,18 +158,19 @@ export function stageOn(canvas, replay, model, onNeed) {
     /**
      * Draw a moment, deviations `times` as large; `isPlaying` lets pieces fall.
      * @param {Moment} moment
-     * @param {number} times
+     * @param {PageState} page
      * @param {boolean} isPlaying
      * @param {number} now
      */
-    draw(moment, times, isPlaying, now) {
+    draw(moment, { times, isFollowing }, isPlaying, now) {
+      const isMoving = motion.at(isFollowing);
       pen.setTransform(ratio, 0, 0, ratio, 0, 0);
       pen.fillStyle = colours().page;
       pen.fillRect(0, 0, view.width, view.height);
       scene.drawGround(pen, view);
-      kerf.draw(pen, view, ratio, Math.max(0, countUpTo(replay.samples.t, moment.t) - 1), moment.wire);
+      kerf.draw(pen, view, ratio, isMoving, Math.max(0, countUpTo(replay.samples.t, moment.t) - 1), moment.wire);
       scene.drawPieces(pen, view, moment.t, now, isPlaying && !isCalm.matches);
-      scene.drawIdeal(pen, view, ratio);
+      scene.drawIdeal(pen, view, ratio, isMoving);
       drawOutlined();
       const plate = deviationPlate(pen, view, moment, times);
       if (micro.shows(view.scale)) micro.draw(pen, view, moment, [...covered(), ...(plate ? [plate.box] : [])]);

@@ -1,109 +1,99 @@
 // The scrub bar: blocks and passes, pauses, jumps, questions and findings along the time of the run, and the loop.
-import { make } from "../../html/assets/elements.js";
 import { pick } from "../../html/assets/language.js";
-import { isTimed } from "./document.js";
+import { placeFindings } from "./finding_marks.js";
+import { groupsIn } from "./groups.js";
 import { penOf } from "./pen.js";
+import { drawQuestion } from "./question_mark.js";
+import { spanOf } from "./span.js";
 import * as words from "./words.js";
 
 /**
- * @import { Finding, ReplayDocument, TimedFinding } from "./document.js"
+ * @import { ReplayDocument, TimedFinding } from "./document.js"
+ * @import { Group } from "./groups.js"
  * @import { Colours } from "./palette.js"
  * @import { Loop, Player } from "./player.js"
  */
 
-/** @typedef {{ bar: HTMLElement, marks: HTMLCanvasElement, cursor: HTMLElement, findings: HTMLElement }} Boxes */
-/** @typedef {{ onSeek: (t: number) => void, onFinding: (finding: TimedFinding) => void }} Listeners */
+/** @typedef {{ bar: HTMLElement, marks: HTMLCanvasElement, cursor: HTMLElement, findings: HTMLElement, whole: HTMLElement }} Boxes */
+/**
+ * @typedef {object} Listeners
+ * @property {(t: number) => void} onSeek
+ * @property {(row: number) => void} onBlock
+ * @property {(finding: TimedFinding) => void} onFinding
+ */
 
-const APART = 20; // px between two buttons of findings
-const EDGE = 9; // px from the ends of the bar, half a button
 const ROOMY = 14; // px: blocks narrower than that have no room for a number
-const DENSE = 4; // px: blocks narrower than that are not told apart
 const BAND = 18; // px at the foot of the bar: the passes
-const WEIGHT = { error: 3, warning: 2, note: 1 };
+const STILL = 3; // px: a pointer that goes no farther clicks, and does not drag
+const PER_NOTCH = 1.0015; // zoom of a px of wheel
+
+/** @param {Group} group */
+const holdsMany = ({ first, past }) => past - first > 1;
 
 /**
- * Findings that have a time, gathered where their buttons at `spot(t)` would cover each other.
- * @param {Finding[]} findings
- * @param {(t: number) => number} spot
- */
-function gathered(findings, spot) {
-  /** @type {TimedFinding[][]} */
-  const groups = [];
-  for (const finding of findings.filter(isTimed).sort((a, b) => a.t_s - b.t_s)) {
-    const last = groups[groups.length - 1];
-    if (last && spot(finding.t_s) - spot(last[0].t_s) < APART) last.push(finding);
-    else groups.push([finding]);
-  }
-  return groups;
-}
-
-/**
- * Codes and titles of some findings, each once, with how often it is there.
- * @param {Finding[]} findings
- */
-function namesOf(findings) {
-  const counts = new Map();
-  for (const finding of findings) {
-    const name = `${finding.code} ${words.finding(finding).title}`;
-    counts.set(name, (counts.get(name) || 0) + 1);
-  }
-  return [...counts].map(([name, count]) => (count > 1 ? `${name} ×${count}` : name)).join("; ");
-}
-
-/**
- * Timeline in boxes of the page; `onSeek(t)` hears of scrubbing, `onFinding(finding)` of clicks.
+ * Timeline in boxes of the page; `onSeek(t)` hears of scrubbing, `onBlock(row)` of a click on a group of
+ * blocks, `onFinding(finding)` of one on a finding.
  * @param {Boxes} boxes
  * @param {ReplayDocument} doc
  * @param {Player} player
  * @param {Colours} colours
  * @param {Listeners} listeners
  */
-export function timelineIn({ bar, marks, cursor, findings: lane }, doc, player, colours, { onSeek, onFinding }) {
+export function timelineIn({ bar, marks, cursor, findings: lane, whole }, doc, player, colours, listeners) {
+  const { onSeek, onBlock, onFinding } = listeners;
   const pen = penOf(marks);
   const { border_s: border, kind } = doc.blocks;
-  let width = 1;
+  const span = spanOf(player.duration);
+  const { toX } = span;
+  /** @type {Group[]} */
+  let groups = [];
   let looped = player.loop;
-  /** @param {number} t */
-  const toX = (t) => (player.duration ? (Math.min(t, player.duration) / player.duration) * width : 0);
-  /** @param {number} t */
-  const spot = (t) => Math.min(width - EDGE, Math.max(EDGE, toX(t)));
-  /** @param {number} x */
-  const toT = (x) => Math.min(1, Math.max(0, x / width)) * player.duration;
+  let shownAt = 0;
+  /** @type {number[]} */
+  let asked = []; // rows before which the quiz asks
+  let pressedAt = 0;
+  /** @param {Group} group */
+  const titleOf = (group) => (holdsMany(group) ? words.group : words.block)(doc.blocks, group.first, group.past);
 
   /**
-   * Blocks as bands in turn, jumps in their own colour.
+   * The block or group of blocks under a pointer, if any.
+   * @param {MouseEvent} event
+   */
+  function groupUnder(event) {
+    const x = event.clientX - bar.getBoundingClientRect().left;
+    return groups.find(({ left, right }) => x >= left && x < right);
+  }
+
+  /**
+   * Blocks and groups of them as bands in turn, jumps in their own colour.
    * @param {number} height
    */
   function drawBlocks(height) {
     const shades = colours();
-    for (let row = 0; row < kind.length; row++) {
-      const [left, right] = [toX(border[row]), toX(border[row + 1])];
-      if (right - left < DENSE && kind[row] !== "jump") continue;
-      pen.fillStyle = kind[row] === "jump" ? shades.jump : row % 2 ? shades.line : shades.raised;
+    groups.forEach(({ first, past, left, right }, at) => {
+      const isJump = past - first === 1 && kind[first] === "jump";
+      pen.fillStyle = isJump ? shades.jump : at % 2 ? shades.line : shades.raised;
       pen.fillRect(left, 0, Math.max(1, right - left), height);
+    });
+    pen.fillStyle = shades.jump;
+    for (const { first, past } of groups) {
+      for (let row = first; row < past; row++) if (kind[row] === "jump") pen.fillRect(toX(border[row]), 0, 1, height);
     }
     pen.fillStyle = shades["control-line"];
-    let last = -DENSE;
-    for (let row = 1; row < kind.length; row++) {
-      const x = toX(border[row]);
-      if (x - last < DENSE) continue;
-      pen.fillRect(Math.round(x), 0, 1, height);
-      last = x;
-    }
+    for (const { left } of groups) pen.fillRect(Math.round(left), 0, 1, height);
   }
 
   /**
-   * Numbers of the blocks that are wide enough.
+   * Numbers of the blocks, and how many there are in a group, where they have room.
    * @param {number} height
    */
   function drawNumbers(height) {
     pen.fillStyle = colours().muted;
     pen.font = "12px system-ui, sans-serif";
     pen.textAlign = "center";
-    for (let row = 0; row < kind.length; row++) {
-      const [left, right] = [toX(border[row]), toX(border[row + 1])];
+    for (const { first, past, left, right } of groups) {
       if (right - left <= ROOMY) continue;
-      const text = doc.blocks.name[row];
+      const text = past - first > 1 ? words.groupSize(past - first) : doc.blocks.name[first];
       if (right - left > pen.measureText(text).width + 8) pen.fillText(text, (left + right) / 2, height / 2 + 4);
     }
   }
@@ -136,14 +126,7 @@ export function timelineIn({ bar, marks, cursor, findings: lane }, doc, player, 
     pen.fillStyle = shades.end;
     for (const stop of doc.stops) pen.fillRect(Math.round(toX(border[stop.after])) - 1, 0, 3, height);
     pen.fillStyle = shades.accent;
-    for (const { row } of doc.quiz) {
-      const x = toX(border[row]);
-      pen.beginPath();
-      pen.moveTo(x - 5, 0);
-      pen.lineTo(x + 5, 0);
-      pen.lineTo(x, 8);
-      pen.fill();
-    }
+    for (const row of asked) drawQuestion(pen, toX(border[row]));
   }
 
   /**
@@ -164,9 +147,10 @@ export function timelineIn({ bar, marks, cursor, findings: lane }, doc, player, 
   /** Draw the bar. */
   function draw() {
     const ratio = window.devicePixelRatio || 1;
-    width = Math.max(1, bar.clientWidth);
+    span.width = Math.max(1, bar.clientWidth);
+    groups = groupsIn(border, span);
     const height = bar.clientHeight;
-    marks.width = Math.round(width * ratio);
+    marks.width = Math.round(span.width * ratio);
     marks.height = Math.round(height * ratio);
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     const band = doc.passes.length ? BAND : 0;
@@ -177,39 +161,71 @@ export function timelineIn({ bar, marks, cursor, findings: lane }, doc, player, 
     drawLoop(height);
   }
 
-  /** Buttons of the findings. */
-  function placeFindings() {
-    lane.replaceChildren(
-      ...gathered(doc.findings, spot).map((group) => {
-        const worst = group.reduce((a, b) => (WEIGHT[b.severity] > WEIGHT[a.severity] ? b : a));
-        const title = namesOf(group);
-        const count = group.length > 1 ? String(group.length) : "!";
-        const button = make("button", { className: `mark ${worst.severity}`, type: "button", title }, count);
-        button.setAttribute("aria-label", title);
-        button.style.left = `${spot(group[0].t_s)}px`;
-        button.addEventListener("click", () => onFinding(worst));
-        return button;
-      }),
-    );
-    lane.hidden = !lane.childElementCount;
+  /** Put the cursor where its time is. */
+  function placeCursor() {
+    cursor.style.transform = `translateX(${toX(shownAt).toFixed(1)}px)`;
   }
 
   /** Draw and place everything anew. */
   function redo() {
     draw();
-    placeFindings();
+    placeFindings(lane, doc.findings, span, onFinding);
+    placeCursor();
+    whole.hidden = span.isWhole;
   }
+
+  /**
+   * Time under a pointer.
+   * @param {MouseEvent} event
+   */
+  const timeUnder = (event) => span.toT(event.clientX - bar.getBoundingClientRect().left);
 
   bar.addEventListener("pointerdown", (event) => {
     bar.setPointerCapture(event.pointerId);
-    onSeek(toT(event.clientX - bar.getBoundingClientRect().left));
+    pressedAt = event.clientX;
+    onSeek(timeUnder(event));
   });
   bar.addEventListener("pointermove", (event) => {
-    if (bar.hasPointerCapture(event.pointerId)) onSeek(toT(event.clientX - bar.getBoundingClientRect().left));
+    if (bar.hasPointerCapture(event.pointerId)) onSeek(timeUnder(event));
+    const group = groupUnder(event);
+    bar.title = group ? titleOf(group) : "";
+  });
+  bar.addEventListener("click", (event) => {
+    const group = groupUnder(event);
+    if (group && holdsMany(group) && Math.abs(event.clientX - pressedAt) <= STILL) onBlock(group.first);
+  });
+  bar.addEventListener("dblclick", (event) => {
+    const group = groupUnder(event);
+    if (!group || !holdsMany(group)) return;
+    span.show(border[group.first], border[group.past]);
+    redo();
+  });
+  bar.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      const x = event.clientX - bar.getBoundingClientRect().left;
+      span.zoomAt(x, PER_NOTCH ** -(event.deltaY * (event.deltaMode ? 33 : 1)));
+      redo();
+    },
+    { passive: false },
+  );
+  whole.addEventListener("click", () => {
+    span.whole();
+    redo();
   });
   new ResizeObserver(redo).observe(bar);
 
   return {
+    /**
+     * Mark where the quiz asks.
+     * @param {number[]} rows
+     */
+    ask(rows) {
+      if (rows.join() === asked.join()) return;
+      asked = rows;
+      draw();
+    },
     redo,
     /**
      * Show a loop, where it is another one.
@@ -221,11 +237,13 @@ export function timelineIn({ bar, marks, cursor, findings: lane }, doc, player, 
       draw();
     },
     /**
-     * Show a time.
+     * Show a time, and the part of the run about it.
      * @param {number} t
      */
     at(t) {
-      cursor.style.transform = `translateX(${toX(t).toFixed(1)}px)`;
+      shownAt = t;
+      if (span.bring(t)) redo();
+      else placeCursor();
     },
   };
 }

@@ -121,6 +121,20 @@ export function block(blocks, row) {
 }
 
 /**
+ * How many blocks there are in a group.
+ * @param {number} n
+ */
+export const groupSize = (n) => say("group", { n: number(n) });
+
+/**
+ * A group of blocks, and what a click on it does.
+ * @param {Blocks} columns
+ * @param {number} first
+ * @param {number} past
+ */
+export const group = ({ name }, first, past) => say("group_of", { first: name[first], last: name[past - 1], n: number(past - first) });
+
+/**
  * F and its sign.
  * @param {bigint} f
  */

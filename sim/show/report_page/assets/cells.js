@@ -1,7 +1,7 @@
 // Cells of tables: what a value says, and in which order values stand.
 import * as language from "../../html/assets/language.js";
 
-/** @import { Code, Column, Value } from "./data.js" */
+/** @import { Code, Filled, Value } from "./data.js" */
 
 const NOTHING = "–";
 const collator = new Intl.Collator("en", { numeric: true }); // N9 before N10
@@ -32,10 +32,10 @@ function format(number, digits) {
 
 /**
  * Text of a value of a column.
- * @param {Column} column
+ * @param {Filled} column
  * @param {Value} value
  */
-function textOf(column, value) {
+export function textOf(column, value) {
   if (value === null) return NOTHING;
   if (column.kind === "number") return format(Number(value) / column.per, column.digits);
   if (column.kind === "word") return language.pick(column.words[String(value)]);
@@ -60,7 +60,7 @@ function links(codes) {
 /**
  * Put a value into its cell.
  * @param {HTMLElement} cell
- * @param {Column} column
+ * @param {Filled} column
  * @param {Value} value
  */
 export function fill(cell, column, value) {
@@ -71,7 +71,7 @@ export function fill(cell, column, value) {
 
 /**
  * Order of two values of a column, of which neither is null.
- * @param {Column} column
+ * @param {Filled} column
  * @param {NonNullable<Value>} one
  * @param {NonNullable<Value>} other
  */
@@ -82,14 +82,19 @@ function order(column, one, other) {
 }
 
 /**
+ * Row numbers as they stand.
+ * @param {Filled} column
+ */
+export const rowsOf = ({ values }) => Array.from(values, (_, row) => row);
+
+/**
  * Row numbers in the order of a column, `way` 1 rising or -1 falling; rows without a value last.
- * @param {Column} column
+ * @param {Filled} column
  * @param {number} way
  */
 export function sorted(column, way) {
-  const values = column.values;
-  const rows = values.map((_, row) => row);
-  return rows.sort((a, b) => {
+  const { values } = column;
+  return rowsOf(column).sort((a, b) => {
     const [one, other] = [values[a], values[b]];
     if (one === null || other === null) return Number(one === null) - Number(other === null) || a - b;
     return way * order(column, one, other) || a - b;

@@ -1,0 +1,133 @@
+"""Commands and groups of them whose help stands in ``commands.toml`` and ``options.toml``, in both languages.
+
+What a command does is the text of its name, ``run`` or ``card-run``; that with ``-more`` says more, that with ``-exit``
+tells its exit codes. An option has the text of its flag without dashes, ``thickness``, or one with the command before
+it, ``run-thickness``, where it means something of its own there. Examples need no words: they are the last paragraph of
+a command's docstring.
+"""
+
+import copy
+import inspect
+from collections.abc import Iterator
+from functools import cache
+from typing import Final
+
+import click
+
+from sim.cli.spoken.formatter import Formatter
+from sim.cli.spoken.tongue import OPTION, speak_as_asked, words
+from sim.show.words.words import texts
+
+_KEEPS_LINES: Final = "\b"
+"""Before a paragraph whose lines click keeps."""
+
+
+class _Context(click.Context):
+    formatter_class = Formatter
+
+
+class Spoken(click.Command):
+    """A command with ``--lang``, whose help is in the language that it was asked for."""
+
+    context_class = _Context
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Take the language first: errors in the arguments are told in it."""
+        if any(argument.startswith(OPTION) for argument in args) or ctx.parent is None:
+            speak_as_asked(args)
+        return super().parse_args(ctx, args)
+
+    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
+        """Its own, ``--lang``, and the help."""
+        *own, help_option = super().get_params(ctx)
+        return [*own, *([] if any(one.name == "lang" for one in own) else [_lang()]), help_option]
+
+    def get_short_help_str(self, limit: int = 0) -> str:
+        """What the command does."""
+        return words()(f"commands.{_key(self)}")
+
+    def format_usage(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """How it is called."""
+        formatter.write_usage(ctx.command_path, " ".join(self.collect_usage_pieces(ctx)))
+
+    def format_help_text(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """What it does, its exit codes, and examples."""
+        with formatter.indentation():
+            for paragraph in _paragraphs(_key(self)):
+                formatter.write_paragraph()
+                formatter.write_text(paragraph)
+            if examples := _examples(self):
+                formatter.write_paragraph()
+                for line in examples:
+                    formatter.write_text(line)
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Its options."""
+        rows = [row for one in self.get_params(ctx) if (row := _row(self, one, ctx)) is not None]
+        with formatter.section(words()("commands.options")):
+            formatter.write_dl(rows)
+
+
+class SpokenGroup(Spoken, click.Group):
+    """A group of such commands; of those in it, it tells what their texts say, and imports none for that."""
+
+    command_class = Spoken
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Its options, and the commands in it."""
+        super().format_options(ctx, formatter)
+        self.format_commands(ctx, formatter)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """The commands in it."""
+        before = "" if ctx.parent is None else f"{_key(self)}-"
+        names = self.list_commands(ctx)
+        with formatter.section(words()("commands.commands")):
+            formatter.write_dl([(name, words()(f"commands.{before}{name}")) for name in names])
+
+
+def _key(command: click.Command) -> str:
+    """Name of the texts of a command: that of its group stands before it where that is not the whole."""
+    ctx = click.get_current_context(silent=True)
+    if ctx is None or ctx.command is not command or ctx.parent is None:
+        return command.name or ""
+    return "-".join(ctx.command_path.split()[1:])
+
+
+def _paragraphs(key: str) -> Iterator[str]:
+    known, say = texts("commands"), words()
+    yield say(f"commands.{key}")
+    if f"{key}-more" in known:
+        yield say(f"commands.{key}-more")
+    if f"{key}-exit" in known:
+        yield say("commands.exit") + say(f"commands.{key}-exit")
+
+
+def _examples(command: click.Command) -> list[str]:
+    last = inspect.cleandoc(command.help or "").split("\n\n")[-1]
+    return last.split("\n")[1:] if last.startswith(_KEEPS_LINES) else []
+
+
+def _row(command: click.Command, option: click.Parameter, ctx: click.Context) -> tuple[str, str] | None:
+    """Flags of an option and what it means, its default and bounds behind it; None for what is not shown."""
+    if not isinstance(option, click.Option) or option.hidden:
+        return None
+    told = copy.copy(option)
+    told.help = _told(_key(command), max(option.opts, key=len).lstrip("-"))
+    record = told.get_help_record(ctx)
+    if record is None:
+        return None
+    flags, meaning = record
+    for extra, key in (("default: ", "commands.default"), ("required", "commands.required")):
+        meaning = meaning.replace(f"[{extra}", f"[{words()(key)}")
+    return flags, meaning
+
+
+def _told(key: str, name: str) -> str:
+    own = f"{key}-{name}"
+    return words()(f"options.{own if own in texts('options') else name}")
+
+
+@cache
+def _lang() -> click.Option:
+    return click.Option([OPTION], type=click.Choice(["en", "zh"]), expose_value=False)

@@ -1,0 +1,25 @@
+// Reads the document that the page hands over, and unpacks its long columns.
+import { element } from "../../html/assets/elements.js";
+import { unpacked } from "../../html/assets/packed.js";
+
+/** @import { Packed } from "../../html/assets/packed.js" */
+/** @import { ReplayDocument } from "./document.js" */
+
+/**
+ * Columns with their values at hand: of long ones typed arrays, which do all that is asked of columns.
+ * @param {Record<string, ArrayLike<unknown> | Packed | null>} columns
+ */
+async function columnsOf(columns) {
+  const found = Object.entries(columns).map(async ([name, column]) => [name, column && (await unpacked(column))]);
+  return Object.fromEntries(await Promise.all(found));
+}
+
+/**
+ * The document of the page.
+ * @returns {Promise<ReplayDocument>}
+ */
+export async function readDocument() {
+  const handed = JSON.parse(element("#document", HTMLElement).textContent);
+  const [blocks, plan] = await Promise.all([columnsOf(handed.blocks), columnsOf(handed.plan)]);
+  return { ...handed, blocks, plan };
+}

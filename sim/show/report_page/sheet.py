@@ -1,0 +1,157 @@
+"""The job sheet: what an operator takes to the machine, on one A4 page."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Final, NamedTuple
+
+from parser.findings.catalogue import Said
+from parser.findings.codes import Severity
+from parser.text.block_names import BlockNames
+from parser.units import mm
+from sim.run.dryrun import DryRun
+from sim.show.report_page.findings import Shown
+from sim.show.report_page.tables import Column, ReportTable, called, column_of, counted, millimetres, timed
+from sim.show.words import said
+from sim.show.words.phrases import lasting, listed, machine_name, numbered, same
+
+MOST_THREADS: Final = 12
+"""Thread points that have room on the sheet."""
+_MOST_FINDINGS: Final = 4
+_GRAVEST_FIRST: Final = tuple(map(str, Severity))
+
+
+class Fact(NamedTuple):
+    """What something is called, and what it is."""
+
+    name: Said
+    value: Said
+
+
+class Thread(NamedTuple):
+    """A row of the table of thread points, as people read it; lengths in mm."""
+
+    blocks: str
+    x: str
+    y: str
+    after: Said
+    reach: tuple[str, ...]
+    out_x: str
+    out_y: str
+    out_after: Said
+
+
+class Sheet(NamedTuple):
+    """What stands on the sheet.
+
+    Attributes
+    ----------
+    facts
+        Machine, work, wire, offset, passes, length, time, pieces.
+    threads, threads_more
+        The first thread points, and how many more there are.
+    findings, findings_more
+        The gravest findings, and how many more there are.
+    """
+
+    facts: Sequence[Fact]
+    threads: Sequence[Thread]
+    threads_more: int
+    findings: Sequence[Shown]
+    findings_more: int
+
+
+def sheet_of(run: DryRun, report: Mapping[str, Any], findings: Sequence[Shown]) -> Sheet:
+    """The sheet of a run; `report` is its ``report.json``, `findings` are those that its page shows."""
+    threads = report["thread_points"]
+    gravest = sorted(findings, key=lambda one: _GRAVEST_FIRST.index(one.severity))[:_MOST_FINDINGS]
+    return Sheet(
+        facts=list(_facts(run, report)),
+        threads=[_thread(entry, run.block_names) for entry in threads[:MOST_THREADS]],
+        threads_more=max(len(threads) - MOST_THREADS, 0),
+        findings=gravest,
+        findings_more=len(run.findings) - len(gravest),
+    )
+
+
+def thread_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable:
+    """All thread points, where the sheet has no room for them."""
+    return ReportTable(
+        "threads",
+        (
+            counted("number", list(range(1, len(entries) + 1))),
+            called("first-block", column_of(entries, "blocks.0"), names.at),
+            called("last-block", column_of(entries, "blocks.1"), names.at),
+            millimetres("at-x", column_of(entries, "at_um.0")),
+            millimetres("at-y", column_of(entries, "at_um.1")),
+            timed("at-time", column_of(entries, "at_s")),
+            *(_reach(side, entries) for side in ("left", "right", "down", "up")),
+        ),
+    )
+
+
+def _reach(side: str, entries: list[dict[str, Any]]) -> Column:
+    head = said(f"sheet.head-{side}")
+    return Column(head, column_of(entries, f"{side}_um"), unit="mm", per=1000.0, digits=3)
+
+
+def _facts(run: DryRun, report: Mapping[str, Any]) -> Iterator[Fact]:
+    wire, work = report["wire"], report["work"]
+    sizes = {"diameter": f"{mm(wire['diameter_um']):g}", "gap": f"{wire['spark_gap_um']:g}"}
+    thickness, density = f"{work['thickness_mm']:g}", f"{work['density_g_cm3']:g}"
+    yield Fact(said("sheet.machine"), machine_name(run.scenario.machine))
+    yield Fact(said("sheet.work"), said("sheet.work-is", thickness=thickness, density=density))
+    yield Fact(said("sheet.wire"), said("sheet.wire-is", kerf=f"{mm(wire['kerf_um']):g}", **sizes))
+    yield Fact(said("sheet.offset"), _offset(report))
+    yield Fact(said("sheet.passes"), same(max((one.number for one in run.passes.passes), default=1)))
+    yield Fact(said("sheet.length"), said("sheet.length-is", length=f"{mm(run.ran_um):,.3f}"))
+    yield Fact(said("sheet.time"), _time(run))
+    yield Fact(said("sheet.pieces"), _pieces(report))
+
+
+def _offset(report: Mapping[str, Any]) -> Said:
+    offset = report["offset"]
+    if offset is None:
+        return said("sheet.offset-none")
+    by = ", ".join(f"{mm(one['by_um']):.3f}" for one in offset["passes"])
+    return said(f"sheet.offset-{offset['side']}", by=by)
+
+
+def _time(run: DryRun) -> Said:
+    jumping_s = float(run.block_time_s[run.toolpath.is_jump].sum())
+    if not jumping_s:
+        return lasting(run.ran_s)
+    return said("sheet.time-is", total=lasting(run.ran_s), jumps=lasting(jumping_s))
+
+
+def _pieces(report: Mapping[str, Any]) -> Said:
+    if report["remains"] is None:
+        return said("sheet.pieces-unknown")
+    pieces = report["remains"]["pieces"]
+    if not pieces:
+        return said("sheet.pieces-none")
+    return listed(_weighed(kind, pieces) for kind in ("part", "slug") if any(one["kind"] == kind for one in pieces))
+
+
+def _weighed(kind: str, pieces: Sequence[Mapping[str, Any]]) -> Said:
+    masses = [one["mass_g"] for one in pieces if one["kind"] == kind]
+    return said("sheet.pieces-of", count=numbered({kind: len(masses)}), mass=_mass(sum(masses)))
+
+
+def _mass(mass_g: float) -> str:
+    return f"{mass_g:,.1f} g" if mass_g >= 1.0 else f"{mass_g * 1e3:,.0f} mg"
+
+
+def _thread(entry: Mapping[str, Any], names: BlockNames) -> Thread:
+    first, last = (names.at(number) for number in entry["blocks"])
+    x, y, out_x, out_y = map(_mm, (*entry["at_um"], *entry["out_um"]))
+    reach = tuple(_mm(entry[f"{side}_um"]) for side in ("left", "right", "down", "up"))
+    blocks = first if first == last else f"{first}–{last}"
+    return Thread(blocks, x, y, _after(entry["at_s"]), reach, out_x, out_y, _after(entry["out_s"]))
+
+
+def _after(time_s: float | None) -> Said:
+    return said("sheet.not-reached") if time_s is None else lasting(time_s)
+
+
+def _mm(length_um: float) -> str:
+    """Millimetres to the µm; never −0."""
+    return f"{round(mm(length_um), 3) + 0.0:.3f}"

@@ -1,0 +1,83 @@
+"""Where the wire is threaded, and how far its path goes from there, against places along each curve."""
+
+import math
+
+import numpy as np
+import pytest
+from runs import scenario_run
+
+from parser.program import parse_program
+from sim.measure.threadings import threadings
+from sim.run.report import build_report
+
+PLACES = 2000  # along each curve
+TWO_HOLES = """\
+B0B500B500GYL4
+B500B0B2000GYNR1
+B0B500B500GYL2
+D
+B3000B1000B3000GXL1
+D
+B200B0B200GXL3
+DD
+"""
+
+
+def places(toolpath, row: int) -> list[tuple[float, float]]:
+    """Places along a curve, worked out one by one from its centre and its sweep."""
+    (x, y), (to_x, to_y) = toolpath.start_um[row].tolist(), toolpath.end_um[row].tolist()
+    shares = [k / PLACES for k in range(PLACES + 1)]
+    if not toolpath.is_arc[row]:
+        return [(x + share * (to_x - x), y + share * (to_y - y)) for share in shares]
+    center_x, center_y = toolpath.center_um[row].tolist()
+    from_rad = math.atan2(y - center_y, x - center_x)
+    radius, sweep = math.hypot(x - center_x, y - center_y), float(toolpath.sweep_rad[row])
+    angles = [from_rad + share * sweep for share in shares]
+    return [(center_x + radius * math.cos(rad), center_y + radius * math.sin(rad)) for rad in angles]
+
+
+def plain(toolpath) -> list[tuple[int, int, tuple[float, ...]]]:
+    """First and last row of each stretch without a jump, and its reach to the left, right, down and up."""
+    found: list[tuple[int, int, tuple[float, ...]]] = []
+    rows: list[int] = []
+    for row in range(len(toolpath) + 1):
+        if row < len(toolpath) and not toolpath.is_jump[row]:
+            rows.append(row)
+        elif rows:
+            x, y = toolpath.start_um[rows[0]].tolist()
+            all_x, all_y = zip(*(place for one in rows for place in places(toolpath, one)), strict=True)
+            found.append((rows[0], rows[-1], (x - min(all_x), max(all_x) - x, y - min(all_y), max(all_y) - y)))
+            rows = []
+    return found
+
+
+@pytest.mark.parametrize("name", ["keyhole", "die", "plate", "rough-and-trim", "iso-die", "out-of-travel", "logo"])
+def test_reach_is_that_of_places_along_the_path(name: str) -> None:
+    toolpath = scenario_run(name).toolpath
+    found = threadings(toolpath, np.arange(len(toolpath) + 1.0))
+    assert [(one.first, one.last) for one in found] == [(first, last) for first, last, _ in plain(toolpath)]
+    radius_um = float(np.nanmax(toolpath.radius_um, initial=0.0))
+    sagitta_um = radius_um * (1.0 - math.cos(math.pi / PLACES))
+    for one, (first, last, reach) in zip(found, plain(toolpath), strict=True):
+        assert (one.left_um, one.right_um, one.down_um, one.up_um) == pytest.approx(reach, abs=sagitta_um + 1e-6)
+        assert one.at_um == tuple(toolpath.start_um[first])
+        assert one.out_um == tuple(toolpath.end_um[last])
+        assert (one.at_s, one.out_s) == (first, last + 1.0)
+
+
+def test_two_holes_worked_out_by_hand() -> None:
+    toolpath = parse_program(TWO_HOLES).toolpath
+    first, second = threadings(toolpath, np.array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0]))
+    # The lead goes down by 500; the circle about a place 500 to the left of its end comes back to it.
+    assert (first.left_um, first.right_um, first.down_um, first.up_um) == (1000.0, 0.0, 1000.0, 0.0)
+    assert (first.at_s, first.out_s) == (0.0, 3.0)
+    assert second.at_um == (3000.0, 1000.0)
+    assert (second.left_um, second.right_um, second.down_um, second.up_um) == (200.0, 0.0, 0.0, 0.0)
+    assert (second.at_s, second.out_s) == (4.0, 5.0)
+
+
+def test_what_the_run_did_not_come_to_has_no_time() -> None:
+    run = scenario_run("servo-trip")
+    assert run.ended is not None
+    (*_, last) = build_report(run)["thread_points"]
+    assert last["out_s"] is None
