@@ -101,7 +101,7 @@ def _facts(run: DryRun, report: Mapping[str, Any], pieces: Pieces) -> Iterator[F
     yield Fact(said("sheet.work"), _work(work["thickness_mm"], work["density_g_cm3"]))
     yield Fact(said("sheet.wire"), said("sheet.wire-is", kerf=f"{mm(wire['kerf_um']):g}", **sizes))
     yield Fact(said("sheet.offset"), _offset(report))
-    yield Fact(said("sheet.passes"), same(max((one.number for one in run.passes.passes), default=1)))
+    yield Fact(said("sheet.passes"), _passes(report))
     yield Fact(said("sheet.length"), said("sheet.length-is", length=f"{mm(run.ran_um):,.3f}"))
     yield Fact(said("sheet.time"), _time(run))
     yield Fact(said("sheet.pieces"), _pieces(pieces))
@@ -119,6 +119,16 @@ def _offset(report: Mapping[str, Any]) -> Said:
         return said("sheet.offset-within", by=_mm(within_um)) if within_um else said("sheet.offset-none")
     by = ", ".join(f"{mm(one['by_um']):.3f}" for one in offset["passes"])
     return said(f"sheet.offset-{offset['side']}", by=by)
+
+
+def _passes(report: Mapping[str, Any]) -> Said:
+    """How many over the contour with the most; their distances too where the program has them within its path."""
+    found = report["passes"]
+    most = max(found, key=lambda one: one["number"], default=None)
+    if most is None or most["number"] == 1 or report["offset"] is not None:
+        return same(1 if most is None else most["number"])
+    by = ", ".join(_mm(one["offset_um"]) for one in found if one["contour"] == most["contour"])
+    return said("sheet.passes-by", n=most["number"], by=by)
 
 
 def _time(run: DryRun) -> Said:

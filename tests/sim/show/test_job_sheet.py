@@ -4,6 +4,7 @@ import re
 
 import pytest
 from replayed import recording_of
+from runs import scenario_run
 
 from parser.findings.codes import Severity
 from sim.run.recording import NO_PIECES
@@ -72,3 +73,11 @@ def test_an_offset_within_the_numbers_is_told_as_its_header_has_it() -> None:
         "none: 0.110 mm is in the program already"
     )
     assert fact(sheet(header.format(f=0.0) + SQUARE + "DD\n"), "offset by the controller") == "none: path as written"
+
+
+def test_passes_within_the_path_are_told_with_their_distances() -> None:
+    run = scenario_run("plate")
+    told = fact(sheet_of(run, build_report(run), NO_PIECES), "passes")
+    # Its scenario asks for passes at 0.18, 0.12 and 0.1 mm, and a tab that is cut last, at the last of them.
+    assert told == "4: 0.180, 0.120, 0.100, 0.100 mm from the edge"
+    assert fact(sheet(TWO), "passes") == "1"
