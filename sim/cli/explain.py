@@ -41,7 +41,7 @@ def _markdown(name: str | None, sections: tuple[str, ...], language: Language) -
         return cited(page_text(code, language))
     if code not in of_documents:
         raise click.UsageError(f"no finding has the code {name!r}, and no document the name; drycut explain lists them")
-    text = document(of_documents[code])
+    text = document(of_documents[code], language)
     try:
         return cited("\n\n".join(section(text, one) for one in _numbers(sections)) if sections else text)
     except KeyError as error:

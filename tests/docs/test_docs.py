@@ -14,7 +14,7 @@ from typing import Any
 import click
 import numpy as np
 import pytest
-from command import without_progress
+from command import run_inside, without_progress
 from places import MACHINES, ROOT
 from report_schema import complaints, validator
 from runs import scenario_run
@@ -40,11 +40,12 @@ from sim.setup.key_tables import renewed
 from sim.setup.machine import machine
 from sim.setup.scenario import load_scenario
 from sim.setup.toml.kinds import Number
-from sim.show.findings.catalogue_document import NAMES, anchor, documents, findings_document
+from sim.show.findings.catalogue_document import NAMES, anchor, count_of_codes, documents, findings_document
 from sim.show.terminal.run import summary_rows
 
 DOCS = ROOT / "docs"
 PAGES = sorted([*ROOT.glob("*.md"), *DOCS.glob("*.md")])
+TOURS: list[tuple[str, Language]] = [("start.md", "en"), ("start.zh.md", "zh")]
 SCENARIOS = sorted(path.parent for path in (ROOT / "scenarios").glob("*/scenario.toml"))
 
 OPEN_PART = """
@@ -362,15 +363,8 @@ def test_shown_output_is_what_is_printed(tmp_path: Path, page: Path, command: st
     name = command.split()[1]
     assert name in SHOWN_DRAWINGS or f"```\n{SHOWN_PROGRAMS[name]}```" in read(page)
     (tmp_path / name).write_text({**SHOWN_PROGRAMS, **SHOWN_DRAWINGS}[name])
-    printed = subprocess.run(
-        [sys.executable, "-m", "sim", *command.split()],
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONUTF8": "1", "LC_ALL": "C"},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        check=False,
-    ).stdout
-    printed = without_progress(printed).decode("utf-8")
+    done = run_inside(*command.split(), cwd=tmp_path, COLUMNS="80")
+    printed = (without_progress(done.stderr) + done.stdout).decode("utf-8")
     # A line that ends in … was cut off for the page.
     pairs = zip(output.splitlines(), printed.splitlines(), strict=True)
     for shown, real in pairs:
@@ -378,7 +372,8 @@ def test_shown_output_is_what_is_printed(tmp_path: Path, page: Path, command: st
 
 
 def test_outputs_and_the_number_of_codes_are_shown() -> None:
-    assert f"There are {len(CODES)} codes" in " ".join(read(ROOT / "README.md").split())
+    for page, language in TOURS:
+        assert count_of_codes(language) in " ".join(read(DOCS / page).split())
     assert {"check part.3b", "check part.3b --fix"} <= {command for _, command, _ in SHOWN}
 
 
@@ -404,7 +399,7 @@ def test_findings_documents_are_those_of_the_pages(language: Language) -> None:
 
 def test_pages_that_tell_of_codes_are_renewed() -> None:
     renewed = documents(ROOT)
-    assert {path.name for path in renewed} == {*NAMES.values(), "check.md", "README.md"}
+    assert {path.name for path in renewed} == {*NAMES.values(), *dict(TOURS), "check.md"}
     for path, text in renewed.items():
         assert read(path) == text, "renew it: make pages"
 
@@ -436,7 +431,8 @@ def test_quoted_commands_are_make_targets() -> None:
     for page in PAGES:
         quoted = re.findall(r"(?:`|^)make (?:[A-Z]+=\S+ )?([a-z]+)", read(page), flags=re.MULTILINE)
         assert set(quoted) <= targets, page.name
-    assert {"demo", "test", "bench"} <= set(re.findall(r"make ([a-z]+)", read(ROOT / "README.md")))
+    assert {"demo", "test"} == set(re.findall(r"make ([a-z]+)", read(ROOT / "README.md")))
+    assert "bench" in re.findall(r"make ([a-z]+)", read(DOCS / "speed.md"))
 
 
 def test_code_flow_names_what_exists() -> None:
@@ -504,15 +500,12 @@ def test_code_flow_quotes_the_samples_of_the_table() -> None:
         assert f"| {row} | {trace.t_s[sample]:.6f} {shown}" in page
 
 
-def test_readme_shows_the_keyhole() -> None:
-    page = read(ROOT / "README.md")
-    report = report_of(ROOT / "scenarios" / "keyhole")
-    assert f"{report['summary']['steps']:,} of 1 µm" in page
-    assert f"{report['summary']['length_um'] / 1000:.3f} mm" in page
-    assert dict(summary_rows(scenario_run("keyhole")))["closure"] in page
-    deviation = report["deviation"]
-    for largest in (
-        deviation["wire"],
-        *(deviation["by_cause"][cause] for cause in ("interpolation", "carried", "table")),
-    ):
-        assert f"{largest['max_um']:.2f} µm in block {largest['where']['block']}" in page
+@pytest.mark.parametrize(("page", "language"), TOURS)
+def test_the_tour_shows_what_the_demo_prints(page: str, language: Language) -> None:
+    run = scenario_run("keyhole")
+    block = re.search(r"^```\n(.+)\n┌.*\n((?:│.*\n)+)└", read(DOCS / page), flags=re.MULTILINE)
+    assert block
+    title, rows = block.groups()
+    assert title == run.scenario.title
+    cells = [cell for row in rows.splitlines() for cell in row.split("│")[1:-1]]
+    assert "".join("".join(cells).split()) == "".join("".join(map("".join, summary_rows(run, language))).split())

@@ -15,7 +15,7 @@ from places import ROOT
 
 from parser.findings.codes import CODES
 from sim import __version__
-from sim.show.terminal.documents import documents
+from sim.show.terminal.documents import files
 
 
 def test_no_other_distribution_owns_our_names() -> None:
@@ -39,13 +39,13 @@ def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
         "sim/cli/run.py",
     ):
         assert needed in names
-    files = [path for folder in ("parser", "controller", "sim") for path in (ROOT / folder).rglob("*.*")]
-    ours = {path.relative_to(ROOT).as_posix() for path in files if "__pycache__" not in path.parts}
+    sources = [path for folder in ("parser", "controller", "sim") for path in (ROOT / folder).rglob("*.*")]
+    ours = {path.relative_to(ROOT).as_posix() for path in sources if "__pycache__" not in path.parts}
     assert ours - set(names) == set()
     assert sum(path.startswith("parser/findings/pages/") for path in names) > len(CODES)
     assert any(path.startswith("sim/show/draw/fonts/") and path.endswith(".otf") for path in names)
     assert any(path.endswith("licenses/LICENSE") for path in names)
-    assert {path for path in names if path.startswith("sim/docs/")} == {f"sim/docs/{name}.md" for name in documents()}
+    assert {path for path in names if path.startswith("sim/docs/")} == {f"sim/docs/{name}" for name in files()}
 
 
 def test_source_package_holds_what_tests_and_documents_need(tmp_path: Path) -> None:

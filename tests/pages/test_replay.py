@@ -1,38 +1,31 @@
 """The replay's page in a browser: played, stepped, scrubbed, asked, in both languages, with mouse, keys and fingers."""
 
-import base64
+import csv
 import functools
 import io
 import re
-from dataclasses import replace
 from itertools import combinations, pairwise
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import page_checks
 import pytest
 from browser import OpenPage
-from chunked import chunks_of
 from golden_pictures import assert_golden_screen
-from PIL import Image
-from replayed import exports, recording_of
+from long_replays import long_page
+from replayed import canvas, drawn, exports, recording_of
 from runs import plain_scenario, scenario_recording
 
-from controller.stepping.pulses import Pulses, time_steps
 from parser.findings.catalogue import Said
 from parser.program import parse_program
-from sim.measure.deviation.meters import StepTally
-from sim.run.dryrun import DryRun
-from sim.run.prepare import prepare
-from sim.run.recording import Recording, recorded
+from sim.run.recording import recorded
 from sim.setup.quiz import Question, WrittenQuestion
 from sim.show.replay.document import replay_page
-from sim.table.motion import motion_of
 from sim.table.progress import silent
-from sim.table.trace import Trace, origin_um
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Locator, Page
 
 EVIL = "</script><script>window.owned = 1</script><img src=x onerror='window.owned = 1'>"
 PART = """\
@@ -70,11 +63,6 @@ def opened(open_page: OpenPage, page: str | None = None, width: int = 1000, heig
     return shown
 
 
-def drawn(page: "Page") -> None:
-    """Wait until what was asked for is drawn."""
-    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-
-
 def until(page: "Page", condition: str) -> None:
     """Wait for something; what Playwright has for that evaluates texts, which the page forbids."""
     page.evaluate(f"async () => {{ while (!({condition})) await new Promise(requestAnimationFrame); }}")
@@ -93,14 +81,6 @@ def out(page: "Page", name: str) -> str:
 def do(page: "Page", script: str) -> None:
     page.evaluate(f"() => {{ {script} }}")
     drawn(page)
-
-
-def canvas(page: "Page") -> np.ndarray:
-    """What the table shows, (height, width, 3) levels."""
-    drawn(page)
-    picture = page.evaluate("document.getElementById('table').toDataURL()")
-    drawing = Image.open(io.BytesIO(base64.b64decode(picture.partition(",")[2])))
-    return np.asarray(drawing.convert("RGB"), dtype=int)
 
 
 def colour(page: "Page", x_um: float, y_um: float) -> list[int]:
@@ -557,10 +537,8 @@ def test_lines_of_many_points_are_thinned_by_no_more_than_is_said(open_page: Ope
 
 def test_the_quiz_asks_weighs_and_counts(open_page: OpenPage) -> None:
     page = opened(open_page)
-    page.get_by_role("button", name="Quiz").click()
-    do(page, "drycut.player.setSpeed(10000)")
-    panel = page.locator("#quiz")
-    panel.wait_for()
+    panel = begun(page)
+    panel.locator(".answer").first.wait_for()
     stopped = state(page)
     assert (stopped["block"], stopped["step"], stopped["playing"]) == (1, 600, False)
     assert out(page, "f") == "–"  # no help from the read-outs
@@ -577,6 +555,105 @@ def test_the_quiz_asks_weighs_and_counts(open_page: OpenPage) -> None:
     assert state(page)["step"] == STEPS
     page.get_by_role("button", name="中文").click()
     assert "共答 2 题，答对 1 题" in panel.inner_text()
+
+
+def begun(page: "Page", who: str = "", number: str = "") -> "Locator":
+    """The panel of a quiz that has begun, as fast as it can."""
+    page.get_by_role("button", name="Quiz").click()
+    panel = page.locator("#quiz")
+    panel.get_by_label("Name").fill(who)
+    panel.get_by_label("Set").fill(number)
+    do(page, "drycut.player.setSpeed(10000)")
+    panel.get_by_role("button", name="Continue").click()
+    return panel
+
+
+def test_no_answer_is_given_by_space_and_nothing_tells_the_right_one(open_page: OpenPage) -> None:
+    page = opened(open_page)
+    panel = begun(page)
+    panel.locator(".answer").first.wait_for()
+    page.keyboard.press("Space")
+    page.keyboard.press("Enter")
+    assert panel.locator("#quiz-said").inner_text() == ""
+    assert not state(page)["playing"]
+    line = page.locator("#program .line", has_text="N2:")
+    assert line.inner_text().endswith("N2: B1000 B0 B1000 ▒▒ ▒▒")  # G and the quadrant
+    line.hover()
+    assert not page.locator("#tip").is_visible()
+    assert (out(page, "left"), out(page, "f"), out(page, "formula")) == ("–", "–", "")
+    assert not page.locator("#finding-marks").is_visible()
+    page.keyboard.press("1")
+    assert line.inner_text().endswith("N2: B1000 B0 B1000 GX L1")
+    page.keyboard.press("Escape")
+    assert not panel.is_visible()
+    assert page.locator("#quiz-on").get_attribute("aria-pressed") == "false"
+
+
+@functools.cache
+def unasked_page() -> str:
+    with recorded(parse_program(PART, "part.3b"), plain_scenario(), silent) as recording:
+        return replay_page(recording)
+
+
+NEXT = """before => !document.querySelector('#quiz').hidden
+    && document.querySelector('#quiz-count').textContent !== before"""
+
+
+def asked_of(page: "Page", panel: "Locator") -> list[str]:
+    """What is asked from here to the end, each answered by the first answer."""
+    questions = []
+    while panel.locator("#quiz-count").inner_text() != "Quiz finished":
+        questions.append(panel.locator("#quiz-ask").inner_text())
+        page.keyboard.press("1")
+        page.keyboard.press("Enter")
+        page.wait_for_function(NEXT, arg=f"Question {len(questions)} of 10")
+    return questions
+
+
+def test_a_number_gives_a_class_the_same_questions_and_a_score_to_take_along(open_page: OpenPage) -> None:
+    page = opened(open_page, unasked_page())
+    panel = begun(page, who="=1+1", number="17")
+    panel.locator(".answer").first.wait_for()
+    questions = asked_of(page, panel)
+    assert len(questions) == 10
+    with page.expect_download() as saving:
+        panel.get_by_role("button", name="Save the score").click()
+    text = Path(saving.value.path()).read_bytes().decode("utf-8-sig")
+    head, *lines = csv.reader(io.StringIO(text))
+    assert head == ["name", "set", "question no.", "block", "question", "answer", "right answer", "right"]
+    assert [line[4] for line in lines] == questions
+    assert {(line[0], line[1]) for line in lines} == {("'=1+1", "17")}
+    assert all((line[5] == line[6]) == (line[7] == "1") for line in lines)
+    right = sum(line[7] == "1" for line in lines)
+    assert f"{right} of 10 answers were right." in panel.inner_text()
+    page.keyboard.press("Escape")
+    assert asked_again(page, "17") == questions[0]
+    assert not panel.is_visible()
+
+
+def asked_again(page: "Page", number: str) -> str:
+    """The first question of a set."""
+    panel = begun(page, number=number)
+    panel.locator(".answer").first.wait_for()
+    first = panel.locator("#quiz-ask").inner_text()
+    page.keyboard.press("Escape")
+    return first
+
+
+def test_a_link_names_the_set(open_page: OpenPage) -> None:
+    page = opened(open_page, unasked_page())
+    page.evaluate("window.location.hash = 'quiz=42'")
+    page.keyboard.press("q")
+    assert page.locator("#quiz").get_by_label("Set").input_value() == "42"
+
+
+def test_a_program_without_steps_has_a_quiz_that_says_so(open_page: OpenPage) -> None:
+    text = re.sub(r'"quiz":\{.*?\},"tape"', '"quiz":{"own":[],"pool":[],"sets":[]},"tape"', unasked_page())
+    page = opened(open_page, text)
+    page.get_by_role("button", name="Quiz").click()
+    assert "There is nothing to ask" in page.locator("#quiz").inner_text()
+    page.get_by_role("button", name="Continue").click()
+    assert not page.locator("#quiz").is_visible()
 
 
 def test_nothing_of_a_program_or_a_scenario_becomes_a_part_of_the_page(open_page: OpenPage) -> None:
@@ -613,39 +690,7 @@ def test_a_phone_shows_table_controls_and_text_one_below_the_other(open_page: Op
 
 @functools.cache
 def million_steps() -> str:
-    """Page of a million steps on a table that stands where it is told: dry-running one takes half a minute."""
-    small = recording_of("B0B300B300GYL2 B300B200B300GXL4 B300B100B300GXL3 DD")
-    program = parse_program(f"{ZIGZAG} {ZIGZAG} DD")
-    scenario = plain_scenario(may_stay_open=True)
-    ready = prepare(program, scenario)
-    motion = motion_of(program.toolpath, scenario.machine.feeds(40.0), scenario.machine, scenario.start_um, 5.0)
-    timed = [time_steps(chunk, motion.drive.plan) for chunk in chunks_of(ready.steps)]
-    pulses = Pulses._make(np.concatenate(column) for column in zip(*timed, strict=True))
-    return replay_page(Recording(_ran(small.run, program, motion.drive.plan, pulses), small.pieces, pulses))
-
-
-def _ran(run: DryRun, program: object, plan: object, pulses: Pulses) -> DryRun:
-    tally = StepTally(len(program.toolpath), origin_um(program.toolpath))
-    tally.take(pulses)
-    stepped = tally.result()
-    ends = np.cumsum(stepped.count) - 1
-    border = np.concatenate([[0.0], pulses.t_s[ends][:-1], [plan.duration_s]])
-    every = np.arange(0, len(pulses.t_s), 5)
-    place = np.column_stack([pulses.x_um[every], pulses.y_um[every]]).astype(float)
-    t = np.concatenate([[0.0], pulses.t_s[every] + 1e-3])
-    place, row = np.vstack([[[0.0, 0.0]], place]), np.concatenate([[0], pulses.row[every]]).astype(np.int64)
-    wobble = np.column_stack([np.sin(t * 3.0), np.cos(t * 2.0)])
-    trace = Trace(t, place, place + wobble, place + wobble, row)
-    return replace(
-        run,
-        program=program,
-        plan=plan,
-        stepped=stepped,
-        trace=trace,
-        border_s=border,
-        findings=(),
-        contours=(),
-    )
+    return long_page(f"{ZIGZAG} {ZIGZAG} DD")
 
 
 def test_a_million_steps_load_soon_and_play_smoothly(open_page: OpenPage) -> None:

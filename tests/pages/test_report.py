@@ -1,5 +1,7 @@
 """report.html in a real browser: what it shows, how it sorts, what it prints, and that nothing runs but its own."""
 
+import csv
+import io
 import re
 from typing import TYPE_CHECKING
 
@@ -7,13 +9,16 @@ import pytest
 from browser import OpenPage
 from golden_pictures import assert_golden_screen
 from page_checks import complaints
+from places import ROOT
 from report_pages import HOSTILE, HOSTILE_TITLE, PART, Made, hostile, made, staircase
 
+from sim.show.html.bundle import joined
 from sim.show.report_page.tables import reached
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
+CSV = joined(ROOT / "sim" / "show" / "report_page" / "assets" / "csv.js")
 BLOCKS = '[data-table="blocks"]'
 MM_PX = 96.0 / 25.4
 
@@ -31,6 +36,13 @@ def bad() -> Made:
 @pytest.fixture(scope="module")
 def many() -> Made:
     return made(staircase(5000), may_stay_open=True)
+
+
+def shown(open_page: OpenPage, html: str, **how: object) -> "Page":
+    """A page that shows all of its tables."""
+    page = open_page(html, **how).page
+    page.evaluate("drycut.tables.ready")
+    return page
 
 
 def cells(page: "Page", head: str, table: str = BLOCKS) -> list[str]:
@@ -124,7 +136,7 @@ def test_rows_without_a_value_stand_last_either_way(open_page: OpenPage, part: M
 
 
 def test_the_worst_of_many_blocks_is_two_clicks_away(open_page: OpenPage, many: Made) -> None:
-    page = open_page(many.html).page
+    page = shown(open_page, many.html)
     assert page.locator(f"{BLOCKS} tbody tr").count() == 200
     assert page.locator(f"{BLOCKS} .count").inner_text() == "rows 1–200 of 5,000"
     button = head(page, "deviation, table")
@@ -140,7 +152,7 @@ def test_the_worst_of_many_blocks_is_two_clicks_away(open_page: OpenPage, many: 
 
 
 def test_pages_of_a_long_table_are_turned(open_page: OpenPage, many: Made) -> None:
-    page = open_page(many.html).page
+    page = shown(open_page, many.html)
     turn = {
         name: page.locator(f"{BLOCKS} .turning button", has_text=name) for name in ("First", "Back", "Next", "Last")
     }
@@ -154,6 +166,73 @@ def test_pages_of_a_long_table_are_turned(open_page: OpenPage, many: Made) -> No
     turn["First"].click()
     assert turn["Back"].is_disabled()
     assert cells(page, "block")[0] == "1"
+
+
+def test_a_long_table_is_searched_by_block_and_by_text(open_page: OpenPage, many: Made) -> None:
+    page = shown(open_page, many.html)
+    field, told = page.locator(f"{BLOCKS} input[type=search]"), page.locator(f"{BLOCKS} .told")
+    assert told.inner_text() == ""
+    field.fill("4,321")
+    assert cells(page, "block") == ["4,321"]
+    assert told.inner_text() == "1 of 5,000 rows"
+    field.fill("4321 ")
+    assert cells(page, "block") == ["4,321"]
+    wanted = "b9b0b9gxl1"
+    having = [block["block"] for block in many.report["blocks"] if wanted in block["text"].lower()]
+    assert 200 < len(having) < 5000
+    field.fill(wanted)
+    assert numbers(cells(page, "block")) == having[:200]
+    assert page.locator(f"{BLOCKS} .count").inner_text() == f"rows 1–200 of {len(having)}"
+    head(page, "block").click()
+    head(page, "block").click()
+    assert [int(text.replace(",", "")) for text in cells(page, "block")] == having[:-201:-1], (
+        "sorted, it is searched still"
+    )
+    field.fill("no such text")
+    assert cells(page, "block") == []
+    assert told.inner_text() == "0 of 5,000 rows"
+    field.fill("")
+    assert page.locator(f"{BLOCKS} .count").inner_text() == "rows 1–200 of 5,000"
+
+
+def test_all_rows_of_a_long_table_are_saved_as_csv(open_page: OpenPage, many: Made) -> None:
+    page = shown(open_page, many.html)
+    page.locator(f"{BLOCKS} input[type=search]").fill("17")  # what is searched does not matter
+    with page.expect_download() as download:
+        page.locator(f"{BLOCKS} .tools button").click()
+    assert download.value.suggested_filename == "blocks.csv"
+    heads, *rows = list(csv.reader(download.value.path().read_text("utf-8-sig").splitlines()))
+    blocks = many.report["blocks"]
+    assert {len(row) for row in rows} == {len(heads)}
+    for name, entry, per in (
+        ("block", "block", 1),
+        ("to X mm", "exact.end_um.0", 1000),
+        ("length mm", "exact.length_um", 1000),
+    ):
+        saved = [float(row[heads.index(name)]) for row in rows]
+        assert saved == pytest.approx([reached(block, entry) / per for block in blocks], rel=1e-11), name
+    assert [row[heads.index("text")] for row in rows] == [block["text"] for block in blocks]
+
+
+def test_no_text_of_a_program_becomes_a_formula_or_a_row_of_a_spreadsheet(open_page: OpenPage) -> None:
+    texts = ["=1+1", "+1", "-1", "@x", "\t=1", 'a "b", c', "two\nlines", None, "B5GXL1"]
+    page = open_page(f"<!doctype html><html lang=en><title>csv</title><script>const csv = {CSV};</script>").page
+    columns = [
+        {"head": {"en": "text, said", "zh": ""}, "values": texts, "kind": "code", "unit": "", "per": 1, "digits": 0}
+    ]
+    text = page.evaluate("([columns, rows]) => csv.csvOf(columns, rows)", [columns, list(range(len(texts)))])
+    read = [row[0] if row else "" for row in csv.reader(io.StringIO(text.removeprefix("\ufeff"), newline=""))]
+    assert read == ["text, said", "'=1+1", "'+1", "'-1", "'@x", "'\t=1", 'a "b", c', "two\nlines", "", "B5GXL1"]
+
+
+def test_a_browser_that_cannot_unpack_a_table_says_so(open_page: OpenPage, many: Made) -> None:
+    watched = open_page(
+        many.html.replace("<head>", "<head><script>delete window.DecompressionStream;</script>", 1), lang="zh"
+    )
+    assert "report.json" in watched.page.locator(f"{BLOCKS} .unread").inner_text()
+    assert watched.page.locator('[data-table="deviation"] tbody tr').count() == 4, "short tables show"
+    assert [problem for problem in watched.problems() if "DecompressionStream" not in problem] == []
+    watched.found.clear()
 
 
 def test_a_code_opens_its_explanation(open_page: OpenPage, bad: Made) -> None:
@@ -221,8 +300,18 @@ def sheets(pdf: bytes) -> list[tuple[int, int]]:
     return [(round(float(w) / 72 * 25.4), round(float(h) / 72 * 25.4)) for w, h in boxes]
 
 
+def test_lines_that_the_languages_share_are_drawn_in_both(open_page: OpenPage, many: Made) -> None:
+    page = shown(open_page, many.html, lang="zh")
+    used = page.evaluate("""() => [...document.querySelectorAll('.picture [lang=zh-CN] use')].map(use => {
+        const { width, height } = use.getBBox();
+        return [document.querySelectorAll(use.getAttribute('href')).length, width + height];
+    })""")
+    assert len(used) >= 2
+    assert all(times == 1 and size > 100 for times, size in used)
+
+
 def test_it_prints_on_a_few_sheets_of_a4(open_page: OpenPage, many: Made) -> None:
-    page = open_page(many.html).page
+    page = shown(open_page, many.html)
     printed = sheets(page.pdf(prefer_css_page_size=True))
     assert {(210, 297), (297, 210)} == set(printed)
     assert len(printed) < 20, "of 5,000 blocks the rows that are seen"

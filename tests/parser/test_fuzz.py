@@ -22,10 +22,10 @@ SLOWEST_S = 10.0
 
 INPUTS = {
     **{
-        "program": 200,
-        "fix": 25,
-        "iso": 200,
-        "iso-fix": 15,
+        "program": 120,
+        "fix": 15,
+        "iso": 100,
+        "iso-fix": 10,
         "convert": 20,
         "scenario": 200,
         "machine": 200,
@@ -34,7 +34,7 @@ INPUTS = {
         "card": 200,
         "dxf": 60,
     },
-    **{"pmac": 100, "compare": 3, "make": 3, "command": 50, "run": 4, "iso-run": 4},
+    **{"pmac": 100, "compare": 3, "make": 3, "command": 30, "run": 4, "iso-run": 4},
 }
 """How many of each kind are tried; `make fuzz` tries a million."""
 

@@ -23,7 +23,7 @@ from sim.run.report import build_report
 from sim.setup.quiz import Question
 from sim.show.assumptions import taken_for_granted
 from sim.show.replay.document import replay_document
-from sim.show.replay.questions import question_entries
+from sim.show.replay.quiz import quiz_of
 
 SUBPROGRAM = [11, 12, 13, 16, 17, 18, 16, 17, 18]
 """Lines of the blocks of `ROUNDS` that cut, in the order in which they run."""
@@ -89,7 +89,7 @@ def test_lines_of_a_subprogram_run_again_in_report_and_replay(document: dict[str
 
 def test_a_quiz_asks_about_places_and_senses_of_iso() -> None:
     recording = recording_of(ROUNDS, quiz=(Question(2, "turn", "here"), Question(2, "end", "here")))
-    turn, end = question_entries(recording.run, recording.steps)
+    turn, end = quiz_of(recording.run, recording.steps)["own"]
     assert turn["answers"][turn["right"]]["en"] == "counter-clockwise (G03)"
     assert turn["why"]["zh"] == "程序段写的是 G03：G02 为顺圆，G03 为逆圆。"
     assert end["answers"][end["right"]]["en"] == "X 5.000 mm, Y 0.000 mm"

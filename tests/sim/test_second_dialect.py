@@ -224,9 +224,9 @@ def test_the_replay_has_its_blocks_and_lines() -> None:
 
 
 def test_a_quiz_asks_for_places_and_not_for_words_that_are_not_there() -> None:
-    (asked,) = document_of(SLOT, quiz=(Question(2, "end", "here"),))["quiz"]
+    (asked,) = document_of(SLOT, quiz=(Question(2, "end", "here"),))["quiz"]["own"]
     assert asked["answers"][asked["right"]]["en"] == "X 4.000 mm, Y 4.000 mm"
-    (asked,) = document_of(SLOT, quiz=(Question(2, "turn", "here"),))["quiz"]
+    (asked,) = document_of(SLOT, quiz=(Question(2, "turn", "here"),))["quiz"]["own"]
     assert [answer["en"] for answer in asked["answers"]] == ["clockwise (right)", "counter-clockwise (left)"]
     assert asked["why"]["en"].startswith("It is written left: right turns clockwise")
     for about in ("quadrant", "count_axis", "count_length", "next_step"):
@@ -271,10 +271,8 @@ _SPEAK_3B = {
     "sim/check/radius_rule.py": "the marks of 4B, where a program has them",
     "sim/cli/convert.py": "writes 3B, whose forms its options name",
     "sim/cli/program.py": "makes 3B, which its help names",
-    "sim/cli/program_options.py": "makes 3B, whose forms and codes its options name",
     "sim/setup/making.py": "makes 3B, whose forms and codes its types name",
     "sim/setup/program_section.py": "asks for 3B, whose forms and codes its settings name",
-    "sim/cli/scenario_options.py": "the help names the controllers of 3B, which step point by point",
     "sim/run/ballbar/circle.py": "writes the circle of the test as a 3B program",
     "sim/show/replay/assets/decisions.js": "what a counting controller does in each quadrant, where there are words",
     "sim/show/replay/assets/readouts.js": "the count that is left and the comparison, where a program has words",

@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -78,9 +79,10 @@ def unreached(page: "Page") -> list[str]:
 def faint(page: "Page") -> list[str]:
     """Texts with too little contrast against what is really drawn behind them."""
     found = {}
-    for _ in _places(page):
-        texts = _told(page, "texts")
-        shot = page.screenshot(style=NO_TEXT, animations="disabled", scale="css")
+    told = [_told(page, "texts") for _ in _places(page)]
+    with _no_text(page):
+        shots = [page.screenshot(animations="disabled", scale="css") for _ in _places(page)]
+    for texts, shot in zip(told, shots, strict=True):
         behind = np.asarray(Image.open(io.BytesIO(shot)).convert("RGB"), dtype=float)
         for text in texts:
             least = LEAST_CONTRAST_LARGE if text["large"] else LEAST_CONTRAST
@@ -88,6 +90,18 @@ def faint(page: "Page") -> list[str]:
             if seen < least:
                 found[f"contrast {seen:.2f} of {least}: {text['text']!r}"] = None
     return list(found)
+
+
+@contextmanager
+def _no_text(page: "Page") -> Iterator[None]:
+    """A page without its letters: for all of its windows at once, as it takes long to draw another page each time."""
+    page.evaluate(
+        "(style) => { const sheet = new CSSStyleSheet(); sheet.replaceSync(style);"
+        " document.adoptedStyleSheets.push(sheet); }",
+        NO_TEXT,
+    )
+    yield
+    page.evaluate("() => { document.adoptedStyleSheets.pop(); }")
 
 
 def _contrast(text: dict, behind: np.ndarray) -> float:

@@ -1,7 +1,11 @@
 """Replay documents of small runs, and a page that answers questions about one by the replay's own scripts."""
 
+import base64
+import io
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from PIL import Image
 from places import ROOT
 from runs import plain_scenario
 
@@ -42,3 +46,16 @@ def replay_of(page: "Page", document: dict[str, Any]) -> "Page":
 def exports(module: str) -> str:
     """What a module of the replay's scripts exports, as an expression for a page."""
     return joined(ASSETS / f"{module}.js")
+
+
+def drawn(page: "Page") -> None:
+    """Wait until what was asked for is drawn."""
+    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+def canvas(page: "Page") -> np.ndarray:
+    """What the table shows, (height, width, 3) levels."""
+    drawn(page)
+    picture = page.evaluate("document.getElementById('table').toDataURL()")
+    drawing = Image.open(io.BytesIO(base64.b64decode(picture.partition(",")[2])))
+    return np.asarray(drawing.convert("RGB"), dtype=int)

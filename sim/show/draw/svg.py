@@ -20,7 +20,9 @@ RISE: Final = 0.436
 """Of a size, from the middle of a line to its baseline: half of the face's ascent, 1.16, less its descent, 0.288."""
 
 MOST_PLACES: Final = 5000
-"""Of one line: a line of 100,000 blocks, wound up and down within a pixel, would else be megabytes."""
+"""Of one line, where these tell it to `COARSEST_PX`: 100,000 blocks up and down within a pixel would be megabytes."""
+COARSEST_PX: Final = 1.0
+"""How far a line of more places may leave the true one."""
 
 
 class Svg:
@@ -147,10 +149,10 @@ def _path(lines: Sequence[Floats], end: str = "") -> str:
 
 
 def _fewer(line: Floats) -> Floats:
-    """A line (n, 2) of `MOST_PLACES` places at most, as near to the given one as they let it be."""
+    """A line (n, 2) by fewer places, where it has more than `MOST_PLACES`: as near as these let it be."""
     tolerance, fewer = CHORD_PX, line
-    while len(fewer) > MOST_PLACES:
-        tolerance *= 1.25
+    while len(fewer) > MOST_PLACES and tolerance < COARSEST_PX:
+        tolerance = min(1.25 * tolerance, COARSEST_PX)
         fewer = simplify(line, tolerance)
     return fewer
 

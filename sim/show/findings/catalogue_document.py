@@ -1,7 +1,7 @@
 """What the documents say of the codes.
 
 docs/findings.md and docs/findings.zh.md are made from the pages of the catalogue. In the table of checks of
-docs/check.md the codes of each check are renewed, and in README.md how many codes there are.
+docs/check.md the codes of each check are renewed, and in docs/start.md and its Chinese twin how many codes there are.
 """
 
 import re
@@ -14,10 +14,10 @@ from sim.show.findings.pages import layers, page_text, page_title, severity_word
 from sim.show.words import Words
 
 NAMES: Mapping[Language, str] = {"en": "findings.md", "zh": "findings.zh.md"}
+_TOURS: Mapping[Language, str] = {"en": "start.md", "zh": "start.zh.md"}
 
 _PATH = re.compile(r"docs/(\w+\.md)")
 _CHECK_ROW = re.compile(r"^(\| `(check-[\w-]+)` \|[^|]*\| )[^|]*( \|)", re.MULTILINE)
-_COUNT = re.compile(r"There are \d+ codes")
 _HEADS = ("head-code", "head-severity", "head-title", "head-other")
 
 
@@ -48,12 +48,22 @@ def _table(codes: tuple[str, ...], language: Language) -> str:
 
 def documents(root: Path) -> dict[Path, str]:
     """Every document of a folder of the project that tells of the codes, as it should be."""
-    check, readme = root / "docs" / "check.md", root / "README.md"
+    docs, check = root / "docs", root / "docs" / "check.md"
     return {
-        **{root / "docs" / name: findings_document(language) for language, name in NAMES.items()},
+        **{docs / name: findings_document(language) for language, name in NAMES.items()},
+        **{docs / name: _counted(docs / name, language) for language, name in _TOURS.items()},
         check: _CHECK_ROW.sub(_check_row, check.read_text(encoding="utf-8")),
-        readme: _COUNT.sub(f"There are {len(CODES)} codes", readme.read_text(encoding="utf-8")),
     }
+
+
+def count_of_codes(language: Language) -> str:
+    """What a document says of how many codes there are."""
+    return Words(language)("findings_document.count", n=len(CODES))
+
+
+def _counted(tour: Path, language: Language) -> str:
+    count = count_of_codes(language)
+    return re.sub(re.escape(count).replace(str(len(CODES)), r"\d+"), count, tour.read_text(encoding="utf-8"))
 
 
 def _check_row(row: re.Match[str]) -> str:

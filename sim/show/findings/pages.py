@@ -32,7 +32,7 @@ def list_text(language: Language) -> str:
     """Every code with its severity and title, by layer, and every document with its title, as Markdown."""
     say = Words(language)
     codes = [f"## {title}\n{_fenced(_title_lines(codes, language))}" for title, codes in layers(language)]
-    rows = "\n".join(f"{name:{max(map(len, documents()))}}  {title(name)}" for name in documents())
+    rows = "\n".join(f"{name:{max(map(len, documents()))}}  {title(name, language)}" for name in documents())
     return "\n\n".join([*codes, f"## {say('findings.documents')}\n{_fenced(rows)}"]) + "\n"
 
 

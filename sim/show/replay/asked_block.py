@@ -5,9 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.stepping.quadrants import walk_arcs
-from controller.stepping.words import words_of
 from parser.geometry.curves import Floats
-from parser.told.step_words import Axis
+from parser.told.step_words import Axis, StepWords
 from parser.units import mm
 from parser.words.labels import label
 from sim.run.dryrun import DryRun
@@ -80,10 +79,9 @@ class AskedBlock(NamedTuple):
         return int(quarter) + 1 if self.turn > 0 else 4 - int(quarter)
 
 
-def asked_block(run: DryRun, row: int, first_um: tuple[int, int] | None) -> AskedBlock:
-    """The block in a row, whose first step leads to a place."""
+def asked_block(run: DryRun, words: StepWords, row: int, first_um: tuple[int, int] | None) -> AskedBlock:
+    """The block in a row, whose first step leads to a place; `words` are those of all rows."""
     toolpath = run.toolpath
-    words = words_of(toolpath)
     from_x, from_y = run.stepped.corner_um[row].tolist()
     to_x, to_y = first_um or (from_x, from_y)
     return AskedBlock(

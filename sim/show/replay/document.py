@@ -22,7 +22,7 @@ from sim.show.replay.happenings import (
     pass_entries,
     stop_entry,
 )
-from sim.show.replay.questions import question_entries
+from sim.show.replay.quiz import quiz_of
 from sim.show.replay.scene import piece_entry, scene
 from sim.show.replay.tape import tape
 from sim.show.words.phrases import machine_name
@@ -77,7 +77,7 @@ def replay_document(recording: Recording) -> dict[str, Any]:
         "losses": [loss_entry(one.what) for one in course.losses],
         "ended": None if run.ended is None else ending_entry(run.ended),
         "pieces": [piece_entry(one) for one in course.pieces],
-        "quiz": question_entries(run, course.steps),
+        "quiz": quiz_of(run, course.steps),
         "tape": tape(course.steps, origin_um(run.toolpath), course.trace, course.across.row),
     }
 

@@ -90,9 +90,9 @@ def test_a_hook_hears_of_each_call_and_asks_the_card(library: Made, tmp_path: Pa
 
 
 def test_three_threads_end_alike_each_time(library: Made, tmp_path: Path) -> None:
-    ran = library.run(library.client("stream"), tmp_path, "threads", "20")
+    ran = library.run(library.client("stream"), tmp_path, "threads", "10")
     assert (ran.code, ran.err) == (0, "")
-    assert re.findall("^end: (.*)$", ran.out, re.MULTILINE) == [AT_END] * 20
+    assert re.findall("^end: (.*)$", ran.out, re.MULTILINE) == [AT_END] * 10
     repeated(ran)
 
 

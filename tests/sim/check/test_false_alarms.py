@@ -5,7 +5,7 @@ import random
 import pytest
 from sound import checks, off_um, sound_program
 
-PROGRAMS, PARTS = 600, 12
+PROGRAMS, PARTS = 360, 6
 
 
 @pytest.mark.parametrize("part", range(PARTS))

@@ -1,5 +1,6 @@
 """What pictures are drawn on: areas, SVG that any reader takes, paints in both themes, and texts in both languages."""
 
+import re
 import xml.etree.ElementTree as ET
 from itertools import combinations
 
@@ -14,7 +15,7 @@ from sim.show.draw.layout import Box
 from sim.show.draw.paints import DARK, LIGHT, THEMES, Paint, Theme
 from sim.show.draw.raster import Raster
 from sim.show.draw.sheet import drawing, pixels
-from sim.show.draw.svg import Svg
+from sim.show.draw.svg import MOST_PLACES, Svg
 
 SVG = "{http://www.w3.org/2000/svg}"
 STAR = [np.array([[50 + 45 * np.sin(turn), 50 - 45 * np.cos(turn)] for turn in np.arange(5) * 4 * np.pi / 5])]
@@ -181,3 +182,38 @@ def test_both_kinds_of_sheet_speak_the_language_and_wear_the_theme() -> None:
         assert sheet.say("common.block", number=3) == "第 3 段"
     assert pixels(10, DARK).page(10).image().getpixel((5, 5)) == DARK[Paint.PAGE]
     assert 'fill="#16181c"' in drawing(10, DARK).page(10).fragment("x")
+
+
+def test_strokes_alike_in_turn_are_one_path_below_what_comes_later() -> None:
+    svg = Svg(10, 10)
+    for x, paint in ((1.0, Paint.INK), (2.0, Paint.INK), (3.0, Paint.ERROR)):
+        svg.polyline(np.array([[x, 0.0], [x, 9.0]]), paint, 1.0)
+    svg.disc(np.array([5.0, 5.0]), 1.0, Paint.INK)
+    svg.polyline(np.array([[4.0, 0.0], [4.0, 9.0]]), Paint.ERROR, 1.0)
+    drawn = re.findall(r'<(?:path d="([^"]*)"|(circle))', svg.fragment("x"))
+    assert drawn == [("M1,0L1,9M2,0L2,9", ""), ("M3,0L3,9", ""), ("", "circle"), ("M4,0L4,9", "")]
+
+
+def test_a_line_of_very_many_places_is_drawn_by_fewer_within_a_pixel() -> None:
+    x = np.linspace(0.0, 1500.0, 200_000)
+    line = np.column_stack([x, 400.0 + 300.0 * np.sin(x / 90.0) + np.where(np.arange(len(x)) % 2, 0.12, -0.12)])
+    svg = Svg(1600, 800)
+    svg.polyline(line, Paint.INK, 1.0)
+    text = svg.fragment("x")
+    (data,) = re.findall(r'<path d="M([^"]*)"', text)
+    drawn = np.array([place.split(",") for place in data.split("L")], dtype=float)
+    assert 100 < len(drawn) <= MOST_PLACES
+    assert len(text) < 100_000  # characters; 3 MB with all places
+    apart = shapely.LineString(drawn).distance(shapely.points(line[::50]))
+    assert apart.max() < 1.1  # px, with rounded figures
+
+
+def test_a_line_that_needs_very_many_places_keeps_them() -> None:
+    at = np.arange(9000)
+    hatch = np.column_stack([at / 6.0, np.where(at % 2, 700.0, 100.0)])
+    svg = Svg(1600, 800)
+    svg.polyline(hatch, Paint.INK, 1.0)
+    (data,) = re.findall(r'<path d="M([^"]*)"', svg.fragment("x"))
+    drawn = np.array([place.split(",") for place in data.split("L")], dtype=float)
+    assert shapely.hausdorff_distance(shapely.LineString(drawn), shapely.LineString(hatch)) < 1.1  # px
+    assert len(drawn) > MOST_PLACES

@@ -11,7 +11,7 @@ from parser.findings.catalogue import LANGUAGES, Language, example, page
 from parser.findings.codes import CODES
 from parser.text.excerpt import cells
 from sim.show.findings.pages import page_text
-from sim.show.terminal.documents import cited, document, documents, section
+from sim.show.terminal.documents import cited, document, documents, files, section, title
 from sim.show.terminal.markdown import plain, shown
 
 RAW = re.compile(r"`|\*\*\w|\w\*\*|^#|\]\(|\.md\b|<!--|^\|", re.MULTILINE)
@@ -73,23 +73,31 @@ def test_pages_cite_only_what_the_command_shows(language: Language) -> None:
     assert cites > 40
 
 
-@pytest.mark.parametrize("name", documents())
-def test_a_document_fits_but_for_what_is_fenced(name: str) -> None:
-    out = told(name)
+@pytest.mark.parametrize("file", files())
+def test_a_document_fits_but_for_what_is_fenced(file: str) -> None:
+    name, _, language = file.removesuffix(".md").partition(".")
+    markdown = document(name, "zh" if language else "en")
+    out = told(name, "--lang", language or "en")
     fenced = {
-        line.strip()
-        for block in re.findall(r"^```.*\n((?:.*\n)*?)```$", document(name), re.M)
-        for line in block.split("\n")
+        line.strip() for block in re.findall(r"^```.*\n((?:.*\n)*?)```$", markdown, re.M) for line in block.split("\n")
     }
     assert not [line for line in out.splitlines() if cells(line) > 80 and line.strip() not in fenced]
     assert not RAW.search("\n".join(line for line in out.splitlines() if line.strip() not in fenced))
-    assert document(name) == (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8")
+    assert markdown == (ROOT / "docs" / file).read_text(encoding="utf-8")
+
+
+def test_a_document_is_shown_in_chinese_where_there_is_one() -> None:
+    written = {path.stem.split(".")[0] for path in (ROOT / "docs").glob("*.zh.md")} & {*documents()}
+    assert written
+    for name in documents():
+        assert (document(name, "zh") != document(name)) == (name in written)
+        assert (title(name, "zh") != title(name)) == (name in written)
 
 
 def test_a_wheel_brings_the_documents_of_users() -> None:
     build = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["hatch"]["build"]
     shipped = build["targets"]["wheel"]["force-include"]
-    assert shipped == {f"docs/{name}.md": f"sim/docs/{name}.md" for name in documents()}
+    assert shipped == {f"docs/{name}": f"sim/docs/{name}" for name in files()}
     assert {"3b", "check", "scenarios"} < set(documents())
     assert not {"architecture", "code-flow", "findings"} & set(documents())
 
@@ -121,7 +129,7 @@ def test_the_list_fits() -> None:
     for language in LANGUAGES:
         out = told("--lang", language)
         assert max(map(cells, out.splitlines())) <= 80
-        assert "\n    3b         3B: what the format is, in the field\n" in out
+        assert f"\n    3b         {title('3b', language)}\n" in out
 
 
 def test_lists_tables_and_chinese_keep_their_form() -> None:

@@ -41,9 +41,9 @@ def test_the_manual_has_a_row_for_every_picture() -> None:
     assert rows == [*PICTURES], "the table of docs/pictures.md has other pictures than PICTURES"
 
 
-def test_the_readme_counts_the_pictures() -> None:
+def test_the_tour_counts_the_pictures() -> None:
     told = f"`drycut draw` draws {COUNTS[len(PICTURES)]} pictures"
-    assert told in (ROOT / "README.md").read_text("utf-8"), f"README.md does not say: {told}"
+    assert told in (ROOT / "docs" / "start.md").read_text("utf-8"), f"docs/start.md does not say: {told}"
 
 
 @pytest.mark.parametrize("name", PICTURES)

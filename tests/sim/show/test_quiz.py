@@ -13,15 +13,17 @@ from hypothesis import given
 from places import SCENARIOS
 from plain import SIGNS, PlainBlock, motion_quadrant, plain_arc_end, plain_steps
 from replayed import recording_of
-from runs import plain_scenario
+from runs import plain_scenario, scenario_recording
 from strategies import blocks, program_text
 
 from controller.offset.sections import Side
 from controller.stepping.pulses import Pulses
+from controller.stepping.words import words_of
 from parser.findings.catalogue import Said
 from parser.findings.errors import SettingsError
 from parser.program import parse_program, read_program
 from sim.measure.deviation.meters import BlockSteps
+from sim.run.dryrun import DryRun
 from sim.setup import quiz
 from sim.setup.machine.machine import load_machine
 from sim.setup.part import Offset, OffsetPass
@@ -30,8 +32,11 @@ from sim.setup.scenario import load_scenario
 from sim.show.replay.answers import written_out
 from sim.show.replay.asked_block import AskedBlock, in_mm
 from sim.show.replay.questions import question_entries
+from sim.show.replay.quiz import IN_A_SET, SETS, quiz_of, sets_of
 
 KINDS: tuple[About, ...] = get_args(About)
+SET_17 = [3, 7, 8, 11, 16, 18, 21, 25, 29, 30]
+"""What a class is asked that was told 17, of 32 questions of four kinds: to be kept, as numbers are handed on."""
 
 
 def scenario_of(tmp_path: Path, text: str) -> Path:
@@ -118,10 +123,14 @@ def test_a_question_without_an_answer_is_refused(question: Question, complaint: 
         refuse_unanswerable([question], toolpath)
 
 
+def own(run: DryRun, steps: Pulses) -> list[dict[str, Any]]:
+    return question_entries(run, steps, words_of(run.toolpath))
+
+
 def asked(text: str, questions: list[Question], **changes: object) -> list[dict[str, Any]]:
     recording = recording_of(text, **changes)
     scenario = replace(recording.run.scenario, quiz=tuple(questions))  # of those too that a run would refuse
-    return question_entries(replace(recording.run, scenario=scenario), recording.steps)
+    return own(replace(recording.run, scenario=scenario), recording.steps)
 
 
 def right(entry: dict[str, Any], language: str = "en") -> str:
@@ -161,7 +170,7 @@ def asked_about(block: PlainBlock) -> dict[About, dict[str, Any]]:
     program = parse_program(program_text([block]))
     asked = plain_scenario(quiz=EVERYTHING)
     run = SimpleNamespace(program=program, toolpath=program.toolpath, stepped=stepped, scenario=asked)
-    return {entry["about"]: entry for entry in question_entries(run, steps)}
+    return {entry["about"]: entry for entry in own(run, steps)}
 
 
 @given(blocks)
@@ -277,11 +286,13 @@ def test_questions_stand_in_the_order_they_are_asked() -> None:
     assert entries[1] == {
         "row": 1,
         "block": 2,
+        "name": "2",
         "about": None,
         "ask": {"en": "a", "zh": "b"},
         "answers": [{"en": "c", "zh": "d"}, {"en": "e", "zh": "f"}],
         "right": 1,
         "why": {"en": "g", "zh": "h"},
+        "hidden": [],
     }
 
 
@@ -326,3 +337,84 @@ def test_the_quiz_shown_can_be_read(tmp_path: Path) -> None:
     (shown,) = re.findall(r"## Quiz\n.*?```toml\n(.*?)```", page, flags=re.DOTALL)
     one, other = load_scenario(scenario_of(tmp_path, shown)).quiz
     assert (one.what, isinstance(other.what, WrittenQuestion)) == ("next_step", True)
+
+
+PROGRAMS = ["keyhole", "die", "plate", "iso-die", "rough-and-trim", "punch", "servo-trip"]
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_any_program_has_sets_of_questions_of_many_kinds(name: str) -> None:
+    recording = scenario_recording(name)
+    quiz = quiz_of(recording.run, recording.steps)
+    pool, sets = quiz["pool"], quiz["sets"]
+    assert len(sets) == SETS
+    kinds = {entry["about"] for entry in pool}
+    assert ("turn" in kinds) == bool(recording.run.toolpath.is_arc.any())
+    assert "offset" in kinds
+    assert ("side" in kinds) == (recording.run.offset is not None) == ("end" not in kinds)
+    for chosen in sets:
+        asked = [(pool[at]["block"], pool[at]["about"]) for at in chosen]
+        assert len(chosen) == min(IN_A_SET, len(pool)) == len(set(chosen))
+        assert chosen == sorted(chosen, key=lambda at: pool[at]["row"])
+        assert len({about for _, about in asked}) == min(len(kinds), len(chosen))
+    assert len({tuple(chosen) for chosen in sets}) > SETS // 2 or len(pool) <= IN_A_SET + 2
+    assert quiz == quiz_of(recording.run, recording.steps)
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_what_is_hidden_in_the_listing_holds_the_answer(name: str) -> None:
+    recording = scenario_recording(name)
+    source = recording.run.toolpath.source
+    for entry in quiz_of(recording.run, recording.steps)["pool"]:
+        if recording.run.toolpath.words is None or entry["about"] in {"offset", "side", "fault", "next_step"}:
+            continue
+        text = source.text[int(source.span[entry["row"], 0]) :]
+        hidden = [text[first:past] for first, past in entry["hidden"]]
+        shown = "".join(char for at, char in enumerate(source.block_text(entry["row"])) if not is_hidden(entry, at))
+        if entry["about"] in {"quadrant", "turn"}:
+            assert not re.search(r"L[1-4]|[NS]R", shown)
+        if entry["about"] in {"quadrant", "count_axis"}:
+            assert not re.search(r"G\s*[XY]", shown)
+        if entry["about"] == "count_length":
+            assert right(entry) in hidden
+        if entry["about"] == "end":
+            assert "\n" not in hidden[0]
+
+
+def is_hidden(entry: dict[str, Any], at: int) -> bool:
+    return any(first <= at < past for first, past in entry["hidden"])
+
+
+def test_the_block_at_fault_stands_beside_sound_ones() -> None:
+    text = "B0B300B300GYL2\nB300B0B290GXL1\nB0B300B300GYL4\nB300B0B300GXL3\nDD\n"
+    recording = recording_of(text, may_stay_open=True)
+    faults = [one for one in quiz_of(recording.run, recording.steps)["pool"] if one["about"] == "fault"]
+    found = {finding.block for finding in recording.run.findings if finding.block}
+    assert faults
+    for entry in faults:
+        assert int(right(entry)) in found
+        others = {int(answer["en"]) for answer in entry["answers"]} - {int(right(entry))}
+        assert others
+        assert not others & found
+
+
+def test_the_edge_lies_half_the_kerf_beside_the_path() -> None:
+    recording = recording_of("B0B300B300GYL2 DD", may_stay_open=True)
+    (asked_for,) = (one for one in quiz_of(recording.run, recording.steps)["pool"] if one["about"] == "offset")
+    assert right(asked_for) == f"{recording.run.scenario.wire.kerf_um / 2.0:g} µm"
+    assert len({answer["en"] for answer in asked_for["answers"]}) == len(asked_for["answers"]) >= 3
+
+
+def test_sets_are_the_same_on_every_machine() -> None:
+    pool = [{"row": at, "block": at, "about": kind} for at, kind in enumerate(["a", "b", "c", "d"] * 8)]
+    assert sets_of(pool)[16] == SET_17
+    assert sets_of([]) == []
+
+
+def test_the_pool_of_a_long_program_is_bounded() -> None:
+    text = "\n".join(["B0B9B9GYL2", "B9B0B9GXL1", "B0B9B9GYL4", "B9B0B9GXL1"] * 300)
+    recording = recording_of(f"{text}\nDD\n", may_stay_open=True)
+    quiz = quiz_of(recording.run, recording.steps)
+    assert len(quiz["pool"]) <= 200
+    blocks = {entry["block"] for entry in quiz["pool"]}
+    assert (min(blocks), max(blocks)) == (1, 1200)

@@ -11,9 +11,10 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from long_replays import rippled_spiral
 from page_types import types_of, unlike
 from places import ROOT, SCENARIOS
-from report_pages import PART, SMALL, Made, Outline, hostile, made, staircase
+from report_pages import PART, SMALL, Made, Outline, hostile, made
 from runs import run_folder, run_text, scenario_run
 
 from parser.findings.catalogue import Said
@@ -25,7 +26,6 @@ from sim.setup.part import SIDES, Offset, OffsetPass
 from sim.setup.quiz import QUIZ
 from sim.setup.scenario import MACHINE_FILE, Scenario, load_scenario, scenario_sections
 from sim.setup.toml.writer import toml_text, toml_value
-from sim.show.report_page import report_page
 from sim.show.report_page.figures import why
 from sim.show.report_page.findings import MOST, prose
 from sim.show.report_page.reproduce import reproduction
@@ -419,10 +419,15 @@ def test_the_page_names_every_key_of_its_tables(part: Made) -> None:
 
 
 def test_a_page_of_many_blocks_stays_small() -> None:
-    run = run_text(staircase(5000), may_stay_open=True)
-    page = report_page(run, build_report(run), [])
-    assert len(page.encode()) < 1_000_000
-    assert len(json.loads(re.findall(r'id="tables">(.*?)</script>', page, re.DOTALL)[0])) >= 5
+    """25 bytes a block in its tables make 2.5 MB of 100,000 blocks; pictures are no larger for more blocks."""
+    blocks = 8_000
+    page = made(rippled_spiral(blocks), may_stay_open=True).html
+    (tables,) = re.findall(r'id="tables">(.*?)</script>', page, re.DOTALL)
+    assert len(json.loads(tables)) >= 5
+    assert len(tables.encode()) < 25 * blocks + 10_000
+    pictures = re.findall(r'<figure class="picture".*?</figure>', page, re.DOTALL)
+    assert len(pictures) >= 5
+    assert max(map(len, pictures)) < 600_000
 
 
 def test_blocks_without_words_have_no_columns_for_them(part: Made) -> None:

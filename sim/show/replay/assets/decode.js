@@ -37,12 +37,19 @@ function sampleTimes(tape, changes) {
 }
 
 /**
- * Where the steps command an axis at each of the sample times.
+ * Where the steps command the axes at each of the sample times.
  * @param {Float64Array} sampleT
  * @param {Way} way
- * @param {"x" | "y"} axis
  */
-const commandedAt = (sampleT, way, axis) => sampleT.map((t) => way[axis](way.doneBy(t)));
+function commandedAt(sampleT, way) {
+  const [x, y] = [new Float64Array(sampleT.length), new Float64Array(sampleT.length)];
+  sampleT.forEach((t, sample) => {
+    const step = way.doneBy(t);
+    x[sample] = way.x(step);
+    y[sample] = way.y(step);
+  });
+  return { x, y };
+}
 
 /**
  * A column that lies so many grains beside another one.
@@ -87,8 +94,9 @@ async function sampleColumns(tape) {
  */
 function samplesOf(tape, columns, way) {
   const t = sampleTimes(tape, columns.ticks);
-  const tableX = beside(commandedAt(t, way, "x"), columns.tableX, tape.grain_um);
-  const tableY = beside(commandedAt(t, way, "y"), columns.tableY, tape.grain_um);
+  const { x, y } = commandedAt(t, way);
+  const tableX = beside(x, columns.tableX, tape.grain_um);
+  const tableY = beside(y, columns.tableY, tape.grain_um);
   const wireX = columns.wireX ? beside(tableX, columns.wireX, tape.grain_um) : tableX;
   const wireY = columns.wireY ? beside(tableY, columns.wireY, tape.grain_um) : tableY;
   const footRow = Int32Array.from(beside(new Float64Array(tape.samples), columns.footRow, 1));

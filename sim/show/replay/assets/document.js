@@ -33,7 +33,7 @@
  * @property {Loss[]} losses
  * @property {Ending | null} ended
  * @property {Piece[]} pieces
- * @property {Question[]} quiz
+ * @property {{ own: Question[], pool: Question[], sets: number[][] }} quiz of the scenario, of any program, and which of these make a set
  * @property {Tape} tape
  */
 
@@ -205,11 +205,13 @@
  * @typedef {object} Question
  * @property {number} row
  * @property {number} block
+ * @property {string} name of the block
  * @property {string | null} about
  * @property {Said} ask
  * @property {Said[]} answers
  * @property {number} right
  * @property {Said} why
+ * @property {[number, number][]} hidden first character from the beginning of the block, and one past the last, of what tells the answer
  */
 
 /**

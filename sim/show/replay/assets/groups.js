@@ -16,7 +16,8 @@ const ROOM = 92; // px of a group, for the number of its blocks
 export function groupsIn(border, span) {
   const rows = border.length - 1;
   const first = clamp(countUpTo(border, span.since) - 1, 0, rows - 1);
-  const past = clamp(countUpTo(border, span.until), first + 1, rows);
+  let past = clamp(countUpTo(border, span.until), first + 1, rows);
+  while (past > first + 1 && past < rows && border[past - 1] >= span.until) past--;
   /** @type {Group[]} */
   const groups = [];
   let isDense = false; // the last group

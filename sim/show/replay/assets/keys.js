@@ -54,8 +54,8 @@ export function wireKeys(actions, quiz) {
   document.addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open]")) return;
     if (quiz.isOpen) {
-      if (/^[1-9]$/.test(event.key)) quiz.choose(Number(event.key) - 1);
-      else if (event.key === "Escape") quiz.toggle();
+      if (event.key === "Escape") quiz.toggle();
+      else if (quiz.isAsking && /^[1-9]$/.test(event.key)) quiz.choose(Number(event.key) - 1);
       return;
     }
     const action = actionOf(event);

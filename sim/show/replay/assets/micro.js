@@ -35,10 +35,10 @@ export function microOf(replay, model, colours) {
     /** @type {number[]} */
     const found = [];
     visitNear(near, (run) => {
-      run.x.forEach((atX, index) => {
-        const atY = run.y[index];
+      for (let index = 0; index < run.size; index++) {
+        const [atX, atY] = [run.x[index], run.y[index]];
         if (atX >= near.left && atX <= near.right && atY >= near.bottom && atY <= near.top) found.push(run.first + index);
-      });
+      }
     });
     if (found.length <= MOST) return found;
     const middle = countUpTo(found, step);

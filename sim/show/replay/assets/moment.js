@@ -9,7 +9,7 @@ import * as language from "../../html/assets/language.js";
  * What the address asks for under a name; nothing where it is not written as addresses are.
  * @param {string} name
  */
-function asked(name) {
+export function asked(name) {
   try {
     return new window.URLSearchParams(window.location.hash.slice(1)).get(name);
   } catch {

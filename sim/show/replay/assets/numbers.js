@@ -1,13 +1,13 @@
 // Numbers in rising columns, and between bounds.
 
 /**
- * How many of the entries of a rising column are no more than a value.
+ * How many of the first entries of a rising column are no more than a value.
  * @param {ArrayLike<number>} column
  * @param {number} value
  */
-export function countUpTo(column, value) {
+export function countUpTo(column, value, entries = column.length) {
   let low = 0;
-  let high = column.length;
+  let high = entries;
   while (low < high) {
     const middle = (low + high) >> 1;
     if (column[middle] <= value) low = middle + 1;

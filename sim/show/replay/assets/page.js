@@ -21,7 +21,7 @@ import * as words from "./words.js";
 
 /**
  * @import { Replay } from "./decode.js"
- * @import { ReplayDocument, TimedFinding } from "./document.js"
+ * @import { Question, ReplayDocument, TimedFinding } from "./document.js"
  * @import { Moment, PlayerState } from "./player.js"
  */
 
@@ -73,12 +73,29 @@ export function buildPage(replay) {
     else player.seek(t);
   }
 
+  /**
+   * Show nothing that would answer a question while it is open.
+   * @param {Question | null} question
+   */
+  function onAsk(question) {
+    text.hide(question?.row ?? null, question?.hidden ?? []);
+    document.body.classList.toggle("asked", question !== null);
+    found("quiz-on").setAttribute("aria-pressed", String(quiz.isOn));
+    tip.hide();
+    timeline.ask(quiz.rows);
+    redraw();
+  }
+
   const page = pageStateOf(redraw);
   const stage = stageOn(table, replay, model, redraw);
   const quiz = quizIn(
-    { panel: found("quiz"), count: found("quiz-count"), ask: found("quiz-ask"), answers: found("quiz-answers"), said: found("quiz-said"), go: found("quiz-go") },
+    {
+      panel: found("quiz"), count: found("quiz-count"), ask: found("quiz-ask"), answers: found("quiz-answers"),
+      said: found("quiz-said"), go: found("quiz-go"), save: found("quiz-save"), start: found("quiz-start"),
+    },
     doc,
     player,
+    onAsk,
   );
   const address = wireMoment(doc, player);
   const actions = { ...actionsOf({ player, stage, quiz, page, redraw }), link: address.link };
@@ -96,7 +113,7 @@ export function buildPage(replay) {
     onPick: player.seekBlock,
     onHover(row, event) {
       stage.outline(row);
-      if (row === null) tip.hide();
+      if (row === null || quiz.isAsking) tip.hide();
       else tip.show(words.block(doc.blocks, row), words.geometry(doc, row), event.clientX, event.clientY);
     },
   });
@@ -119,7 +136,7 @@ export function buildPage(replay) {
    */
   function moment() {
     const state = player.state();
-    return { ...state, deviation: model.deviation(state.t), isAsked: quiz.isOpen };
+    return { ...state, deviation: model.deviation(state.t), isAsked: quiz.isAsking };
   }
 
   /**
@@ -138,14 +155,13 @@ export function buildPage(replay) {
     text.run(shown.block);
     decoding.run(shown.block);
     showTime(shown.t);
-    announce(shown);
+    if (!shown.isAsked) announce(shown);
     last = player.playing || stage.isFalling ? now : null;
     if (last !== null) redraw();
   }
 
   player.onChange(() => {
     showPlayer(player);
-    found("quiz-on").setAttribute("aria-pressed", String(quiz.isOn));
     timeline.loop(player.loop);
     redraw();
   });
@@ -166,6 +182,7 @@ export function buildPage(replay) {
   bar.setAttribute("aria-valuemax", String(player.duration));
   found("loading").hidden = true;
   showPlayer(player);
+  if (quiz.isLinked) quiz.toggle();
   redraw();
   return { player, view: stage.view };
 }

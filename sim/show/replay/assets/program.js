@@ -1,8 +1,12 @@
 // The program's text with the running block marked, and a head over each pass: only what shows is in the page.
 import { both, elements, make } from "../../html/assets/elements.js";
+import { coverOf, covered } from "./cover.js";
 import { countUpTo } from "./numbers.js";
 
-/** @import { Blocks, Pass, ReplayDocument } from "./document.js" */
+/**
+ * @import { Cover } from "./cover.js"
+ * @import { Blocks, Pass, ReplayDocument } from "./document.js"
+ */
 
 /**
  * @typedef {object} Listeners
@@ -66,6 +70,8 @@ export function programIn(box, doc, { onPick, onHover }) {
   let running = 0;
   let scrolledAt = -Infinity;
   let isOwnScroll = false;
+  /** @type {Cover | null} */
+  let cover = null;
   inner.style.height = `${(lines.length + headed.length) * ROW}px`;
   box.append(inner);
 
@@ -90,11 +96,23 @@ export function programIn(box, doc, { onPick, onHover }) {
   }
 
   /**
+   * Show a line anew, where it is shown.
+   * @param {number} line
+   */
+  function rebuild(line) {
+    const made = shown.get(line);
+    if (!made) return;
+    made.remove();
+    shown.delete(line);
+    build(line);
+  }
+
+  /**
    * Texts of a line: blocks, and what stands between them.
    * @param {number} line
    */
   function pieces(line) {
-    const text = lines[line - 1];
+    const text = covered(lines[line - 1], line === cover?.line ? cover.spans : []);
     /** @type {Node[]} */
     const parts = [];
     let past = 0;
@@ -209,6 +227,16 @@ export function programIn(box, doc, { onPick, onHover }) {
       show();
       mark(blocks.line[before]);
       mark(blocks.line[row]);
+    },
+    /**
+     * Cover parts of the text of a block, counted from its first character; of none where there is no row.
+     * @param {number | null} row
+     * @param {[number, number][]} spans
+     */
+    hide(row, spans) {
+      const before = cover?.line;
+      cover = row === null ? null : coverOf(blocks, row, spans);
+      for (const line of [before, cover?.line]) if (line !== undefined) rebuild(line);
     },
   };
 }

@@ -1,81 +1,77 @@
 // Quiz: before some blocks the replay stops and asks; the answer is weighed, and the replay goes on and shows it.
-import { element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
+import { asked } from "./moment.js";
+import { cardsIn } from "./quiz_cards.js";
+import { saveScore } from "./quiz_score.js";
 
 /**
- * @import { Said } from "../../html/assets/language.js"
  * @import { Question, ReplayDocument } from "./document.js"
  * @import { Player } from "./player.js"
+ * @import { Boxes } from "./quiz_cards.js"
  */
 
-/** @typedef {Record<"panel" | "count" | "ask" | "answers" | "said" | "go", HTMLElement>} Boxes */
-/** @typedef {{ right: number, all: number }} Score */
 /** @typedef {ReturnType<typeof quizIn>} Quiz */
+/** @typedef {"off" | "begin" | "runs" | "asks" | "ended"} Stage */
+
+/** The set that the address names, ``#quiz=17``; 0 where it names none. */
+const linked = () => Number(asked("quiz")) || 0;
 
 /**
- * Quiz in boxes of the page, over a player.
+ * The questions of a set by its number; without one, or with one that there is not, those of the scenario, else the first.
+ * @param {ReplayDocument["quiz"]} quiz
+ * @param {number} number
+ */
+function setOf({ own, pool, sets }, number) {
+  const isSet = number >= 1 && number <= sets.length;
+  if (!isSet && own.length) return { number: 0, questions: own };
+  const set = isSet ? number : 1;
+  return { number: sets.length ? set : 0, questions: (sets[set - 1] ?? []).map((at) => pool[at]) };
+}
+
+/**
+ * Quiz in boxes of the page, over a player; `onAsk` hears of the question that is open, and of null where none is.
  * @param {Boxes} boxes
  * @param {ReplayDocument} doc
  * @param {Player} player
+ * @param {(question: Question | null) => void} onAsk
  */
-export function quizIn({ panel, count, ask, answers, said, go }, doc, player) {
+export function quizIn(boxes, doc, player, onAsk) {
   const { border_s: border } = doc.blocks;
-  /** @type {Map<Question, boolean>} */
-  const given = new Map(); // question to whether its answer was right
-  let isOn = false;
+  const cards = cardsIn(boxes, choose);
+  /** @type {Map<Question, number>} */
+  const given = new Map(); // question to the answer that was chosen
+  let { number, questions } = setOf(doc.quiz, linked());
+  let who = "";
+  /** @type {Stage} */
+  let stage = "off";
   /** @type {Question | null} */
   let open = null;
-  /** @type {number | null} */
-  let chosen = null;
-  /** @type {Score | null} */
-  let score = null; // of a quiz that is done
 
-  /** How many were right. */
-  const right = () => [...given.values()].filter(Boolean).length;
+  /** How many were right, of all. */
+  const score = () => ({ right: questions.filter((one) => given.get(one) === one.right).length, all: questions.length });
 
-  /** Write what is open, in the language of the page: a question and what came of its answer, or the score. */
+  /** Show what there is to see, in the language of the page. */
   function write() {
-    if (open) writeQuestion(open);
-    else if (score) writeScore(score);
+    if (stage === "begin" && !questions.length) cards.none();
+    else if (stage === "begin") cards.begin();
+    else if (stage === "asks" && open) {
+      const place = { number: questions.indexOf(open) + 1, all: questions.length };
+      cards.question(open, place, given.get(open) ?? null);
+    } else if (stage === "ended") cards.score(score());
+    else cards.close();
   }
 
   /**
-   * Write a question.
-   * @param {Question} question
+   * Come to a stage.
+   * @param {Stage} next
+   * @param {Question | null} [question]
    */
-  function writeQuestion(question) {
-    const number = doc.quiz.indexOf(question) + 1;
-    count.textContent = language.say("question", { number, all: doc.quiz.length });
-    ask.textContent = language.pick(question.ask);
-    answers.replaceChildren(...question.answers.map((answer, at) => answerButton(question, answer, at)));
-    said.textContent = chosen === null ? "" : verdict(question);
-    said.className = chosen === null ? "" : chosen === question.right ? "right" : "wrong";
-    go.hidden = chosen === null;
-  }
-
-  /**
-   * Whether the answer was right, and why.
-   * @param {Question} question
-   */
-  function verdict(question) {
-    const first = chosen === question.right ? language.say("right") : language.say("wrong");
-    return [first, language.pick(question.why)].filter(Boolean).join(" ");
-  }
-
-  /**
-   * One answer as a button.
-   * @param {Question} question
-   * @param {Said} answer
-   * @param {number} at
-   */
-  function answerButton(question, answer, at) {
-    const key = make("span", { className: "key" }, String(at + 1));
-    const button = make("button", { className: "answer", type: "button" }, key, language.pick(answer));
-    button.disabled = chosen !== null;
-    if (chosen !== null && at === question.right) button.classList.add("right");
-    else if (chosen === at) button.classList.add("wrong");
-    button.addEventListener("click", () => choose(at));
-    return button;
+  function come(next, question = null) {
+    stage = next;
+    open = question;
+    write();
+    onAsk(stage === "asks" && open && !given.has(open) ? open : null);
+    if (cards.isOpen) cards.focus();
   }
 
   /**
@@ -83,79 +79,74 @@ export function quizIn({ panel, count, ask, answers, said, go }, doc, player) {
    * @param {number} at
    */
   function choose(at) {
-    if (!open || chosen !== null || at >= open.answers.length) return;
-    chosen = at;
-    given.set(open, at === open.right);
-    write();
-    go.focus();
+    if (stage !== "asks" || !open || given.has(open) || at >= open.answers.length) return;
+    given.set(open, at);
+    come("asks", open);
+    boxes.go.focus();
   }
 
-  /**
-   * Ask a question.
-   * @param {Question} question
-   */
-  function show(question) {
-    open = question;
-    chosen = null;
-    panel.hidden = false;
-    write();
-    element("button", HTMLElement, answers).focus();
-  }
-
-  /**
-   * Write the score.
-   * @param {Score} reached
-   */
-  function writeScore(reached) {
-    count.textContent = language.say("quiz_finished");
-    ask.textContent = language.say("score", reached);
-    answers.replaceChildren();
-    said.textContent = "";
-    go.hidden = false;
-  }
-
-  /** The score, once all were asked; the next quiz begins anew. */
-  function showScore() {
-    score = { right: right(), all: given.size };
+  /** Begin with the set and the name that were written. */
+  function begin() {
+    const wanted = cards.asked();
+    ({ number, questions } = setOf(doc.quiz, wanted.number));
+    who = wanted.name;
     given.clear();
-    panel.hidden = false;
-    write();
-    go.focus();
+    come("runs");
+    player.seek(0);
+    player.play();
   }
 
-  /** Go on after an answer; after the last one with the score. */
+  /** Go on: begin, after an answer, or close after the score. */
   function goOn() {
-    const wasQuestion = open !== null;
-    open = null;
-    panel.hidden = true;
-    if (wasQuestion) player.play();
+    if (stage === "begin" && questions.length) begin();
+    else if (stage === "asks") {
+      come("runs");
+      player.play();
+    } else toggle();
   }
 
-  for (const question of doc.quiz) {
-    const t = Math.min(border[question.row], player.duration);
-    player.addGate({ t, isShut: () => isOn && !given.has(question), reached: () => show(question) });
+  /** Begin the quiz, or end it. */
+  function toggle() {
+    if (stage === "off") {
+      player.pause();
+      ({ number, questions } = setOf(doc.quiz, linked() || number));
+      cards.ask(number);
+      come("begin");
+      return;
+    }
+    come("off");
+    player.pause();
+  }
+
+  for (const question of [...doc.quiz.own, ...doc.quiz.pool]) {
+    player.addGate({
+      t: Math.min(border[question.row], player.duration),
+      isShut: () => stage === "runs" && questions.includes(question) && !given.has(question),
+      reached: () => come("asks", question),
+    });
   }
   player.addGate({
     t: player.duration,
-    isShut: () => isOn && given.size === doc.quiz.length && given.size > 0,
-    reached: showScore,
+    isShut: () => stage === "runs" && questions.every((question) => given.has(question)),
+    reached: () => come("ended"),
   });
-  go.addEventListener("click", goOn);
+  boxes.go.addEventListener("click", goOn);
+  boxes.save.addEventListener("click", () => saveScore(questions, given, { who, number }));
+  boxes.start.addEventListener("submit", (event) => {
+    event.preventDefault();
+    goOn();
+  });
   language.onChange(write);
 
   return {
-    get isOn() { return isOn; },
-    get isOpen() { return !panel.hidden; },
-    /** Begin the quiz from the start of the run, or end it. */
-    toggle() {
-      isOn = !isOn;
-      given.clear();
-      open = null;
-      panel.hidden = true;
-      player.seek(0);
-      if (isOn) player.play();
-      else player.pause();
-    },
+    get isOn() { return stage !== "off"; },
+    get isOpen() { return cards.isOpen; },
+    get isAsking() { return stage === "asks"; },
+    /** Whether the address leads to it. */
+    get isLinked() { return linked() > 0; },
+    /** Rows before whose blocks it asks, while it is on. */
+    get rows() { return stage === "off" ? [] : questions.map(({ row }) => row); },
+    toggle,
     choose,
   };
 }

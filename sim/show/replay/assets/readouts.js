@@ -91,7 +91,7 @@ export function readoutsIn(page, doc, model) {
       const next = moment.isAsked ? null : model.decision(moment.step + 1);
       write("x", mm(moment.x));
       write("y", mm(moment.y));
-      write("left", left(moment));
+      write("left", moment.isAsked ? "–" : left(moment));
       write("feed", number((moment.feed_um_s * 60) / 1000, 2));
       write("block", running(moment.block));
       write("step", number(moment.step));

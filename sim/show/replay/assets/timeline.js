@@ -3,6 +3,7 @@ import { pick } from "../../html/assets/language.js";
 import { placeFindings } from "./finding_marks.js";
 import { groupsIn } from "./groups.js";
 import { penOf } from "./pen.js";
+import { drawQuestion } from "./question_mark.js";
 import { spanOf } from "./span.js";
 import * as words from "./words.js";
 
@@ -26,6 +27,9 @@ const BAND = 18; // px at the foot of the bar: the passes
 const STILL = 3; // px: a pointer that goes no farther clicks, and does not drag
 const PER_NOTCH = 1.0015; // zoom of a px of wheel
 
+/** @param {Group} group */
+const holdsMany = ({ first, past }) => past - first > 1;
+
 /**
  * Timeline in boxes of the page; `onSeek(t)` hears of scrubbing, `onBlock(row)` of a click on a group of
  * blocks, `onFinding(finding)` of one on a finding.
@@ -45,14 +49,19 @@ export function timelineIn({ bar, marks, cursor, findings: lane, whole }, doc, p
   let groups = [];
   let looped = player.loop;
   let shownAt = 0;
+  /** @type {number[]} */
+  let asked = []; // rows before which the quiz asks
   let pressedAt = 0;
+  /** @param {Group} group */
+  const titleOf = (group) => (holdsMany(group) ? words.group : words.block)(doc.blocks, group.first, group.past);
+
   /**
-   * The group of several blocks under a pointer, if any.
+   * The block or group of blocks under a pointer, if any.
    * @param {MouseEvent} event
    */
   function groupUnder(event) {
     const x = event.clientX - bar.getBoundingClientRect().left;
-    return groups.find(({ first, past, left, right }) => past - first > 1 && x >= left && x < right);
+    return groups.find(({ left, right }) => x >= left && x < right);
   }
 
   /**
@@ -117,14 +126,7 @@ export function timelineIn({ bar, marks, cursor, findings: lane, whole }, doc, p
     pen.fillStyle = shades.end;
     for (const stop of doc.stops) pen.fillRect(Math.round(toX(border[stop.after])) - 1, 0, 3, height);
     pen.fillStyle = shades.accent;
-    for (const { row } of doc.quiz) {
-      const x = toX(border[row]);
-      pen.beginPath();
-      pen.moveTo(x - 5, 0);
-      pen.lineTo(x + 5, 0);
-      pen.lineTo(x, 8);
-      pen.fill();
-    }
+    for (const row of asked) drawQuestion(pen, toX(border[row]));
   }
 
   /**
@@ -186,15 +188,15 @@ export function timelineIn({ bar, marks, cursor, findings: lane, whole }, doc, p
   bar.addEventListener("pointermove", (event) => {
     if (bar.hasPointerCapture(event.pointerId)) onSeek(timeUnder(event));
     const group = groupUnder(event);
-    bar.title = group ? words.group(doc.blocks, group.first, group.past) : "";
+    bar.title = group ? titleOf(group) : "";
   });
   bar.addEventListener("click", (event) => {
-    const group = Math.abs(event.clientX - pressedAt) <= STILL && groupUnder(event);
-    if (group) onBlock(group.first);
+    const group = groupUnder(event);
+    if (group && holdsMany(group) && Math.abs(event.clientX - pressedAt) <= STILL) onBlock(group.first);
   });
   bar.addEventListener("dblclick", (event) => {
     const group = groupUnder(event);
-    if (!group) return;
+    if (!group || !holdsMany(group)) return;
     span.show(border[group.first], border[group.past]);
     redo();
   });
@@ -215,6 +217,15 @@ export function timelineIn({ bar, marks, cursor, findings: lane, whole }, doc, p
   new ResizeObserver(redo).observe(bar);
 
   return {
+    /**
+     * Mark where the quiz asks.
+     * @param {number[]} rows
+     */
+    ask(rows) {
+      if (rows.join() === asked.join()) return;
+      asked = rows;
+      draw();
+    },
     redo,
     /**
      * Show a loop, where it is another one.

@@ -11,9 +11,10 @@ import { clamp, countUpTo } from "./numbers.js";
 /** @typedef {ReturnType<typeof wayOf>} Way */
 
 /**
- * Some steps in turn: the first of them, where the axes stand after each, how many so far moved X, and when.
+ * Some steps in turn: the first of them, how many, where the axes stand after each, how many so far moved X, and when.
  * @typedef {object} Run
  * @property {number} first
+ * @property {number} size
  * @property {Int32Array} x
  * @property {Int32Array} y
  * @property {Int32Array} inX
@@ -24,6 +25,12 @@ const RUN = 512; // steps from mark to mark
 const HELD = 64; // runs that are held as worked out
 const BY_X = [-1, -1, -1, 0, 0, 0, 1, 1, 1]; // of each way that a step can go
 const BY_Y = [-1, 0, 1, -1, 0, 1, -1, 0, 1];
+
+/** @returns {Run} */
+function emptyRun() {
+  const [x, y, inX] = [new Int32Array(RUN), new Int32Array(RUN), new Int32Array(RUN)];
+  return { first: 0, size: 0, x, y, inX, t: new Float64Array(RUN) };
+}
 
 /**
  * What goes on from step to step: place, steps in X, ticks, the byte that is read next, and how long the last step of
@@ -89,29 +96,28 @@ export function wayOf(tape, ways, more) {
     }
   }
 
-  /**
-   * Work a run out.
-   * @param {number} run
-   * @returns {Run}
-   */
-  function worked(run) {
-    const size = Math.min(RUN, steps + 1 - run * RUN);
-    const [x, y, inX, t] = [new Int32Array(size), new Int32Array(size), new Int32Array(size), new Float64Array(size)];
-    go(run, (index, state) => {
-      [x[index], y[index], inX[index], t[index]] = [state.x, state.y, state.inX, state.ticks * tick];
-    });
-    return { first: run * RUN, x, y, inX, t };
+  /** Memory for a run: that of the oldest one where enough are held, for a pass over all would leave much behind. */
+  function room() {
+    const oldest = held.size < HELD ? undefined : held.entries().next().value;
+    if (!oldest) return emptyRun();
+    held.delete(oldest[0]);
+    return oldest[1];
   }
 
   /**
-   * A run by its number.
+   * A run by its number; it holds until so many others are asked for.
    * @param {number} run
    */
   function runOf(run) {
     const known = held.get(run);
     if (known) return known;
-    if (held.size >= HELD) held.clear();
-    const made = worked(run);
+    const made = room();
+    const { x, y, inX, t } = made;
+    made.first = run * RUN;
+    made.size = Math.min(RUN, steps + 1 - made.first);
+    go(run, (index, state) => {
+      [x[index], y[index], inX[index], t[index]] = [state.x, state.y, state.inX, state.ticks * tick];
+    });
     held.set(run, made);
     return made;
   }
@@ -146,7 +152,8 @@ export function wayOf(tape, ways, more) {
      */
     doneBy(time) {
       const run = clamp(countUpTo(begins, time) - 1, 0, runs - 1);
-      return run * RUN + Math.max(0, countUpTo(runOf(run).t, time) - 1);
+      const { t, size } = runOf(run);
+      return run * RUN + Math.max(0, countUpTo(t, time, size) - 1);
     },
   };
 }

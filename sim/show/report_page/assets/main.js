@@ -6,15 +6,18 @@ import { wireLinks } from "./links.js";
 import { printBy } from "./paper.js";
 import { Table, tellUnread } from "./tables.js";
 
-/** Show each table once its columns are unpacked; a browser that is too old to do so is told. */
-async function showTables() {
-  for (const { name, columns } of readTables().map((table) => ({ name: table.name, columns: columnsOf(table) }))) {
-    try {
-      new Table(name, await columns);
-    } catch (error) {
-      tellUnread(name);
-      throw error;
-    }
+/** @import { TableData } from "./data.js" */
+
+/**
+ * Show a table once its columns are unpacked; a browser that is too old to do so is told.
+ * @param {TableData} data
+ */
+async function show(data) {
+  try {
+    new Table(data.name, await columnsOf(data));
+  } catch (error) {
+    tellUnread(data.name);
+    throw error;
   }
 }
 
@@ -23,4 +26,4 @@ wireLinks();
 printBy(element("#print-everything", HTMLInputElement));
 
 /** For tests and other scripts: `ready` once all tables are shown. */
-export const tables = { ready: showTables() };
+export const tables = { ready: Promise.all(readTables().map(show)) };

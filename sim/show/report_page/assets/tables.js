@@ -3,7 +3,8 @@ import { both, element, make } from "../../html/assets/elements.js";
 import * as language from "../../html/assets/language.js";
 import { turningOf } from "../../html/assets/turning.js";
 import { fill, rowsOf, sorted } from "./cells.js";
-import { csvOf, save } from "./csv.js";
+import { save } from "../../html/assets/csv.js";
+import { csvOf } from "./csv.js";
 import { fittingOf, searchOf } from "./search.js";
 
 /** @import { Filled } from "./data.js" */

@@ -1,0 +1,76 @@
+"""Questions about a run as a whole, each asked before one of its blocks: side, offset, and where its fault is."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.findings.catalogue import LANGUAGES, Said, texts
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
+from sim.run.dryrun import DryRun
+from sim.setup.quiz import WrittenQuestion
+from sim.show.words import said
+from sim.show.words.phrases import same
+
+_MOST_FAULTS = 8
+_ANSWERS = 4
+
+
+class OfRun(NamedTuple):
+    """A question, its kind, and the row of the block before which it is asked."""
+
+    row: int
+    about: str
+    written: WrittenQuestion
+
+
+def questions_of(run: DryRun) -> Iterator[OfRun]:
+    """Those that there are of a run."""
+    cut = np.flatnonzero(~run.toolpath.is_jump)
+    if not len(cut):
+        return
+    first = int(cut[0])
+    yield OfRun(first, "offset", _offset(run))
+    if run.offset is not None:
+        sides = ("left", "right")
+        right = sides.index(run.offset.side.name.lower())
+        answers = tuple(said(f"quiz.side_{side}") for side in sides)
+        yield OfRun(first, "side", WrittenQuestion(said("quiz.side"), answers, right, said("quiz.side_why")))
+    yield from _faults(run)
+
+
+def _offset(run: DryRun) -> WrittenQuestion:
+    """How far beside the wire's path the cut edge lies: its radius and the gap, not what else comes to mind."""
+    wire = run.scenario.wire
+    others = (wire.diameter_um / 2.0, wire.diameter_um, wire.diameter_um + wire.spark_gap_um, wire.kerf_um)
+    lengths = [f"{um:g} µm" for um in sorted({round(um, 3) for um in (wire.reach_um, *others)})]
+    right = lengths.index(f"{round(wire.reach_um, 3):g} µm")
+    told = {"radius": f"{wire.diameter_um / 2.0:g}", "gap": f"{wire.spark_gap_um:g}", "reach": lengths[right]}
+    ask = said("quiz.offset", diameter=f"{wire.diameter_um:g}", gap=told["gap"])
+    return WrittenQuestion(ask, tuple(map(same, lengths)), right, said("quiz.offset_why", **told))
+
+
+def _faults(run: DryRun) -> Iterator[OfRun]:
+    """Which of some blocks is at fault, for each block that alone has what a finding tells of."""
+    faulty = {one.block for one in run.findings if one.block}
+    grave = {one.block: one for one in reversed(run.findings) if one.block and one.severity is not Severity.NOTE}
+    for block in sorted(grave)[:_MOST_FAULTS]:
+        question = _fault(run, grave[block], faulty)
+        if question is not None:
+            yield question
+
+
+def _fault(run: DryRun, finding: Finding, faulty: set[int]) -> OfRun | None:
+    """The block beside its nearest neighbours that have no finding; None where there are no two of those."""
+    source, names = run.toolpath.source, run.block_names
+    rows = np.flatnonzero(source.block == finding.block)
+    near = sorted(set(source.block.tolist()) - faulty, key=lambda other: (abs(other - finding.block), other))
+    blocks = sorted([finding.block, *near[: _ANSWERS - 1]])
+    if not len(rows) or len(blocks) < 2:
+        return None
+    title = Said(*(texts(finding, language).title for language in LANGUAGES))
+    why = said("quiz.fault_why", block=finding.block_name, code=finding.code, title=title)
+    first = int(np.flatnonzero(source.block == blocks[0])[0])
+    answers = tuple(same(names.other.get(block, str(block))) for block in blocks)
+    return OfRun(first, "fault", WrittenQuestion(said("quiz.fault"), answers, blocks.index(finding.block), why))
