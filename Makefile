@@ -66,7 +66,7 @@ golden: browser
 	DRYCUT_RENEW_GOLDEN=1 $(BIN)/pytest $$(grep -rl --include='test_*.py' 'import.* assert_golden' tests)
 
 # Renew docs/findings.md and docs/findings.zh.md from the pages in parser/findings/pages, and the tables of keys in
-# docs/scenarios.md from those in sim/setup.
+# docs/scenarios.md and docs/scenarios.zh.md from those in sim/setup.
 pages: $(READY)
 	$(BIN)/python -m sim.show.findings.catalogue_document
 	$(BIN)/python -m sim.setup.key_tables

@@ -1,4 +1,4 @@
-"""What people read about settings, from ``settings.toml``: names in English and Chinese, and what the document says."""
+"""What people read about settings, from ``settings.toml``: names and what the document says, in English and Chinese."""
 
 import tomllib
 from collections.abc import Mapping
@@ -26,15 +26,21 @@ class KeyWords(NamedTuple):
     """
 
     name: Said
-    meaning: str
-    bounds: str = ""
-    default: str = ""
+    meaning: Said
+    bounds: Said = Said("", "")
+    default: Said = Said("", "")
 
 
 def words_of(section: Section, key: Key) -> KeyWords:
     """Words of a key. KeyError where there are none."""
     found = dict(words()["keys"][section.name][key.name])
-    return KeyWords(Said(found.pop("en"), found.pop("zh")), **found)
+    name = Said(found.pop("en"), found.pop("zh"))
+    return KeyWords(name, **{of: said(text) for of, text in found.items()})
+
+
+def said(text: str | Mapping[str, str]) -> Said:
+    """A text of ``settings.toml``, which stands there once where it is the same in both languages."""
+    return Said(text, text) if isinstance(text, str) else Said(**text)
 
 
 def title_of(section: Section) -> Said:

@@ -36,7 +36,7 @@ from sim.run.dryrun import DryRun
 from sim.run.report import build_report
 from sim.run.running import dry_run
 from sim.setup import scenario
-from sim.setup.key_tables import renewed
+from sim.setup.key_tables import DOCUMENTS, renewed
 from sim.setup.machine import machine
 from sim.setup.scenario import load_scenario
 from sim.setup.toml.kinds import Number
@@ -265,9 +265,10 @@ KEYS = {
 
 
 def test_tables_of_keys_are_those_of_the_keys() -> None:
-    page = read(DOCS / "scenarios.md")
-    assert renewed(page) == page, "renew them: make pages"
-    assert renewed(page.replace("| `[wire] lag_um` |", "| `[wire] lagg_um` |")) == page
+    for language, path in DOCUMENTS.items():
+        page = read(ROOT / path)
+        assert renewed(page, language) == page, "renew them: make pages"
+        assert renewed(page.replace("| `[wire] lag_um` |", "| `[wire] lagg_um` |"), language) == page
 
 
 @pytest.mark.parametrize("name", [name for name, key in KEYS.items() if isinstance(key.kind, Number)])

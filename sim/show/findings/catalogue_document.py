@@ -11,12 +11,13 @@ from pathlib import Path
 from parser.findings.catalogue import Language, page
 from parser.findings.codes import CODES
 from sim.show.findings.pages import layers, page_text, page_title, severity_word
+from sim.show.terminal.documents import files
 from sim.show.words import Words
 
 NAMES: Mapping[Language, str] = {"en": "findings.md", "zh": "findings.zh.md"}
 _TOURS: Mapping[Language, str] = {"en": "start.md", "zh": "start.zh.md"}
 
-_PATH = re.compile(r"docs/(\w+\.md)")
+_PATH = re.compile(r"docs/(\w+)\.md")
 _CHECK_ROW = re.compile(r"^(\| `(check-[\w-]+)` \|[^|]*\| )[^|]*( \|)", re.MULTILINE)
 _HEADS = ("head-code", "head-severity", "head-title", "head-other")
 
@@ -27,12 +28,19 @@ def findings_document(language: Language) -> str:
     for title, codes in layers(language):
         parts += [f"## {title}\n", _table(codes, language)]
         parts += [page_text(code, language, level=3) for code in codes]
-    return _PATH.sub(r"[\1](\1)", "\n".join(parts))
+    return _PATH.sub(lambda found: _link(found[1], language), "\n".join(parts))
 
 
 def anchor(heading: str) -> str:
     """Anchor that GitHub gives a heading."""
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+
+
+def _link(name: str, language: Language) -> str:
+    """Link to a document, in the language where it is written in it."""
+    own = f"{name}.{language}.md"
+    file = own if own in files() else f"{name}.md"
+    return f"[{file}]({file})"
 
 
 def _table(codes: tuple[str, ...], language: Language) -> str:

@@ -1,5 +1,6 @@
 """The table of settings: a key is read, written, shown and documented, and what is written makes the same again."""
 
+import re
 from collections import namedtuple
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -28,6 +29,7 @@ from sim.setup.wire import Wire
 from sim.show.report_page.settings import Setting, setting_groups
 
 SECTIONS = (*scenarios.SECTIONS, *machines.SECTIONS)
+NOT_ENGLISH = re.compile(r"[\u2e80-\uffef]")
 EACH = [pytest.param(section, key, id=f"{section.name} {key.name}") for section in SECTIONS for key in section.keys]
 DOCUMENT = (ROOT / "docs" / "scenarios.md").read_text("utf-8")
 Add = Callable[[Any, Section, dict[Key, dict[str, str]]], None]
@@ -56,7 +58,7 @@ def shown(scenario: Scenario, key: str) -> Setting:
 
 
 def documented(key: str) -> str:
-    return next(line for line in renewed(DOCUMENT).splitlines() if line.startswith(f"| `{key}` |"))
+    return next(line for line in renewed(DOCUMENT, "en").splitlines() if line.startswith(f"| `{key}` |"))
 
 
 def machine_of(path: Path, more: str) -> str:
@@ -143,9 +145,11 @@ def test_every_key_has_words_and_all_words_have_a_key() -> None:
 @pytest.mark.parametrize(("section", "key"), EACH)
 def test_words_of_a_key_are_there_in_both_languages(section: Section, key: Key) -> None:
     said = words_of(section, key)
-    assert all((said.name.en, said.name.zh, said.meaning))
     assert said.name.en.isascii()
     assert not said.name.zh.isascii()
+    assert not said.meaning.zh.isascii()
+    assert not any(NOT_ENGLISH.search(text.en) for text in said)
+    assert all(of.en and of.zh for of in (said.name, said.meaning))
 
 
 UNITS = {
