@@ -76,5 +76,5 @@ def write_files(
     progress("pages", 1, 3)
     (folder / "replay.html").write_text(replay_page(recording), encoding="utf-8")
     progress("pages", 2, 3)
-    page = report_page(run, report, pictures, has_trace=has_trace)
+    page = report_page(run, report, pictures, recording.pieces, has_trace=has_trace)
     (folder / "report.html").write_text(page, encoding="utf-8")

@@ -342,6 +342,20 @@ def test_the_job_sheet_is_one_sheet_with_all_that_stands_on_it(open_page: OpenPa
     assert page.locator('[data-table="threads"] tbody tr').count() == (holes if holes > 12 else 0)
 
 
+@pytest.mark.parametrize("lang", ["en", "zh"])
+def test_a_long_title_and_many_findings_leave_the_sheet_whole(open_page: OpenPage, lang: str) -> None:
+    wrong = grid(14).replace("B300B0B300GXL3", "B300B0B290GXL3")
+    long = "A title as shops write them, with a customer, an order number and a drawing " * 3
+    part = made(wrong, kerf=True, title=long, may_stay_open=True)
+    page = open_page(part.html, int((210 - 24) * MM_PX), 1000, lang=lang).page
+    page.emulate_media(media="print")
+    sheet = page.locator(".sheet")
+    assert sheet.locator(".threads tbody tr").count() == 12
+    assert sheet.locator(".short li").count() == 4
+    assert sheet.evaluate("sheet => sheet.scrollHeight <= sheet.clientHeight"), "the line to sign is cut off"
+    assert sheet.locator(".verdict").evaluate("box => box.clientHeight") < 30 * MM_PX, "a letter a line"
+
+
 def test_a_program_of_24_blocks_takes_two_sheets(open_page: OpenPage) -> None:
     part = made(grid(5), kerf=True)
     assert part.report["summary"]["blocks"] == 24

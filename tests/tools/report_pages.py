@@ -73,7 +73,8 @@ def made(text: str, **changes: object) -> Made:
     recording = recording_of(text, **changes)
     run = recording.run
     report = build_report(run)
-    return Made(report_page(run, report, inline_pictures(subject_of(recording), silent)), run, report)
+    pictures = inline_pictures(subject_of(recording), silent)
+    return Made(report_page(run, report, pictures, recording.pieces), run, report)
 
 
 def hostile() -> Made:

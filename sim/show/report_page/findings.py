@@ -10,6 +10,7 @@ from typing import Final, NamedTuple
 from markupsafe import Markup, escape
 
 from parser.findings.catalogue import LANGUAGES, Said, page, texts
+from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.program import Program
 from parser.text.excerpt import caret_lines
@@ -71,6 +72,13 @@ class Explained(NamedTuple):
 def shown_findings(run: DryRun) -> list[Shown]:
     """The findings that the page shows, in file order."""
     return [_shown(run.program, finding, address(at)) for at, finding in enumerate(run.findings[:MOST])]
+
+
+def gravest_findings(run: DryRun, most: int) -> list[Shown]:
+    """The gravest findings of all, those that the page has no room for too: errors first, then in file order."""
+    severities = list(Severity)
+    order = sorted(range(len(run.findings)), key=lambda at: severities.index(run.findings[at].severity))
+    return [_shown(run.program, run.findings[at], address(at)) for at in order[:most]]
 
 
 def address(at: int) -> str:

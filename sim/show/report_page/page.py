@@ -6,7 +6,9 @@ from typing import Any, Final
 
 from markupsafe import Markup
 
+from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
+from sim.run.recording import NO_PIECES
 from sim.setup.expectations import Expectation, wanted
 from sim.setup.toml.writer import toml_value
 from sim.show.assumptions import taken_for_granted
@@ -36,10 +38,17 @@ from sim.show.words.phrases import machine_name
 _ASSETS: Final = Path(__file__).with_name("assets")
 
 
-def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inline], *, has_trace: bool = False) -> str:
+def report_page(
+    run: DryRun,
+    report: Mapping[str, Any],
+    pictures: Sequence[Inline],
+    pieces: Pieces = NO_PIECES,
+    *,
+    has_trace: bool = False,
+) -> str:
     """``report.html`` of a run; `report` is its ``report.json``, whose figures the page shows.
 
-    With `has_trace` a ``trace.npz`` stands beside it.
+    `pieces` are what the cut leaves, for their weight; with `has_trace` a ``trace.npz`` stands beside the page.
 
     Everything that comes from a program, a file name or a scenario stands escaped. The same run gives the same bytes.
     """
@@ -63,7 +72,7 @@ def report_page(run: DryRun, report: Mapping[str, Any], pictures: Sequence[Inlin
         explained=explained(run.findings),
         pictures=list(shown.items()),
         cut=shown.get("cut"),
-        sheet=sheet_of(run, report, findings),
+        sheet=sheet_of(run, report, pieces),
         tables={table.name: table for table in tables},
         tables_data=[table.data() for table in tables],
         groups=setting_groups(run.scenario, run.program),

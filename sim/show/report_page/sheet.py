@@ -4,11 +4,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
 from parser.findings.catalogue import Said
-from parser.findings.codes import Severity
 from parser.text.block_names import BlockNames
 from parser.units import mm
+from sim.cut.pieces.pieces import Piece, Pieces
 from sim.run.dryrun import DryRun
-from sim.show.report_page.findings import Shown
+from sim.run.recording import NO_PIECES
+from sim.setup.part import DEFAULT_DENSITY_G_CM3
+from sim.show.report_page.findings import Shown, gravest_findings
 from sim.show.report_page.tables import Column, ReportTable, called, column_of, counted, millimetres, timed
 from sim.show.words import said
 from sim.show.words.phrases import lasting, listed, machine_name, numbered, same
@@ -16,7 +18,6 @@ from sim.show.words.phrases import lasting, listed, machine_name, numbered, same
 MOST_THREADS: Final = 12
 """Thread points that have room on the sheet."""
 _MOST_FINDINGS: Final = 4
-_GRAVEST_FIRST: Final = tuple(map(str, Severity))
 
 
 class Fact(NamedTuple):
@@ -45,7 +46,7 @@ class Sheet(NamedTuple):
     Attributes
     ----------
     facts
-        Machine, work, wire, offset, passes, length, time, pieces.
+        Machine, work, wire, offset, passes, length, time, pieces and what they weigh.
     threads, threads_more
         The first thread points, and how many more there are.
     findings, findings_more
@@ -59,12 +60,12 @@ class Sheet(NamedTuple):
     findings_more: int
 
 
-def sheet_of(run: DryRun, report: Mapping[str, Any], findings: Sequence[Shown]) -> Sheet:
-    """The sheet of a run; `report` is its ``report.json``, `findings` are those that its page shows."""
+def sheet_of(run: DryRun, report: Mapping[str, Any], pieces: Pieces) -> Sheet:
+    """The sheet of a run; `report` is its ``report.json``, `pieces` are what its cut leaves, known without it too."""
     threads = report["thread_points"]
-    gravest = sorted(findings, key=lambda one: _GRAVEST_FIRST.index(one.severity))[:_MOST_FINDINGS]
+    gravest = gravest_findings(run, _MOST_FINDINGS)
     return Sheet(
-        facts=list(_facts(run, report)),
+        facts=list(_facts(run, report, pieces)),
         threads=[_thread(entry, run.block_names) for entry in threads[:MOST_THREADS]],
         threads_more=max(len(threads) - MOST_THREADS, 0),
         findings=gravest,
@@ -93,47 +94,61 @@ def _reach(side: str, entries: list[dict[str, Any]]) -> Column:
     return Column(head, column_of(entries, f"{side}_um"), unit="mm", per=1000.0, digits=3)
 
 
-def _facts(run: DryRun, report: Mapping[str, Any]) -> Iterator[Fact]:
+def _facts(run: DryRun, report: Mapping[str, Any], pieces: Pieces) -> Iterator[Fact]:
     wire, work = report["wire"], report["work"]
     sizes = {"diameter": f"{mm(wire['diameter_um']):g}", "gap": f"{wire['spark_gap_um']:g}"}
-    thickness, density = f"{work['thickness_mm']:g}", f"{work['density_g_cm3']:g}"
     yield Fact(said("sheet.machine"), machine_name(run.scenario.machine))
-    yield Fact(said("sheet.work"), said("sheet.work-is", thickness=thickness, density=density))
+    yield Fact(said("sheet.work"), _work(work["thickness_mm"], work["density_g_cm3"]))
     yield Fact(said("sheet.wire"), said("sheet.wire-is", kerf=f"{mm(wire['kerf_um']):g}", **sizes))
     yield Fact(said("sheet.offset"), _offset(report))
-    yield Fact(said("sheet.passes"), same(max((one.number for one in run.passes.passes), default=1)))
+    yield Fact(said("sheet.passes"), _passes(report))
     yield Fact(said("sheet.length"), said("sheet.length-is", length=f"{mm(run.ran_um):,.3f}"))
     yield Fact(said("sheet.time"), _time(run))
-    yield Fact(said("sheet.pieces"), _pieces(report))
+    yield Fact(said("sheet.pieces"), _pieces(pieces))
+
+
+def _work(thickness_mm: float, density_g_cm3: float) -> Said:
+    key = "sheet.work-as-steel" if density_g_cm3 == DEFAULT_DENSITY_G_CM3 else "sheet.work-is"
+    return said(key, thickness=f"{thickness_mm:g}", density=f"{density_g_cm3:g}")
 
 
 def _offset(report: Mapping[str, Any]) -> Said:
     offset = report["offset"]
     if offset is None:
-        return said("sheet.offset-none")
+        within_um = report["program"]["header"].get("offset_um")
+        return said("sheet.offset-within", by=_mm(within_um)) if within_um else said("sheet.offset-none")
     by = ", ".join(f"{mm(one['by_um']):.3f}" for one in offset["passes"])
     return said(f"sheet.offset-{offset['side']}", by=by)
+
+
+def _passes(report: Mapping[str, Any]) -> Said:
+    """How many over the contour with the most; their distances too where the program has them within its path."""
+    found = report["passes"]
+    most = max(found, key=lambda one: one["number"], default=None)
+    if most is None or most["number"] == 1 or report["offset"] is not None:
+        return same(1 if most is None else most["number"])
+    by = ", ".join(_mm(one["offset_um"]) for one in found if one["contour"] == most["contour"])
+    return said("sheet.passes-by", n=most["number"], by=by)
 
 
 def _time(run: DryRun) -> Said:
     jumping_s = float(run.block_time_s[run.toolpath.is_jump].sum())
     if not jumping_s:
         return lasting(run.ran_s)
-    return said("sheet.time-is", total=lasting(run.ran_s), jumps=lasting(jumping_s))
+    return said("sheet.time-is", total=lasting(run.ran_s), cutting=lasting(run.ran_s - jumping_s))
 
 
-def _pieces(report: Mapping[str, Any]) -> Said:
-    if report["remains"] is None:
+def _pieces(pieces: Pieces) -> Said:
+    if pieces == NO_PIECES:
         return said("sheet.pieces-unknown")
-    pieces = report["remains"]["pieces"]
-    if not pieces:
+    if not pieces.freed:
         return said("sheet.pieces-none")
-    return listed(_weighed(kind, pieces) for kind in ("part", "slug") if any(one["kind"] == kind for one in pieces))
+    by_kind = {kind: [one for one in pieces.freed if one.kind == kind] for kind in ("part", "slug")}
+    return listed(_weighed(kind, found) for kind, found in by_kind.items() if found)
 
 
-def _weighed(kind: str, pieces: Sequence[Mapping[str, Any]]) -> Said:
-    masses = [one["mass_g"] for one in pieces if one["kind"] == kind]
-    return said("sheet.pieces-of", count=numbered({kind: len(masses)}), mass=_mass(sum(masses)))
+def _weighed(kind: str, pieces: Sequence[Piece]) -> Said:
+    return said("sheet.pieces-of", count=numbered({kind: len(pieces)}), mass=_mass(sum(one.mass_g for one in pieces)))
 
 
 def _mass(mass_g: float) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Final, Literal, NamedTuple
 
 from parser.findings.catalogue import Said
+from parser.units import UM_PER_MM
 from sim.show.html.packed import packed
 from sim.show.words import said
 
@@ -73,7 +74,9 @@ def called(head: str, values: Iterable[int | None], name: Callable[[int], str]) 
 
 
 def micrometres(head: str, values: Sequence[Any], digits: int = 2) -> Column:
-    """Lengths in µm."""
+    """Lengths in µm, shown in mm to the µm where any is as long as one."""
+    if max((abs(value) for value in values if value is not None), default=0.0) >= UM_PER_MM:
+        return millimetres(head, values)
     return Column(said(f"report.{head}"), values, unit="µm", digits=digits)
 
 

@@ -31,7 +31,7 @@ from sim.show.report_page.findings import MOST, prose
 from sim.show.report_page.reproduce import reproduction
 from sim.show.report_page.results import block_table
 from sim.show.report_page.settings import setting_groups
-from sim.show.report_page.tables import reached
+from sim.show.report_page.tables import micrometres, reached
 from sim.show.words.phrases import lasting
 
 
@@ -437,3 +437,12 @@ def test_blocks_without_words_have_no_columns_for_them(part: Made) -> None:
     worded = [column.head.en for column in block_table(part.run, part.report).columns]
     assert [head for head in worded if head not in heads] == ["J", "G"]
     assert [head for head in heads if head not in worded] == []
+
+
+@pytest.mark.parametrize(("worst_um", "unit", "per"), [(999.99, "µm", 1.0), (-1000.0, "mm", 1000.0), (None, "µm", 1.0)])
+def test_a_column_of_small_lengths_turns_to_mm_where_one_is_large(
+    worst_um: float | None, unit: str, per: float
+) -> None:
+    column = micrometres("largest", [0.5, worst_um])
+    assert (column.unit, column.per, column.digits) == (unit, per, 2 if unit == "µm" else 3)
+    assert column.values == [0.5, worst_um], "as the report has them"
