@@ -2,44 +2,21 @@
 
 import pytest
 from browser import OpenPage
+from index_pages import SQUARE, entry, shop_page
 from page_checks import complaints
 
-from parser.findings.catalogue import Said
-from parser.findings.codes import Severity
-from parser.findings.findings import Count
-from sim.jobs.index import Entry, Row, build_index
+from sim.jobs.index import Row, build_index
 from sim.show.index_page import Beside, index_page
-
-THIN = Count("3B405", Severity.WARNING, 1)
-SQUARE = "M20,20l50,0 0,40 -50,0 0,-40"
-
-
-def entry(number: int) -> Entry:
-    """Programs in turn: two that pass, one that fails, one that cannot be run."""
-    file = f"shop/{number // 100:02}/part-{number:04}.3b"
-    if number % 4 == 3:
-        message = Said(f"no block in part {number}", f"第 {number} 个文件没有程序段")
-        found = (Count("3B100", Severity.ERROR, 1),)
-        return Entry(file, None, Row("refused", f"part-{number:04}.3b", message, found), from_cache=False)
-    row = Row("pass", f"Part {number}", time_s=60.0 + number, max_um=number % 7 + 0.5, picture=SQUARE)
-    if number % 4 == 2:
-        row = row._replace(verdict="fail", findings=(Count("3B301", Severity.ERROR, number + 1), THIN))
-    return Entry(file, f"{number // 100:02}/part #{number}%.3b", row, from_cache=number % 2 == 0)
-
-
-def page(count: int) -> str:
-    entries = [entry(number) for number in range(count)]
-    return index_page(build_index(entries), [Beside(one.row.picture, one.row.message) for one in entries])
 
 
 @pytest.mark.parametrize(("lang", "dark"), [("en", True), ("zh", False)])
 def test_the_page_offers_anyone_what_pages_must(open_page: OpenPage, lang: str, dark: bool) -> None:
-    shown = open_page(page(8), lang=lang, dark=dark).page
+    shown = open_page(shop_page(8), lang=lang, dark=dark).page
     assert complaints(shown) == []
 
 
 def test_search_and_choices_leave_what_fits_and_heads_sort_it(open_page: OpenPage) -> None:
-    shown = open_page(page(3000)).page
+    shown = open_page(shop_page(3000)).page
     rows = shown.locator("tbody tr")
     assert rows.count() == 200
     assert shown.inner_text("#shown") == "3,000 of 3,000 programs"
@@ -61,7 +38,7 @@ def test_search_and_choices_leave_what_fits_and_heads_sort_it(open_page: OpenPag
 
 
 def test_links_lead_to_the_files_of_each_program(open_page: OpenPage) -> None:
-    shown = open_page(page(8)).page
+    shown = open_page(shop_page(8)).page
     assert shown.locator("a.file").first.get_attribute("href") == "00/part%20%230%25.3b/report.html"
     assert shown.locator("tr.refused a").count() == 0
 
@@ -77,7 +54,7 @@ def test_the_replay_stands_below_the_name_also_where_a_program_has_no_title(open
 
 
 def test_a_change_of_language_keeps_what_was_asked(open_page: OpenPage) -> None:
-    shown = open_page(page(8)).page
+    shown = open_page(shop_page(8)).page
     shown.select_option("#verdict", "refused")
     shown.click(".language")
     assert shown.input_value("#verdict") == "refused"
@@ -89,11 +66,11 @@ def test_a_change_of_language_keeps_what_was_asked(open_page: OpenPage) -> None:
 
 
 def test_a_shop_without_programs_says_so(open_page: OpenPage) -> None:
-    assert open_page(page(0)).page.inner_text(".none") == "There is no program."
+    assert open_page(shop_page(0)).page.inner_text(".none") == "There is no program."
 
 
 def test_on_paper_stand_rows_and_no_controls(open_page: OpenPage) -> None:
-    shown = open_page(page(30)).page
+    shown = open_page(shop_page(30)).page
     shown.emulate_media(media="print")
     assert shown.locator("tbody tr:visible").count() == 30
     assert shown.locator("form:visible, .language:visible").count() == 0

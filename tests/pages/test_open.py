@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from axe import needs_axe, violations
 from browser import Browsers
 from drawings_dxf import drawn
 from open_tab import tab
@@ -54,6 +55,14 @@ def test_a_program_shows_at_once(browsers: Browsers, keyhole: OpenedPage) -> Non
             "() => new Set(document.querySelector('#picture').getContext('2d').getImageData(0, 0, 800, 400).data).size"
         )
         assert drawn > 3
+
+
+@needs_axe
+@pytest.mark.parametrize("lang", ["en", "zh"])
+def test_axe_has_nothing_against_the_page(browsers: Browsers, keyhole: OpenedPage, lang: str) -> None:
+    with tab(browsers, keyhole.address, lang=lang) as shown:
+        shown.waits_for("pass")
+        assert violations(shown.page) == []
 
 
 def test_a_mend_shows_what_it_changes_is_made_and_is_undone(browsers: Browsers, served: OpenedPage) -> None:

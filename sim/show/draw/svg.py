@@ -21,7 +21,7 @@ RISE: Final = 0.436
 
 MOST_PLACES: Final = 5000
 """Of one line, where these tell it to `COARSEST_PX`: 100,000 blocks up and down within a pixel would be megabytes."""
-COARSEST_PX: Final = 1.0
+COARSEST_PX: Final = 1.6
 """How far a line of more places may leave the true one."""
 
 

@@ -328,6 +328,23 @@ def test_every_decision_of_the_keyhole_is_its_step(empty: "Page") -> None:
     assert checked == expected[100::101]
 
 
+def test_steps_are_the_same_in_whatever_order_one_asks_for_them(empty: "Page") -> None:
+    page = stepped_page(empty, KEYHOLE)
+    astray = page.evaluate("""() => {
+        const { steps, way } = replay;
+        const all = (name) => Float64Array.from({length: steps + 1}, (_, step) => way[name](step));
+        const [x, y, t] = ["x", "y", "t"].map(all);
+        let astray = 0;
+        for (let at = 0, step = 0; at < 20_000; at++, step = (step + 224_737) % (steps + 1)) {
+            if (way.x(step) !== x[step] || way.y(step) !== y[step] || way.t(step) !== t[step]) astray++;
+            const done = way.doneBy(t[step]);
+            if (t[done] > t[step] || (done < steps && t[done + 1] <= t[step])) astray++;
+        }
+        return astray;
+    }""")
+    assert astray == 0
+
+
 @pytest.mark.parametrize("off", [-1, 0, 1])
 @pytest.mark.parametrize("quadrant", [1, 2])
 def test_a_decision_far_along_a_long_line_is_exact(empty: "Page", quadrant: int, off: int) -> None:

@@ -8,6 +8,7 @@ import { coloursOf } from "./palette.js";
 import { passOfRows } from "./passes.js";
 import { pathOf } from "./path.js";
 import { penOf } from "./pen.js";
+import { piecesOf } from "./pieces.js";
 import { drawScaleBar } from "./scale_bar.js";
 import { sceneOf } from "./scene.js";
 import { newView } from "./view.js";
@@ -57,9 +58,10 @@ export function stageOn(canvas, replay, model, onNeed) {
   const colours = coloursOf(spoil);
   const path = pathOf(doc.blocks);
   const scene = sceneOf(doc, path, colours);
+  const pieces = piecesOf(doc, colours);
   const kerf = kerfOf(replay.samples, cutSamples(replay), 2 * doc.offset_um, colours);
   const micro = microOf(replay, model, colours);
-  const motion = motionOf(view, () => !(kerf.isTrue && scene.isTrue) && onNeed());
+  const motion = motionOf(view, () => !(kerf.isTrue && pieces.isTrue && scene.isTrue) && onNeed());
   const isCalm = window.matchMedia("(prefers-reduced-motion: reduce)");
   let ratio = 1;
   /** @type {number | null} */
@@ -70,6 +72,7 @@ export function stageOn(canvas, replay, model, onNeed) {
   /** Draw everything anew in the next frame. */
   function spoil() {
     scene.spoil();
+    pieces.spoil();
     kerf.spoil();
     onNeed();
   }
@@ -141,7 +144,7 @@ export function stageOn(canvas, replay, model, onNeed) {
   return {
     view,
     colours,
-    get isFalling() { return scene.isFalling; },
+    get isFalling() { return pieces.isFalling; },
     fit: () => fit(whole()),
     fitTable: () => fit(scene.travel),
     /**
@@ -169,7 +172,7 @@ export function stageOn(canvas, replay, model, onNeed) {
       pen.fillRect(0, 0, view.width, view.height);
       scene.drawGround(pen, view);
       kerf.draw(pen, view, ratio, isMoving, Math.max(0, countUpTo(replay.samples.t, moment.t) - 1), moment.wire);
-      scene.drawPieces(pen, view, moment.t, now, isPlaying && !isCalm.matches);
+      pieces.draw(pen, view, { ratio, isMoving, t: moment.t, now, mayFall: isPlaying && !isCalm.matches });
       scene.drawIdeal(pen, view, ratio, isMoving);
       drawOutlined();
       const plate = deviationPlate(pen, view, moment, times);
