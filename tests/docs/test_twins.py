@@ -152,6 +152,13 @@ def test_names_in_quotes_are_those_on_the_pages(page: str) -> None:
     assert set(missing) <= NAMES_OF_SYSTEMS
 
 
+@pytest.mark.parametrize("page", WRITTEN, ids=lambda page: page.name)
+def test_no_line_of_chinese_ends_within_a_clause(page: Path) -> None:
+    """A line end is shown as a blank: behind a mark it is not seen, between two letters it is."""
+    prose = FENCE.sub("", page.read_text("utf-8"))
+    assert re.findall(r"^(?!#).*[\u4e00-\u9fff]\n *[\u4e00-\u9fff].*$", prose, flags=re.MULTILINE) == []
+
+
 @pytest.mark.parametrize("name", ["README.md", "README.zh.md"])
 def test_a_readme_is_short(name: str) -> None:
     assert len((ROOT / name).read_text("utf-8").splitlines()) <= 120
