@@ -341,9 +341,11 @@ def test_an_earlier_version_is_seen_beside_the_present_one(browsers: Browsers, t
         shown.page.select_option("#version", "opened")
         both = shown.page.locator("#both tr.other")
         both.first.wait_for()
-        assert both.all_inner_texts() == [
+        # Cells one by one: a row that is being replaced has no layout, and its text no tabs.
+        rows = both.evaluate_all("all => all.map(row => [...row.children].map(cell => cell.textContent).join('\\t'))")
+        assert rows == [
             "length of the cut\t10.000 mm\t12.000 mm",
-            *[row for row in both.all_inner_texts() if row.startswith("cutting time")],
+            *[row for row in rows if row.startswith("cutting time")],
             "steps of 1 µm\t10,000\t12,000",
             "extent\t3.000 × 2.000 mm\t4.000 × 2.000 mm",
             "from … to\tX 0.000 … 3.000, Y 0.000 … 2.000 mm\tX 0.000 … 4.000, Y 0.000 … 2.000 mm",
