@@ -9,7 +9,20 @@ from sim.show.draw.silent_pygame import pygame
 from sim.show.film.layout import shifted, zoomed
 from sim.show.film.playback import Playback
 from sim.show.film.screen import Screen
+from sim.show.keys import OF_WINDOW, actions_of
 
+_KEYS: Final = actions_of(OF_WINDOW)
+_NAMES: Final = {
+    pygame.K_LEFT: "ArrowLeft",
+    pygame.K_RIGHT: "ArrowRight",
+    pygame.K_UP: "ArrowUp",
+    pygame.K_DOWN: "ArrowDown",
+    pygame.K_PAGEUP: "PageUp",
+    pygame.K_PAGEDOWN: "PageDown",
+    pygame.K_HOME: "Home",
+    pygame.K_END: "End",
+    pygame.K_ESCAPE: "Escape",
+}
 ZOOM: Final = 1.25
 CALM: Final = 0.25
 """The view moves when a wire that is followed comes into this share of the plot at a side."""
@@ -32,7 +45,7 @@ class Controls:
         self.playback = playback
         self.follows = self.helps = self.quits = False
         self._drags = ""
-        self._keys = self._meanings()
+        self._actions = self._meanings()
         self.fit(screen)
 
     def fit(self, screen: Screen) -> None:
@@ -55,7 +68,7 @@ class Controls:
         if event.type == pygame.QUIT:
             self.quits = True
         elif event.type == pygame.KEYDOWN:
-            self._keys.get(event.key, lambda: None)()
+            self._actions.get(_KEYS.get(_named(event), ""), lambda: None)()
         elif event.type == pygame.MOUSEWHEEL:
             self._zoom(ZOOM**event.y, pygame.mouse.get_pos())
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
@@ -74,27 +87,35 @@ class Controls:
         if self.follows and not calm.holds(Box(x, y, x, y)):
             self.view = centred(wire_um, self.view.px_per_um, plot)
 
-    def _meanings(self) -> Mapping[int, Callable[[], None]]:
+    def _meanings(self) -> Mapping[str, Callable[[], None]]:
         play = self.playback
-        quicker, slower = (lambda faster=faster: play.change_speed(faster) for faster in (True, False))
         return {
-            pygame.K_SPACE: play.toggle,
-            pygame.K_RIGHT: lambda: self._step(forward=True),
-            pygame.K_LEFT: lambda: self._step(forward=False),
-            pygame.K_HOME: lambda: play.seek(0.0),
-            pygame.K_END: lambda: play.seek(play.course.duration_s),
-            **dict.fromkeys((pygame.K_PLUS, pygame.K_EQUALS, pygame.K_KP_PLUS, pygame.K_UP), quicker),
-            **dict.fromkeys((pygame.K_MINUS, pygame.K_KP_MINUS, pygame.K_DOWN), slower),
-            pygame.K_f: lambda: self.fit(self._screen),
-            pygame.K_w: self._toggle_follow,
-            pygame.K_h: self._toggle_help,
-            pygame.K_ESCAPE: self._quit,
+            "toggle": play.toggle,
+            "stepBack": lambda: play.by_step(False),
+            "stepOn": lambda: play.by_step(True),
+            "hundredBack": lambda: self._by_hundred(forward=False),
+            "hundredOn": lambda: self._by_hundred(forward=True),
+            "blockBack": lambda: play.by_block(False),
+            "blockOn": lambda: play.by_block(True),
+            "toStart": lambda: play.seek(0.0),
+            "toEnd": lambda: play.seek(play.course.duration_s),
+            "slower": lambda: play.change_speed(False),
+            "faster": lambda: play.change_speed(True),
+            "zoomIn": lambda: self._zoom(ZOOM, self._middle()),
+            "zoomOut": lambda: self._zoom(1.0 / ZOOM, self._middle()),
+            "fit": lambda: self.fit(self._screen),
+            "follow": self._toggle_follow,
+            "help": self._toggle_help,
+            "quit": self._quit,
         }
 
-    def _step(self, *, forward: bool) -> None:
-        """By a block, with shift by a single step."""
-        by = self.playback.by_step if pygame.key.get_mods() & pygame.KMOD_SHIFT else self.playback.by_block
-        by(forward)
+    def _by_hundred(self, *, forward: bool) -> None:
+        for _ in range(100):
+            self.playback.by_step(forward)
+
+    def _middle(self) -> tuple[int, int]:
+        plot = self._screen.layout.plot
+        return round((plot.left + plot.right) / 2.0), round((plot.top + plot.bottom) / 2.0)
 
     def _toggle_follow(self) -> None:
         self.follows = not self.follows
@@ -122,6 +143,11 @@ class Controls:
             self.playback.seek(share * self.playback.course.duration_s)
         else:
             self.view, self.follows = shifted(self.view, by), False
+
+
+def _named(event: pygame.event.Event) -> str:
+    """The key of an event as browsers name it; letters and signs as the keyboard's layout has them."""
+    return _NAMES.get(event.key) or str(event.unicode).lower()
 
 
 def _holds(box: Box, at: tuple[int, int]) -> bool:

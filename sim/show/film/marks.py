@@ -9,6 +9,8 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.paints import Paint
 
+THE_WIRE: Final = Paint.JUMP
+"""The colour of the wire, which the page has too (`--wire` of replay.css)."""
 WIRE: Final = 5.0
 """Least radius of the wire's mark, so that it can be seen."""
 RING_MOST: Final = 130.0
@@ -25,9 +27,9 @@ def reach(radius: float, unit: float) -> float:
 
 def draw_wire(canvas: Canvas, center: Floats, radius: float, unit: float) -> None:
     """Mark the wire at a place (2,) px, with its true outline, `radius` px, where that shows."""
-    canvas.disc(center, WIRE * unit, Paint.ACTUAL)
+    canvas.disc(center, WIRE * unit, THE_WIRE)
     if WIRE * unit < radius <= RING_MOST * unit:
-        canvas.ring(center, radius, Paint.ACTUAL, style.JUMP_WIDTH * unit)
+        canvas.ring(center, radius, THE_WIRE, style.JUMP_WIDTH * unit)
 
 
 def draw_commanded(canvas: Canvas, center: Floats, unit: float) -> None:

@@ -12,6 +12,7 @@ from sim.run.recording import Recording
 from sim.show.draw.tones import tones_of
 from sim.show.html.environment import rendered
 from sim.show.html.packed import packed
+from sim.show.keys import OF_PAGE, actions_of
 from sim.show.replay.block_columns import block_columns, plan_columns
 from sim.show.replay.decoding import decoding
 from sim.show.replay.happenings import (
@@ -37,7 +38,8 @@ def replay_page(recording: Recording) -> str:
     """HTML of ``replay.html`` for a recorded run."""
     tones = tones_of(one for one, _ in passes_of(recording.run))
     document, machine = _handed_over(replay_document(recording)), machine_name(recording.run.scenario.machine)
-    return rendered(_ASSETS, "replay.html.j2", document=document, machine=machine, tones=tones)
+    values = {"document": document, "machine": machine, "tones": tones}
+    return rendered(_ASSETS, "replay.html.j2", **values, keys=OF_PAGE, actions=actions_of(OF_PAGE))
 
 
 def _handed_over(document: dict[str, Any]) -> dict[str, Any]:

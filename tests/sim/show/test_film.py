@@ -20,7 +20,7 @@ from sim.run.report import build_report
 from sim.show.draw.layout import Box, View, centred
 from sim.show.draw.paints import LIGHT, Paint
 from sim.show.film.clock import FilmClock
-from sim.show.film.controls import Controls
+from sim.show.film.controls import ZOOM, Controls
 from sim.show.film.cut_map import FULL, CutMap, Discs, Span, discs_of
 from sim.show.film.ground import near_runs, outlines_um
 from sim.show.film.layout import FINEST_PX_PER_UM, layout_for, zoomed
@@ -29,7 +29,9 @@ from sim.show.film.readout import read_out, told
 from sim.show.film.screen import Look, Screen
 from sim.show.film.strip import bar_of
 from sim.show.film.window import LEAST_PX, NO_DISPLAY, Window, open_display
+from sim.show.keys import OF_BOTH, OF_PAGE, OF_WINDOW, actions_of
 from sim.show.words import Words
+from sim.show.words.words import texts
 from sim.table.progress import silent
 from sim.table.trace import Trace
 
@@ -394,10 +396,13 @@ def window(course: Course, monkeypatch: pytest.MonkeyPatch) -> Iterator[Window]:
     pygame.display.quit()
 
 
-def press(controls: Controls, key: int, mod: int = 0) -> None:
-    pygame.key.set_mods(mod)
-    controls.handle(pygame.event.Event(pygame.KEYDOWN, key=key, mod=mod))
-    pygame.key.set_mods(0)
+def press(controls: Controls, key: int, unicode: str = "") -> None:
+    controls.handle(pygame.event.Event(pygame.KEYDOWN, key=key, mod=0, unicode=unicode))
+
+
+def type_in(controls: Controls, sign: str) -> None:
+    """A key by what stands on it, wherever the keyboard's layout has it."""
+    press(controls, pygame.K_UNKNOWN, sign)
 
 
 def pointed(kind: int, at: tuple[float, float], **more: object) -> pygame.event.Event:
@@ -406,25 +411,37 @@ def pointed(kind: int, at: tuple[float, float], **more: object) -> pygame.event.
 
 def test_keys_do_what_they_are_to(window: Window, course: Course) -> None:
     controls, play = window.controls, window.controls.playback
-    press(controls, pygame.K_SPACE)
+    press(controls, pygame.K_SPACE, " ")
     assert not play.playing
-    press(controls, pygame.K_RIGHT)
+    press(controls, pygame.K_DOWN)
     assert play.t_s == course.border_s[1]
-    press(controls, pygame.K_RIGHT, pygame.KMOD_SHIFT)
+    press(controls, pygame.K_RIGHT)
     assert course.steps_by(play.t_s) == 301
+    press(controls, pygame.K_PAGEDOWN)
+    assert course.steps_by(play.t_s) == 401
+    press(controls, pygame.K_PAGEUP)
     press(controls, pygame.K_LEFT)
-    press(controls, pygame.K_LEFT)
+    assert course.steps_by(play.t_s) == 300
+    press(controls, pygame.K_UP)
+    press(controls, pygame.K_UP)
     assert play.t_s == 0.0
     press(controls, pygame.K_END)
     assert play.t_s == course.duration_s
-    press(controls, pygame.K_PLUS)
+    type_in(controls, "]")
     assert play.speed == 50.0
-    press(controls, pygame.K_MINUS)
+    type_in(controls, "[")
     assert play.speed == 20.0
-    press(controls, pygame.K_h)
+    whole = controls.view
+    type_in(controls, "+")
+    assert controls.view.px_per_um == pytest.approx(whole.px_per_um * ZOOM)
+    type_in(controls, "-")
+    assert controls.view.px_per_um == pytest.approx(whole.px_per_um)
+    type_in(controls, "?")
     assert controls.helps
-    press(controls, pygame.K_w)
+    type_in(controls, "F")
     assert controls.follows
+    type_in(controls, "0")
+    assert not controls.follows
     press(controls, pygame.K_F5)
     press(controls, pygame.K_ESCAPE)
     assert controls.quits
@@ -446,8 +463,25 @@ def test_the_mouse_scrubs_drags_and_zooms(window: Window, course: Course) -> Non
     assert controls.view == whole._replace(x_px=whole.x_px + 12, y_px=whole.y_px - 7)
     controls.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=2, x=0))
     assert controls.view.px_per_um == pytest.approx(whole.px_per_um * 1.25**2)
-    press(controls, pygame.K_f)
+    type_in(controls, "0")
     assert controls.view == whole
+
+
+def test_window_and_page_have_the_same_keys_for_the_same() -> None:
+    window, page = actions_of(OF_WINDOW), actions_of(OF_PAGE)
+    both = set(window) & set(page)
+    assert both >= set(actions_of(OF_BOTH))
+    assert {key: window[key] for key in both} == {key: page[key] for key in both}
+    for keys in (OF_WINDOW, OF_PAGE):
+        pressed = [name for key in keys for names in key.actions.values() for name in names]
+        assert len(pressed) == len(set(pressed))
+    assert {key.does for key in (*OF_WINDOW, *OF_PAGE)} == {
+        name.removeprefix("does_") for name in texts("keys") if name.startswith("does_")
+    }
+
+
+def test_every_action_of_a_key_of_the_window_is_one_that_it_has(window: Window) -> None:
+    assert set(actions_of(OF_WINDOW).values()) == set(window.controls._actions)
 
 
 def on_screen() -> np.ndarray:
@@ -477,7 +511,7 @@ def test_a_wire_that_is_followed_stays_near_the_middle(window: Window, course: C
     controls, plot = window.controls, layout_for(*LOOK[:2]).plot
     for _ in range(12):
         controls.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=1, x=0))
-    press(controls, pygame.K_w)
+    type_in(controls, "f")
     for share in (0.1, 0.3, 0.6, 0.9):
         wire = course.at(share * course.duration_s).wire_um
         controls.follow(wire)
@@ -502,7 +536,7 @@ def test_the_keys_are_shown_over_the_frame_in_both_languages(course: Course, win
     window.controls.playback.playing = False
     window.show(1.0)
     plain = on_screen()
-    press(window.controls, pygame.K_h)
+    type_in(window.controls, "?")
     window.show(1.0)
     changed = np.argwhere((on_screen() != plain).any(axis=2))
     assert len(changed) > 5000

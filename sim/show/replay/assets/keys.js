@@ -1,20 +1,17 @@
 // The keyboard: every key names an action; a key that the focused control uses itself is left to it.
 
+import { element } from "../../html/assets/elements.js";
+
 /**
  * @import { Actions } from "./controls.js"
  * @import { Quiz } from "./quiz.js"
  */
 
 /**
- * Name of the action of each key.
- * @type {Record<string, string>}
+ * Name of the action of each key, as the page hands it over.
+ * @returns {Record<string, string>}
  */
-const KEYS = {
-  " ": "toggle", ArrowLeft: "stepBack", ArrowRight: "stepOn", ArrowUp: "blockBack", ArrowDown: "blockOn",
-  PageUp: "hundredBack", PageDown: "hundredOn", Home: "toStart", End: "toEnd", "[": "slower", "]": "faster",
-  "+": "zoomIn", "=": "zoomIn", "-": "zoomOut", 0: "fit", 9: "fitTable", z: "toSteps", f: "follow", m: "magnify",
-  a: "loopFrom", b: "loopTo", l: "loop", c: "clearLoop", k: "link", q: "quiz", g: "language", "?": "help",
-};
+const readKeys = () => JSON.parse(element("#keys", HTMLElement).textContent ?? "{}");
 /** @type {Record<string, string>} */
 const SHIFTED = { ArrowLeft: "panLeft", ArrowRight: "panRight", ArrowUp: "panUp", ArrowDown: "panDown" };
 /**
@@ -38,11 +35,12 @@ function isOwn({ target, key }) {
 /**
  * Action of a key press, or null.
  * @param {KeyboardEvent} event
+ * @param {Record<string, string>} keys
  */
-function actionOf(event) {
+function actionOf(event, keys) {
   if (event.ctrlKey || event.metaKey || event.altKey || isOwn(event)) return null;
   if (event.shiftKey && SHIFTED[event.key]) return SHIFTED[event.key];
-  return KEYS[event.key.length === 1 ? event.key.toLowerCase() : event.key] || null;
+  return keys[event.key.length === 1 ? event.key.toLowerCase() : event.key] || null;
 }
 
 /**
@@ -51,6 +49,7 @@ function actionOf(event) {
  * @param {Quiz} quiz
  */
 export function wireKeys(actions, quiz) {
+  const keys = readKeys();
   document.addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open]")) return;
     if (quiz.isOpen) {
@@ -58,7 +57,7 @@ export function wireKeys(actions, quiz) {
       else if (quiz.isAsking && /^[1-9]$/.test(event.key)) quiz.choose(Number(event.key) - 1);
       return;
     }
-    const action = actionOf(event);
+    const action = actionOf(event, keys);
     if (!action) return;
     event.preventDefault();
     actions[action]();
