@@ -240,7 +240,7 @@ def test_replay_and_film_are_seen_in_the_page_and_the_replay_may_ask_nobody(
         shown.page.fill("#seconds", "0.5")
         shown.page.click("#film")
         shown.page.click(".thumb:has(img[src*='film.webp'])")
-        assert shown.page.inner_text("#viewing") == "影片"
+        assert shown.page.inner_text("#viewing") == "动画"
         assert natural_width(shown.page, "#viewed img") == 960
 
 

@@ -73,7 +73,7 @@ def test_a_report_says_how_the_text_was_read_and_keeps_its_schema() -> None:
     assert what[:3] == ["dialect", "unit", "centres"]
     first, *_ = taken_for_granted(run)
     assert first.en.startswith("The program was read as: dialect skd2 (")
-    assert first.zh.startswith("程序按以下约定读入：方言 skd2（")
+    assert first.zh.startswith("程序按以下约定读入：系统 skd2（")
     assert report["summary"]["length_um"] == pytest.approx(ROUNDS_CUT_UM + 30_000.0, rel=1e-9)
 
 

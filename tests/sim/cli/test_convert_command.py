@@ -144,7 +144,7 @@ def test_every_loss_and_refusal_has_its_words() -> None:
     assert named == {name for name in texts("convert") if name.startswith(("lost-", "refused-", "differs-"))}
 
 
-@pytest.mark.parametrize(("lang", "told"), [("en", "readas:dialect"), ("zh", "按以下约定读入：方言")])
+@pytest.mark.parametrize(("lang", "told"), [("en", "readas:dialect"), ("zh", "按以下约定读入：系统")])
 def test_what_was_assumed_to_read_it_is_said(iso: Path, lang: str, told: str) -> None:
     code, out, _ = run(iso, "-o", iso.with_suffix(".3b"), "--lang", lang)
     assert code == 0

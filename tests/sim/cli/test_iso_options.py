@@ -82,7 +82,7 @@ def test_what_was_assumed_is_one_line_of_a_file(shop: Path) -> None:
     assert out.count("ISO112") == 1
     assert "read as (ISO112): dialect fast-wire (" in out
     _, out, _ = drycut("check", "die.iso", "--lang", "zh", cwd=shop)
-    assert "按以下约定读入（ISO112）：方言 fast-wire（" in out
+    assert "按以下约定读入（ISO112）：系统 fast-wire（" in out
 
 
 # What it is read with
