@@ -757,3 +757,24 @@ def test_it_looks_as_it_did(open_page: OpenPage, name: str) -> None:
         page.keyboard.press("z")
     drawn(page)
     assert_golden_screen(page, f"{name}.png")
+
+
+def test_paper_has_the_picture_sharp_and_light_with_its_place_and_time(open_page: OpenPage) -> None:
+    page = opened(open_page, dark=True)
+    do(page, "drycut.player.seekBlock(3)")
+    drawn(page)
+    screen = canvas(page).shape
+    pdf = page.pdf(prefer_css_page_size=True)
+    assert re.findall(rb"/Type\s*/Page\b", pdf) == [b"/Type /Page"]
+    drawn(page)
+    assert canvas(page).shape == screen
+    page.emulate_media(media="print")
+    drawn(page)
+    printed = canvas(page)
+    width = page.locator("#table").evaluate("table => table.clientWidth")
+    assert printed.shape[1] == 4 * width
+    assert printed[4, 4].min() > 200
+    assert page.locator(".clock").is_visible()
+    assert page.locator("[data-out=x]").is_visible()
+    for control in ("header nav", ".tools", "#bar", "#program", '[data-do="toggle"]'):
+        assert not page.locator(control).first.is_visible(), control

@@ -179,6 +179,10 @@ export function buildPage(replay) {
     redraw();
   });
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", timeline.redo);
+  window.matchMedia("print").addEventListener("change", ({ matches }) => {
+    stage.print(matches);
+    stage.draw(moment(), page, false, 0); // paper does not wait for a frame
+  });
   bar.setAttribute("aria-valuemax", String(player.duration));
   found("loading").hidden = true;
   showPlayer(player);

@@ -17,16 +17,18 @@ function readShades() {
 }
 
 /**
- * Colours of the style sheet by name; read anew where the scheme changes.
+ * Colours of the style sheet by name; read anew where the scheme changes, and for paper.
  * @param {() => void} onChange
  * @returns {Colours}
  */
 export function coloursOf(onChange) {
   /** @type {Shades | null} */
   let found = null;
-  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-    found = null;
-    onChange();
-  });
+  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
+    window.matchMedia(query).addEventListener("change", () => {
+      found = null;
+      onChange();
+    });
+  }
   return () => (found ??= readShades());
 }

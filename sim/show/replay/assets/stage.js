@@ -27,6 +27,8 @@ import { deviationPlate, drawWire } from "./wire.js";
 
 /** @typedef {ReturnType<typeof stageOn>} Stage */
 
+const LEAST_MARGIN = 12; // px
+const PAPER_RATIO = 4; // px of the canvas in a px of the page: 384 in an inch
 const STEPS_SCALE = 48; // px per µm when looking at single steps
 
 /**
@@ -64,6 +66,7 @@ export function stageOn(canvas, replay, model, onNeed) {
   const motion = motionOf(view, () => !(kerf.isTrue && pieces.isTrue && scene.isTrue) && onNeed());
   const isCalm = window.matchMedia("(prefers-reduced-motion: reduce)");
   let ratio = 1;
+  let isPaper = false;
   /** @type {number | null} */
   let outlined = null;
   /** @type {{ box: Box, scale: number, center: Place } | null} */
@@ -102,7 +105,7 @@ export function stageOn(canvas, replay, model, onNeed) {
    */
   function fit(box) {
     const [tools, legend] = covered();
-    view.fit(box, { top: tools[3], bottom: view.height - legend[1] });
+    view.fit(box, { top: Math.max(tools[3], LEAST_MARGIN), bottom: view.height - legend[1] });
     fitted = { box, scale: view.scale, center: view.center };
   }
 
@@ -116,7 +119,7 @@ export function stageOn(canvas, replay, model, onNeed) {
   /** Be as large as the page makes it. */
   function resize() {
     const still = stillFitted();
-    ratio = window.devicePixelRatio || 1;
+    ratio = isPaper ? PAPER_RATIO : window.devicePixelRatio || 1;
     view.resize(canvas.clientWidth, canvas.clientHeight);
     canvas.width = Math.round(view.width * ratio);
     canvas.height = Math.round(view.height * ratio);
@@ -145,6 +148,15 @@ export function stageOn(canvas, replay, model, onNeed) {
     view,
     colours,
     get isFalling() { return pieces.isFalling; },
+    /**
+     * Be as fine as paper is, and in its colours; or as a screen again.
+     * @param {boolean} toPaper
+     */
+    print(toPaper) {
+      isPaper = toPaper;
+      spoil();
+      resize();
+    },
     fit: () => fit(whole()),
     fitTable: () => fit(scene.travel),
     /**
