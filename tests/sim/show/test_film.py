@@ -204,7 +204,7 @@ def test_the_wire_is_marked_where_it_is(course: Course, screen: Screen, share: f
     moment = course.at(share * course.duration_s)
     marked = np.argwhere(like(inside(shown(screen, moment.t_s), screen), THE_WIRE))
     place = screen.whole.to_px(moment.wire_um) - screen.layout.plot[:2]
-    near = marked[np.hypot(*(marked[:, ::-1] - place).T) < 3.0 * WIRE]  # jumps have this colour, too
+    near = marked[np.hypot(*(marked[:, ::-1] - place).T) < WIRE]  # jumps have this colour, too
     assert near.mean(axis=0)[::-1] + 0.5 == pytest.approx(place, abs=1.5)
 
 
