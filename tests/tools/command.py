@@ -13,6 +13,7 @@ from unittest import mock
 from places import ROOT
 
 from sim.cli import main
+from sim.cli.spoken.tongue import speak_as_asked
 
 HANGUP = getattr(signal, "SIGHUP", signal.SIGTERM)
 """What a closed terminal sends; Windows has no such signal."""
@@ -55,6 +56,7 @@ def run_inside(
         contextlib.redirect_stderr(err),
     ):
         code = _exit_code()
+    speak_as_asked(())  # the language of a process ends with it
     for number, handler in handlers.items():
         signal.signal(number, handler)
     written = []
