@@ -139,7 +139,9 @@ def _run(scenario: "Scenario", files: _Files) -> "DryRun":
         if files.output is None:
             return check_expectations(dry_run(program, scenario, progress, log=log))
         beside = {scenario.program.name: source.data} if source.is_made else {}
-        return run_into(files.output, program, scenario, progress, log, trace=files.trace, beside=beside)
+        return run_into(
+            files.output, program, scenario, progress, log, trace=files.trace, beside=beside, language=spoken()
+        )
 
 
 def _refuse_to_overwrite(card_log: Path | None, *, program_file: Path, output: Path | None) -> None:

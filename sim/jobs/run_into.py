@@ -6,6 +6,7 @@ from types import MappingProxyType
 from typing import Any, Final
 
 from controller.card.log.writer import CardLog
+from parser.findings.catalogue import Language
 from parser.program import Program
 from sim.files import StepFiles, staged
 from sim.jobs.trace_file import TRACE, write_trace
@@ -37,11 +38,12 @@ def run_into(  # noqa: PLR0913 - what it is run with, and whom it tells
     *,
     trace: bool = False,
     beside: Mapping[str, bytes] = MappingProxyType({}),
+    language: Language = "en",
 ) -> DryRun:
     """Dry-run a program and write `FILES` into a folder, and with `trace` every step and sample, `TRACE`.
 
     Without it a trace of an earlier run goes: none stands beside the files of another run. The calls to the card go to
-    `log`. Files `beside`, by their names, are written as they are.
+    `log`. Files `beside`, by their names, are written as they are; ``cut.png`` is in one language, the pages in both.
 
     Raises ProgramError as `dry_run` does and FileUnreadableError where the folder cannot be written; then no file of
     the folder has changed.
@@ -49,7 +51,8 @@ def run_into(  # noqa: PLR0913 - what it is run with, and whom it tells
     with staged(Path(folder), [*NAMES, *beside]) as stage:
         with StepFiles(stage) as files:
             run, report = reported(dry_run(program, scenario, progress, files, log))
-        write_files(recording_of(run, files.paths, progress), report, stage, progress, has_trace=trace)
+        recording = recording_of(run, files.paths, progress)
+        write_files(recording, report, stage, progress, has_trace=trace, language=language)
         if trace:
             progress("trace", 0, 1)
             write_trace(stage, run, files.paths)
@@ -63,13 +66,20 @@ def stages_of_files(scenario: Scenario, *, trace: bool) -> list[str]:
     return [*stages_of(scenario), "pictures", "pages", *(["trace"] if trace else [])]
 
 
-def write_files(
-    recording: Recording, report: dict[str, Any], folder: Path, progress: Progress, *, has_trace: bool = False
+def write_files(  # noqa: PLR0913 - what was run, where to, and in which language
+    recording: Recording,
+    report: dict[str, Any],
+    folder: Path,
+    progress: Progress,
+    *,
+    has_trace: bool = False,
+    language: Language = "en",
 ) -> None:
     """Write `FILES`: the report and what people look at; then nothing holds the files of the steps any more."""
     run, subject = recording.run, subject_of(recording)
     progress("pictures", 0, 1)
-    draw_cut_of_run(pixels(), run, recording.pieces, subject.shapes).image().save(folder / "cut.png", dpi=(200, 200))
+    sheet = pixels(language=language)
+    draw_cut_of_run(sheet, run, recording.pieces, subject.shapes).image().save(folder / "cut.png", dpi=(200, 200))
     pictures = inline_pictures(subject, progress)
     progress("pages", 0, 3)
     (folder / "report.json").write_text(report_text(report), encoding="utf-8")

@@ -417,3 +417,23 @@ def test_the_page_looks_as_it_should_in_english(open_page: OpenPage, part: Made)
 
 def test_the_page_looks_as_it_should_in_chinese_and_dark(open_page: OpenPage, bad: Made) -> None:
     assert_golden_screen(open_page(bad.html, 390, 844, lang="zh", dark=True, shipped_font=True).page, "report-zh.png")
+
+
+@pytest.mark.parametrize(("lang", "says"), [("en", "too old for the tables"), ("zh", "浏览器版本太旧")])
+def test_a_browser_too_old_for_the_tables_is_told_so(open_page: OpenPage, part: Made, lang: str, says: str) -> None:
+    assert not open_page(part.html, lang=lang).page.locator("#too-old").is_visible()
+    old = part.html.replace("<head>", "<head><script>delete window.DecompressionStream;</script>", 1)
+    watched = open_page(old, lang=lang)
+    assert says in watched.page.locator("#too-old").inner_text()
+    watched.found.clear()
+
+
+def test_a_picture_is_large_enough_to_be_read_on_a_phone(open_page: OpenPage, part: Made) -> None:
+    page = open_page(part.html, 390, 844).page
+    box = page.locator("#picture-cut > div:visible")
+    assert box.evaluate("box => box.scrollWidth") == 700
+    assert page.evaluate("document.scrollingElement.scrollWidth") == 390
+    least = box.locator("svg").first.evaluate(
+        "svg => Math.min(...[...svg.querySelectorAll('text')].map(text => text.getBoundingClientRect().height))"
+    )
+    assert least > 8.0, "px"

@@ -137,7 +137,7 @@ PAGES = ("index_page", "replay", "report_page")
 def test_every_module_of_a_page_is_in_its_script(page: str) -> None:
     folder = ASSETS / page / "assets"
     script = joined(folder / "main.js")
-    (template,) = (file.read_text("utf-8") for file in folder.glob("*.j2"))
+    template = "".join(file.read_text("utf-8") for file in folder.glob("*.j2"))
     for module in folder.glob("*.js"):
         alone = f'inlined("{module.name}")' in template
         assert alone or module.read_text("utf-8").partition("\n")[0] in script, module

@@ -7,7 +7,7 @@ import numpy as np
 
 from parser.findings.catalogue import page as page_of
 from parser.findings.codes import Severity
-from parser.findings.findings import counted
+from parser.findings.findings import Count, counted
 from parser.geometry.curves import Floats
 from parser.units import mm
 from sim.show.draw import style
@@ -26,7 +26,7 @@ from sim.show.draw.legend import (
 )
 from sim.show.draw.paints import Paint
 from sim.show.draw.tones import paint_of_pass, tones_of
-from sim.show.pictures.cut.flags import draw_flag
+from sim.show.pictures.cut.flags import draw_flag, places_um
 from sim.show.pictures.cut.marks import draw_end, draw_pause, draw_start, pauses
 from sim.show.pictures.cut.numbers import draw_number, number_size
 from sim.show.pictures.cut.outlines import draw_clamp, draw_work
@@ -103,13 +103,16 @@ def finding_entries(cut: Cut, say: Words) -> list[Entry]:
         by = {severity: sum(count.n for count in counts if count.severity is severity) for severity in Severity}
         text = say("cut.count", errors=by[Severity.ERROR], warnings=by[Severity.WARNING], notes=by[Severity.NOTE])
         return [Entry(_flag(counts[0].severity), text)]
-    return [
-        Entry(
-            _flag(count.severity),
-            say("cut.finding", code=count.text, title=page_of(count.code, say.language).title),
-        )
-        for count in counts
-    ]
+    place = places_um(cut.toolpath, cut.findings, 0.0)
+    marked = {found.code for found, at in zip(cut.findings, place, strict=True) if np.isfinite(at[0])}
+    return [_finding_entry(count, say, is_marked=count.code in marked) for count in counts]
+
+
+def _finding_entry(count: Count, say: Words, *, is_marked: bool) -> Entry:
+    """What a code means; a finding of the whole program has no place on the drawing."""
+    key = "cut.finding" if is_marked else "cut.finding_unmarked"
+    text = say(key, code=count.text, title=page_of(count.code, say.language).title)
+    return Entry(_flag(count.severity), text)
 
 
 def rows_for(plain: int, findings: int) -> int:
