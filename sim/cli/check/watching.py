@@ -14,6 +14,7 @@ from parser.findings.catalogue import Language
 from parser.findings.errors import DrycutError
 from parser.program import suffixes
 from sim.check.settings.read import NAMES
+from sim.cli.spoken import complaint
 from sim.show.terminal.printer import clear, say
 from sim.show.words import Words
 
@@ -48,7 +49,7 @@ def watch(names: Sequence[str], check: Callable[[], object], language: Language)
         except DrycutError as error:
             say(Words(language)("commands.error", message=error), err=True)
         except click.ClickException as error:
-            say(Words(language)("commands.error", message=error.format_message()), err=True)
+            say(Words(language)("commands.error", message=complaint(error)), err=True)
 
 
 def rest_s(look_s: float) -> float:

@@ -14,7 +14,13 @@ from sim.show.words.words import texts
 
 CHINESE = re.compile(r"[\u2e80-\u9fff]")
 OF_ALL = {"usage", "options", "commands", "exit", "colon", "default", "required"}
-OF_MESSAGES = {"error", "written", "compiling", "not-expected"}
+OF_MESSAGES = {"error", "written", "compiling", "not-expected"} | {
+    "no-option",
+    "near",
+    "missing",
+    "no-choice",
+    "bad-value",
+}
 
 
 def commands(group: click.Command, ctx: click.Context, key: str = "") -> Iterator[tuple[str, Spoken]]:
@@ -89,3 +95,19 @@ def test_a_language_that_there_is_not_is_bad_use() -> None:
 
 def test_an_error_in_the_use_is_framed_in_the_language_that_was_asked_for() -> None:
     assert run_inside("check", "--lang", "zh", "--jobs", "x", "none.3b").stderr.decode().startswith("drycut：错误：")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["run", "part.3b", "--zzz"], "没有选项 --zzz。"),
+        (["explain", "--lan"], "没有选项 --lan。是不是 --lang？"),
+        (["run"], "缺少 PROGRAM|SCENARIO|FOLDER|GLOB...。"),
+        (["run", "part.3b", "--side", "up"], "--side 只能是 left、right 之一。"),
+        (["check", "a.3b", "--jobs", "0"], "--jobs：0 is not in the range x>=1."),
+        (["convert", "part.3b"], "缺少 --output。"),
+    ],
+)
+def test_what_is_wrong_with_options_is_told_in_chinese(arguments: list[str], says: str) -> None:
+    done = run_inside(*arguments, LC_ALL="zh_CN.UTF-8")
+    assert (done.returncode, done.stderr.decode().strip()) == (2, f"drycut：错误：{says}")
