@@ -17,6 +17,7 @@ from jsonschema import Draft202012Validator
 from PIL import Image
 from places import ROOT
 
+from parser.findings.catalogue import LANGUAGES, Language
 from parser.told.step_words import Axis
 from sim.cli.ballbar import ballbar as command
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test
@@ -223,3 +224,12 @@ def test_a_picture_too_narrow_to_read_is_refused() -> None:
     done = with_known_errors()
     with pytest.raises(ValueError, match="600 px"):
         draw_ballbar(done, done.measured, width_px=599)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_nothing_of_the_picture_is_cut_off_at_its_edges(language: Language) -> None:
+    done = with_known_errors()
+    assert done.measured is not None
+    picture = np.asarray(draw_ballbar(done, done.measured, language))
+    for edge in (picture[:, :2], picture[:, -2:], picture[:2], picture[-2:]):
+        assert np.ptp(edge.reshape(-1, 3), axis=0).max() == 0

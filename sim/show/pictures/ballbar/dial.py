@@ -102,7 +102,7 @@ def _above(here: tuple[Reversal, ...], say: Words) -> ColouredLines:
 
 
 def _texts(reversal: Reversal, say: Words) -> list[str]:
-    direction = say(f"ballbar.{NAMES[reversal.sense]}")
+    direction = say(f"ballbar.short-{NAMES[reversal.sense]}")
     step = say("ballbar.step", direction=direction, length=um(reversal.step_um))
     spike = say("ballbar.spike", length=um(reversal.spike_um))
     return [step] + [spike] * (reversal.spike_deg is not None)
