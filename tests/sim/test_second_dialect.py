@@ -277,6 +277,7 @@ _SPEAK_3B = {
     "sim/show/replay/assets/decisions.js": "what a counting controller does in each quadrant, where there are words",
     "sim/show/replay/assets/readouts.js": "the count that is left and the comparison, where a program has words",
     "sim/show/replay/assets/words.js": "a block's words beside its geometry, where a program has them",
+    "sim/show/keys.py": "keys of a keyboard, G among them",
     "sim/show/replay/answers.py": "the quiz asks in words of 3B, where a program has them",
     "sim/show/report_page/results.py": "the table of blocks shows the count axis, where a program has words",
 }

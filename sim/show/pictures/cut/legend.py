@@ -103,14 +103,21 @@ def finding_entries(cut: Cut, say: Words) -> list[Entry]:
         by = {severity: sum(count.n for count in counts if count.severity is severity) for severity in Severity}
         text = say("cut.count", errors=by[Severity.ERROR], warnings=by[Severity.WARNING], notes=by[Severity.NOTE])
         return [Entry(_flag(counts[0].severity), text)]
-    place = places_um(cut.toolpath, cut.findings, 0.0)
-    marked = {found.code for found, at in zip(cut.findings, place, strict=True) if np.isfinite(at[0])}
-    return [_finding_entry(count, say, is_marked=count.code in marked) for count in counts]
+    has_mark = np.isfinite(places_um(cut.toolpath, cut.findings, 0.0)[:, 0]).tolist()
+    marked, others = (
+        counted([found for found, has in zip(cut.findings, has_mark, strict=True) if has is wanted])
+        for wanted in (True, False)
+    )
+    told = [("cut.finding", count) for count in marked] + [("cut.finding_unmarked", count) for count in others]
+    order = tuple(Severity)
+    return [
+        _finding_entry(key, count, say)
+        for key, count in sorted(told, key=lambda one: (order.index(one[1].severity), one[1].code))
+    ]
 
 
-def _finding_entry(count: Count, say: Words, *, is_marked: bool) -> Entry:
+def _finding_entry(key: str, count: Count, say: Words) -> Entry:
     """What a code means; a finding of the whole program has no place on the drawing."""
-    key = "cut.finding" if is_marked else "cut.finding_unmarked"
     text = say(key, code=count.text, title=page_of(count.code, say.language).title)
     return Entry(_flag(count.severity), text)
 
