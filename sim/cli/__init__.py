@@ -22,6 +22,7 @@ _COMMANDS = {
     "compare": "sim.cli.compare",
     "convert": "sim.cli.convert",
     "decode": "sim.cli.decode",
+    "drill": "sim.cli.drill",
     "draw": "sim.cli.draw",
     "explain": "sim.cli.explain",
     "lsp": "sim.cli.lsp",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 from axe import needs_axe, violations
 from browser import OpenPage
+from drill_pages import answers, tasks
 from index_pages import shop_page
 from report_pages import PART, made
 from runs import scenario_recording
@@ -43,6 +44,14 @@ def with_its_quiz(page: "Page") -> None:
     page.keyboard.press("q")
 
 
+def with_a_drill(page: "Page") -> None:
+    page.click("#start button")
+    form = page.locator("form.drill").first
+    form.locator(".listing input").first.check()
+    form.locator(".what input").first.check()
+    form.get_by_role("button").click()
+
+
 def with_its_keys(page: "Page") -> None:
     page.evaluate("drycut.player.ready")
     page.keyboard.press("?")
@@ -58,6 +67,8 @@ def with_its_keys(page: "Page") -> None:
         (replay, with_its_quiz),
         (replay, with_its_keys),
         (shop, as_it_stands),
+        (answers, as_it_stands),
+        (tasks, with_a_drill),
     ],
 )
 def test_axe_has_nothing_against_a_page(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from browser import Browsers
+from drill_pages import drills_of_part, tasks
 from old_browser import missing, old_page
 from opened_page import opened_page
 from replayed import recording_of
@@ -83,6 +84,17 @@ def test_a_browser_that_cannot_play_says_so_and_lists_the_program(
 def test_the_report_fills_its_tables(page: "Page", tmp_path: Path) -> None:
     opened(page, made(PART, kerf=True).html, tmp_path)
     assert page.evaluate("document.querySelectorAll('[data-table=blocks] tbody tr').length") > 3
+
+
+def test_a_fault_drill_is_answered(page: "Page", tmp_path: Path) -> None:
+    opened(page, tasks(), tmp_path)
+    drill = drills_of_part()[0]
+    page.evaluate("document.querySelector('#start button').click()")
+    page.evaluate(f"document.querySelector('.drill .listing input[value=\"{drill.lines[0]}\"]').click()")
+    page.evaluate(f"document.querySelector('.drill .what input[value={drill.group}]').click()")
+    page.evaluate("document.querySelector('.drill button').click()")
+    assert text(page, ".drill .said") == "Right: line and fault."
+    assert text(page, "#too-old") == ""
 
 
 def test_a_program_opens(page: "Page", tmp_path: Path) -> None:

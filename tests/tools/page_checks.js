@@ -35,7 +35,7 @@
     const by = (element.getAttribute("aria-labelledby") ?? "").split(/\s+/).filter(Boolean).map(textOf).join(" ");
     const labels = [...(element.labels ?? [])].map(label => label.innerText).join(" ");
     const value = ["button", "submit", "reset"].includes(element.type) ? element.value : "";
-    const content = element.matches("a, button, summary, [role]:not([role=img], [role=slider], [role=dialog])")
+    const content = element.matches("a, button, summary, h1, h2, h3, [role]:not([role=img], [role=slider], [role=dialog])")
       ? element.innerText : "";
     const drawn = element.querySelector(":scope > title")?.textContent;
     const names = [by, element.getAttribute("aria-label"), labels, element.getAttribute("alt"), value, content, drawn,

@@ -6,6 +6,7 @@ import numpy as np
 
 from parser.geometry.curves import Curves, Floats
 from sim.show.draw.flatten import bounds_um, cut_runs, flatten
+from sim.show.draw.path_data import path_data
 from sim.show.draw.simplify import simplify
 
 WIDTH, HEIGHT = 96, 72
@@ -31,21 +32,10 @@ def thumbnail(toolpath: Curves) -> str:
     while True:
         lines = [_in_box(simplify((run - middle) / unit_um, off)) for run in runs]
         if sum(map(len, lines)) <= _MOST or off > WIDTH:
-            return "".join(map(_data, lines[:_MOST]))
+            return "".join(map(path_data, lines[:_MOST]))
         off *= 2.0
 
 
 def _in_box(points: Floats) -> Floats:
-    """Points in half units of the box, each once where several come to lie on one another."""
-    placed = np.round(2.0 * (points * (1.0, -1.0) + (WIDTH / 2.0, HEIGHT / 2.0)))
-    moves = np.concatenate([[True], (np.diff(placed, axis=0) != 0.0).any(axis=1)])
-    return np.asarray(placed[moves], dtype=np.float64)
-
-
-def _data(line: Floats) -> str:
-    """One run: to its first corner, then on by differences."""
-    return f"M{_pair(line[0])}l{' '.join(map(_pair, np.diff(line, axis=0)))}" if len(line) > 1 else ""
-
-
-def _pair(place: Floats) -> str:
-    return ",".join(f"{value / 2.0:g}" for value in place)
+    """Points in units of the box."""
+    return np.asarray(points * (1.0, -1.0) + (WIDTH / 2.0, HEIGHT / 2.0), dtype=np.float64)

@@ -61,7 +61,7 @@ def test_what_has_no_place_has_a_fingerprint_too() -> None:
 def test_how_a_program_is_set_changes_no_fingerprint_of_a_broken_one() -> None:
     draw = random.Random(17)
     found = 0
-    for number in range(6):
+    for number in range(8):
         broken = mutant(draw, sound_program(draw, printed=number % 2 == 1), None)
         if broken is None:
             continue

@@ -130,14 +130,14 @@ def test_the_same_modules_give_the_same_text_and_are_joined_once(written: Writte
     assert str(tmp_path) not in first
 
 
-PAGES = ("index_page", "replay", "report_page")
+PAGES = ("drill_page", "index_page", "replay", "report_page")
 
 
 @pytest.mark.parametrize("page", PAGES)
 def test_every_module_of_a_page_is_in_its_script(page: str) -> None:
     folder = ASSETS / page / "assets"
-    script = joined(folder / "main.js")
     template = "".join(file.read_text("utf-8") for file in folder.glob("*.j2"))
+    script = "".join(joined(folder / name) for name in re.findall(r'joined\("([\w.]+)"\)', template))
     for module in folder.glob("*.js"):
         alone = f'inlined("{module.name}")' in template
         assert alone or module.read_text("utf-8").partition("\n")[0] in script, module

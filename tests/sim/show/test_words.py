@@ -133,9 +133,9 @@ def test_the_scripts_of_a_shop_name_all_texts_that_their_page_hands_over() -> No
     assert asked - set(texts("index_scripts")) == set()
 
 
-@pytest.mark.parametrize("page", ["replay", "report"])
+@pytest.mark.parametrize("page", ["drill", "replay", "report"])
 def test_scripts_ask_for_texts_that_their_page_hands_over(page: str) -> None:
-    source = script_of({"replay": "replay", "report": "report_page"}[page])
+    source = script_of({"drill": "drill_page", "replay": "replay", "report": "report_page"}[page])
     asked = re.findall(r"""\b(?:say|said)\((?:[^()]*\? )?"(\w+)"(?: : "(\w+)")?""", source)
     assert {key for keys in asked for key in keys if key} == set(texts(f"{page}_scripts"))
 
