@@ -103,6 +103,11 @@ def term(key: str, language: Language = "en") -> str:
     return str(_read("terms")[language].get(key, f"`{key}`"))
 
 
+def term_known_as(text: str, language: Language) -> str:
+    """The term whose English text this is, in a language; empty where it is that of none."""
+    return _by_text(language).get(text, "")
+
+
 def length(um: float) -> str:
     """A length for people: µm with two digits, from 1 mm up mm with three."""
     return f"{um:.2f} µm" if abs(um) < UM_PER_MM else f"{mm(um):.3f} mm"
@@ -154,6 +159,12 @@ class _Filler(string.Formatter):
             return self._known(value)
         name = "from-to" if low and high else "at-least" if low else "at-most"
         return self._joined(name, *filter(None, (low, high)))
+
+
+@cache
+def _by_text(language: Language) -> Mapping[str, str]:
+    terms = _read("terms")
+    return {str(text): str(terms[language][key]) for key, text in terms["en"].items()}
 
 
 def _file(code: str) -> dict[str, Any]:

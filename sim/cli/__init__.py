@@ -11,7 +11,7 @@ import click
 from controller.compiled.telling import on_compiling
 from parser import __version__
 from parser.findings.errors import DrycutError
-from sim.cli.spoken import SpokenGroup, complaint, spoken, words
+from sim.cli.spoken import SpokenGroup, complaint, localised, spoken, words
 from sim.show.terminal.printer import say, write
 from sim.show.terminal.streams import OutputError, prepare_streams
 
@@ -118,8 +118,8 @@ def _message(error: click.ClickException | DrycutError | OSError) -> str:
     if isinstance(error, click.ClickException):
         return complaint(error)
     if isinstance(error, OSError) and error.filename:
-        return f"{error.filename}: {error.strerror or error}"
-    return str(error)
+        return localised(f"{error.filename}: {error.strerror or error}")
+    return localised(str(error))
 
 
 def _complain(message: str) -> int:

@@ -55,6 +55,7 @@ def _programs(file: Path | None, *, from_icon: bool) -> "Programs":
     from parser.files.reading import read_bytes
     from parser.findings.errors import FileUnreadableError
     from sim.open.programs import Opened, Programs
+    from sim.show.words.told import told
 
     if file is None:
         return Programs(Opened())
@@ -63,4 +64,4 @@ def _programs(file: Path | None, *, from_icon: bool) -> "Programs":
     except FileUnreadableError as error:
         if not from_icon:
             raise
-        return Programs(Opened(why=str(error)))
+        return Programs(Opened(why=told(error)))

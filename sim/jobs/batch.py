@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from parser.files.reading import read_bytes
+from parser.findings.catalogue import Said
 from parser.findings.errors import DrawingError, FileUnreadableError, SettingsError
 from parser.text.encoding import printable
 from sim.files import staged
@@ -15,7 +16,7 @@ from sim.jobs.run_into import NAMES
 from sim.jobs.shop import ShopProgram
 from sim.jobs.source import source_of
 from sim.show.index_page import Beside, index_page
-from sim.show.words.phrases import same
+from sim.show.words.told import in_both, told
 from sim.workers.makers import made_by
 from sim.workers.pool import Pool
 from sim.workers.rounds import DIED, Lost, results
@@ -68,10 +69,10 @@ class _Work:
             try:
                 task = _task(program)
             except (FileUnreadableError, DrawingError, SettingsError) as error:
-                self._refuse(number, str(error))
+                self._refuse(number, told(error))
                 continue
             if task is None:
-                self._refuse(number, program.error)
+                self._refuse(number, in_both(program.error))
                 continue
             digest = digest_of(task.data, task.scenario, task.drawing, task.made_by)
             row = kept(self._out / program.folder, digest)
@@ -95,8 +96,8 @@ class _Work:
             drop(folder, TAKEN - set(INDEX))
         self._enter(number, done.row)
 
-    def _refuse(self, number: int, message: str) -> None:
-        self.take(number, Done(Row("refused", _title(self._programs[number]), same(message)), {}))
+    def _refuse(self, number: int, message: Said) -> None:
+        self.take(number, Done(Row("refused", _title(self._programs[number]), message), {}))
 
     def _enter(self, number: int, row: Row, *, from_cache: bool = False) -> None:
         program = self._programs[number]

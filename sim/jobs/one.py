@@ -7,7 +7,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from parser.findings.catalogue import LANGUAGES, Said, texts
 from parser.findings.errors import DrawingError, DrycutError, ProgramError
 from parser.findings.findings import counted
 from parser.program import load_program, moving
@@ -20,6 +19,7 @@ from sim.run.findings import verdict
 from sim.setup.scenario import Scenario
 from sim.show.index_page.thumbnail import thumbnail
 from sim.show.words.phrases import same
+from sim.show.words.told import told
 from sim.workers.makers import Maker, refuse_other_makers
 
 _BY_ITSELF: Final = threading.Lock()  # workers of a cluster may have several threads, and pygame knows one
@@ -68,10 +68,10 @@ def run_task(task: Task) -> Done:
         with _BY_ITSELF, scratch() as folder:
             return _run(task, folder)
     except ProgramError as error:
-        row = Row("refused", task.scenario.title, _message(error), counted((*error.others, error.finding)))
+        row = Row("refused", task.scenario.title, told(error), counted((*error.others, error.finding)))
         return Done(row, {})
     except DrycutError as error:
-        return Done(Row("refused", task.scenario.title, same(error)), {})
+        return Done(Row("refused", task.scenario.title, told(error)), {})
     except Exception:
         return fault_of(task.scenario.title, traceback.format_exc())
 
@@ -79,10 +79,6 @@ def run_task(task: Task) -> Done:
 def fault_of(title: str, told: str) -> Done:
     """A program at which drycut itself failed; the last line of what is told stands in its row."""
     return Done(Row("fault", title, same(told.strip().splitlines()[-1])), {}, told)
-
-
-def _message(error: ProgramError) -> Said:
-    return Said(*(texts(error.finding, language).message for language in LANGUAGES))
 
 
 def _run(task: Task, folder: Path) -> Done:

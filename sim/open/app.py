@@ -77,7 +77,11 @@ class _Files:
         """The program or drawing that is open at the start."""
         opened = self._programs.opened
         read = self._taken(opened.name, opened.data, "0" if opened.file else "")
-        return JSONResponse({**read, "why": printable(opened.why)} if opened.why else read)
+        return JSONResponse(
+            {**read, "why": {language: printable(why) for language, why in opened.why._asdict().items()}}
+            if opened.why
+            else read
+        )
 
     async def program(self, request: Request) -> Response:
         """The program of a number, as its file is now."""

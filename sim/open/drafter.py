@@ -42,7 +42,7 @@ from sim.show.replay.curve_columns import exact_columns
 from sim.show.terminal.program import told_lines
 from sim.show.terminal.proof import against
 from sim.show.words import Words
-from sim.show.words.phrases import same
+from sim.show.words.told import told
 
 _WIDE: Final = 100_000
 """Cells of a line that is not to be broken."""
@@ -98,7 +98,7 @@ def _placement(asked: Asked, drawing: Drawing, target: DrawingTarget) -> tuple[P
         how = Compared(target.tolerance_um, target.fit, target.sharp_corners)
         return compare_program(path, scenario.wire.reach_um, drawing, how).placement, []
     except DrycutError as error:
-        return IN_PLACE, [same(str(error))]
+        return IN_PLACE, [told(error)]
 
 
 def _path(asked: Asked, scenario: Scenario) -> Toolpath:

@@ -72,7 +72,7 @@ class Drawings:
             last = {}
         finally:
             child.end()
-        return result.read_bytes() if "done" in last else _why(str(last.get("wrong", "")))
+        return result.read_bytes() if "done" in last else _why(last.get("wrong"))
 
 
 async def _last(child: Child, asked: dict[str, str]) -> dict[str, Any]:
@@ -81,5 +81,6 @@ async def _last(child: Child, asked: dict[str, str]) -> dict[str, Any]:
     return lines[-1] if lines else {}
 
 
-def _why(text: str) -> bytes:
-    return json.dumps({"why": printable(text)}).encode()
+def _why(said: dict[str, str] | None) -> bytes:
+    """Why there is no look, in both languages; None where nothing was told."""
+    return json.dumps({"why": said and {language: printable(text) for language, text in said.items()}}).encode()

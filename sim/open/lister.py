@@ -11,6 +11,8 @@ from parser.files.reading import read_bytes, read_stdin
 from parser.findings.errors import FileUnreadableError
 from sim.open.row import refused, row_or_why
 from sim.show.terminal.printer import write
+from sim.show.words.phrases import same
+from sim.show.words.told import in_both
 from sim.workers.processes import Processes
 from sim.workers.rounds import DIED, Lost, in_order, results
 
@@ -23,7 +25,7 @@ def main() -> None:
     asked = [(name, Path(file)) for name, file in json.loads(read_stdin())]
     rows = in_order(results(_row, enumerate(asked), Processes(), _AT_ONCE))
     for (name, _), row in zip(asked, rows, strict=True):
-        write(f"{json.dumps(refused(name, DIED) if isinstance(row, Lost) else row)}\n", "json")
+        write(f"{json.dumps(refused(name, same(DIED)) if isinstance(row, Lost) else row)}\n", "json")
 
 
 def _row(asked: tuple[str, Path]) -> dict[str, Any]:
@@ -31,7 +33,7 @@ def _row(asked: tuple[str, Path]) -> dict[str, Any]:
     try:
         data = read_bytes(file)
     except FileUnreadableError as error:
-        return refused(name, error.detail or str(error))
+        return refused(name, in_both(error.detail or str(error)))
     return row_or_why(name, file, data)
 
 

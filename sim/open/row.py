@@ -13,6 +13,7 @@ from sim.check.as_typed import as_typed
 from sim.open.answers import read_file, size_of
 from sim.show.index_page.thumbnail import thumbnail
 from sim.show.words.phrases import same
+from sim.show.words.told import told
 
 
 def row_of(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
@@ -39,14 +40,14 @@ def row_or_why(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
     try:
         return row_of(name, file, data)
     except DrycutError as error:
-        return refused(name, str(error))
+        return refused(name, told(error))
     except Exception:
         return _row(name, "fault", message=same(traceback.format_exc().strip().splitlines()[-1]))
 
 
-def refused(name: str, why: str) -> dict[str, Any]:
+def refused(name: str, why: Said) -> dict[str, Any]:
     """The row of a file that cannot be read."""
-    return _row(name, "refused", message=same(why))
+    return _row(name, "refused", message=why)
 
 
 def _message(finding: Finding) -> Said:

@@ -137,14 +137,14 @@ class Runs:
             self._ran = {"run": begin["run"], **last["done"]} if asked["job"] == "run" else self._ran
             self._state = {**begin, "state": "done"}
         elif "wrong" in last:
-            self._state = {**begin, "state": "wrong", "why": printable(_by_names(last["wrong"], asked))}
+            self._state = {**begin, "state": "wrong", "why": _by_names(last["wrong"], asked)}
         elif child is self._child:
-            self._state = {**begin, "state": "wrong", "why": ""}
+            self._state = {**begin, "state": "wrong", "why": None}
 
 
-def _by_names(why: str, asked: dict[str, str]) -> str:
-    """A message in which files of the page stand by their names alone."""
+def _by_names(why: dict[str, str], asked: dict[str, str]) -> dict[str, str]:
+    """A message in both languages, in which files of the page stand by their names alone."""
     folders = {str(Path(asked[key]).parent) for key in ("file", "drawing_file") if asked.get(key)}
     for folder in folders:
-        why = why.replace(f"{folder}{os.sep}", "")
-    return why
+        why = {language: text.replace(f"{folder}{os.sep}", "") for language, text in why.items()}
+    return {language: printable(text) for language, text in why.items()}

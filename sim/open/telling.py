@@ -7,6 +7,7 @@ from typing import Any, Final
 from parser.files.reading import read_stdin
 from parser.findings.errors import DrycutError
 from sim.show.terminal.printer import write
+from sim.show.words.told import told
 from sim.table.progress import Progress
 
 Asked = dict[str, str]
@@ -21,7 +22,7 @@ def do(jobs: Mapping[str, Callable[[Asked], dict[str, Any]]]) -> None:
     try:
         _tell(done=jobs[asked["job"]](asked))
     except DrycutError as error:
-        _tell(wrong=str(error))
+        _tell(wrong=told(error)._asdict())
 
 
 def telling(stages: Sequence[str]) -> Progress:

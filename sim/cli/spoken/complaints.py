@@ -5,8 +5,17 @@ import click
 from sim.cli.spoken.tongue import spoken, words
 
 
+def localised(message: str) -> str:
+    """The message of an error in the language of the command."""
+    if spoken() == "en":
+        return message
+    from sim.show.words.told import in_both
+
+    return in_both(message).zh
+
+
 def complaint(error: click.ClickException) -> str:
-    """The message of an error; what a command itself says of its values stays as it is."""
+    """The message of an error."""
     if spoken() == "en":
         return error.format_message()
     tell = words()
@@ -20,8 +29,8 @@ def complaint(error: click.ClickException) -> str:
         choices = tell("phrases.comma").join(map(str, error.param.type.choices))  # type: ignore[union-attr]  # told by getattr
         return tell("commands.no-choice", name=_named(error), choices=choices)
     if isinstance(error, click.BadParameter) and (error.param or error.param_hint):
-        return tell("commands.bad-value", name=_named(error), why=error.message)
-    return error.format_message()
+        return tell("commands.bad-value", name=_named(error), why=localised(error.message))
+    return localised(error.format_message())
 
 
 def _named(error: click.BadParameter) -> str:

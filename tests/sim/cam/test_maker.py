@@ -28,7 +28,7 @@ HOSTILE = (
     "Start Point = 5 , 5",
     "DD",
     "; G01 X500 M02 %",
-    "\x1b[31m 电极丝 µm",
+    "\x1b[31m 钼丝 µm",
     "x" * 500,
 )
 

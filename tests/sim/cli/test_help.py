@@ -104,7 +104,7 @@ def test_an_error_in_the_use_is_framed_in_the_language_that_was_asked_for() -> N
         (["explain", "--lan"], "没有选项 --lan。是不是 --lang？"),
         (["run"], "缺少 PROGRAM|SCENARIO|FOLDER|GLOB...。"),
         (["run", "part.3b", "--side", "up"], "--side 只能是 left、right 之一。"),
-        (["check", "a.3b", "--jobs", "0"], "--jobs：0 is not in the range x>=1."),
+        (["check", "a.3b", "--jobs", "0"], "--jobs：0 不在范围 x>=1 内。"),
         (["convert", "part.3b"], "缺少 --output。"),
     ],
 )

@@ -165,7 +165,7 @@ def test_a_program_that_is_not_proved_says_so_at_its_head(drawing: Path, tmp_pat
 def test_what_cannot_be_made_says_why(served: OpenedPage, dxf: bytes, drawing: Path, tmp_path: Path) -> None:
     state = draft(served, came(served, dxf), tab_mm="a lot")
     assert state["state"] == "wrong"
-    assert "the tab in mm is a number, not 'a lot'" in state["why"]
+    assert "the tab in mm is a number, not 'a lot'" in state["why"]["en"]
     with pytest.raises(SettingsError, match="programs are written in 3b, 4b, iso"):
         made(drawing, tmp_path / "made.json", language="/etc/passwd")
 

@@ -291,7 +291,7 @@ def test_what_is_wrong_with_a_film_is_said_and_the_run_stays(served: OpenedPage)
     asked_more(served, "film", form="exe")
     state = came_to(served, "done", "wrong")
     assert (state["state"], state["files"]) == ("wrong", before)
-    assert "films are" in state["why"]
+    assert "films are" in state["why"]["en"]
 
 
 def test_a_film_can_be_cancelled_and_the_files_of_the_run_stay(served: OpenedPage) -> None:
@@ -341,7 +341,7 @@ def test_what_cannot_be_run_says_why(served: OpenedPage) -> None:
     asked_run(served, offset_mm="0.1", text="hello")
     state = came_to(served, "done", "wrong")
     assert state["state"] == "wrong"
-    assert "no block in the file" in state["why"]
+    assert "no block in the file" in state["why"]["en"]
 
 
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="asks the kernel of Linux for processes")

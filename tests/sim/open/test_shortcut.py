@@ -120,8 +120,8 @@ def test_what_cannot_be_opened_from_an_icon_is_said_on_the_page(tmp_path: Path) 
     with opened_page(tmp_path / "gone.3b", "--from-icon") as served:
         first = json.loads(served.ask("first").body)
         assert first["text"] == ""
-        assert "gone.3b: cannot be read" in first["why"]
-    assert "no program there" in _programs(tmp_path, from_icon=True).opened.why
+        assert "gone.3b: cannot be read" in first["why"]["en"]
+    assert "no program there" in _programs(tmp_path, from_icon=True).opened.why.en
     with pytest.raises(FileUnreadableError):
         _programs(tmp_path, from_icon=False)
 

@@ -43,7 +43,7 @@ def test_a_program_alone_runs_on_the_default_machine_and_says_so(
     for told in ("default machine, DK7740", "14 of its values", "mass of the saddle", "No drawing", "Wire lag was off"):
         assert told in english
     chinese = " ".join(sentence.zh for sentence in taken_for_granted(run))
-    for told in ("默认", "14 项是估计值", "没有与图纸比较", "未计电极丝滞后"):
+    for told in ("默认", "14 项是估计值", "没有与图纸比较", "未计钼丝滞后"):
         assert told in chinese
     print_summary(run, None)
     assert "Run on the default machine, DK7740" in " ".join(capsys.readouterr().out.split())

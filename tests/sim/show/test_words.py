@@ -24,9 +24,10 @@ ESCAPE = re.compile(r"(?:\\u\{?|\\U0000|\\|&#x)0{0,4}([0-9a-f]{4})(?![0-9a-f])|&
 """A character by its number: in Python and scripts, in style sheets, in pages."""
 COUNTED = ("findings.one-", "findings.some-", "phrases.one-", "phrases.some-")
 OF_REPORT = ("report.is-", "report.of-", "report.by-", "report.kind-", "report.as-cut-", "report.nominal-")
-FROM_DATA = (*OF_REPORT, *COUNTED, "progress.run-", "commands.", "options.")
+FROM_DATA = (*OF_REPORT, *COUNTED, "progress.run-", "commands.", "options.", "errors.")
 """Texts of kinds, axes, numbers, directions: of the report, of the findings of a check, of a circular test; and
-help, of which tests/sim/cli/test_help.py holds every text to its command or option."""
+help, of which tests/sim/cli/test_help.py holds every text to its command or option, and errors, of which
+tests/sim/show/test_errors_told.py does."""
 
 ENGINE = ("sim/run", "sim/measure", "sim/cut", "sim/table", "parser/drawing", "controller")
 SENTENCE = re.compile(r"[A-Za-z]+(?:\W* \W*[A-Za-z]+){2}")

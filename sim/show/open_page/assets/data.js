@@ -15,7 +15,7 @@
  * @property {string} encoding
  * @property {string} newline
  * @property {string} number of the program whose file it is; empty where it came to the page
- * @property {string} [why] what was to be open at the start could not be
+ * @property {Said | null} [why] what was to be open at the start could not be
  */
 
 /** @typedef {[first: number, past: number, text: string]} Edit */
@@ -25,7 +25,7 @@
  * @typedef {object} Looked
  * @property {Curves} [curves]
  * @property {Said[]} told
- * @property {string} [why]
+ * @property {Said | null} [why]
  */
 
 /**
@@ -154,7 +154,7 @@
  * @property {number} [share]
  * @property {"pass" | "fail"} [verdict]
  * @property {Said} [machine]
- * @property {string} [why]
+ * @property {Said | null} [why]
  * @property {MadeFile[]} [files] once it has ended well
  */
 

@@ -66,8 +66,7 @@ export function wireDrawing(around) {
         around.beneath(found.curves);
       } else {
         away();
-        const why = found.why || language.say("no-look");
-        seen = [{ en: why, zh: why }];
+        seen = [found.why ?? language.said("no-look")];
       }
       show();
     } catch {

@@ -124,7 +124,7 @@ async function check(isNew) {
     show();
     versions.update();
     run.show();
-    if (file.why && !now) tell("not-opened", { why: file.why });
+    if (file.why && !now) tell("not-opened", { why: language.pick(file.why) });
     else tell(answer.settings && "settings", { why: answer.settings });
   } catch (error) {
     if (!(error instanceof Error && error.name === "AbortError")) tell("no-server");

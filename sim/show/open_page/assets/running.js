@@ -59,7 +59,7 @@ export function wireRun(current, onStart, onDrafted, tell) {
   function sentence() {
     if (known.state === "running") return language.say(STAGES[known.stage ?? ""] ?? "starting");
     if (known.state === "done") return ending();
-    if (known.state === "wrong") return known.why || language.say("ran-broken");
+    if (known.state === "wrong") return known.why ? language.pick(known.why) : language.say("ran-broken");
     return known.state === "cancelled" ? language.say("ran-cancelled") : "";
   }
 
