@@ -4,23 +4,43 @@ An error is raised where no words are known, far below what shows it; so it carr
 is taken apart by its template, as catalogues of gettext go by the English text.
 """
 
-import re
 from functools import cache
 from string import Formatter
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from parser.findings.catalogue import LANGUAGES, Said, term_known_as
 from parser.findings.catalogue import texts as texts_of
 from parser.findings.errors import DrycutError, ProgramError
 from sim.show.words.words import texts
 
+_LONGEST: Final = 4_000
+"""Characters of a message: what is longer cites whole files, in which parts may stand in parts without end."""
+
 
 class _Known(NamedTuple):
-    """A message: what its English text looks like, the Chinese template, and how much of it is no place."""
+    """A message: what stands round the places of its English text, the names of these, and the Chinese template."""
 
-    pattern: re.Pattern[str]
+    literals: tuple[str, ...]
+    places: tuple[str, ...]
     zh: str
-    literal: int
+
+    def filling(self, text: str) -> dict[str, str] | None:
+        """What stands in the places of a text; None where it is not of this template. It is looked through once."""
+        if not self.places:
+            return {} if text == self.literals[0] else None
+        first, *between, last = self.literals
+        end = len(text) - len(last)
+        at = len(first)
+        if not text.startswith(first) or not text.endswith(last) or at > end:
+            return None
+        found: list[str] = []
+        for literal in between:
+            next_one = text.find(literal, at, end)
+            if next_one < 0:
+                return None
+            found.append(text[at:next_one])
+            at = next_one + len(literal)
+        return dict(zip(self.places, [*found, text[at:end]], strict=True))
 
 
 def told(error: DrycutError) -> Said:
@@ -37,10 +57,12 @@ def in_both(message: str) -> Said:
 
 def _in_chinese(text: str) -> str:
     """A message, or a part of one; empty where it is not known."""
+    if len(text) > _LONGEST:
+        return ""
     for known in _messages():
-        match = known.pattern.fullmatch(text)
-        if match:
-            return known.zh.format(**{name: _in_chinese(part) or part for name, part in match.groupdict().items()})
+        filling = known.filling(text)
+        if filling is not None:
+            return known.zh.format(**{name: _in_chinese(part) or part for name, part in filling.items()})
     return term_known_as(text, "zh")
 
 
@@ -48,10 +70,14 @@ def _in_chinese(text: str) -> str:
 def _messages() -> tuple[_Known, ...]:
     """All templates, those first that leave least open."""
     known = (_known(said) for said in texts("errors").values())
-    return tuple(sorted(known, key=lambda one: -one.literal))
+    return tuple(sorted(known, key=lambda one: -sum(map(len, one.literals))))
 
 
 def _known(said: Said) -> _Known:
-    parts = list(Formatter().parse(said.en))
-    pattern = "".join(f"{re.escape(literal)}{f'(?P<{name}>.*?)' if name else ''}" for literal, name, _, _ in parts)
-    return _Known(re.compile(pattern, re.DOTALL), said.zh, sum(len(literal) for literal, _, _, _ in parts))
+    literals, places = [""], []
+    for literal, name, _, _ in Formatter().parse(said.en):
+        literals[-1] += literal
+        if name:
+            places.append(name)
+            literals.append("")
+    return _Known(tuple(literals), tuple(places), said.zh)

@@ -120,3 +120,9 @@ def test_a_term_of_the_catalogue_within_a_message_is_told_in_chinese() -> None:
 
 def test_what_nobody_knows_stays_as_it_is() -> None:
     assert in_both("a sentence of some library").zh == "a sentence of some library"
+
+
+def test_a_long_message_is_told_as_it_is() -> None:
+    assert in_both("x; found " * 100_000 + "no end").zh.startswith("x")
+    assert in_both("a: cannot be read: " * 100_000).zh.startswith("a")
+    assert in_both("No such file or directory of mine").zh == "No such file or directory of mine"
