@@ -39,7 +39,7 @@ def run_shop(names: Sequence[str], output: Path | None, spread: Spread, options:
         load_machine(options.machine)  # bad use, which each program would tell again
     programs = find_programs(names, lambda path: overridden(path, options), output, TAKEN)
     with StageProgress() as progress, pool_of(spread) as pool:
-        done = run_batch(programs, output, pool, lambda count, total: progress("programs", count, total))
+        done = run_batch(programs, output, pool, lambda n, total: progress("programs", n, total), spoken())
     if as_json:
         write(index_text(done.document), "json")
     else:

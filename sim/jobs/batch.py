@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from parser.files.reading import read_bytes
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Language, Said
 from parser.findings.errors import DrawingError, FileUnreadableError, SettingsError
 from parser.text.encoding import printable
 from sim.files import staged
@@ -33,16 +33,22 @@ class Batch(NamedTuple):
     faults: dict[str, str]
 
 
-def run_batch(programs: Sequence[ShopProgram], out: Path, pool: Pool, progress: Callable[[int, int], None]) -> Batch:
+def run_batch(
+    programs: Sequence[ShopProgram],
+    out: Path,
+    pool: Pool,
+    progress: Callable[[int, int], None],
+    language: Language = "en",
+) -> Batch:
     """Run the programs of a shop into their folders in `out`, and write the index of all of them there.
 
     Each program's files are put into its folder as soon as they are made: where this ends half-way, the next call takes
-    them from there. `progress` is told how many of how many are done. FileUnreadableError where `out` cannot be
+    them from there. Their pictures are in a language, the pages in both. `progress` is told how many of how many are done. FileUnreadableError where `out` cannot be
     written; ClusterError where workers fail as a whole.
     """
     if out.exists() and not out.is_dir():
         raise FileUnreadableError(f"{out}: is a file; a folder of this name is to be written into")
-    work = _Work(programs, out, progress)
+    work = _Work(programs, out, progress, language)
     for number, done in results(run_task, work.tasks(), pool):
         work.take(number, done)
     entries = [work.entries[number] for number in range(len(programs))]
@@ -57,8 +63,10 @@ def run_batch(programs: Sequence[ShopProgram], out: Path, pool: Pool, progress: 
 class _Work:
     """Makes the tasks of a shop and takes what comes of them; `entries` and `faults` hold it."""
 
-    def __init__(self, programs: Sequence[ShopProgram], out: Path, progress: Callable[[int, int], None]) -> None:
-        self._programs, self._out, self._progress = programs, out, progress
+    def __init__(
+        self, programs: Sequence[ShopProgram], out: Path, progress: Callable[[int, int], None], language: Language
+    ) -> None:
+        self._programs, self._out, self._progress, self._language = programs, out, progress, language
         self._digests: dict[int, str] = {}
         self.entries: dict[int, Entry] = {}
         self.faults: dict[str, str] = {}
@@ -67,14 +75,14 @@ class _Work:
         """The tasks of those that have to be run, with their numbers; of the others the entry is there then."""
         for number, program in enumerate(self._programs):
             try:
-                task = _task(program)
+                task = _task(program, self._language)
             except (FileUnreadableError, DrawingError, SettingsError) as error:
                 self._refuse(number, told(error))
                 continue
             if task is None:
                 self._refuse(number, in_both(program.error))
                 continue
-            digest = digest_of(task.data, task.scenario, task.drawing, task.made_by)
+            digest = digest_of(task.data, task.scenario, task.drawing, task.made_by, task.language)
             row = kept(self._out / program.folder, digest)
             if row is None:
                 self._digests[number] = digest
@@ -106,7 +114,7 @@ class _Work:
         self._progress(len(self.entries), len(self._programs))
 
 
-def _task(program: ShopProgram) -> Task | None:
+def _task(program: ShopProgram, language: Language) -> Task | None:
     """The task of a program; None where its scenario cannot be read.
 
     FileUnreadableError for its file or drawing; DrawingError and SettingsError where it cannot be made of that.
@@ -116,7 +124,7 @@ def _task(program: ShopProgram) -> Task | None:
         return None
     source = source_of(scenario)
     drawing = read_bytes(scenario.drawing.file) if scenario.drawing is not None else None
-    return Task(printable(scenario.program.name), source.data, scenario, drawing, made_by(), source.is_made)
+    return Task(printable(scenario.program.name), source.data, scenario, drawing, made_by(), language, source.is_made)
 
 
 def _title(program: ShopProgram) -> str:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from parser.files.reading import read_bytes
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Language, Said
 from parser.findings.codes import Severity
 from parser.findings.errors import FileUnreadableError
 from parser.findings.findings import Count
@@ -27,14 +27,19 @@ NAME: Final = "kept.json"
 _SCHEMA: Final = "drycut.kept/1"
 
 
-def digest_of(program: bytes, scenario: Scenario, drawing: bytes | None, made_by: Maker) -> str:
+def digest_of(program: bytes, scenario: Scenario, drawing: bytes | None, made_by: Maker, language: Language) -> str:
     """Digest of all that the files of a run follow from: nothing of it is a path, so a shop may be moved."""
     settings = replace(
         scenario,
         program=Path(scenario.program.name),
         drawing=scenario.drawing and scenario.drawing._replace(file=Path(scenario.drawing.file.name)),
     )
-    parts = (repr(made_by).encode(), repr(settings).encode("utf-8", "surrogatepass"), program, drawing or b"")
+    parts = (
+        repr((made_by, language)).encode(),
+        repr(settings).encode("utf-8", "surrogatepass"),
+        program,
+        drawing or b"",
+    )
     return _sum(b"".join(_sum(part).encode() for part in parts))
 
 

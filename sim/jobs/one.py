@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final, NamedTuple
 
+from parser.findings.catalogue import Language
 from parser.findings.errors import DrawingError, DrycutError, ProgramError
 from parser.findings.findings import counted
 from parser.program import load_program, moving
@@ -38,6 +39,8 @@ class Task(NamedTuple):
         Bytes of the scenario's drawing; None without one.
     made_by
         What its bytes must come from: `made_by` of who asks for them.
+    language
+        Of its picture; its pages are in both.
     is_made
         Whether its bytes were made of the drawing, so that they belong to its files.
     """
@@ -47,6 +50,7 @@ class Task(NamedTuple):
     scenario: Scenario
     drawing: bytes | None
     made_by: Maker
+    language: Language
     is_made: bool = False
 
 
@@ -86,7 +90,8 @@ def _run(task: Task, folder: Path) -> Done:
     made = folder / "made"
     scenario = _with_drawing(task, folder)
     try:
-        run = run_into(made, moving(load_program(task.data, task.name, scenario.choices)), scenario)
+        program = moving(load_program(task.data, task.name, scenario.choices))
+        run = run_into(made, program, scenario, language=task.language)
     except DrawingError as error:  # people know the drawing by where it stands
         raise DrawingError(str(error).replace(*_places_of_drawing(scenario, task.scenario))) from None
     beside = {task.scenario.program.name: task.data} if task.is_made else {}

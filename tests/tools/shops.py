@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from parser.findings.catalogue import Language
 from parser.program import load_program
 from sim.jobs.batch import TAKEN, Batch, run_batch
 from sim.jobs.index import Row
@@ -51,10 +52,11 @@ def run_folder(
     pool: Pool | None = None,
     scenario_of: Any = load_scenario,
     progress: Callable[[int, int], None] = nothing,
+    language: Language = "en",
 ) -> Batch:
     """All programs of a folder, run into another one."""
     programs = find_programs([str(shop)], scenario_of, out, TAKEN)
-    return run_batch(programs, out, pool or Here(), progress)
+    return run_batch(programs, out, pool or Here(), progress, language)
 
 
 def instead_of_running(task: Task, folder: Path) -> Done:

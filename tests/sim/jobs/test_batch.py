@@ -47,10 +47,10 @@ def cached(out: Path) -> list[bool]:
 
 def test_files_are_those_of_each_program_alone_and_figures_those_of_its_report(tmp_path: Path) -> None:
     shop, out = make_shop(tmp_path / "shop", 1), tmp_path / "out"
-    run_folder(shop, out, Processes(2))
+    run_folder(shop, out, Processes(2), language="zh")
     assert complaints(out) == []
     program = shop / "00.3b"
-    run_into(tmp_path / "alone", read_program(program), load_scenario(program))
+    run_into(tmp_path / "alone", read_program(program), load_scenario(program), language="zh")
     names = sorted(path.name for path in (tmp_path / "alone").iterdir())
     assert set(names) <= set(FILES)
     assert filecmp.cmpfiles(tmp_path / "alone", out / "00.3b", names, shallow=False) == (names, [], [])
@@ -59,7 +59,7 @@ def test_files_are_those_of_each_program_alone_and_figures_those_of_its_report(t
     told = (report["verdict"], report["time_s"]["total"], report["deviation"]["wire"]["max_um"])
     assert (row["verdict"], row["time_s"], row["max_um"]) == told
     first = json.loads((out / "index.json").read_bytes())
-    again = run_folder(shop, out, Processes(2)).document
+    again = run_folder(shop, out, Processes(2), language="zh").document
     assert [row["from_cache"] for row in again["programs"]] == [True]
     assert again["programs"][0] | {"from_cache": False} == first["programs"][0]
 
@@ -76,6 +76,9 @@ def test_what_has_not_changed_is_taken_from_the_last_run(shop: Path, tmp_path: P
     assert cached(out) == [True, True, True]
     again = (out / "index.html").read_bytes().replace(b"moved/", b"shop/")
     assert again.replace(b'"from_cache":true', b'"from_cache":false') == page
+    run_folder(moved, out, language="zh")
+    assert cached(out) == [False, False, False]
+    run_folder(moved, out)
     (moved / "01.3b").write_text(TINY.format(99), "ascii")
     (moved / "03.3b").write_text(TINY.format(98), "ascii")
     run_folder(moved, out)
