@@ -43,8 +43,8 @@ def run_batch(
     """Run the programs of a shop into their folders in `out`, and write the index of all of them there.
 
     Each program's files are put into its folder as soon as they are made: where this ends half-way, the next call takes
-    them from there. Their pictures are in a language, the pages in both. `progress` is told how many of how many are done. FileUnreadableError where `out` cannot be
-    written; ClusterError where workers fail as a whole.
+    them from there. Their pictures are in a language, the pages in both. `progress` is told how many of how many are
+    done. FileUnreadableError where `out` cannot be written; ClusterError where workers fail as a whole.
     """
     if out.exists() and not out.is_dir():
         raise FileUnreadableError(f"{out}: is a file; a folder of this name is to be written into")
