@@ -34,12 +34,8 @@ def digest_of(program: bytes, scenario: Scenario, drawing: bytes | None, made_by
         program=Path(scenario.program.name),
         drawing=scenario.drawing and scenario.drawing._replace(file=Path(scenario.drawing.file.name)),
     )
-    parts = (
-        repr((made_by, language)).encode(),
-        repr(settings).encode("utf-8", "surrogatepass"),
-        program,
-        drawing or b"",
-    )
+    told = repr((made_by, language, settings)).encode("utf-8", "surrogatepass")
+    parts = (told, program, drawing or b"")
     return _sum(b"".join(_sum(part).encode() for part in parts))
 
 

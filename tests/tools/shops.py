@@ -52,6 +52,7 @@ def run_folder(
     pool: Pool | None = None,
     scenario_of: Any = load_scenario,
     progress: Callable[[int, int], None] = nothing,
+    *,
     language: Language = "en",
 ) -> Batch:
     """All programs of a folder, run into another one."""
