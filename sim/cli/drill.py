@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from parser.findings.errors import ProgramError
+from parser.findings.errors import ProgramError, SettingsError
 from sim.cli.dialect_options import RegisterSet, RegisterValue, with_dialect
 from sim.cli.scenario_options import describe
-from sim.cli.spoken import Spoken, words
+from sim.cli.spoken import Spoken, localised, words
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from sim.drill.proof import Level
 
 _LEVELS: "dict[str, Level]" = {"easy": "words", "medium": "picture", "hard": "sums"}
-_PAGES = ("drill.html", "answers.html")
 
 
 @click.command(cls=Spoken)
@@ -49,76 +48,54 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.dialect.choices import Choices
     from sim.drill.drills import Asked
+    from sim.jobs.drills_into import PAGES, drills_into, names_of
     from sim.show.terminal.printer import say
 
     choices = Choices(dialect=dialect or "", unit=unit or "", registers=registers)
     asked = Asked(number, count, None if level is None else _LEVELS[level])
     program = _read(path, choices)
-    drills = _drills(path, program, asked)
-    names = _write(path, output, program, drills, number)
+    _refuse_own_file(path, output, program, count)
+    drills = _drills(program, asked)
+    drills_into(output, program, drills, number)
+    names = names_of(program, len(drills))
     if len(drills) < count:
         say(words()("drill.few", name=program.name, made=len(drills), asked=count), err=True)
     say(_told(program, drills, number))
-    say(words()("commands.written", names=f"{output}/ {', '.join(_PAGES)}, {names[0]} … {names[-1]}"))
+    say(words()("commands.written", names=f"{output}/ {', '.join(PAGES)}, {names[0]} … {names[-1]}"))
 
 
 def _read(path: Path, choices: "Choices") -> "Program":
-    """The program. UsageError for one that is too long to look through."""
     from parser.program import moving, read_program
-    from sim.drill.drills import MOST_BLOCKS
     from sim.show.terminal.printer import say
 
     try:
-        program = moving(read_program(path, choices))
+        return moving(read_program(path, choices))
     except ProgramError as error:
         for line in describe(str(path), error):
             say(line, err=True)
         raise click.exceptions.Exit(2) from None
-    blocks = program.reading.counts.run
-    if max(blocks, len(program.toolpath)) > MOST_BLOCKS:
-        raise click.UsageError(words()("drill.too-long", name=program.name, blocks=blocks, most=MOST_BLOCKS))
-    return program
 
 
-def _drills(path: Path, program: "Program", asked: "Asked") -> "tuple[Drill, ...]":
-    """Drills of a program; the end of the command where it is not sound, or there are none."""
-    from sim.check.batch import check_program
+def _refuse_own_file(path: Path, output: Path, program: "Program", count: int) -> None:
+    """BadParameter where a damaged program would take the place of the sound one."""
+    from sim.jobs.drills_into import names_of
+
+    for file in (output / name for name in names_of(program, count)):
+        if file.exists() and file.samefile(path):
+            raise click.BadParameter(f"{file} is what the drills are made of", param_hint="-o")
+
+
+def _drills(program: "Program", asked: "Asked") -> "tuple[Drill, ...]":
+    """Drills of a program; the end of the command where none can be made of it."""
     from sim.check.settings import CheckSettings
     from sim.drill.drills import drills_of
     from sim.show.terminal.printer import say
 
-    choices = program.choices
-    settings = CheckSettings(dialect=choices.dialect, unit=choices.unit, registers=choices.registers)
-    result = check_program(program, settings)
-    if result.verdict == "fail":
-        codes = ", ".join(sorted({found.code for found in result.findings if found.severity == "error"}))
-        say(words()("drill.unsound", name=str(path), codes=codes), err=True)
-        raise click.exceptions.Exit(1)
-    drills = drills_of(program, settings, asked)
-    if not drills:
-        say(words()("drill.none", name=str(path)), err=True)
-        raise click.exceptions.Exit(1)
-    return drills
-
-
-def _write(path: Path, output: Path, program: "Program", drills: "Sequence[Drill]", number: int) -> list[str]:
-    """Write the pages and the damaged programs as one set; the names of the programs. BadParameter over `path`."""
-    from parser.program import usual_name
-    from sim.files import staged
-    from sim.show.drill_page import answers_page, drill_page
-
-    known = path.suffix.isascii() and path.suffix[1:].isalnum()
-    suffix = path.suffix if known else Path(usual_name(program.text)).suffix
-    names = [f"drill-{at:02}{suffix}" for at in range(1, len(drills) + 1)]
-    for name in names:
-        if (output / name).exists() and (output / name).samefile(path):
-            raise click.BadParameter(f"{output / name} is what the drills are made of", param_hint="-o")
-    with staged(output, [*_PAGES, *names]) as stage:
-        (stage / _PAGES[0]).write_text(drill_page(program, drills, number, names), "utf-8")
-        (stage / _PAGES[1]).write_text(answers_page(program, drills, number), "utf-8")
-        for name, one in zip(names, drills, strict=True):
-            (stage / name).write_bytes(one.program.text.encode(program.encoding))
-    return names
+    try:
+        return drills_of(program, CheckSettings.reading(program.choices), asked)
+    except SettingsError as error:
+        say(words()("commands.error", message=localised(str(error))), err=True)
+        raise click.exceptions.Exit(1) from None
 
 
 def _told(program: "Program", drills: "Sequence[Drill]", number: int) -> str:

@@ -5,10 +5,12 @@ from collections.abc import Iterator
 from random import Random
 from typing import Final, NamedTuple
 
-from parser.findings.errors import ProgramError
+from parser.findings.codes import Severity
+from parser.findings.errors import ProgramError, SettingsError
 from parser.findings.findings import Finding
 from parser.program import Program, parse_program
 from sim.check.batch import check_program
+from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.drill.kinds import KINDS, Group
 from sim.drill.proof import LEVELS, Departure, Level, departure, level_of
@@ -16,7 +18,7 @@ from sim.drill.sound import Slip, Sound
 
 MOST_BLOCKS: Final = 500
 """Blocks of a program that people can look through."""
-MOST_DRILLS: Final = 30
+MOST_SETS: Final = 9999
 _TRIES: Final = 8  # for each drill that is wanted
 
 
@@ -69,11 +71,15 @@ class Drill(NamedTuple):
 
 
 def drills_of(program: Program, settings: CheckSettings, asked: Asked) -> tuple[Drill, ...]:
-    """Drills of a sound program of at most `MOST_BLOCKS`, from easy to hard; fewer than asked where there are no more.
+    """Drills of a sound program, from easy to hard; fewer than asked where there are no more.
 
     Each is proved: its text cannot be obeyed as it stands, or its path leaves the sound one by more than a path may lie
-    open. Its findings are those of the check, lengths in µm.
+    open. Its findings are those of the check, lengths in µm. Raises SettingsError for a program that is too long, that
+    has findings that fail it, or in which nothing can be damaged so.
     """
+    _refuse_long(program)
+    before = check_program(program, settings)
+    _refuse_unsound(program, before)
     chance = Random(asked.number)  # noqa: S311 - the same for all who are told the number
     found: list[_Fault] = []
     seen: set[str] = set()
@@ -83,9 +89,26 @@ def drills_of(program: Program, settings: CheckSettings, asked: Asked) -> tuple[
             found.append(fault)
             if _is_enough(found, asked):
                 break
-    before = Counter(_told(program, check_program(program, settings).findings))
-    drills = [_drill(program, fault, settings, before) for fault in _chosen(found, asked.drills)]
+    if not found:
+        raise SettingsError(f"nothing in {program.name} can be damaged in such a way that it shows at this level")
+    told = Counter(_told(program, before.findings))
+    drills = [_drill(program, fault, settings, told) for fault in _chosen(found, asked.drills)]
     return tuple(sorted(drills, key=lambda one: (LEVELS.index(one.level), -one.by.most_um)))
+
+
+def _refuse_long(program: Program) -> None:
+    blocks = max(program.reading.counts.run, len(program.toolpath))
+    if blocks > MOST_BLOCKS:
+        raise SettingsError(f"{program.name} has {blocks} blocks; nobody looks through more than {MOST_BLOCKS}")
+
+
+def _refuse_unsound(program: Program, result: CheckResult) -> None:
+    if result.verdict == "fail":
+        codes = ", ".join(sorted({found.code for found in result.findings if found.severity is Severity.ERROR}))
+        name = program.name
+        raise SettingsError(
+            f"drills are made of sound programs, and {name} has findings that fail it: {codes}; drycut check shows them"
+        )
 
 
 def _is_enough(found: list["_Fault"], asked: Asked) -> bool:

@@ -14,6 +14,9 @@ from parser.findings.catalogue import Language
 from parser.findings.errors import SettingsError
 from parser.program import Program, load_program, moving
 from sim.check.as_typed import settings_near
+from sim.check.settings import CheckSettings
+from sim.drill import drills as drill_set
+from sim.jobs.drills_into import drills_into
 from sim.jobs.run_into import run_into, stages_of_files
 from sim.open.form import number_of, scenario_of
 from sim.open.telling import Asked, do, telling
@@ -33,6 +36,7 @@ from sim.table.progress import Progress
 _FILM_PX: Final = (960, 540)
 _FILM_FPS: Final = 20
 _FILM_S: Final = Bound(0.5, 600.0)
+_SETS: Final = Bound(1.0, float(drill_set.MOST_SETS))
 
 
 def _run(asked: Asked) -> dict[str, Any]:
@@ -65,10 +69,23 @@ def _pictures(asked: Asked) -> dict[str, Any]:
     return {}
 
 
+def _drills(asked: Asked) -> dict[str, Any]:
+    """Make the fault drills of a set of the program that ran."""
+    number = int(number_of(asked["set"], _SETS, "the number of the set"))
+    progress = telling(["drills"])
+    progress("drills", 0, 1)
+    program = _program(asked, scenario_of(asked, Path(asked["file"])))
+    wanted = drill_set.Asked(number)
+    drills = drill_set.drills_of(program, CheckSettings.reading(program.choices), wanted)
+    drills_into(Path(asked["folder"]), program, drills, number)
+    return {}
+
+
 _JOBS: Final[Mapping[str, Callable[[Asked], dict[str, Any]]]] = {
     "run": _run,
     "film": _film,
     "pictures": _pictures,
+    "drills": _drills,
 }
 
 

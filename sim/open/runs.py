@@ -1,6 +1,7 @@
 """The run of the page: one at a time, in a process of its own, with its files in a folder that goes with the server.
 
-What more is made of a finished run, a film or pictures, is made in such a process too, and stands beside its files.
+What more is made of a finished run, a film, pictures or fault drills, is made in such a process too, and stands beside
+its files.
 """
 
 import asyncio
@@ -16,10 +17,10 @@ from sim.open.file_names import safe_name
 
 KEYS: Final = ("machine", "thickness_mm", "wire_mm", "offset_mm", "side")
 """What the page may say of a run, as texts; empty ones leave what is usual."""
-MORE_KEYS: Final = ("job", "form", "seconds", "language")
-"""What it may say of a film or of pictures."""
+MORE_KEYS: Final = ("job", "form", "seconds", "set", "language")
+"""What it may say of a film, of pictures, or of fault drills."""
 _IDLE: Final[dict[str, Any]] = {"state": "idle"}
-_MORE: Final = ("film", "pictures")
+_MORE: Final = ("film", "pictures", "drills")
 
 
 class Runs:
@@ -61,7 +62,7 @@ class Runs:
             await self._start(name, text, asked)
 
     async def make(self, asked: dict[str, str]) -> None:
-        """Make a film or pictures of the finished run; nothing where there is none."""
+        """Make a film, pictures or fault drills of the finished run; nothing where there is none."""
         async with self._turn:
             if self._ran and asked["job"] in _MORE:
                 await self._end()

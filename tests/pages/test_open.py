@@ -242,6 +242,14 @@ def test_replay_and_film_are_seen_in_the_page_and_the_replay_may_ask_nobody(
         shown.page.click(".thumb:has(img[src*='film.webp'])")
         assert shown.page.inner_text("#viewing") == "动画"
         assert natural_width(shown.page, "#viewed img") == 960
+        shown.page.click("#unview")
+        shown.page.click("#drill")
+        shown.page.get_by_role("button", name="找错练习", exact=True).click()
+        framed = shown.page.frame_locator("#viewer iframe")
+        shown.page.bring_to_front()  # frames of a tab behind another one take no click
+        framed.locator("form.aside-now").first.wait_for(state="attached")
+        framed.locator("#start button").click()
+        assert framed.locator("h2:visible").first.inner_text().startswith("第 1 题"), "forms work in the frame"
 
 
 def natural_width(page: "Page", selector: str) -> int:

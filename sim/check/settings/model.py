@@ -64,6 +64,11 @@ class CheckSettings:
         of_machine = self.machine.controller.registers if self.machine else ()
         return Choices(self.marks, self.dialect, self.unit, merged([of_machine, self.registers]))
 
+    @classmethod
+    def reading(cls, choices: Choices) -> Self:
+        """The usual settings, for a program that was read with these choices."""
+        return cls(marks=choices.marks, dialect=choices.dialect, unit=choices.unit, registers=choices.registers)
+
     @property
     def demands(self) -> Demands:
         """What the program is held against. SettingsError where wire and gap leave no kerf."""

@@ -43,7 +43,7 @@ def test_a_program_with_few_places_says_how_few_drills_it_has(tmp_path: Path) ->
     ("text", "code", "told"),
     [
         ("B1000B0B1000GXL1\nB0B500\nDD\n", 1, "one.3b has findings that fail it: 3B106"),
-        ("B1000B0B1000GXL1\n" * 501 + "DD\n", 2, "one.3b has 501 blocks; nobody looks through more than 500"),
+        ("B1000B0B1000GXL1\n" * 501 + "DD\n", 1, "one.3b has 501 blocks; nobody looks through more than 500"),
         ("nothing\n", 2, "3B100"),
     ],
 )

@@ -247,7 +247,7 @@ def ran(served: OpenedPage) -> dict:
 
 
 def asked_more(served: OpenedPage, job: str, **values: str) -> dict:
-    told = {"job": job, "form": "webp", "seconds": "0.5", "language": "en", **values}
+    told = {"job": job, "form": "webp", "seconds": "0.5", "set": "3", "language": "en", **values}
     answer = served.ask("more", json.dumps(told))
     assert answer.status == 200
     return json.loads(answer.body)
@@ -268,7 +268,26 @@ def test_a_film_and_all_pictures_of_the_run_are_made_when_they_are_asked_for(ser
     assert state["verdict"] == "pass", "the run is still told"
 
 
-FILM = {"job": "film", "form": "webp", "seconds": "1", "language": "en", "file": "part.3b", "folder": "nowhere"}
+def test_fault_drills_of_a_set_are_made_of_the_program_that_ran(served: OpenedPage) -> None:
+    run = ran(served)["run"]
+    asked_more(served, "drills")
+    names = {file["name"] for file in came_to(served, "done")["files"]}
+    assert {"drill.html", "answers.html", "drill-01.3b"} <= names
+    assert b'"set":3' in served.ask(f"run/{run}/drill.html", method="GET").body
+    asked_more(served, "drills", set="many")
+    state = came_to(served, "done", "wrong")
+    assert state["why"]["en"] == "the number of the set is a number, not 'many'"
+
+
+FILM = {
+    "job": "film",
+    "form": "webp",
+    "seconds": "1",
+    "set": "1",
+    "language": "en",
+    "file": "part.3b",
+    "folder": "nowhere",
+}
 
 
 @pytest.mark.parametrize(
@@ -303,7 +322,7 @@ def test_a_film_can_be_cancelled_and_the_files_of_the_run_stay(served: OpenedPag
 
 def test_nothing_is_made_of_a_run_that_is_not_there(tmp_path: Path) -> None:
     runs = Runs(tmp_path)
-    for job in ("film", "pictures", "run"):
+    for job in ("film", "pictures", "drills", "run"):
         awaited(runs.make({**FILM, "job": job}))
         assert runs.state == {"state": "idle"}
 

@@ -10,7 +10,9 @@ const FILM = "film.";
 const KB = 1000;
 
 /** @type {Record<string, string>} */
-const PAGES = { "replay.html": "file-replay", "report.html": "file-report" };
+const PAGES = {
+  "replay.html": "file-replay", "report.html": "file-report", "drill.html": "file-drill", "answers.html": "file-answers",
+};
 /** @type {Record<string, Said>} */
 const PICTURES = JSON.parse(element("#pictures", HTMLElement).textContent);
 
@@ -33,7 +35,7 @@ const sizeOf = (bytes) => (bytes < KB * KB ? `${Math.ceil(bytes / KB)} kB` : `${
 
 /**
  * Let the files of a run be seen and saved.
- * @param {(asked: Record<string, string>) => void} ask for a film or for pictures
+ * @param {(asked: Record<string, string>) => void} ask for a film, for pictures or for fault drills
  */
 export function wireMade(ask) {
   const box = element("#made", HTMLElement);
@@ -43,7 +45,8 @@ export function wireMade(ask) {
   const all = element("#all", HTMLAnchorElement);
   const form = element("#form", HTMLSelectElement);
   const seconds = element("#seconds", HTMLInputElement);
-  const buttons = [element("#film", HTMLButtonElement), element("#draw", HTMLButtonElement)];
+  const set = element("#set", HTMLInputElement);
+  const buttons = [element("#film", HTMLButtonElement), element("#draw", HTMLButtonElement), element("#drill", HTMLButtonElement)];
   const view = wireViewer();
   let drawn = "";
 
@@ -94,9 +97,12 @@ export function wireMade(ask) {
     all.href = `zip/${run}`;
   }
 
-  const words = () => ({ form: form.value, seconds: seconds.value.trim(), language: language.isChinese() ? "zh" : "en" });
+  const words = () => ({
+    form: form.value, seconds: seconds.value.trim(), set: set.value.trim(), language: language.isChinese() ? "zh" : "en",
+  });
   buttons[0].addEventListener("click", () => ask({ job: "film", ...words() }));
   buttons[1].addEventListener("click", () => ask({ job: "pictures", ...words() }));
+  buttons[2].addEventListener("click", () => ask({ job: "drills", ...words() }));
 
   return {
     /**

@@ -13,7 +13,7 @@ const NOTHING = { name: "", text: "", number: "", drawing: "", block: "" };
 const STAGES = {
   checks: "stage-checks", plan: "stage-plan", run: "stage-run", kerf: "stage-kerf", pictures: "stage-pictures",
   pages: "stage-pages", film: "stage-film", drawing: "stage-drawing", figures: "stage-figures", write: "stage-write",
-  comparison: "stage-comparison",
+  comparison: "stage-comparison", drills: "stage-drills",
 };
 
 /**

@@ -24,7 +24,7 @@ function shown(href, name, title) {
   if (isVideo(name)) return make("video", { src: href, controls: true, autoplay: true, loop: true, muted: true, ariaLabel: title });
   if (!isPage(name)) return make("img", { src: href, alt: title });
   const frame = make("iframe", { title });
-  frame.setAttribute("sandbox", "allow-scripts allow-downloads");
+  frame.setAttribute("sandbox", "allow-scripts allow-downloads allow-forms");
   frame.src = `${href}#lang=${language.current()}`;
   return frame;
 }
