@@ -179,13 +179,13 @@ def _drill(sound: Program, fault: _Fault, settings: CheckSettings, before: Count
         if told[key] <= 0:
             findings.append(found)
         told[key] -= 1
-    last = len(fault.slip.text.splitlines())
+    listed = lines_of(fault.program)
     return Drill(
         fault.kind,
         KINDS[fault.kind].group,
         fault.level,
-        tuple(sorted(line for line in fault.slip.lines if line <= last)),
-        *_differing(sound.text, fault.slip.text),
+        tuple(sorted(line for line in fault.slip.lines if line <= len(listed))),
+        *_differing(lines_of(sound), listed),
         fault.program,
         departure(sound.toolpath, fault.program.toolpath),
         tuple(findings),
@@ -196,9 +196,16 @@ def _told(program: Program, findings: tuple[Finding, ...]) -> list[tuple[str, st
     return [(found.code, program.excerpt(found.line) if found.line else "") for found in findings]
 
 
-def _differing(sound: str, damaged: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def lines_of(program: Program) -> list[str]:
+    """The lines of a program's text, without their ends."""
+    last = program.lines.line(len(program.text))
+    lines = [program.excerpt(line) for line in range(1, last + 1)]
+    return lines if lines[-1] else lines[:-1]  # nothing stands behind the last line end
+
+
+def _differing(sound: list[str], damaged: list[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Lines of either text between the first and the last that differ."""
-    before, after = sound.splitlines(), damaged.splitlines()
+    before, after = list(sound), list(damaged)
     while before and after and before[0] == after[0]:
         del before[0], after[0]
     while before and after and before[-1] == after[-1]:

@@ -8,6 +8,12 @@ import pytest
 from browser import OpenPage
 from drill_pages import answers, drills_of_part, tasks
 from page_checks import complaints
+from report_pages import PART
+
+from parser.program import parse_program
+from sim.check.settings import CheckSettings
+from sim.drill.drills import Asked, drills_of
+from sim.show.drill_page import answers_page, drill_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page
@@ -113,6 +119,16 @@ def test_on_paper_stand_all_tasks_and_no_answer(open_page: OpenPage) -> None:
     assert shown.locator(".answer:visible").count() == 0
     assert shown.locator("path.fault:visible").count() == 0
     shown.emulate_media(media="screen")
+
+
+def test_nothing_of_a_program_is_obeyed_by_the_page(open_page: OpenPage) -> None:
+    text = PART.replace("//lead-in", "//</code><script>document.title='no'</script>\u202e\x1b[31m")
+    sound = parse_program(text, "<img src=x>.3b")
+    drills = drills_of(sound, CheckSettings(), Asked(1, 2))
+    for html in (drill_page(sound, drills, 1, ["drill-01.3b", "drill-02.3b"]), answers_page(sound, drills, 1)):
+        assert "\u202e" not in html
+        assert "\x1b" not in html
+        assert open_page(html).page.title().startswith(("Find the fault: <img", "Answers: <img"))
 
 
 def test_a_change_of_language_keeps_what_was_chosen(open_page: OpenPage) -> None:

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from parser.program import Program
+from parser.text.encoding import printable
 from sim.drill.drills import Drill
 from sim.drill.kinds import groups_of
 from sim.show.drill_page.picture import HEIGHT, WIDTH
@@ -36,7 +37,7 @@ def _page(template: str, sound: Program, drills: Sequence[Drill], number: int, *
     return rendered(
         _ASSETS,
         template,
-        name=sound.name,
+        name=printable(sound.name),
         number=number,
         drills=[view_of(drill, sound) for drill in drills],
         groups=groups_of(sound),

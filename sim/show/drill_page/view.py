@@ -8,9 +8,10 @@ from parser.findings.catalogue import LANGUAGES, Said, length, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.program import Program
+from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from parser.units import mm
-from sim.drill.drills import Drill
+from sim.drill.drills import Drill, lines_of
 from sim.show.drill_page.picture import picture_of
 from sim.show.words import said
 
@@ -20,19 +21,15 @@ _MOST_FINDINGS: Final = 4
 
 def view_of(drill: Drill, sound: Program) -> dict[str, Any]:
     """What a page shows of a drill."""
-    last = drill.program.lines.line(len(drill.program.text)) if drill.program.text else 1
-    listed = [(line, drill.program.excerpt(line)) for line in range(1, last + 1)]
-    if listed and not listed[-1][1]:
-        del listed[-1]  # what stands behind the last line end
     gravest = sorted(drill.findings, key=lambda found: _rank(drill, found))
     return {
         "level": drill.level,
         "group": drill.group,
         "lines": drill.lines,
-        "listed": listed,
+        "listed": list(enumerate(map(printable, lines_of(drill.program)), 1)),
         "kind": said(f"drill.kind-{drill.kind}"),
-        "was": drill.was,
-        "stands": drill.stands,
+        "was": [printable(line) for line in drill.was],
+        "stands": [printable(line) for line in drill.stands],
         "does": _does(drill),
         "findings": [_told(found) for found in gravest[:_MOST_FINDINGS]],
         "picture": picture_of(sound.toolpath, drill.program.toolpath, drill.lines),
@@ -43,7 +40,7 @@ def places_of(path: Toolpath) -> list[dict[str, Any]]:
     """Where the blocks of a drawing end, and how they go there: what people need to work a fault out."""
     return [
         {
-            "name": path.source.names.of_row(row),
+            "name": printable(path.source.names.of_row(row)),
             "form": _form(path, row),
             "centre": _pair(path.center_um[row]) if path.is_arc[row] else "",
             "end": _pair(path.end_um[row]),

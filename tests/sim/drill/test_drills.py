@@ -14,7 +14,7 @@ from places import ROOT
 from parser.program import Program, parse_program, read_program
 from sim.check.batch import check_program
 from sim.check.settings import CheckSettings
-from sim.drill.drills import Asked, Drill, drills_of
+from sim.drill.drills import Asked, Drill, drills_of, lines_of
 from sim.drill.kinds import KINDS, groups_of
 from sim.drill.proof import LEVELS, SEEN_FROM, departure, level_of
 from sim.drill.sound import Sound
@@ -143,6 +143,14 @@ def test_damaged_programs_keep_the_ends_of_their_lines(end: str) -> None:
         bare = drill.program.text.replace(end, "")
         assert "\r" not in bare
         assert "\n" not in bare
+
+
+def test_lines_are_those_that_the_check_counts() -> None:
+    text = SQUARE.replace("GYL2\n", "GYL2 //one\x0btwo\u2028three\x1c\n")
+    for drill in drills_of(parse_program(text), CheckSettings(), Asked(4, 10)):
+        listed = lines_of(drill.program)
+        assert len(listed) in {4, 5, 6}
+        assert all(drill.program.excerpt(line) == listed[line - 1] for line in drill.lines)
 
 
 @pytest.mark.parametrize(
