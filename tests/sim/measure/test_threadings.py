@@ -4,11 +4,16 @@ import math
 
 import numpy as np
 import pytest
+from places import ROOT
 from runs import scenario_run
 
 from parser.program import parse_program
+from parser.toolpath import Toolpath
+from sim.jobs.source import program_read, source_of
 from sim.measure.threadings import threadings
+from sim.run.offsetting import as_run
 from sim.run.report import build_report
+from sim.setup.scenario import load_scenario
 
 PLACES = 2000  # along each curve
 TWO_HOLES = """\
@@ -23,17 +28,15 @@ DD
 """
 
 
-def places(toolpath, row: int) -> list[tuple[float, float]]:
-    """Places along a curve, worked out one by one from its centre and its sweep."""
-    (x, y), (to_x, to_y) = toolpath.start_um[row].tolist(), toolpath.end_um[row].tolist()
-    shares = [k / PLACES for k in range(PLACES + 1)]
-    if not toolpath.is_arc[row]:
-        return [(x + share * (to_x - x), y + share * (to_y - y)) for share in shares]
-    center_x, center_y = toolpath.center_um[row].tolist()
-    from_rad = math.atan2(y - center_y, x - center_x)
-    radius, sweep = math.hypot(x - center_x, y - center_y), float(toolpath.sweep_rad[row])
-    angles = [from_rad + share * sweep for share in shares]
-    return [(center_x + radius * math.cos(rad), center_y + radius * math.sin(rad)) for rad in angles]
+def places(toolpath, row: int) -> np.ndarray:
+    """Places (n, 2) along a curve, from its centre and its sweep."""
+    start, end = toolpath.start_um[row], toolpath.end_um[row]
+    if not toolpath.is_arc[row]:  # no place on a line lies further off than its ends
+        return np.array([start, (start + end) / 2.0, end])
+    center = toolpath.center_um[row]
+    radius, sweep = math.hypot(*(start - center)), float(toolpath.sweep_rad[row])
+    angles = math.atan2(*(start - center)[::-1]) + sweep * np.linspace(0.0, 1.0, PLACES + 1)
+    return center + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
 def plain(toolpath) -> list[tuple[int, int, tuple[float, ...]]]:
@@ -44,21 +47,28 @@ def plain(toolpath) -> list[tuple[int, int, tuple[float, ...]]]:
         if row < len(toolpath) and not toolpath.is_jump[row]:
             rows.append(row)
         elif rows:
-            x, y = toolpath.start_um[rows[0]].tolist()
-            all_x, all_y = zip(*(place for one in rows for place in places(toolpath, one)), strict=True)
-            found.append((rows[0], rows[-1], (x - min(all_x), max(all_x) - x, y - min(all_y), max(all_y) - y)))
+            off = np.concatenate([places(toolpath, one) for one in rows]) - toolpath.start_um[rows[0]]
+            (left, down), (right, up) = -off.min(axis=0), off.max(axis=0)
+            found.append((rows[0], rows[-1], (left, right, down, up)))
             rows = []
     return found
 
 
+def path_of(name: str) -> Toolpath:
+    """The path that a scenario runs, without its run."""
+    scenario = load_scenario(ROOT / "scenarios" / name)
+    return as_run(program_read(scenario, source_of(scenario)), scenario.offset).toolpath
+
+
 @pytest.mark.parametrize("name", ["keyhole", "die", "plate", "rough-and-trim", "iso-die", "out-of-travel", "logo"])
 def test_reach_is_that_of_places_along_the_path(name: str) -> None:
-    toolpath = scenario_run(name).toolpath
+    toolpath = path_of(name)
     found = threadings(toolpath, np.arange(len(toolpath) + 1.0))
-    assert [(one.first, one.last) for one in found] == [(first, last) for first, last, _ in plain(toolpath)]
+    known = plain(toolpath)
+    assert [(one.first, one.last) for one in found] == [(first, last) for first, last, _ in known]
     radius_um = float(np.nanmax(toolpath.radius_um, initial=0.0))
     sagitta_um = radius_um * (1.0 - math.cos(math.pi / PLACES))
-    for one, (first, last, reach) in zip(found, plain(toolpath), strict=True):
+    for one, (first, last, reach) in zip(found, known, strict=True):
         assert (one.left_um, one.right_um, one.down_um, one.up_um) == pytest.approx(reach, abs=sagitta_um + 1e-6)
         assert one.at_um == tuple(toolpath.start_um[first])
         assert one.out_um == tuple(toolpath.end_um[last])
