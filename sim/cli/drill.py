@@ -88,11 +88,14 @@ def _refuse_own_file(path: Path, output: Path, program: "Program", count: int) -
 def _drills(program: "Program", asked: "Asked") -> "tuple[Drill, ...]":
     """Drills of a program; the end of the command where none can be made of it."""
     from sim.check.settings import CheckSettings
+    from sim.cli.progress import StageProgress
     from sim.drill.drills import drills_of
     from sim.show.terminal.printer import say
 
     try:
-        return drills_of(program, CheckSettings.reading(program.choices), asked)
+        with StageProgress("drills") as progress:
+            progress("drills", 0, 1)
+            return drills_of(program, CheckSettings.reading(program.choices), asked)
     except SettingsError as error:
         say(words()("commands.error", message=localised(str(error))), err=True)
         raise click.exceptions.Exit(1) from None
