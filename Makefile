@@ -6,7 +6,7 @@ READY := .venv/.ready
 # Tests start hundreds of processes: each would compile again all that it imports, and each core all tests.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test lint style types imports scripts browser bench steps mutate survivors fuzz golden pages lock clean
+.PHONY: demo test deep lint style types imports scripts browser bench steps mutate survivors fuzz golden pages lock clean
 
 demo: $(READY)
 	$(BIN)/drycut run scenarios/keyhole -o out/keyhole
@@ -16,6 +16,10 @@ demo: $(READY)
 test: lint browser
 	$(BIN)/pytest -m alone $$(grep -rl --include='test_*.py' 'mark\.alone' tests)
 	$(BIN)/pytest -m "not alone" --numprocesses auto --dist worksteal
+
+# Promises that hold for any input, on all the cases that are promised: hours, where the suite takes some of them.
+deep: $(READY)
+	DRYCUT_DEEP=1 $(BIN)/pytest -m deep --numprocesses auto
 
 # All at once: types take the longest, on one core.
 lint: $(READY)

@@ -106,12 +106,19 @@ def counted(findings: Iterable[Finding]) -> tuple[Count, ...]:
     return tuple(sorted(of_each, key=lambda one: (worst_first.index(one.severity), one.code)))
 
 
-def edited(text: str, edits: Iterable[Edit]) -> str:
-    """Text with edits made; of two that touch the same characters the first counts."""
-    parts, at = [], 0
+def compatible(edits: Iterable[Edit]) -> tuple[Edit, ...]:
+    """Edits in the order of their places; of two that touch the same characters the first counts."""
+    chosen: list[Edit] = []
     for edit in sorted(set(edits)):
-        if edit.first < at:
-            continue
+        if not chosen or edit.first >= chosen[-1].past:
+            chosen.append(edit)
+    return tuple(chosen)
+
+
+def edited(text: str, edits: Iterable[Edit]) -> str:
+    """Text with its `compatible` edits made."""
+    parts, at = [], 0
+    for edit in compatible(edits):
         parts += [text[at : edit.first], edit.text]
         at = edit.past
     return "".join([*parts, text[at:]])

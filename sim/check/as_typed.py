@@ -21,7 +21,7 @@ class AsTyped(NamedTuple):
     Attributes
     ----------
     lines
-        Of the text, whose characters all have their places.
+        Of the text as it is typed; each of its characters has its place in what was read of it.
     settings
         With which it was checked.
     program
@@ -48,8 +48,9 @@ def as_typed(name: str, file: Path | None, text: str) -> AsTyped:
     try:
         program = load_program(data, name, settings.choices)
     except ProgramError:
-        return AsTyped(LineIndex(plain), settings, None, check_file(Job(name, data, settings)), wrong)
-    return AsTyped(program.lines, settings, program, check_program(program, settings), wrong)
+        return AsTyped(LineIndex(text), settings, None, check_file(Job(name, data, settings)), wrong)
+    # Not the lines of the program: its reader folds full-width signs, which are shorter then in UTF-8.
+    return AsTyped(LineIndex(text), settings, program, check_program(program, settings), wrong)
 
 
 def settings_near(name: str, file: Path | None) -> tuple[CheckSettings, str]:

@@ -4,7 +4,7 @@ from collections import Counter
 from typing import NamedTuple
 
 from parser.findings.codes import Severity
-from parser.findings.findings import Finding, edited
+from parser.findings.findings import Edit, Finding, compatible, edited
 from parser.program import Program, load_program
 from parser.text.encoding import encode_text
 from sim.check.batch import result_of
@@ -21,12 +21,15 @@ class MendedText(NamedTuple):
     ----------
     text, data
         The text and its bytes; as they were where nothing is certain, or a mend would bring a new error.
+    edits
+        What makes the text of the program as read, none of them touching another.
     findings, shown
         All findings of the program as it was, with their edits, and those of them that nothing silences.
     """
 
     text: str
     data: bytes
+    edits: tuple[Edit, ...]
     findings: tuple[Finding, ...]
     shown: tuple[Finding, ...]
 
@@ -39,11 +42,12 @@ def mended_text(program: Program, settings: CheckSettings, known: frozenset[str]
     checked = run_checks(program, settings.demands)
     findings = with_edits(program, checked)
     shown = without_known(result_of(program, checked._replace(findings=findings), settings), known).findings
-    text = edited(program.text, [edit for finding in shown for edit in finding.edits])
+    edits = compatible(edit for finding in shown for edit in finding.edits)
+    text = edited(program.text, edits)
     data = encode_text(text, program.encoding)
     if text != program.text and _brings_errors(load_program(data, program.name, settings.choices), settings, checked):
-        text, data = program.text, encode_text(program.text, program.encoding)
-    return MendedText(text, data, findings, shown)
+        text, data, edits = program.text, encode_text(program.text, program.encoding), ()
+    return MendedText(text, data, edits, findings, shown)
 
 
 def _brings_errors(program: Program, settings: CheckSettings, before: Checked) -> bool:

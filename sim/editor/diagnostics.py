@@ -8,14 +8,16 @@ from lsprotocol.types import (
     CodeActionKind,
     Diagnostic,
     DiagnosticSeverity,
+    OptionalVersionedTextDocumentIdentifier,
     Range,
+    TextDocumentEdit,
     TextEdit,
     WorkspaceEdit,
 )
 
 from parser.findings.catalogue import texts
 from parser.findings.codes import Severity
-from parser.findings.findings import Finding
+from parser.findings.findings import Edit, Finding
 from sim.editor.opened import Text
 from sim.editor.places import Places
 from sim.show.words import Words
@@ -46,9 +48,9 @@ def actions_of(text: Text, asked: Range, kinds: Sequence[str]) -> list[CodeActio
     actions = []
     if _wanted(CodeActionKind.QuickFix, kinds):
         actions += list(_quick_fixes(text, asked))
-    if _wanted(CodeActionKind.SourceFixAll, kinds) and text.mended is not None:
-        title, edits = Words(text.language)("editor.mend-all"), [TextEdit(text.places.whole, text.mended)]
-        actions.append(CodeAction(title, kind=CodeActionKind.SourceFixAll, edit=WorkspaceEdit({text.uri: edits})))
+    if _wanted(CodeActionKind.SourceFixAll, kinds) and text.mends:
+        title = Words(text.language)("editor.mend-all")
+        actions.append(CodeAction(title, kind=CodeActionKind.SourceFixAll, edit=_edit(text, text.mends)))
     return actions
 
 
@@ -81,12 +83,17 @@ def _quick_fixes(text: Text, asked: Range) -> Iterator[CodeAction]:
             kind=CodeActionKind.QuickFix,
             diagnostics=[_diagnostic(finding, text)],
             is_preferred=True,
-            edit=WorkspaceEdit({text.uri: _edits(finding, text.places)}),
+            edit=_edit(text, finding.edits),
         )
 
 
-def _edits(finding: Finding, places: Places) -> list[TextEdit]:
-    return [TextEdit(places.range_of((edit.first, edit.past)), edit.text) for edit in finding.edits]
+def _edit(text: Text, edits: Sequence[Edit]) -> WorkspaceEdit:
+    """Edits of a text; of one version of it where the editor knows versions, so that it refuses them for another."""
+    made = [TextEdit(text.places.range_of((edit.first, edit.past)), edit.text) for edit in edits]
+    if text.version is None:
+        return WorkspaceEdit(changes={text.uri: made})
+    of_version = OptionalVersionedTextDocumentIdentifier(text.uri, text.version)
+    return WorkspaceEdit(document_changes=[TextDocumentEdit(of_version, [*made])])
 
 
 def _wanted(kind: CodeActionKind, kinds: Sequence[str]) -> bool:

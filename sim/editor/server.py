@@ -29,11 +29,15 @@ class _Texts:
 
     def __init__(self, server: LanguageServer, asked: Language | None) -> None:
         self._server, self._asked, self._locale = server, asked, ""
+        self._knows_versions = False
         self._open: dict[str, tuple[int | None, Text]] = {}
 
-    def meet(self, locale: str | None) -> None:
-        """The editor says in which language people use it."""
-        self._locale = locale or ""
+    def meet(self, params: types.InitializeParams) -> None:
+        """The editor says in which language people use it, and whether its edits may be of one version of a text."""
+        self._locale = params.locale or ""
+        workspace = params.capabilities.workspace
+        edits = workspace.workspace_edit if workspace else None
+        self._knows_versions = bool(edits and edits.document_changes)
 
     def of(self, uri: str) -> Text:
         """A text as it stands now."""
@@ -46,7 +50,8 @@ class _Texts:
         name = file.name if file else unquote(uri.rpartition("/")[2]) or "untitled"
         made = as_typed(name, file, document.source)
         encoding = self._server.workspace.position_encoding or types.PositionEncodingKind.Utf16
-        text = Text(uri, made, Places(made.lines, encoding), self._language)
+        of_version = document.version if self._knows_versions else None
+        text = Text(uri, of_version, made, Places(made.lines, encoding), self._language)
         self._open[uri] = document.version, text
         return text
 
@@ -76,7 +81,7 @@ def _answer_changes(server: LanguageServer, texts: _Texts) -> None:
 
     @server.feature(types.INITIALIZE)
     def initialize(params: types.InitializeParams) -> None:
-        texts.meet(params.locale)
+        texts.meet(params)
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def did_open(params: types.DidOpenTextDocumentParams) -> None:

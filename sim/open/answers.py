@@ -23,31 +23,57 @@ from sim.show.replay.curve_columns import exact_columns
 from sim.show.words import said
 from sim.show.words.phrases import lasting
 
-_NEWLINES: Final = {"\r\n": "crlf", "\r": "cr", "\n": "lf"}
-
 
 class ReadFile(NamedTuple):
-    """The text of a file with lines that end with LF, as a page has it, and what brings back its bytes."""
+    """The text of a file with lines that end with LF, as a page has it, and what brings back its bytes.
+
+    `newline` is how all its lines end; of a file that mixes line ends, a letter of `_ENDS` for each line, in order.
+    """
 
     text: str
     encoding: str
     newline: str
 
 
+_ENDS: Final = {"w": "\r\n", "u": "\n", "m": "\r"}
+"""Letter of a line -> its end."""
+
+
 def read_file(data: bytes) -> ReadFile:
     """The text of a file's bytes. ProgramError (3B100) where they are no text."""
     text, encoding = decode_text(data)
-    first = LINE_END.search(text)
-    return ReadFile(LINE_END.sub("\n", text), encoding, first[0] if first else "\n")
+    ends = LINE_END.findall(text)
+    letter = {end: letter for letter, end in _ENDS.items()}
+    mixed = "".join(letter[end] for end in ends) if len(set(ends)) > 1 else ""
+    return ReadFile(LINE_END.sub("\n", text), encoding, mixed or (ends[0] if ends else "\n"))
 
 
-def file_of(read: ReadFile) -> bytes:
-    """Its bytes; letters that its encoding lacks are told in UTF-8, all of it."""
-    text = read.text.replace("\n", read.newline if read.newline in _NEWLINES else "\n")
+def file_of(read: ReadFile, text: str) -> bytes:
+    """The bytes of a text that was made of a file as read; letters that its encoding lacks are told in UTF-8, all of it.
+
+    Of mixed line ends each line that stayed has its own; lines put between others end as the one that stood there.
+    """
+    ends = _line_ends(read, text)
+    whole = "".join(part for line, end in zip(text.split("\n"), [*ends, ""], strict=True) for part in (line, end))
     try:
-        return encode_text(text, read.encoding)
+        return encode_text(whole, read.encoding)
     except (UnicodeEncodeError, LookupError):
-        return text.encode("utf-8", "replace")
+        return whole.encode("utf-8", "replace")
+
+
+def _line_ends(read: ReadFile, text: str) -> list[str]:
+    """The end of each line of a text but the last."""
+    count = text.count("\n")
+    was = [_ENDS[letter] for letter in read.newline if letter in _ENDS]
+    if not was:
+        return [read.newline if read.newline in _ENDS.values() else "\n"] * count
+    before, after = read.text.split("\n")[:-1], text.split("\n")[:-1]
+    most = min(len(was), count)
+    head = next((at for at in range(most) if before[at] != after[at]), most)
+    most -= head
+    tail = next((at for at in range(most) if before[~at] != after[~at]), most)
+    between = [was[min(at, len(was) - 1)] for at in range(head, count - tail)]
+    return [*was[:head], *between, *was[len(was) - tail :]]
 
 
 def answer(name: str, file: Path | None, text: str) -> dict[str, Any]:

@@ -102,8 +102,8 @@ class _Files:
 
     async def save(self, request: Request) -> Response:
         """The bytes of a text."""
-        asked = await told(request, "text", "encoding", "newline")
-        data = file_of(ReadFile(asked["text"], asked["encoding"], asked["newline"]))
+        asked = await told(request, "text", "opened", "encoding", "newline")
+        data = file_of(ReadFile(asked["opened"], asked["encoding"], asked["newline"]), asked["text"])
         return Response(data, media_type="application/octet-stream")
 
     async def alive(self, _: Request) -> Response:

@@ -53,13 +53,28 @@ class Editor(LanguageClient):
         return list(await self.text_document_code_action_async(asked) or ())  # type: ignore[arg-type]
 
 
-def session(work: Callable[[Editor], Awaitable[Any]], locale: str = "en", *options: str) -> Any:
+OF_NEOVIM = types.ClientCapabilities(
+    workspace=types.WorkspaceClientCapabilities(
+        workspace_edit=types.WorkspaceEditClientCapabilities(document_changes=True)
+    ),
+    general=types.GeneralClientCapabilities(
+        position_encodings=[types.PositionEncodingKind.Utf8, types.PositionEncodingKind.Utf16]
+    ),
+)
+
+
+def session(
+    work: Callable[[Editor], Awaitable[Any]],
+    locale: str = "en",
+    *options: str,
+    capabilities: types.ClientCapabilities | None = None,
+) -> Any:
     """What some work with a server comes to; the server ends when it is asked to."""
 
     async def run() -> Any:
         editor = Editor()
         await editor.start_io(sys.executable, "-m", "sim", "lsp", *options, cwd=str(ROOT))
-        asked = types.InitializeParams(capabilities=types.ClientCapabilities(), locale=locale)
+        asked = types.InitializeParams(capabilities=capabilities or types.ClientCapabilities(), locale=locale)
         await asyncio.wait_for(editor.initialize_async(asked), LONGEST_S)
         editor.initialized(types.InitializedParams())
         came = await asyncio.wait_for(work(editor), LONGEST_S)
@@ -106,6 +121,30 @@ def test_findings_stand_at_their_words_and_their_mends_mend(tmp_path: Path) -> N
         assert [action.title for action in only] == ["3B204: write GY, with J 39600"]
 
     session(work)
+
+
+def test_an_editor_that_counts_in_utf_8_is_given_edits_of_the_version_that_it_has(tmp_path: Path) -> None:
+    uri = (tmp_path / "part.3b").as_uri()
+    text = "（第一条；去）B9900B0B9900GXL1\n（圆）B9900B0B39600GYNR1\n（第二条；回）B9900B0B9900GXL2\nDD\n"
+
+    async def work(editor: Editor) -> None:
+        await editor.opens(uri, text)
+        editor.changes(uri, 5, text + "\n")
+        await editor.told()
+        fix, _ = await editor.actions(uri, 2)
+        assert fix.edit is not None
+        (change,) = fix.edit.document_changes or ()
+        assert isinstance(change, types.TextDocumentEdit)
+        assert (change.text_document.uri, change.text_document.version) == (uri, 5)
+        (edit,) = change.edits
+        assert isinstance(edit, types.TextEdit)
+        line = text.splitlines()[2].encode()
+        at = edit.range
+        assert at.start.line == at.end.line == 2
+        mended = line[: at.start.character] + edit.new_text.encode() + line[at.end.character :]
+        assert mended.decode() == "（第二条；回）B9900B0B9900GXL3"
+
+    session(work, capabilities=OF_NEOVIM)
 
 
 def test_it_speaks_the_language_of_the_editor_or_the_one_asked_for(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from page_types import types_of, unlike
 
 from parser.findings.errors import FileUnreadableError
 from sim.open import programs
+from sim.open.answers import file_of, read_file
 from sim.open.programs import Opened, Programs
 from sim.open.row import row_or_why
 from sim.show import open_page
@@ -183,3 +184,14 @@ def test_a_fault_of_drycut_at_one_file_is_told_of_that_one(monkeypatch: pytest.M
     monkeypatch.setattr("sim.open.row.as_typed", broken)
     row = row_or_why("a.3b", None, SQUARE.encode())
     assert (row["verdict"], row["message"]["en"]) == ("fault", "ZeroDivisionError: planted")
+
+
+def test_each_line_of_a_file_with_mixed_line_ends_has_its_own_again() -> None:
+    data = b"B1\r\nB2\nB3\rB4\r\nDD"
+    read = read_file(data)
+    assert read.text == "B1\nB2\nB3\nB4\nDD"
+    assert file_of(read, read.text) == data
+    assert file_of(read, "B1\nB9\nB3\nB4\nDD") == b"B1\r\nB9\nB3\rB4\r\nDD"
+    assert file_of(read, "B1\nB2\nnew\nB3\nB4\nDD\n") == b"B1\r\nB2\nnew\rB3\r\nB4\r\nDD\r\n"
+    assert file_of(read, "B1\nB4\nDD") == b"B1\r\nB4\r\nDD"
+    assert file_of(read, "") == b""

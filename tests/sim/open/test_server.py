@@ -121,10 +121,10 @@ def test_a_file_comes_with_its_lines_and_goes_with_its_bytes(served: OpenedPage)
     read = json.loads(served.ask("read?name=%E5%AD%94.3b", data).body)
     assert read["number"] == ""
     assert (read["name"], read["text"]) == ("孔.3b", "B100B0B100GXL1 //孔\nDD\n")
-    assert served.ask("save", json.dumps(read)).body == data
-    foreign = {**read, "text": read["text"] + "😀"}
+    assert served.ask("save", json.dumps({**read, "opened": read["text"]})).body == data
+    foreign = {**read, "opened": read["text"], "text": read["text"] + "😀"}
     assert served.ask("save", json.dumps(foreign)).body.decode(read["encoding"]).endswith("😀")
-    latin = {**read, "text": "B1 //é😀\n", "encoding": "latin-1"}
+    latin = {**read, "opened": read["text"], "text": "B1 //é😀\n", "encoding": "latin-1"}
     assert served.ask("save", json.dumps(latin)).body == "B1 //é😀\r\n".encode(), "what it lacks, in UTF-8"
     assert json.loads(served.ask("read?name=a.3b", b"\0\1\2").body)["text"] is None
 

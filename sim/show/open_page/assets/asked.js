@@ -70,11 +70,13 @@ export async function row(name, file) {
 }
 
 /**
- * The bytes of a text as its file has them.
- * @param {FileText} file
+ * The bytes of a text as its file would have them.
+ * @param {FileText} file as it was opened
+ * @param {string} text
  */
-export async function saved(file) {
-  return (await ask("save", JSON.stringify(file))).blob();
+export async function saved(file, text) {
+  const { text: opened, encoding, newline } = file;
+  return (await ask("save", JSON.stringify({ text, opened, encoding, newline }))).blob();
 }
 
 /**

@@ -13,7 +13,7 @@
  * @property {string} name
  * @property {string | null} text null where it is none
  * @property {string} encoding
- * @property {string} newline
+ * @property {string} newline how all lines end; where they end in several ways, a letter for each
  * @property {string} number of the program whose file it is; empty where it came to the page
  * @property {Said | null} [why] what was to be open at the start could not be
  */

@@ -197,7 +197,7 @@ function nameOf() {
 /** Save the text as its file was: encoding and line ends stay. */
 async function save() {
   try {
-    const blob = await asked.saved({ ...file, text: text.value });
+    const blob = await asked.saved(file, text.value);
     const link = document.createElement("a");
     link.href = window.URL.createObjectURL(blob);
     link.download = nameOf();
