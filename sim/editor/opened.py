@@ -14,7 +14,7 @@ from sim.editor.places import Places
 class Text:
     """A text as an editor has it: what was made of it, its places, and the language for people.
 
-    `version` is the editor's number of this state of the text, None where it gives none, or takes no edits of a version.
+    `version` is the editor's number of this state of the text; None where it gives none, or its edits bear none.
     """
 
     uri: str

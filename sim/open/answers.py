@@ -49,7 +49,7 @@ def read_file(data: bytes) -> ReadFile:
 
 
 def file_of(read: ReadFile, text: str) -> bytes:
-    """The bytes of a text that was made of a file as read; letters that its encoding lacks are told in UTF-8, all of it.
+    """The bytes of a text made of a file as read; where its encoding lacks a letter, all of it is in UTF-8.
 
     Of mixed line ends each line that stayed has its own; lines put between others end as the one that stood there.
     """

@@ -12,6 +12,9 @@ from parser.iso.path.places import bare_place
 from parser.iso.path.runs import Run
 from parser.text.source import Span
 
+_MOST_CALLS = 3
+"""Calls that are told with their labels; of more the first ones."""
+
 
 def damages(given: Given, run: Run) -> tuple[Damage, ...]:
     """Pieces that could not be read in blocks that run, calls and moves that could not be made, in file order."""
@@ -47,7 +50,7 @@ def _rows_before(run: Run, count: int) -> Ints:
 
 def assumptions(given: Given, run: Run) -> tuple[Assumption, ...]:
     """What was taken where the text leaves it open."""
-    told = []
+    told = [*_call_targets(given, run)]
     if given.listing.blocks.is_skipped[run.flow.block].any():
         told.append(Assumption("assumed-skips", "/", "because-skips-run"))
     if run.offsets and run.offsets.assumed:
@@ -60,6 +63,17 @@ def assumptions(given: Given, run: Run) -> tuple[Assumption, ...]:
     if _starts_unnamed(run):
         told.append(Assumption("assumed-start", "X0 Y0", "because-no-start"))
     return tuple(told)
+
+
+def _call_targets(given: Given, run: Run) -> Iterator[Assumption]:
+    """Which label each call was taken to name: families name programs or blocks."""
+    listing = given.listing
+    calls = [f"{listing.written(call.name)} → {listing.written(call.label)}" for call in run.flow.calls]
+    targets = list(dict.fromkeys(calls))
+    if targets:
+        more = ", …" if len(targets) > _MOST_CALLS else ""
+        why = "because-calls-programs" if given.profile.calls[0] == "program" else "because-calls-labels"
+        yield Assumption("assumed-calls", ", ".join(targets[:_MOST_CALLS]) + more, why)
 
 
 def _text(given: Given, run: Run, chosen: Bools) -> str:

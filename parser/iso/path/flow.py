@@ -7,10 +7,13 @@ import numpy as np
 
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.iso.path.given import Given
+from parser.iso.words.numbering import stands_alone
 
 DEEPEST = 10
 LONGEST = 2_000_000
 """Calls within calls, and blocks in all, that are followed."""
+_LABELS = 10_000
+"""Numbers of programs have four digits where P may say more than one."""
 
 Left = Literal["end", "return", "text"]
 
@@ -20,6 +23,15 @@ class Fault(NamedTuple):
 
     block: int
     why: str
+
+
+class Call(NamedTuple):
+    """A call that is followed: its block, that of the subprogram, and the P and the label that name it, as words."""
+
+    block: int
+    target: int
+    name: int
+    label: int
 
 
 class Flow(NamedTuple):
@@ -35,12 +47,15 @@ class Flow(NamedTuple):
         The first block with an end code, which subprograms stand behind; the number of blocks where none has one.
     faults
         Calls that cannot be followed.
+    calls
+        Those that are, in file order.
     """
 
     block: Ints
     left: Left
     main_end: int
     faults: tuple[Fault, ...]
+    calls: tuple[Call, ...] = ()
 
 
 def flow(given: Given) -> Flow:
@@ -66,11 +81,13 @@ class _Walk:
         self._given = given
         self._past = len(given.listing.blocks.line)
         self._ends, self._returns, self._calls = (given.m(effect) for effect in ("end", "return", "call"))
-        self._turns = np.flatnonzero(self._ends | self._returns | self._calls)
+        self._begins = self._beginnings()
+        self._turns = np.flatnonzero(self._ends | self._returns | self._calls | np.append(self._begins[1:], False))
         self._names, self._times = given.word("P"), given.word("L")
         self._known: dict[int, _Stretch] = {}
         self._open: list[int] = []
         self._faults: dict[int, str] = {}
+        self._followed: dict[int, Call] = {}
 
     def flow(self) -> Flow:
         ends = np.flatnonzero(self._ends)
@@ -78,7 +95,15 @@ class _Walk:
         whole = self._stretch(0)
         faults = tuple(Fault(*one) for one in sorted(self._faults.items()))
         most = LONGEST if "call-too-long" in self._faults.values() else None  # a long text runs to its end
-        return Flow(whole.block[:most], whole.left, self._main_end, faults)
+        calls = tuple(self._followed[block] for block in sorted(self._followed))
+        return Flow(whole.block[:most], whole.left, self._main_end, faults, calls)
+
+    def _beginnings(self) -> Bools:
+        """(b,) the blocks at which the one before cannot run on: there another program begins."""
+        begins = np.zeros(self._past, dtype=np.bool_)
+        if self._given.profile.programs_end_at_o:
+            begins[self._given.listing.words.block[self._given.listing.of("O")]] = True
+        return begins
 
     def _stretch(self, first: int) -> _Stretch:
         """From a block on until a return, an end code or the end of the text."""
@@ -99,22 +124,26 @@ class _Walk:
                 self._faults[turn], is_end = "call-too-long", True
             if is_end or self._returns[turn]:
                 return _Stretch(np.concatenate(parts), "end" if is_end else "return", depth)
+            if first < self._past and self._begins[first]:
+                return _Stretch(np.concatenate(parts), "text", depth)
         return _Stretch(np.concatenate([*parts, np.arange(first, self._past)]), "text", depth)
 
     def _called(self, block: int) -> _Stretch:
         """What a call runs, as often as it says; nothing where it cannot be followed."""
-        target = self._target(block)
+        label = self._label(block)
+        target = int(self._given.listing.words.block[label]) if label >= 0 else -1
         fault = self._why_not(block, target)
         if fault:
             self._faults[block] = fault
             return _NOTHING
+        self._followed[block] = Call(block, target, int(self._names[block]), label)
         called = self._known[target]
         if called.left == "text":
             self._faults[block] = "call-without-return"
         if called.left == "end":
             return called
         most = 1 + LONGEST // max(len(called.block), 1)
-        return called._replace(block=np.tile(called.block, min(max(self._number(block, self._times) or 1, 1), most)))
+        return called._replace(block=np.tile(called.block, min(max(self._repeats(block), 1), most)))
 
     def _why_not(self, block: int, target: int) -> str:
         """The term for what keeps a call from being followed; empty where its target is known now."""
@@ -131,35 +160,56 @@ class _Walk:
             return "call-too-deep"
         return ""
 
-    def _target(self, block: int) -> int:
-        """The block that a call names: N behind the end of the program, O, or N before it; −1 where there is none."""
-        label = self._number(block, self._names)
-        if label is None:
+    def _label(self, block: int) -> int:
+        """The word that a call names, by what the dialect calls; −1 where there is none."""
+        number = self._number(block, self._names)
+        if number is None:
             return -1
-        for (values, blocks), first in zip(self._labels, (self._main_end, 0, 0), strict=True):
-            at, past = values.searchsorted(label), values.searchsorted(label, side="right")
-            at += blocks[at:past].searchsorted(first)
-            if at < past:
-                return int(blocks[at])
+        if self._given.profile.repeats_in_call:
+            number %= _LABELS
+        for kind in self._given.profile.calls:
+            for values, words in self._labels[kind]:
+                at = int(values.searchsorted(number))
+                if at < len(values) and values[at] == number:
+                    return int(words[at])
         return -1
 
+    def _repeats(self, block: int) -> int:
+        """How often a call runs its subprogram: L, or the digits before the label where the dialect has them there."""
+        times, name = self._number(block, self._times), self._number(block, self._names)
+        if times is None and self._given.profile.repeats_in_call and name is not None:
+            return name // _LABELS
+        return times or 1
+
     @cached_property
-    def _labels(self) -> tuple[tuple[Floats, Ints], ...]:
-        """Numbers, rising, and their blocks, of what a call may name, in the order in which it is looked for."""
-        n, o = (_by_number(self._given, letter) for letter in "NO")
-        return n, o, n
+    def _labels(self) -> dict[str, tuple[tuple[Floats, Ints], ...]]:
+        """Kind of label -> numbers, rising, and the words that bear them, in the order in which they are looked for."""
+        n, o = self._given.listing.of("N"), self._given.listing.of("O")
+        block = self._given.listing.words.block
+        is_behind = block[n] >= self._main_end
+        begins = is_behind & self._begins_a_subprogram[block[n]]
+        by_number = (self._by_number(words) for words in (n[begins], o, n[is_behind], n))
+        beginning, program, behind, anywhere = by_number
+        return {"beginning": (beginning,), "program": (program,), "number": (behind, anywhere)}
+
+    @cached_property
+    def _begins_a_subprogram(self) -> Bools:
+        """(b,) the blocks behind an end or a return, and those behind a block that is one label alone there."""
+        begins = np.append(True, (self._ends | self._returns)[:-1])
+        alone = stands_alone(self._given.listing)
+        for at in np.flatnonzero(alone[:-1]).tolist():
+            begins[at + 1] |= begins[at]
+        return begins
+
+    def _by_number(self, word: Ints) -> tuple[Floats, Ints]:
+        """The numbers of words, rising, those of one number in file order, and the words."""
+        value = self._given.listing.words.value[word]
+        order = np.argsort(value, kind="stable")
+        return value[order], word[order]
 
     def _number(self, block: int, word_of: Ints) -> int | None:
         word = int(word_of[block])
         return None if word < 0 else int(self._given.listing.words.value[word])
-
-
-def _by_number(given: Given, letter: str) -> tuple[Floats, Ints]:
-    """The words with a letter by their numbers, those of one number in file order, and their blocks."""
-    word = given.listing.of(letter)
-    value = given.listing.words.value[word]
-    order = np.argsort(value, kind="stable")
-    return value[order], given.listing.words.block[word[order]]
 
 
 def idle(given: Given, run: Flow) -> Bools:

@@ -56,6 +56,13 @@ class Profile:
         Whether G41 without a register is an error of the controller.
     zero_register_is_off
         Whether register 0 is always 0.
+    calls
+        What P of a call names, in the order in which it is looked for: ``beginning``, the N at which a subprogram
+        behind the end of the program begins; ``program``, an O; ``number``, any N, first those behind the end.
+    repeats_in_call
+        Whether digits of P before its last four are how often the subprogram runs.
+    programs_end_at_o
+        Whether a program ends where the next one begins with its O.
     strict_order
         Whether words in another order than the rule's are an error.
     letters
@@ -91,6 +98,9 @@ class Profile:
     offset_letters: str
     needs_offset_word: bool
     zero_register_is_off: bool
+    calls: tuple[Literal["beginning", "program", "number"], ...]
+    repeats_in_call: bool
+    programs_end_at_o: bool
     strict_order: bool
     letters: str
     repeatable: str
@@ -116,8 +126,8 @@ def profile(name: str) -> Profile:
             values[key] = {**values[key], **value} if isinstance(value, dict) else value
     rules = CompensationRules(**values.pop("rules"))
     limits = {letter: (float(low), float(high)) for letter, (low, high) in values.pop("range").items()}
-    twice = tuple(values.pop("meant_twice"))
-    return Profile(name=name, rules=rules, range=limits, meant_twice=twice, **values)
+    twice, calls = tuple(values.pop("meant_twice")), tuple(values.pop("calls"))
+    return Profile(name=name, rules=rules, range=limits, meant_twice=twice, calls=calls, **values)
 
 
 def _read(name: str) -> dict[str, Any]:
