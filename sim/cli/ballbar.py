@@ -41,6 +41,7 @@ class Speed(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
     type=click.Path(path_type=Path),
     metavar="FILE.png|DIR",
 )
+@click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE.csv")
 @click.option("--json", "as_json", is_flag=True)
 def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     radius: float,
@@ -50,6 +51,7 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     engine: "TableEngine | None",
     tolerance: float | None,
     output: Path | None,
+    trace: Path | None,
     as_json: bool,
 ) -> None:
     """Run the circular test of ISO 230-4 on a machine.
@@ -77,6 +79,8 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     with StageProgress("run-ccw", "run-cw") as progress:
         done = run_test(test, progress)
     written = _write(done, tolerance, output) if output is not None else []
+    if trace is not None:
+        written.append(_write_trace(done, trace))
     if as_json:
         write(document_text(done, tolerance), "json")
     else:
@@ -102,3 +106,13 @@ def _write(done: "Ballbar", tolerance_um: float | None, output: Path) -> list[st
         if not alone:
             (stage / "ballbar.json").write_text(document_text(done, tolerance_um), encoding="utf-8")
     return [str(folder / name) for name in names]
+
+
+def _write_trace(done: "Ballbar", file: Path) -> str:
+    """Both turns of the table as CSV, whole or not at all; the name of the file."""
+    from sim.files import staged
+    from sim.run.ballbar.document import trace_text
+
+    with staged(file.parent, [file.name]) as stage:
+        (stage / file.name).write_text(trace_text(done), encoding="utf-8", newline="")
+    return str(file)

@@ -27,9 +27,11 @@ class Way(NamedTuple):
         Of the contour, as programmed.
     left_um, right_um
         Its end moved aside to the left, P′, and to the right, P″; None without offset.
-    center_um
+    wire_center_um
         Where it ends on the path of the wire's centre, behind all joints; None without offset, and where it has no
         place on that path.
+    arc_center_um
+        Of the contour's arc, as read; None of lines and jumps.
     joint
         How it goes on from the block before it, and the line of that block; None and 0 without compensation.
     """
@@ -42,7 +44,8 @@ class Way(NamedTuple):
     length_um: float
     left_um: Point | None
     right_um: Point | None
-    center_um: Point | None
+    wire_center_um: Point | None
+    arc_center_um: Point | None
     joint: JointKind
     before_line: int
 
@@ -79,7 +82,7 @@ class _Stage(NamedTuple):
     """Compensation of a toolpath: what is told of it, ends moved aside, on the centre's path (n, 2), and joints."""
 
     ends: AsideEnds
-    center_um: Floats
+    wire_center_um: Floats
     joints: tuple[JointKind, ...]
 
 
@@ -94,7 +97,8 @@ def _way(toolpath: Toolpath, row: int, runs: int, stage: _Stage | None) -> Way:
         length_um=block.length_um,
         left_um=None,
         right_um=None,
-        center_um=None,
+        wire_center_um=None,
+        arc_center_um=block.center_um,
         joint=JointKind.NONE,
         before_line=0,
     )
@@ -103,7 +107,7 @@ def _way(toolpath: Toolpath, row: int, runs: int, stage: _Stage | None) -> Way:
     return alone._replace(
         left_um=_place(stage.ends.left_um[row].tolist()),
         right_um=_place(stage.ends.right_um[row].tolist()),
-        center_um=_place(stage.center_um[row].tolist()),
+        wire_center_um=_place(stage.wire_center_um[row].tolist()),
         joint=stage.joints[row],
         before_line=int(toolpath.source.line[row - 1]) if row and stage.joints[row] != JointKind.NONE else 0,
     )

@@ -13,6 +13,7 @@ from sim.decode.blocks import Decoded, Way
 
 SCHEMA: Final = "drycut.decode/1"
 _DIGITS: Final = 6
+_PLACES: Final = ("start_um", "end_um", "left_um", "right_um", "wire_center_um", "arc_center_um")
 
 
 def document(program: Program, blocks: Sequence[Decoded], language: Language) -> dict[str, Any]:
@@ -70,7 +71,7 @@ def _in_force(force: InForce) -> dict[str, Any]:
 
 
 def _way(way: Way) -> dict[str, Any]:
-    places = {name: _place(getattr(way, name)) for name in ("start_um", "end_um", "left_um", "right_um", "center_um")}
+    places = {name: _place(getattr(way, name)) for name in _PLACES}
     return {
         "row": way.row,
         "runs": way.runs,

@@ -102,8 +102,8 @@ def _way_texts(one: Decoded) -> Iterator[tuple[str, Said]]:
         yield "aside", said("decode.ends", **ends, register=force.register, offset=f"{mm(force.offset_um or 0.0):g}")
     elif force.side != "G40":
         yield "aside", said("decode.unknown", register=force.register or "D0")
-    if way.center_um is not None:
-        yield "path", said("decode.on-path", place=_place(way.center_um, 4))
+    if way.wire_center_um is not None:
+        yield "path", said("decode.on-path", place=_place(way.wire_center_um, 4))
     if way.joint != "none":
         yield "joint", said(f"decode.joint-{way.joint}", line=way.before_line)
 

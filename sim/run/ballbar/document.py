@@ -40,6 +40,17 @@ def document_text(ballbar: Ballbar, tolerance_um: float | None) -> str:
     return json.dumps(document(ballbar, tolerance_um), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
 
 
+def trace_text(ballbar: Ballbar) -> str:
+    """Both turns as CSV: ``turn`` (ccw, cw), and the table's place in µm from the nominal centre, in order of time.
+
+    G(b) is the width of the ring about `figures.center_um` that holds the places of both turns (docs/ballbar.md).
+    """
+    rows = (
+        f"{NAMES[turn.sense]},{x:.4f},{y:.4f}\n" for turn in ballbar.turns for x, y in turn.points_um.tolist()
+    )
+    return "turn,x_um,y_um\n" + "".join(rows)
+
+
 def _figures(figures: Figures) -> dict[str, Any]:
     return {
         "mean_radial_um": _round(figures.mean_radial_um),

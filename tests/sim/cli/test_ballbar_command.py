@@ -1,5 +1,6 @@
 """``drycut ballbar`` as a user meets it, its document against its schema, and its picture."""
 
+import itertools
 import json
 import re
 from dataclasses import replace
@@ -233,3 +234,24 @@ def test_nothing_of_the_picture_is_cut_off_at_its_edges(language: Language) -> N
     picture = np.asarray(draw_ballbar(done, done.measured, language))
     for edge in (picture[:, :2], picture[:, -2:], picture[:2], picture[-2:]):
         assert np.ptp(edge.reshape(-1, 3), axis=0).max() == 0
+
+
+def test_the_turns_as_written_give_the_circularity_that_is_told(tmp_path: Path) -> None:
+    file = tmp_path / "turns.csv"
+    done = run_inside(*SMALL, "--json", "--trace", str(file))
+    told = json.loads(done.stdout)
+    rows = [line.split(",") for line in file.read_text("utf-8").splitlines()]
+    assert (done.returncode, rows[0]) == (0, ["turn", "x_um", "y_um"])
+    assert [name for name, _ in itertools.groupby(row[0] for row in rows[1:])] == ["ccw", "cw"]
+    places = np.array([row[1:] for row in rows[1:]], dtype=np.float64)
+    # The least-squares circle, each direction weighing alike: means over cells of 1° of the directions from its centre.
+    center = np.zeros(2)
+    for _ in range(20):
+        off = places - center
+        cell = (np.degrees(np.arctan2(off[:, 1], off[:, 0])) % 360.0).astype(int)
+        radius = np.bincount(cell, np.hypot(*off.T)) / np.bincount(cell)
+        angle = np.radians(np.arange(360) + 0.5)
+        center = center + 2.0 * np.array([(radius * np.cos(angle)).mean(), (radius * np.sin(angle)).mean()])
+    assert center == pytest.approx(told["figures"]["center_um"], abs=0.1)
+    radii = np.hypot(*(places - told["figures"]["center_um"]).T)
+    assert np.ptp(radii) == pytest.approx(told["circularity_um"], abs=0.001)

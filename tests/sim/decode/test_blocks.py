@@ -37,7 +37,7 @@ def ways(*lines: str, d_um: float = 1000.0) -> dict[int, Decoded]:
 
 def centers(*lines: str, d_um: float = 1000.0) -> list[tuple[float, float] | None]:
     """Where the blocks that move end on the path of the wire's centre."""
-    return [one.way.center_um for one in ways(*lines, d_um=d_um).values() if one.way is not None]
+    return [one.way.wire_center_um for one in ways(*lines, d_um=d_um).values() if one.way is not None]
 
 
 def test_a_shortened_block_ends_where_the_offsets_meet() -> None:
@@ -57,8 +57,19 @@ def test_a_block_that_has_no_place_on_the_path_says_so() -> None:
     told = ways("G41 D1 G01 X0 Y0", "X10", "X10.4 Y0.4", "Y10", "G40 X20")
 
     assert told[5].way is not None
-    assert told[5].way.center_um is None
+    assert told[5].way.wire_center_um is None
     assert told[5].way.left_um is not None
+
+
+def test_the_centre_of_an_arc_and_where_the_wire_ends_are_told_apart() -> None:
+    arc = ways("G41 D1 G01 X0 Y0", "G03 X10 Y10 I0 J10", "G40 G01 X20")[4].way
+
+    assert arc is not None
+    assert arc.arc_center_um == pytest.approx((0.0, 10_000.0))
+    assert arc.wire_center_um == pytest.approx((9_000.0, 10_000.0))
+    line = ways("G01 X0 Y0")[3].way
+    assert line is not None
+    assert line.arc_center_um is None
 
 
 def test_without_compensation_there_is_the_contour_alone() -> None:
@@ -66,7 +77,7 @@ def test_without_compensation_there_is_the_contour_alone() -> None:
 
     assert way is not None
     assert (way.kind, way.length_um, way.end_um) == ("line", 5000.0, (0.0, 0.0))
-    assert (way.left_um, way.right_um, way.center_um, way.joint, way.before_line) == (None, None, None, "none", 0)
+    assert (way.left_um, way.right_um, way.wire_center_um, way.joint, way.before_line) == (None, None, None, "none", 0)
 
 
 def test_a_register_without_value_leaves_the_ends_open_and_names_itself() -> None:
