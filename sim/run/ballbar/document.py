@@ -45,9 +45,7 @@ def trace_text(ballbar: Ballbar) -> str:
 
     G(b) is the width of the ring about `figures.center_um` that holds the places of both turns (docs/ballbar.md).
     """
-    rows = (
-        f"{NAMES[turn.sense]},{x:.4f},{y:.4f}\n" for turn in ballbar.turns for x, y in turn.points_um.tolist()
-    )
+    rows = (f"{NAMES[turn.sense]},{x:.4f},{y:.4f}\n" for turn in ballbar.turns for x, y in turn.points_um.tolist())
     return "turn,x_um,y_um\n" + "".join(rows)
 
 
