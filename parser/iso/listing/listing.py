@@ -186,6 +186,15 @@ class Listing(NamedTuple):
         holds[self.words.block[word]] = True
         return holds
 
+    def stands_alone(self) -> Bools:
+        """(b,) bool, whether a block is one N word and nothing else, which makes it a label."""
+        words, blocks = self.words, self.blocks
+        alone: Bools = (np.diff(blocks.word) == 1) & ~blocks.is_damaged
+        alone[alone] = words.letter[blocks.word[:-1][alone]] == ord("N")
+        alone[[one.block for one in self.assignments]] = False
+        alone[[one.block for one in self.statements]] = False
+        return alone
+
     def of_any(self, letters: str) -> Ints:
         """(k,) words with one of some letters, in file order."""
         is_one = np.zeros(_LETTERS, dtype=np.bool_)

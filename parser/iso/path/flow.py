@@ -7,7 +7,6 @@ import numpy as np
 
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.iso.path.given import Given
-from parser.iso.words.numbering import stands_alone
 
 DEEPEST = 10
 LONGEST = 2_000_000
@@ -196,7 +195,7 @@ class _Walk:
     def _begins_a_subprogram(self) -> Bools:
         """(b,) the blocks behind an end or a return, and those behind a block that is one label alone there."""
         begins = np.append(True, (self._ends | self._returns)[:-1])
-        alone = stands_alone(self._given.listing)
+        alone = self._given.listing.stands_alone()
         for at in np.flatnonzero(alone[:-1]).tolist():
             begins[at + 1] |= begins[at]
         return begins

@@ -5,7 +5,7 @@ import numpy as np
 from parser.findings.findings import Finding
 from parser.geometry.curves import Bools, Ints
 from parser.iso.listing.listing import Listing
-from parser.iso.words.numbering import ENDS, are_called, stands_alone
+from parser.iso.words.numbering import ENDS, are_called
 
 
 def unknown_letters(listing: Listing, letters: str) -> tuple[list[Finding], Ints]:
@@ -28,7 +28,7 @@ def without_command(listing: Listing) -> list[Finding]:
 def _empty(listing: Listing) -> Bools:
     """(b,) bool, whether a line holds a block number alone, no label that is called or ends a program, no remark."""
     words, blocks = listing.words, listing.blocks
-    empty = stands_alone(listing)
+    empty = listing.stands_alone()
     if not empty.any():
         return empty
     number = words.value[np.minimum(blocks.word[:-1], len(words.value) - 1)]

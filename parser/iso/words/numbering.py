@@ -24,16 +24,6 @@ def are_called(listing: Listing, number: Floats) -> Bools:
     return are
 
 
-def stands_alone(listing: Listing) -> Bools:
-    """(b,) bool, whether a block is one N word and nothing else, which makes it a label."""
-    words, blocks = listing.words, listing.blocks
-    alone: Bools = (np.diff(blocks.word) == 1) & ~blocks.is_damaged
-    alone[alone] = words.letter[blocks.word[:-1][alone]] == ord("N")
-    alone[[one.block for one in listing.assignments]] = False
-    alone[[one.block for one in listing.statements]] = False
-    return alone
-
-
 def _falls(listing: Listing) -> list[Finding]:
     words = listing.words
     number = listing.of("N")
@@ -48,7 +38,7 @@ def _falls(listing: Listing) -> list[Finding]:
     ends = ends[np.isin(words.value[ends], ENDS)]
     restarts = np.sort(np.concatenate([listing.of("O"), ends])).searchsorted(number)
     is_fall[1:] &= restarts[1:] == restarts[:-1]
-    label = stands_alone(listing)[words.block[number]] & are_called(listing, value)
+    label = listing.stands_alone()[words.block[number]] & are_called(listing, value)
     is_fall &= ~label & ~np.append(False, label[:-1])
     found = [
         listing.at_word("ISO120", word, number=listing.written(word), before=listing.written(before))
@@ -92,7 +82,7 @@ def _twice(listing: Listing) -> list[Finding]:
     """Labels that calls name, or that stand alone, and program numbers, behind the first of each number."""
     words = listing.words
     n, o = listing.of("N"), listing.of("O")
-    is_label = are_called(listing, words.value[n]) | stands_alone(listing)[words.block[n]]
+    is_label = are_called(listing, words.value[n]) | listing.stands_alone()[words.block[n]]
     found = []
     for label in (n[is_label], o):
         _, first, inverse = np.unique(words.value[label], return_index=True, return_inverse=True)
