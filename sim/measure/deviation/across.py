@@ -7,7 +7,9 @@ come after their command, and may still be on a block that the command has left.
 
 * the block of the sample;
 * where the place lies past an end of that block, the neighbour there;
-* the blocks that the command left last, as far back along the path as twice the distance from the command to the place.
+* the blocks that the command left last, as far back along the path as twice the distance from the command to the place;
+* while the place itself stands still or moves less, the blocks that counted for it before. In a sharp point the wire
+  stands in its own slot, and the command comes back past it: it is near the place then, but ahead of it on the path.
 """
 
 from typing import NamedTuple
@@ -24,6 +26,9 @@ from sim.table.trace import Trace
 
 _MOST_BACK = 50
 """Blocks to look back at: work is bounded where a table stays behind for good."""
+_CATCHES_UP = 2.0
+"""How much faster than the place the bound comes on. With 1 it would never catch up with a wire that cuts corners off;
+with 2 it has done so after a way as long as the place was behind."""
 _NEARER_UM = 1e-6
 """Another block counts where it is nearer by more than rounding: of two as near, the one that is running."""
 
@@ -95,10 +100,16 @@ def _measured(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floa
 
 
 def _earliest(toolpath: Toolpath, trace: Trace, place_um: Floats, along_um: Floats) -> Ints:
-    """How far to look back: the first row (m,) from which each place may be measured."""
+    """How far to look back: the first row (m,) from which each place may be measured.
+
+    What the place could be measured from at one sample it may be at the next, and the bound comes on by at most twice
+    the way that the place has made: `behind` is the least of the bounds of all samples so far, moved on by that way.
+    """
     before = toolpath.before_um
     off = place_um - trace.commanded_um
-    reach = along_um - 2.0 * np.hypot(off[:, 0], off[:, 1])
+    way = _CATCHES_UP * np.hypot(*np.diff(place_um, axis=0, prepend=place_um[:1]).T).cumsum()
+    behind = np.minimum.accumulate(along_um - 2.0 * np.hypot(off[:, 0], off[:, 1]) - way)
+    reach = behind + way
     first = trace.row.copy()
     left = np.flatnonzero(reach < before[trace.row])
     found = np.searchsorted(before, reach[left], side="right") - 1

@@ -72,6 +72,26 @@ def test_a_place_that_trails_round_a_corner_counts_on_the_block_before(turn_deg:
     assert np.abs(across_um(path, trace, late.commanded_um, along)).max() < 1e-9  # µm
 
 
+@given(turn_deg=st.floats(91.0, 179.9), lag=st.floats(2.0, 200.0))
+@settings(max_examples=40, deadline=None)
+def test_a_wire_that_stands_in_its_own_slot_counts_on_the_block_that_it_stands_in(turn_deg: float, lag: float) -> None:
+    """The wire dragged by a rope past a sharp point, beside its distance from both lines (150°, 35 µm: 11.31 µm)."""
+    angle = math.radians(turn_deg)
+    path = Pen(0.0, 0.0).to(1000.0, 0.0).to(1000.0 + 900.0 * math.cos(angle), 900.0 * math.sin(angle)).path()
+    trace, along = at_rate(path, np.arange(0.0, 1000.0 + 3.0 * lag, lag / 100.0))
+    wire = [complex(0.0, 0.0)]
+    for x, y in trace.commanded_um[1:].tolist():
+        behind = complex(x, y) - wire[-1]
+        wire.append(wire[-1] + behind * max(1.0 - lag / abs(behind), 0.0) if behind else wire[-1])
+    place = np.array([[at.real, at.imag] for at in wire])
+    rest = place - [1000.0, 0.0]
+    first = np.hypot(np.maximum(rest[:, 0], 0.0), rest[:, 1])
+    ahead = np.maximum(rest @ [math.cos(angle), math.sin(angle)], 0.0)[:, None]
+    second = np.hypot(*(rest - ahead * [math.cos(angle), math.sin(angle)]).T)
+    nearest = np.where(trace.row == 0, first, np.minimum(first, second))
+    assert np.abs(across_um(path, trace, place, along)).max() == pytest.approx(nearest.max(), abs=1e-6)  # µm
+
+
 def test_a_place_far_from_the_corner_does_not_count_on_the_block_before() -> None:
     path = Pen(0.0, 0.0).to(500.0, 0.0).to(500.0, 10.0).to(0.0, 10.0).path()
     trace, along = at_rate(path, np.array([505.0, 530.0, 800.0]))
