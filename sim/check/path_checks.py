@@ -25,6 +25,7 @@ from sim.check.radius_rule import radius_rule_findings, vanishing_findings
 from sim.check.rapids import rapid_findings
 from sim.check.result import CheckState
 from sim.check.stops import tab_stop_findings
+from sim.check.strokes import doubled_findings, retraced_contours, retraced_findings, swapped_findings
 from sim.check.travel import travel_findings
 from sim.check.uncut_jumps import uncut_jump_findings
 
@@ -67,6 +68,9 @@ class PathChecks:
         own = self._own_compensation()
         self.compensation = own.made if own else None
         self._passes = own.drawn_passes if own else find_passes(program.toolpath)
+        self._retraced = retraced_contours(program.toolpath, self.judged, self._passes)
+        opened = {one.contour.first: one.opened for one in self._retraced}
+        self.judged = tuple(opened.get(contour.first, contour) for contour in self.judged)
         self.states: list[CheckState] = []
 
     def findings(self) -> Iterator[Finding]:
@@ -80,10 +84,14 @@ class PathChecks:
         yield from rapid_findings(program)
         closures = contour_findings(program, self.judged, self._rows, known, may_stay_open=demands.may_stay_open)
         yield from closures
+        yield from retraced_findings(program, self._retraced)
+        yield from doubled_findings(program, self._rows, self._passes)
         self._done(Check.CONTOURS, self._left_out)
         rows = _closed(self._rows, closures)  # an open contour may not run where it was meant to
         open_ones = "" if rows is self._rows else "reason-open"
-        yield from _undoubted(sense_findings(program, rows), known)
+        swapped = list(swapped_findings(program, rows, self._passes))
+        yield from swapped
+        yield from _undoubted(sense_findings(program, rows), (*known, *swapped))
         yield from radius_rule_findings(program, rows, self._offset_um)
         self._done(Check.SENSES, self._left_out or open_ones)
         crossings, all_pairs = crossing_findings(program, rows, self._passes)
