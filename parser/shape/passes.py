@@ -5,6 +5,7 @@ without leaving it, with a tab left to the last. A contour that is cut once is o
 """
 
 from bisect import bisect_left
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -44,6 +45,8 @@ class Pass(NamedTuple):
     told_um
         Offset by which the program itself has the wire run beside its contour; None where it is the path that is
         written, or another one adds the offset.
+    edge_um
+        The least `shift_um` over the edge, or over its tab: the pass that runs there leaves the final edge.
     """
 
     edge: int
@@ -56,10 +59,11 @@ class Pass(NamedTuple):
     shift_um: float
     part_side: int
     told_um: float | None = None
+    edge_um: float = 0.0
 
     def offset_um(self, reach_um: float) -> float:
         """Its offset: as the program tells it, else its distance from the edge that a wire of some reach leaves."""
-        return reach_um + self.shift_um if self.told_um is None else self.told_um
+        return reach_um + self.shift_um - self.edge_um if self.told_um is None else self.told_um
 
 
 class Passes(NamedTuple):
@@ -98,7 +102,16 @@ def find_passes(toolpath: Toolpath) -> Passes:
         counted[at] = counted.get(at, 0) + 1
         passes.append(Pass(at, counted[at], low, high, *rest))
         of_row[low : high + 1] = number
-    return Passes(tuple(passes), of_row)
+    return Passes(with_edges(passes), of_row)
+
+
+def with_edges(passes: Sequence[Pass]) -> tuple[Pass, ...]:
+    """The passes of a toolpath, each with the least shift over its edge, or over its tab."""
+    least: dict[tuple[int, bool], float] = {}
+    for one in passes:
+        over = one.edge, one.is_tab
+        least[over] = min(least.get(over, one.shift_um), one.shift_um)
+    return tuple(one._replace(edge_um=least[one.edge, one.is_tab]) for one in passes)
 
 
 def _edges(toolpath: Toolpath, cuts: Cuts) -> Ints:

@@ -129,3 +129,11 @@ def test_without_a_lead_in_the_waste_lies_where_the_first_pass_is_cut() -> None:
         (0, 1, 0), (1, 1, 0), (0, 2, 0), (1, 2, 0), (0, 3, 0), (1, 3, 0)
     ]  # fmt: skip
     assert [one.shift_um for one in found] == pytest.approx([70.0, 70.0, 30.0, 30.0, 0.0, 0.0])
+
+
+def test_offsets_count_from_the_edge_that_the_pass_nearest_to_the_part_leaves() -> None:
+    """100 and then 160 µm, by mistake: the trim cuts nothing, and the edge is that of the rough cut."""
+    pen = Pen(4000, 0)
+    for radius in (220.0, 280.0):
+        pen.to(radius, 0).arc(0, 0, 2 * np.pi).to(4000, 0)
+    assert [one.offset_um(100.0) for one in find_passes(pen.path()).passes] == pytest.approx([100.0, 160.0])

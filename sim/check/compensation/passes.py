@@ -6,7 +6,7 @@ import numpy as np
 
 from controller.offset.path import OffsetPath
 from parser.geometry.curves import Floats, Ints
-from parser.shape.passes import Pass, Passes
+from parser.shape.passes import Pass, Passes, with_edges
 from sim.check.beside import PassBeside
 from sim.check.compensation.rounds import CompensatedRound
 
@@ -56,7 +56,7 @@ def _passes(runs: Sequence[CompensatedRound], bounds: Ints, rows: int) -> Passes
             shift_um = (_aside_um(one) - last[edge, is_tab]) * waste[edge]
             closed = one.round.section.closed
             passes.append(Pass(edge, number, low, high, is_back, closed, is_tab, shift_um, -one.side, one.by_um))
-    return Passes(tuple(passes), of_row)
+    return Passes(with_edges(passes), of_row)
 
 
 def _aside_um(one: CompensatedRound) -> float:
