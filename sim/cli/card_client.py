@@ -71,6 +71,7 @@ def scenario_of(asked: Asked) -> "Scenario":
         "offset": (),
         "past_stop": False,
         "kerf": False,
+        "may_stay_open": False,
         "no_fit": False,
     }
     scenario = overridden(asked.output / LOG, Overrides(**given))  # type: ignore[arg-type]  # by their names

@@ -38,6 +38,7 @@ class Overrides(NamedTuple):
     side: str | None
     past_stop: bool
     kerf: bool
+    may_stay_open: bool
     drawing: Path | None
     layer: str | None
     tolerance: float | None
@@ -66,6 +67,7 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
         offset=_offset(scenario.offset, offsets.plain, options.side),
         past_stop=scenario.past_stop or options.past_stop,
         kerf=scenario.kerf or options.kerf,
+        may_stay_open=scenario.may_stay_open or options.may_stay_open,
         drawing=_drawing(scenario.drawing, options),
     )
     return _stepping_by(scenario, options.interpolator)

@@ -79,6 +79,7 @@ _OPTIONS = (
     ENGINE_OPTION,
     click.option("--past-stop", is_flag=True),
     click.option("--kerf", is_flag=True),
+    click.option("--open", "may_stay_open", is_flag=True),
     click.option(
         "--drawing",
         type=click.Path(path_type=Path, dir_okay=False),

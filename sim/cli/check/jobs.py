@@ -37,6 +37,7 @@ class Asked(NamedTuple):
     machine: str | None
     wire_diameter: float | None
     gap: float | None
+    may_stay_open: bool
     dialect: str | None
     unit: str | None
     offset: tuple["RegisterSet", ...]
@@ -126,5 +127,7 @@ def _settings(asked: Asked) -> dict[str, Any]:
     if asked.gap is not None:
         number(mm(asked.gap), SPARK_GAP_MM, "--gap in mm")
         given["spark_gap_um"] = asked.gap
+    if asked.may_stay_open:
+        given["may_stay_open"] = True
     read_with = {"dialect": asked.dialect, "unit": asked.unit, "registers": merged([asked.offset])}
     return {**given, **{field: value for field, value in read_with.items() if value}}

@@ -68,6 +68,7 @@ _DEMANDS = (
     click.option("--machine", metavar="NAME|FILE"),
     click.option("--wire-diameter", type=Length()),
     click.option("--gap", type=Length()),
+    click.option("--open", "may_stay_open", is_flag=True),
 )
 _ISO = (
     *READ_WITH,

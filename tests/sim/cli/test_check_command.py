@@ -240,3 +240,12 @@ def test_blocks_behind_the_end_code_are_counted_whole_or_damaged(part: Path) -> 
     assert code == 1
     assert "blocks after DD: 2" in out
     assert "4 of 5 blocks read, 3 decoded" in " ".join(out.split())
+
+
+def test_open_lets_a_stepped_edge_stay_open_as_in_scenarios(part: Path) -> None:
+    part.write_text("B0B2000B2000GYL2 B3000B0B3000GXL1 B0B1000B1000GYL2 B3000B0B3000GXL1 B0B4000B4000GYL4 DD", "utf-8")
+    for command in (["check"], ["run", "-o", str(part.parent / "out")]):
+        code, out, err = drycut(*command, part)
+        assert (code, "3B301" in out + err) == (1, True)
+        code, out, err = drycut(*command, part, "--open")
+        assert (code, "3B301" in out + err) == (0, False)

@@ -13,7 +13,7 @@ from sim.check.result import CheckResult, Silenced
 from sim.cli.check.jobs import Asked, jobs_of
 from sim.workers.processes import Processes
 
-NOTHING = Asked(*[None] * 8, (), (), None, no_config=False, baseline=None, write_baseline=None)
+NOTHING = Asked(*[None] * 6, False, None, None, (), (), None, no_config=False, baseline=None, write_baseline=None)
 
 
 def check(*arguments: object, cwd: Path, **environment: str) -> tuple[object, str, str]:

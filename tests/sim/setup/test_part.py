@@ -27,6 +27,7 @@ NONE = Overrides(
     offset=(),
     side=None,
     kerf=False,
+    may_stay_open=False,
     drawing=None,
     layer=None,
     tolerance=None,
