@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints
 from parser.shape.beside import run_beside
 from parser.shape.contours import contour_rows, runs
 from parser.shape.cuts import Cuts, find_cuts
@@ -103,6 +103,11 @@ def find_passes(toolpath: Toolpath) -> Passes:
         passes.append(Pass(at, counted[at], low, high, *rest))
         of_row[low : high + 1] = number
     return Passes(with_edges(passes), of_row)
+
+
+def leads_of(passes: Passes, toolpath: Toolpath) -> Bools:
+    """(n,) rows that are cut beside all passes: leads, and steps from one pass to the next."""
+    return np.asarray((passes.of_row < 0) & ~toolpath.is_jump)
 
 
 def with_edges(passes: Sequence[Pass]) -> tuple[Pass, ...]:

@@ -3,7 +3,9 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from parser.geometry.curves import Bools
 from parser.shape.contours import Contour
+from parser.shape.passes import find_passes, leads_of
 from parser.toolpath import Toolpath
 from sim.cut.kerf.edges import Edges, Range, edges_of, ranges
 from sim.cut.kerf.swept import Swept, swept_along
@@ -21,6 +23,8 @@ class Kerf(NamedTuple):
         Half the width that the wire cuts: its radius plus the spark gap.
     swept
         What the wire swept on each contour, with its polygon `region_um`.
+    leads
+        (n,) blocks that cut along no edge: ways to a pass and away from it.
     region_um
         All of it: a shapely polygon or multipolygon.
     area_mm2
@@ -33,6 +37,7 @@ class Kerf(NamedTuple):
 
     offset_um: float
     swept: tuple[Swept, ...]
+    leads: Bools
     region_um: Region
     area_mm2: float
     edges: Edges
@@ -54,6 +59,7 @@ def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], offse
     return Kerf(
         offset_um=offset_um,
         swept=swept,
+        leads=leads_of(find_passes(toolpath), toolpath),
         region_um=region,
         area_mm2=region.area * 1e-6,
         edges=edges,

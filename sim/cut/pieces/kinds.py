@@ -2,7 +2,8 @@
 
 The wire is threaded in the waste, and its leads run through it. So a piece is waste where the wire came from inside of
 it. Besides, two kinds of waste fall beside a larger piece that the same contour cuts: a sliver between two passes, no
-wider than the kerf anywhere, and a scrap between a lead-in and a lead-out that part from it.
+wider than the kerf anywhere, and a scrap between leads that part from it: those of one pass, or of a rough cut and of a
+trim that starts elsewhere.
 """
 
 from typing import Literal, NamedTuple
@@ -11,6 +12,7 @@ import numpy as np
 import shapely
 
 from sim.cut.kerf.makers import share_made
+from sim.cut.kerf.region import Kerf
 from sim.cut.kerf.swept import Swept
 from sim.cut.kerf.ways import WireWay
 from sim.cut.pieces.bridges import Older
@@ -19,7 +21,7 @@ from sim.cut.pieces.frees import FreeMoment
 _ON_IT = 0.1  # offsets: a start this near to the loop lies on it, and is no lead-in
 _NOTCH = 1.5  # offsets that an outline grows and shrinks by, which closes notches two offsets wide
 _COARSE_UM = 1.0
-_LED = 2.0  # offsets of edge that the lead-in made: more than where a lead-in meets its loop
+_LED = 2.0  # offsets of edge that leads made: more than where a lead meets its loop
 
 
 Kind = Literal["part", "slug", "scrap"]
@@ -50,8 +52,9 @@ class Loose(NamedTuple):
     older: Older | None
 
 
-def kinds_of(found: list[Loose], swept: tuple[Swept, ...], offset_um: float) -> list[Kind]:
-    """What each of the pieces is."""
+def kinds_of(found: list[Loose], kerf: Kerf) -> list[Kind]:
+    """What each of the pieces of a kerf is."""
+    swept, offset_um = kerf.swept, kerf.offset_um
     largest: dict[int, float] = {}
     for piece in found:
         for contour in piece.contours:
@@ -61,7 +64,7 @@ def kinds_of(found: list[Loose], swept: tuple[Swept, ...], offset_um: float) -> 
         beside_larger = any(largest[contour] > piece.outline_um.area for contour in piece.contours)
         if _held_the_start(piece, swept, offset_um):
             kinds.append("slug")
-        elif beside_larger and (_is_sliver(piece.outline_um, offset_um) or _was_led_by(piece, swept, offset_um)):
+        elif beside_larger and (_is_sliver(piece.outline_um, offset_um) or _was_led_by(piece, kerf)):
             kinds.append("scrap")
         else:
             kinds.append("part")
@@ -102,9 +105,15 @@ def _is_sliver(piece_um: shapely.Polygon, offset_um: float) -> bool:
     return 2.0 * piece_um.area < 2.0 * offset_um * piece_um.length and bool(piece_um.buffer(-offset_um).is_empty)
 
 
-def _was_led_by(piece: Loose, swept: tuple[Swept, ...], offset_um: float) -> bool:
-    """Whether the first block of the contour that frees a piece made some of its outer edge."""
-    way = swept[piece.moment.contour].way
-    lead_in = way.place_um[way.row == way.row[0]]
+def _was_led_by(piece: Loose, kerf: Kerf) -> bool:
+    """Whether leads of the contour that frees a piece made some of its outer edge: more than where a lead meets it.
+
+    The first block of a contour is a lead, also where no pass was found.
+    """
+    way = kerf.swept[piece.moment.contour].way
+    is_lead = kerf.leads[way.row] | (way.row == way.row[0])
+    starts = np.flatnonzero(np.diff(is_lead, prepend=False) & is_lead)
+    ends = np.flatnonzero(np.diff(is_lead, append=False) & is_lead) + 1
+    leads = [way.place_um[low:high] for low, high in zip(starts.tolist(), ends.tolist(), strict=True)]
     edge = piece.outline_um.exterior
-    return share_made(edge, [lead_in], offset_um) * edge.length > _LED * offset_um
+    return share_made(edge, leads, kerf.offset_um) * edge.length > _LED * kerf.offset_um

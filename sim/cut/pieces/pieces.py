@@ -113,7 +113,7 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material, pauses: S
     moments = moments_of(Cutting(stock, frame, whole, rounds, kerf.swept, kerf.offset_um))
     told = zip(whole, rounds, moments, strict=True)
     loose = [_loose(kerf, stock, part, round_, moment) for part, round_, moment in told if moment is not None]
-    kinds = kinds_of(loose, kerf.swept, kerf.offset_um)
+    kinds = kinds_of(loose, kerf)
     cuts = _Cuts(kerf, kerfs, pauses, material)
     found = [_piece(cuts, piece, kind) for piece, kind in zip(loose, kinds, strict=True)]
     pieces = sorted(found, key=lambda piece: piece.freed.t_s)
