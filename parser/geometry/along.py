@@ -5,6 +5,8 @@ import numpy as np
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import headings
 
+_SAGITTA_UM = 0.05  # of the chords of an outline
+
 
 def places(curves: Curves, row: Ints, fraction: Floats) -> Floats:
     """Places (m, 2) on the curves of the rows `row` (m,), at fractions (m,) of their length."""
@@ -47,3 +49,19 @@ def along_um(curves: Curves, row: Ints, place_um: Floats) -> Floats:
     turned = np.where(turned - reach >= np.pi - 0.5 * reach, 0.0, np.minimum(turned, reach))
     result[arc] = turned * curves.radius_um[on]
     return result
+
+
+def outline(curves: Curves) -> Floats:
+    """Places (m, 2) along a closed chain of curves, on arcs so many that their chords lie 0.05 µm off at most."""
+    return corners(curves, _SAGITTA_UM)[0]
+
+
+def corners(curves: Curves, sagitta_um: float) -> tuple[Floats, Ints]:
+    """Places (m, 2) along curves from the start of each on, so that chords lie no farther off; and their rows (m,)."""
+    radius = np.where(curves.is_arc, curves.radius_um, 1.0)
+    step = np.sqrt(8.0 * sagitta_um / np.maximum(radius, sagitta_um))
+    parts = np.maximum(np.ceil(np.abs(curves.sweep_rad) / step), 1.0).astype(np.int64)
+    parts[curves.is_arc] = np.maximum(parts[curves.is_arc], 3)
+    row = np.repeat(np.arange(len(curves)), parts)
+    at = np.arange(len(row)) - (np.cumsum(parts) - parts)[row]
+    return places(curves, row, at / parts[row]), row

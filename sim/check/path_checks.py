@@ -1,6 +1,6 @@
 """The checks that look at the path of a program, and how far each came."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -19,6 +19,7 @@ from sim.check.compensation.asked import compensation_of, is_known
 from sim.check.count_axes import stepped_end_findings
 from sim.check.followed import followed_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
+from sim.check.gouges import gouge_findings
 from sim.check.header_offset import header_offset_findings
 from sim.check.passes import pass_findings, tab_findings
 from sim.check.radius_rule import radius_rule_findings, vanishing_findings
@@ -98,6 +99,7 @@ class PathChecks:
         yield from crossings
         self._done(Check.CROSSINGS, self._left_out or open_ones if all_pairs else "reason-many")
         yield from self._over_edges()
+        yield from self._into_parts(_without(rows, uncut))
         self._done(Check.PASSES, self._left_out)
         yield from self._asked_for()
         reach_um = demands.offset_um if demands.table is not None else None
@@ -133,6 +135,17 @@ class PathChecks:
         if made is not None:
             program, rows, passes = made.program, rows[made.path.source_row], made.edge_passes
         yield from pass_findings(program, rows, passes, self._demands.offset_um)
+
+    def _into_parts(self, rows: Ints) -> Iterator[Finding]:
+        """Findings about leads that cut into the part; `rows` (n,) is each row's contour, −1 where it is in doubt.
+
+        Where a program's own compensation is wrong, that says it: its wire runs on the side of the part.
+        """
+        program, passes, made = self._program, self._passes, self.compensation
+        if made is not None:
+            rows = _without(rows, made.findings)
+            program, rows, passes = made.program, rows[made.path.source_row], made.edge_passes
+        yield from gouge_findings(program, rows, passes)
 
     @property
     def _without_value(self) -> str:
@@ -180,8 +193,13 @@ class PathChecks:
 
 def _closed(rows: Ints, closures: list[Finding]) -> Ints:
     """The contour column with −1 for contours that were found open; the same array where there are none."""
-    ends = np.array([finding.block - 1 for finding, _ in telling(closures, OpenContour)], dtype=np.int64)
-    return np.where(np.isin(rows, rows[ends]), -1, rows) if len(ends) else rows
+    return _without(rows, [finding for finding, _ in telling(closures, OpenContour)])
+
+
+def _without(rows: Ints, found: Sequence[Finding]) -> Ints:
+    """The contour column with −1 for contours with findings at their blocks; the same array where there are none."""
+    at = np.array([finding.block - 1 for finding in found if finding.block], dtype=np.int64)
+    return np.where(np.isin(rows, rows[at]), -1, rows) if len(at) else rows
 
 
 def _undoubted(senses: list[Finding], known: tuple[Finding, ...]) -> list[Finding]:

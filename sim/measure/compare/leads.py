@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from parser.geometry.along import places
 from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.deepest import deepest
 from parser.toolpath import Point
 from sim.measure.compare.edge import Edge, LeadGouge
 from sim.measure.compare.nearest import Index, indexed, nearest
@@ -35,10 +35,10 @@ def gouges(edge: Edge, leads: Curves, block: Ints, offset_um: float) -> tuple[Le
     if not len(leads) or not len(edge.curves):
         return ()
     part = _part(edge)
-    deepest, where = _deepest(part, leads, offset_um)
+    depth_um, place_um = deepest(leads, lambda _, place: _depth(part, place, offset_um), _LEAST_UM, _RIGHT_TO_UM)
     found = [
-        LeadGouge(int(block[at]), Point(*where[at].tolist()), float(deepest[at]))
-        for at in np.flatnonzero(deepest > _LEAST_UM).tolist()
+        LeadGouge(int(block[at]), Point(*place_um[at].tolist()), float(depth_um[at]))
+        for at in np.flatnonzero(depth_um > _LEAST_UM).tolist()
     ]
     return tuple(sorted(found))
 
@@ -81,24 +81,3 @@ def _depth(part: _Part, place_um: Floats, offset_um: float) -> Floats:
     inside[place[within == loop[place]]] = 1
     into = np.where(inside == part.inside[loop], near.distance_um, -near.distance_um)
     return np.where(part.known[loop] == 1, offset_um + into, -np.inf)
-
-
-def _deepest(part: _Part, leads: Curves, offset_um: float) -> tuple[Floats, Floats]:
-    """The largest depth (m,) along each lead, and its place (m, 2); the depth changes no faster than the wire goes."""
-    row = np.arange(len(leads))
-    begin, end = np.zeros(len(row)), np.ones(len(row))
-    at_begin, at_end = (_depth(part, places(leads, row, share), offset_um) for share in (begin, end))
-    best, fraction = np.maximum(at_begin, at_end), np.where(at_end > at_begin, 1.0, 0.0)
-    while len(row):
-        bound = 0.5 * (at_begin + at_end + leads.length_um[row] * (end - begin))
-        deep = np.flatnonzero(bound > np.maximum(best[row], _LEAST_UM) + _RIGHT_TO_UM)
-        row = row[deep]
-        begin, end, at_begin, at_end = (column[deep] for column in (begin, end, at_begin, at_end))
-        middle = 0.5 * (begin + end)
-        depth = _depth(part, places(leads, row, middle), offset_um)
-        order = np.argsort(depth, kind="stable")  # the deepest is entered last
-        order = order[depth[order] > best[row[order]]]
-        best[row[order]], fraction[row[order]] = depth[order], middle[order]
-        row, begin, end = np.tile(row, 2), np.append(begin, middle), np.append(middle, end)
-        at_begin, at_end = np.append(at_begin, depth), np.append(depth, at_end)
-    return best, places(leads, np.arange(len(leads)), fraction)

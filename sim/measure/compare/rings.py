@@ -8,7 +8,7 @@ import shapely
 
 from parser.drawing.model import running
 from parser.findings.errors import SettingsError
-from parser.geometry.along import places
+from parser.geometry.along import outline
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.geometry.feet import feet
 from parser.shape.closing import CLOSED_WITHIN_UM
@@ -20,8 +20,6 @@ MOST_CONTOURS = 2_000
 """Contours of a program that are compared: overlapping ones cost some 0.04 s each."""
 MOST_PASSES = 10_000
 """Passes over all of them: five over each of the most contours."""
-
-_SAGITTA_UM = 0.05  # of the chords of an outline
 
 
 class PathLoop(NamedTuple):
@@ -177,17 +175,6 @@ def _ahead(one: PathPass) -> PathPass:
         return one
     back = np.arange(len(one.curves))[::-1]
     return PathPass(running(one.curves, back, np.ones(len(back), dtype=np.bool_)), one.block[::-1], 1)
-
-
-def outline(curves: Curves) -> Floats:
-    """Places (m, 2) along a closed chain of curves, on arcs so many that their chords lie 0.05 µm off at most."""
-    radius = np.where(curves.is_arc, curves.radius_um, 1.0)
-    step = np.sqrt(8.0 * _SAGITTA_UM / np.maximum(radius, _SAGITTA_UM))
-    parts = np.maximum(np.ceil(np.abs(curves.sweep_rad) / step), 1.0).astype(np.int64)
-    parts[curves.is_arc] = np.maximum(parts[curves.is_arc], 3)
-    row = np.repeat(np.arange(len(curves)), parts)
-    at = np.arange(len(row)) - (np.cumsum(parts) - parts)[row]
-    return places(curves, row, at / parts[row])
 
 
 def polygon(curves: Curves) -> shapely.Polygon:
