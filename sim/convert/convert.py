@@ -99,7 +99,7 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     if several:
         return Refused("several-offsets", program, values=(("of", several),))
     path = _path(program, checked, wanted)
-    draft = draft_for(path, wanted)
+    draft = draft_for(path, wanted, is_offset=path is not program.toolpath or wanted.offset_um is not None)
     if not len(draft):
         return Refused("nothing", program)
     return _word_for_word_or_not(program, path, draft, wanted, is_open=any(one.is_open for one in checked.contours))
@@ -151,19 +151,18 @@ def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, i
     held = proof(draft, made, back.toolpath)
     if held.differs:
         return Refused("differs", back, values=(("what", f"convert.differs-{held.differs}"),))
-    if held.off_um > wanted.bound_um:
-        return Refused("off", back, values=(("off", f"{held.off_um:.3f}"), ("bound", f"{wanted.bound_um:g}")))
+    bound_um = wanted.bound_for_um(draft)
+    if held.off_um > bound_um:
+        return Refused("off", back, values=(("off", f"{held.off_um:.3f}"), ("bound", f"{bound_um:g}")))
     alone = wanted.iso is None or _is_told_by_itself(data, draft, made, wanted, choices)
     lost = losses(program, path, draft, made, wanted)
-    return Converted(
-        data, back, checked, held.off_um, wanted.bound_um, lost, alone, open_um, choices.registers, made.ramp_ms
-    )
+    return Converted(data, back, checked, held.off_um, bound_um, lost, alone, open_um, choices.registers, made.ramp_ms)
 
 
 def _is_told_by_itself(data: bytes, draft: Draft, made: Written, wanted: Wanted, choices: Choices) -> bool:
     """Whether the text alone tells how it is to be read."""
     alone = proof(draft, made, load_program(data, "alone", Choices(registers=choices.registers)).toolpath)
-    return alone == Proof(alone.off_um) and alone.off_um <= wanted.bound_um
+    return alone == Proof(alone.off_um) and alone.off_um <= wanted.bound_for_um(draft)
 
 
 def _errors(checked: Checked) -> tuple[Finding, ...]:
