@@ -3,6 +3,7 @@
 3B has no word for a jump: after a ``D`` the wire is taken out, and the lines to the next figure look like any other.
 """
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -60,7 +61,8 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
     Notes
     -----
     Up to three lines alone between two pauses (wire out, wire in) are jumps, even if the figure before them did not
-    close. But if they close it, they are its last cut, behind a pause in which the slug is clamped. More blocks after a
+    close. But if they close it, or what follows them does, they are cut, behind a pause in which the slug is clamped:
+    a figure may have several tabs. More blocks after a
     pause are a figure with the jump to it: their first line is the jump if the figure before is closed, and if their
     own figure does not need that line to close. No wire is threaded where the figure before has a corner: a line that
     ends within a kerf of one goes to another pass over its edge, or cuts the tab that held the slug; and so do blocks
@@ -76,7 +78,7 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
         is_closed = ends_closed(toolpath, begin, at)
         lines = until < len(toolpath) and not (toolpath.kind[at:until] == CurveKind.ARC).any()
         if until - at <= _MOST_JUMPS:
-            is_way = is_closed or not _close(toolpath, begin, at, until)
+            is_way = is_closed or not _close(toolpath, begin, at, _behind_tabs(toolpath, until, stops))
         else:
             is_way = is_closed and ends_closed(toolpath, until, after) and is_open_way(toolpath, at, until, after)
         if lines and is_way:
@@ -89,6 +91,17 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
             rows.extend(range(at, past))
             begin = past
     return np.array(rows, dtype=np.int64)
+
+
+def _behind_tabs(toolpath: Toolpath, until: int, stops: Sequence[int]) -> int:
+    """One past the last row of what follows lines before `until`: further such lines, then rows up to a pause.
+
+    `stops` are the rows before each pause, and the number of all rows.
+    """
+    at = bisect_left(stops, until)
+    while at + 1 < len(stops) and stops[at + 1] - stops[at] <= _MOST_JUMPS and stops[at + 1] < len(toolpath):
+        at += 1
+    return stops[min(at + 1, len(stops) - 1)]
 
 
 def is_open_way(toolpath: Toolpath, at: int, until: int, after: int) -> bool:

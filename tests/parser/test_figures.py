@@ -96,3 +96,14 @@ def test_no_wire_is_threaded_within_a_kerf_of_a_corner_that_was_cut(side: int, k
     for way in (f"B{kerf}B0B{kerf}GXL3", f"B0B{kerf}B{kerf}GYL4"):
         assert jumps(f"{square} D {way} {square} DD") == []
         assert jumps(f"{square} D {way.replace(str(kerf), str(kerf + 1))} {square} DD") == [5]
+
+
+def test_lines_between_two_pauses_are_cut_where_the_rest_closes_the_figure_they_left_open() -> None:
+    """Two tabs of one contour, each behind a pause; else such lines are the way to the next figure."""
+    left = "B10000B0B10000GXL1 B0B20000B20000GYL2 B10000B10000B10000GYL1 D B20000B0B20000GXL1 D "
+    tabs = parse_program(left + "B0B30000B30000GYL4 B30000B0B30000GXL3 B10000B0B10000GXL3 DD").toolpath
+    assert not tabs.is_jump.any()
+    three = left + "B0B10000B10000GYL4 D B0B20000B20000GYL4 B30000B0B30000GXL3 B10000B0B10000GXL3 DD"
+    assert not parse_program(three).toolpath.is_jump.any()
+    ring = "B4900B0B4900GXL1 B4900B0B19600GYNR1 B4900B0B4900GXL3 DD"
+    assert parse_program(left + ring).toolpath.is_jump.tolist() == [False, False, False, True, False, False, False]

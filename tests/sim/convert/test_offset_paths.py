@@ -41,5 +41,5 @@ def test_fillets_at_any_angle_are_written_within_the_bound() -> None:
             rng.choice(["left", "right"]),
         )
         worst += [off_um(text, by_um, side, language) for language in ("3b", "4b")]
-    assert max(worst) <= 1.5
+    assert max(worst) <= 1.8
     assert sorted(worst)[len(worst) // 2] <= 0.8
