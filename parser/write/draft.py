@@ -10,6 +10,7 @@ from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.told.compensation import Compensation
 from parser.told.step_words import StepWords
 from parser.toolpath import Stop, Toolpath
+from parser.write.events import Event
 
 _PLACED = re.compile(r"\s*(?:N\s*\d+\s*)?(?:Start|PSET|.*G\s*92(?!\d))", re.IGNORECASE)
 _STAYS_UM = 1.5
@@ -35,6 +36,8 @@ class Draft:
         The words of a counting controller that are to be written; None where they are to be told.
     compensation
         The controller's offset that is to be written; None where it has none.
+    events
+        What is switched where it stands, in ISO.
     is_meant
         Whether the curves are what is meant, and not what a program made of it: the nearest whole numbers are written
         then, in place of those that a CAM would have written.
@@ -47,6 +50,7 @@ class Draft:
     words: StepWords | None = None
     compensation: Compensation | None = None
     is_meant: bool = False
+    events: tuple[Event, ...] = ()
 
     def __len__(self) -> int:
         return len(self.curves)

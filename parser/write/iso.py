@@ -7,11 +7,12 @@ import numpy as np
 from parser.geometry.curves import CurveKind, Ints
 from parser.units import mm
 from parser.write.draft import Draft, Written
+from parser.write.events import optional_stops, written_events
 from parser.write.iso_choices import IsoChoices
 from parser.write.sides import Sides, sides_of
 from parser.write.strokes import Strokes, strokes_of
 
-_PAUSE = "M00"
+_PAUSE, _OPTIONAL_PAUSE = "M00", "M01"
 _TAPE = "%"
 _UNITS = {"um": "0.001 mm", "mm": "mm", "inch": "inches"}
 
@@ -64,13 +65,15 @@ def _body(draft: Draft, choices: IsoChoices, strokes: Strokes, sides: Sides) -> 
     first = np.searchsorted(strokes.row, np.arange(len(draft) + 1)).tolist()
     blocks = _blocks(draft, choices, strokes)
     begins, ends = _about_cuts(draft)
+    events, optional = written_events(draft.events), optional_stops(draft.events)
     for row in range(len(draft)):
         if row in ends:
             yield from choices.habits.behind_cut
         if row in pauses:
-            yield _PAUSE
+            yield _OPTIONAL_PAUSE if row in optional else _PAUSE
         if row in begins:
             yield from choices.habits.before_cut
+        yield from events.get(row, [])
         yield from sides.before.get(row, [])
         begun, closed = sides.first.get(row, ""), sides.last.get(row, "")
         for block in blocks[first[row] : first[row + 1]]:
@@ -78,6 +81,7 @@ def _body(draft: Draft, choices: IsoChoices, strokes: Strokes, sides: Sides) -> 
             begun = closed = ""
     if len(draft) in ends:
         yield from choices.habits.behind_cut
+    yield from events.get(len(draft), [])
     yield choices.habits.end
 
 

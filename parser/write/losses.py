@@ -13,6 +13,7 @@ _MOST_NAMED = 8
 _SWITCHES = "ABCEFQSTUVWZ"
 _STOPS = (1, 20, 21, 50, 60)
 _OF_THE_PATH = (0, 2, 30, 98, 99, 199, *_STOPS)
+_DWELL, _OPTIONAL = 4, 1
 
 
 class Loss(NamedTuple):
@@ -33,17 +34,30 @@ class Loss(NamedTuple):
     number: int
 
 
-def lost_words(text: str, kept: str = "") -> tuple[Loss, ...]:
-    """Words of an ISO text that switch something, stop or call: none of them moves the wire; but for letters kept."""
+class Kept(NamedTuple):
+    """What a written text has: words of some letters, dwells, optional stops."""
+
+    letters: str = ""
+    dwells: bool = False
+    optional_stops: bool = False
+
+
+def lost_words(text: str, kept: Kept) -> tuple[Loss, ...]:
+    """Words of an ISO text that switch something, stop, wait or call, and that the written one has not."""
     listing = read_listing(text)
     words = listing.words
     is_m = words.letter == ord("M")
-    switches = np.isin(words.letter, [ord(letter) for letter in _SWITCHES if letter not in kept])
+    is_dwell = (words.letter == ord("G")) & (words.value == _DWELL)
+    dwells = np.zeros(len(words.letter), dtype=np.bool_) if kept.dwells else is_dwell
+    in_dwell = listing.blocks_of(np.flatnonzero(is_dwell))[words.block]
+    stops = [stop for stop in _STOPS if stop != _OPTIONAL or not kept.optional_stops]
+    switches = np.isin(words.letter, [ord(letter) for letter in _SWITCHES if letter not in kept.letters]) & ~in_dwell
     switches |= is_m & ~np.isin(words.value, _OF_THE_PATH)
     losses = [
         _named("switches", listing, switches),
         _of("settings", listing.text, [one.span for one in listing.statements]),
-        _named("stops", listing, is_m & np.isin(words.value, _STOPS)),
+        _named("stops", listing, is_m & np.isin(words.value, stops)),
+        _of("dwells", listing.text, [_block_span(listing, at) for at in np.flatnonzero(dwells).tolist()]),
         _named("calls", listing, is_m & (words.value == 98)),
         Loss("remarks", "", len(listing.remarks)),
         Loss("skips", "", int(listing.blocks.is_skipped.sum())),
@@ -55,6 +69,11 @@ def _named(what: str, listing: Listing, chosen: Bools) -> Loss:
     at = np.flatnonzero(chosen)
     first, past = listing.words.first[at].tolist(), listing.words.past[at].tolist()
     return _of(what, listing.text, list(zip(first, past, strict=True)))
+
+
+def _block_span(listing: Listing, word: int) -> tuple[int, int]:
+    """The block of a word, from that word on."""
+    return int(listing.words.first[word]), int(listing.blocks.past[listing.words.block[word]])
 
 
 def _of(what: str, text: str, spans: list[tuple[int, int]]) -> Loss:

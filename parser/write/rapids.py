@@ -27,6 +27,7 @@ def with_rapid_to_start(draft: Draft) -> Draft:
         draft,
         curves=joined([rapid, curves]),
         stops=tuple(stop._replace(after=stop.after + 1) for stop in draft.stops),
+        events=tuple(event._replace(after=event.after + 1) for event in draft.events),
         is_placed=np.append(False, draft.is_placed),
         told_um=np.concatenate([np.full((1, 2), np.nan), draft.told_um]),
         words=None,

@@ -1,5 +1,6 @@
 """A written program held against what it was written of, block by block."""
 
+from collections import Counter
 from typing import NamedTuple
 
 import numpy as np
@@ -8,6 +9,7 @@ from parser.geometry.curves import CurveKind, Curves, Floats, Ints
 from parser.told.compensation import Compensation
 from parser.toolpath import Toolpath
 from parser.write.draft import Draft, Written
+from parser.write.events import Event, events_of
 
 _SHARES = (0.25, 0.5, 0.75)
 _OFFSET_UM = 0.1
@@ -30,18 +32,26 @@ def proof(draft: Draft, made: Written, read: Toolpath) -> Proof:
 
     Both begin at the same place: where that is rounded, the whole path lies as much aside.
     """
-    if len(read) != len(made.row):
-        return Proof(np.inf, "blocks")
-    if not len(read):
+    if not len(read) and not len(made.row):
         return Proof(0.0)
-    is_jump = draft.curves.kind == CurveKind.JUMP
-    if ((read.kind == CurveKind.JUMP) != is_jump[made.row]).any():
-        return Proof(np.inf, "jumps")
-    if not _stops_alike(draft, made.row, read):
-        return Proof(np.inf, "stops")
-    if not _sides_alike(draft.compensation, made.row, read.compensation):
-        return Proof(np.inf, "offsets")
+    differs = _differs(draft, made.row, read)
+    if differs:
+        return Proof(np.inf, differs)
     return Proof(_off_um(draft, made.row, read), "" if _turns_alike(draft.curves, made.row, read) else "turns")
+
+
+def _differs(draft: Draft, row: Ints, read: Toolpath) -> str:
+    """What is not the same beside the path itself; empty where all is."""
+    if len(read) != len(row):
+        return "blocks"
+    is_jump = draft.curves.kind == CurveKind.JUMP
+    alike = {
+        "jumps": ((read.kind == CurveKind.JUMP) == is_jump[row]).all(),
+        "stops": _stops_alike(draft, row, read),
+        "events": not draft.events or _events_alike(draft.events, row, read),
+        "offsets": _sides_alike(draft.compensation, row, read.compensation),
+    }
+    return next((what for what, is_alike in alike.items() if not is_alike), "")
 
 
 def _off_um(draft: Draft, row: Ints, read: Toolpath) -> float:
@@ -93,6 +103,13 @@ def _stops_alike(draft: Draft, row: Ints, read: Toolpath) -> bool:
     there = {stop.after for stop in read.stops if stop.kind == "pause"}
     wanted = {int(np.searchsorted(row, stop.after)) for stop in draft.stops if stop.kind == "pause"}
     return wanted <= there | {0, len(row)} and any(stop.kind == "end" for stop in read.stops)
+
+
+def _events_alike(events: tuple[Event, ...], row: Ints, read: Toolpath) -> bool:
+    """Whether every event is there, at its place; of optional stops those within the path. Heads may bring others."""
+    placed = Counter((int(np.searchsorted(row, event.after)), event.word) for event in events)
+    wanted = Counter({at: number for at, number in placed.items() if at[1] != "M01" or 0 < at[0] < len(row)})
+    return wanted <= Counter((event.after, event.word) for event in events_of(read) or ())
 
 
 def _sides_alike(drafted: Compensation | None, row: Ints, read: Compensation | None) -> bool:

@@ -1,14 +1,17 @@
 """What a program is to be converted to, and the text that is written of a toolpath."""
 
+import re
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from parser.dialect.choices import STANDARD_CHOICES, Choices
+from parser.program import Program
 from parser.toolpath import Toolpath
 from parser.write.curve_marks import curve_marks
 from parser.write.draft import Draft, Written, draft_of
+from parser.write.events import Event, events_of
 from parser.write.iso import written_iso
 from parser.write.iso_choices import IsoChoices, iso_choices
 from parser.write.pmac import PmacChoices, blocks_of_text, ramp_of, written_pmac
@@ -26,6 +29,7 @@ _OFFSET_BOUND_UM = 2.0
 """Of an offset path in 3B: of 2,000 programs with fillets at any angle none is farther off than 1.7 µm. Centres lie
 whole µm from where arcs begin, which bows the middle of an arc of 140° out by so much at worst."""
 _PMAC_BOUND_UM = 1.0
+_INCHES = re.compile(r"G(?:20|70)(?!\d)", re.IGNORECASE)
 _PMAC_DECIMALS = 5
 
 
@@ -86,20 +90,48 @@ class Wanted(NamedTuple):
         return _BOUND_STEPS * (1.0 if self.iso is None else max(1.0, self.iso.step_um))
 
 
-def draft_for(toolpath: Toolpath, wanted: Wanted, *, is_offset: bool = False) -> Draft:
+def draft_for(toolpath: Toolpath, wanted: Wanted, events: tuple[Event, ...] = (), *, is_offset: bool = False) -> Draft:
     """What is to be written of a toolpath: 3B and 4B have no words for offsets, nor of their own for rapids.
 
-    Of an offset path no centre is the programmer's: centre and count of 3B are chosen together, as near as whole µm let
-    them.
+    ISO has words for `events`. Of an offset path no centre is the programmer's: centre and count of 3B are chosen
+    together, as near as whole µm let them.
     """
     draft = draft_of(toolpath)
     if is_offset and wanted.iso is None and wanted.pmac is None:
         draft = replace(draft, words=None, told_um=np.full_like(draft.told_um, np.nan), is_meant=True)
     if wanted.iso is not None:
-        return begun(draft, wanted)
+        return begun(replace(draft, events=events), wanted)
     if wanted.pmac is not None:
         return draft.without_compensation()
     return (without_rapids(draft) if draft.words is None else draft).without_compensation()
+
+
+def kept_events(program: Program, path: Toolpath, wanted: Wanted) -> tuple[Event, ...] | None:
+    """Events of an ISO program, by the rows of its path, that are written in ISO; None where none can be placed.
+
+    Dwells and optional stops mean the same everywhere; feeds and conditions stay in their own family and unit.
+    """
+    if wanted.iso is None or program.decoder is None:
+        return None
+    events = events_of(path)
+    if events is None:
+        return None
+    is_inch = program.choices.unit == "inch" or _INCHES.search(program.text) is not None
+    habitual = _habitual_dwells(program.reading.dialect)
+    begins = set(np.flatnonzero(~path.is_jump & np.append(True, path.is_jump[:-1])).tolist())
+    is_own = program.reading.dialect == wanted.iso.profile.name and is_inch == (wanted.iso.unit == "inch")
+    return tuple(
+        event
+        for event in events
+        if (is_own or event.is_common)
+        and not (event.kind == "dwell" and event.number in habitual and event.after in begins)
+    )
+
+
+def _habitual_dwells(family: str) -> set[float]:
+    """Dwells, s, that programs of a family have before each cut: each dialect writes its own there."""
+    habits = iso_choices(family).habits
+    return {float(word[1:]) for block in habits.before_cut if block.startswith("G04 ") for word in block.split()[1:]}
 
 
 def begun(draft: Draft, wanted: Wanted) -> Draft:
