@@ -29,8 +29,10 @@ def written_out(about: About, block: AskedBlock) -> WrittenQuestion | None:
     return _ABOUT[about](block)
 
 
-def _quadrant(block: AskedBlock) -> WrittenQuestion:
+def _quadrant(block: AskedBlock) -> WrittenQuestion | None:
     right = label(block.turn, block.motion)
+    if not block.is_arc and block.motion != _ruled_digit(block):
+        return None  # what is written is not what the rule says, and the rule is what is asked about
     from_x, from_y = (plain(um) for um in _from_center(block, block.start_um))
     why = said(
         f"quiz.quadrant_{block.kind}_why", label=right, turn=_turn(block), from_x=from_x, from_y=from_y, **_moves(block)
@@ -38,6 +40,15 @@ def _quadrant(block: AskedBlock) -> WrittenQuestion:
     return _among(
         [label(block.turn, digit) for digit in range(1, 5)], right, _ask(f"quiz.quadrant_{block.kind}", block), why
     )
+
+
+def _ruled_digit(block: AskedBlock) -> int:
+    """The digit of a line by the rule of docs/3b.md §1: along an axis that of its way, else its quadrant."""
+    wide, high = block.extent_um
+    if wide and high:
+        return block.quadrant
+    x, y = block.by_um.tolist()
+    return (1 if x > 0 else 3) if wide else 2 if y > 0 else 4
 
 
 def _count_axis(block: AskedBlock) -> WrittenQuestion:

@@ -7,7 +7,10 @@ import numpy as np
 
 from parser.findings.catalogue import LANGUAGES, Said, texts
 from parser.findings.codes import Severity
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, edited
+from parser.program import Program, parse_program
+from sim.check.batch import check_program
+from sim.check.settings import CheckSettings
 from sim.run.dryrun import DryRun
 from sim.setup.quiz import WrittenQuestion
 from sim.show.words import said
@@ -15,6 +18,8 @@ from sim.show.words.phrases import same
 
 _MOST_FAULTS = 8
 _ANSWERS = 4
+_MOST_BLOCKS = 5_000
+"""Of a program that is checked anew for each question: some 10 ms a time."""
 
 
 class OfRun(NamedTuple):
@@ -52,13 +57,36 @@ def _offset(run: DryRun) -> WrittenQuestion:
 
 
 def _faults(run: DryRun) -> Iterator[OfRun]:
-    """Which of some blocks is at fault, for each block that alone has what a finding tells of."""
-    faulty = {one.block for one in run.findings if one.block}
-    grave = {one.block: one for one in reversed(run.findings) if one.block and one.severity is not Severity.NOTE}
-    for block in sorted(grave)[:_MOST_FAULTS]:
-        question = _fault(run, grave[block], faulty)
+    """Which of some blocks is at fault, for each block that a change of its own words alone rids of its finding.
+
+    Other findings only hang on their block: that a contour stays open is told at its last one, and may come of any.
+    """
+    faulty = {finding.block for finding in run.findings if finding.block}
+    if not faulty or len(run.toolpath) > _MOST_BLOCKS:
+        return
+    checked = check_program(_as_written(run.program, run.program.text), CheckSettings(may_stay_open=True))
+    grave = {found.block: found for found in reversed(checked.findings) if found.severity is not Severity.NOTE}
+    for block in sorted(block for block in grave if block)[:_MOST_FAULTS]:
+        finding = grave[block]
+        question = _fault(run, finding, faulty) if _is_rid(run.program, finding) else None
         if question is not None:
             yield question
+
+
+def _as_written(program: Program, text: str) -> Program:
+    """A text read as a program was."""
+    return parse_program(text, program.name, program.encoding, program.choices)
+
+
+def _is_rid(program: Program, finding: Finding) -> bool:
+    """Whether the certain mend of a finding changes its block alone, and the finding goes with it."""
+    if not finding.edits:
+        return False
+    edits = [edit for edit in finding.edits if program.lines.line(edit.first) == finding.line]
+    if len(edits) < len(finding.edits):
+        return False
+    again = check_program(_as_written(program, edited(program.text, edits)), CheckSettings(may_stay_open=True))
+    return all((other.code, other.block) != (finding.code, finding.block) for other in again.findings)
 
 
 def _fault(run: DryRun, finding: Finding, faulty: set[int]) -> OfRun | None:

@@ -182,7 +182,12 @@ def test_what_drycut_answers_is_so(block: PlainBlock) -> None:
     assert right(found["count_length"]) == str(block.count)
     assert ("turn" in found) == (block.sense != "L")
     if block.sense == "L":
-        assert right(found["quadrant"]) == f"L{block.quadrant}"
+        ruled = {(1, 0): 1, (0, 1): 2, (-1, 0): 3, (0, -1): 4}.get(
+            (sx * (block.x > 0), sy * (block.y > 0)), block.quadrant
+        )
+        assert ("quadrant" in found) == (ruled == block.quadrant)
+        if "quadrant" in found:
+            assert right(found["quadrant"]) == f"L{ruled}"
         share = block.count / (block.x if block.axis == "X" else block.y)
         end = sx * share * block.x, sy * share * block.y
     else:
@@ -386,7 +391,7 @@ def is_hidden(entry: dict[str, Any], at: int) -> bool:
 
 
 def test_the_block_at_fault_stands_beside_sound_ones() -> None:
-    text = "B0B300B300GYL2\nB300B0B290GXL1\nB0B300B300GYL4\nB300B0B300GXL3\nDD\n"
+    text = "B0B300B300GYL2\nB300B0B300GXL1\nB300B0B1200GXNR1\nB0B300B300GYL4\nB300B0B300GXL3\nDD\n"
     recording = recording_of(text, may_stay_open=True)
     faults = [one for one in quiz_of(recording.run, recording.steps)["pool"] if one["about"] == "fault"]
     found = {finding.block for finding in recording.run.findings if finding.block}
@@ -396,6 +401,22 @@ def test_the_block_at_fault_stands_beside_sound_ones() -> None:
         others = {int(answer["en"]) for answer in entry["answers"]} - {int(right(entry))}
         assert others
         assert not others & found
+
+
+def test_a_block_on_which_a_finding_only_hangs_is_not_asked_about() -> None:
+    """An open contour is told at its last block, whichever is at fault."""
+    for text in (
+        "B1000B0B1000GXL1 B0B500B500GYL2 B500B0B500GXL3 B0B300B300GYL4 B500B0B500GXL3 B0B800B800GYL4 DD",
+        "B1000B0B1000GXL1 B0B470B470GYL2 B500B0B500GXL3 B0B300B300GYL2 B500B0B500GXL3 B0B800B800GYL4 DD",
+    ):
+        recording = recording_of(text)
+        assert "3B301" in {finding.code for finding in recording.run.findings}
+        assert [one for one in quiz_of(recording.run, recording.steps)["pool"] if one["about"] == "fault"] == []
+
+
+def test_a_line_whose_label_is_not_the_rules_is_not_asked_about() -> None:
+    recording = recording_of("B500B0B500GXL4 B0B500B500GYL1 B500B0B500GXL2 B0B500B500GYL3 DD")
+    assert not [one for one in quiz_of(recording.run, recording.steps)["pool"] if one["about"] == "quadrant"]
 
 
 def test_the_edge_lies_half_the_kerf_beside_the_path() -> None:
