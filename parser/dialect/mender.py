@@ -45,6 +45,9 @@ class Mender(Protocol):
     def suspects(self, toolpath: Toolpath, first_row: int, past_row: int) -> tuple[Suspect, ...]:
         """The likeliest blocks that keep the contour from `first_row` up to but without `past_row` open, best first."""
 
+    def one_slips(self, toolpath: Toolpath, first_row: int, past_row: int, most: int) -> tuple[Suspect, ...]:
+        """At most so many slips of one word with which the contour ends where it was to end, likeliest first."""
+
     def printed_mends(self, toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
         """The likeliest mends with which a row ends where it is printed to end, best first."""
 
@@ -59,6 +62,9 @@ class Mender(Protocol):
 
     def label_slips(self, toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
         """Other labels than the ruled one, in which the label of a row may have one wrong sign, that obey the rule."""
+
+    def other_labels(self, toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
+        """The other labels that the arc in a row may have."""
 
     def counted_on(self, axis: Axis) -> Mend:
         """The mend with which a block counts on an axis."""

@@ -79,6 +79,8 @@ def texts(finding: Finding, language: Language = "en") -> Texts:
     """Texts of a finding in one language."""
     of = page(finding.code, language)
     templates = {"found": of.found, "expected": of.expected, "machine": of.machine, "hint": of.hint}
+    if finding.is_uncertain:
+        templates["hint"] = term("not-certain", language)
     parts = {name: filled(template, finding.values, language, finding.names) for name, template in templates.items()}
     return Texts(of.title, **parts, message=_read("joints")[language]["message"].format(**parts))
 

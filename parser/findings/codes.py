@@ -112,6 +112,7 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "3B319": FindingCode(Severity.WARNING, Check.CONTOURS),
         "3B320": FindingCode(Severity.WARNING, Check.ORDER),
         "3B321": FindingCode(Severity.ERROR, Check.PASSES, placed=True),
+        "3B322": FindingCode(Severity.NOTE, Check.CONTOURS),
         "3B401": FindingCode(Severity.ERROR, Check.TRAVEL),
         "3B402": FindingCode(Severity.ERROR, check=None, placed=True),
         "3B403": FindingCode(Severity.ERROR, check=None, placed=True),

@@ -87,3 +87,13 @@ class PrintedElsewhere(DoubtfulEnd):
 @dataclass(frozen=True, slots=True)
 class CountedElsewhere(DoubtfulEnd):
     """The count length of a line does not fit its X and Y."""
+
+
+@dataclass(frozen=True, slots=True)
+class OddShape(Fact):
+    """A contour runs there as no drawing has it: a wrong word may be why."""
+
+
+@dataclass(frozen=True, slots=True)
+class OddOrder(Fact):
+    """A block may be lost, doubled or in another place: no word is suspected then."""

@@ -48,6 +48,8 @@ class Finding(NamedTuple):
         What later checks and mends take from it; None where none asks.
     graver
         Severity of this one, where it is graver than that of its code.
+    is_uncertain
+        Whether its hint would not be enough, or another word is as likely: no word is advised then.
     names
         What the listing calls blocks that its texts may speak of, by number; others are called by their numbers.
     """
@@ -61,6 +63,7 @@ class Finding(NamedTuple):
     edits: tuple[Edit, ...] = ()
     fact: Fact | None = None
     graver: Severity | None = None
+    is_uncertain: bool = False
     names: Mapping[int, str] = NO_NAMES
 
     @property

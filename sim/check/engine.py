@@ -55,12 +55,14 @@ def run_checks(program: Program, demands: Demands) -> Checked:
     names = program.toolpath.source.names
     if checked.steps is None:
         return checked._replace(findings=names.named(checked.findings))
-    from sim.check.blame.settle import settled  # noqa: PLC0415 - a sound program has nobody to blame, and starts sooner
+    from sim.check.blame.proof import proved  # noqa: PLC0415 - a sound program has nobody to blame, and starts sooner
+    from sim.check.blame.settle import settled  # noqa: PLC0415
 
     def again(text: str) -> tuple[Finding, ...]:
         return _every_check(parse_program(text, program.name, program.encoding, program.choices), demands).findings
 
-    return checked._replace(findings=names.named(settled(program, checked.findings, checked.judged, again)))
+    found = settled(program, checked.findings, checked.judged, again)
+    return checked._replace(findings=names.named(proved(program, found, checked.judged, again)))
 
 
 def _every_check(program: Program, demands: Demands) -> Checked:

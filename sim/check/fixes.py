@@ -98,6 +98,8 @@ class _Mends:
     def of(self, finding: Finding) -> tuple[Edit, ...]:
         """The edits that certainly mend a finding, all together."""
         edits: tuple[Edit, ...] = ()
+        if finding.is_uncertain:
+            return edits
         match finding.fact:
             case NoEnd():
                 edits = self._end_code()

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from parser.dialect.at_block import at_block
+from parser.findings.facts import OddShape
 from parser.findings.findings import Fact, Finding, Value
 from parser.geometry.curves import Ints
 from parser.program import Program
@@ -82,7 +83,8 @@ def crossing_findings(program: Program, contour: Ints, passes: Passes) -> tuple[
                 "y": y,
                 "more": one.crossings - 1,
             }
-            found.append(at_block(program.toolpath, program.lines, "3B307", later, **values))
+            crossing = at_block(program.toolpath, program.lines, "3B307", later, **values)
+            found.append(crossing.with_fact(OddShape()))
     return found, all(one.is_complete for one in crossings)
 
 

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from parser.dialect.at_block import at_block
+from parser.findings.facts import OddShape
 from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
 from parser.geometry.directions import directions
@@ -107,7 +108,8 @@ def _deeper(program: Program, passes: Passes, judged: list[list[Pass]]) -> Itera
         row = one.first + int(np.nanargmin(of_pass))
         if shift_um[row] < -_DEEPER_UM:
             by = float(-shift_um[row])
-            yield at_block(program.toolpath, program.lines, "3B314", row, number=one.number, by=by)
+            found = at_block(program.toolpath, program.lines, "3B314", row, number=one.number, by=by)
+            yield found.with_fact(OddShape())
 
 
 def _uncut_tab(program: Program, main: list[Pass]) -> Iterator[Finding]:

@@ -85,7 +85,8 @@ class PathChecks:
         yield from rapid_findings(program)
         closures = contour_findings(program, self.judged, self._rows, known, may_stay_open=demands.may_stay_open)
         yield from closures
-        yield from retraced_findings(program, self._retraced)
+        retraced = list(retraced_findings(program, self._retraced))
+        yield from retraced
         yield from doubled_findings(program, self._rows, self._passes)
         self._done(Check.CONTOURS, self._left_out)
         rows = _closed(self._rows, closures)  # an open contour may not run where it was meant to
@@ -99,7 +100,7 @@ class PathChecks:
         yield from crossings
         self._done(Check.CROSSINGS, self._left_out or open_ones if all_pairs else "reason-many")
         yield from self._over_edges()
-        yield from self._into_parts(_without(rows, uncut))
+        yield from self._into_parts(_without(rows, [*uncut, *closures, *retraced]))
         self._done(Check.PASSES, self._left_out)
         yield from self._asked_for()
         reach_um = demands.offset_um if demands.table is not None else None

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.dialect.at_block import at_block
+from parser.findings.facts import OddOrder
 from parser.findings.findings import Finding
 from parser.geometry.boxes import distinct
 from parser.geometry.curves import Bools, Floats, Ints
@@ -218,7 +219,7 @@ def retraced_findings(program: Program, retraced: tuple[Retraced, ...]) -> Itera
     """Finding 3B317 at the block that runs back."""
     for one in retraced:
         values = {"by": one.by_um, "first": one.contour.first, "last": one.contour.last}
-        yield at_block(program.toolpath, program.lines, "3B317", one.row, **values)
+        yield at_block(program.toolpath, program.lines, "3B317", one.row, **values).with_fact(OddOrder())
 
 
 def swapped_findings(program: Program, rows: Ints, passes: Passes) -> Iterator[Finding]:
@@ -228,7 +229,7 @@ def swapped_findings(program: Program, rows: Ints, passes: Passes) -> Iterator[F
     """
     of_pass = np.where(rows >= 0, passes.of_row, -1)
     for row in swapped_rows(program.toolpath, rows, of_pass).tolist():
-        yield at_block(program.toolpath, program.lines, "3B318", row, other=row)
+        yield at_block(program.toolpath, program.lines, "3B318", row, other=row).with_fact(OddOrder())
 
 
 def swapped_rows(toolpath: Toolpath, contour: Ints, of_pass: Ints) -> Ints:
@@ -316,4 +317,4 @@ def doubled_findings(program: Program, rows: Ints, passes: Passes) -> Iterator[F
     parted = {stop.after for stop in toolpath.stops}
     for row in (1 + np.flatnonzero(same)).tolist():
         if row not in parted:
-            yield at_block(toolpath, program.lines, "3B319", row, other=row)
+            yield at_block(toolpath, program.lines, "3B319", row, other=row).with_fact(OddOrder())

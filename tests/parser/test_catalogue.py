@@ -71,6 +71,7 @@ VALUES: dict[str, dict[str, Value]] = {
     "3B317": {"by": 7046.0, "first": 1, "last": 5},
     "3B318": {"other": 3},
     "3B319": {"other": 1},
+    "3B322": {"field": "field-sense", "written": "NR2", "other": "NR4", "others": "", "first": 1, "last": 27},
     "3B321": {"by": 139.57, "x_mm": -0.601, "y_mm": 1.83},
     "3B320": {"lines": 4, "last": 9, "length": 40000.0},
     "3B401": {"x_mm": 400.0, "y_mm": 500.0, "axis": "X", "by": 10000.0},

@@ -119,13 +119,16 @@ def words_named(finding: Finding) -> list[Word]:
         "3B204": lambda: [("axis", f"G{of['ruled']}")],
         "3B211": lambda: [("sense", of["other"])],
         "3B217": lambda: [(of["field"].removeprefix("field-"), of["other"])],
-        "3B304": lambda: [
-            (of["field"].removeprefix("field-"), of["other"]),
-            *(_told_word(text) for text in of["others"].split(" / ") if text),
-        ],
+        **dict.fromkeys(
+            ("3B304", "3B322"),
+            lambda: [
+                (of["field"].removeprefix("field-"), of["other"]),
+                *(_told_word(text) for text in of["others"].split(" / ") if text),
+            ],
+        ),
         "3B306": lambda: [("sense", of["word"])],
     }
-    return named[finding.code]() if finding.code in named else []
+    return named[finding.code]() if finding.code in named and not finding.is_uncertain else []
 
 
 def _told_word(text: str) -> Word:

@@ -19,6 +19,11 @@ class _Mender:
 
         return suspects(toolpath, first_row, past_row)
 
+    def one_slips(self, toolpath: Toolpath, first_row: int, past_row: int, most: int) -> tuple[Suspect, ...]:
+        from parser.threeb.mend.one_slip import one_slips  # noqa: PLC0415
+
+        return one_slips(toolpath, first_row, past_row, most)
+
     def printed_mends(self, toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
         from parser.threeb.mend.printed import printed_mends  # noqa: PLC0415
 
@@ -35,6 +40,9 @@ class _Mender:
 
     def label_slips(self, toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
         return edits.label_slips(toolpath, row)
+
+    def other_labels(self, toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
+        return edits.other_labels(toolpath, row)
 
     def counted_on(self, axis: Axis) -> Mend:
         return edits.counted_on(axis)

@@ -35,6 +35,13 @@ def label_slips(toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
     return tuple(Mend(Field.SENSE, text) for text in ruled if text != _ruled(word))
 
 
+def other_labels(toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
+    """The seven other labels of the arc in a row."""
+    word = _word(toolpath, row)
+    texts = (label(turn, digit) for turn in (1, -1) for digit in (1, 2, 3, 4))
+    return tuple(Mend(Field.SENSE, text) for text in texts if text != _written(word))
+
+
 def _word(toolpath: Toolpath, row: int) -> StepWords:
     words = decoded_words(toolpath)
     return StepWords(**{name: getattr(words, name)[[row]] for name in StepWords.__slots__})

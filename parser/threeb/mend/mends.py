@@ -30,7 +30,7 @@ _COLUMNS = ("x_um", "y_um", "count_um", "count_axis", "quadrant", "turn")
 _OTHER_FIELD = 7  # points of a changed axis, and of a changed quadrant or sense, like one changed digit
 _TWO_CHANGED = 2  # points of a changed quadrant and sense, like two changed digits
 _SENSES = np.array(list(product((0, 1, -1), (1, 2, 3, 4))))  # (turn, quadrant): what Z can say
-_PLACES = 10 ** np.arange(9)  # places of the digits of a word of up to nine
+PLACES = 10 ** np.arange(9)  # places of the digits of a word of up to nine
 
 
 class Mends(NamedTuple):
@@ -66,19 +66,19 @@ def mends(word: Ints, by_um: Floats, gap_um: Floats, tolerance_um: float) -> Men
     want = by_um + gap_um
     bare = _is_bare(word)
     numbers = _near(word, _numbers(word, want, tolerance_um, bare))
-    return _that_end(_joined([_other_axes(word), _other_senses(word, bare), numbers]), want, tolerance_um)
+    return _that_end(joined([other_axes(word), other_senses(word), numbers]), want, tolerance_um)
 
 
-def _other_axes(word: Ints) -> Mends:
+def other_axes(word: Ints) -> Mends:
     """Each block counted on the other axis."""
     changed = word.copy()
     changed[:, AXIS] = 1 - word[:, AXIS]
     return Mends(np.arange(len(word)), np.full(len(word), AXIS), changed)
 
 
-def _other_senses(word: Ints, bare: NDArray[np.bool_]) -> Mends:
+def other_senses(word: Ints) -> Mends:
     """Each block with each of the eleven other Z."""
-    n = len(_SENSES)
+    n, bare = len(_SENSES), _is_bare(word)
     row, changed = np.tile(np.arange(len(word)), n), np.tile(word, (n, 1))
     changed[:, [TURN, QUADRANT]] = np.repeat(_SENSES, len(word), axis=0)
     differs = (changed[:, [TURN, QUADRANT]] != word[row][:, [TURN, QUADRANT]]).any(axis=1)
@@ -141,7 +141,7 @@ def _slips(written: Ints, value: Ints) -> list[Ints]:
 
     In each of the nine places stands the digit that brings the number nearest to `value`.
     """
-    place = _PLACES[:, None]
+    place = PLACES[:, None]
     high, low = written // (10 * place), written % place
     changed = high * 10 * place + low
     restored = written // place * 10 * place + low
@@ -164,7 +164,8 @@ def _that_end(made: Mends, want_um: Floats, tolerance_um: float) -> Mends:
     return Mends(*(column[ends] for column in made))
 
 
-def _joined(made: list[Mends]) -> Mends:
+def joined(made: list[Mends]) -> Mends:
+    """Mends one behind the other."""
     return Mends(*(np.concatenate(columns) for columns in zip(*made, strict=True)))
 
 

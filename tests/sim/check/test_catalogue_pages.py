@@ -18,6 +18,7 @@ WITHOUT_EXAMPLE = {"3B100", "3B303", "ISO100"} | OF_A_RUN
 EXAMPLES = {code: shown for code in sorted(CODES) if (shown := example(code))}
 ALSO = {
     "3B304": {"3B301"},  # the contour that it is a suspect of
+    "3B322": {"3B307", "3B311"},  # what comes of the word
     "3B314": {"3B307"},  # the rough cut runs through the trim that it comes past
     "3B109": {"3B110"},  # a 4B block is in both
     "ISO507": {"ISO506"},  # it runs through the neck all the same

@@ -1,0 +1,201 @@
+"""Advice by proof: a word is named where writing it leaves nothing to find, and no word where none does."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from controller.stepping.words import words_of
+from parser.dialect.at_block import at_block
+from parser.dialect.mender import Mend, Mender
+from parser.findings.facts import OddOrder, OddShape, WrongBlock, WrongLabel
+from parser.findings.findings import Finding, Value, edited, file_order
+from parser.program import Program
+from parser.shape.contours import Contour
+from parser.text.source import Field
+from sim.check.blame.settle import WrongWord
+from sim.check.blame.trial import Again
+from sim.check.closures import OpenContour, Suspected, suspect_finding
+from sim.check.count_axes import WrongAxis
+from sim.check.geometry import ReversedArc
+
+MOST_TRIALS = 24
+MOST_BLOCKS = 4_000
+"""Blocks of all trials for one contour together: a trial of 100 blocks takes some 5 ms."""
+_MOST_NAMED = 3
+_MOST_CONTOURS = 4
+_OF_A_WORD = (OpenContour, ReversedArc, WrongAxis, WrongBlock, OddShape)
+"""Facts of findings that one wrong word may be why."""
+
+
+class Change(NamedTuple):
+    """A block, from 1, and what its fields would say."""
+
+    block: int
+    mends: tuple[Mend, ...]
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is one field, a number."""
+        return len(self.mends) == 1 and self.mends[0].field not in {Field.AXIS, Field.SENSE}
+
+
+def proved(
+    program: Program, findings: tuple[Finding, ...], judged: tuple[Contour, ...], again: Again
+) -> tuple[Finding, ...]:
+    """The findings, with the words that trials in their contours prove, and with no advice that none proves.
+
+    Every slip of one word is tried, by which a contour ends where it was to end, and every word that a finding advises:
+    written, it must leave nothing to find in the contour, and no more in the others. Where a printed end names the word
+    of a contour, that is enough, and nothing is tried; nor where more than `_MOST_CONTOURS` ask for it.
+    """
+    mender, rows = program.mender, len(program.toolpath)
+    most = min(MOST_TRIALS, MOST_BLOCKS // max(rows, 1))
+    asking = [contour for contour in judged if _asks(findings, contour)]
+    if mender is None or not most or len(asking) > _MOST_CONTOURS:
+        return findings
+    for contour in asking:
+        findings = tuple(_judged(_Trials(program, mender, contour, findings, again, most)))
+    return tuple(sorted(findings, key=file_order))
+
+
+def _asks(findings: tuple[Finding, ...], contour: Contour) -> bool:
+    """Whether a wrong word may be why something is wrong in a contour, and no printed end names it."""
+    facts = [finding.fact for finding in findings if contour.first <= finding.block <= contour.last]
+    otherwise = any(isinstance(fact, (WrongWord, OddOrder)) for fact in facts)
+    return not otherwise and any(isinstance(fact, _OF_A_WORD) for fact in facts)
+
+
+class _Trials:
+    """What is found in a contour, and what is left of it when words are written otherwise."""
+
+    def __init__(  # noqa: PLR0913, PLR0917 - all that a trial needs, handed on once
+        self,
+        program: Program,
+        mender: Mender,
+        contour: Contour,
+        findings: tuple[Finding, ...],
+        again: Again,
+        most: int,
+    ) -> None:
+        self.program, self.mender, self.contour, self.findings, self.most = program, mender, contour, findings, most
+        self._again = again
+        self._elsewhere = sum(not self.holds(finding) for finding in findings)
+        self.advised = {id(one): _advised(program, one) for one in findings if self.holds(one)}
+
+    def holds(self, finding: Finding) -> bool:
+        """Whether a finding is about the contour."""
+        return self.contour.first <= finding.block <= self.contour.last
+
+    @property
+    def may_be_turned(self) -> bool:
+        """Whether an arc may run the other way round."""
+        return any(self.holds(finding) and isinstance(finding.fact, ReversedArc) for finding in self.findings)
+
+    def is_silent(self, *changes: Change) -> bool:
+        """Whether nothing is left to find in the contour with some changes, and no more in the others."""
+        toolpath = self.program.toolpath
+        edits = [self.mender.edit(toolpath, one.block - 1, mend) for one in changes for mend in one.mends]
+        found = self._again(edited(self.program.text, edits))
+        return not any(self.holds(finding) for finding in found) and len(found) <= self._elsewhere
+
+    def proved(self) -> list[Change]:
+        """The changes that leave nothing, likeliest first: those that end the contour where it began, if there are any.
+
+        Else what findings advise, with the other labels of an arc that may run the other way round: nothing tells
+        these apart then.
+        """
+        rows = self.contour.first - 1, self.contour.last
+        slips = self.mender.one_slips(self.program.toolpath, *rows, self.most)
+        advised = [change for of in self.advised.values() for change in of]
+        fields = {(change.block, *(mend.field for mend in change.mends)): change for change in advised}
+        # Of numbers that close a contour as well, the advised one was found by its joints too.
+        changes = [Change(slip.row + 1, (slip.mend,)) for slip in slips]
+        numbers = {one: fields.get((one.block, one.mends[0].field), one) for one in changes if one.is_number}
+        silent = self._silent([numbers.get(change, change) for change in changes])
+        if not silent:
+            silent = self._silent([*advised, *self._other_labels()])
+        elif any(change in advised for change in silent):
+            silent = [change for change in silent if change in advised]
+        return silent if len(silent) <= _MOST_NAMED else []
+
+    def _silent(self, changes: list[Change]) -> list[Change]:
+        return [change for change in dict.fromkeys(changes) if self.is_silent(change)]
+
+    def _other_labels(self) -> Iterator[Change]:
+        """The other labels of arcs that may run the other way round: that is not the only slip there is."""
+        for finding in self.findings:
+            if self.holds(finding) and isinstance(finding.fact, ReversedArc):
+                for mend in self.mender.other_labels(self.program.toolpath, finding.block - 1):
+                    yield Change(finding.block, (mend,))
+
+
+def _advised(program: Program, finding: Finding) -> tuple[Change, ...]:
+    """The changes that a finding advises, each enough alone."""
+    block = finding.block
+    match finding.fact:
+        case Suspected() as suspected:
+            return tuple(Change(block, (one.mend,)) for one in suspected.suspects)
+        case ReversedArc(word):
+            return (Change(block, (Mend(Field.SENSE, word),)),)
+        case WrongLabel(ruled):
+            return (Change(block, (Mend(Field.SENSE, ruled),)),)
+        case WrongAxis(ruled, count_um) if program.mender is not None:
+            axis, count = program.mender.counted_on(ruled), program.mender.counting(count_um)
+            is_other = count_um != words_of(program.toolpath).count_um[block - 1]
+            return (Change(block, (axis, count) if is_other else (axis,)),)
+    return ()
+
+
+def _judged(trials: _Trials) -> Iterator[Finding]:
+    """The findings of a program as the trials in one contour leave them.
+
+    Where the advice of all findings together leaves nothing, it stands, if it has no other word for the same.
+    """
+    advice = [changes for changes in trials.advised.values() if changes]
+    is_one_each = all(len(changes) == 1 for changes in advice) and not trials.may_be_turned
+    if advice and is_one_each and trials.is_silent(*dict.fromkeys(changes[0] for changes in advice)):
+        yield from trials.findings
+        return
+    named = trials.proved()
+    told: set[Change] = set()
+    for finding in trials.findings:
+        advised = trials.advised.get(id(finding), ())
+        kept = tuple(change for change in advised if change in named)
+        told.update(kept)
+        if isinstance(finding.fact, Suspected) and advised and named:
+            yield from _suspected(trials, finding, finding.fact, kept)
+        elif advised and not kept and not _stays(finding, named):
+            yield finding._replace(is_uncertain=True)
+        else:
+            yield finding
+    by_block: dict[int, list[Change]] = {}
+    for change in named:
+        if change not in told:
+            by_block.setdefault(change.block, []).append(change)
+    for block, changes in by_block.items():
+        yield _only(trials, block, changes)
+
+
+def _stays(finding: Finding, named: list[Change]) -> bool:
+    """Whether the advice of a finding is certain, whatever is left: the rule of a label, if no word is named there."""
+    return isinstance(finding.fact, WrongLabel) and not any(change.block == finding.block for change in named)
+
+
+def _suspected(trials: _Trials, finding: Finding, fact: Suspected, kept: tuple[Change, ...]) -> Iterator[Finding]:
+    """The suspects that are proved; none where others are."""
+    suspects = tuple(one for one in fact.suspects if Change(finding.block, (one.mend,)) in kept)
+    if suspects == fact.suspects:
+        yield finding
+    elif suspects:
+        told = suspect_finding(trials.program, trials.contour.first, trials.contour.last, suspects)
+        yield told.with_fact(Suspected(fact.first, suspects, fact.is_proved))
+
+
+def _only(trials: _Trials, block: int, changes: list[Change]) -> Finding:
+    """Finding 3B322 at a block: the words of it with which nothing is left to find."""
+    toolpath, row, field = trials.program.toolpath, block - 1, changes[0].mends[0].field
+    span = toolpath.source.field(row, field)
+    written = "".join(trials.program.text[slice(*span)].split()) if span else ""
+    others = " / ".join(trials.mender.told(change.mends) for change in changes[1:])
+    values: dict[str, Value] = {"first": trials.contour.first, "last": trials.contour.last, "written": written}
+    values |= {"field": field.term, "other": changes[0].mends[0].text, "others": others}
+    return at_block(toolpath, trials.program.lines, "3B322", row, field, **values)
