@@ -33,8 +33,13 @@ def printed_mends(toolpath: Toolpath, row: int) -> tuple[Mend, ...]:
     if not len(made.row):
         return ()
     now = moves_of(made.word)
-    points = obedience(words_of(made.word), now) + ease(word[made.row], made) + _beside(toolpath, row, now)
-    least = _LEAST + int(obedience(words_of(word), was)[0] + _beside(toolpath, row, was)[0])
+    alone, written = (
+        obedience(words_of(made.word), now) + ease(word[made.row], made),
+        int(obedience(words_of(word), was)[0]),
+    )
+    points, least = alone + _beside(toolpath, row, now), _LEAST + written + int(_beside(toolpath, row, was)[0])
+    if points.max() < least:  # what is written fits its neighbours by chance: the printed end speaks against it
+        points, least = alone, _LEAST + written
     off = np.hypot(*(now.by_um - by - gap).T)
     order = np.lexsort([off, -points])
     best: dict[int | str, Mend] = {}
