@@ -8,13 +8,14 @@ from parser.findings.findings import Finding
 from parser.geometry.extents import extents
 from parser.iso.path.centers import Agreement
 from parser.iso.path.motion import Moved
-from parser.iso.profiles.profile import Profile
+from parser.iso.profiles.profile import Profile, profile
 from parser.iso.telling.marks import Seen
 from parser.iso.telling.scale import amount, scaled
 from parser.iso.telling.told import Told
 from parser.toolpath import Toolpath
 
 _LEAST_UM, _MOST_UM = 500.0, 1e6  # no part is smaller than 0.5 mm, no table larger than 1 m
+_FEW = 0.2  # whole numbers for each one with a point: more are a way of writing
 _UNITS = ("mm", "um", "inch")
 
 
@@ -45,12 +46,21 @@ def _assumptions(family: Told) -> Iterator[Finding]:
 
 
 def _mixed_numbers(seen: Seen, of: Profile) -> Iterator[Finding]:
-    """ISO111 at the first length of the rarer kind, where those with a point and those without are of two scales."""
+    """ISO111 at the first length of the rarer kind, where those with a point and those without are of two scales.
+
+    A unit that was told may give both one scale. The controller keeps its own all the same: a few whole numbers among
+    many with a point are told then too.
+    """
     points, integers = seen.coordinates[seen.is_pointed], seen.coordinates[~seen.is_pointed]
-    if of.integer_um == of.point_um or not len(points) or not len(integers):
+    if not len(points) or not len(integers):
         return
+    integer_um = of.integer_um
+    if integer_um == of.point_um:
+        integer_um = profile(of.name).integer_um
+        if integer_um == of.point_um or len(integers) > _FEW * len(points):
+            return
     word = int((points if len(points) < len(integers) else integers)[0])
-    scales = {"integer": amount(of.integer_um), "point": amount(of.point_um)}
+    scales = {"integer": amount(integer_um), "point": amount(of.point_um)}
     counts = {"integers": len(integers), "points": len(points)}
     yield seen.listing.at_word("ISO111", word, word=seen.listing.written(word), **scales, **counts)
 

@@ -169,3 +169,12 @@ def test_numbers_with_and_without_points_are_noted_at_the_rarer_kind(words: str,
         else f"G91 G01 {words}\nM02\n"
     )
     assert [program.lines.text[slice(*one.span)] for one in told(program, "ISO111")] == [found] * bool(found)
+
+
+@pytest.mark.parametrize(("word", "found"), [("X-12", "X-12"), ("X-12.", "")])
+def test_a_whole_number_among_decimals_is_noted_though_the_unit_was_told(word: str, found: str) -> None:
+    """The controller takes it for 12 µm, whatever unit drycut was told."""
+    lines = ["G21 G90 G92 X0. Y0.", "G01 X-12. Y0.", f"G01 {word} Y10.", "G01 X12. Y10.", "G01 X12. Y-10."]
+    text = "\n".join([*lines, "G01 X-12. Y-10.", "G01 X-12. Y0.", "G01 X0. Y0.", "M02", ""])
+    program = parse_program(text, choices=Choices(dialect="fanuc", unit="mm"))
+    assert [program.lines.text[slice(*one.span)] for one in told(program, "ISO111")] == [found] * bool(found)
