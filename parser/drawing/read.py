@@ -16,6 +16,7 @@ from parser.drawing.gather import gather
 from parser.drawing.left import entity_of, left_out, wanted_of
 from parser.drawing.loops.chain import chain
 from parser.drawing.loops.once import Again, drawn_once
+from parser.drawing.loops.weld import welded
 from parser.drawing.marks import marks_of
 from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, FitFigures, LeftOut
 from parser.drawing.notes import no_contour, notes_of
@@ -89,7 +90,7 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
         name=name,
         version=str(document.acad_release),
         unit=unit.name,
-        curves=once.curves,
+        curves=welded(once.curves, chained.loops),
         entity=entity.astype(np.int64),
         entities=tuple(entity_of(wanted.kept[at]) for at in number.tolist()),
         loops=chained.loops,
