@@ -4,7 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.curves import Bools, Curves, Floats, Ints
+
+_BACK_RAD = np.radians(0.2)  # besides what whole µm leave open of the angle of a block
+_SAME_CENTER_UM = 5.0  # of two arcs along one circle: centres in whole µm, from ends that are some µm off
 
 
 class Directions(NamedTuple):
@@ -22,6 +25,20 @@ def directions(curves: Curves) -> Directions:
     leaving[arc] = _across_radii(curves, arc, curves.start_angle_rad[arc])
     arriving[arc] = _across_radii(curves, arc, curves.start_angle_rad[arc] + curves.sweep_rad[arc])
     return Directions(leaving, arriving)
+
+
+def runs_back_over(curves: Curves, one: Ints, other: Ints) -> Bools:
+    """(k,) whether rows `other` run back over the rows `one`: the opposite way along the same line or circle."""
+    way, length = directions(curves), np.maximum(curves.length_um, 1.0)
+    arriving, leaving = way.arriving[one], way.leaving[other]
+    cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
+    angle = np.pi - np.abs(np.arctan2(cross, (arriving * leaving).sum(axis=1)))
+    arcs, lines = curves.is_arc[one] & curves.is_arc[other], ~curves.is_arc[one] & ~curves.is_arc[other]
+    off = np.hypot(*(np.nan_to_num(curves.center_um[other]) - np.nan_to_num(curves.center_um[one])).T)
+    opposite: Bools = (lines | (arcs & (off <= _SAME_CENTER_UM))) & (
+        angle <= _BACK_RAD + 1.0 / length[one] + 1.0 / length[other]
+    )
+    return opposite
 
 
 def headings(curves: Curves, row: Ints, fraction: Floats) -> Floats:

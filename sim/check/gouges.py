@@ -15,6 +15,7 @@ from parser.findings.findings import Finding
 from parser.geometry.along import corners
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between
 from parser.geometry.deepest import deepest
+from parser.geometry.directions import runs_back_over
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
 from parser.shape.closing import CLOSED_WITHIN_UM
@@ -167,7 +168,8 @@ def _held(toolpath: Toolpath, contour: Ints, passes: Passes, ring_of_edge: Ints)
 def _in_slits(held: _Held, depth_of: Callable[[Ints, Floats], Floats], leads: Curves) -> Bools:
     """(m,) whether a lead is one of those that leave the edge into the part and come back to where they left it.
 
-    The first of them begins on the edge, and none comes out of the part: such a slit is meant.
+    The first of them begins on the edge, and none comes out of the part: such a slit is meant. So is one of a single
+    block that ends in the part, and over which the next block runs back, however far beyond.
     """
     order = np.lexsort((held.row, held.ring))
     ring, row, ways = held.ring[order], held.row[order], leads.picked(order)
@@ -178,8 +180,13 @@ def _in_slits(held: _Held, depth_of: Callable[[Ints, Floats], Floats], leads: Cu
     shallowest = np.minimum.reduceat(np.minimum(start, end), first)
     apart = np.hypot(*(ways.end_um[last] - ways.start_um[first]).T)
     whole = (shallowest >= -CLOSED_WITHIN_UM) & (apart <= CLOSED_WITHIN_UM)
+    slit = whole[np.cumsum(begins) - 1]
+    at = np.flatnonzero((np.abs(start[:-1]) <= CLOSED_WITHIN_UM) & (end[:-1] > CLOSED_WITHIN_UM))
+    at = at[(ring[at + 1] == ring[at]) & (row[at + 1] == row[at] + 1)]
+    at = at[runs_back_over(ways, at, at + 1)]
+    slit[at] = slit[at + 1] = True
     found = np.zeros(len(order), dtype=np.bool_)
-    found[order] = whole[np.cumsum(begins) - 1]
+    found[order] = slit
     return found
 
 

@@ -15,7 +15,7 @@ from parser.findings.facts import OddOrder
 from parser.findings.findings import Finding
 from parser.geometry.boxes import distinct
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.geometry.directions import directions
+from parser.geometry.directions import directions, runs_back_over
 from parser.program import Program
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import Contour, runs
@@ -25,7 +25,6 @@ from parser.toolpath import Toolpath
 _MOST_RELIEF_UM = 1000.0
 _MOST_RELIEF = 0.05
 """Strokes into a corner and back, to clear it, are as short as this, and as this part of their contour (assumed)."""
-_BACK_RAD = np.radians(0.2)
 _SMOOTH_RAD = np.radians(0.2)
 """Joints of a drawing that are tangent are so within this, and what whole µm leave open."""
 
@@ -113,22 +112,8 @@ def _runs_back(toolpath: Toolpath) -> Bools:
     """(n,) whether a row runs back over the one before: the other way along the same line or circle."""
     at = np.arange(len(toolpath) - 1)
     back = np.zeros(len(toolpath), dtype=np.bool_)
-    back[1:] = _opposite(toolpath, at, at + 1) & ~toolpath.is_jump[1:] & ~toolpath.is_jump[:-1]
+    back[1:] = runs_back_over(toolpath, at, at + 1) & ~toolpath.is_jump[1:] & ~toolpath.is_jump[:-1]
     return back
-
-
-def _opposite(toolpath: Toolpath, one: Ints, other: Ints) -> Bools:
-    """(k,) whether rows would run back over other ones: the opposite way along the same line or circle."""
-    way, length = directions(toolpath), np.maximum(toolpath.length_um, 1.0)
-    arriving, leaving = way.arriving[one], way.leaving[other]
-    cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
-    angle = np.pi - np.abs(np.arctan2(cross, (arriving * leaving).sum(axis=1)))
-    arcs, lines = toolpath.is_arc[one] & toolpath.is_arc[other], ~toolpath.is_arc[one] & ~toolpath.is_arc[other]
-    off = np.hypot(*(np.nan_to_num(toolpath.center_um[other]) - np.nan_to_num(toolpath.center_um[one])).T)
-    opposite: Bools = (lines | (arcs & (off <= CLOSED_WITHIN_UM))) & (
-        angle <= _BACK_RAD + 1.0 / length[one] + 1.0 / length[other]
-    )
-    return opposite
 
 
 def _without_strokes(toolpath: Toolpath, low: int, high: int, back: Bools) -> list[_Rest]:
@@ -163,7 +148,7 @@ def _is_opposite(toolpath: Toolpath, before: int, row: int, back: Bools) -> bool
     """Whether a row runs back over an earlier one that ends where it begins."""
     if before == row - 1:
         return bool(back[row])
-    return bool(_opposite(toolpath, np.array([before]), np.array([row]))[0])
+    return bool(runs_back_over(toolpath, np.array([before]), np.array([row]))[0])
 
 
 def _is_meant(toolpath: Toolpath, bounds: tuple[int, int], left: list[_Rest], rows: Ints) -> bool:
@@ -246,7 +231,7 @@ def swapped_rows(toolpath: Toolpath, contour: Ints, of_pass: Ints) -> Ints:
     same = (of_pass[at] >= 0) & (of_pass[at + 1] == of_pass[at])
     same &= (contour[at - 1] == contour[at]) & (contour[at + 2] == contour[at])
     at = at[same]
-    at = at[~_opposite(toolpath, at, at + 1)]  # a slit
+    at = at[~runs_back_over(toolpath, at, at + 1)]  # a slit
     now = joints.tangent(at - 1, at) + joints.tangent(at, at + 1) + joints.tangent(at + 1, at + 2)
     then = joints.tangent(at - 1, at + 1) + joints.tangent(at + 1, at) + joints.tangent(at, at + 2)
     between = at[then - now >= _LEAST_GAINED] + 1

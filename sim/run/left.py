@@ -48,8 +48,13 @@ def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom 
     scenario: Scenario,
     drawing: Drawing | None,
     progress: Progress,
+    *,
+    is_whole: bool,
 ) -> Left:
-    """What a cut leaves, as far as the scenario asks for it."""
+    """What a cut leaves, as far as the scenario asks for it.
+
+    A run that is not whole, since it ended early, is not held against the drawing: all that differs comes of that.
+    """
     target = scenario.drawing
     if not scenario.kerf and target is None:
         return Left(None, None, [], CheckState(_REMAINS, "not asked", "reason-no-kerf"))
@@ -62,6 +67,8 @@ def left_of(  # noqa: PLR0913, PLR0917 - all that is known of the cut, and whom 
     found = piece_findings(program, remains.pieces)
     if target is None or drawing is None:
         return Left(remains, None, found, CheckState(_REMAINS))
+    if not is_whole:
+        return Left(remains, None, found, CheckState(_REMAINS, "incomplete", "reason-ended"))
     progress("comparison", 0, 1)
     comparison = compare_cut(program, remains, drawing, target)
     return Left(remains, comparison, [*found, *drawing_findings(program, comparison)], CheckState(_REMAINS))

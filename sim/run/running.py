@@ -73,7 +73,7 @@ def run_along(
     ended = trip_of(moved.losses) or ended
     cut = trace.until(ended.t_s) if ended else trace
     passes, figures, border_s = passes_of(ready, scenario, plan, cut, ended)
-    left = left_of(program, cut, contours, scenario, drawing, progress)
+    left = left_of(program, cut, contours, scenario, drawing, progress, is_whole=ended is None)
     return DryRun(
         program=program,
         scenario=scenario,

@@ -97,3 +97,8 @@ def test_leads_of_trims_from_anywhere_cut_as_deep_into_the_part_as_shapely_says(
 def test_a_slit_from_the_edge_into_the_part_and_back_is_meant() -> None:
     square = [(0, 0), (0, 5000), (-5000, 5000), (-5000, -5000), (5000, -5000), (5000, 5000), (0, 5000)]
     assert gouges(text_of([(0, 9000), *square[1:], (0, 2000), (0, 5000), (0, 9000)])) == {}
+
+
+def test_a_slit_that_is_left_by_its_own_way_on_to_the_start_hole_is_meant() -> None:
+    square = [(0, 0), (0, 5000), (-5000, 5000), (-5000, -5000), (5000, -5000), (5000, 5000), (0, 5000)]
+    assert gouges(text_of([(0, 9000), *square[1:], (0, 2000), (0, 9000)])) == {}
