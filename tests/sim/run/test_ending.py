@@ -3,6 +3,7 @@
 import io
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from parser.told.step_words import Axis
 from sim.run.dryrun import DryRun
 from sim.run.report import build_report
 from sim.run.running import dry_run
+from sim.setup.part import DrawingTarget
 from sim.show.terminal.run import summary_rows
 
 HOLE = "B100B0B100GXL1 B0B100B100GYL2 B100B0B100GXL3 B0B100B100GYL4"
@@ -118,3 +120,18 @@ def test_the_card_is_stopped_where_the_run_ends() -> None:
     assert "GT_EStpMtn() = 0" in stream.getvalue()
     pulses = json.loads(stream.getvalue().splitlines()[-1].removeprefix("end "))["pulses"]
     assert 800 <= pulses <= 850  # of 2100; the card brakes
+
+
+def test_beyond_the_travel_nothing_else_is_held_against_the_drawing(tmp_path: Path) -> None:
+    """The cut ends early: that it differs from its drawing as a whole comes of that alone."""
+    corners = "".join(f"10\n{x}\n20\n{y}\n" for x, y in ((0.0, 0.0), (500.0, 0.0), (500.0, 1.0), (0.0, 1.0)))
+    drawing = tmp_path / "part.dxf"
+    drawing.write_text(
+        f"0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\n0\n90\n4\n70\n1\n{corners}0\nENDSEC\n0\nEOF\n", "ascii"
+    )
+    text = "B500000B0B500000GXL1 B0B1000B1000GYL2 B500000B0B500000GXL3 B0B1000B1000GYL4 DD"
+    table = machine(travel_x_mm=2.0)
+    run = run_text(text, machine=table, start_mm=(1.0, 100.0), drawing=DrawingTarget(drawing))
+    assert codes(run) == ["3B401"]
+    remains = next(check for check in run.coverage.checks if check.name == "check-remains")
+    assert (run.comparison, remains.state, remains.reason) == (None, "incomplete", "reason-ended")
