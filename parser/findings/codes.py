@@ -208,6 +208,8 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "PMC104": FindingCode(Severity.ERROR, Check.GRAMMAR),
         "PMC105": FindingCode(Severity.WARNING, Check.ORDER),
         "PMC106": FindingCode(Severity.NOTE, Check.ORDER),
+        "PMC107": FindingCode(Severity.WARNING, Check.GRAMMAR),
+        "PMC108": FindingCode(Severity.ERROR, Check.GRAMMAR),
         "PMC201": FindingCode(Severity.ERROR, Check.BLOCKS),
         "PMC202": FindingCode(Severity.ERROR, Check.BLOCKS),
         "PMC203": FindingCode(Severity.ERROR, Check.BLOCKS),

@@ -3,13 +3,13 @@
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping
 
-from parser.dialect.reader import BlockCounts, Damage, Reading, ReadText, Spelling
+from parser.dialect.reader import PATH_IS_ALL, Beside, BlockCounts, Damage, Reading, ReadText, Spelling
 from parser.findings.codes import Check, Severity
 from parser.findings.errors import ProgramError
-from parser.findings.facts import DamagedBlock
+from parser.findings.facts import DamagedBlock, NotSimulated, TooLarge
 from parser.findings.findings import Finding, file_order
 from parser.pmac.arcs import Arc, arc_of
-from parser.pmac.lines import Buffer, Text, read_lines
+from parser.pmac.lines import Buffer, Kind, Text, read_lines
 from parser.pmac.moves import run
 from parser.pmac.path import path_of
 from parser.pmac.routines import holds_routines
@@ -18,10 +18,13 @@ from parser.pmac.state import State
 from parser.text.encoding import no_program, printable
 from parser.text.source import Span
 from parser.toolpath import Stop, Toolpath
+from parser.units import from_mm, mm
 
 _TIME_UNITS = ("I190", "I5190", "COORD[1].FEEDTIME")
 _SEGMENTS = ("I13", "I5113", "COORD[1].SEGMOVETIME")
-_MOST_SHOWN = 40
+_MOST_SHOWN, _MOST_NAMED = 40, 8
+_MOST_UM = {**dict.fromkeys("XYIJ", 1e7), "R": 1e9}
+"""Greatest lengths either way, as those of ISO: 10 m of coordinates, 1 km of radii."""
 
 
 def read_pmac(text: str) -> ReadText:
@@ -33,13 +36,15 @@ def read_pmac(text: str) -> ReadText:
     main = mains[0]
     state = run(main, {buffer.number: buffer for buffer in read.buffers if holds_routines(buffer.number)})
     if not state.moves:
-        raise ProgramError(no_program("no-block"))
+        raise ProgramError(*_beside_findings(read)) if read.beside else ProgramError(no_program("no-block"))
     arcs = {row: arc_of(move) for row, move in enumerate(state.moves) if move.motion > 1}
     stops = [*state.stops, Stop("end", len(state.moves), main.lines[-1].line)]
     toolpath = path_of(read.lines.text, state.moves, arcs, stops)
     starts = [move.at.span[0] for move in state.moves]
-    damages = tuple(Damage(span, bisect_left(starts, span[0])) for span in read.unread)
+    lost = sorted([*read.unread, *(piece.span for piece in read.beside)])
+    damages = tuple(Damage(span, bisect_left(starts, span[0])) for span in lost)
     findings = [*_text_findings(read, mains), *_told(read, state), *_arc_findings(read, state, arcs)]
+    findings += [*_beside_findings(read), *_out_of_range(read, main)]
     findings += [
         read.lines.finding(one.code, state.moves[one.row].at.span, one.row + 1, **one.values)
         for one in speed_findings(toolpath, state.moves, _time_unit_ms(read))
@@ -63,6 +68,7 @@ def _reading(read: Text, state: State, toolpath: Toolpath, damages: tuple[Damage
         },
         remarks=read.remarks,
         threadings=sum(move.is_threaded for move in state.moves),
+        not_simulated=_not_simulated(read),
     )
 
 
@@ -88,6 +94,39 @@ def _text_findings(read: Text, mains: list[Buffer]) -> Iterator[Finding]:
             yield read.lines.finding("PMC103", buffer.span, number=buffer.number, what="buffer-not-closed")
     for other in mains[1:]:
         yield read.lines.finding("PMC105", other.span, number=other.number, first=mains[0].number)
+
+
+def _beside_findings(read: Text) -> tuple[Finding, ...]:
+    """PMC107 at the first of the pieces that are not simulated."""
+    if not read.beside:
+        return ()
+    text, more = _names(read)[0], len(read.beside) - 1
+    found = read.lines.finding("PMC107", read.beside[0].span, text=text, more=more)
+    return (found.with_fact(NotSimulated(otherwise=True)),)
+
+
+def _names(read: Text) -> tuple[str, ...]:
+    """What is not simulated, as it is written, each once."""
+    shown = (printable(read.lines.text[slice(*piece.span)]).strip()[:_MOST_SHOWN] for piece in read.beside)
+    return tuple(dict.fromkeys(shown))
+
+
+def _not_simulated(read: Text) -> Beside:
+    if not read.beside:
+        return PATH_IS_ALL
+    names = _names(read)
+    return Beside("reason-macros", names[:_MOST_NAMED] + ("…",) * (len(names) > _MOST_NAMED))
+
+
+def _out_of_range(read: Text, main: Buffer) -> Iterator[Finding]:
+    """PMC108 at lengths beyond any table, and radii beyond any arc that is meant."""
+    words = (piece for line in main.lines for piece in line.pieces if piece.kind is Kind.WORD)
+    for piece in words:
+        most_um = _MOST_UM.get(piece.name)
+        if most_um is not None and abs(from_mm(piece.value)) > most_um:
+            limits = f"±{mm(most_um) / 1000.0:g} m"
+            found = read.lines.finding("PMC108", piece.span, word=f"{piece.name}{piece.value:g}", limits=limits)
+            yield found.with_fact(TooLarge())
 
 
 def _told(read: Text, state: State) -> Iterator[Finding]:

@@ -17,6 +17,7 @@ from parser.threeb.reader import Mark
 from parser.toolpath import Toolpath
 
 _MOST_JUMPS = 3  # lines in one way to the next figure; a figure of lines and the jump to it make more
+_MOST_TABS = 8  # of one figure, each behind a pause of its own
 _KERF_SHARE = 0.05  # of the length of a figure: no kerf is wider
 
 
@@ -78,7 +79,7 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
         is_closed = ends_closed(toolpath, begin, at)
         lines = until < len(toolpath) and not (toolpath.kind[at:until] == CurveKind.ARC).any()
         if until - at <= _MOST_JUMPS:
-            is_way = is_closed or not _close(toolpath, begin, at, _behind_tabs(toolpath, until, stops))
+            is_way = is_closed or not (_close(toolpath, begin, at, until) or _closed_later(toolpath, begin, at, stops))
         else:
             is_way = is_closed and ends_closed(toolpath, until, after) and is_open_way(toolpath, at, until, after)
         if lines and is_way:
@@ -93,15 +94,19 @@ def air_lines(toolpath: Toolpath, pauses: Sequence[int]) -> Ints:
     return np.array(rows, dtype=np.int64)
 
 
-def _behind_tabs(toolpath: Toolpath, until: int, stops: Sequence[int]) -> int:
-    """One past the last row of what follows lines before `until`: further such lines, then rows up to a pause.
+def _closed_later(toolpath: Toolpath, begin: int, at: int, stops: Sequence[int]) -> bool:
+    """Whether what follows the lines from `at` ends at a corner of the figure begun at `begin`, left before them.
 
-    `stops` are the rows before each pause, and the number of all rows.
+    What follows are further such lines, up to `_MOST_TABS` of them, and the rows up to the next pause. `stops` are the
+    rows before each pause, and the number of all rows.
     """
-    at = bisect_left(stops, until)
-    while at + 1 < len(stops) and stops[at + 1] - stops[at] <= _MOST_JUMPS and stops[at + 1] < len(toolpath):
-        at += 1
-    return stops[min(at + 1, len(stops) - 1)]
+    stop = bisect_left(stops, at) + 1
+    last = min(stop + _MOST_TABS, len(stops) - 2)
+    while stop < last and stops[stop + 1] - stops[stop] <= _MOST_JUMPS:
+        stop += 1
+    end = stops[min(stop + 1, len(stops) - 1)]
+    place = toolpath.end_um[end - 1]
+    return any(corners_at(toolpath, first, at, place).size > 0 for first in late_first(begin, at))
 
 
 def is_open_way(toolpath: Toolpath, at: int, until: int, after: int) -> bool:

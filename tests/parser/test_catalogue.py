@@ -175,6 +175,8 @@ VALUES: dict[str, dict[str, Value]] = {
     "PMC104": {"word": "X10", "other": "X1"},
     "PMC105": {"number": 2, "first": 1},
     "PMC106": {"word": "Z-1", "more": 0},
+    "PMC107": {"text": "P1=10", "more": 2},
+    "PMC108": {"word": "X50000", "limits": "±10 m"},
     "PMC201": {"start": 500.0, "end": 1250.0, "off": 750.0},
     "PMC202": {"what": "pmac-no-center"},
     "PMC203": {"what": "pmac-radius-short"},

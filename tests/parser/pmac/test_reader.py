@@ -68,7 +68,12 @@ def test_case_blanks_and_power_are_read_alike() -> None:
         ("CIRCLE2 X0 Y0 R9.9 F60", ["PMC203"]),
         ("LINEAR X10 F60\nG41 X20", ["PMC102"]),
         ("LINEAR X10 F60\nM03", ["PMC102"]),
-        ("LINEAR X10 F60\nIF(P1=2)", ["PMC101"] * 3),
+        ("LINEAR X10 F60\nIF(P1=2)", ["PMC107"]),
+        ("LINEAR X10 F60\nSPLINE1 X20\nTM(Q70)\nX(P1*(2+Q3))", ["PMC107"]),
+        ("LINEAR X10 F60\nFOO1 BAR(3) X20", ["PMC101"]),
+        ('LINEAR X10 F60\nCMD"#3j+"\nENABLE PLC 3', []),
+        ("LINEAR X10 F60\nCIRCLE1 X64 K6 R(999999999)", ["PMC108"]),
+        ("LINEAR X10 F60\nX10001", ["PMC108"]),
         ("LINEAR CIRCLE1 X10 I5 F60", ["PMC104"]),
         ("LINEAR X10 F60\nZ-1", ["PMC106"]),
         ("LINEAR X0.01 F60", ["PMC204"]),
@@ -181,3 +186,13 @@ def test_random_programs_end_where_plain_sums_do(seed: int) -> None:
     path = read(text).toolpath
     assert np.abs(path.end_um - 1000.0 * np.array(ends)).max() < 0.01
     assert np.abs(path.length_um - 1000.0 * np.array(lengths)).max() < 0.01 * 6.2 * 5.0
+
+
+def test_what_stands_outside_of_programs_is_for_the_card_and_a_program_of_sums_alone_is_told_as_such() -> None:
+    around = 'P1=10\nM1->X:$78400,8\nOPEN PLC 3 CLEAR\nIF(M1=1)\nCMD"#1j+"\nENDIF\nCLOSE\n'
+    assert (
+        codes(parse_program(f"{around}{HEAD}OPEN PROG 1\nCLEAR\nLINEAR X10 F60\nCLOSE\nENABLE PLC 3\n", "a.pmc")) == []
+    )
+    with pytest.raises(ProgramError) as refused:
+        parse_program("OPEN PROG 1\nCLEAR\nLINEAR\nX(P1*2)\nCLOSE\n", "a.pmc")
+    assert (refused.value.finding.code, refused.value.finding.values["text"]) == ("PMC107", "X(P1*2)")
