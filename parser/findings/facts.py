@@ -97,3 +97,8 @@ class OddShape(Fact):
 @dataclass(frozen=True, slots=True)
 class OddOrder(Fact):
     """A block may be lost, doubled or in another place: no word is suspected then."""
+
+
+@dataclass(frozen=True, slots=True)
+class TightCorner(Fact):
+    """An arc is smaller than the wire's offset: what edge comes of it a comparison with the drawing says better."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from parser.dialect.at_block import at_block
-from parser.findings.facts import OddShape
+from parser.findings.facts import OddShape, TightCorner
 from parser.findings.findings import Fact, Finding, Value
 from parser.geometry.curves import Ints
 from parser.program import Program
@@ -95,6 +95,8 @@ def corner_findings(program: Program, contour: Ints, passes: Passes, offset_um: 
     if toolpath.words is not None:
         rows = rows[toolpath.words.radius_um[rows] < 0]  # those of 4B are 3B216
     return [
-        at_block(toolpath, program.lines, "3B305", row, radius=float(toolpath.radius_um[row]), offset=offset_um)
+        at_block(
+            toolpath, program.lines, "3B305", row, radius=float(toolpath.radius_um[row]), offset=offset_um
+        ).with_fact(TightCorner())
         for row in rows.tolist()
     ]

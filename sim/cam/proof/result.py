@@ -5,6 +5,7 @@ from types import MappingProxyType
 from typing import Literal, NamedTuple
 
 from parser.findings.codes import Severity
+from parser.findings.facts import TightCorner
 from parser.findings.findings import Finding, Value
 from parser.findings.remarks import Remark
 from parser.toolpath import Point
@@ -76,8 +77,13 @@ class Proof(NamedTuple):
 
     @property
     def counting(self) -> tuple[Finding, ...]:
-        """The findings that speak against the program: a made one has no warning either."""
-        return tuple(one for one in self.findings if one.severity is not Severity.NOTE)
+        """The findings that speak against the program: a made one has no warning either.
+
+        But for corners that a wire cannot cut as the path has them, where the edge was held against the drawing.
+        """
+        held = self.comparison is not None
+        grave = (one for one in self.findings if one.severity is not Severity.NOTE)
+        return tuple(one for one in grave if not (held and isinstance(one.fact, TightCorner)))
 
     @property
     def verdict(self) -> Verdict:

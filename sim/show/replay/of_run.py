@@ -10,6 +10,7 @@ from parser.findings.codes import Severity
 from parser.findings.findings import Finding, edited
 from parser.program import Program, parse_program
 from sim.check.batch import check_program
+from sim.check.blame.trial import told_of
 from sim.check.settings import CheckSettings
 from sim.run.dryrun import DryRun
 from sim.setup.quiz import WrittenQuestion
@@ -62,7 +63,7 @@ def _faults(run: DryRun) -> Iterator[OfRun]:
     Other findings only hang on their block: that a contour stays open is told at its last one, and may come of any.
     """
     faulty = {finding.block for finding in run.findings if finding.block}
-    if not faulty or len(run.toolpath) > _MOST_BLOCKS:
+    if not faulty or run.program.mender is None or len(run.toolpath) > _MOST_BLOCKS:
         return
     checked = check_program(_as_written(run.program, run.program.text), CheckSettings(may_stay_open=True))
     grave = {found.block: found for found in reversed(checked.findings) if found.severity is not Severity.NOTE}
@@ -86,7 +87,7 @@ def _is_rid(program: Program, finding: Finding) -> bool:
     if len(edits) < len(finding.edits):
         return False
     again = check_program(_as_written(program, edited(program.text, edits)), CheckSettings(may_stay_open=True))
-    return all((other.code, other.block) != (finding.code, finding.block) for other in again.findings)
+    return told_of(finding) not in map(told_of, again.findings)
 
 
 def _fault(run: DryRun, finding: Finding, faulty: set[int]) -> OfRun | None:
