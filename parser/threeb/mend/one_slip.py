@@ -3,6 +3,8 @@
 Nothing is solved here: all slips are tried, so that a word that was meant is among them, whatever else is odd.
 """
 
+from operator import itemgetter
+
 import numpy as np
 
 from parser.dialect.mender import Suspect
@@ -38,26 +40,29 @@ def one_slips(toolpath: Toolpath, first_row: int, past_row: int, most: int) -> t
     Where they end there already, slips that turn an arc round, and move no end. A block that was meant obeys the
     trade's rules no less than what is written. At most `most`.
     """
-    found: list[tuple[int, Suspect]] = []
+    gap: Floats = toolpath.start_um[first_row] - toolpath.end_um[past_row - 1]
+    found: list[tuple[int, float, Suspect]] = []
     for low in range(first_row, past_row, _ROWS_AT_ONCE):
         rows = np.arange(low, min(low + _ROWS_AT_ONCE, past_row))
         word = word_table(toolpath, rows)
-        made = _that_end_well(toolpath, (first_row, past_row), word)
-        points = obedience(words_of(made.word), moves_of(made.word)) + ease(word[made.row], made)
-        for point, row, field, after in zip(
-            points.tolist(), made.row.tolist(), made.field.tolist(), made.word, strict=True
-        ):
+        made = _that_end_well(gap, word)
+        now = moves_of(made.word)
+        points = obedience(words_of(made.word), now) + ease(word[made.row], made)
+        off = np.hypot(*(now.by_um - moves_of(word).by_um[made.row] - gap).T)
+        columns = zip(points.tolist(), off.tolist(), made.row.tolist(), made.field.tolist(), made.word, strict=True)
+        for point, off_um, row, field, after in columns:
             was, other = field_text(word[row], field), field_text(after, field)
-            found.append((point, Suspect(int(rows[row]), FIELDS[field], was, other)))
+            found.append((-point, off_um, Suspect(int(rows[row]), FIELDS[field], was, other)))
     best: dict[tuple[int, Field, str], Suspect] = {}
-    for _, suspect in sorted(found, key=lambda one: -one[0]):  # of numbers some µm apart the likeliest stands for all
+    # Of numbers some µm apart the likeliest stands for all, and of those the one with which the contour ends nearest.
+    for _, _, suspect in sorted(found, key=itemgetter(0, 1)):
         which = suspect.other if suspect.field in {Field.AXIS, Field.SENSE} else ""
         best.setdefault((suspect.row, suspect.field, which), suspect)
     return tuple(best.values())[:most]
 
 
-def _that_end_well(toolpath: Toolpath, bounds: tuple[int, int], word: Ints) -> Mends:
-    """Slips in rows of the contour between `bounds` that have the words `word` (n, 6)."""
+def _that_end_well(gap: Floats, word: Ints) -> Mends:
+    """Slips in rows with the words `word` (n, 6), by which a contour ends elsewhere by the gap (2,), or as it does."""
     was = moves_of(word)
     made = joined([other_axes(word), other_senses(word), *(_numbers(word, field) for field in (X, Y, COUNT))])
     words = words_of(made.word)
@@ -65,7 +70,6 @@ def _that_end_well(toolpath: Toolpath, bounds: tuple[int, int], word: Ints) -> M
     now = moves_of(made.word)
     shift = now.by_um - was.by_um[made.row]
     away = np.hypot(*shift.T)
-    gap: Floats = toolpath.start_um[bounds[0]] - toolpath.end_um[bounds[1] - 1]
     is_open = np.hypot(*gap) > CLOSED_WITHIN_UM
     turned = ~is_open & (away <= _STILL_UM) & (made.word[:, TURN] != word[made.row, TURN])
     ends = is_open & (away > CLOSED_WITHIN_UM) & (np.hypot(*(shift - gap).T) <= CLOSED_WITHIN_UM)

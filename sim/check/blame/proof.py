@@ -90,6 +90,11 @@ class _Trials:
         """Whether an arc may run the other way round."""
         return any(self.holds(finding) and isinstance(finding.fact, ReversedArc) for finding in self.findings)
 
+    @property
+    def wrong_axes(self) -> int:
+        """How many blocks count on the wrong axis."""
+        return sum(self.holds(finding) and isinstance(finding.fact, WrongAxis) for finding in self.findings)
+
     def is_silent(self, *changes: Change) -> bool:
         """Whether nothing is left to find in the contour with some changes, and no more in the others."""
         toolpath = self.program.toolpath
@@ -118,7 +123,7 @@ class _Trials:
         return silent if len(silent) <= _MOST_NAMED else []
 
     def _silent(self, changes: list[Change]) -> list[Change]:
-        return [change for change in dict.fromkeys(changes) if self.is_silent(change)]
+        return [change for change in list(dict.fromkeys(changes))[: self.most] if self.is_silent(change)]
 
     def _other_labels(self) -> Iterator[Change]:
         """The other labels of arcs that may run the other way round: that is not the only slip there is."""
@@ -163,7 +168,7 @@ def _judged(trials: _Trials) -> Iterator[Finding]:
         told.update(kept)
         if isinstance(finding.fact, Suspected) and advised and named:
             yield from _suspected(trials, finding, finding.fact, kept)
-        elif advised and not kept and not _stays(finding, named):
+        elif advised and not kept and not _stays(trials, finding, named):
             yield finding._replace(is_uncertain=True)
         else:
             yield finding
@@ -175,9 +180,15 @@ def _judged(trials: _Trials) -> Iterator[Finding]:
         yield _only(trials, block, changes)
 
 
-def _stays(finding: Finding, named: list[Change]) -> bool:
-    """Whether the advice of a finding is certain, whatever is left: the rule of a label, if no word is named there."""
-    return isinstance(finding.fact, WrongLabel) and not any(change.block == finding.block for change in named)
+def _stays(trials: _Trials, finding: Finding, named: list[Change]) -> bool:
+    """Whether the advice of a finding stands, whatever is left: it is the trade's rule, and no trial speaks against it.
+
+    A label keeps the path, and is doubted at a block with a word that is named alone. The count axis hangs on the words
+    of its block: where no word is named, several wrong axes are a habit of whoever wrote the program.
+    """
+    if isinstance(finding.fact, WrongLabel):
+        return not any(change.block == finding.block for change in named)
+    return isinstance(finding.fact, WrongAxis) and not named and trials.wrong_axes > 1
 
 
 def _suspected(trials: _Trials, finding: Finding, fact: Suspected, kept: tuple[Change, ...]) -> Iterator[Finding]:
