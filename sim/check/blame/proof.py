@@ -6,9 +6,10 @@ from typing import NamedTuple
 from controller.stepping.words import words_of
 from parser.dialect.at_block import at_block
 from parser.dialect.mender import Mend, Mender
-from parser.findings.facts import OddOrder, OddShape, WrongBlock, WrongLabel
+from parser.findings.facts import CountedElsewhere, OddOrder, OddShape, WrongBlock, WrongLabel
 from parser.findings.findings import Finding, Value, edited, file_order
 from parser.program import Program
+from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import Contour
 from parser.text.source import Field
 from sim.check.blame.settle import WrongWord
@@ -79,11 +80,22 @@ class _Trials:
         self.program, self.mender, self.contour, self.findings, self.most = program, mender, contour, findings, most
         self._again = again
         self._elsewhere = sum(not self.holds(finding) for finding in findings)
-        self.advised = {id(one): _advised(program, one) for one in findings if self.holds(one)}
+        inside = [finding for finding in findings if self.holds(finding)]
+        self.loose = {id(finding) for finding in inside if self._is_loose(finding)}
+        self.advised = {id(one): _advised(program, one) for one in inside if id(one) not in self.loose}
 
     def holds(self, finding: Finding) -> bool:
         """Whether a finding is about the contour."""
         return self.contour.first <= finding.block <= self.contour.last
+
+    def _is_loose(self, finding: Finding) -> bool:
+        """Whether a line counts on the wrong axis, and the contour ends elsewhere than it began.
+
+        A digit too many in X makes Y the shorter side as well, and nothing tells where the line was to end.
+        """
+        ends = self.contour.closure_exact_um <= CLOSED_WITHIN_UM
+        is_line = finding.block > 0 and not self.program.toolpath.is_arc[finding.block - 1]
+        return isinstance(finding.fact, WrongAxis) and is_line and not ends
 
     @property
     def may_be_turned(self) -> bool:
@@ -156,7 +168,7 @@ def _judged(trials: _Trials) -> Iterator[Finding]:
     Where the advice of all findings together leaves nothing, it stands, if it has no other word for the same.
     """
     advice = [changes for changes in trials.advised.values() if changes]
-    is_one_each = all(len(changes) == 1 for changes in advice) and not trials.may_be_turned
+    is_one_each = all(len(changes) == 1 for changes in advice) and not (trials.may_be_turned or trials.loose)
     if advice and is_one_each and trials.is_silent(*dict.fromkeys(changes[0] for changes in advice)):
         yield from trials.findings
         return
@@ -168,7 +180,7 @@ def _judged(trials: _Trials) -> Iterator[Finding]:
         told.update(kept)
         if isinstance(finding.fact, Suspected) and advised and named:
             yield from _suspected(trials, finding, finding.fact, kept)
-        elif advised and not kept and not _stays(trials, finding, named):
+        elif _is_doubted(trials, finding, named) or (advised and not kept and not _stays(trials, finding, named)):
             yield finding._replace(is_uncertain=True)
         else:
             yield finding
@@ -178,6 +190,12 @@ def _judged(trials: _Trials) -> Iterator[Finding]:
             by_block.setdefault(change.block, []).append(change)
     for block, changes in by_block.items():
         yield _only(trials, block, changes)
+
+
+def _is_doubted(trials: _Trials, finding: Finding, named: list[Change]) -> bool:
+    """Whether nothing proves what a finding asks for: of a loose line; of a count, where another word is named."""
+    others = any(change.block == finding.block and change.mends[0].field is not Field.AXIS for change in named)
+    return id(finding) in trials.loose or (others and isinstance(finding.fact, CountedElsewhere))
 
 
 def _stays(trials: _Trials, finding: Finding, named: list[Change]) -> bool:
