@@ -48,11 +48,9 @@ _SPACES = re.compile(r"[ \t]+")
 _LARGEST = 1e9  # ten kilometres in the finest unit, the hour in µs: no table, no time and no label is beyond
 _NAMED = re.compile(rf"([A-Z]+)\(?({_NUMBER})\)?", re.ASCII)
 
-Kind = Enum(
-    "Kind", ["ONLINE", "SETTING", "AXES", "MODE", "NORMAL", "TIMED", "LABEL", "BESIDE", "MUTE", "WORD", "UNKNOWN"]
-)
+Kind = Enum("Kind", ["ONLINE", "SETTING", "AXES", "MODE", "NORMAL", "TIMED", "LABEL", "BESIDE", "MUTE", "WORD"])
 """What a piece of a line is: an online command or a setting, a command with axes or without, a time, a word; what is
-not simulated and may move the wire, and what moves nothing; and what is nothing of the language."""
+not simulated and may move the wire, and what moves nothing."""
 
 
 class Piece(NamedTuple):

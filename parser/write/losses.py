@@ -34,7 +34,7 @@ class Loss(NamedTuple):
     number: int
 
 
-class Kept(NamedTuple):
+class CarriedOver(NamedTuple):
     """What a written text has: words of some letters, dwells, optional stops."""
 
     letters: str = ""
@@ -42,16 +42,16 @@ class Kept(NamedTuple):
     optional_stops: bool = False
 
 
-def lost_words(text: str, kept: Kept) -> tuple[Loss, ...]:
+def lost_words(text: str, carried: CarriedOver) -> tuple[Loss, ...]:
     """Words of an ISO text that switch something, stop, wait or call, and that the written one has not."""
     listing = read_listing(text)
     words = listing.words
     is_m = words.letter == ord("M")
     is_dwell = (words.letter == ord("G")) & (words.value == _DWELL)
-    dwells = np.zeros(len(words.letter), dtype=np.bool_) if kept.dwells else is_dwell
+    dwells = np.zeros(len(words.letter), dtype=np.bool_) if carried.dwells else is_dwell
     in_dwell = listing.blocks_of(np.flatnonzero(is_dwell))[words.block]
-    stops = [stop for stop in _STOPS if stop != _OPTIONAL or not kept.optional_stops]
-    switches = np.isin(words.letter, [ord(letter) for letter in _SWITCHES if letter not in kept.letters]) & ~in_dwell
+    stops = [stop for stop in _STOPS if stop != _OPTIONAL or not carried.optional_stops]
+    switches = np.isin(words.letter, [ord(letter) for letter in _SWITCHES if letter not in carried.letters]) & ~in_dwell
     switches |= is_m & ~np.isin(words.value, _OF_THE_PATH)
     losses = [
         _named("switches", listing, switches),

@@ -55,7 +55,7 @@ class _Rings(NamedTuple):
     holds_part: Bools
 
 
-class _Held(NamedTuple):
+class _Pairs(NamedTuple):
     """Leads and the rings that they are held against, pairs (m,): rows of the toolpath, and numbers of rings."""
 
     row: Ints
@@ -69,22 +69,22 @@ def gouge_findings(program: Program, contour: Ints, passes: Passes) -> Iterator[
     """
     toolpath = program.toolpath
     ring_of_edge, rings = _rings(toolpath, contour, passes)
-    held = _held(toolpath, contour, passes, ring_of_edge)
-    if not len(held.row):
+    pairs = _pairs(toolpath, contour, passes, ring_of_edge)
+    if not len(pairs.row):
         return
 
     def depth_of(at: Ints, place_um: Floats) -> Floats:
-        return _depth_um(toolpath, rings, held.ring[at], place_um)
+        return _depth_um(toolpath, rings, pairs.ring[at], place_um)
 
-    leads = toolpath.picked(held.row)
+    leads = toolpath.picked(pairs.row)
     found = deepest(leads, depth_of, CLOSED_WITHIN_UM, _RIGHT_TO_UM)
     cuts_in = found.depth_um > CLOSED_WITHIN_UM
     if cuts_in.any():
-        cuts_in &= ~_in_slits(held, depth_of, leads)
+        cuts_in &= ~_in_slits(pairs, depth_of, leads)
     for at in np.flatnonzero(cuts_in).tolist():
         x_um, y_um = found.place_um[at].tolist()
         values = {"by": float(found.depth_um[at]), "x_mm": mm(x_um), "y_mm": mm(y_um)}
-        yield at_block(toolpath, program.lines, "3B321", int(held.row[at]), **values)
+        yield at_block(toolpath, program.lines, "3B321", int(pairs.row[at]), **values)
 
 
 def _rings(toolpath: Toolpath, contour: Ints, passes: Passes) -> tuple[Ints, _Rings]:
@@ -137,7 +137,7 @@ def _areas(corner_um: Floats, first: Ints) -> Floats:
     return np.add.reduceat(cross, first[:-1])
 
 
-def _held(toolpath: Toolpath, contour: Ints, passes: Passes, ring_of_edge: Ints) -> _Held:
+def _pairs(toolpath: Toolpath, contour: Ints, passes: Passes, ring_of_edge: Ints) -> _Pairs:
     """Each lead with the ring of the passes before and behind it in its contour.
 
     A way from one edge to another is no lead: where it is cut, 3B310 says so. Nor is one of many blocks, which may be
@@ -152,7 +152,7 @@ def _held(toolpath: Toolpath, contour: Ints, passes: Passes, ring_of_edge: Ints)
     first = np.array([one.first for one in passes.passes], dtype=np.int64)
     edge = np.array([one.edge for one in passes.passes], dtype=np.int64)
     if not len(first):
-        return _Held(row[:0], row[:0])
+        return _Pairs(row[:0], row[:0])
     later = np.searchsorted(first, row)
     around = np.stack([later - 1, later], axis=1)
     there = (around >= 0) & (around < len(first))
@@ -161,18 +161,18 @@ def _held(toolpath: Toolpath, contour: Ints, passes: Passes, ring_of_edge: Ints)
     of = np.where(there, edge[around], -1)
     own = np.where((of[:, 0] == of[:, 1]) | (of.min(axis=1) < 0), of.max(axis=1), -1)
     ring = np.where(own >= 0, ring_of_edge[own], -1)
-    held = np.flatnonzero(ring >= 0)
-    return _Held(row[held], ring[held])
+    at = np.flatnonzero(ring >= 0)
+    return _Pairs(row[at], ring[at])
 
 
-def _in_slits(held: _Held, depth_of: Callable[[Ints, Floats], Floats], leads: Curves) -> Bools:
+def _in_slits(pairs: _Pairs, depth_of: Callable[[Ints, Floats], Floats], leads: Curves) -> Bools:
     """(m,) whether a lead is one of those that leave the edge into the part and come back to where they left it.
 
     The first of them begins on the edge, and none comes out of the part: such a slit is meant. So is one of a single
     block that ends in the part, and over which the next block runs back, however far beyond.
     """
-    order = np.lexsort((held.row, held.ring))
-    ring, row, ways = held.ring[order], held.row[order], leads.picked(order)
+    order = np.lexsort((pairs.row, pairs.ring))
+    ring, row, ways = pairs.ring[order], pairs.row[order], leads.picked(order)
     start, end = depth_of(order, ways.start_um), depth_of(order, ways.end_um)
     begins = (np.diff(ring, prepend=-1) != 0) | (np.diff(row, prepend=-2) != 1) | (np.abs(start) <= CLOSED_WITHIN_UM)
     first = np.flatnonzero(begins)

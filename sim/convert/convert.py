@@ -19,7 +19,7 @@ from sim.check.path_checks import Demands
 from sim.convert.kerf import closed_by_kerf
 from sim.convert.losses import losses
 from sim.convert.proof import Proof, proof
-from sim.convert.wanted import Wanted, draft_for, kept_events, read_with, written
+from sim.convert.wanted import Wanted, carried_events, draft_for, read_with, written
 
 
 class Converted(NamedTuple):
@@ -100,7 +100,7 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
         return Refused("several-offsets", program, values=(("of", several),))
     path = _path(program, checked, wanted)
     is_offset = path is not program.toolpath or wanted.offset_um is not None
-    draft = draft_for(path, wanted, kept_events(program, path, wanted) or (), is_offset=is_offset)
+    draft = draft_for(path, wanted, carried_events(program, path, wanted) or (), is_offset=is_offset)
     if not len(draft):
         return Refused("nothing", program)
     return _word_for_word_or_not(program, path, draft, wanted, is_open=any(one.is_open for one in checked.contours))

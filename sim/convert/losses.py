@@ -8,8 +8,8 @@ from parser.told.step_words import StepWords
 from parser.toolpath import Toolpath
 from parser.write.draft import Draft, Written
 from parser.write.events import OF_THE_FAMILY
-from parser.write.losses import Kept, Loss, lost_words, some
-from sim.convert.wanted import Wanted, kept_events
+from parser.write.losses import CarriedOver, Loss, lost_words, some
+from sim.convert.wanted import Wanted, carried_events
 
 
 def losses(program: Program, path: Toolpath, draft: Draft, made: Written, wanted: Wanted) -> tuple[Loss, ...]:
@@ -21,20 +21,20 @@ def losses(program: Program, path: Toolpath, draft: Draft, made: Written, wanted
     if words is not None:
         of_text = _lost_fields(program, words, wanted)
     else:
-        of_text = lost_words(program.text, _kept(program, path, wanted)) if program.decoder is not None else ()
+        of_text = lost_words(program.text, _carried(program, path, wanted)) if program.decoder is not None else ()
     found = (*of_text, *_lost_offsets(program.toolpath, wanted), *_changed_rows(path, draft, made, wanted))
     return tuple(loss for loss in found if loss.number)
 
 
-def _kept(program: Program, path: Toolpath, wanted: Wanted) -> Kept:
+def _carried(program: Program, path: Toolpath, wanted: Wanted) -> CarriedOver:
     """What of the words of an ISO program beside its path is written."""
     if wanted.pmac is not None and wanted.pmac.blocks is not None:
-        return Kept(letters="FZ", dwells=True)
-    events = kept_events(program, path, wanted)
+        return CarriedOver(letters="FZ", dwells=True)
+    events = carried_events(program, path, wanted)
     if events is None:
-        return Kept()
+        return CarriedOver()
     is_own = not all(event.is_common for event in events)
-    return Kept(letters=OF_THE_FAMILY if is_own else "", dwells=True, optional_stops=True)
+    return CarriedOver(letters=OF_THE_FAMILY if is_own else "", dwells=True, optional_stops=True)
 
 
 def _lost_fields(program: Program, words: StepWords, wanted: Wanted) -> tuple[Loss, ...]:

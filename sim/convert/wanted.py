@@ -106,7 +106,7 @@ def draft_for(toolpath: Toolpath, wanted: Wanted, events: tuple[Event, ...] = ()
     return (without_rapids(draft) if draft.words is None else draft).without_compensation()
 
 
-def kept_events(program: Program, path: Toolpath, wanted: Wanted) -> tuple[Event, ...] | None:
+def carried_events(program: Program, path: Toolpath, wanted: Wanted) -> tuple[Event, ...] | None:
     """Events of an ISO program, by the rows of its path, that are written in ISO; None where none can be placed.
 
     Dwells and optional stops mean the same everywhere; feeds and conditions stay in their own family and unit.

@@ -53,8 +53,10 @@ def proved(
     asking = [contour for contour in judged if _asks(findings, contour)]
     if mender is None or not most or len(asking) > _MOST_CONTOURS:
         return findings
+    checked = findings
     for contour in asking:
-        findings = tuple(_judged(_Trials(program, mender, contour, findings, again, most)))
+        elsewhere = sum(not contour.first <= finding.block <= contour.last for finding in checked)
+        findings = tuple(_judged(_Trials(program, mender, contour, findings, again, most, elsewhere)))
     return tuple(sorted(findings, key=file_order))
 
 
@@ -76,10 +78,10 @@ class _Trials:
         findings: tuple[Finding, ...],
         again: Again,
         most: int,
+        elsewhere: int,
     ) -> None:
         self.program, self.mender, self.contour, self.findings, self.most = program, mender, contour, findings, most
-        self._again = again
-        self._elsewhere = sum(not self.holds(finding) for finding in findings)
+        self._again, self._elsewhere = again, elsewhere
         inside = [finding for finding in findings if self.holds(finding)]
         self.loose = {id(finding) for finding in inside if self._is_loose(finding)}
         self.advised = {id(one): _advised(program, one) for one in inside if id(one) not in self.loose}
@@ -173,20 +175,20 @@ def _judged(trials: _Trials) -> Iterator[Finding]:
         yield from trials.findings
         return
     named = trials.proved()
-    told: set[Change] = set()
+    covered: set[Change] = set()
     for finding in trials.findings:
         advised = trials.advised.get(id(finding), ())
-        kept = tuple(change for change in advised if change in named)
-        told.update(kept)
+        confirmed = tuple(change for change in advised if change in named)
+        covered.update(confirmed)
         if isinstance(finding.fact, Suspected) and advised and named:
-            yield from _suspected(trials, finding, finding.fact, kept)
-        elif _is_doubted(trials, finding, named) or (advised and not kept and not _stays(trials, finding, named)):
+            yield from _suspected(trials, finding, finding.fact, confirmed)
+        elif _is_doubted(trials, finding, named) or (advised and not confirmed and not _stays(trials, finding, named)):
             yield finding._replace(is_uncertain=True)
         else:
             yield finding
     by_block: dict[int, list[Change]] = {}
     for change in named:
-        if change not in told:
+        if change not in covered:
             by_block.setdefault(change.block, []).append(change)
     for block, changes in by_block.items():
         yield _only(trials, block, changes)
@@ -209,14 +211,14 @@ def _stays(trials: _Trials, finding: Finding, named: list[Change]) -> bool:
     return isinstance(finding.fact, WrongAxis) and not named and trials.wrong_axes > 1
 
 
-def _suspected(trials: _Trials, finding: Finding, fact: Suspected, kept: tuple[Change, ...]) -> Iterator[Finding]:
+def _suspected(trials: _Trials, finding: Finding, fact: Suspected, confirmed: tuple[Change, ...]) -> Iterator[Finding]:
     """The suspects that are proved; none where others are."""
-    suspects = tuple(one for one in fact.suspects if Change(finding.block, (one.mend,)) in kept)
+    suspects = tuple(one for one in fact.suspects if Change(finding.block, (one.mend,)) in confirmed)
     if suspects == fact.suspects:
         yield finding
     elif suspects:
-        told = suspect_finding(trials.program, trials.contour.first, trials.contour.last, suspects)
-        yield told.with_fact(Suspected(fact.first, suspects, fact.is_proved))
+        found = suspect_finding(trials.program, trials.contour.first, trials.contour.last, suspects)
+        yield found.with_fact(Suspected(fact.first, suspects, fact.is_proved))
 
 
 def _only(trials: _Trials, block: int, changes: list[Change]) -> Finding:
