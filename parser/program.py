@@ -26,6 +26,7 @@ _LOOKED_AT = 1 << 15  # characters: whatever a program is, it says so by then
 
 READERS: tuple[Reader, ...] = (THREE_B, ISO, PMAC)
 """Readers in the order in which they are asked."""
+_NONE_THERE: Mapping[str, str] = {THREE_B.name: "3B100", ISO.name: "ISO100", PMAC.name: "PMC100"}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -76,15 +77,15 @@ def read_program(path: Path | str, choices: Choices = STANDARD_CHOICES) -> Progr
 def moving(program: Program) -> Program:
     """A program in which something moves, as whatever runs or shows a path needs it. ProgramError (ISO100) else."""
     if not len(program.toolpath):
-        raise ProgramError(no_program("no-motion", iso=True))
+        raise ProgramError(no_program("no-motion", code="ISO100"))
     return program
 
 
 def load_program(data: bytes, name: str, choices: Choices = STANDARD_CHOICES) -> Program:
     """Program of the bytes of a file.
 
-    Raises ProgramError (3B100, ISO100) where they are no text or hold no block; it says what they are where that is
-    certain.
+    Raises ProgramError (3B100, ISO100, PMC100) where they are no text or hold no block; it says what they are where
+    that is certain.
     """
     try:
         text, encoding = decode_text(data)
@@ -101,19 +102,24 @@ def load_program(data: bytes, name: str, choices: Choices = STANDARD_CHOICES) ->
 def parse_program(
     text: str, name: str = "program", encoding: str = "utf-8", choices: Choices = STANDARD_CHOICES
 ) -> Program:
-    """Program of a text. Raises ProgramError (3B100, ISO100) where it holds no block, or those of two languages."""
+    """Program of a text.
+
+    Raises ProgramError (3B100, ISO100, PMC100) where it holds no block, or those of two languages.
+    """
     reader = _reader(text, of_none=_meant(name, choices))
     return Program(name, encoding, text, **reader.read(text, choices)._asdict(), choices=choices)
 
 
 def none_there(what: str, name: str, choices: Choices, detail: str = "") -> Finding:
-    """Finding 3B100 or ISO100, by the language that a file is meant for: `what` and `detail` as for `no_program`."""
-    return no_program(what, detail, iso=_meant(name, choices) is ISO)
+    """Finding 3B100, ISO100 or PMC100, by the language that a file is meant for, its values as for `no_program`."""
+    return no_program(what, detail, code=_NONE_THERE[_meant(name, choices).name])
 
 
 def _meant(name: str, choices: Choices) -> Reader:
     """The reader that tells what is wrong with a text that none knows: the dialects that can be chosen are of ISO."""
-    return ISO if choices.dialect or name.lower().endswith(ISO.suffixes) else READERS[0]
+    if choices.dialect:
+        return ISO
+    return next((reader for reader in (ISO, PMAC) if name.lower().endswith(reader.suffixes)), READERS[0])
 
 
 def _reader(text: str, *, of_none: Reader) -> Reader:
@@ -126,7 +132,7 @@ def _reader(text: str, *, of_none: Reader) -> Reader:
         return PMAC
     known = [reader for reader in READERS if reader.recognises(first)]
     if len({reader.name for reader in known}) > 1:
-        raise ProgramError(no_program("two-languages", iso=True))
+        raise ProgramError(no_program("two-languages", code="ISO100"))
     return known[0] if known else next((reader for reader in READERS if reader.recognises(text)), of_none)
 
 

@@ -202,6 +202,7 @@ CODES: Mapping[str, FindingCode] = MappingProxyType(
         "ISO513": FindingCode(Severity.NOTE, Check.COMPENSATION),
         "ISO514": FindingCode(Severity.WARNING, Check.COMPENSATION),
         "ISO600": FindingCode(Severity.WARNING, Check.BLOCKS),
+        "PMC100": FindingCode(Severity.ERROR, Check.GRAMMAR),
         "PMC101": FindingCode(Severity.ERROR, Check.GRAMMAR),
         "PMC102": FindingCode(Severity.ERROR, Check.GRAMMAR),
         "PMC103": FindingCode(Severity.WARNING, Check.ORDER),

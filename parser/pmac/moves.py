@@ -1,59 +1,78 @@
-"""Lines to moves: the modes that are in force, calls of G and M words, and what the moves of the program are told."""
+"""Lines to moves: the modes that are in force, and what the moves of the program are told."""
 
 from collections.abc import Mapping
 
 from parser.findings.findings import Value
-from parser.pmac.lines import Buffer, Kind, Line, Piece
-from parser.pmac.routines import ROUTINES, Routines, called_by
+from parser.pmac.lines import Kind, Line, Piece
 from parser.pmac.state import Move, State, Told
+from parser.pmac.values import UnknownValue
+from parser.text.source import Span
 from parser.toolpath import Stop
 from parser.units import from_mm
 
 _PLANE = frozenset("XY")
 _OTHER_AXES = frozenset("ZUVWABC")
 _CENTER = "IJK"
-_MOST_PIECES = 1_000_000  # of routines: the calls of a few lines may stand for more than anyone waits for
 _DIGITS = 6  # of a µm: sums of decimals are as exact as decimals
+_UNKNOWN = float("nan")
 
 
-def run(main: Buffer, routines: Mapping[int, Buffer]) -> State:
-    """What a program makes that calls the routines of other buffers, by their numbers."""
-    state, bodies = State(), Routines(routines)
-    for line in main.lines:
-        _Line(state, line, bodies).run()
-    return state
+class MovedLine:
+    """One line as it runs: modes at once, its letters together at its end.
 
+    Parameters
+    ----------
+    state
+        Of the program; the line changes it.
+    line
+        Where its moves stand. That of a routine called by a G word is the line with the word.
+    called_at
+        Place of that word; None in other lines.
+    modes
+        The modes that the line with that word has set already.
+    """
 
-class _Line:
-    """One line as it runs: modes at once, its letters together at its end."""
-
-    def __init__(self, state: State, line: Line, routines: Routines) -> None:
-        self.state, self.line, self.routines = state, line, routines
+    def __init__(
+        self, state: State, line: Line, *, called_at: Span | None = None, modes: dict[str, Piece] | None = None
+    ) -> None:
+        self.state, self.line, self.called_at = state, line, called_at
         self.words: dict[str, Piece] = {}
         self.label = ""
         self.names_place = self.is_normal = False
-        self.modes: dict[str, Piece] = {}
-        self.running: list[tuple[int, int]] = []
+        self.modes: dict[str, Piece] = {} if modes is None else modes
 
-    def run(self) -> None:
-        for piece in self.line.pieces:
-            self._take(piece)
+    def finish(self) -> None:
+        """The end of the line: its move."""
         if self.names_place:
             self._name_place()
         elif self.words.keys() & (_PLANE | _OTHER_AXES | set("IJR")):
             self._move()
 
-    def _take(self, piece: Piece) -> None:
+    def take(self, piece: Piece) -> None:
+        """One piece. UnknownValue where nobody knows where it moves."""
+        if self.called_at is not None:
+            piece = piece._replace(span=self.called_at)
         if piece.kind is Kind.WORD:
-            self._word(piece)
+            self._word(self._with_value(piece))
         elif piece.kind is Kind.LABEL:
             self.label = f"N{piece.value:.0f}"
         elif piece.kind is Kind.TIMED:
-            self._timed(piece)
+            self._timed(self._with_value(piece))
         elif piece.kind is Kind.NORMAL:
             self.is_normal = True
-        else:
+        elif piece.kind in {Kind.MODE, Kind.AXES}:
             self._mode(piece)
+
+    def _with_value(self, piece: Piece) -> Piece:
+        """A piece with what its sum is; NaN of one that moves nothing in the plane and is not known."""
+        if piece.worked is None:
+            return piece
+        try:
+            return piece._replace(value=piece.worked(self.state.values))
+        except UnknownValue:
+            if piece.kind is Kind.WORD and piece.name in set("XYIJKR"):
+                raise
+            return piece._replace(value=_UNKNOWN)
 
     def _mode(self, piece: Piece) -> None:
         name, state = piece.name, self.state
@@ -85,10 +104,10 @@ class _Line:
             state.ramp = piece.value
         elif piece.name == "TS":
             state.half_s = piece.value
-        elif piece.name in {"DWELL", "DELAY"}:
-            state.blends = False
+        elif piece.name == "TM":
+            state.feed = _UNKNOWN  # the time of each move is told, whatever its length
         else:
-            self._at("PMC101", piece, text=_shown(piece))
+            state.blends = False
 
     def _word(self, piece: Piece) -> None:
         name = piece.name
@@ -96,9 +115,7 @@ class _Line:
             if name != "K" or piece.value >= 0.0:
                 self._at("PMC101", piece, text=f"NORMAL {_shown(piece)}")
             return
-        if name in ROUTINES:
-            self._call(piece)
-        elif name == "F":
+        if name == "F":
             if piece.value <= 0.0:
                 self._at("PMC209", piece, word=_shown(piece))
             else:
@@ -111,30 +128,6 @@ class _Line:
                 self.state.others.append(piece)
         elif name != "S":
             self._at("PMC101", piece, text=_shown(piece))
-
-    def _call(self, piece: Piece) -> None:
-        """The routine of a G, M, T or D word, up to its return; PMC102 where it cannot be run."""
-        called = called_by(piece)
-        body = self.routines.body(*called)
-        why = self._why_not(called, body)
-        if body is None or why:
-            word, base = f"{piece.name}{piece.value:02g}", ROUTINES[piece.name]
-            self._at("PMC102", piece, word=word, program=base, label=f"N{called[1]}", what=why)
-            return
-        self.state.pieces_called += len(body) + 1
-        self.running.append(called)
-        for one in body:
-            self._take(one._replace(span=piece.span))
-        self.running.pop()
-        self.is_normal = False  # its words stand in the routine
-
-    def _why_not(self, called: tuple[int, int], body: list[Piece] | None) -> str:
-        """Term that says why a routine does not run; empty where it does."""
-        if body is None:
-            return "call-without-routine"
-        if called in self.running:
-            return "call-recursive"
-        return "call-too-long" if self.state.pieces_called > _MOST_PIECES else ""
 
     def _name_place(self) -> None:
         """PSET: the place has another name from here; behind a stop the wire is threaded there."""

@@ -6,7 +6,7 @@ from dataclasses import fields
 
 import numpy as np
 
-from parser.geometry.curves import CurveKind, Curves, Floats, curves_between
+from parser.geometry.curves import CurveKind, Curves, Floats, Ints, curves_between
 from parser.pmac.arcs import Arc
 from parser.pmac.state import Move
 from parser.text.source import Field, Source, Span
@@ -34,7 +34,7 @@ def path_of(text: str, moves: Sequence[Move], arcs: Mapping[int, Arc], stops: Se
         words=None,
         source=Source(
             text,
-            np.arange(1, len(moves) + 1),
+            _blocks(moves),
             spans,
             np.array([move.at.line for move in moves], dtype=np.int64),
             tuple(move.label for move in moves),
@@ -49,6 +49,11 @@ def fields_of(block: str) -> dict[Field, Span]:
     """Where the words of a line stand that say one of these."""
     found = {field: word.search(block) for field, word in _FIELDS.items()}
     return {field: match.span() for field, match in found.items() if match}
+
+
+def _blocks(moves: Sequence[Move]) -> Ints:
+    """(n,) numbers of the lines that move, from 1, in the order of the text: loops and calls run them many times."""
+    return np.unique([move.at.span[0] for move in moves], return_inverse=True)[1].astype(np.int64) + 1
 
 
 def _curves(moves: Sequence[Move], arcs: Mapping[int, Arc]) -> Curves:

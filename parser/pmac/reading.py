@@ -2,6 +2,7 @@
 
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping
+from itertools import accumulate
 
 from parser.dialect.reader import PATH_IS_ALL, Beside, BlockCounts, Damage, Reading, ReadText, Spelling
 from parser.findings.codes import Check, Severity
@@ -10,9 +11,9 @@ from parser.findings.facts import DamagedBlock, NotSimulated, TooLarge
 from parser.findings.findings import Finding, file_order
 from parser.pmac.arcs import Arc, arc_of
 from parser.pmac.lines import Buffer, Kind, Text, read_lines
-from parser.pmac.moves import run
 from parser.pmac.path import path_of
 from parser.pmac.routines import holds_routines
+from parser.pmac.running import run
 from parser.pmac.speed import speed_findings
 from parser.pmac.state import State
 from parser.text.encoding import no_program, printable
@@ -28,36 +29,51 @@ _MOST_UM = {**dict.fromkeys("XYIJ", 1e7), "R": 1e9}
 
 
 def read_pmac(text: str) -> ReadText:
-    """What a text says. ProgramError (3B100) where no motion program of it moves anything in the plane."""
+    """What a text says. ProgramError (PMC100) where no motion program of it moves anything in the plane."""
     read = read_lines(text)
-    mains = [buffer for buffer in read.buffers if not holds_routines(buffer.number)]
+    buffers = {buffer.number: buffer for buffer in read.buffers}
+    mains = _mains(read)
     if not mains:
-        raise ProgramError(no_program("no-block"))
-    main = mains[0]
-    state = run(main, {buffer.number: buffer for buffer in read.buffers if holds_routines(buffer.number)})
+        raise ProgramError(no_program("no-motion-program", code="PMC100"))
+    main = next((buffer for buffer in mains if buffer.number == read.started), mains[0])
+    state = run(main, buffers, read.values, read.settings)
+    beside = _beside_findings(read, state)
     if not state.moves:
-        raise ProgramError(*_beside_findings(read)) if read.beside else ProgramError(no_program("no-block"))
+        raise ProgramError(*beside or (no_program("no-motion-program", code="PMC100"),))
     arcs = {row: arc_of(move) for row, move in enumerate(state.moves) if move.motion > 1}
     stops = [*state.stops, Stop("end", len(state.moves), main.lines[-1].line)]
     toolpath = path_of(read.lines.text, state.moves, arcs, stops)
-    starts = [move.at.span[0] for move in state.moves]
-    lost = sorted([*read.unread, *(piece.span for piece in read.beside)])
-    damages = tuple(Damage(span, bisect_left(starts, span[0])) for span in lost)
-    findings = [*_text_findings(read, mains), *_told(read, state), *_arc_findings(read, state, arcs)]
-    findings += [*_beside_findings(read), *_out_of_range(read, main)]
+    lost = sorted([*read.unread, *_places(state)])
+    reached = list(accumulate((move.at.span[0] for move in state.moves), max))  # loops and calls go back in the text
+    damages = tuple(Damage(span, bisect_left(reached, span[0])) for span in lost)
+    block = toolpath.source.block.tolist()
+    findings = [
+        *_text_findings(read, mains, main),
+        *_line_findings(read, state),
+        *_arc_findings(read, state, arcs, block),
+    ]
+    findings += [*beside, *_out_of_range(read, main)]
     findings += [
-        read.lines.finding(one.code, state.moves[one.row].at.span, one.row + 1, **one.values)
-        for one in speed_findings(toolpath, state.moves, _time_unit_ms(read))
+        read.lines.finding(one.code, state.moves[one.row].at.span, block[one.row], **one.values)
+        for one in speed_findings(toolpath, state.moves, _time_unit_ms(state))
     ]
     reading = _reading(read, state, toolpath, damages)
     return ReadText(read.lines, reading, {}, toolpath, tuple(sorted(findings, key=file_order)))
 
 
+def _mains(read: Text) -> list[Buffer]:
+    """Programs that no other one calls, and that hold no routines of G words; all of them where each is called."""
+    calls = (piece for buffer in read.buffers for line in buffer.lines for piece in line.pieces if piece.name == "CALL")
+    called = {int(piece.value) for piece in calls if piece.worked is None}
+    programs = [buffer for buffer in read.buffers if not holds_routines(buffer.number)]
+    return [buffer for buffer in programs if buffer.number not in called] or programs
+
+
 def _reading(read: Text, state: State, toolpath: Toolpath, damages: tuple[Damage, ...]) -> Reading:
-    n = len(toolpath)
+    rows, blocks = len(toolpath), int(toolpath.source.block.max())
     return Reading(
         dialect="PMAC",
-        counts=BlockCounts(n + len(damages), n, n),
+        counts=BlockCounts(blocks + len(damages), blocks, rows),
         damages=damages,
         spelling=Spelling(clockwise="CIRCLE1", counter_clockwise="CIRCLE2", end="CLOSE", pause="STOP", rapid="RAPID"),
         is_drawing=False,
@@ -68,21 +84,21 @@ def _reading(read: Text, state: State, toolpath: Toolpath, damages: tuple[Damage
         },
         remarks=read.remarks,
         threadings=sum(move.is_threaded for move in state.moves),
-        not_simulated=_not_simulated(read),
+        not_simulated=_not_simulated(read, state),
     )
 
 
-def _time_unit_ms(read: Text) -> float | None:
-    """The time unit of F; None where none is told, or one that is none."""
-    told = _setting(read, _TIME_UNITS)
-    return told if told is not None and told > 0.0 else None
+def _time_unit_ms(state: State) -> float | None:
+    """The time unit of F; None where none is given, or one that is none."""
+    given = _setting(state, _TIME_UNITS)
+    return given if given is not None and given > 0.0 else None
 
 
-def _setting(read: Text, names: tuple[str, ...]) -> float | None:
-    return next((read.settings[name] for name in names if name in read.settings), None)
+def _setting(state: State, names: tuple[str, ...]) -> float | None:
+    return next((state.settings[name] for name in names if name in state.settings), None)
 
 
-def _text_findings(read: Text, mains: list[Buffer]) -> Iterator[Finding]:
+def _text_findings(read: Text, mains: list[Buffer], main: Buffer) -> Iterator[Finding]:
     """PMC101 and PMC103: what is nothing of the language, and buffers that hold more than is written."""
     for span in read.unread:
         shown = printable(read.lines.text[slice(*span)])[:_MOST_SHOWN]
@@ -92,30 +108,38 @@ def _text_findings(read: Text, mains: list[Buffer]) -> Iterator[Finding]:
             yield read.lines.finding("PMC103", buffer.span, number=buffer.number, what="buffer-not-cleared")
         if not buffer.is_closed:
             yield read.lines.finding("PMC103", buffer.span, number=buffer.number, what="buffer-not-closed")
-    for other in mains[1:]:
-        yield read.lines.finding("PMC105", other.span, number=other.number, first=mains[0].number)
+    for other in mains:
+        if other is not main:
+            yield read.lines.finding("PMC105", other.span, number=other.number, first=main.number)
 
 
-def _beside_findings(read: Text) -> tuple[Finding, ...]:
-    """PMC107 at the first of the pieces that are not simulated."""
-    if not read.beside:
+def _beside_findings(read: Text, state: State) -> tuple[Finding, ...]:
+    """PMC107 where nobody knows how the program goes on; else at the first piece with a curve of its own."""
+    if state.halt is not None:
+        at, why, what, more = state.halt.span, state.halt.why, state.halt.what, 0
+    elif state.beside:
+        at, why, what, more = state.beside[0].span, "pmac-beside", "", len(_places(state)) - 1
+    else:
         return ()
-    text, more = _names(read)[0], len(read.beside) - 1
-    found = read.lines.finding("PMC107", read.beside[0].span, text=text, more=more)
+    found = read.lines.finding("PMC107", at, text=_shown(read, at), why=why, what=what, more=more)
     return (found.with_fact(NotSimulated(otherwise=True)),)
 
 
-def _names(read: Text) -> tuple[str, ...]:
-    """What is not simulated, as it is written, each once."""
-    shown = (printable(read.lines.text[slice(*piece.span)]).strip()[:_MOST_SHOWN] for piece in read.beside)
-    return tuple(dict.fromkeys(shown))
+def _places(state: State) -> tuple[Span, ...]:
+    """Where pieces stand that are not simulated, each once however often it runs."""
+    halted = (state.halt.span,) if state.halt else ()
+    return tuple(dict.fromkeys((*(piece.span for piece in state.beside), *halted)))
 
 
-def _not_simulated(read: Text) -> Beside:
-    if not read.beside:
+def _shown(read: Text, span: Span) -> str:
+    return printable(read.lines.text[slice(*span)]).strip()[:_MOST_SHOWN]
+
+
+def _not_simulated(read: Text, state: State) -> Beside:
+    names = tuple(dict.fromkeys(_shown(read, span) for span in _places(state)))
+    if not names:
         return PATH_IS_ALL
-    names = _names(read)
-    return Beside("reason-macros", names[:_MOST_NAMED] + ("…",) * (len(names) > _MOST_NAMED))
+    return Beside("reason-at-run", names[:_MOST_NAMED] + ("…",) * (len(names) > _MOST_NAMED))
 
 
 def _out_of_range(read: Text, main: Buffer) -> Iterator[Finding]:
@@ -129,7 +153,7 @@ def _out_of_range(read: Text, main: Buffer) -> Iterator[Finding]:
             yield found.with_fact(TooLarge())
 
 
-def _told(read: Text, state: State) -> Iterator[Finding]:
+def _line_findings(read: Text, state: State) -> Iterator[Finding]:
     """What the lines themselves have wrong, and PMC106 for axes beside the plane."""
     for one in state.told:
         yield read.lines.finding(one.code, one.span, 0, **one.values)
@@ -137,22 +161,22 @@ def _told(read: Text, state: State) -> Iterator[Finding]:
         yield read.lines.finding("PMC106", axis.span, word=f"{axis.name}{axis.value:g}", more=len(state.others) - 1)
 
 
-def _wrong_arc(read: Text, span: Span, row: int, arc: Arc) -> Finding:
+def _wrong_arc(read: Text, span: Span, block: int, arc: Arc) -> Finding:
     """PMC201 to PMC203."""
     if arc.wrong == "spiral":
         off = abs(arc.end_um - arc.start_um)
-        return read.lines.finding("PMC201", span, row + 1, start=arc.start_um, end=arc.end_um, off=off)
+        return read.lines.finding("PMC201", span, block, start=arc.start_um, end=arc.end_um, off=off)
     by_radius = arc.wrong.startswith("radius")
-    return read.lines.finding("PMC203" if by_radius else "PMC202", span, row + 1, what=f"pmac-{arc.wrong}")
+    return read.lines.finding("PMC203" if by_radius else "PMC202", span, block, what=f"pmac-{arc.wrong}")
 
 
-def _arc_findings(read: Text, state: State, arcs: Mapping[int, Arc]) -> Iterator[Finding]:
-    """PMC201 to PMC203 at each arc that is none, and PMC207 where none is run as such."""
-    for row, arc in arcs.items():
-        if arc.wrong:
-            yield _wrong_arc(read, state.moves[row].at.span, row, arc)
-    segment_ms = _setting(read, _SEGMENTS)
+def _arc_findings(read: Text, state: State, arcs: Mapping[int, Arc], block: list[int]) -> Iterator[Finding]:
+    """PMC201 to PMC203 at each arc that is none, once a block, and PMC207 where none is run as such."""
+    wrong = {block[row]: (row, arc) for row, arc in reversed(list(arcs.items())) if arc.wrong}
+    for number, (row, arc) in wrong.items():
+        yield _wrong_arc(read, state.moves[row].at.span, number, arc)
+    segment_ms = _setting(state, _SEGMENTS)
     if arcs and not segment_ms:
         row = next(iter(arcs))
-        found = read.lines.finding("PMC207", state.moves[row].at.span, row + 1, more=len(arcs) - 1)
+        found = read.lines.finding("PMC207", state.moves[row].at.span, block[row], more=len(arcs) - 1)
         yield found if segment_ms is None else found._replace(graver=Severity.ERROR)

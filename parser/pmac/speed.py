@@ -35,8 +35,10 @@ def speed_findings(toolpath: Toolpath, moves: Sequence[Move], unit_ms: float | N
     if not cut.any():
         return
     feed = np.array([np.nan if move.feed is None else move.feed for move in moves])
-    told = np.flatnonzero(cut & ~np.isnan(feed))
-    silent = np.flatnonzero(cut & np.isnan(feed))
+    ramp = np.array([move.ramp_ms for move in moves])
+    known = cut & ~np.isnan(feed) & ~np.isnan(ramp)
+    told = np.flatnonzero(known)
+    silent = np.flatnonzero(cut & np.array([move.feed is None for move in moves]))
     if len(silent):
         yield _at("PMC208", int(silent[0]), {})
     if not len(told):
@@ -44,9 +46,8 @@ def speed_findings(toolpath: Toolpath, moves: Sequence[Move], unit_ms: float | N
     if unit_ms is None:
         yield _at("PMC206", int(told[0]), {"feed": float(feed[told[0]])})
     speed = from_mm(feed) / (unit_ms or DEFAULT_UNIT_MS)
-    ramp = np.array([move.ramp_ms for move in moves])
     yield from _too_short(toolpath, told, speed, ramp, feed)
-    yield from _rounded(toolpath, moves, cut & ~np.isnan(feed), _reached(toolpath, speed, ramp), ramp)
+    yield from _rounded(toolpath, moves, known, _reached(toolpath, speed, ramp), ramp)
 
 
 def _too_short(toolpath: Toolpath, told: Ints, speed: Floats, ramp: Floats, feed: Floats) -> Iterator[Slow]:

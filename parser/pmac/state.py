@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from parser.findings.findings import Value
 from parser.pmac.lines import Line, Piece
+from parser.pmac.values import Values
 from parser.text.source import Span
 from parser.toolpath import Stop
 
@@ -32,9 +33,9 @@ class Move(NamedTuple):
     radius
         As told by R, signed; None without.
     feed
-        F, in user units per time unit; None where none was told.
+        F, in user units per time unit; None where none was told, NaN where its value is not known, or TM gives a time.
     ramp_ms
-        Acceleration time: the greater of TA and twice TS.
+        Acceleration time: the greater of TA and twice TS. NaN where it is not known.
     blends
         Whether it runs into this move from the one before without coming to rest.
     at
@@ -58,10 +59,30 @@ class Move(NamedTuple):
     is_threaded: bool = False
 
 
+class Halt(NamedTuple):
+    """Where nobody knows how the program goes on.
+
+    Attributes
+    ----------
+    span
+        The piece.
+    why
+        Term of the catalogue that says why.
+    what
+        The variable, program or label in question, as people write it; empty where there is none.
+    """
+
+    span: Span
+    why: str
+    what: str = ""
+
+
 @dataclass(slots=True)
 class State:
     """What is in force, and what the program has made so far; places in µm."""
 
+    values: Values
+    settings: dict[str, float] = field(default_factory=dict)
     motion: int = 1
     absolute: dict[str, bool] = field(default_factory=lambda: {"X": True, "Y": True, "R": False})
     place: tuple[float, float] = (0.0, 0.0)
@@ -75,7 +96,8 @@ class State:
     moves: list[Move] = field(default_factory=list)
     stops: list[Stop] = field(default_factory=list)
     told: list[Told] = field(default_factory=list)
-    pieces_called: int = 0
+    beside: list[Piece] = field(default_factory=list)
+    halt: Halt | None = None
     is_steep_told: bool = False
 
     @property

@@ -49,10 +49,9 @@ def encode_text(text: str, encoding: str) -> bytes:
     return bom + text.encode(encoding.removesuffix("-sig"))
 
 
-def no_program(what: str, detail: str = "", *, iso: bool = False) -> Finding:
-    """Finding 3B100, or ISO100; `what` is a term of the catalogue, `detail` says more in any language."""
-    values = {"what": what, "detail": detail, "hint": HINTS.get(what, "hint-program")}
-    return Finding("ISO100", values) if iso else Finding("3B100", values)
+def no_program(what: str, detail: str = "", *, code: str = "3B100") -> Finding:
+    """Finding 3B100, or that of another language; `what` is a term, `detail` says more in any language."""
+    return Finding(code, {"what": what, "detail": detail, "hint": HINTS.get(what, "hint-program")})
 
 
 def narrow(text: str) -> str:

@@ -69,7 +69,16 @@ def test_case_blanks_and_power_are_read_alike() -> None:
         ("LINEAR X10 F60\nG41 X20", ["PMC102"]),
         ("LINEAR X10 F60\nM03", ["PMC102"]),
         ("LINEAR X10 F60\nIF(P1=2)", ["PMC107"]),
+        ("LINEAR X10 F60\nIF(P1=2)\nX20\nENDIF", ["PMC107"]),
+        ("LINEAR X10 F60\nWHILE(M11=0) WAIT\nX20", []),
         ("LINEAR X10 F60\nSPLINE1 X20\nTM(Q70)\nX(P1*(2+Q3))", ["PMC107"]),
+        ("LINEAR X10 F60\nWHILE(1<2)\nX20\nDWELL0\nX10\nDWELL0\nENDWHILE", ["PMC107"]),
+        ("LINEAR X10 F60\nCALL 500 X20", ["PMC107"]),
+        ("LINEAR X10 F60\nGOTO 30", ["PMC107"]),
+        ("LINEAR X10 F60\nENDIF", ["PMC107"]),
+        ("LINEAR X10 F60\nX(SQRT(0-1))", ["PMC107"]),
+        ("LINEAR X10 F60\nX(10/0)", ["PMC107"]),
+        ("LINEAR X10 F60\nX(10", ["PMC101"]),
         ("LINEAR X10 F60\nFOO1 BAR(3) X20", ["PMC101"]),
         ('LINEAR X10 F60\nCMD"#3j+"\nENABLE PLC 3', []),
         ("LINEAR X10 F60\nCIRCLE1 X64 K6 R(999999999)", ["PMC108"]),
@@ -117,10 +126,10 @@ def test_a_routine_that_calls_itself_ends_and_is_told(calls: int) -> None:
 
 def test_routines_that_call_one_another_very_often_end_and_are_told() -> None:
     chain = "".join(f"N{number}000 {f'G{number + 1:02} ' * 10}\nRET\n" for number in range(10, 19))
-    text = f"OPEN PROG 1000\nCLEAR\n{chain}N19000 LINEAR\nRET\nCLOSE\n{HEAD}OPEN PROG 1\nCLEAR\nG10 X1 F60\nCLOSE\n"
+    text = f"OPEN PROG 1000\nCLEAR\n{chain}N19000 LINEAR\nRET\nCLOSE\n{HEAD}OPEN PROG 1\nCLEAR\nX1 F60\nG10 X2\nCLOSE\n"
     begin = time.process_time()
-    found = {finding.values["what"] for finding in parse_program(text, "a.pmc").findings if finding.code == "PMC102"}
-    assert found == {"call-too-long"}
+    found = {finding.values["why"] for finding in parse_program(text, "a.pmc").findings if finding.code == "PMC107"}
+    assert found == {"pmac-too-long"}
     assert time.process_time() - begin < 20.0
 
 
@@ -196,3 +205,4 @@ def test_what_stands_outside_of_programs_is_for_the_card_and_a_program_of_sums_a
     with pytest.raises(ProgramError) as refused:
         parse_program("OPEN PROG 1\nCLEAR\nLINEAR\nX(P1*2)\nCLOSE\n", "a.pmc")
     assert (refused.value.finding.code, refused.value.finding.values["text"]) == ("PMC107", "X(P1*2)")
+    assert (refused.value.finding.values["why"], refused.value.finding.values["what"]) == ("pmac-no-value", "P1")

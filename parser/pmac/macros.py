@@ -1,0 +1,123 @@
+"""Directives of the download: names that ``#define`` gives a text, and lines that ``#ifdef`` leaves out.
+
+The card never sees them: the program that sends the file to it works them out (Turbo PMAC User's Manual, "Communicating
+with the host", on substitution macros). Macros with parameters and included files are not worked out.
+"""
+
+import re
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Ints
+from parser.text.source import Span
+
+_DIRECTIVE = re.compile(r"[ \t]*#[ \t]*(define|undef|include|ifdef|ifndef|else|endif)\b([^\r\n]*)", re.IGNORECASE)
+_DEFINED = re.compile(r"[ \t]+([A-Za-z_]\w*)(\(?)(.*)")
+_NAME = re.compile(r"[A-Za-z_]\w*")
+_LINES = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|$)")
+_DEEPEST = 16  # names in the text of names
+_LONGEST = 4096  # characters that one line may become
+
+
+class Expanded(NamedTuple):
+    """A text with its macros worked out.
+
+    Attributes
+    ----------
+    text
+        What is sent to the card; directives are blank.
+    begins, pasts
+        (n,) int64, where each of its characters stands in the text as written; all of a macro are the name's.
+        None where the text has no directive.
+    left
+        Where directives stand that are not worked out.
+    """
+
+    text: str
+    begins: Ints | None = None
+    pasts: Ints | None = None
+    left: tuple[Span, ...] = ()
+
+    def span(self, first: int, past: int) -> Span:
+        """Place in the text as written of the characters from `first` up to `past`."""
+        if self.begins is None or self.pasts is None or first >= past:
+            return (first, past)
+        return (int(self.begins[first]), int(self.pasts[past - 1]))
+
+
+def expanded(text: str) -> Expanded:
+    """A text without remarks, its macros worked out."""
+    if not any(_DIRECTIVE.match(line) for line in text.splitlines() if "#" in line):
+        return Expanded(text)
+    work = _Expansion()
+    for line in _LINES.finditer(text):
+        work.line(line[0], line.start())
+    begins, pasts = np.array(work.begins, dtype=np.int64), np.array(work.pasts, dtype=np.int64)
+    return Expanded("".join(work.text), begins, pasts, tuple(work.left))
+
+
+class _Expansion:
+    """What is known of a text up to a line."""
+
+    def __init__(self) -> None:
+        self.text: list[str] = []
+        self.begins: list[int] = []
+        self.pasts: list[int] = []
+        self.left: list[Span] = []
+        self.names: dict[str, str] = {}
+        self.conditions: list[bool] = []
+
+    def line(self, line: str, at: int) -> None:
+        directive = _DIRECTIVE.match(line)
+        if directive:
+            self._directive(directive, at)
+        if directive or not all(self.conditions):
+            kept = len(line.rstrip("\r\n"))
+            self._put(" " * kept + line[kept:], at)
+            return
+        first = 0
+        for name in _NAME.finditer(line) if self.names else ():
+            if name[0] in self.names:
+                self._put(line[first : name.start()], at + first)
+                self._put_macro(self._body(name[0]), (at + name.start(), at + name.end()))
+                first = name.end()
+        self._put(line[first:], at + first)
+
+    def _directive(self, directive: re.Match[str], at: int) -> None:
+        word, rest = directive[1].lower(), directive[2]
+        name = rest.strip()
+        if word in {"ifdef", "ifndef"}:
+            self.conditions.append((name in self.names) == (word == "ifdef"))
+        elif word == "else" and self.conditions:
+            self.conditions[-1] = not self.conditions[-1]
+        elif word == "endif" and self.conditions:
+            self.conditions.pop()
+        elif not all(self.conditions):
+            return
+        elif word == "undef":
+            self.names.pop(name, None)
+        elif word == "define" and (defined := _DEFINED.fullmatch(rest)) and not defined[2]:
+            self.names[defined[1]] = defined[3].strip()
+        else:
+            self.left.append((at + len(directive[0]) - len(directive[0].lstrip()), at + len(directive[0].rstrip())))
+
+    def _body(self, name: str) -> str:
+        """The text of a name, with that of the names in it; as it stands where they are one another's, or too long."""
+        body = self.names[name]
+        for _ in range(_DEEPEST):
+            longer = _NAME.sub(lambda found: self.names.get(found[0], found[0]), body)
+            if longer == body or len(longer) > _LONGEST:
+                break
+            body = longer
+        return body
+
+    def _put(self, text: str, at: int) -> None:
+        self.text.append(text)
+        self.begins += range(at, at + len(text))
+        self.pasts += range(at + 1, at + len(text) + 1)
+
+    def _put_macro(self, text: str, span: Span) -> None:
+        self.text.append(text)
+        self.begins += [span[0]] * len(text)
+        self.pasts += [span[1]] * len(text)
