@@ -8,6 +8,8 @@ if TYPE_CHECKING:  # the command line must start without numpy
 UM_PER_MM = 1000.0
 MAX_WORD_UM = 999_999_999
 """Largest length in a program, µm: a kilometre, a thousand times the travel of the largest table (DK7780, 1 m)."""
+MAX_PLACE_UM = 9_999_999_999
+"""Farthest place in a program, µm: 10 km. Blocks count from where they begin, and may lie far from 0."""
 _Length = TypeVar("_Length", float, "Floats")
 
 

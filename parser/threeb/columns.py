@@ -9,9 +9,9 @@ from parser.geometry.curves import Ints
 from parser.text.lines import LineIndex
 from parser.threeb.grammar import BLOCK_FIELDS, GROUP_AT, GROUPS
 from parser.threeb.plain_lines import PlainLines
-from parser.units import MAX_WORD_UM, from_mm
+from parser.units import MAX_PLACE_UM, MAX_WORD_UM, from_mm
 
-_OVER_UM = MAX_WORD_UM + 1
+_OVER_UM, _BEYOND_UM = MAX_WORD_UM + 1, MAX_PLACE_UM + 1
 
 _AXES = {"X": 0, "Y": 1}
 _TURNS = {"L": 0, "N": 1, "S": -1}  # by the first letter: blanks may stand before the R
@@ -40,8 +40,8 @@ class RawBlocks(NamedTuple):
 
 
 def read_mm(digits: str) -> float:
-    """Printed millimetres to µm, held at just over `MAX_WORD_UM` either way."""
-    return max(-_OVER_UM, min(from_mm(float(digits[:32])), _OVER_UM))
+    """Printed millimetres to µm, held at just over `MAX_PLACE_UM` either way."""
+    return max(-_BEYOND_UM, min(from_mm(float(digits[:32])), _BEYOND_UM))
 
 
 def columns_of(words: list[str | None], span: Ints, lines: LineIndex) -> RawBlocks:

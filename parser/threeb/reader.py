@@ -34,7 +34,7 @@ from parser.threeb.grammar import (
 from parser.threeb.header import Header, HeaderLength, read_header, read_length
 from parser.threeb.plain_lines import plain_lines
 from parser.threeb.stolen_numbers import left_out, misfits, without_stolen_numbers
-from parser.units import MAX_WORD_UM
+from parser.units import MAX_PLACE_UM, MAX_WORD_UM
 
 _MARK, _PASSED = GROUP_AT["mark"], GROUP_AT["passed"]
 
@@ -216,11 +216,11 @@ def _hidden(folded: str, span: tuple[int, int]) -> list[tuple[int, int]]:
 def _too_large(raw: RawBlocks, marks: list[Mark], lines: LineIndex) -> list[Finding]:
     worst = np.maximum.reduce([raw.x_um, raw.y_um, raw.count_um, raw.radius_um])
     rows = np.flatnonzero(worst > MAX_WORD_UM).tolist()
-    places: list[tuple[tuple[int, int], int]] = [(tuple(raw.span[row].tolist()), row + 1) for row in rows]
-    places += [(mark.span, 0) for mark in marks if max(abs(mark.x_um), abs(mark.y_um)) > MAX_WORD_UM]
+    places = [(tuple(raw.span[row].tolist()), row + 1, MAX_WORD_UM) for row in rows]
+    places += [(mark.span, 0, MAX_PLACE_UM) for mark in marks if max(abs(mark.x_um), abs(mark.y_um)) > MAX_PLACE_UM]
     return [
-        lines.finding("3B206", span, block, what="number-too-large", limit=MAX_WORD_UM).with_fact(TooLarge())
-        for span, block in places
+        lines.finding("3B206", span, block, what="number-too-large", limit=limit).with_fact(TooLarge())
+        for span, block, limit in places
     ]
 
 

@@ -22,6 +22,7 @@ VALUES = {
     "size of a file, or of the standard input": f"{reading.MOST_MB} MB",
     "blocks of a program": reader.MOST_BLOCKS,
     "a number of a block, µm": units.MAX_WORD_UM,
+    "a start point or a printed end, µm from 0": units.MAX_PLACE_UM,
     "steps of 1 µm": too_large.MAX_STEPS,
     "pairs of pieces of blocks compared for crossings": crossings.MOST_PAIRS,
     "blocks of a program in which one wrong word is looked for": settle.MOST_BLOCKS,

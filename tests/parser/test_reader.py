@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from strategies import program_text, programs
 
 from parser.findings.errors import ProgramError
-from parser.program import parse_program
+from parser.program import Program, parse_program
 from parser.threeb.reader import read_records
 
 LINE_UP = (0, 24900, 24900, "Y", 2)
@@ -215,8 +215,22 @@ def test_numbers_beyond_any_table_are_a_finding(digits: str) -> None:
 
 @pytest.mark.parametrize("mark", ["", "D\n"])
 def test_start_points_beyond_any_table_are_a_finding(mark: str) -> None:
-    program = parse_program(f"{mark}Start Point = 9999999999 , 0\nB1B0B1GXL1\nStart Point = 0 , -{'9' * 400}\nDD")
+    program = parse_program(f"{mark}Start Point = 99999999999 , 0\nB1B0B1GXL1\nStart Point = 0 , -{'9' * 400}\nDD")
     assert [finding.code for finding in program.findings if finding.code == "3B206"] == ["3B206", "3B206"]
+
+
+@pytest.mark.parametrize("km", [1, 2, 9])
+def test_a_part_kilometres_from_0_is_the_part_at_0(km: int) -> None:
+    def square(at: float) -> Program:
+        ends = [(at + 10, 0), (at + 10, 10), (at, 10), (at, 0)]
+        blocks = ("B10000B0B10000GXL1", "B0B10000B10000GYL2", "B10000B0B10000GXL3", "B0B10000B10000GYL4")
+        printed = "".join(f"{block} ; {x:.3f}, {y:.3f}\n" for block, (x, y) in zip(blocks, ends, strict=True))
+        return parse_program(f"Start Point = {at:.5f}, 0.00000 ; X,Y\n{printed}DD\n")
+
+    far, near = square(km * 1e6), square(0)
+    assert far.findings == near.findings == ()
+    assert np.array_equal(far.toolpath.end_um - near.toolpath.end_um, np.tile([km * 1e9, 0.0], (4, 1)))
+    assert np.array_equal(far.toolpath.printed_end_um, far.toolpath.end_um)
 
 
 def test_leading_zeros_do_not_make_a_number_large() -> None:
