@@ -174,15 +174,16 @@ def _constant(value: float) -> Worked:
 
 def _both(operation: Callable[[float, float], float], left: Worked, right: Worked) -> Worked:
     def worked(values: Values) -> float:
-        return _finite(operation(left(values), right(values)))
+        first, second = left(values), right(values)
+        try:
+            result = operation(first, second)
+        except OverflowError:
+            result = math.inf
+        if not math.isfinite(result):
+            raise UnknownValue(f"{first:g}, {second:g}", "no-result")
+        return result
 
     return worked
-
-
-def _finite(value: float) -> float:
-    if math.isfinite(value):
-        return value
-    raise UnknownValue("1/0", "no-result")
 
 
 def _quotient(dividend: float, divisor: float) -> float:

@@ -2,19 +2,22 @@
 
 from collections.abc import Mapping
 
+from parser.findings.facts import TooLarge
 from parser.findings.findings import Value
 from parser.pmac.lines import Kind, Line, Piece
 from parser.pmac.state import Move, State, Told
 from parser.pmac.values import UnknownValue
 from parser.text.source import Span
 from parser.toolpath import Stop
-from parser.units import from_mm
+from parser.units import from_mm, mm
 
 _PLANE = frozenset("XY")
 _OTHER_AXES = frozenset("ZUVWABC")
 _CENTER = "IJK"
 _DIGITS = 6  # of a µm: sums of decimals are as exact as decimals
 _UNKNOWN = float("nan")
+_MOST_UM = {**dict.fromkeys("XYIJ", 1e7), "R": 1e9}
+"""Greatest lengths either way, as those of ISO: 10 m of coordinates, 1 km of radii."""
 
 
 class MovedLine:
@@ -53,7 +56,7 @@ class MovedLine:
         if self.called_at is not None:
             piece = piece._replace(span=self.called_at)
         if piece.kind is Kind.WORD:
-            self._word(self._with_value(piece))
+            self._word(self._in_range(self._with_value(piece)))
         elif piece.kind is Kind.LABEL:
             self.label = f"N{piece.value:.0f}"
         elif piece.kind is Kind.TIMED:
@@ -73,6 +76,14 @@ class MovedLine:
             if piece.kind is Kind.WORD and piece.name in set("XYIJKR"):
                 raise
             return piece._replace(value=_UNKNOWN)
+
+    def _in_range(self, piece: Piece) -> Piece:
+        """A word; PMC108 where it is a length beyond any table, or a radius beyond any arc that is meant."""
+        most_um = _MOST_UM.get(piece.name)
+        if most_um is not None and abs(from_mm(piece.value)) > most_um:
+            limits = f"±{mm(most_um) / 1000.0:g} m"
+            self.state.tell(Told("PMC108", piece.span, {"word": _shown(piece), "limits": limits}, TooLarge()))
+        return piece
 
     def _mode(self, piece: Piece) -> None:
         name, state = piece.name, self.state
@@ -188,7 +199,7 @@ class MovedLine:
         return told[0], told[1]
 
     def _at(self, code: str, piece: Piece, **values: Value) -> None:
-        self.state.told.append(Told(code, piece.span, values))
+        self.state.tell(Told(code, piece.span, values))
 
 
 _MOTIONS: Mapping[str, int] = {"RAPID": 0, "LINEAR": 1, "CIRCLE1": 2, "CIRCLE2": 3}

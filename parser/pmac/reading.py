@@ -7,10 +7,10 @@ from itertools import accumulate
 from parser.dialect.reader import PATH_IS_ALL, Beside, BlockCounts, Damage, Reading, ReadText, Spelling
 from parser.findings.codes import Check, Severity
 from parser.findings.errors import ProgramError
-from parser.findings.facts import DamagedBlock, NotSimulated, TooLarge
+from parser.findings.facts import DamagedBlock, NotSimulated
 from parser.findings.findings import Finding, file_order
 from parser.pmac.arcs import Arc, arc_of
-from parser.pmac.lines import Buffer, Kind, Text, read_lines
+from parser.pmac.lines import Buffer, Text, read_lines
 from parser.pmac.path import path_of
 from parser.pmac.routines import holds_routines
 from parser.pmac.running import run
@@ -19,13 +19,10 @@ from parser.pmac.state import State
 from parser.text.encoding import no_program, printable
 from parser.text.source import Span
 from parser.toolpath import Stop, Toolpath
-from parser.units import from_mm, mm
 
 _TIME_UNITS = ("I190", "I5190", "COORD[1].FEEDTIME")
 _SEGMENTS = ("I13", "I5113", "COORD[1].SEGMOVETIME")
 _MOST_SHOWN, _MOST_NAMED = 40, 8
-_MOST_UM = {**dict.fromkeys("XYIJ", 1e7), "R": 1e9}
-"""Greatest lengths either way, as those of ISO: 10 m of coordinates, 1 km of radii."""
 
 
 def read_pmac(text: str) -> ReadText:
@@ -52,7 +49,7 @@ def read_pmac(text: str) -> ReadText:
         *_line_findings(read, state),
         *_arc_findings(read, state, arcs, block),
     ]
-    findings += [*beside, *_out_of_range(read, main)]
+    findings += [*beside]
     findings += [
         read.lines.finding(one.code, state.moves[one.row].at.span, block[one.row], **one.values)
         for one in speed_findings(toolpath, state.moves, _time_unit_ms(state))
@@ -142,21 +139,11 @@ def _not_simulated(read: Text, state: State) -> Beside:
     return Beside("reason-at-run", names[:_MOST_NAMED] + ("…",) * (len(names) > _MOST_NAMED))
 
 
-def _out_of_range(read: Text, main: Buffer) -> Iterator[Finding]:
-    """PMC108 at lengths beyond any table, and radii beyond any arc that is meant."""
-    words = (piece for line in main.lines for piece in line.pieces if piece.kind is Kind.WORD)
-    for piece in words:
-        most_um = _MOST_UM.get(piece.name)
-        if most_um is not None and abs(from_mm(piece.value)) > most_um:
-            limits = f"±{mm(most_um) / 1000.0:g} m"
-            found = read.lines.finding("PMC108", piece.span, word=f"{piece.name}{piece.value:g}", limits=limits)
-            yield found.with_fact(TooLarge())
-
-
 def _line_findings(read: Text, state: State) -> Iterator[Finding]:
     """What the lines themselves have wrong, and PMC106 for axes beside the plane."""
-    for one in state.told:
-        yield read.lines.finding(one.code, one.span, 0, **one.values)
+    for one in state.told.values():
+        found = read.lines.finding(one.code, one.span, 0, **one.values)
+        yield found.with_fact(one.fact) if one.fact else found
     for axis in state.others[:1]:
         yield read.lines.finding("PMC106", axis.span, word=f"{axis.name}{axis.value:g}", more=len(state.others) - 1)
 

@@ -236,7 +236,7 @@ class _Runner:
                 "label": f"N{label}",
                 "what": why or "call-without-routine",
             }
-            self.state.told.append(Told("PMC102", line.called_at or piece.span, values))
+            self.state.tell(Told("PMC102", line.called_at or piece.span, values))
             return
         at_line, span = frame.called_at or (order.line, piece.span)
         routine = _Frame(buffer, self.orders(buffer), at, (program, label), (at_line, span), line.modes)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from parser.findings.findings import Value
+from parser.findings.findings import Fact, Value
 from parser.pmac.lines import Line, Piece
 from parser.pmac.values import Values
 from parser.text.source import Span
@@ -12,11 +12,12 @@ from parser.toolpath import Stop
 
 
 class Told(NamedTuple):
-    """Something wrong with a line: the code of its finding, its place, and its values."""
+    """Something wrong with a line: the code of its finding, its place, its values, and its fact."""
 
     code: str
     span: Span
     values: Mapping[str, Value]
+    fact: Fact | None = None
 
 
 class Move(NamedTuple):
@@ -95,10 +96,14 @@ class State:
     others: list[Piece] = field(default_factory=list)
     moves: list[Move] = field(default_factory=list)
     stops: list[Stop] = field(default_factory=list)
-    told: list[Told] = field(default_factory=list)
+    told: dict[tuple[str, Span], Told] = field(default_factory=dict)
     beside: list[Piece] = field(default_factory=list)
     halt: Halt | None = None
     is_steep_told: bool = False
+
+    def tell(self, told: Told) -> None:
+        """What is wrong with a line, once a place however often a loop runs it."""
+        self.told.setdefault((told.code, told.span), told)
 
     @property
     def ramp_ms(self) -> float:
