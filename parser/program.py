@@ -26,7 +26,6 @@ _LOOKED_AT = 1 << 15  # characters: whatever a program is, it says so by then
 
 READERS: tuple[Reader, ...] = (THREE_B, ISO, PMAC)
 """Readers in the order in which they are asked."""
-_NONE_THERE: Mapping[str, str] = {THREE_B.name: "3B100", ISO.name: "ISO100", PMAC.name: "PMC100"}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,7 +76,7 @@ def read_program(path: Path | str, choices: Choices = STANDARD_CHOICES) -> Progr
 def moving(program: Program) -> Program:
     """A program in which something moves, as whatever runs or shows a path needs it. ProgramError (ISO100) else."""
     if not len(program.toolpath):
-        raise ProgramError(no_program("no-motion", code="ISO100"))
+        raise ProgramError(no_program("no-motion", language="ISO"))
     return program
 
 
@@ -112,7 +111,7 @@ def parse_program(
 
 def none_there(what: str, name: str, choices: Choices, detail: str = "") -> Finding:
     """Finding 3B100, ISO100 or PMC100, by the language that a file is meant for, its values as for `no_program`."""
-    return no_program(what, detail, code=_NONE_THERE[_meant(name, choices).name])
+    return no_program(what, detail, language=_meant(name, choices).name)
 
 
 def _meant(name: str, choices: Choices) -> Reader:
@@ -132,7 +131,7 @@ def _reader(text: str, *, of_none: Reader) -> Reader:
         return PMAC
     known = [reader for reader in READERS if reader.recognises(first)]
     if len({reader.name for reader in known}) > 1:
-        raise ProgramError(no_program("two-languages", code="ISO100"))
+        raise ProgramError(no_program("two-languages", language="ISO"))
     return known[0] if known else next((reader for reader in READERS if reader.recognises(text)), of_none)
 
 

@@ -22,7 +22,7 @@ def read_iso(text: str, choices: Choices) -> ReadText:
     """What a text says. ProgramError (ISO100) where it holds no block, or those of a mill."""
     listing = read_listing(text)
     if not (len(listing.words.letter) or listing.assignments or listing.statements):
-        raise ProgramError(no_program("no-block", code="ISO100"))
+        raise ProgramError(no_program("no-block", language="ISO"))
     mill = mill_code(listing)
     if mill:
         raise ProgramError(mill, excerpt=text[slice(*listing.lines.bounds(mill.line))])
@@ -40,7 +40,7 @@ def read_iso(text: str, choices: Choices) -> ReadText:
 
 def _without_motion(path: Moved) -> tuple[Finding, ...]:
     """ISO100 where no block moves the wire."""
-    return () if len(path.toolpath) else (no_program("no-motion", code="ISO100"),)
+    return () if len(path.toolpath) else (no_program("no-motion", language="ISO"),)
 
 
 def _as_arcs_agree(listing: Listing, family: Told, choices: Choices) -> tuple[Told, Moved]:

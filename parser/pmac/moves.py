@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from parser.findings.facts import TooLarge
 from parser.findings.findings import Value
 from parser.pmac.lines import Kind, Line, Piece
-from parser.pmac.state import Move, State, Told
+from parser.pmac.state import Move, State
 from parser.pmac.values import UnknownValue
 from parser.text.source import Span
 from parser.toolpath import Stop
@@ -82,7 +82,7 @@ class MovedLine:
         most_um = _MOST_UM.get(piece.name)
         if most_um is not None and abs(from_mm(piece.value)) > most_um:
             limits = f"±{mm(most_um) / 1000.0:g} m"
-            self.state.tell(Told("PMC108", piece.span, {"word": _shown(piece), "limits": limits}, TooLarge()))
+            self.state.finding("PMC108", piece.span, {"word": _shown(piece), "limits": limits}, TooLarge())
         return piece
 
     def _mode(self, piece: Piece) -> None:
@@ -199,7 +199,7 @@ class MovedLine:
         return told[0], told[1]
 
     def _at(self, code: str, piece: Piece, **values: Value) -> None:
-        self.state.tell(Told(code, piece.span, values))
+        self.state.finding(code, piece.span, values)
 
 
 _MOTIONS: Mapping[str, int] = {"RAPID": 0, "LINEAR": 1, "CIRCLE1": 2, "CIRCLE2": 3}

@@ -31,12 +31,12 @@ def read_pmac(text: str) -> ReadText:
     buffers = {buffer.number: buffer for buffer in read.buffers}
     mains = _mains(read)
     if not mains:
-        raise ProgramError(no_program("no-motion-program", code="PMC100"))
+        raise ProgramError(no_program("no-motion-program", language="PMAC"))
     main = next((buffer for buffer in mains if buffer.number == read.started), mains[0])
     state = run(main, buffers, read.values, read.settings)
     beside = _beside_findings(read, state)
     if not state.moves:
-        raise ProgramError(*beside or (no_program("no-motion-program", code="PMC100"),))
+        raise ProgramError(*beside or (no_program("no-motion-program", language="PMAC"),))
     arcs = {row: arc_of(move) for row, move in enumerate(state.moves) if move.motion > 1}
     stops = [*state.stops, Stop("end", len(state.moves), main.lines[-1].line)]
     toolpath = path_of(read.lines.text, state.moves, arcs, stops)

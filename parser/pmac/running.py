@@ -13,7 +13,7 @@ from parser.pmac.flow import Order, OrderKind, Orders, orders_of
 from parser.pmac.lines import NAMED_ELSEWHERE, Buffer, Kind, Line, Piece
 from parser.pmac.moves import MovedLine
 from parser.pmac.routines import ROUTINES, called_by
-from parser.pmac.state import Halt, State, Told
+from parser.pmac.state import Halt, State
 from parser.pmac.values import UnknownValue, Values
 from parser.text.source import Span
 
@@ -236,7 +236,7 @@ class _Runner:
                 "label": f"N{label}",
                 "what": why or "call-without-routine",
             }
-            self.state.tell(Told("PMC102", line.called_at or piece.span, values))
+            self.state.finding("PMC102", line.called_at or piece.span, values)
             return
         at_line, span = frame.called_at or (order.line, piece.span)
         routine = _Frame(buffer, self.orders(buffer), at, (program, label), (at_line, span), line.modes)

@@ -101,9 +101,9 @@ class State:
     halt: Halt | None = None
     is_steep_told: bool = False
 
-    def tell(self, told: Told) -> None:
+    def finding(self, code: str, span: Span, values: Mapping[str, Value], fact: Fact | None = None) -> None:
         """What is wrong with a line, once a place however often a loop runs it."""
-        self.told.setdefault((told.code, told.span), told)
+        self.told.setdefault((code, span), Told(code, span, values, fact))
 
     @property
     def ramp_ms(self) -> float:

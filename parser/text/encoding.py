@@ -49,9 +49,12 @@ def encode_text(text: str, encoding: str) -> bytes:
     return bom + text.encode(encoding.removesuffix("-sig"))
 
 
-def no_program(what: str, detail: str = "", *, code: str = "3B100") -> Finding:
-    """Finding 3B100, or that of another language; `what` is a term, `detail` says more in any language."""
-    return Finding(code, {"what": what, "detail": detail, "hint": HINTS.get(what, "hint-program")})
+def no_program(what: str, detail: str = "", *, language: str = "3B") -> Finding:
+    """Finding 3B100, of ``ISO`` ISO100, of ``PMAC`` PMC100; `what` is a term, `detail` says more in any language."""
+    values = {"what": what, "detail": detail, "hint": HINTS.get(what, "hint-program")}
+    if language == "PMAC":
+        return Finding("PMC100", values)
+    return Finding("ISO100", values) if language == "ISO" else Finding("3B100", values)
 
 
 def narrow(text: str) -> str:

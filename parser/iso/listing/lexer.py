@@ -27,7 +27,7 @@ def read_listing(text: str) -> Listing:
     bare = without_remarks(lines)
     plain = plain_words(bare.codes)
     if len(plain.opens) + len(plain.odd) > MOST_BLOCKS:
-        raise ProgramError(no_program("too-many-blocks", f"{MOST_BLOCKS:,}", code="ISO100"))
+        raise ProgramError(no_program("too-many-blocks", f"{MOST_BLOCKS:,}", language="ISO"))
     odd = _odd_lines(folded, bare, plain)
     in_blocks = [line for line in odd if not line.is_title]
     words, blocks = _gathered(lines, plain, in_blocks)
