@@ -49,8 +49,8 @@ _TOKEN = re.compile(
     |(?P<FLOW>(?:ELSE|ENDIF|ENDI|ENDWHILE|ENDW)(?![A-Z])|[{{}}])
     |(?P<CALL>(?:GOTO|GOSUB|CALL)[ \t]*{_VALUE})
     |(?P<READ>READ[ \t]*\([A-Z, \t]*\))
-    |(?P<ASSIGN>[IPQM][ \t]*\d+[ \t]*(?P<by>[-+*/]?)=(?!=))
-    |(?P<MUTE>(?:CMD|SEND|SENDP|SENDS|SENDR|DISPLAY|DISP)[A-Z0-9]*[ \t]*(?:[\d., \t]*"[^"\r\n]*")
+    |(?P<ASSIGN>[IPQM][ \t]*\d+[ \t]*(?P<by>[-+*/&|^]?)==?)
+    |(?P<MUTE>(?:CMD|COMMAND|SEND|DISPLAY|DISP)[A-Z0-9]*[\d., \t]*"[^"\r\n]*"(?:[ \t]*,[ \t]*[A-Z0-9.]+)*
         |(?:ENABLE|DISABLE)[ \t]+PLCC?[ \t]*[\d.,]+|(?:BLOCKSTART|BLOCKSTOP|BSTART|BSTOP|WAIT|LOCK|UNLOCK)(?![A-Z]))
     |(?P<WORD>[A-Z][ \t]*{_VALUE})
     |(?P<SUM>(?:DWELL|DELAY|TA|TS|TM|GOTO|GOSUB|CALL|[A-Z])[ \t]*(?=\())
@@ -58,13 +58,13 @@ _TOKEN = re.compile(
     """,
     re.VERBOSE | re.IGNORECASE | re.ASCII,
 )
-_INDEXED = re.compile(r"[ \t]*([-+*/]?)=(?!=)")
+_INDEXED = re.compile(r"[ \t]*([-+*/&|^]?)==?")
 _REMARK = re.compile(r";[^\r\n]*|//[^\r\n]*")
 _LINE = re.compile(r"[^\r\n]+")
 _SPACES = re.compile(r"[ \t]+")
 _LARGEST = 1e9  # ten kilometres in the finest unit, the hour in µs: no table, no time and no label is beyond
 _NAMED = re.compile(rf"([A-Z]+)\(?({_NUMBER})\)?", re.ASCII)
-_VARIABLE = re.compile(r"([IPQM])0*(\d+)[-+*/]?=")
+_VARIABLE = re.compile(r"([IPQM])0*(\d+)[-+*/&|^]?==?")
 _ELEMENT = re.compile(r"COORD\[\d+\]\.", re.IGNORECASE)
 
 Kind = IntEnum(
