@@ -7,7 +7,7 @@ Operators, functions and their order are those of Turbo PMAC (Software Reference
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 from parser.pmac.values import UnknownValue, Values
@@ -24,6 +24,7 @@ _COMPARED = re.compile(r"!=|==|!>|!<|!~|<=|>=|=|>|<|~")
 _AND, _OR = re.compile(r"AND(?![A-Z])|&&", re.IGNORECASE), re.compile(r"OR(?![A-Z])|\|\|", re.IGNORECASE)
 _PRODUCT, _SUM = re.compile(r"[*/%]|&(?!&)"), re.compile(r"[-+^]|\|(?!\|)")
 
+Operation = Callable[[float, float], float]
 Worked = Callable[[Values], float]
 """What an expression is with the values of the variables. UnknownValue where it cannot be worked out."""
 
@@ -74,10 +75,10 @@ class _Reader:
         return self._chain(_SUM, lambda: self._chain(_PRODUCT, self._factor))
 
     def _chain(self, operator: re.Pattern[str], operand: Callable[[], Worked]) -> Worked:
-        value = operand()
+        first, rest = operand(), list[tuple[Operation, Worked]]()
         while sign := self._match(operator):
-            value = _both(_OPERATORS[sign[0]], value, operand())
-        return value
+            rest.append((_OPERATORS[sign[0]], operand()))
+        return _chained(first, tuple(rest)) if rest else first
 
     def _factor(self) -> Worked:
         if self._sign("-"):
@@ -113,23 +114,20 @@ class _Reader:
         return lambda values: values.value(indexed(letter, inner(values)))
 
     def _either(self) -> Worked:
-        value = self._all()
-        while self._match(_OR):
-            value = either(value, self._all())
-        return value
+        return some(self._joined(_OR, lambda: every(self._joined(_AND, self._compared))))
 
-    def _all(self) -> Worked:
-        value = self._compared()
-        while self._match(_AND):
-            value = both(value, self._compared())
-        return value
+    def _joined(self, word: re.Pattern[str], condition: Callable[[], Worked]) -> list[Worked]:
+        found = [condition()]
+        while self._match(word):
+            found.append(condition())
+        return found
 
     def _compared(self) -> Worked:
         start, depth = self.at, self.depth
         try:
             left = self.sum()
             if sign := self._match(_COMPARED):
-                return _both(_COMPARISONS[sign[0]], left, self.sum())
+                return _chained(left, ((_COMPARISONS[sign[0]], self.sum()),))
         except NotAnExpressionError:
             pass
         self.at, self.depth = start, depth  # no comparison begins here: a condition in parentheses of its own
@@ -153,34 +151,42 @@ def indexed(letter: str, index: float) -> str:
     return f"{letter}{index:.0f}"
 
 
-def both(first: Worked, second: Worked) -> Worked:
-    """A condition that holds where two do; the second is looked at where the first holds."""
-    return lambda values: float(bool(first(values)) and bool(second(values)))
+def every(conditions: Sequence[Worked]) -> Worked:
+    """A condition that holds where all of some do; each is looked at where those before it hold."""
+    if len(conditions) == 1:
+        return conditions[0]
+    return lambda values: float(all(condition(values) for condition in conditions))
 
 
-def either(first: Worked, second: Worked) -> Worked:
-    """A condition that holds where one of two does."""
-    return lambda values: float(bool(first(values)) or bool(second(values)))
+def some(conditions: Sequence[Worked]) -> Worked:
+    """A condition that holds where one of some does; each is looked at where none before it holds."""
+    if len(conditions) == 1:
+        return conditions[0]
+    return lambda values: float(any(condition(values) for condition in conditions))
 
 
 def combined(operator: str, first: Worked, second: Worked) -> Worked:
     """Two sums by an operator of the language, such as ``+``."""
-    return _both(_OPERATORS[operator], first, second)
+    return _chained(first, ((_OPERATORS[operator], second),))
 
 
 def _constant(value: float) -> Worked:
     return lambda _: value
 
 
-def _both(operation: Callable[[float, float], float], left: Worked, right: Worked) -> Worked:
+def _chained(first: Worked, rest: tuple[tuple[Operation, Worked], ...]) -> Worked:
+    """Operations of one rank from left to right; a loop, since a line may hold more of them than Python's stack."""
+
     def worked(values: Values) -> float:
-        first, second = left(values), right(values)
-        try:
-            result = operation(first, second)
-        except OverflowError:
-            result = math.inf
-        if not math.isfinite(result):
-            raise UnknownValue(f"{first:g}, {second:g}", "no-result")
+        result = first(values)
+        for operation, operand in rest:
+            left, right = result, operand(values)
+            try:
+                result = operation(left, right)
+            except OverflowError:
+                result = math.inf
+            if not math.isfinite(result):
+                raise UnknownValue(f"{left:g}, {right:g}", "no-result")
         return result
 
     return worked
@@ -202,7 +208,7 @@ def _remainder(dividend: float, divisor: float) -> float:
     return dividend - divisor - span * math.floor((dividend - divisor) / span) + divisor
 
 
-def _bits(operation: Callable[[int, int], int]) -> Callable[[float, float], float]:
+def _bits(operation: Callable[[int, int], int]) -> Operation:
     def worked(left: float, right: float) -> float:
         if left != int(left) or right != int(right):
             raise UnknownValue(f"{left:g} & {right:g}", "no-result")
@@ -211,7 +217,7 @@ def _bits(operation: Callable[[int, int], int]) -> Callable[[float, float], floa
     return worked
 
 
-def _compare(decided: Callable[[float, float], bool]) -> Callable[[float, float], float]:
+def _compare(decided: Callable[[float, float], bool]) -> Operation:
     """A comparison; sides that differ by less than the card's own digits are compared by the card alone."""
 
     def worked(left: float, right: float) -> float:
@@ -241,7 +247,7 @@ def _function(name: str, inner: Worked) -> Worked:
 
 
 _SIGNS: Mapping[str, re.Pattern[str]] = {sign: re.compile(re.escape(sign)) for sign in "()+-"}
-_OPERATORS: Mapping[str, Callable[[float, float], float]] = {
+_OPERATORS: Mapping[str, Operation] = {
     "+": lambda left, right: left + right,
     "-": lambda left, right: left - right,
     "*": lambda left, right: left * right,
@@ -251,7 +257,7 @@ _OPERATORS: Mapping[str, Callable[[float, float], float]] = {
     "|": _bits(lambda left, right: left | right),
     "^": _bits(lambda left, right: left ^ right),
 }
-_COMPARISONS: Mapping[str, Callable[[float, float], float]] = {
+_COMPARISONS: Mapping[str, Operation] = {
     "=": _compare(lambda left, right: left == right),
     "==": _compare(lambda left, right: left == right),
     "!=": _compare(lambda left, right: left != right),

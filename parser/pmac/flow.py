@@ -6,10 +6,9 @@ condition (Turbo PMAC Software Reference Manual, program commands).
 """
 
 from enum import IntEnum
-from functools import reduce
 from typing import NamedTuple
 
-from parser.pmac.expressions import Worked, both, either
+from parser.pmac.expressions import Worked, every, some
 from parser.pmac.lines import Buffer, Kind, Line, Piece
 
 OrderKind = IntEnum("OrderKind", ["PIECE", "LINE_END", "TEST", "GO", "STUCK"])
@@ -118,15 +117,14 @@ class _Work:
 
     def _condition(self, first: Piece) -> Worked:
         """The condition with the AND and OR that follow, AND before OR."""
-        groups = [_worked(first)]
+        groups = [[_worked(first)]]
         while (piece := self._next()) and piece.kind is Kind.TEST and piece.name in {"AND", "OR"}:
             self._skip_ends()
             self.at += 1
-            if piece.name == "AND":
-                groups[-1] = both(groups[-1], _worked(piece))
-            else:
-                groups.append(_worked(piece))
-        return reduce(either, groups)
+            if piece.name == "OR":
+                groups.append([])
+            groups[-1].append(_worked(piece))
+        return some([every(group) for group in groups])
 
     def _loop(self, test: int) -> bool:
         """The body of a WHILE; whether it has an end."""

@@ -17,7 +17,9 @@ _DEFINED = re.compile(r"[ \t]+([A-Za-z_]\w*)(\(?)(.*)")
 _NAME = re.compile(r"[A-Za-z_]\w*")
 _LINES = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|$)")
 _DEEPEST = 16  # names in the text of names
-_LONGEST = 4096  # characters that one line may become
+_LONGEST = 4096  # characters that a name may stand for
+_UNKNOWN = "__"  # no word of the language: the name itself may look like one
+_ROOM, _TIMES = 1_000_000, 4  # characters, and of the text, that its names may come to: a few may double one another
 
 
 class Expanded(NamedTuple):
@@ -50,22 +52,23 @@ def expanded(text: str) -> Expanded:
     """A text without remarks, its macros worked out."""
     if not any(_DIRECTIVE.match(line) for line in text.splitlines() if "#" in line):
         return Expanded(text)
-    work = _Expansion()
+    work = _Expansion(_ROOM + _TIMES * len(text))
     for line in _LINES.finditer(text):
         work.line(line[0], line.start())
-    begins, pasts = np.array(work.begins, dtype=np.int64), np.array(work.pasts, dtype=np.int64)
-    return Expanded("".join(work.text), begins, pasts, tuple(work.left))
+    return Expanded("".join(work.text), np.concatenate(work.begins), np.concatenate(work.pasts), tuple(work.left))
 
 
 class _Expansion:
     """What is known of a text up to a line."""
 
-    def __init__(self) -> None:
+    def __init__(self, room: int) -> None:
         self.text: list[str] = []
-        self.begins: list[int] = []
-        self.pasts: list[int] = []
+        self.begins: list[Ints] = []
+        self.pasts: list[Ints] = []
         self.left: list[Span] = []
         self.names: dict[str, str] = {}
+        self.bodies: dict[str, str] = {}
+        self.room = room
         self.conditions: list[bool] = []
 
     def line(self, line: str, at: int) -> None:
@@ -80,7 +83,7 @@ class _Expansion:
         for name in _NAME.finditer(line) if self.names else ():
             if name[0] in self.names:
                 self._put(line[first : name.start()], at + first)
-                self._put_macro(self._body(name[0]), (at + name.start(), at + name.end()))
+                self._put_macro(name[0], (at + name.start(), at + name.end()))
                 first = name.end()
         self._put(line[first:], at + first)
 
@@ -97,27 +100,38 @@ class _Expansion:
             return
         elif word == "undef":
             self.names.pop(name, None)
+            self.bodies.clear()
         elif word == "define" and (defined := _DEFINED.fullmatch(rest)) and not defined[2]:
             self.names[defined[1]] = defined[3].strip()
+            self.bodies.clear()
         else:
             self.left.append((at + len(directive[0]) - len(directive[0].lstrip()), at + len(directive[0].rstrip())))
 
     def _body(self, name: str) -> str:
         """The text of a name, with that of the names in it; as it stands where they are one another's, or too long."""
+        body = self.bodies.get(name)
+        if body is not None:
+            return body
         body = self.names[name]
         for _ in range(_DEEPEST):
             longer = _NAME.sub(lambda found: self.names.get(found[0], found[0]), body)
             if longer == body or len(longer) > _LONGEST:
                 break
             body = longer
+        self.bodies[name] = body
         return body
 
     def _put(self, text: str, at: int) -> None:
         self.text.append(text)
-        self.begins += range(at, at + len(text))
-        self.pasts += range(at + 1, at + len(text) + 1)
+        self.begins.append(np.arange(at, at + len(text), dtype=np.int64))
+        self.pasts.append(np.arange(at + 1, at + len(text) + 1, dtype=np.int64))
 
-    def _put_macro(self, text: str, span: Span) -> None:
-        self.text.append(text)
-        self.begins += [span[0]] * len(text)
-        self.pasts += [span[1]] * len(text)
+    def _put_macro(self, name: str, span: Span) -> None:
+        body = self._body(name)
+        self.room -= len(body)
+        if self.room < 0:
+            self.left.append(span)
+            body = _UNKNOWN
+        self.text.append(body)
+        self.begins.append(np.full(len(body), span[0], dtype=np.int64))
+        self.pasts.append(np.full(len(body), span[1], dtype=np.int64))

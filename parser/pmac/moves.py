@@ -136,7 +136,7 @@ class MovedLine:
                 self._at("PMC104", piece, word=_shown(piece), other=_shown(self.words[name]))
             self.words[name] = piece
             if name in _OTHER_AXES:
-                self.state.others.append(piece)
+                self.state.others.setdefault((piece.name, piece.span), piece)
         elif name != "S":
             self._at("PMC101", piece, text=_shown(piece))
 

@@ -1,5 +1,6 @@
 """A text of PMAC motion programs, read: text to lines, the path that they make, and all that is wrong with it."""
 
+import math
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping
 from itertools import accumulate
@@ -48,8 +49,8 @@ def read_pmac(text: str) -> ReadText:
         *_text_findings(read, mains, main),
         *_line_findings(read, state),
         *_arc_findings(read, state, arcs, block),
+        *beside,
     ]
-    findings += [*beside]
     findings += [
         read.lines.finding(one.code, state.moves[one.row].at.span, block[one.row], **one.values)
         for one in speed_findings(toolpath, state.moves, _time_unit_ms(state))
@@ -144,8 +145,10 @@ def _line_findings(read: Text, state: State) -> Iterator[Finding]:
     for one in state.told.values():
         found = read.lines.finding(one.code, one.span, 0, **one.values)
         yield found.with_fact(one.fact) if one.fact else found
-    for axis in state.others[:1]:
-        yield read.lines.finding("PMC106", axis.span, word=f"{axis.name}{axis.value:g}", more=len(state.others) - 1)
+    others = list(state.others.values())
+    for axis in others[:1]:
+        word = axis.name if math.isnan(axis.value) else f"{axis.name}{axis.value:g}"
+        yield read.lines.finding("PMC106", axis.span, word=word, more=len(others) - 1)
 
 
 def _wrong_arc(read: Text, span: Span, block: int, arc: Arc) -> Finding:

@@ -49,8 +49,8 @@ class _Frame:
         The line, and the place of its word, that calls a routine by a G, M, T or D word; None of others.
     modes
         Those that this line has set.
-    line
-        The line that runs; None between lines.
+    line, running
+        What the line that runs makes, None between lines; and the line of the text.
     seen
         By each order that was jumped to, how often the values had changed by then.
     """

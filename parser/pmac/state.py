@@ -1,5 +1,6 @@
 """What a motion program has in force and has made so far: its moves, its stops, and what is wrong with its lines."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -93,7 +94,7 @@ class State:
     half_s: float | None = None
     blends: bool = False
     stopped: bool = False
-    others: list[Piece] = field(default_factory=list)
+    others: dict[tuple[str, Span], Piece] = field(default_factory=dict)
     moves: list[Move] = field(default_factory=list)
     stops: list[Stop] = field(default_factory=list)
     told: dict[tuple[str, Span], Told] = field(default_factory=dict)
@@ -107,5 +108,9 @@ class State:
 
     @property
     def ramp_ms(self) -> float:
-        """Acceleration time in force: TA 0 and TS 50 ms where the program tells none (defaults of Turbo PMAC)."""
-        return max(self.ramp or 0.0, 2.0 * (50.0 if self.half_s is None else self.half_s))
+        """Acceleration time in force: TA 0 and TS 50 ms where the program tells none (defaults of Turbo PMAC).
+
+        NaN where one of them is not known.
+        """
+        ramp, half = self.ramp or 0.0, 50.0 if self.half_s is None else self.half_s
+        return math.nan if math.isnan(ramp + half) else max(ramp, 2.0 * half)

@@ -252,3 +252,32 @@ def test_a_name_of_an_included_file_halts_there_and_is_no_damage() -> None:
     with pytest.raises(ProgramError) as refused:
         parse_program("OPEN PLC 5 CLEAR\nP100=5\nDISABLE PLC5\nCLOSE\n", "plc.pmc")
     assert refused.value.finding.code == "PMC100"
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "X(" + "1+" * 5000 + "1)",
+        "IF(P1=1" + " AND P1=1" * 5000 + ") X1",
+        "IF(P1=1)\n" + "AND(P1=1)\n" * 5000 + "X1\nENDIF",
+    ],
+)
+def test_a_sum_of_any_length_is_worked_out(body: str) -> None:
+    assert len(ends(read(body, "P1=1\n"))) == 1
+
+
+def test_names_that_double_one_another_are_bounded() -> None:
+    doubled = "".join(f"#define a{n + 1} a{n} a{n}\n" for n in range(12))
+    text = f"#define a0 X1\n{doubled}OPEN PROG 1\nCLEAR\nX2 F60\n{'a10 ' * 2000}\nCLOSE\n"
+    assert halted(parse_program(text, "a.pmc"))[0] == "pmac-included"
+
+
+def test_a_time_that_is_not_known_is_no_time_of_0() -> None:
+    assert [finding.code for finding in read("TA0 TS(P99)\nX1\nZ(P98)\nX2").findings] == ["PMC106"]
+
+
+def test_axes_beside_the_plane_are_counted_once_a_place() -> None:
+    (found,) = [
+        one for one in read("P1=0\nWHILE(P1<3)\nP1=P1+1\nX(P1)Z(P1)\nENDWHILE").findings if one.code == "PMC106"
+    ]
+    assert (found.values["word"], found.values["more"]) == ("Z1", 0)
