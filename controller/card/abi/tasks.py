@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Collection
+from pathlib import Path
 from typing import Final, NamedTuple
 
 _FOLDER: Final = "/proc/self/task"
@@ -15,11 +16,18 @@ PATIENCE_TICKS: Final = 30
 """Processor time after which a thread is taken for one that goes on without the card: 0.3 s at the usual 100 Hz."""
 
 
+_HIGHEST: Final = Path("/proc/sys/kernel/pid_max")
+"""Says where the numbers of processes and threads, which count up, begin anew."""
+_HIGHEST_ANYWHERE: Final = 1 << 22
+"""The most that Linux allows: ``PID_MAX_LIMIT`` of its ``include/linux/threads.h``."""
+
+
 class Task(NamedTuple):
-    """State of a thread and the processor time that it took so far, ticks."""
+    """State of a thread, the processor time that it took so far, ticks, and how often a processor took it up."""
 
     state: bytes
     ticks: int
+    runs: bytes
 
 
 class Tasks:
@@ -32,6 +40,12 @@ class Tasks:
     def __init__(self, foreign: Collection[int] = ()) -> None:
         self._foreign = set(foreign)
         self._since: dict[int, int] = {}
+        self._process = os.getpid()
+        self._highest = _highest_number()
+
+    def order(self, thread: int) -> int:
+        """Of threads that began later it is higher, though their numbers begin anew at the kernel's highest."""
+        return (thread - self._process) % self._highest
 
     def only_one(self) -> bool:
         """Whether the thread that asks is the only one, in a microsecond."""
@@ -44,14 +58,34 @@ class Tasks:
         self._since.pop(thread, None)
 
     def at_work(self, waiting: Collection[int]) -> bool:
-        """Whether a thread that is not among those that wait is to be waited for."""
-        return any(self._holds_up(thread) for thread in all_tasks() - self._foreign - set(waiting))
+        """Whether a thread that is not among those that wait is to be waited for.
 
-    def _holds_up(self, thread: int) -> bool:
-        task = _task(thread)
+        The kernel tells of one thread after the other: the first may be woken, or begin another, before the last is
+        looked at. Those that rest in two looks and did not run in between rested all at one moment, between the looks.
+        """
+        first = self._look(waiting)
+        if any(self._holds_up(thread, task) for thread, task in first.items()):
+            return True
+        second = self._look(waiting)
+        return any(
+            thread not in first or (first[thread].state not in _AT_WORK and task != first[thread])
+            for thread, task in second.items()
+        )
+
+    def _look(self, waiting: Collection[int]) -> dict[int, Task]:
+        return {thread: _task(thread) for thread in all_tasks() - self._foreign - set(waiting)}
+
+    def _holds_up(self, thread: int, task: Task) -> bool:
         if task.state not in _AT_WORK:
             return False
         return task.ticks - self._since.setdefault(thread, task.ticks) < PATIENCE_TICKS
+
+
+def _highest_number() -> int:
+    try:
+        return int(_HIGHEST.read_text("ascii"))
+    except (OSError, ValueError):
+        return _HIGHEST_ANYWHERE
 
 
 def all_tasks() -> set[int]:
@@ -64,14 +98,22 @@ def all_tasks() -> set[int]:
 
 def _task(thread: int) -> Task:
     """A thread that has ended does nothing."""
+    fields = _read(f"{_FOLDER}/{thread}/stat").rpartition(b") ")[2].split()
+    if len(fields) <= _SYSTEM:
+        return Task(b"X", 0, b"")
+    runs = _read(f"{_FOLDER}/{thread}/schedstat").rpartition(b" ")[2]
+    return Task(fields[_STATE], int(fields[_USER]) + int(fields[_SYSTEM]), runs)
+
+
+def _read(path: str) -> bytes:
+    """A short file of the kernel; nothing where there is none."""
     try:
-        file = os.open(f"{_FOLDER}/{thread}/stat", os.O_RDONLY)
+        file = os.open(path, os.O_RDONLY)
     except OSError:
-        return Task(b"X", 0)
+        return b""
     try:
-        fields = os.read(file, 1024).rpartition(b") ")[2].split()
-        return Task(fields[_STATE], int(fields[_USER]) + int(fields[_SYSTEM]))
-    except (OSError, IndexError):
-        return Task(b"X", 0)
+        return os.read(file, 1024)
+    except OSError:
+        return b""
     finally:
         os.close(file)

@@ -24,9 +24,10 @@ class Passed(Protocol):
 
 
 class _Wait(NamedTuple):
-    """A thread that waits for its turn: when that is, s; its number, lower ones first; its gate."""
+    """A thread that waits for its turn: when that is, s; its order, lower ones first; its number; its gate."""
 
     at_s: float
+    order: int
     thread: int
     gate: threading.Lock
 
@@ -60,7 +61,7 @@ class Turns:
             if not self._has_turn and not self._waits and self._inside() == 1 and self._tasks.only_one():
                 self._has_turn = thread
                 return
-            wait = _Wait(at_s(), thread, threading.Lock())
+            wait = _Wait(at_s(), self._tasks.order(thread), thread, threading.Lock())
             wait.gate.acquire()
             self._waits.append(wait)
             self._give()
@@ -83,9 +84,10 @@ class Turns:
 
     def _give(self) -> None:
         """Let the next thread have its turn, if all wait; those on their way in or out do not wait yet."""
+        came = self._passed[0]  # one that comes after this look waits for Python, and so seems to rest
         if self._has_turn or not self._waits or self._inside() != len(self._waits):
             return
-        if self._tasks.at_work([wait.thread for wait in self._waits]):
+        if self._tasks.at_work([wait.thread for wait in self._waits]) or self._passed[0] != came:
             return
         following = min(self._waits)
         self._waits.remove(following)
