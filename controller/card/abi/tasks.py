@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Collection
-from pathlib import Path
 from typing import Final, NamedTuple
 
 _FOLDER: Final = "/proc/self/task"
@@ -16,7 +15,7 @@ PATIENCE_TICKS: Final = 30
 """Processor time after which a thread is taken for one that goes on without the card: 0.3 s at the usual 100 Hz."""
 
 
-_HIGHEST: Final = Path("/proc/sys/kernel/pid_max")
+_HIGHEST: Final = "/proc/sys/kernel/pid_max"
 """Says where the numbers of processes and threads, which count up, begin anew."""
 _HIGHEST_ANYWHERE: Final = 1 << 22
 """The most that Linux allows: ``PID_MAX_LIMIT`` of its ``include/linux/threads.h``."""
@@ -82,10 +81,7 @@ class Tasks:
 
 
 def _highest_number() -> int:
-    try:
-        return int(_HIGHEST.read_text("ascii"))
-    except (OSError, ValueError):
-        return _HIGHEST_ANYWHERE
+    return int(_read(_HIGHEST) or _HIGHEST_ANYWHERE)
 
 
 def all_tasks() -> set[int]:
