@@ -14,10 +14,12 @@ from controller.compiled.loops import compiled
 from parser.geometry.along import headings_along, places_at
 from parser.geometry.boxes import reach_um
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.geometry.directions import headings, to_left
+from parser.geometry.directions import directions, headings, to_left
 from sim.cut.kerf.ways import WireWay
 
 _SPACING_UM = 20.0  # a fifth of the usual offset: discs smooth the edge over more than that
+_WHOLE = 0.05  # of a station: directions of programs in whole µm are off by so much
+_FEWEST_ON_ARC = 8  # stretches: a circle is found from the edge beside an arc, however short
 _MOST_STATIONS = 20_000  # in a block, 400 mm: longer ones have them farther apart
 
 
@@ -33,8 +35,9 @@ class Edges(NamedTuple):
     left_um, right_um
         (m,) float64, how far the kerf reaches to both sides; NaN where no disc of the block comes.
     inner
-        (m,) bool, True on stations at least one offset from both ends of their block: nearer to an end, the corner
-        shapes the edge. A block too short for that has its middle stations instead.
+        (m,) bool, True on stations where no corner shapes the edge. Beside a corner that turns by θ that is from
+        offset · tan(θ/2) on, where the edges of both blocks meet, and from one offset on at most and at the end of a
+        cut; a block that goes on along its tangent has all. One too short for that has its middle stations.
     """
 
     row: Ints
@@ -68,7 +71,9 @@ def edges_of(curves: Curves, cut: NDArray[np.bool_], ways: tuple[WireWay, ...], 
     """Edges beside the rows that are `cut` (n,), by where the wire went."""
     stations = _stations(curves, np.flatnonzero(cut))
     left, right = np.where(np.isinf(reaches := _reaches(curves, stations, ways, offset_um)), np.nan, reaches)
-    return Edges(stations.row, stations.place_um, stations.left, left, right, _inner(stations, offset_um))
+    return Edges(
+        stations.row, stations.place_um, stations.left, left, right, _inner(stations, _margins(curves, cut, offset_um))
+    )
 
 
 def ranges(edges: Edges, value_um: Floats, rows: int) -> Range:
@@ -87,7 +92,8 @@ def ranges(edges: Edges, value_um: Floats, rows: int) -> Range:
 def _stations(curves: Curves, rows: Ints) -> _Stations:
     length = reach_um(curves)  # a second turn runs where the first one ran
     number, spacing = np.zeros(len(curves), dtype=np.int64), np.ones(len(curves))
-    number[rows] = np.clip(np.ceil(length[rows] / _SPACING_UM), 1.0, _MOST_STATIONS).astype(np.int64) + 1
+    fewest = np.where(curves.is_arc[rows], _FEWEST_ON_ARC, 1.0)
+    number[rows] = np.clip(np.ceil(length[rows] / _SPACING_UM), fewest, _MOST_STATIONS).astype(np.int64) + 1
     spacing[rows] = np.maximum(length[rows], 1e-9) / (number[rows] - 1)
     first = np.cumsum(number) - number
     row = np.repeat(np.arange(len(curves)), number)
@@ -104,8 +110,8 @@ def _reaches(curves: Curves, stations: _Stations, ways: tuple[WireWay, ...], off
     row, place = (np.concatenate(column) for column in zip(*((one.row, one.place_um) for one in ways), strict=True))
     nearest = np.rint(_along_um(curves, row, place) / stations.spacing_um[row]).astype(np.int64)
     low, past = stations.first[row], stations.first[row] + stations.number[row]
-    # A block with more than two stations has them more than half the usual spacing apart: no disc meets more of them.
-    most = int(np.ceil(2.0 * offset_um / _SPACING_UM)) + 1
+    # A block with more than the fewest stations has them more than half the usual spacing apart: no disc meets more.
+    most = max(int(np.ceil(2.0 * offset_um / _SPACING_UM)) + 1, _FEWEST_ON_ARC)
     met = np.stack([np.maximum(low + nearest - most, low), np.minimum(low + nearest + most + 1, past)], axis=1)
     _raise_to_discs(place, met, np.hstack([stations.place_um, stations.left]), offset_um, reaches)
     return reaches
@@ -141,11 +147,26 @@ def _along_um(curves: Curves, row: Ints, place_um: Floats) -> Floats:
     return np.where(curves.is_arc[row], angle * curves.radius_um[row], (out * heading).sum(axis=1))
 
 
-def _inner(stations: _Stations, offset_um: float) -> NDArray[np.bool_]:
+def _margins(curves: Curves, cut: NDArray[np.bool_], offset_um: float) -> Floats:
+    """How far (n, 2) µm corners shape the edges beside the rows, from their starts and from their ends."""
+    way = directions(curves)
+    into, out_of = way.arriving[:-1], way.leaving[1:]
+    cosine = (into * out_of).sum(axis=1)
+    sine = np.abs(into[:, 0] * out_of[:, 1] - into[:, 1] * out_of[:, 0])
+    joined = cut[:-1] & cut[1:] & (cosine > 0.0)
+    margins = np.full((len(curves), 2), offset_um)
+    # tan(θ/2) = sin θ / (1 + cos θ)
+    between = np.where(joined, offset_um * sine / (1.0 + np.maximum(cosine, 0.0)), offset_um)
+    margins[1:, 0], margins[:-1, 1] = between, between
+    return margins
+
+
+def _inner(stations: _Stations, margins_um: Floats) -> NDArray[np.bool_]:
     row = stations.row
     after = np.arange(len(row)) - stations.first[row]
-    from_end = np.minimum(after, stations.number[row] - 1 - after)
+    before = stations.number[row] - 1 - after
     # In whole stations: of an even number of stations, both middle ones count.
-    needed = np.minimum(np.ceil(offset_um / stations.spacing_um[row]), (stations.number[row] - 1) // 2)
-    inner: NDArray[np.bool_] = from_end >= needed
+    most = (stations.number[row] - 1) // 2
+    needed = np.minimum(np.ceil(margins_um[row] / stations.spacing_um[row, None] - _WHOLE), most[:, None])
+    inner: NDArray[np.bool_] = (after >= needed[:, 0]) & (before >= needed[:, 1])
     return inner

@@ -18,6 +18,7 @@ from sim.cut.sizes.parallels import KeptLines, facing_pairs, kept_lines
 from sim.setup.obstacles import Outline
 
 _LEAST_SWEEP_RAD = np.radians(30.0)  # on a shorter arc, 1 µm on the edge changes the radius by 30 µm and more
+_LEAST_RADIUS_UM = 10.0  # of an edge: an arc about a sharp corner leaves less, and no circle to be measured
 _MOST_PAIRS = 50  # more than anyone reads
 _FEWEST = 4  # places of a circle that can tell its form
 _ROUNDS = 4  # of Gauss-Newton; each squares the relative error, at first some µm in some mm
@@ -98,13 +99,13 @@ def _box(outline: shapely.Polygon) -> tuple[Point, Point]:
 
 
 def _radii(toolpath: Toolpath, kerf: Kerf, kept: KeptEdges) -> Iterator[RadiusSize]:
-    """Radii of the arcs with 30° and more of a kept edge."""
+    """Radii of 10 µm and more, of the arcs with 30° and more of a kept edge."""
     boss = np.sign(toolpath.sweep_rad[kept.row]) == kept.side
     nominal = toolpath.radius_um[kept.row] + np.where(boss, -kerf.offset_um, kerf.offset_um)
     first = runs_of(kept.row, kept.side)
     number = np.diff(first, append=len(kept.row))
     swept = np.abs(toolpath.sweep_rad[kept.row[first]]) * _shares(kerf.edges, kept, first, number)
-    wanted = (number >= _FEWEST) & (swept >= _LEAST_SWEEP_RAD) & (np.nan_to_num(nominal[first]) > 0.0)
+    wanted = (number >= _FEWEST) & (swept >= _LEAST_SWEEP_RAD) & (np.nan_to_num(nominal[first]) >= _LEAST_RADIUS_UM)
     if not wanted.any():
         return
     at, first, number = np.flatnonzero(np.repeat(wanted, number)), first[wanted], number[wanted]

@@ -6,6 +6,7 @@ import random
 import numpy as np
 import pytest
 import shapely
+import shapely.affinity
 from paths import Pen
 from traced import F, contours_of, kerf_along, trace_of
 
@@ -129,6 +130,21 @@ def test_corners_do_not_count_into_the_edges_of_their_blocks():
     kerf = kerf_along(path)
     for sides in (kerf.left, kerf.right):
         np.testing.assert_allclose(np.stack(sides), F, atol=0.05)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 5.0, 30.0, 60.0, 90.0, 120.0])
+def test_edges_count_from_where_those_of_both_blocks_meet(degrees):
+    turn = math.radians(degrees)
+    path = Pen().to(2000, 0).to(2000 + 2000 * math.cos(turn), 2000 * math.sin(turn)).path()
+    edges = kerf_along(path).edges
+    along = edges.place_um[edges.inner & (edges.row == 0), 0]
+    # Plainly: the edges to the left are the lines at one offset; theirs meet there.
+    lines = [shapely.LineString([(-9000, 0), (9000, 0)]).parallel_offset(F, "left")]
+    lines.append(shapely.affinity.rotate(lines[0], degrees, origin=(0, 0)))
+    met = min(-lines[0].intersection(lines[1]).x, F) if degrees else 0.0
+    assert 2000 - along.max() == pytest.approx(met, abs=20.0)  # in whole stations
+    assert 2000 - along.max() >= met - 1.0
+    assert along.min() == pytest.approx(F, abs=20.0)
 
 
 @pytest.mark.parametrize("length", [1.0, 30.0, 150.0])

@@ -69,6 +69,32 @@ def test_an_outer_radius_is_a_boss():
     assert (distance.what, distance.blocks) == ("material", (2, 4))
 
 
+def die(radius: float) -> Toolpath:
+    """An opening whose path turns in four arcs, from its middle and back."""
+    half, arc = 900.0, math.pi / 2.0
+    pen = Pen().to(half, 0.0).to(half, half - radius).arc(half - radius, half - radius, arc)
+    pen.to(radius - half, half).arc(radius - half, half - radius, arc)
+    pen.to(-half, radius - half).arc(radius - half, radius - half, arc)
+    pen.to(half - radius, -half).arc(half - radius, radius - half, arc)
+    return pen.to(half, 0.0).to(0.0, 0.0).path()
+
+
+@pytest.mark.parametrize("radius", [30.0, 100.0, 250.0])
+def test_arcs_shorter_than_the_kerf_is_wide_have_radii_too(radius):
+    found = sizes(die(radius)).radii
+    assert [(size.what, size.block) for size in found] == [("hole", block) for block in (3, 5, 7, 9)]
+    assert [size.nominal_um for size in found] == pytest.approx([radius + F] * 4, abs=1e-6)
+    assert [size.cut_um for size in found] == pytest.approx([radius + F] * 4, abs=0.5)
+
+
+def test_an_arc_about_a_sharp_corner_tells_no_radius():
+    pen = Pen(-500, -F).to(0, -F).to(2000, -F).arc(2000, 0, math.pi / 2).to(2000 + F, 2000)
+    pen.arc(2000, 2000, math.pi / 2).to(0, 2000 + F).arc(0, 2000, math.pi / 2).to(-F, 0).arc(0, 0, math.pi / 2)
+    found = sizes(pen.path())
+    assert [box.what for box in found.boxes] == ["part"]
+    assert found.radii == ()
+
+
 def test_arcs_of_less_than_30_degrees_tell_no_radius():
     short = Pen(-1000, 0).to(0, 0).to(2000, 0).arc(2000, 3000, math.radians(29)).to(0, 2000).to(0, 0)
     assert sizes(short.path()).radii == ()
