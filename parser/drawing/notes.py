@@ -19,7 +19,7 @@ _BY_HABIT = ("broken-line", "never-plotted")  # seen, but drawn as no contour is
 
 def notes_of(left: Sequence[LeftOut], gathered: Gathered, again: Sequence[Again], chained: Chained) -> Iterator[Remark]:
     """What was left out or mended."""
-    counts = gathered.counts
+    counts, why = gathered.counts, Counter(one.why for one in left)
     yield from _not_wanted(left)
     if counts.no_curves:
         yield Remark("no-curves", {"kinds": _listed(counts.no_curves)})
@@ -30,6 +30,8 @@ def notes_of(left: Sequence[LeftOut], gathered: Gathered, again: Sequence[Again]
         (counts.beyond, "beyond"),
         (counts.upright, "upright"),
         (counts.slanted, "slanted"),
+        (why["no-width"], "no-width"),
+        (why["dot"], "dot"),
         (sum(each.curves for each in again if each.whole), "drawn-twice"),
         (sum(each.curves for each in again if not each.whole), "overlaps"),
     ):

@@ -15,6 +15,7 @@ from parser.drawing.fit.loops import loops_with_arcs
 from parser.drawing.gather import gather
 from parser.drawing.left import entity_of, left_out, wanted_of
 from parser.drawing.loops.chain import chain
+from parser.drawing.loops.flat import without_flat
 from parser.drawing.loops.once import Again, drawn_once
 from parser.drawing.loops.weld import welded
 from parser.drawing.marks import marks_of
@@ -84,20 +85,22 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
     if not len(gathered.curves):
         raise no_contour(left, asked.layer)
     once = drawn_once(gathered.curves, gathered.entity)
-    number, entity = np.unique(once.entity, return_inverse=True)
-    chained = chain(once.curves, entity, asked.gap_um)
+    chained = chain(once.curves, np.unique(once.entity, return_inverse=True)[1], asked.gap_um)
+    contours = without_flat(once.curves, once.entity, chained.loops)
+    flat = [LeftOut(entity_of(wanted.kept[once.entity[each.row]]), each.why, each.place_um) for each in contours.flat]
+    number, entity = np.unique(contours.entity, return_inverse=True)
     drawing = Drawing(
         name=name,
         version=str(document.acad_release),
         unit=unit.name,
-        curves=welded(once.curves, chained.loops),
+        curves=welded(contours.curves, contours.loops),
         entity=entity.astype(np.int64),
         entities=tuple(entity_of(wanted.kept[at]) for at in number.tolist()),
-        loops=chained.loops,
+        loops=contours.loops,
         flattened=gathered.counts.flattened,
         flatten_um=asked.flatten_um,
-        notes=(*notes, *([assumed] if assumed else []), *notes_of(left, gathered, once.again, chained)),
-        left_out=(*left, *(_again(wanted.kept, again) for again in once.again)),
+        notes=(*notes, *([assumed] if assumed else []), *notes_of([*left, *flat], gathered, once.again, chained)),
+        left_out=(*left, *(_again(wanted.kept, again) for again in once.again), *flat),
         marks=marks_of(placed),
     )
     return drawing if asked.fit_um is None else _with_arcs(drawing, asked.fit_um, gathered.counts.fit_max_um)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.drawing.loops.chain import chain
+from parser.drawing.loops.flat import without_flat
 from parser.drawing.loops.once import drawn_once
 from parser.drawing.model import DEFAULT_GAP_UM, Drawing, Entity, LeftOut
 from parser.geometry.curves import Curves, curves_between, joined
@@ -53,12 +54,14 @@ def drawing_of(entities: list[list[Piece]], gap_um: float = DEFAULT_GAP_UM) -> D
     curves = joined([curves_of(pieces) for pieces in entities])
     entity = np.repeat(np.arange(len(entities)), [len(pieces) for pieces in entities])
     once = drawn_once(curves, entity)
-    number, of = np.unique(once.entity, return_inverse=True)
     named = [Entity("LINE" if len(one) == 1 else "LWPOLYLINE", f"{at:X}", "0", "") for at, one in enumerate(entities)]
-    chained = chain(once.curves, of, gap_um)
+    loops = chain(once.curves, np.unique(once.entity, return_inverse=True)[1], gap_um).loops
+    curves, entity, loops, flat = without_flat(once.curves, once.entity, loops)
+    number, of = np.unique(entity, return_inverse=True)
     left = tuple(LeftOut(named[a.entity], "drawn-twice" if a.whole else "overlaps", a.place_um) for a in once.again)
+    left += tuple(LeftOut(named[once.entity[a.row]], a.why, a.place_um) for a in flat)
     kept = tuple(named[at] for at in number.tolist())
-    return Drawing("part.dxf", "R2010", "mm", once.curves, of, kept, chained.loops, 0, 0.1, (), left)
+    return Drawing("part.dxf", "R2010", "mm", curves, of, kept, loops, 0, 0.1, (), left)
 
 
 def polygon(corners: list[Place]) -> list[Piece]:

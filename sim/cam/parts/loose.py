@@ -5,6 +5,7 @@ from typing import Final, NamedTuple
 import numpy as np
 import shapely
 
+from parser.drawing.loops.flat import DOT_UM
 from parser.drawing.model import SAME_WITHIN_UM, Drawing, DrawnLoop, Entity, LeftOut, running
 from parser.geometry.broad_phase_places import near_places
 from parser.geometry.curves import Bools, Curves, Floats, Ints, joined
@@ -13,8 +14,6 @@ from parser.toolpath import Point
 from parser.units import mm
 from sim.cam.model import CannotCutError, Refusal
 
-DOT_UM: Final = 10.0
-"""What is no larger is left of drawing, and no contour of any wire."""
 _ALMOST_UM: Final = 1000.0
 """Loose ends this near are meant to meet: no drawing leaves a contour open by less on purpose (assumed)."""
 _ALMOST_OF_LENGTH: Final = 0.4  # a bent chain open by less of its length is meant to close (assumed)

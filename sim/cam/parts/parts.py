@@ -1,18 +1,20 @@
 """Parts of a drawing: its closed loops as figures, by how they lie within each other."""
 
+from collections.abc import Iterator
 from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.drawing.model import BESIDE_UM, Drawing, DrawnLoop, LeftOut
+from parser.drawing.loops.flat import flat_loops
+from parser.drawing.model import BESIDE_UM, Drawing, DrawnLoop, Entity, LeftOut
 from parser.geometry.broad_phase_places import nearest_um
-from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.extents import extents
 from parser.toolpath import Point
 from sim.cam.model import CannotCutError, Figure, Parts, Refusal
 from sim.cam.parts.contacts import Contacts, contacts, crossed, overlaps, self_contacts, spread
 from sim.cam.parts.contours import Contours, contours_of
-from sim.cam.parts.loose import DOT_UM, left_open, named
+from sim.cam.parts.loose import left_open, named
 from sim.cam.parts.nesting import Nesting, nesting
 from sim.setup.making import Making
 
@@ -42,22 +44,34 @@ def parts_of(drawing: Drawing, making: Making) -> Parts:
     """
     loops = [loop for loop in drawing.loops if not _is_thread(drawing, loop, making.thread_layer)]
     closed, loose = ([loop for loop in loops if loop.closed is whole] for whole in (True, False))
-    drawn = contours_of(drawing, closed) if closed else None
+    flat = flat_loops(drawing.curves, closed)
+    drawn = contours_of(drawing, closed) if len(flat) < len(closed) else None
     left = left_open(drawing, loose, None if drawn is None else drawn.curves, making.gap_um)
     if drawn is None:
-        raise CannotCutError(Refusal("no-contour", tuple(Point(*one.place_um) for one in left if one.place_um)))
-    found, flat = _with_width(drawing, _found(closed, drawn))
+        starts = [drawing.curves.start_um[closed[at].row[0]].tolist() for at, _ in flat]
+        places = [*starts, *(one.place_um for one in left if one.place_um)]
+        raise CannotCutError(Refusal("no-contour", tuple(Point(*place) for place in places)))
+    found = _found(closed, drawn)
     _refuse_itself(drawing, found)
     within = BESIDE_UM + 2.0 * (0.0 if drawing.fit is None else drawing.fit.tolerance_um)
     found, again = _once(drawing, found, within)
     touching = _touching(drawing, found, within)
     nested = nesting(found.contours, _places(found, touching), found.area_um2)
-    return Parts(_figures(drawing, found, nested), (*drawing.left_out, *left, *flat, *again), ())
+    return Parts(_figures(drawing, found, nested), (*_left_of(drawing, making.thread_layer), *left, *again), ())
 
 
 def _is_thread(drawing: Drawing, loop: DrawnLoop, layer: str | None) -> bool:
     """Whether a loop lies on the layer of thread points."""
-    return layer is not None and drawing.entities[int(drawing.entity[loop.row[0]])].layer.lower() == layer.lower()
+    return _is_on(drawing.entities[int(drawing.entity[loop.row[0]])], layer)
+
+
+def _is_on(entity: Entity, layer: str | None) -> bool:
+    return layer is not None and entity.layer.lower() == layer.lower()
+
+
+def _left_of(drawing: Drawing, thread_layer: str | None) -> Iterator[LeftOut]:
+    """What its reader left out; dots on the layer of thread points are meant as such."""
+    return (one for one in drawing.left_out if one.why != "dot" or not _is_on(one.entity, thread_layer))
 
 
 def _found(loops: list[DrawnLoop], contours: Contours) -> _Found:
@@ -97,26 +111,6 @@ def _left_out(drawing: Drawing, found: _Found, which: Ints, why: str) -> tuple[L
 def _start(found: _Found, at: int) -> tuple[float, float]:
     x, y = found.contours.one(at).start_um[0].tolist()
     return x, y
-
-
-def _with_width(drawing: Drawing, found: _Found) -> tuple[_Found, tuple[LeftOut, ...]]:
-    """Loops without dots and those that are lines there and back. CannotCutError where none is left."""
-    length = np.bincount(found.contours.loop, found.contours.curves.length_um, len(found.loops))
-    dot = (found.high_um - found.low_um).max(axis=1) <= DOT_UM
-    flat = ~dot & (2.0 * np.abs(found.area_um2) <= BESIDE_UM * length)
-    flat[flat] = [_is_flat(found.contours.one(at)) for at in np.flatnonzero(flat).tolist()]
-    if (flat | dot).all():
-        raise CannotCutError(Refusal("no-contour", tuple(Point(*_start(found, at)) for at in range(len(flat)))))
-    named_so = ((flat, "no-width"), (dot, "dot"))
-    left = [out for which, why in named_so for out in _left_out(drawing, found, np.flatnonzero(which), why)]
-    return _kept(found, ~(flat | dot)), tuple(left)
-
-
-def _is_flat(ring: Curves) -> bool:
-    """Whether a contour lies along a line; one of no area may be a figure eight."""
-    place = spread(ring)
-    _, _, ways = np.linalg.svd(place - place.mean(axis=0), full_matrices=False)
-    return bool(np.ptp(place @ ways[1]) <= BESIDE_UM)
 
 
 def _refuse_itself(drawing: Drawing, found: _Found) -> None:
