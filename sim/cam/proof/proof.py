@@ -174,7 +174,7 @@ def _mm(place: Point) -> dict[str, float]:
 def _as_cut(given: Given, target: Target, run: DryRun, how: AsRun) -> tuple[Comparison | None, _Found]:
     """The edge as cut, after steps and table, and what falls."""
     faults = [*side_faults(given.plan, target, run.toolpath)] if how.has_offset else []
-    if run.remains is None:
+    if run.remains is None or run.ended is not None:  # what an early end leaves uncut is no fault of its own
         return None, _Found(tuple(faults))
     faults += fall_faults(given.plan, target, run.remains.pieces, how.scenario.wire.reach_um)
     if not how.is_one_edge:

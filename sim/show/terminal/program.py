@@ -29,6 +29,8 @@ _LEFT_OUT = {
     "beyond",
     "broken-line",
     "drawn-twice",
+    "no-width",
+    "dot",
     "never-plotted",
     "no-curves",
     "other-layers",

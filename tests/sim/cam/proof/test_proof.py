@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from made_programs import moved, plan_of, plate_file, proof_of, with_cut
-from runs import plain_scenario
+from runs import machine, plain_scenario
 
 from parser.geometry.curves import curves_between
 from parser.toolpath import Point
@@ -45,6 +45,14 @@ def numbers(plan: CutPlan, kind: str) -> list[int]:
 
 def round_hole(plan: CutPlan) -> int:
     return next(cut.figure.number for cut in plan.cuts if cut.figure.kind == "hole" and cut.figure.contour.is_arc.all())
+
+
+def test_beyond_the_travel_nothing_else_speaks_against_a_program(path: Path) -> None:
+    """The cut ends early: that the part does not come free, and differs from its drawing, comes of that alone."""
+    proof = proof_of(plan_of(path), path, scenario=plain_scenario(machine=machine(travel_x_mm=4.0)))
+    assert [finding.code for finding in proof.counting] == ["3B401"]
+    assert proof.faults == ()
+    assert proof.verdict == "fail"
 
 
 def test_a_sound_program_is_proved_and_nothing_speaks_against_it(sound: tuple[Wanted, Proof]) -> None:
