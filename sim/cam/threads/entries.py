@@ -57,10 +57,14 @@ class Entries(NamedTuple):
 
 
 class _Looked(NamedTuple):
-    """Where entries are looked for: at a share (rows,) of the length of each curve, on so many of a figure at most."""
+    """Where entries are looked for: at a share (rows,) of the length of each curve, on so many of a figure at most.
+
+    On a circle they are looked for where it crosses the axes, at one of these places or at all `around` of them.
+    """
 
     share: Floats
     most: int
+    around: int = 1
 
 
 def starts(room: Room, side: Floats, wanted: Ints, reach_um: float) -> Entries:
@@ -72,22 +76,25 @@ def starts(room: Room, side: Floats, wanted: Ints, reach_um: float) -> Entries:
 
 
 def middles(room: Room, side: Floats, wanted: Ints, reach_um: float) -> Entries:
-    """Middles of curves of each of the figures `wanted`, where a mark hurts least first.
+    """Middles of curves of each of the figures `wanted`, of circles all quarters, where a mark hurts least first.
 
     Lines of 1 mm and more come first, the longest before the others, then what else there is, by length; arcs of a
     radius no larger than the reach of the wire only where there is nothing else. `side` (figures,) is 1 where the waste
     lies within.
     """
-    return _entries(room, side, wanted, reach_um, _Looked(np.full(len(room.figure), 0.5), len(room.figure)))
+    return _entries(room, side, wanted, reach_um, _Looked(np.full(len(room.figure), 0.5), 4 * len(room.figure), 4))
 
 
 def _entries(room: Room, side: Floats, wanted: Ints, reach_um: float, looked: _Looked) -> Entries:
     """Entries of each of the figures, the best first."""
     row = np.flatnonzero(np.isin(room.figure, wanted))
+    row = np.repeat(row, np.where(_is_circle(room.curves.picked(row)), looked.around, 1))
     curves = room.curves.picked(row)
+    quarter = np.arange(len(row)) - np.searchsorted(row, row)
     is_small = curves.is_arc & (curves.radius_um <= reach_um)
     grade = np.where(is_small, 2, np.where(~curves.is_arc & (curves.length_um >= _LONG_UM), 0, 1))
-    along = np.where(_is_circle(curves), _to_axis(curves), looked.share[row] * curves.length_um)
+    on_axis = np.mod(_to_axis(curves) + 0.25 * quarter * curves.length_um, curves.length_um)
+    along = np.where(_is_circle(curves), on_axis, looked.share[row] * curves.length_um)
     along = _to_whole(room, row, along)
     place = places_at(room.curves, row, along)
     keys = (*np.round(place.T[::-1]), -np.round(curves.length_um), grade, room.figure[row])

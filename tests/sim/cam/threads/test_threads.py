@@ -199,6 +199,13 @@ def test_figures_of_one_waste_are_threaded_a_start_hole_apart() -> None:
     assert math.dist(found[0].place_um, found[1].place_um) >= 1000.0
 
 
+def test_an_island_that_is_round_is_threaded_a_start_hole_apart_from_its_hole() -> None:
+    """Across the narrowest place of the waste both would share one, and a circle has other sides."""
+    hole, island = box(0, 0, 3800, 3800), circle(1900, 1900, 350)
+    found = threads_of(drawing(), [figure(1, 1, 1, hole), figure(2, 2, 2, island)], Making(), REACH_UM)
+    assert math.dist(found[0].place_um, found[1].place_um) >= 1000.0
+
+
 def test_it_comes_to_no_fillet_smaller_than_the_offset_where_there_is_anything_else() -> None:
     fillet = curves_between(np.array([[1e3, 0.0]]), np.array([[0.0, 1e3]]), np.zeros((1, 2)), np.array([np.pi / 2]))
     lines = polygon([(0.0, 1e3), (0.0, 0.0), (1e3, 0.0)]).picked(slice(2))
