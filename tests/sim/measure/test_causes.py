@@ -313,3 +313,19 @@ def test_a_lag_leaves_steps_and_table_as_they_are() -> None:
     assert (straight.steps.max_um, straight.table.max_um) == (lagging.steps.max_um, lagging.table.max_um)
     assert straight.by_cause.table == lagging.by_cause.table
     assert lagging.wire.max_um > straight.wire.max_um + 5.0  # µm: corners are cut off
+
+
+@pytest.mark.parametrize(
+    ("table", "low_um", "high_um"),
+    [
+        ({"backlash_um": (10.0, 10.0), "friction_n": (0.0, 0.0), "viscous_n_s_mm": (0.0, 0.0)}, 4.95, 5.05),
+        ({"backlash_um": (0.0, 0.0), "friction_n": (200.0, 200.0), "viscous_n_s_mm": (0.0, 0.0)}, 3.75, 4.0),
+        ({"backlash_um": (10.0, 10.0), "friction_n": (200.0, 200.0), "viscous_n_s_mm": (0.0, 0.0)}, 8.75, 9.0),
+    ],
+)
+def test_half_the_backlash_and_friction_over_stiffness_add_to_what_the_table_adds(
+    table: dict[str, object], low_um: float, high_um: float
+) -> None:
+    """As docs/report.md says: b/2 of 10 µm, F/k of 200 N and 50 N/µm."""
+    along_axes = "B3000B0B3000GXL1 B0B3000B3000GYL2 B3000B0B3000GXL3 B0B3000B3000GYL4 DD"
+    assert low_um <= run_text(along_axes, machine=machine(**table)).deviations.by_cause.table.max_um <= high_um
