@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Final, NamedTuple
+from typing import Final, Literal, NamedTuple
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.extents import extents
 
+WhyFlat = Literal["dot", "no-width"]
 DOT_UM: Final = 10.0
 """What is no larger is left of drawing, and no contour of any wire."""
 _SHARES: Final = np.linspace(0.0, 1.0, 9)[:-1]  # of each curve, at which a loop is looked on how far it lies off a line
@@ -20,7 +21,7 @@ class Flat(NamedTuple):
     """A loop that is no contour: its first row, why, ``dot`` or ``no-width``, and where it begins, µm."""
 
     row: int
-    why: str
+    why: WhyFlat
     place_um: tuple[float, float]
 
 
@@ -46,7 +47,7 @@ def without_flat(curves: Curves, entity: Ints, loops: Sequence[DrawnLoop]) -> Co
     return Contours(curves.picked(rows), entity[rows], renumbered, flat)
 
 
-def flat_loops(curves: Curves, loops: Sequence[DrawnLoop]) -> list[tuple[int, str]]:
+def flat_loops(curves: Curves, loops: Sequence[DrawnLoop]) -> list[tuple[int, WhyFlat]]:
     """Numbers of closed loops that are no larger than 10 µm, ``dot``, or lie within 1 µm of a line, ``no-width``."""
     closed = [at for at, loop in enumerate(loops) if loop.closed]
     if not closed:
@@ -58,7 +59,7 @@ def flat_loops(curves: Curves, loops: Sequence[DrawnLoop]) -> list[tuple[int, st
     low, high = extents(ran)
     size = (np.maximum.reduceat(high, first) - np.minimum.reduceat(low, first)).max(axis=1)
     slender = np.abs(_areas(ran, first, number)) <= BESIDE_UM * (np.add.reduceat(ran.length_um, first) + size)
-    found = []
+    found: list[tuple[int, WhyFlat]] = []
     for each in np.flatnonzero((size <= DOT_UM) | slender).tolist():
         if size[each] <= DOT_UM:
             found.append((closed[each], "dot"))

@@ -1,22 +1,34 @@
 """Why no program is made, and why entities are left out: every reason that the code gives has its text."""
 
-import re
+import ast
+from typing import get_args
 
 import pytest
 from places import ROOT
 
+from parser.drawing.loops.flat import WhyFlat
 from parser.toolpath import Point
 from sim.cam.model import Refusal
 from sim.show.refusals import places_said, why_refused
 from sim.show.words.words import texts
 
-SOURCES = "\n".join(
-    path.read_text("utf-8")
+TREES = [
+    ast.parse(path.read_text("utf-8"))
     for folder in ("sim/cam", "parser/drawing")
     for path in sorted((ROOT / folder).rglob("*.py"))
-)
-REFUSED = sorted(set(re.findall(r"\bRefusal\(\s*\"([\w-]+)\"", SOURCES)))
-LEFT_OUT = sorted(set(re.findall(r"\bLeftOut\([^\"]*?\"([\w-]+)\"", SOURCES)))
+]
+
+
+def named_in_calls_of(*functions: str) -> set[str]:
+    """Words that are given to functions as they stand, or one or the other of two."""
+    calls = [node for tree in TREES for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    given = [arg for call in calls if getattr(call.func, "id", "") in functions for arg in call.args]
+    either = [one for arg in given for one in ((arg.body, arg.orelse) if isinstance(arg, ast.IfExp) else (arg,))]
+    return {one.value for one in either if isinstance(one, ast.Constant) and isinstance(one.value, str)}
+
+
+REFUSED = sorted(named_in_calls_of("Refusal", "refused"))
+LEFT_OUT = sorted(named_in_calls_of("LeftOut", "_left_out") | set(get_args(WhyFlat)))
 
 
 @pytest.mark.parametrize("why", REFUSED)
