@@ -18,6 +18,9 @@ from parser.shape.edges import edges_of
 from parser.shape.loops import part_sides
 from parser.toolpath import Toolpath
 
+WIDEST_TAB = 0.25
+"""Of the length of a pass: what is left open farther is open by its nature (assumed)."""
+
 
 class Pass(NamedTuple):
     """Rows of the toolpath that cut once along an edge.
@@ -157,10 +160,17 @@ def _senses(toolpath: Toolpath, cuts: Cuts, edge: Ints) -> Ints:
 
 
 def _part_sides(toolpath: Toolpath, cuts: Cuts, edge: Ints) -> Ints:
-    """Side (k,) of the first cut over the same edge that the part lies on; 0 where that is all of its contour."""
+    """Side (k,) of the first cut over the same edge that the part lies on; 0 where that is all of its contour.
+
+    It is 0 too where the first cut leaves so much open that it goes round nothing: on either side the part may lie.
+    """
     first, of = np.unique(edge, return_inverse=True)
     begin = runs(toolpath)[cuts.contour[first], 0]
     side = part_sides(toolpath, begin, cuts.first[first], cuts.last[first])
+    before = np.concatenate([[0.0], np.cumsum(toolpath.length_um)])
+    length_um = before[cuts.last[first] + 1] - before[cuts.first[first]]
+    gap_um = np.hypot(*(toolpath.end_um[cuts.last[first]] - toolpath.start_um[cuts.first[first]]).T)
+    side[(gap_um > WIDEST_TAB * length_um) & ~np.isin(first, edge[cuts.is_tab])] = 0
     return side[of.reshape(-1)]
 
 

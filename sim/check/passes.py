@@ -16,7 +16,7 @@ from parser.geometry.directions import directions
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
 from parser.shape.beside import BESIDE_UM
-from parser.shape.passes import Pass, Passes
+from parser.shape.passes import WIDEST_TAB, Pass, Passes
 from parser.shape.row_shifts import row_shifts_um
 from parser.toolpath import Toolpath
 from sim.setup.wire import DEFAULT_WIRE
@@ -27,7 +27,6 @@ _DEEPER_UM = 20.0  # of single blocks, of which each has a drift of its own
 _OTHER_SIDE = 1.8  # offsets that a pass lies aside of another one: no trim takes nearly all of a kerf
 _TURNED_RAD = np.radians(300.0)
 """A figure that is left open turns nearly all round; a path that is open by its nature turns back at most."""
-_WIDEST_TAB = 0.25  # of the length of a pass
 _MIDDLE, _STEP_UM = 0.25, 100.0  # a tab comes so near the middle between its ends; leads leave from the ends
 
 
@@ -118,7 +117,7 @@ def _uncut_tab(program: Program, main: list[Pass]) -> Iterator[Finding]:
     start, end = toolpath.start_um[one.first], toolpath.end_um[one.last]
     gap = float(np.hypot(*(end - start)))
     length = float(toolpath.length_um[one.first : one.last + 1].sum())
-    if any(each.is_closed for each in main) or gap > _WIDEST_TAB * length:
+    if any(each.is_closed for each in main) or gap > WIDEST_TAB * length:
         return
     if abs(_turned_rad(toolpath, one)) < _TURNED_RAD or _is_cut(program.toolpath, one):
         return

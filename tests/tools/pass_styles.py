@@ -15,72 +15,126 @@ from sound_shapes import SHAPES, Shape, begun_within, cut, length, placed, rever
 TAB_UM = 600.0
 
 
-class Written(NamedTuple):
-    """A program, and for each pass in the order cut: edge, its blocks from 0, whether it runs back, and over a tab."""
-
-    name: str
-    text: str
-    passes: list[tuple[int, int, int, bool, bool]]
-
-
 class Edge(NamedTuple):
-    """Paths over one edge at falling offsets, all run one way, and the hole that they are threaded in."""
+    """Paths over one edge at falling offsets, all run one way, and the hole that they are threaded in.
+
+    `kind` is punch or die; `drawn` the contour that a wire of the last offset leaves, `reach_um`.
+    """
 
     paths: list[Shape]
     hole: Place
+    kind: str
+    drawn: Shape
+    reach_um: float
 
     @property
     def begin(self) -> Place:
         return self.paths[0].start
 
 
-class Pen:
-    """Writes moves of edges, noting passes."""
+class Written(NamedTuple):
+    """A program, and for each pass in the order cut: edge, its blocks from 0, whether it runs back, and over a tab.
 
-    def __init__(self) -> None:
+    `ways` are the places that the wire cuts along, from jump to jump, as they are drawn.
+    """
+
+    name: str
+    text: str
+    passes: list[tuple[int, int, int, bool, bool]]
+    edges: list[Edge]
+    ways: list[list[Place]]
+
+
+class Stray(NamedTuple):
+    """A lead that goes out of its way: the number of the lead, from 1, and how far aside of its end it comes by, µm."""
+
+    lead: int
+    aside: Place
+
+
+class Pen:
+    """Writes moves of edges, noting passes; leads are lines, and one of them may stray."""
+
+    def __init__(self, stray: Stray | None = None) -> None:
         self.post = Post((0.0, 0.0))
+        self.stray, self.leads = stray, 0
         self.passes: list[tuple[int, int, int, bool, bool]] = []
+        self.ways: list[list[Place]] = [[(0.0, 0.0)]]
 
     def to(self, place: Place) -> None:
-        self.post.move(Line(place))
+        self.leads += 1
+        if self.stray and self.stray.lead == self.leads:
+            self._move(Line((place[0] + self.stray.aside[0], place[1] + self.stray.aside[1])))
+        self._move(Line(place))
 
     def jump(self, place: Place) -> None:
         if place != self.post.drawn:
             self.post.pause()
             self.post.move(Line(place), is_jump=True)
+            self.ways.append([place])
         self.post.pause()
+
+    def run(self, moves: list[Move]) -> None:
+        for move in moves:
+            self._move(move)
 
     def cut(self, edge: int, moves: list[Move], *, back: bool = False, tab: bool = False) -> None:
         first = len(self.post.blocks)
-        for move in moves:
-            self.post.move(move)
+        self.run(moves)
         self.passes.append((edge, first, len(self.post.blocks) - 1, back, tab))
 
+    def _move(self, move: Move) -> None:
+        self.ways[-1] += places_along(self.ways[-1][-1], move)[1:]
+        self.post.move(move)
 
-def random_edge(rng: random.Random, kind: str, most_um: float = 15_000.0) -> tuple[Edge, float]:
+
+def places_along(start: Place, move: Move) -> list[Place]:
+    """Places along a move, on arcs so many that chords lie 0.01 µm off at most."""
+    if isinstance(move, Line):
+        return [start, move.to]
+    pieces = max(3, math.ceil(length(start, move) / math.sqrt(8.0 * 0.01 * math.dist(start, move.center))))
+    return [cut(start, move, k / pieces) for k in range(pieces)] + [move.to]
+
+
+Begun = Callable[[random.Random, Shape], Shape | None]
+Threaded = Callable[[random.Random, WirePath], Place]
+
+
+def within_longest(rng: random.Random, shape: Shape) -> Shape:
+    """The contour begun inside its longest line."""
+    return begun_within(shape, 0.4)
+
+
+def random_edge(
+    rng: random.Random,
+    kind: str,
+    most_um: float = 15_000.0,
+    begun: Begun = within_longest,
+    threaded: Threaded = thread_hole,
+) -> tuple[Edge, float]:
     """An edge with its start hole at (0, 0), and how far it reaches from there."""
     while True:
         size = math.exp(rng.uniform(math.log(5000.0), math.log(most_um)))
-        drawn = begun_within(placed(rng.choice(SHAPES)(rng, size), rng.choice((0.0, rng.uniform(0, 6.28))), False), 0.4)
+        drawn = begun(rng, placed(rng.choice(SHAPES)(rng, size), rng.choice((0.0, rng.uniform(0, 6.28))), False))
         offsets = [100.0 + by for by in sorted(rng.sample((0.0, 10.0, 25.0, 45.0, 70.0), rng.randint(2, 4)))][::-1]
         sign = 1.0 if kind == "punch" else -1.0
-        paths = [offset(drawn, sign * by, True) for by in offsets]
-        made = [path for path in paths if path]
-        last = made[0].moves[-1] if made else None
-        if drawn.neck < 5.0 * offsets[0] or len(made) < len(paths) or not isinstance(last, Line):
+        if drawn is None or drawn.neck < 5.0 * offsets[0]:
             continue
-        if length(_before_last(made[0]), last) < 2.0 * TAB_UM:
+        made = [path for path in (offset(drawn, sign * by, True) for by in offsets) if path]
+        last = made[0].moves[-1] if made else None
+        if len(made) < len(offsets) or not isinstance(last, Line) or length(_before_last(made[0]), last) < 2.0 * TAB_UM:
             continue
         if any(math.dist(path.start, drawn.start) > 1.5 * offsets[0] for path in made):
             continue
-        hole = thread_hole(rng, WirePath(made[0], -1 if kind == "punch" else 1))
+        hole = threaded(rng, WirePath(made[0], -1 if kind == "punch" else 1))
         if math.dist(hole, made[0].start) < 3.0 * offsets[0]:
             continue
-        return Edge([_moved(path, (-hole[0], -hole[1])) for path in made], (0.0, 0.0)), 2.0 * size
+        return moved(Edge(made, hole, kind, drawn, offsets[-1]), (-hole[0], -hole[1])), 2.0 * size
 
 
 def moved(edge: Edge, by: Place) -> Edge:
-    return Edge([_moved(path, by) for path in edge.paths], (edge.hole[0] + by[0], edge.hole[1] + by[1]))
+    hole = edge.hole[0] + by[0], edge.hole[1] + by[1]
+    return edge._replace(paths=[_moved(path, by) for path in edge.paths], hole=hole, drawn=_moved(edge.drawn, by))
 
 
 def _moved(shape: Shape, by: Place) -> Shape:
@@ -130,8 +184,7 @@ def overcut(rng: random.Random, pen: Pen, edges: list[Edge]) -> None:
             over = cut(way.start, first, min(0.3, 300.0 / length(way.start, first)))
             pen.to(way.start)
             pen.cut(at, way.moves, back=number % 2 == 1)
-            pen.to(over)
-            pen.to(way.start)
+            pen.run([Line(over), Line(way.start)])
         pen.to(edge.hole)
 
 
@@ -202,17 +255,23 @@ Style = Callable[[random.Random, Pen, list[Edge]], None]
 STYLES: tuple[Style, ...] = (*(by_jumps, without_lead_out, overcut, tab_by_hole, tab_at_once, tab_by_jump),)
 
 
-def written(rng: random.Random, style: Style) -> Written:
+def written(
+    rng: random.Random,
+    style: Style,
+    begun: Begun = within_longest,
+    threaded: Threaded = thread_hole,
+    stray: Stray | None = None,
+) -> Written:
     """One to three edges in a style, each 5 mm and more from the next."""
     edges, x = [], 0.0
     for _ in range(rng.randint(2, 3) if style in (by_jumps, tab_by_jump) else rng.randint(1, 2)):
-        edge, reach = random_edge(rng, rng.choice(("punch", "die")))
+        edge, reach = random_edge(rng, rng.choice(("punch", "die")), begun=begun, threaded=threaded)
         x += reach if edges else 0.0
         edges.append(moved(edge, (round(x), 0.0)))
         x += reach + 5000.0
-    pen = Pen()
+    pen = Pen(stray)
     style(rng, pen, edges)
-    return Written(style.__name__, program_text(rng, pen.post), pen.passes)
+    return Written(style.__name__, program_text(rng, pen.post), pen.passes, edges, pen.ways)
 
 
 def _before_last(shape: Shape) -> Place:

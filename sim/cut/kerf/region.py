@@ -3,7 +3,9 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from parser.geometry.curves import Bools
+import numpy as np
+
+from parser.geometry.curves import Bools, Ints
 from parser.shape.contours import Contour
 from parser.shape.passes import find_passes, leads_of
 from parser.toolpath import Toolpath
@@ -25,6 +27,8 @@ class Kerf(NamedTuple):
         What the wire swept on each contour, with its polygon `region_um`.
     leads
         (n,) blocks that cut along no edge: ways to a pass and away from it.
+    pass_edge
+        (n,) number of the edge that each block's pass runs over, from 0; −1 of leads and jumps.
     region_um
         All of it: a shapely polygon or multipolygon.
     area_mm2
@@ -38,6 +42,7 @@ class Kerf(NamedTuple):
     offset_um: float
     swept: tuple[Swept, ...]
     leads: Bools
+    pass_edge: Ints
     region_um: Region
     area_mm2: float
     edges: Edges
@@ -56,10 +61,13 @@ def kerf_of(toolpath: Toolpath, trace: Trace, contours: Sequence[Contour], offse
     region = union_all(one.region_um for one in swept)
     edges = edges_of(toolpath, ~toolpath.is_jump, ways, offset_um)
     left, right = edges.left_um, edges.right_um
+    passes = find_passes(toolpath)
+    edge_of = np.array([*(one.edge for one in passes.passes), -1], dtype=np.int64)
     return Kerf(
         offset_um=offset_um,
         swept=swept,
-        leads=leads_of(find_passes(toolpath), toolpath),
+        leads=leads_of(passes, toolpath),
+        pass_edge=edge_of[passes.of_row],
         region_um=region,
         area_mm2=region.area * 1e-6,
         edges=edges,

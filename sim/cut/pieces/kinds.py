@@ -3,14 +3,17 @@
 The wire is threaded in the waste, and its leads run through it. So a piece is waste where the wire came from inside of
 it. Besides, two kinds of waste fall beside a larger piece that the same contour cuts: a sliver between two passes, no
 wider than the kerf anywhere, and a scrap between leads that part from it: those of one pass, or of a rough cut and of a
-trim that starts elsewhere.
+trim that starts elsewhere, in a contour of its own or not.
 """
 
+import math
 from typing import Literal, NamedTuple
 
 import numpy as np
 import shapely
 
+from parser.geometry.curves import Floats
+from parser.shape.passes import WIDEST_TAB
 from sim.cut.kerf.makers import share_made
 from sim.cut.kerf.region import Kerf
 from sim.cut.kerf.swept import Swept
@@ -21,6 +24,7 @@ from sim.cut.pieces.frees import FreeMoment
 _ON_IT = 0.1  # offsets: a start this near to the loop lies on it, and is no lead-in
 _NOTCH = 1.5  # offsets that an outline grows and shrinks by, which closes notches two offsets wide
 _COARSE_UM = 1.0
+_CORNERS = 3  # of a polygon
 _LED = 2.0  # offsets of edge that leads made: more than where a lead meets its loop
 
 
@@ -54,21 +58,35 @@ class Loose(NamedTuple):
 
 def kinds_of(found: list[Loose], kerf: Kerf) -> list[Kind]:
     """What each of the pieces of a kerf is."""
-    swept, offset_um = kerf.swept, kerf.offset_um
+    figure = _figures(kerf)
     largest: dict[int, float] = {}
     for piece in found:
         for contour in piece.contours:
-            largest[contour] = max(largest.get(contour, 0.0), piece.outline_um.area)
+            largest[figure[contour]] = max(largest.get(figure[contour], 0.0), piece.outline_um.area)
     kinds: list[Kind] = []
     for piece in found:
-        beside_larger = any(largest[contour] > piece.outline_um.area for contour in piece.contours)
-        if _held_the_start(piece, swept, offset_um):
+        beside_larger = any(largest[figure[contour]] > piece.outline_um.area for contour in piece.contours)
+        if _held_the_start(piece, kerf.swept, kerf.offset_um):
             kinds.append("slug")
-        elif beside_larger and (_is_sliver(piece.outline_um, offset_um) or _was_led_by(piece, kerf)):
+        elif beside_larger and (_is_sliver(piece.outline_um, kerf.offset_um) or _was_led_by(piece, kerf)):
             kinds.append("scrap")
+        elif _lay_within_pass(piece, kerf):
+            kinds.append("slug")
         else:
             kinds.append("part")
     return kinds
+
+
+def _figures(kerf: Kerf) -> list[int]:
+    """Of each contour the first one that has an edge in common with it: trims may follow behind a jump."""
+    first: dict[int, int] = {}
+    figure = []
+    for contour, swept in enumerate(kerf.swept):
+        edges = [edge for edge in np.unique(kerf.pass_edge[swept.way.row]).tolist() if edge >= 0]
+        of = min((first[edge] for edge in edges if edge in first), default=contour)
+        first.update(dict.fromkeys(edges, of))
+        figure.append(of)
+    return figure
 
 
 def _held_the_start(piece: Loose, swept: tuple[Swept, ...], offset_um: float) -> bool:
@@ -79,6 +97,28 @@ def _held_the_start(piece: Loose, swept: tuple[Swept, ...], offset_um: float) ->
         return came_from_inside(swept[piece.moment.contour].way, piece.older.at, piece.moment.at, offset_um)
     # Several contours cut round it, since a bridge was left for later: the start of the first one tells.
     return began_in(swept[piece.contours[0]].way, piece.outline_um, offset_um)
+
+
+def _lay_within_pass(piece: Loose, kerf: Kerf) -> bool:
+    """Whether a pass ran round a piece and round the start of its contour, but for a bridge that was left for later.
+
+    Leads that part widely may have cut the start off the piece, or have closed the cut where they meet at the start.
+    """
+    if piece.older is None:
+        return False
+    way = kerf.swept[piece.contours[0]].way
+    edge = kerf.pass_edge[way.row]
+    on_pass = np.flatnonzero(edge >= 0)
+    if not len(on_pass):
+        return False
+    begin = int(on_pass[0])
+    behind = np.flatnonzero(edge[begin:] != edge[begin])
+    place = way.place_um[begin : begin + int(behind[0]) if len(behind) else len(edge)]
+    length_um = float(np.hypot(*np.diff(place, axis=0).T).sum())
+    if len(place) < _CORNERS or math.dist(place[0], place[-1]) > WIDEST_TAB * length_um:
+        return False
+    ring = shapely.Polygon(place)
+    return ring.contains(shapely.Point(way.place_um[0])) and ring.contains(piece.outline_um.representative_point())
 
 
 def came_from_inside(way: WireWay, begin: int, end: int, offset_um: float) -> bool:
@@ -106,14 +146,15 @@ def _is_sliver(piece_um: shapely.Polygon, offset_um: float) -> bool:
 
 
 def _was_led_by(piece: Loose, kerf: Kerf) -> bool:
-    """Whether leads of the contour that frees a piece made some of its outer edge: more than where a lead meets it.
+    """Whether leads of the contours about a piece made some of its outer edge: more than where a lead meets it."""
+    leads = [stretch for contour in piece.contours for stretch in _leads(kerf.swept[contour].way, kerf)]
+    edge = piece.outline_um.exterior
+    return share_made(edge, leads, kerf.offset_um) * edge.length > _LED * kerf.offset_um
 
-    The first block of a contour is a lead, also where no pass was found.
-    """
-    way = kerf.swept[piece.moment.contour].way
+
+def _leads(way: WireWay, kerf: Kerf) -> list[Floats]:
+    """Stretches of a way that are leads; the first block of a contour is one, also where no pass was found."""
     is_lead = kerf.leads[way.row] | (way.row == way.row[0])
     starts = np.flatnonzero(np.diff(is_lead, prepend=False) & is_lead)
     ends = np.flatnonzero(np.diff(is_lead, append=False) & is_lead) + 1
-    leads = [way.place_um[low:high] for low, high in zip(starts.tolist(), ends.tolist(), strict=True)]
-    edge = piece.outline_um.exterior
-    return share_made(edge, leads, kerf.offset_um) * edge.length > _LED * kerf.offset_um
+    return [way.place_um[low:high] for low, high in zip(starts.tolist(), ends.tolist(), strict=True)]
