@@ -24,6 +24,8 @@ _ATTEMPTS, _TAIL = 24, 40
 """How often the rows before a place are told until they meet it, and how many rows of them."""
 _CLOSED_UM, _ASIDE_UM = 0.5, 1.5
 """How far a path may end from where it was, and how far aside of it an arc may lie to bring it there."""
+_NEAR_UM = 1.2
+"""How far aside of what is drawn any block may lie before the rows are told otherwise."""
 _COLUMNS = "x_um", "y_um", "count_um", "count_axis", "quadrant", "turn"
 
 
@@ -45,12 +47,14 @@ class _Told(NamedTuple):
     """Blocks of some rows, and where they end.
 
     `missed`: by how much they miss places where the path was before, or lie aside of it to meet them, at most; by what
-    is wished 1 or less. `stepped`: by how much the steps end beside the last end. `seen`: what they add to it.
+    is wished 1 or less. `aside`: the same of how far any of them lies aside of what is drawn. `stepped`: by how much
+    the steps end beside the last end. `seen`: what they add to it.
     """
 
     blocks: list[OneBlock]
     ends: list[Place]
     missed: float
+    aside: float
     stepped: Place
     seen: _Seen
 
@@ -86,12 +90,15 @@ def _stretches(path: LookedAt) -> list[int]:
 
 
 def _closing(path: LookedAt, rows: range, begin: _Begun, seen: _Seen) -> _Told:
-    """Some rows told so that they come near enough to where the path was before, or as near as may be."""
+    """Some rows told so that they come near enough to where the path was before, or as near as may be.
+
+    And so that none of them lies far aside, where that is to be had as well.
+    """
     best = _told(path, rows, begin, seen, 0)
     for attempt in range(1, _ATTEMPTS if len(rows) <= _TAIL else 1):
-        if best.missed <= 1.0:
+        if max(best.missed, best.aside) <= 1.0:
             break
-        best = min(best, _told(path, rows, begin, seen, attempt), key=lambda one: one.missed)
+        best = min(best, _told(path, rows, begin, seen, attempt), key=lambda one: (max(one.missed, 1.0), one.aside))
     return best
 
 
@@ -101,7 +108,7 @@ def _told(path: LookedAt, rows: range, begin: _Begun, seen: _Seen, attempt: int)
     known, centers = ChainMap(new.ends, seen.ends), ChainMap(new.centers, seen.centers)
     blocks: list[OneBlock] = []
     ends: list[Place] = []
-    (at, off), missed = begin, 0.0
+    (at, off), missed, aside = begin, 0.0, 0.0
     for row in rows:
         place, before = path.again.place[row], path.again.place[row - 1] if row else path.again.first
         pins = tuple((pin.axis, known[pin.place][pin.axis]) for pin in path.again.pinned.get(row, ()))
@@ -115,12 +122,15 @@ def _told(path: LookedAt, rows: range, begin: _Begun, seen: _Seen, attempt: int)
             missed = max(missed, math.dist(at, aim.end) / _CLOSED_UM)
         if aim.is_known or pins:
             missed = max(missed, aside_um / _ASIDE_UM)
+        across_x, across_y = path.across[row]
+        end_um = abs((at[0] - path.end[row][0]) * across_x + (at[1] - path.end[row][1]) * across_y)
+        aside = max(aside, aside_um / _NEAR_UM, end_um / _NEAR_UM)
         known.setdefault(place, at)
         if center is not None:
             new.centers[before, place] = center
         blocks.append(block)
         ends.append(at)
-    return _Told(blocks, ends, missed, off, new)
+    return _Told(blocks, ends, missed, aside, off, new)
 
 
 def _words(told: list[OneBlock]) -> StepWords:
