@@ -1,5 +1,6 @@
 """Advice by proof: a word is named where writing it leaves nothing to find, and no word where none does."""
 
+import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -8,6 +9,8 @@ from parser.dialect.at_block import at_block
 from parser.dialect.mender import Mend, Mender
 from parser.findings.facts import CountedElsewhere, OddOrder, OddShape, WrongBlock, WrongLabel
 from parser.findings.findings import Finding, Value, edited, file_order
+from parser.geometry.curves import Curves
+from parser.geometry.directions import directions
 from parser.program import Program
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import Contour
@@ -22,6 +25,7 @@ MOST_TRIALS = 24
 MOST_BLOCKS = 4_000
 """Blocks of all trials for one contour together: a trial of 100 blocks takes some 5 ms."""
 _MOST_NAMED = 3
+_JOINT_RAD = math.radians(0.2)  # besides what whole µm leave open of the angles of two blocks
 _MOST_CONTOURS = 4
 _OF_A_WORD = (OpenContour, ReversedArc, WrongAxis, WrongBlock, OddShape)
 """Facts of findings that one wrong word may be why."""
@@ -91,13 +95,27 @@ class _Trials:
         return self.contour.first <= finding.block <= self.contour.last
 
     def _is_loose(self, finding: Finding) -> bool:
-        """Whether a line counts on the wrong axis, and the contour ends elsewhere than it began.
+        """Whether a block counts on the wrong axis, and X or Y may as well be wrong.
 
-        A digit too many in X makes Y the shorter side as well, and nothing tells where the line was to end.
+        A digit too many in X makes Y the shorter side of a line as well; where the contour ends elsewhere than it
+        began, nothing tells where the line was to end. So it is with an arc that begins at an odd angle.
         """
-        ends = self.contour.closure_exact_um <= CLOSED_WITHIN_UM
-        is_line = finding.block > 0 and not self.program.toolpath.is_arc[finding.block - 1]
-        return isinstance(finding.fact, WrongAxis) and is_line and not ends
+        if not isinstance(finding.fact, WrongAxis) or finding.block < 1:
+            return False
+        if self.program.toolpath.is_arc[finding.block - 1]:
+            return self._begins_oddly(finding.block - 1)
+        return self.contour.closure_exact_um > CLOSED_WITHIN_UM
+
+    def _begins_oddly(self, row: int) -> bool:
+        """Whether an arc goes on from the block before it neither smoothly nor at a right angle."""
+        if row < self.contour.first:
+            return False
+        both = self.program.toolpath.picked(slice(row - 1, row + 1))
+        way = directions(both)
+        (ax, ay), (bx, by) = way.arriving[0].tolist(), way.leaving[1].tolist()
+        angle = abs(math.atan2(ax * by - ay * bx, ax * bx + ay * by))
+        slack = _JOINT_RAD + sum(1.0 / max(size, 1.0) for size in (both.radius_um[1], _size_um(both)))
+        return min(angle, abs(angle - 0.5 * math.pi)) > slack
 
     @property
     def may_be_turned(self) -> bool:
@@ -145,6 +163,11 @@ class _Trials:
             if self.holds(finding) and isinstance(finding.fact, ReversedArc):
                 for mend in self.mender.other_labels(self.program.toolpath, finding.block - 1):
                     yield Change(finding.block, (mend,))
+
+
+def _size_um(both: Curves) -> float:
+    """The radius of the first of two blocks, the length of a line: whole µm turn it by 1 µm in so many."""
+    return float(both.radius_um[0] if both.is_arc[0] else both.length_um[0])
 
 
 def _advised(program: Program, finding: Finding) -> tuple[Change, ...]:

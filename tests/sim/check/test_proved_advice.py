@@ -5,6 +5,7 @@ import re
 from collections import Counter
 from pathlib import Path
 
+import pytest
 import slips
 from cam_programs import Row, Sound
 from depth import cases
@@ -64,3 +65,11 @@ def test_words_of_programs_in_several_passes_are_named_and_hardly_a_wrong_one_is
     assert verdicts["right"] >= 0.6 * verdicts.total(), verdicts
     assert verdicts["wrong"] <= 0.005 * verdicts.total(), verdicts
     assert spoilt <= 0.005 * verdicts.total()
+
+
+@pytest.mark.parametrize(("arc", "is_uncertain"), [("B0B5000B5000GXNR4", False), ("B300B5000B4700GXNR4", True)])
+def test_the_axis_of_an_arc_that_begins_oddly_is_no_certain_advice(arc: str, is_uncertain: bool) -> None:
+    """A digit too many or too few in X or Y makes the other axis the ruled one as well, and turns the arc's begin."""
+    before, behind = "B10000B0B10000GXL1", "B0B10000B10000GYL2 B5000B0B5000GXNR1 B10000B0B10000GXL3"
+    found = checked(f"{before} {arc} {behind} B0B5000B5000GYNR2 B0B10000B10000GYL4 B5000B0B5000GXNR3 DD").findings
+    assert [finding.is_uncertain for finding in found if finding.code == "3B204"] == [is_uncertain]
