@@ -74,6 +74,7 @@ golden: browser
 pages: $(READY)
 	$(BIN)/python -m sim.show.findings.catalogue_document
 	$(BIN)/python -m sim.setup.key_tables
+	$(BIN)/python tests/tools/door_page.py
 
 # Renew the lock for every Python the project supports.
 lock: $(READY)

@@ -1,4 +1,4 @@
-"""Toolpath to pulses: interpolation, the plan of motion in time, and the emulated motion card."""
+"""Toolpath to pulses: interpolation, the plan of motion in time, and the emulated motion card; a package of drycut."""
 
 from typing import TYPE_CHECKING, Any
 

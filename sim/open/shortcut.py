@@ -13,7 +13,7 @@ from sim.show.words.words import said
 
 OPTION: Final = "--from-icon"
 """Of `drycut open`, with which both of them start it."""
-_START: Final = ("-P", "-m", "sim", "open", OPTION)
+_START: Final = ("-P", "-m", "drycut", "open", OPTION)
 """For Python: nothing is imported from the folder that a desktop happens to start it in."""
 _ENTRY, _SCRIPT, _PICTURE = "drycut.desktop", "drycut.vbs", "drycut.svg"
 _ICON: Final = Path(__file__).with_name("icon.svg")

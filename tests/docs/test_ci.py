@@ -22,7 +22,7 @@ SCHEMAS = ROOT / "tests" / "schemas"
 SHELL = shutil.which("bash")
 pytestmark = pytest.mark.skipif(SHELL is None, reason="the recipes are for a shell")
 
-DRYCUT = f'#!{SHELL}\nexec "{sys.executable}" -m sim "$@"\n'
+DRYCUT = f'#!{SHELL}\nexec "{sys.executable}" -m drycut "$@"\n'
 PIP = f'#!{SHELL}\necho "$@" >> "$CALLS"\n'
 
 

@@ -13,14 +13,14 @@ from pathlib import Path
 
 from places import ROOT
 
+from drycut import __version__
 from parser.findings.codes import CODES
-from sim import __version__
 from sim.show.terminal.documents import files
 
 
 def test_no_other_distribution_owns_our_names() -> None:
     owners = metadata.packages_distributions()
-    for name in ("parser", "controller", "sim"):
+    for name in ("parser", "controller", "sim", "drycut"):
         assert set(owners.get(name, ["drycut"])) == {"drycut"}, name
 
 
@@ -31,7 +31,13 @@ def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
     assert __version__ in name
     with zipfile.ZipFile(tmp_path / name) as wheel:
         names = wheel.namelist()
-    assert {path.split("/")[0] for path in names} == {"parser", "controller", "sim", f"drycut-{__version__}.dist-info"}
+    assert {path.split("/")[0] for path in names} == {
+        "parser",
+        "controller",
+        "sim",
+        "drycut",
+        f"drycut-{__version__}.dist-info",
+    }
     for needed in (
         "sim/setup/machine/dk7740.toml",
         "sim/show/draw/fonts/OFL.txt",
@@ -39,7 +45,7 @@ def test_wheel_holds_packages_data_and_licences(tmp_path: Path) -> None:
         "sim/cli/run.py",
     ):
         assert needed in names
-    sources = [path for folder in ("parser", "controller", "sim") for path in (ROOT / folder).rglob("*.*")]
+    sources = [path for folder in ("parser", "controller", "sim", "drycut") for path in (ROOT / folder).rglob("*.*")]
     ours = {path.relative_to(ROOT).as_posix() for path in sources if "__pycache__" not in path.parts}
     assert ours - set(names) == set()
     assert sum(path.startswith("parser/findings/pages/") for path in names) > len(CODES)
@@ -75,7 +81,7 @@ def test_the_benchmark_runs_and_prints_its_figures() -> None:
 
 
 def test_types_are_shipped() -> None:
-    for name in ("parser", "controller", "sim"):
+    for name in ("parser", "controller", "sim", "drycut"):
         assert (ROOT / name / "py.typed").exists(), name
 
 

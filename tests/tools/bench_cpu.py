@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from places import ROOT
 
-DRYCUT = (sys.executable, "-m", "sim")
+DRYCUT = (sys.executable, "-m", "drycut")
 _GOOD_CODES = (0, 1)  # of drycut: 1 says that a program is not sound
 
 

@@ -66,7 +66,7 @@ def _profile(name: str, blocks: int) -> dict[str, float]:
 def _run(folder: Path, name: str, blocks: int) -> None:
     from dataclasses import replace
 
-    from sim import load_scenario, read_program, run_into
+    from drycut import load_scenario, read_program, run_into
 
     path = folder / "contour.3b"
     path.write_text(contour_text(blocks, crosses=name == "crossing"), encoding="ascii")

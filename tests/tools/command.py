@@ -26,7 +26,7 @@ def run_command(
 ) -> subprocess.CompletedProcess[bytes]:
     """``drycut`` with arguments; it reads no locale but the one given, and knows no terminal."""
     return subprocess.run(
-        [sys.executable, "-m", "sim", *map(str, arguments)],
+        [sys.executable, "-m", "drycut", *map(str, arguments)],
         input=stdin,
         capture_output=True,
         cwd=cwd,

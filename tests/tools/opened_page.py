@@ -50,7 +50,7 @@ class OpenedPage:
 @contextmanager
 def opened_page(file: Path | None = None, *options: str) -> Iterator[OpenedPage]:
     """The server of a file; it is ended behind the block."""
-    command = [sys.executable, "-m", "sim", "open", *([str(file)] if file else []), "--no-browser", *options]
+    command = [sys.executable, "-m", "drycut", "open", *([str(file)] if file else []), "--no-browser", *options]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=ROOT)
     assert process.stdout is not None
     try:

@@ -14,7 +14,7 @@ from click.testing import CliRunner
 from command import run_command, run_inside, without_progress
 from places import ROOT, SCENARIOS
 
-from sim import __version__
+from drycut import __version__
 from sim.cli import cli
 
 SOUND = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 DD"
@@ -206,7 +206,7 @@ def test_any_encoding_of_the_output_will_do(
 def test_output_that_cannot_be_written_is_one_clear_line(short: Path) -> None:
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            [sys.executable, "-m", "sim", "run", str(short)],
+            [sys.executable, "-m", "drycut", "run", str(short)],
             stdout=full,
             stderr=subprocess.PIPE,
             check=False,

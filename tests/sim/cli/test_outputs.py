@@ -144,7 +144,7 @@ def test_no_output_file_is_left_where_one_cannot_be_written(programs: Path, monk
 
 @pytest.mark.skipif(os.name == "nt", reason="a pipe whose reader is gone is told otherwise there")
 def test_files_are_whole_where_the_reader_of_stdout_goes_away(programs: Path) -> None:
-    command = [sys.executable, "-m", "sim", "check", "programs", "--format=text", "--format=sarif=check.sarif"]
+    command = [sys.executable, "-m", "drycut", "check", "programs", "--format=text", "--format=sarif=check.sarif"]
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONUTF8": "1", "LC_ALL": "C.UTF-8"}
     pipe = subprocess.PIPE
     with subprocess.Popen(command, cwd=programs, env=environment, stdout=pipe, stderr=pipe) as process:

@@ -25,7 +25,7 @@ class Watcher:
     """The command; what it prints on stdout and stderr between two rests is a round."""
 
     def __init__(self, cwd: Path, *arguments: str) -> None:
-        command = [sys.executable, "-m", "sim", "check", *arguments, "--watch"]
+        command = [sys.executable, "-m", "drycut", "check", *arguments, "--watch"]
         environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONUTF8": "1", "LC_ALL": "C.UTF-8"}
         pipe = subprocess.PIPE
         self.process = subprocess.Popen(
@@ -112,7 +112,7 @@ def test_a_terminal_is_cleared_before_each_check(tmp_path: Path) -> None:
     (tmp_path / "a.3b").write_text(SOUND, "ascii")
     ours, theirs = pty.openpty()
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "LC_ALL": "C.UTF-8", "TERM": "xterm", "NO_COLOR": "1"}
-    command = [sys.executable, "-m", "sim", "check", "a.3b", "--watch"]
+    command = [sys.executable, "-m", "drycut", "check", "a.3b", "--watch"]
     with subprocess.Popen(command, cwd=tmp_path, env=environment, stdout=theirs, stderr=theirs) as process:
         shown = b""
         try:

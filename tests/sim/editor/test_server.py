@@ -73,7 +73,7 @@ def session(
 
     async def run() -> Any:
         editor = Editor()
-        await editor.start_io(sys.executable, "-m", "sim", "lsp", *options, cwd=str(ROOT))
+        await editor.start_io(sys.executable, "-m", "drycut", "lsp", *options, cwd=str(ROOT))
         asked = types.InitializeParams(capabilities=capabilities or types.ClientCapabilities(), locale=locale)
         await asyncio.wait_for(editor.initialize_async(asked), LONGEST_S)
         editor.initialized(types.InitializedParams())

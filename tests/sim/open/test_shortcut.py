@@ -59,7 +59,7 @@ def started(exec_key: str, file: str) -> list[str]:
 @pytest.mark.parametrize("name", NAMES)
 def test_an_entry_starts_this_python_with_the_file_whatever_both_are_called(python: str, name: str) -> None:
     exec_key = keys_of(desktop_entry(Path(python), Path("/icon.svg")))["Exec"]
-    assert started(exec_key, name) == [python, "-P", "-m", "sim", "open", "--from-icon", name]
+    assert started(exec_key, name) == [python, "-P", "-m", "drycut", "open", "--from-icon", name]
 
 
 def test_an_entry_has_the_keys_that_desktops_ask_for(tmp_path: Path) -> None:
@@ -131,7 +131,7 @@ def test_it_runs_where_there_is_no_terminal_at_all() -> None:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    command = f'exec "{sys.executable}" -m sim open --from-icon --no-browser --port {port} <&- >&- 2>&-'
+    command = f'exec "{sys.executable}" -m drycut open --from-icon --no-browser --port {port} <&- >&- 2>&-'
     process = subprocess.Popen(["/bin/sh", "-c", command], cwd=ROOT)
     try:
         for _ in range(400):

@@ -1,0 +1,21 @@
+"""The command: ``drycut``, and ``python -m drycut`` where its script is not on the path."""
+
+import sys
+
+from drycut.clash import refuse_strangers
+
+
+def main() -> None:
+    """Run the command; where another package stands in the place of one of ours, say so and end with 2."""
+    try:
+        refuse_strangers()
+    except ImportError as error:
+        print(f"drycut: error: {error}", file=sys.stderr)  # our own words are not there to be loaded
+        sys.exit(2)
+    from sim.cli import main as command  # noqa: PLC0415 - behind the look
+
+    command()
+
+
+if __name__ == "__main__":
+    main()

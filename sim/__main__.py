@@ -1,5 +1,0 @@
-"""``python -m sim``, where the command is not on the path."""
-
-from sim.cli import main
-
-main()
