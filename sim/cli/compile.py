@@ -5,13 +5,13 @@ from typing import Final
 
 LOOPS: Final[tuple[str, ...]] = (
     "controller.stepping.chunks",
-    "sim.cam.order.nearest",
+    "sim.cam.order.order",
     "sim.cam.order.shorter",
     "sim.cut.kerf.edges",
     "sim.cut.kerf.last_beside",
     "sim.cut.kerf.stars",
     "sim.cut.play.touching",
-    "sim.measure.compare.coarser",
+    "sim.measure.compare.as_cut",
     "sim.measure.compare.nearest_loop",
     "sim.measure.compare.stretch_loop",
     "sim.measure.curve_rows",

@@ -1,21 +1,29 @@
-"""A run: a program, or what a card was told, through card and table, and all that came of it."""
+"""A run: a program, or what a card was told, through card and table, and all that came of it.
+
+Passes over each edge of a run, and what each came to.
+"""
 
 from collections.abc import Callable
 from typing import NamedTuple
 
+import numpy as np
+
 from controller.card.log.writer import CardLog
 from controller.motion.limits import Feeds
+from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
 from parser.dialect.reader import in_codes
 from parser.drawing.model import Drawing
 from parser.findings.findings import Finding, file_order
+from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
+from parser.shape.passes import Passes, find_passes
 from sim.cut.obstacles.findings import missed_work_findings, obstacle_findings
 from sim.cut.wire_lag import bowed
 from sim.measure.deviation.measured import Meters
+from sim.measure.passes.figures import PassFigures, figures_of_passes, wire_taken
 from sim.run.dryrun import DryRun, PulseSink
-from sim.run.edge_passes import passes_of
 from sim.run.ending import Ending, motion_to_end, trip_of
 from sim.run.left import drawing_of, left_of
 from sim.run.prepare import Prepared, prepare
@@ -24,6 +32,21 @@ from sim.table.findings import loss_findings
 from sim.table.motion import Motion, Moved, Source, of_host, simulate
 from sim.table.progress import Progress, silent
 from sim.table.trace import Trace
+
+
+def passes_of(
+    ready: Prepared, scenario: Scenario, plan: Plan, cut: Trace, ended: Ending | None
+) -> tuple[Passes, tuple[PassFigures, ...], Floats]:
+    """Passes over each edge, what they came to, and planned times (n + 1,) s: of each block's start, and the last end.
+
+    `cut` is the trace as far as the machine ran, until where it `ended`.
+    """
+    toolpath = ready.program.toolpath
+    passes = find_passes(toolpath) if ready.offset is None else ready.offset.edge_passes
+    border_s = plan.border_s(ready.steps.along_um)
+    time_s = np.diff(np.minimum(border_s, ended.t_s if ended else plan.duration_s))
+    way = wire_taken(toolpath, plan, cut)
+    return passes, figures_of_passes(toolpath, passes, time_s, way, scenario.wire.reach_um), border_s
 
 
 class Along(NamedTuple):

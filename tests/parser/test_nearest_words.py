@@ -10,8 +10,8 @@ from parser.told.step_words import Axis
 from parser.words.chained import Chained, chained_words
 from parser.words.moves import moves
 from parser.words.nearest.looked_at import radii_counted
+from parser.words.nearest.near_blocks import steps_off_um
 from parser.words.nearest.nearest import nearest_words
-from parser.words.nearest.stepped import steps_off_um
 from parser.words.telling import words_of_told_arcs
 
 _ASIDE_UM, _AHEAD_UM, _LINE_UM, _CLOSED_UM = 1.0, 2.25, 1.1, 0.5

@@ -1,4 +1,7 @@
-"""DXF entities to forms, each in the coordinates that its file gives it in."""
+"""DXF entities to forms, each in the coordinates that its file gives it in.
+
+The numbers of a SPLINE, looked at before a curve is made of them: what is wrong with one is said.
+"""
 
 import math
 from collections.abc import Callable, Mapping
@@ -8,10 +11,12 @@ import numpy as np
 from ezdxf.entities.dxfentity import DXFEntity
 from ezdxf.entities.lwpolyline import LWPolyline
 from ezdxf.entities.polyline import Polyline
+from ezdxf.entities.spline import Spline as DXFSpline
 from ezdxf.math import Vec3
 
 from parser.drawing.dxf.forms import (
     ReadEntity,
+    Spline,
     circle_form,
     ellipse_form,
     line_forms,
@@ -19,8 +24,41 @@ from parser.drawing.dxf.forms import (
     polyline_forms,
     wrong,
 )
-from parser.drawing.dxf.splines import spline_of
 from parser.geometry.curves import Floats
+
+_FEWEST_FIT = 2
+
+
+def spline_of(entity: DXFEntity) -> Spline:
+    """The B-spline of a SPLINE, by control points or through fit points. WrongNumbersError where it has none."""
+    drawn = cast("DXFSpline", entity)
+    _refuse_wrong(drawn)
+    tool = drawn.construction_tool()
+    control = np.array([tuple(point) for point in tool.control_points])
+    weight = np.array(tool.weights() or np.ones(len(control)), dtype=np.float64)
+    return Spline(control, weight, np.array(tool.knots(), dtype=np.float64), tool.order - 1)
+
+
+def _refuse_wrong(drawn: DXFSpline) -> None:
+    """A B-spline of degree p has as many weights as points, and p + 1 knots more, none below the one before."""
+    points, degree, knots, weights = len(drawn.control_points), drawn.dxf.degree, drawn.knots, drawn.weights
+    if not points:
+        if len(drawn.fit_points) < _FEWEST_FIT:
+            raise wrong(drawn, "spline-without-points")
+        return
+    if degree < 1:
+        raise wrong(drawn, "spline-degree", degree=degree)
+    if points <= degree:
+        raise wrong(drawn, "spline-points", points=points, degree=degree, expected=degree + 1)
+    expected = points + degree + 1
+    if len(knots) not in (0, expected):
+        raise wrong(drawn, "spline-knots", knots=len(knots), points=points, degree=degree, expected=expected)
+    if len(weights) not in (0, points):
+        raise wrong(drawn, "spline-weights", weights=len(weights), points=points)
+    falls = np.flatnonzero(np.diff(np.array(knots)) < 0.0)
+    if len(falls):
+        raise wrong(drawn, "spline-knots-fall", number=int(falls[0]) + 2, knots=len(knots))
+
 
 _FRAME = 16  # flag of a vertex that is a control point of a fitted spline, and not on the polyline
 

@@ -1,16 +1,38 @@
-"""Rows of the toolpath: lines, arcs and jumps of the blocks that move, and where each is written."""
+"""Rows of the toolpath: lines, arcs and jumps of the blocks that move, and where each is written.
 
+Where words stand in the text of a block that findings of the path point at.
+"""
+
+import re
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
 from parser.iso.path.arcs import ROUNDING, Arcs, arcs_about, arcs_of_radius
-from parser.iso.path.fields import fields_of
 from parser.iso.path.given import Given
 from parser.iso.path.modes import Modes
 from parser.iso.path.places import Coordinates, Places, exact
-from parser.text.source import Source
+from parser.text.source import Field, Source, Span
+
+_REMARK = re.compile(r"\([^)]*\)?|;.*", re.DOTALL)
+_NUMBER = r"\s*[-+]?[\d.]+"
+_WORDS: Mapping[Field, re.Pattern[str]] = {
+    Field.X: re.compile(f"X{_NUMBER}", re.IGNORECASE),
+    Field.Y: re.compile(f"Y{_NUMBER}", re.IGNORECASE),
+    Field.SENSE: re.compile(r"G\s*0*[23](?![\d.])", re.IGNORECASE),
+    Field.SIDE: re.compile(r"G\s*0*4[012](?![\d.])", re.IGNORECASE),
+    Field.REGISTER: re.compile(r"[DH]\s*\d+", re.IGNORECASE),
+}
+
+
+def fields_of(block: str) -> dict[Field, Span]:
+    """Where the words of a block stand that say one of these; those that are written, outside of remarks."""
+    bare = _REMARK.sub(lambda remark: " " * len(remark[0]), block)
+    found = {field: word.search(bare) for field, word in _WORDS.items()}
+    return {field: match.span() for field, match in found.items() if match}
+
 
 _CLOCKWISE = 2
 

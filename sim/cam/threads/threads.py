@@ -1,4 +1,7 @@
-"""Thread points: those that are asked for, those that are marked in the drawing, and others chosen in the waste."""
+"""Thread points: those that are asked for, those that are marked in the drawing, and others chosen in the waste.
+
+Thread points that stand in the drawing: points and circles on the layer of thread points, points in holes.
+"""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -16,8 +19,36 @@ from sim.cam.order.nested import around
 from sim.cam.threads.chosen import Wanted, before_corners, begun_on, chosen
 from sim.cam.threads.entries import nearest_of
 from sim.cam.threads.given import Taken, across, at_corners, matched, on_contour, refused, waste_of
-from sim.cam.threads.marks import marks_of_layer, points_of
 from sim.setup.making import Making
+
+_SAME_UM = 1.0
+
+
+def marks_of_layer(drawing: Drawing, layer: str) -> Floats:
+    """Places (m, 2) of points, and centres of circles, on a layer, each once.
+
+    CannotCutError, ``no-marks``, where there is none.
+    """
+    asked = layer.casefold()
+    found = [mark.place_um for mark in drawing.marks if mark.layer.casefold() == asked]
+    on_layer = [at for at, one in enumerate(drawing.entities) if one.layer.casefold() == asked and one.kind == "CIRCLE"]
+    row = np.isin(drawing.entity, np.array(on_layer, dtype=np.int64)) & drawing.curves.is_arc
+    place = _each_once(np.concatenate([np.array(found).reshape(-1, 2), drawing.curves.center_um[row]]))
+    if not len(place):
+        raise CannotCutError(Refusal("no-marks", (), (("layer", layer),)))
+    return place
+
+
+def points_of(drawing: Drawing) -> Floats:
+    """Places (m, 2) of the points of a drawing, each once."""
+    return _each_once(np.array([mark.place_um for mark in drawing.marks if not mark.radius_um]).reshape(-1, 2))
+
+
+def _each_once(place: Floats) -> Floats:
+    """Places (m, 2) in whole µm, those that are one but once."""
+    once: Floats = np.unique(np.round(place / _SAME_UM) * _SAME_UM + 0.0, axis=0)
+    return once
+
 
 _ROUND = ("arc", "tangent")
 _SPARE_UM = 3.0  # more than places move from one side to the other as they become whole µm

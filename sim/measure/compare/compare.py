@@ -1,25 +1,134 @@
-"""Lay a drawing on a cut edge, measure both ways, and name what is wrong as a whole."""
+"""Lay a drawing on a cut edge, measure both ways, and name what is wrong as a whole.
+
+Slips of units: a program is too large or too small, by the ratio of two units, such as inch and millimetre.
+
+On which side of a curve the part lies, of the edge and of the drawing beside it.
+"""
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
-from parser.drawing.model import Drawing
+from parser.drawing.model import Drawing, running
 from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark
-from parser.geometry.curves import Curves
+from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.directions import headings, headings_at
+from parser.geometry.feet import feet
 from parser.text.encoding import printable
 from parser.toolpath import Point
 from sim.measure.compare.consensus import settled
-from sim.measure.compare.directed import directed
+from sim.measure.compare.directed import Directed, directed
 from sim.measure.compare.edge import Edge
-from sim.measure.compare.fit import fit
-from sim.measure.compare.nearest import indexed
-from sim.measure.compare.placement import IN_PLACE, Placement, placed, turning
+from sim.measure.compare.fit import Fit, fit
+from sim.measure.compare.nearest import Index, indexed, nearest
+from sim.measure.compare.placement import IN_PLACE, Placement, placed, scaled, turning
 from sim.measure.compare.result import Asked, Comparison
-from sim.measure.compare.sides import drawing_sides, edge_sides, part_sides
-from sim.measure.compare.slips import unit_slip
+from sim.measure.compare.spread import spread
+from sim.measure.compare.starts import CurveGroup, groups
 from sim.measure.compare.unreachable import Reachable, Unreachable, as_drawn, reachable
+
+_PLACES = 400  # of a drawn loop
+_BESIDE = 4.0  # times the wire's reach: how far an edge may lie from the loop that it is of, on its wrong side too
+
+
+def part_sides(edge: Edge, index: Index, drawing: Drawing, placement: Placement) -> Ints:
+    """Side (k,) of the part along each closed loop of the drawing: +1 left, −1 right, 0 where no edge lies beside it.
+
+    The index is that of the edge. Loops are run as the drawing has them, counter-clockwise before they are mirrored.
+    """
+    sides = []
+    for loop in (each for each in drawing.loops if each.closed):
+        ring = placed(running(drawing.curves, loop.row, loop.backwards), placement)
+        at = spread(ring, _PLACES)
+        near = nearest(index, at.place_um)
+        foot = feet(edge.curves, near.row, at.place_um).place_um
+        along = (headings_at(ring, at.row, at.place_um) * headings_at(edge.curves, near.row, foot)).sum(axis=1)
+        told = np.where(
+            near.distance_um <= _BESIDE * edge.reach_um, at.weight_um * along * edge.part_side[near.row], 0.0
+        )
+        sides.append(int(np.sign(told.sum())) * (-1 if placement.mirror else 1))
+    return np.array(sides, dtype=np.int64)
+
+
+def edge_sides(edge: Edge, laid: Curves, there: Directed) -> Floats:
+    """Sides (n,) of the largest distance of each curve of the edge."""
+    row = np.arange(len(edge.curves))
+    foot = feet(laid, there.other, there.where_um).place_um
+    return _sides(headings(edge.curves, row, there.fraction), edge.part_side, there.where_um - foot)
+
+
+def drawing_sides(edge: Edge, back: Directed) -> Floats:
+    """Sides (n,) of the largest distance of each curve of the drawing."""
+    foot = feet(edge.curves, back.other, back.where_um).place_um
+    heading = headings_at(edge.curves, back.other, foot)
+    return _sides(heading, edge.part_side[back.other], foot - back.where_um)
+
+
+def _sides(heading: Floats, part_side: Ints, from_drawing: Floats) -> Floats:
+    """+1 where the edge lies outside of the drawing's part, −1 inside: moved on to the side where the part lies."""
+    to_left = heading[:, 0] * from_drawing[:, 1] - heading[:, 1] * from_drawing[:, 0]
+    return -np.sign(to_left) * part_side
+
+
+_UNITS = {
+    1000.0: ("unit-mm", "unit-um"),
+    25.4: ("unit-inch", "unit-mm"),
+    10.0: ("unit-cm", "unit-mm"),
+    2.54: ("unit-inch", "unit-cm"),
+    100.0: ("unit-m", "unit-cm"),
+    39.37: ("unit-m", "unit-inch"),
+}
+"""Ratios of units in use; 39.37 inches make a metre (1 inch = 25.4 mm, ISO 80000-3)."""
+_ALIKE = 0.01  # of a ratio
+_SAME_SHAPE = 0.01  # of the size: root mean square of the distances once scaled
+
+
+class UnitSlip(NamedTuple):
+    """The program is `scale` times as large as the drawing; two units in that ratio, terms of the catalogue."""
+
+    scale: float
+    larger: str
+    smaller: str
+
+    @property
+    def remark(self) -> Remark:
+        """What is wrong, to be said."""
+        times = f"{self.scale:g}" if self.scale > 1.0 else f"1/{round(1.0 / self.scale, 2):g}"
+        return Remark("unit-slip", {"times": times, "larger": self.larger, "smaller": self.smaller})
+
+
+def unit_slip(
+    edge: Curves, edge_loop: Ints, drawing: Index, drawing_loop: Ints, as_it_is: Fit | None
+) -> UnitSlip | None:
+    """The slip between an edge and a drawing; None where there is none. Their fit as they are is made if not given.
+
+    Sizes are lengths of the longest loops, of all curves where there are no loops. The drawing scaled by the slip must
+    fit the edge, and as it is it must not.
+    """
+    ours, theirs = _size(groups(edge, edge_loop)), _size(groups(drawing.curves, drawing_loop))
+    slip = _known(ours / theirs) if theirs else None
+    if slip is None:
+        return None
+    in_scale = indexed(scaled(drawing.curves, slip.scale))
+    if fit(edge, edge_loop, in_scale, drawing_loop).rms_um > _SAME_SHAPE * ours:
+        return None
+    as_it_is = as_it_is or fit(edge, edge_loop, drawing, drawing_loop)
+    return slip if as_it_is.rms_um > _SAME_SHAPE * ours else None
+
+
+def _size(of: list[CurveGroup]) -> float:
+    return of[min(1, len(of) - 1)].length_um
+
+
+def _known(ratio: float) -> UnitSlip | None:
+    for scale, (larger, smaller) in _UNITS.items():
+        for exact in (scale, 1.0 / scale):
+            if abs(ratio / exact - 1.0) <= _ALIKE:
+                return UnitSlip(exact, larger, smaller)
+    return None
+
 
 _MOST_LAYERS = 8  # named one by one
 

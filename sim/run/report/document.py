@@ -18,9 +18,8 @@ from sim.run.findings import verdict
 from sim.run.report.blocks import block_entries
 from sim.run.report.drawing import comparison_document
 from sim.run.report.figures import deviation_entries, ended_entry, limit_entry, loss_entry, offset_entry
-from sim.run.report.passes import pass_entries
+from sim.run.report.passes import pass_entries, thread_entries
 from sim.run.report.remains import remains_entry
-from sim.run.report.threads import thread_entries
 from sim.setup.scenario import Scenario
 
 SCHEMA = "drycut.report/1"

@@ -1,20 +1,34 @@
-"""The replay's page: all that it needs as plain data, and one file that plays it with nothing to load or install."""
+"""The replay's page: all that it needs as plain data, and one file that plays it with nothing to load or install.
+
+How the blocks of a run are decoded, for the page: words, fields, buffers, ways, in both languages.
+
+What a replay's document says of what lies still: travel, work, clamps, and the pieces that come free.
+"""
 
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import shapely
+
 from parser import __version__
 from parser.program import Program
 from parser.text.encoding import printable
-from sim.run.course import course_of, passes_of
+from sim.cut.pieces.pieces import Piece
+from sim.decode.blocks import Decoded, decoded
+from sim.rounded import rounded
+from sim.run.course import Happening, course_of, passes_of
+from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
+from sim.run.outlines import simpler
 from sim.run.recording import Recording
+from sim.setup.obstacles import Outline
+from sim.show.decoded import buffer_text, order_text, value_text, way_texts, word_text
 from sim.show.draw.tones import tones_of
 from sim.show.html.environment import rendered
 from sim.show.html.packed import packed
 from sim.show.keys import OF_PAGE, actions_of
 from sim.show.replay.block_columns import block_columns, plan_columns
-from sim.show.replay.decoding import decoding
 from sim.show.replay.happenings import (
     contour_entries,
     ending_entry,
@@ -24,10 +38,91 @@ from sim.show.replay.happenings import (
     stop_entry,
 )
 from sim.show.replay.quiz import quiz_of
-from sim.show.replay.scene import piece_entry, scene
 from sim.show.replay.tape import tape
 from sim.show.words.phrases import machine_name
+from sim.table.follow import Setup
 from sim.table.trace import origin_um
+
+_OUTLINE_UM = 1.0
+"""Outlines of pieces are simplified by a step, and drawn in whole µm."""
+
+
+def scene(run: DryRun) -> dict[str, Any]:
+    """Machine, wire, work and clamps; outlines are lists of corners [x, y], µm of the program."""
+    scenario = run.scenario
+    setup = Setup(scenario.machine.table, scenario.start_um, origin_um(run.toolpath))
+    return {
+        "machine": scenario.machine.name,
+        "interpolator": scenario.machine.controller.interpolation,
+        "wire_diameter_um": rounded(scenario.wire.diameter_um),
+        "offset_um": rounded(scenario.wire.reach_um),
+        "thickness_mm": scenario.thickness_mm,
+        "travel_um": np.round(setup.room_um, 6).tolist(),
+        "work_um": None if scenario.work_um is None else _corners(scenario.work_um),
+        "clamps": [{"name": clamp.name, "outline_um": _corners(clamp.outline_um)} for clamp in scenario.clamps],
+    }
+
+
+def piece_entry(happening: Happening[Piece]) -> dict[str, Any]:
+    """A piece that comes free; `outline_um` is its outer ring, `holes_um` are those in it."""
+    piece = happening.what
+    return {
+        "kind": piece.kind,
+        "row": happening.row,
+        "t_s": rounded(happening.t_s),
+        "area_mm2": rounded(piece.area_mm2),
+        "mass_g": rounded(piece.mass_g),
+        "center_um": [rounded(piece.center_um.x), rounded(piece.center_um.y)],
+        "outline_um": _ring(piece.outline_um.exterior),
+        "holes_um": [_ring(hole) for hole in piece.outline_um.interiors],
+    }
+
+
+def _ring(ring: shapely.LinearRing) -> list[list[int]]:
+    """Corners of a closed outline, the first one once."""
+    corners = np.asarray(simpler(ring, _OUTLINE_UM).coords)[:-1, :2]
+    whole: list[list[int]] = np.rint(corners).astype(np.int64).tolist()
+    return whole
+
+
+def _corners(outline: Outline) -> list[list[float]]:
+    return [[rounded(corner.x), rounded(corner.y)] for corner in outline]
+
+
+_MOST = 3000
+"""Blocks: a longer program is not one to learn from, and its page would grow by half."""
+
+
+def decoding(run: DryRun) -> dict[str, Any] | None:
+    """Decoded blocks that run, and which of them each row is of; None where there are none, and of long programs."""
+    program = run.program
+    if program.decoder is None or len(program.toolpath) > _MOST:
+        return None
+    contour = program.toolpath if run.offset is None else run.offset.passed.drawn
+    moving = [one for one in decoded(program, contour) if one.way is not None]
+    of_first = {one.block.span[0]: index for index, one in enumerate(moving)}
+    return {
+        "of_row": [of_first.get(first, -1) for first in program.toolpath.source.span[:, 0].tolist()],
+        "blocks": [_entry(program.text, one) for one in moving],
+    }
+
+
+def _entry(text: str, one: Decoded) -> dict[str, Any]:
+    return {
+        "text": printable(text[slice(*one.block.span)]),
+        "steps": [
+            {
+                "order": order_text(step.order),
+                "word": word_text(step)._asdict(),
+                "field": step.field,
+                "value": value_text(step)._asdict(),
+            }
+            for step in one.block.steps
+        ],
+        "buffer": buffer_text(one.block),
+        "ways": [{"name": named.name._asdict(), "text": named.text._asdict()} for named in way_texts(one)],
+    }
+
 
 SCHEMA = "drycut.replay/1"
 

@@ -1,16 +1,23 @@
-"""The whole page of a run."""
+"""The whole page of a run.
 
+What it takes to run the same again: versions, the program's check sum, and the files beside it.
+"""
+
+import hashlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from markupsafe import Markup
 
+from parser.text.encoding import encode_text
 from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
 from sim.run.recording import NO_PIECES
 from sim.setup.expectations import Expectation, wanted
-from sim.setup.toml.writer import toml_value
+from sim.setup.machine.machine import Machine, machine_sections
+from sim.setup.scenario import MACHINE_FILE, scenario_sections
+from sim.setup.toml.writer import toml_text, toml_value
 from sim.show.assumptions import taken_for_granted
 from sim.show.draw.paints import DARK, Theme, hexadecimal
 from sim.show.html.environment import rendered
@@ -18,7 +25,6 @@ from sim.show.pictures.inline import Inline
 from sim.show.report_page.cut_tables import corner_table, piece_table, size_tables, worst_table
 from sim.show.report_page.figures import key_figures, time_figures, why
 from sim.show.report_page.findings import explained, inline, shown_findings
-from sim.show.report_page.reproduce import reproduction
 from sim.show.report_page.results import (
     block_table,
     cause_table,
@@ -34,6 +40,51 @@ from sim.show.report_page.sheet import MOST_THREADS, sheet_of, thread_table
 from sim.show.report_page.tables import Column, ReportTable, yes_or_no
 from sim.show.words import said
 from sim.show.words.phrases import machine_name
+from sim.workers.makers import Maker, versions
+
+
+class Reproduction(NamedTuple):
+    """How to run the same again.
+
+    Attributes
+    ----------
+    command
+        The command line, for a folder that holds the program and the files.
+    program, sha256
+        Name of the program, and the check sum of its bytes.
+    files
+        Name and content of the files beside the program.
+    versions
+        Of drycut, Python and the packages.
+    """
+
+    command: str
+    program: str
+    sha256: str
+    files: tuple[tuple[str, str], ...]
+    versions: Maker
+
+
+def reproduction(run: DryRun) -> Reproduction:
+    """What makes the same run again."""
+    data = encode_text(run.program.text, run.program.encoding)
+    scenario = run.scenario
+    return Reproduction(
+        command="drycut run . -o out" + _engine(scenario.machine),
+        program=run.program.name,
+        sha256=hashlib.sha256(data).hexdigest(),
+        files=(
+            ("scenario.toml", toml_text(scenario_sections(scenario))),
+            (MACHINE_FILE, toml_text(machine_sections(scenario.machine))),
+        ),
+        versions=versions(),
+    )
+
+
+def _engine(machine: Machine) -> str:
+    """The option of another engine than the usual one, which no file asks for."""
+    return "" if machine.engine == Machine._field_defaults["engine"] else f" --engine {machine.engine}"
+
 
 _ASSETS: Final = Path(__file__).with_name("assets")
 

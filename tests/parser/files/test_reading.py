@@ -26,7 +26,7 @@ SHIPPED = {
 }
 """Modules that read files which drycut brings along, or its own documents."""
 OWN = {
-    *("sim/files/moves.py", "sim/files/replaced.py", "sim/files/steps.py", "sim/run/recording.py"),
+    *("sim/files/swap.py", "sim/files/replaced.py", "sim/files/steps.py", "sim/run/recording.py"),
     *("sim/jobs/kept.py", "sim/jobs/one.py", "sim/jobs/trace_file.py"),
     "sim/show/terminal/streams.py",  # reopens closed streams on nothing
     *("sim/cli/lsp.py", "sim/open/child.py"),  # hand a protocol, or a process of ours, its streams

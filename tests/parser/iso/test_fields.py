@@ -2,7 +2,7 @@
 
 import pytest
 
-from parser.iso.path.fields import fields_of
+from parser.iso.path.rows import fields_of
 from parser.text.source import Field
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from sim.measure.compare.coarser import coarser
+from sim.measure.compare.as_cut import coarser
 
 
 @pytest.mark.parametrize("seed", range(8))

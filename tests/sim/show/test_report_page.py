@@ -28,7 +28,7 @@ from sim.setup.scenario import MACHINE_FILE, Scenario, load_scenario, scenario_s
 from sim.setup.toml.writer import toml_text, toml_value
 from sim.show.report_page.figures import why
 from sim.show.report_page.findings import MOST, prose
-from sim.show.report_page.reproduce import reproduction
+from sim.show.report_page.page import reproduction
 from sim.show.report_page.results import block_table
 from sim.show.report_page.settings import setting_groups
 from sim.show.report_page.tables import micrometres, reached

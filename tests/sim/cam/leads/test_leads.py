@@ -7,8 +7,7 @@ from parser.geometry.along import places
 from parser.geometry.curves import Curves, curves_between
 from parser.geometry.directions import directions
 from parser.toolpath import Point
-from sim.cam.leads.forms import lead_of
-from sim.cam.leads.leads import lead_in, lead_out
+from sim.cam.leads.leads import lead_in, lead_of, lead_out
 from sim.cam.leads.room import are_free, balls_um, nearest, room_of
 from sim.cam.model import Entry, Figure, Thread
 from sim.setup.making import LeadIn

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from parser.geometry.curves import Floats, Ints
-from sim.cam.order.nearest import from_nearest_to_nearest, neighbours
-from sim.cam.order.route import route, travel_um
+from sim.cam.order.order import from_nearest_to_nearest, neighbours, route, travel_um
 from sim.cam.order.shorter import shortened
 
 SEEDS = range(40)
