@@ -6,7 +6,7 @@ from places import ROOT
 
 from parser import units
 from parser.drawing.dxf import blocks, document
-from parser.drawing.plane import flat, splines
+from parser.drawing.plane import flat, splined
 from parser.files import reading
 from parser.threeb import reader
 from sim.check import too_large
@@ -30,7 +30,7 @@ VALUES = {
     "entities once blocks are inserted": document.MOST_ENTITIES,
     "blocks within blocks": blocks.MOST_NESTED,
     "lines and arcs, with those of ellipses and splines": flat.MOST_CURVES,
-    "places on one spline": splines.MOST_PLACES,
+    "places on one spline": splined.MOST_PLACES,
     "coordinates, and how far an arc bulges, km": round(flat.FARTHEST_UM / 1e9),
     "closed contours of a program held against a drawing by `drycut compare`": rings.MOST_CONTOURS,
     "passes over these contours": rings.MOST_PASSES,

@@ -12,7 +12,7 @@ from parser.drawing.dxf import document
 from parser.drawing.dxf.blocks import MOST_NESTED
 from parser.drawing.dxf.forms import Spline
 from parser.drawing.plane import flat
-from parser.drawing.plane.splines import places_at
+from parser.drawing.plane.splined import places_at
 from parser.drawing.read import read_drawing
 from parser.findings.errors import DrawingError
 from parser.findings.remarks import remark_text

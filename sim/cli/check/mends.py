@@ -1,19 +1,108 @@
-"""``--fix`` and ``--diff``: what is certain, mended in all files of a run, or shown."""
+"""``--fix`` and ``--diff``: what is certain, mended in all files of a run, or shown.
+
+Certain mends written into a program file: nothing else in it changes.
+"""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import NamedTuple
 
+from parser.files.reading import read_bytes
 from parser.findings.catalogue import Language
 from parser.findings.errors import FileUnreadableError, ProgramError
+from parser.findings.findings import Finding
+from parser.program import Program, load_program
+from parser.text.encoding import printable
+from parser.text.excerpt import place
 from sim.check.batch import Job
-from sim.cli.check.fixing import Mended, fix_file, left, mended
+from sim.check.fixes import Choice, choices
+from sim.check.mended import mended_text
+from sim.check.settings import CheckSettings
+from sim.cli.check.patches import for_people, for_tools
 from sim.cli.scenario_options import describe
-from sim.files import staged
+from sim.files import replace_file, staged
 from sim.show.terminal.printer import say, write, write_exactly
 from sim.show.terminal.streams import outlet
-from sim.show.terminal.wrap import width_of
+from sim.show.terminal.wrap import width_of, wrapped
 from sim.show.words import Words
+
+
+class Unmended(NamedTuple):
+    """A finding with several possible mends, none of which was made; as they would stand in the program."""
+
+    finding: Finding
+    choices: tuple[Choice, ...]
+
+
+class Mended(NamedTuple):
+    """A program with all that is certain mended, as text and as content; and what is left for a person to decide."""
+
+    program: Program
+    before: bytes
+    text: str
+    after: bytes
+    unmended: tuple[Unmended, ...]
+
+    @property
+    def changed(self) -> bool:
+        """Whether anything was mended."""
+        return self.text != self.program.text
+
+    @property
+    def diff(self) -> str:
+        """What was mended, for people; empty where nothing was."""
+        return for_people(self.program.name, self.program.text, self.text)
+
+    @property
+    def patch(self) -> bytes:
+        """What was mended, for ``patch`` and ``git apply``; empty where nothing was."""
+        return for_tools(self.program.name, self.before, self.after)
+
+
+def mended(path: Path, name: str, settings: CheckSettings, known: frozenset[str] = frozenset()) -> Mended:
+    """Mend what is certain, keeping encoding, line ends and all else; nothing where a mend would bring a new error.
+
+    What settings, remarks or the baseline, of which the fingerprints are `known`, silence is not mended. Raises
+    ProgramError or FileUnreadableError for a file that cannot be read.
+    """
+    before = read_bytes(path)
+    program = load_program(before, name, settings.choices)
+    mend = mended_text(program, settings, known)
+    possible = ((finding, choices(program, finding, mend.findings)) for finding in mend.shown)
+    unmended = tuple(Unmended(finding, ways) for finding, ways in possible if len(ways) > 1)
+    after = mend.data if mend.text != program.text else before
+    return Mended(program, before, mend.text, after, unmended)
+
+
+def fix_file(path: Path, name: str, settings: CheckSettings, known: frozenset[str] = frozenset()) -> Mended | None:
+    """Write into the file what `mended` makes of it. None for a file that cannot be read, which stays as it is.
+
+    Raises FileUnreadableError where the file cannot be written; then it is as it was.
+    """
+    try:
+        mend = mended(path, name, settings, known)
+    except (ProgramError, FileUnreadableError):
+        return None
+    if mend.changed:
+        replace_file(path, mend.before, mend.after)
+    return mend
+
+
+def left(mend: Mended, language: Language, width: int) -> str:
+    """What was not mended, as there is more than one way to do it; for people, the mends in lines of `width` cells."""
+    return "".join(f"{line}\n" for unmended in mend.unmended for line in _left(mend.program, unmended, language, width))
+
+
+def _left(program: Program, unmended: Unmended, language: Language, width: int) -> list[str]:
+    say, finding, names = Words(language), unmended.finding, program.toolpath.source.names
+    where = place(printable(program.name), finding.line, finding.column)
+    choices = (say("findings.choice", block=names(choice.block), text=choice.text) for choice in unmended.choices)
+    return [
+        say("findings.left", place=where, code=finding.code),
+        *wrapped(say("findings.or").join(choices), width, head="    "),
+    ]
+
 
 _Put = Callable[[Mended], object]
 

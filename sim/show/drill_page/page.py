@@ -1,16 +1,98 @@
-"""The two pages of a set of fault drills, each a file that needs no other."""
+"""The two pages of a set of fault drills, each a file that needs no other.
+
+A drill as its pages show it: texts in both languages, lines of the program, picture.
+"""
 
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
+
+from parser.findings.catalogue import LANGUAGES, Said, length, texts
+from parser.findings.codes import Severity
+from parser.findings.findings import Finding
 from parser.program import Program
 from parser.text.encoding import printable
-from sim.drill.drills import Drill
+from parser.toolpath import Toolpath
+from parser.units import mm
+from sim.drill.drills import Drill, lines_of
 from sim.drill.kinds import groups_of
-from sim.show.drill_page.picture import HEIGHT, WIDTH
-from sim.show.drill_page.view import places_of, view_of
+from sim.show.drill_page.picture import HEIGHT, WIDTH, picture_of
 from sim.show.html.environment import rendered
+from sim.show.words import said
+
+_MOST_FINDINGS: Final = 4
+"""That an answer cites: a fault near the beginning may have dozens."""
+
+
+def view_of(drill: Drill, sound: Program) -> dict[str, Any]:
+    """What a page shows of a drill."""
+    gravest = sorted(drill.findings, key=lambda found: _rank(drill, found))
+    return {
+        "level": drill.level,
+        "group": drill.group,
+        "lines": drill.lines,
+        "listed": list(enumerate(map(printable, lines_of(drill.program)), 1)),
+        "kind": said(f"drill.kind-{drill.kind}"),
+        "was": [printable(line) for line in drill.was],
+        "stands": [printable(line) for line in drill.stands],
+        "does": _does(drill),
+        "findings": [_told(found) for found in gravest[:_MOST_FINDINGS]],
+        "picture": picture_of(sound.toolpath, drill.program.toolpath, drill.lines),
+    }
+
+
+def places_of(path: Toolpath) -> list[dict[str, Any]]:
+    """Where the blocks of a drawing end, and how they go there: what people need to work a fault out."""
+    return [
+        {
+            "name": printable(path.source.names.of_row(row)),
+            "form": _form(path, row),
+            "centre": _pair(path.center_um[row]) if path.is_arc[row] else "",
+            "end": _pair(path.end_um[row]),
+        }
+        for row in range(len(path))
+    ]
+
+
+def _form(path: Toolpath, row: int) -> Said:
+    if path.is_arc[row]:
+        turn = "counter_clockwise" if path.sweep_rad[row] > 0.0 else "clockwise"
+        return said(f"drill.{turn}", radius=_mm(float(path.radius_um[row])))
+    return said("drill.jump" if path.is_jump[row] else "drill.line")
+
+
+def _pair(place: "np.ndarray[tuple[int], np.dtype[np.float64]]") -> str:
+    return ", ".join(_mm(float(value)) for value in place)
+
+
+def _mm(um: float) -> str:
+    return f"{round(mm(um), 3) + 0.0:.3f}"
+
+
+def _does(drill: Drill) -> Said:
+    if drill.by.is_cut_otherwise:
+        return said("drill.cuts-otherwise")
+    if drill.by.is_there:
+        return said("drill.leaves", far=length(drill.by.most_um))
+    return said("drill.path-stays")
+
+
+def _rank(drill: Drill, found: Finding) -> tuple[bool, int]:
+    """Findings in the lines of the fault come first, and the graver of them."""
+    return found.line not in drill.lines, list(Severity).index(found.severity)
+
+
+def _told(found: Finding) -> dict[str, Any]:
+    said_of = {language: texts(found, language) for language in LANGUAGES}
+    return {
+        "code": found.code,
+        "line": found.line,
+        "severity": found.severity.value,
+        "message": Said(*(said_of[language].message for language in LANGUAGES)),
+    }
+
 
 _ASSETS: Final = Path(__file__).with_name("assets")
 

@@ -1,6 +1,12 @@
-"""A frame of a film or of the window: the plot at a moment, with read-outs beside it and the strip below."""
+"""A frame of a film or of the window: the plot at a moment, with read-outs beside it and the strip below.
 
-from typing import NamedTuple
+What the marks of a frame mean, below its read-outs.
+
+The read-outs as pixels: a line is drawn anew only when its text has changed.
+"""
+
+from collections.abc import Sequence
+from typing import Final, NamedTuple
 
 import numpy as np
 from PIL import Image
@@ -9,21 +15,155 @@ from parser.findings.catalogue import Language
 from parser.geometry.curves import Floats
 from sim.run.course import Course, Moment
 from sim.show.draw import style
+from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import bounds_um
 from sim.show.draw.furniture import elide
 from sim.show.draw.layout import Box, View, fitted
-from sim.show.draw.paints import THEMES, Paint, ThemeName
+from sim.show.draw.legend import Entry, LegendSizes, across, draw_legend, in_columns, middle, stroke
+from sim.show.draw.paints import THEMES, Paint, Theme, ThemeName
+from sim.show.draw.tones import TONES
 from sim.show.film.ground import PieceDrawn, outlines_um
-from sim.show.film.layout import layout_for
-from sim.show.film.legend import draw_film_legend, film_entries
+from sim.show.film.layout import Layout, layout_for
 from sim.show.film.marks import draw_commanded, draw_wire, reach
-from sim.show.film.panel import ReadoutPanel
 from sim.show.film.plate import Pixels, Plate, plate_over
-from sim.show.film.readout import read_out
+from sim.show.film.readout import Line, read_out
 from sim.show.film.scene import Scene, fate
 from sim.show.film.strip import bar_of, draw_strip, x_px
 from sim.show.pictures.cut.outlines import Bodies
 from sim.show.words import Words
+
+ROW: Final = 41.0
+FIRST_CJK: Final = 0x2E80
+LEADING: Final = 1.3
+GAP: Final = 40.0
+"""Between the two columns of read-outs below a plot."""
+
+
+class ReadoutPanel:
+    """The lines of a frame, in one column beside the plot or in two below it."""
+
+    def __init__(self, layout: Layout, theme: Theme, lines: int) -> None:
+        self._unit = layout.unit
+        self._boxes = _boxes(layout, lines)
+        self._shown: list[Line | None] = [None] * lines
+        self._plates = [Plate(round(box.right - box.left), round(box.bottom - box.top), theme) for box in self._boxes]
+
+    def show(self, lines: Sequence[Line], frame: Pixels) -> None:
+        """Draw lines into a frame that holds those of the last time."""
+        for at, line in enumerate(lines):
+            if line != self._shown[at]:
+                left, top, right, bottom = (round(side) for side in self._boxes[at])
+                plate = self._plates[at]
+                plate.clear()
+                _draw_line(plate, line, self._unit)
+                frame[top:bottom, left:right] = plate.pixels()
+                self._shown[at] = line
+
+    @property
+    def foot(self) -> float:
+        """Where the lowest line ends, px."""
+        return max(box.bottom for box in self._boxes)
+
+
+def _boxes(layout: Layout, lines: int) -> list[Box]:
+    """Boxes of the lines; below a plot the first two and the last take the whole width."""
+    panel, row = layout.panel, ROW * layout.unit
+    if layout.beside:
+        boxes = [_row(panel, number, row) for number in range(lines)]
+        return [*boxes[:-1], boxes[-1]._replace(bottom=boxes[-1].bottom + round(row))]
+    row = (panel.bottom - panel.top) / ((lines - 2) // 2 + 3)
+    middle, gap = (panel.left + panel.right) / 2, GAP * layout.unit / 2
+    left, right = panel._replace(right=middle - gap), panel._replace(left=middle + gap)
+    pairs = [_row((left, right)[number % 2], 2 + number // 2, row) for number in range(lines - 3)]
+    last = 2 + (lines - 2) // 2
+    return [_row(panel, 0, row), _row(panel, 1, row), *pairs, _row(panel, last, row)]
+
+
+def _row(column: Box, number: int, row: float) -> Box:
+    return Box(column.left, column.top + round(number * row), column.right, column.top + round((number + 1) * row))
+
+
+def _draw_line(canvas: Canvas, line: Line, unit: float) -> None:
+    row = min(ROW * unit, float(canvas.height_px))
+    middle, size = row / 2, min(style.TEXT * unit, 0.72 * row)
+    if not line.name:
+        texts = _wrapped(canvas, line.value, size) if canvas.height_px > 1.5 * row else (line.value,)
+        for number, text in enumerate(texts):
+            place = (0.0, middle + number * size * LEADING)
+            canvas.text(place, elide(canvas, text, size, canvas.width_px), size, line.paint)
+        return
+    canvas.text((0.0, middle), line.name, size, Paint.GREY)
+    canvas.text((canvas.width_px, middle), line.value, size, line.paint, align=1.0)
+
+
+def _wrapped(canvas: Canvas, text: str, size: float) -> tuple[str, ...]:
+    """The text as one line where it fits, else as two, broken at a space or between Chinese characters."""
+    if canvas.text_width(text, size) <= canvas.width_px:
+        return (text,)
+    breaks = [at for at in range(1, len(text)) if text[at - 1] == " " or ord(text[at - 1]) >= FIRST_CJK]
+    fitting = [at for at in breaks if canvas.text_width(text[:at], size) <= canvas.width_px]
+    return (text[: fitting[-1]].rstrip(), text[fitting[-1] :]) if fitting else (text,)
+
+
+SIZES: Final = LegendSizes(row=38.0, sample=44.0, text=0.9 * style.TEXT)
+
+
+def draw_film_legend(canvas: Canvas, box: Box, unit: float, entries: list[Entry]) -> None:
+    """Write a legend at the foot of a box; nothing where it does not fit."""
+    legend = in_columns(entries, 1, box.right - box.left, unit, SIZES)
+    top = box.bottom - legend.height
+    if top >= box.top:
+        draw_legend(canvas, legend, box.left, top)
+
+
+def film_entries(say: Words, passes: int, *, wider: bool, pieces: bool) -> list[Entry]:
+    """What a frame shows: the kerf, `wider` than it is where it would not show, and maybe `pieces` that come free.
+
+    `passes` is how many there are over one edge at most.
+    """
+    return [
+        Entry(_wire, say("film.wire")),
+        Entry(_commanded, say("film.commanded")),
+        _kerf(say, passes, wider=wider),
+        Entry(stroke(Paint.GREY, style.IDEAL_WIDTH), say("film.ideal")),
+        *([Entry(_piece, say("film.free_piece"))] if pieces else []),
+    ]
+
+
+def _kerf(say: Words, passes: int, *, wider: bool) -> Entry:
+    """The kerf, one stroke a tone; the tones of passes are explained by their order."""
+    width = 2.0 * style.KERF_WIDTH_MIN
+    if passes == 1:
+        return Entry(stroke(Paint.KERF, width), say("film.kerf_wider" if wider else "film.kerf"))
+    text = say("film.kerf_passes_wider" if wider else "film.kerf_passes", last=passes)
+
+    def draw(canvas: Canvas, box: Box, unit: float) -> None:
+        paints = TONES[:passes]
+        own = (box.right - box.left) / len(paints)
+        for at, paint in enumerate(paints):
+            part = box._replace(left=box.left + at * own, right=box.left + (at + 1) * own)
+            canvas.polyline(across(part), paint, width * unit)
+
+    return Entry(draw, text)
+
+
+def _wire(canvas: Canvas, box: Box, unit: float) -> None:
+    draw_wire(canvas, middle(box), 0.0, unit)
+
+
+def _commanded(canvas: Canvas, box: Box, unit: float) -> None:
+    draw_commanded(canvas, middle(box), 0.8 * unit)
+
+
+def _piece(canvas: Canvas, box: Box, unit: float) -> None:
+    """Two squares: the piece, and the hole that it leaves."""
+    half = 0.25 * SIZES.row * unit
+    square = half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    for side, paint in ((-1.2, Paint.SLUG), (1.2, Paint.PAGE)):
+        corners = middle(box) + square + np.array([side * half, 0.0])
+        canvas.polygon(corners, paint)
+        canvas.polyline(np.concatenate([corners, corners[:1]]), Paint.SLUG_EDGE, style.GRID_WIDTH * unit)
+
 
 LEAST_UM = 100.0
 """Narrowest path that fills the plot."""

@@ -9,8 +9,7 @@ from ezdxf.layouts import Modelspace
 
 from parser.drawing.read import read_drawing
 from parser.write.draft import draft_of
-from sim.cam.fits import fits_um
-from sim.cam.maker import Made, unproved
+from sim.cam.maker import Made, fits_um, unproved
 from sim.cam.proof.proof import Given, proved
 from sim.convert.wanted import Wanted
 from sim.setup.machine.machine import load_machine

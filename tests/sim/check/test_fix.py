@@ -175,7 +175,7 @@ def test_files_behind_one_that_cannot_be_written_are_mended(tmp_path: Path, monk
             raise FileUnreadableError(f"{path}: cannot be written")
         replace_file(path, before, after)
 
-    monkeypatch.setattr("sim.cli.check.fixing.replace_file", refused)
+    monkeypatch.setattr("sim.cli.check.mends.replace_file", refused)
     done = CliRunner().invoke(check, [str(tmp_path), "--fix"])
     assert done.exit_code == 2
     assert "a.3b: cannot be written" in done.output

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from sim.check.settings import CheckSettings
-from sim.cli.check.fixing import fix_file
+from sim.cli.check.mends import fix_file
 
 CIRCLE = "N2: B9900B0B39600GYNR1;9.900,0.000\nDD\n"
 

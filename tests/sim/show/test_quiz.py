@@ -31,8 +31,7 @@ from sim.setup.quiz import About, Question, WrittenQuestion, read_quiz, refuse_u
 from sim.setup.scenario import load_scenario
 from sim.show.replay.answers import written_out
 from sim.show.replay.asked_block import AskedBlock, in_mm
-from sim.show.replay.questions import question_entries
-from sim.show.replay.quiz import IN_A_SET, SETS, quiz_of, sets_of
+from sim.show.replay.quiz import IN_A_SET, SETS, question_entries, quiz_of, sets_of
 
 KINDS: tuple[About, ...] = get_args(About)
 SET_17 = [3, 7, 8, 11, 16, 18, 21, 25, 29, 30]

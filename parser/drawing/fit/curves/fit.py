@@ -1,17 +1,183 @@
-"""Pieces of curves to as few arcs as lie within a tolerance of them, proved: `arcs_of_pieces`, the one way in."""
+"""Pieces of curves to as few arcs as lie within a tolerance of them, proved: `arcs_of_pieces`, the one way in.
+
+Runs along strings: whole strings, the long ones cut, so that all runs together take few steps.
+
+As few arcs as can be along strings, each as full as the others: the best start, and the least tolerance for it.
+"""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from parser.drawing.fit.curves.bounds import are_within, off_at_most
-from parser.drawing.fit.curves.chunks import runs_of
-from parser.drawing.fit.curves.even import best_starts, even_arcs
-from parser.drawing.fit.curves.longest import STEPS, Arcs, Runs, joined_arcs
+from parser.drawing.fit.curves.longest import STEPS, Arcs, Runs, joined_arcs, longest_arcs
 from parser.drawing.fit.curves.pieces import Pieces, tamed
 from parser.drawing.fit.curves.strings import Strings, places_on, strings_of
-from parser.drawing.fit.fitted import Fitted, no_curves
-from parser.geometry.curves import Curves, Floats, Ints, curves_between
+from parser.drawing.fit.fitted import FLATTEST_UM, Fitted, no_curves
+from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, total_before
+
+_MOST_STARTS = 24
+_STARTS_AT_ONCE = 1_000  # over all closed curves of a drawing: many have few starts each
+_ROUNDS = 3
+_FULL = 0.9  # of the length of an arc
+_TAIL = 4  # arcs
+_LEAST = 1e-3  # of the tolerance: what lies nearer needs no less
+
+
+def best_starts(strings: Strings, runs: Runs, closed: Bools, tolerance_um: Floats) -> Runs:
+    """The runs, those that are closed begun where the arcs are fewest, and of these where the last one is shortest."""
+    at = np.flatnonzero(closed)
+    number = min(_STARTS_AT_ONCE // max(len(at), 1), _MOST_STARTS)
+    if not len(at) or number < 2:
+        return runs
+    of = np.repeat(at, number)
+    length = (runs.high - runs.low)[of]
+    low = runs.low[of] + length * np.tile(np.arange(number) / number, len(at))
+    tried = Runs(low, low + length, runs.first[of], runs.last[of])
+    arcs = longest_arcs(strings, tried, tolerance_um[of])
+    count, last = _counts(arcs, len(of))
+    order = np.lexsort((last / length, count, of))
+    best = order[np.searchsorted(of, at)]
+    low, high = runs.low.copy(), runs.high.copy()
+    low[at], high[at] = tried.low[best], tried.high[best]
+    return runs._replace(low=low, high=high)
+
+
+def even_arcs(strings: Strings, runs: Runs, tolerance_um: Floats, steps: int = STEPS) -> Arcs:
+    """Arcs as few as a tolerance (r,) allows, of about the least tolerance that needs no more of them.
+
+    About vertices a little less may take one arc more: there the last arcs alone share what the very last one lacks.
+    """
+    best = _evened(strings, runs, tolerance_um, longest_arcs(strings, runs, tolerance_um, steps=steps), steps)
+    count, _ = _counts(best, len(runs.low))
+    rows = np.flatnonzero((_filled(best, count) < 1.0) & (count > _TAIL))
+    if not len(rows):
+        return best
+    last = np.cumsum(count)
+    tail = np.isin(best.run, rows) & (last[best.run] - np.arange(len(best.run)) <= _TAIL)
+    own = best.picked(tail)
+    ends = runs.picked(rows)._replace(low=best.start[last[rows] - _TAIL])
+    better = _evened(strings, ends, tolerance_um[rows], own._replace(run=np.searchsorted(rows, own.run)), steps)
+    return joined_arcs([best.picked(~tail), better._replace(run=rows[better.run])])
+
+
+def _evened(strings: Strings, runs: Runs, tolerance_um: Floats, best: Arcs, steps: int) -> Arcs:
+    """Arcs of a lower tolerance, no more of them than the `best` so far.
+
+    The length of an arc goes with the cube root of its tolerance: so all arcs are made shorter by what the last one
+    lacks, and where that was too much, by half of it.
+    """
+    count, _ = _counts(best, len(runs.low))
+    low, high = (count - 1) / np.maximum(count, 1), np.ones(len(count))
+    share = high * _filled(best, count)
+    for _ in range(_ROUNDS):
+        todo = np.flatnonzero(share < high)
+        if not len(todo):
+            break
+        found = longest_arcs(strings, runs.picked(todo), (tolerance_um * share**3)[todo], _of_runs(best, todo), steps)
+        enough = _counts(found, len(todo))[0] <= count[todo]
+        low[todo], high[todo] = np.where(enough, low[todo], share[todo]), np.where(enough, share[todo], high[todo])
+        better = found.picked(enough[found.run])
+        best = _merged(best, better._replace(run=todo[better.run]), np.isin(np.arange(len(count)), todo[enough]))
+        count, _ = _counts(best, len(count))
+        next_share = high * _filled(best, count)
+        share = np.where(next_share < high, np.maximum(next_share, 0.5 * (low + high)), high)
+    return best
+
+
+def _filled(arcs: Arcs, count: Ints) -> Floats:
+    """By what all arcs (r,) are longer than they would be if the last one were as full; 1 where that is little."""
+    last = arcs.spare[np.cumsum(count) - 1]
+    full = np.cbrt(np.clip(1.0 - last, _LEAST, 1.0))
+    return np.where(full < _FULL, (count - 1 + full) / count, 1.0)
+
+
+def _of_runs(arcs: Arcs, which: Ints) -> Arcs:
+    """The arcs of some runs, by their number among these."""
+    some = arcs.picked(np.isin(arcs.run, which))
+    return some._replace(run=np.searchsorted(which, some.run))
+
+
+def _counts(arcs: Arcs, runs: int) -> tuple[Ints, Floats]:
+    """How many arcs each run has, and how long its last one is."""
+    count = np.bincount(arcs.run, minlength=runs)
+    last = np.cumsum(count) - 1
+    return count, (arcs.end - arcs.start)[last]
+
+
+def _merged(arcs: Arcs, better: Arcs, is_better: Bools) -> Arcs:
+    parts = arcs.picked(~is_better[arcs.run]), better.picked(is_better[better.run])
+    return joined_arcs(parts)
+
+
+_MOST_ARCS_A_RUN = 96.0
+_ARCS_A_RUN = 40.0  # of a string that is cut: a cut costs half an arc
+_OF_ARC = 124.7
+"""The length of an arc between nodes on a curve is (124.7 t / κ')^⅓: its deviation is a cubic with three zeros, of
+which the largest value is √3/216 · κ'·L³."""
+_MOST_ARCS = 300_000
+
+
+def runs_of(strings: Strings, tolerance_um: float) -> tuple[Runs, Ints]:
+    """The runs of strings, and the string (r,) of each. ValueError where they need arcs without number."""
+    low, high = (strings.along[at * _steps(strings)] for at in (strings.first, _ends(strings)))
+    needed = total_before(_arcs_needed(strings, tolerance_um))
+    before = needed[strings.first * _steps(strings)]
+    number = needed[_ends(strings) * _steps(strings)] - before
+    if number.sum() > _MOST_ARCS:
+        raise ValueError("arcs without number")
+    parts = np.where(number <= _MOST_ARCS_A_RUN, 1, np.ceil(number / _ARCS_A_RUN)).astype(np.int64)
+    of = np.repeat(np.arange(len(parts)), parts)
+    at = np.arange(len(of)) - (np.cumsum(parts) - parts)[of]
+    start, end = (_at_share(strings, needed, before[of] + number[of] * (at + more) / parts[of]) for more in (0, 1))
+    start, end = np.where(at == 0, low[of], start), np.where(at + 1 == parts[of], high[of], end)
+    return Runs(start, end, strings.first[of], strings.last[of]), of
+
+
+def _steps(strings: Strings) -> int:
+    return (len(strings.along) - 1) // len(strings.control)
+
+
+def _ends(strings: Strings) -> Ints:
+    """The piece before which a string has been run once."""
+    return strings.first + (strings.last - strings.first) // np.where(strings.is_closed, 2, 1)
+
+
+def _at_share(strings: Strings, needed: Floats, wanted: Floats) -> Floats:
+    return np.interp(wanted, needed, strings.along)
+
+
+def _arcs_needed(strings: Strings, tolerance_um: float) -> Floats:
+    """How many arcs each step of the table of lengths takes, near enough.
+
+    ∫ (κ' / 124.7 t)^⅓ ds of arcs; ∫ √(κ / 8t) ds of lines, where arcs would be too flat.
+    """
+    steps = _steps(strings)
+    share = np.tile((np.arange(steps) + 0.5) / steps, len(strings.control))
+    bend = _curvature(strings, np.repeat(np.arange(len(strings.control)), steps), share)
+    step = np.diff(strings.along)
+    change = np.abs(np.diff(bend, append=bend[-1:]))
+    arcs = np.cbrt(change * step**2 / (_OF_ARC * tolerance_um))
+    lines = step * np.sqrt(np.abs(bend) / (8.0 * tolerance_um))
+    needed = np.where(np.abs(bend) * FLATTEST_UM < 1.0, np.minimum(lines, 1e9), arcs)
+    tiny = step / (0.1 * tolerance_um)  # no arc is shorter
+    return np.minimum(np.where(np.isfinite(needed), needed, 0.0), tiny)
+
+
+def _curvature(strings: Strings, piece: Ints, share: Floats) -> Floats:
+    """Curvature (m,) in 1/µm at shares of pieces: (x'y'' − y'x'') / |P'|³, of P = X / w."""
+    value, slope, second = (np.zeros((len(piece), 3)) for _ in range(3))
+    for factors in strings.power[::-1]:
+        second = second * share[:, None] + 2.0 * slope
+        slope = slope * share[:, None] + value
+        value = value * share[:, None] + factors[piece]
+    w, w1, w2 = (part[:, 2:] for part in (value, slope, second))
+    place = value[:, :2] / w
+    one = (slope[:, :2] - w1 * place) / w
+    two = (second[:, :2] - 2.0 * w1 * one - w2 * place) / w
+    bend: Floats = (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]) / np.hypot(one[:, 0], one[:, 1]) ** 3
+    return bend
+
 
 _SEARCHED = 0.997  # of the tolerance: the search looks at places, and the farthest may lie between two
 _STRICTER = ((1.0, STEPS), (1.0, 3 * STEPS), (0.98, 3 * STEPS), (0.9, 6 * STEPS))

@@ -9,8 +9,7 @@ from drawings_dxf import drawn as drawn_file
 
 from parser.drawing.fit.fitted import Fitted
 from parser.drawing.fit.lines import polylines
-from parser.drawing.fit.lines.bulges import best_bulges, off_um
-from parser.drawing.fit.lines.polylines import FEWEST_LINES
+from parser.drawing.fit.lines.polylines import FEWEST_LINES, best_bulges, off_um
 from parser.drawing.fit.loops import loops_with_arcs
 from parser.drawing.model import Drawing, DrawnLoop, Entity, running
 from parser.drawing.read import read_drawing
