@@ -26,19 +26,25 @@ _QUANTITY = re.compile(r"\s*([-+]?\d{1,12}(?:\.\d{0,12})?|[-+]?\.\d{1,12})\s*([a
 
 def parse_length(text: str) -> float:
     """Length such as ``40mm`` or ``0.18 mm`` in µm. SettingsError where it is no number with a unit of length."""
-    return _parsed(text, _LENGTHS_UM, "length", "40mm, 180um or 0.18mm")
+    um = _parsed(text, _LENGTHS_UM)
+    if um is None:
+        raise SettingsError(f"{text!r} is no length; write a number with its unit, such as 40mm, 180um or 0.18mm")
+    return um
 
 
 def parse_speed(text: str) -> float:
     """Speed such as ``500mm/min`` or ``2 mm/s`` in µm/s. SettingsError where it is no number with a unit of speed."""
-    return _parsed(text, _SPEEDS_UM_S, "speed", "500mm/min, 2mm/s or 180um/s")
+    um_s = _parsed(text, _SPEEDS_UM_S)
+    if um_s is None:
+        raise SettingsError(f"{text!r} is no speed; write a number with its unit, such as 500mm/min, 2mm/s or 180um/s")
+    return um_s
 
 
-def _parsed(text: str, units: Mapping[str, int | Fraction], what: str, such_as: str) -> float:
-    """The exact number in the unit that `units` are counted in, rounded once."""
+def _parsed(text: str, units: Mapping[str, int | Fraction]) -> float | None:
+    """The exact number in the unit that `units` are counted in, rounded once; None where it is none."""
     match = _QUANTITY.fullmatch(text)
     if not match or match[2] not in units:
-        raise SettingsError(f"{text!r} is no {what}; write a number with its unit, such as {such_as}")
+        return None
     return float(Fraction(match[1]) * units[match[2]])
 
 

@@ -16,6 +16,9 @@ from sim.show.words.words import texts
 _LONGEST: Final = 4_000
 """Characters of a message: what is longer cites whole files, in which parts may stand in parts without end."""
 
+_OF_A_TERM: Final = 2
+"""Spaces of the terms that stand within messages, such as ``this is a folder``; files have names of a word or two."""
+
 
 class _Known(NamedTuple):
     """A message: what stands round the places of its English text, the names of these, and the Chinese template."""
@@ -56,14 +59,17 @@ def in_both(message: str) -> Said:
 
 
 def _in_chinese(text: str) -> str:
-    """A message, or a part of one; empty where it is not known."""
-    if len(text) > _LONGEST:
+    """A message, or a part of one; empty where it is not known.
+
+    Parts of one word are names that people gave: of a folder ``part``, of a layer ``wire``. Parts of ours are longer.
+    """
+    if len(text) > _LONGEST or " " not in text:
         return ""
     for known in _messages():
         filling = known.filling(text)
         if filling is not None:
             return known.zh.format(**{name: _in_chinese(part) or part for name, part in filling.items()})
-    return term_known_as(text, "zh")
+    return term_known_as(text, "zh") if text.count(" ") >= _OF_A_TERM else ""
 
 
 @cache

@@ -2,6 +2,7 @@
 
 import ast
 import re
+import tomllib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from string import Formatter
@@ -116,6 +117,46 @@ def test_commands_tell_what_is_wrong_in_chinese(
 def test_a_term_of_the_catalogue_within_a_message_is_told_in_chinese() -> None:
     english = term("file-too-large")
     assert in_both(f"big.3b: cannot be read: {english}").zh == f"big.3b：无法读取：{term('file-too-large', 'zh')}"
+
+
+GLOSSARY = sorted(
+    {
+        word
+        for said in (*tomllib.loads((ROOT / "parser/findings/pages/terms.toml").read_text("utf-8"))["en"].values(),)
+        for word in (said, said.lower())
+        if word.count(" ") < 2
+    }
+    | {said.en for said in texts("errors").values() if " " not in said.en}
+    | {"part", "slug", "wire", "kerf", "length", "speed"}
+)
+"""Words of ours that people may name a file, a folder or a layer by."""
+
+
+@pytest.mark.parametrize("name", GLOSSARY)
+def test_no_name_that_people_gave_is_translated(name: str) -> None:
+    assert in_both(f"{name}: cannot be read: No such file or directory").zh == f"{name}：无法读取：没有这个文件或文件夹"
+    assert in_both(f"has no layer {name}; expected one of {name}").zh == f"没有图层 {name}；应为其中之一：{name}"
+
+
+@pytest.mark.parametrize("command", ["check", "run", "draw", "program", "compare", "convert", "replay", "decode"])
+@pytest.mark.parametrize("name", ["part", "wire"])
+def test_commands_name_what_is_not_there_as_it_is_named(
+    command: str, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    others = {
+        "draw": ["-o", "a.png"],
+        "program": ["-o", "a.3b"],
+        "compare": ["drawing.dxf"],
+        "convert": ["-o", "a.iso"],
+        "replay": ["-o", "a.gif"],
+    }
+    done = run_inside(command, name, *others.get(command, []), "--lang", "zh")
+    assert done.returncode == 2
+    said = done.stdout.decode() + done.stderr.decode()
+    assert re.search(rf"(?<!\w){name}(?!\w)", said), said
+    assert "零件：" not in said
+    assert "钼丝：" not in said
 
 
 def test_what_nobody_knows_stays_as_it_is() -> None:
