@@ -21,8 +21,16 @@ def refuse_strangers() -> None:
     """
     for name in PACKAGES:
         found = _found(name)
-        if found != _OWN / name or _MARK not in (found / "__init__.py").read_text("utf-8", "replace"):
+        if found != _OWN / name or _is_written_over(found):
             raise ImportError(_why(name, found))
+
+
+def _is_written_over(package: Path) -> bool:
+    """Whether the first file of a package is another's; not where there is none to be read, as in an archive."""
+    try:
+        return _MARK not in (package / "__init__.py").read_text("utf-8", "replace")
+    except OSError:
+        return False
 
 
 def _found(name: str) -> Path | None:
@@ -34,7 +42,7 @@ def _found(name: str) -> Path | None:
     if spec is None or spec.origin is None:
         return None
     origin = Path(spec.origin).resolve()
-    return origin.parent if origin.name == "__init__.py" else origin
+    return origin.parent if origin.stem == "__init__" else origin
 
 
 def _why(name: str, found: Path | None) -> str:

@@ -1,6 +1,7 @@
 """A file or a distribution with one of our names does not kill drycut without a word."""
 
 import os
+import py_compile
 import subprocess
 import sys
 from pathlib import Path
@@ -80,6 +81,19 @@ def test_a_package_written_over_ours_is_noticed(tmp_path: Path) -> None:
     done = run(COMMAND, tmp_path)
     assert done.returncode == 2
     assert "package sim" in done.stderr
+
+
+def test_packages_without_sources_are_ours_too(tmp_path: Path) -> None:
+    for name in ("drycut", "parser", "controller", "sim"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "__init__.py").write_text("", "ascii")
+    for name in ("__init__.py", "clash.py"):
+        (tmp_path / "drycut" / name).write_bytes((ROOT / "drycut" / name).read_bytes())
+    for name in ("parser", "controller", "sim"):
+        py_compile.compile(str(tmp_path / name / "__init__.py"), str(tmp_path / name / "__init__.pyc"))
+        (tmp_path / name / "__init__.py").unlink()
+    done = run((sys.executable, "-c", "import drycut.clash as c; print(c.refuse_strangers())"), tmp_path)
+    assert (done.stdout, done.stderr) == ("None\n", "")
 
 
 def test_without_a_clash_nothing_is_said(tmp_path: Path) -> None:
