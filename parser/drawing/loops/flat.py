@@ -6,9 +6,10 @@ from typing import Final, Literal, NamedTuple
 
 import numpy as np
 
+from parser.drawing.loops.chain import Run, signed_areas
 from parser.drawing.model import BESIDE_UM, DrawnLoop, running
 from parser.geometry.along import places
-from parser.geometry.curves import Curves, Floats, Ints
+from parser.geometry.curves import Curves, Ints
 from parser.geometry.extents import extents
 
 WhyFlat = Literal["dot", "no-width"]
@@ -52,13 +53,15 @@ def flat_loops(curves: Curves, loops: Sequence[DrawnLoop]) -> list[tuple[int, Wh
     closed = [at for at, loop in enumerate(loops) if loop.closed]
     if not closed:
         return []
+    number = np.array([len(loops[at].row) for at in closed])
+    first = np.cumsum(number) - number
     row = np.concatenate([loops[at].row for at in closed])
-    ran = running(curves, row, np.concatenate([loops[at].backwards for at in closed]))
-    number = [len(loops[at].row) for at in closed]
-    first = np.cumsum(number, dtype=np.int64) - np.array(number)
+    backwards = np.concatenate([loops[at].backwards for at in closed])
+    run = Run(row, backwards, np.repeat(np.arange(len(closed)), number), np.ones(len(closed), dtype=np.bool_))
+    ran = running(curves, row, backwards)
     low, high = extents(ran)
     size = (np.maximum.reduceat(high, first) - np.minimum.reduceat(low, first)).max(axis=1)
-    slender = np.abs(_areas(ran, first, number)) <= BESIDE_UM * (np.add.reduceat(ran.length_um, first) + size)
+    slender = np.abs(signed_areas(curves, run)) <= BESIDE_UM * (np.add.reduceat(ran.length_um, first) + size)
     found: list[tuple[int, WhyFlat]] = []
     for each in np.flatnonzero((size <= DOT_UM) | slender).tolist():
         if size[each] <= DOT_UM:
@@ -66,15 +69,6 @@ def flat_loops(curves: Curves, loops: Sequence[DrawnLoop]) -> list[tuple[int, Wh
         elif _is_straight(ran.picked(slice(first[each], first[each] + number[each]))):
             found.append((closed[each], "no-width"))
     return found
-
-
-def _areas(ran: Curves, first: Ints, number: list[int]) -> Floats:
-    """Areas µm² that loops enclose, by their first rows and numbers of rows."""
-    origin = np.repeat(ran.start_um[first], number, axis=0)
-    start, end = ran.start_um - origin, ran.end_um - origin
-    segments = np.where(ran.is_arc, ran.radius_um**2 * (ran.sweep_rad - np.sin(ran.sweep_rad)), 0.0)
-    areas: Floats = np.add.reduceat(0.5 * (start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0] + segments), first)
-    return areas
 
 
 def _is_straight(ring: Curves) -> bool:

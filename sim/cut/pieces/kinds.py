@@ -7,6 +7,7 @@ trim that starts elsewhere, in a contour of its own or not.
 """
 
 import math
+from functools import cache
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -64,13 +65,18 @@ def kinds_of(found: list[Loose], kerf: Kerf) -> list[Kind]:
         for contour in piece.contours:
             largest[figure[contour]] = max(largest.get(figure[contour], 0.0), piece.outline_um.area)
     kinds: list[Kind] = []
+
+    @cache
+    def ring_of(contour: int) -> shapely.Polygon | None:
+        return _ring_of(kerf.swept[contour].way, kerf)
+
     for piece in found:
         beside_larger = any(largest[figure[contour]] > piece.outline_um.area for contour in piece.contours)
         if _held_the_start(piece, kerf.swept, kerf.offset_um):
             kinds.append("slug")
         elif beside_larger and (_is_sliver(piece.outline_um, kerf.offset_um) or _was_led_by(piece, kerf)):
             kinds.append("scrap")
-        elif _lay_within_pass(piece, kerf):
+        elif piece.older is not None and _lay_within_pass(piece, ring_of(piece.contours[0])):
             kinds.append("slug")
         else:
             kinds.append("part")
@@ -99,26 +105,29 @@ def _held_the_start(piece: Loose, swept: tuple[Swept, ...], offset_um: float) ->
     return began_in(swept[piece.contours[0]].way, piece.outline_um, offset_um)
 
 
-def _lay_within_pass(piece: Loose, kerf: Kerf) -> bool:
+def _lay_within_pass(piece: Loose, ring_um: shapely.Polygon | None) -> bool:
     """Whether a pass ran round a piece and round the start of its contour, but for a bridge that was left for later.
 
     Leads that part widely may have cut the start off the piece, or have closed the cut where they meet at the start.
     """
-    if piece.older is None:
-        return False
-    way = kerf.swept[piece.contours[0]].way
+    return ring_um is not None and ring_um.contains(piece.outline_um.representative_point())
+
+
+def _ring_of(way: WireWay, kerf: Kerf) -> shapely.Polygon | None:
+    """The first pass of a way as a ring, closed over a bridge; None where it does not run round the way's start."""
     edge = kerf.pass_edge[way.row]
     on_pass = np.flatnonzero(edge >= 0)
     if not len(on_pass):
-        return False
+        return None
     begin = int(on_pass[0])
     behind = np.flatnonzero(edge[begin:] != edge[begin])
     place = way.place_um[begin : begin + int(behind[0]) if len(behind) else len(edge)]
     length_um = float(np.hypot(*np.diff(place, axis=0).T).sum())
     if len(place) < _CORNERS or math.dist(place[0], place[-1]) > WIDEST_TAB * length_um:
-        return False
+        return None
     ring = shapely.Polygon(place)
-    return ring.contains(shapely.Point(way.place_um[0])) and ring.contains(piece.outline_um.representative_point())
+    shapely.prepare(ring)  # a contour may free many pieces
+    return ring if ring.contains(shapely.Point(way.place_um[0])) else None
 
 
 def came_from_inside(way: WireWay, begin: int, end: int, offset_um: float) -> bool:
