@@ -28,7 +28,7 @@ def parse_length(text: str) -> float:
     """Length such as ``40mm`` or ``0.18 mm`` in µm. SettingsError where it is no number with a unit of length."""
     um = _parsed(text, _LENGTHS_UM)
     if um is None:
-        raise SettingsError(f"{text!r} is no length; write a number with its unit, such as 40mm, 180um or 0.18mm")
+        raise SettingsError("no-length", found=text)
     return um
 
 
@@ -36,7 +36,7 @@ def parse_speed(text: str) -> float:
     """Speed such as ``500mm/min`` or ``2 mm/s`` in µm/s. SettingsError where it is no number with a unit of speed."""
     um_s = _parsed(text, _SPEEDS_UM_S)
     if um_s is None:
-        raise SettingsError(f"{text!r} is no speed; write a number with its unit, such as 500mm/min, 2mm/s or 180um/s")
+        raise SettingsError("no-speed", found=text)
     return um_s
 
 

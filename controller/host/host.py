@@ -166,4 +166,4 @@ class Host:
 
 def _refused(call: Any, arguments: tuple[float, ...], code: int) -> ControllerError:
     asked = ", ".join(map(str, arguments))
-    return ControllerError(f"the card refused {call.__name__}({asked}) with {code} ({Code(code).name.lower()})")
+    return ControllerError("card-refused", call=call.__name__, arguments=asked, code=code, name=Code(code).name.lower())

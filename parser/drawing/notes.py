@@ -7,7 +7,9 @@ from parser.drawing.gather import Gathered
 from parser.drawing.loops.chain import Chained
 from parser.drawing.loops.once import Again
 from parser.drawing.model import LeftOut
+from parser.findings.catalogue import LANGUAGES, Said
 from parser.findings.errors import DrawingError
+from parser.findings.messages import Message
 from parser.findings.remarks import Remark, remark_text
 from parser.text.encoding import printable
 from parser.units import mm
@@ -53,11 +55,11 @@ def _not_wanted(left: Sequence[LeftOut]) -> Iterator[Remark]:
 
 def no_contour(left: Sequence[LeftOut], layer: str | None) -> DrawingError:
     """What is wrong with a drawing that gives no curve: what is there instead, as far as that can be told."""
-    where = "" if layer is None else f" on layer {printable(layer)}"
+    where = "" if layer is None else Message("on-layer", layer=printable(layer))
     wrong = [one.detail for one in left if one.detail][:1]
-    told = "; ".join(map(remark_text, [*([] if layer else _not_wanted(left)), *wrong]))
-    told = f" ({told})" if told else ""
-    return DrawingError(f"holds no line, arc or curve{where}{told}; expected the contour of a part")
+    instead = [*([] if layer else _not_wanted(left)), *wrong]
+    aside = Said(*("; ".join(remark_text(remark, language) for remark in instead) for language in LANGUAGES))
+    return DrawingError("no-curve", where=where, instead=aside)
 
 
 def _of_chain(chained: Chained) -> Iterator[Remark]:

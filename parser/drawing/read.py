@@ -114,9 +114,9 @@ def read_drawing(
         with np.errstate(all="ignore"):  # damaged numbers overflow; what comes of them is left out by its value
             return _drawing(path.name, document, _Asked(layer, gap_um, flatten_um, fit_um), notes)
     except DrawingError as error:
-        raise DrawingError(f"{path}: {error}") from None
+        raise DrawingError("in-file", file=path, message=error.message) from None
     except Exception as error:  # what no part of the reader foresaw in a damaged file
-        raise DrawingError(f"{path}: is damaged ({type(error).__name__}); expected a DXF drawing") from None
+        raise DrawingError("drawing-damaged", path=path, name=type(error).__name__) from None
 
 
 def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) -> Drawing:
@@ -163,7 +163,7 @@ def _refuse_unknown(document: Document, placed: Sequence[Placed], layer: str | N
     names = drawn | {str(entry.dxf.name) for entry in document.layers}
     if layer is not None and layer.lower() not in map(str.lower, names):
         shown = ", ".join(sorted(map(printable, drawn or names)))
-        raise DrawingError(f"has no layer {printable(layer)}; expected one of {shown}")
+        raise DrawingError("no-such-layer", layer=printable(layer), layers=shown)
 
 
 def _again(wanted: Sequence[Placed], again: Again) -> LeftOut:

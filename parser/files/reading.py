@@ -6,8 +6,8 @@ import sys
 from pathlib import Path
 from typing import BinaryIO
 
-from parser.findings.catalogue import term
 from parser.findings.errors import FileUnreadableError, SettingsError
+from parser.findings.messages import system_message
 
 MOST_MB = 64
 """Size of a file that is read, MB of 10^6 bytes: 3B of two million blocks, DXF of some hundred thousand entities."""
@@ -42,8 +42,7 @@ def read_bytes(path: Path) -> bytes:
     except FileUnreadableError:
         raise
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        why = str(getattr(error, "strerror", None) or error)
-        raise FileUnreadableError(f"{path}: cannot be read: {why}", detail=why) from None
+        raise FileUnreadableError("cannot-be-read", file=path, why=system_message(error)) from None
 
 
 def read_text(path: Path) -> str:
@@ -54,7 +53,7 @@ def read_text(path: Path) -> str:
 def read_stdin() -> bytes:
     """All of the standard input. FileUnreadableError where it is closed, or longer than the limit."""
     if sys.stdin is None:
-        raise FileUnreadableError("<stdin>: cannot be read: it is closed")
+        raise FileUnreadableError("stdin-closed")
     return _up_to_limit("<stdin>", sys.stdin.buffer, 0)
 
 
@@ -68,7 +67,7 @@ def limit_mb() -> float:
     except ValueError:
         limit = 0.0
     if not 0.0 < limit <= _HIGHEST_MB:
-        raise SettingsError(f"{LIMIT_NAME} is a number of MB, up to {_HIGHEST_MB:,}; found {told!r}")
+        raise SettingsError("size-limit-no-number", name=LIMIT_NAME, most_mb=_HIGHEST_MB, found=told)
     return limit
 
 
@@ -89,5 +88,4 @@ def _up_to_limit(name: Path | str, file: BinaryIO, told_size: int) -> bytes:
 
 
 def _refused(name: Path | str, what: str, detail: str = "") -> FileUnreadableError:
-    aside = f" ({detail})" if detail else ""
-    return FileUnreadableError(f"{name}: cannot be read: {term(what)}{aside}", what=what, detail=detail)
+    return FileUnreadableError("cannot-be-read-since", file=name, what=what, detail=detail)

@@ -7,10 +7,10 @@ import string
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, Protocol, runtime_checkable
 
 from parser.findings.codes import CODES
-from parser.findings.findings import NO_NAMES, Finding, Value
+from parser.findings.findings import NO_NAMES, Finding
 from parser.units import UM_PER_MM, mm
 
 Language = Literal["en", "zh"]
@@ -27,6 +27,19 @@ class Said(NamedTuple):
 
     en: str
     zh: str
+
+
+@runtime_checkable
+class InBoth(Protocol):
+    """A text in both languages: `Said`, and messages."""
+
+    @property
+    def en(self) -> str:
+        """The English text."""
+
+    @property
+    def zh(self) -> str:
+        """The Chinese text."""
 
 
 class CataloguePage(NamedTuple):
@@ -86,13 +99,21 @@ def texts(finding: Finding, language: Language = "en") -> Texts:
 
 
 def filled(
-    template: str, values: Mapping[str, Value], language: Language = "en", names: Mapping[int, str] = NO_NAMES
+    template: str, values: Mapping[str, object], language: Language = "en", names: Mapping[int, str] = NO_NAMES
 ) -> str:
     """A template of a page, its places filled: they know ``{miss:um}``, ``{x:mm}``, ``{what:term}`` and the like.
 
-    ``{first:block}`` is the number of a block; `names` has those that people call by another name.
+    ``{first:block}`` is the number of a block; `names` has those that people call by another name. Of a value that is
+    a text in both languages the one of the language is taken.
     """
-    return _Filler(language, names).vformat(template, (), values)
+    return _Filler(language, names).vformat(
+        template, (), {name: in_language(value, language) for name, value in values.items()}
+    )
+
+
+def in_language(value: object, language: Language) -> object:
+    """A value in a language: the text, where it is one in both languages; else the value as it is."""
+    return getattr(value, language) if isinstance(value, InBoth) else value
 
 
 def remark_template(name: str, language: Language) -> str:
@@ -105,9 +126,10 @@ def term(key: str, language: Language = "en") -> str:
     return str(_read("terms")[language].get(key, f"`{key}`"))
 
 
-def term_known_as(text: str, language: Language) -> str:
-    """The term whose English text this is, in a language; empty where it is that of none."""
-    return _by_text(language).get(text, "")
+@cache
+def message_templates() -> Mapping[str, Said]:
+    """Templates of all messages by their codes."""
+    return {code: Said(**text) for code, text in _read("messages").items()}
 
 
 def length(um: float) -> str:
@@ -161,12 +183,6 @@ class _Filler(string.Formatter):
             return self._known(value)
         name = "from-to" if low and high else "at-least" if low else "at-most"
         return self._joined(name, *filter(None, (low, high)))
-
-
-@cache
-def _by_text(language: Language) -> Mapping[str, str]:
-    terms = _read("terms")
-    return {str(text): str(terms[language][key]) for key, text in terms["en"].items()}
 
 
 def _file(code: str) -> dict[str, Any]:

@@ -3,29 +3,45 @@
 Every error doubles as the built-in that a caller without drycut's names would catch.
 """
 
-from parser.findings.catalogue import texts
+from parser.findings.catalogue import LANGUAGES, Said, texts
 from parser.findings.findings import Finding
+from parser.findings.messages import Message, in_both
 
 
 class DrycutError(Exception):
-    """Root of all errors that a user can cause; its text is the whole message."""
+    """Root of all errors that a user can cause; its text is the whole message.
+
+    Parameters
+    ----------
+    code, values
+        Code of the message and what fills its places; or a message that there is already.
+    """
+
+    def __init__(self, code: str, /, **values: object) -> None:
+        self.message = code if isinstance(code, Message) else Message(code, **values)
+        super().__init__(self.message)
+
+    def in_both(self) -> Said:
+        """The message in both languages."""
+        return in_both(self.message)
 
 
 class FileUnreadableError(DrycutError, OSError):
     """A file that is missing, may not be read, is no regular file, or is too large.
 
-    Parameters
-    ----------
-    text
-        The whole message.
-    what, detail
-        Values of finding 3B100: a term of the catalogue that says why, and more to it.
+    Finding 3B100 says the same of a program: `what` is the term of the catalogue there, and `detail` says more.
     """
 
-    def __init__(self, text: str, *, what: str = "unreadable-file", detail: str = "") -> None:
-        super().__init__(text)
-        self.what = what
-        self.detail = detail
+    @property
+    def what(self) -> str:
+        """The term of the catalogue that says why."""
+        return str(self.message.values.get("what", "unreadable-file"))
+
+    @property
+    def detail(self) -> str:
+        """What more there is to say, such as the words of the system; a message where there are such."""
+        found = self.message.values.get("detail") or self.message.values.get("why", "")
+        return found if isinstance(found, str) else str(found)
 
 
 class ProgramError(DrycutError, ValueError):
@@ -42,7 +58,7 @@ class ProgramError(DrycutError, ValueError):
     """
 
     def __init__(self, finding: Finding, *, excerpt: str = "", others: tuple[Finding, ...] = ()) -> None:
-        super().__init__(texts(finding).message)
+        super().__init__("of-a-finding", finding=Said(*(texts(finding, language).message for language in LANGUAGES)))
         self.finding = finding
         self.excerpt = excerpt
         self.others = others

@@ -91,7 +91,7 @@ def iso_choices(dialect: str, unit: Unit | None = None, decimals: int | None = N
     of, habits = profile(dialect), _habits(dialect)
     unit = unit or habits.unit
     if unit == "um" and of.integer_um != _UM["um"]:
-        raise SettingsError(f"--unit um: whole numbers of {of.name} are no µm; --unit mm has a point")
+        raise SettingsError("unit-um-not-for-dialect", dialect=of.name)
     fine = _DECIMALS[unit] if decimals is None or unit == "um" else decimals
     return IsoChoices(of, habits, unit, fine, of.distance, of.centers, habits.number_step, habits.tape)
 

@@ -23,5 +23,5 @@ def program_of(scenario: Scenario, to_make: ToMake, progress: Progress = silent)
 def drawing_to_cut(scenario: Scenario) -> DrawingTarget:
     """The drawing of a scenario. SettingsError where it has none."""
     if scenario.drawing is None:
-        raise SettingsError(f"{scenario.title}: has no [drawing], of which a program could be made")
+        raise SettingsError("scenario-without-drawing", title=scenario.title)
     return scenario.drawing

@@ -66,5 +66,5 @@ def settings_near(name: str, file: Path | None) -> tuple[CheckSettings, str]:
         settings = search.near(placed.parent).settings_of(placed)
         _ = settings.demands  # settings that contradict each other are told here
     except DrycutError as error:
-        return NO_SETTINGS.settings_of(placed), str(error)
+        return NO_SETTINGS.settings_of(placed), error.message
     return settings, ""

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError
+from parser.findings.messages import Message
 from parser.program import suffixes
 
 
@@ -25,9 +26,9 @@ def find_files(
         files = list(looked.files(name))
         if not files:
             raise FileUnreadableError(
-                f"{name}: no program there that is not excluded; a file that is named itself is checked still"
+                Message("all-programs-excluded", name=name)
                 if looked.left_out
-                else f"{name}: no program there; expected files that end in {' or '.join(suffixes())}"
+                else Message("no-program-there", name=name, suffixes=" or ".join(suffixes()))
             )
         for file in files:
             found.setdefault(file if file == "-" else os.path.realpath(file), file)

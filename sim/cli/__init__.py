@@ -11,6 +11,7 @@ import click
 from controller.compiled.telling import on_compiling
 from parser import __version__
 from parser.findings.errors import DrycutError
+from parser.findings.messages import Message, system_message
 from sim.cli.spoken import SpokenGroup, complaint, localised, spoken, words
 from sim.show.terminal.printer import say, write
 from sim.show.terminal.streams import OutputError, prepare_streams
@@ -75,7 +76,7 @@ def main() -> None:
     try:
         sys.stdout.flush()
     except OutputError as error:
-        code = max(code, _complain(str(error)))
+        code = max(code, _complain(localised(error.message)))
     sys.stderr.flush()
     sys.exit(code)
 
@@ -118,8 +119,8 @@ def _message(error: click.ClickException | DrycutError | OSError) -> str:
     if isinstance(error, click.ClickException):
         return complaint(error)
     if isinstance(error, OSError) and error.filename:
-        return localised(f"{error.filename}: {error.strerror or error}")
-    return localised(str(error))
+        return localised(Message("in-file", file=error.filename, message=system_message(error)))
+    return localised(error.message if isinstance(error, DrycutError) else str(error))
 
 
 def _complain(message: str) -> int:

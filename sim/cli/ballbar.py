@@ -5,8 +5,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from parser.findings.messages import Message
 from sim.cli.scenario_options import ENGINE_OPTION, Length
 from sim.cli.spoken import Spoken, spoken, words
+from sim.cli.spoken.values import FilePath
 
 if TYPE_CHECKING:
     from sim.run.ballbar.circle import Ballbar
@@ -38,10 +40,10 @@ class Speed(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
 @click.option(
     "-o",
     "--output",
-    type=click.Path(path_type=Path),
+    type=FilePath(path_type=Path),
     metavar="FILE.png|DIR",
 )
-@click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE.csv")
+@click.option("--trace", type=FilePath(path_type=Path, dir_okay=False), metavar="FILE.csv")
 @click.option("--json", "as_json", is_flag=True)
 def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     radius: float,
@@ -67,9 +69,9 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     from sim.show.terminal.printer import say, write
 
     if output is not None and output.suffix.lower() not in ("", ".png") and not output.is_dir():
-        raise click.BadParameter(f"{output} is neither a folder nor a .png", param_hint="-o")
+        raise click.BadParameter(Message("neither-folder-nor-png", output=output), param_hint="-o")
     if tolerance is not None and tolerance <= 0.0:
-        raise click.BadParameter("is above 0", param_hint="--tolerance")
+        raise click.BadParameter(Message("not-above-0"), param_hint="--tolerance")
     model = load_machine(machine)
     if interpolator is not None:
         model = model.stepping_by(interpolator)  # type: ignore[arg-type]

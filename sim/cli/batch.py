@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from parser.findings.messages import Message
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.spoken import spoken
 from sim.cli.spread import Spread, pool_of
@@ -25,7 +26,7 @@ def run_shop(names: Sequence[str], output: Path | None, spread: Spread, options:
     UsageError without an output, FileUnreadableError for a name that leads to no program.
     """
     if output is None:
-        raise click.UsageError("many programs need -o DIR: each gets a folder there")
+        raise click.UsageError(Message("many-programs-need-a-folder"))
     from sim.cli.progress import StageProgress
     from sim.jobs.batch import TAKEN, run_batch
     from sim.jobs.index import index_text

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TypeVar
 import click
 
 from sim.cli.spoken import SpokenGroup
+from sim.cli.spoken.values import DecimalNumber, FilePath
 from sim.show.terminal.printer import say, write
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ _Command = TypeVar("_Command", bound=Callable[..., None])
 
 def _into(told: str) -> Callable[[_Command], _Command]:
     """The option that names the folder of what is made."""
-    kind = click.Path(path_type=Path, file_okay=False)
+    kind = FilePath(path_type=Path, file_okay=False)
     return click.option("-o", "--output", type=kind, required=True, metavar="DIR")
 
 
@@ -29,7 +30,7 @@ def card() -> None:
 
 
 @card.command()
-@click.argument("log", type=click.Path(path_type=Path), metavar="FILE")
+@click.argument("log", type=FilePath(path_type=Path), metavar="FILE")
 @click.option("--json", "as_json", is_flag=True)
 def replay(log: Path, as_json: bool) -> None:
     """Replay a log of the card and compare.
@@ -76,20 +77,20 @@ def build(output: Path) -> None:
 @_into("Write report.html, replay.html, cut.png, report.json, card.log and calls.txt here.")
 @click.option(
     "--library",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=FilePath(path_type=Path, file_okay=False),
     metavar="DIR",
 )
 @click.option(
     "--card",
     "settings",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FilePath(path_type=Path, dir_okay=False),
     metavar="FILE.toml",
 )
-@click.option("--call-s", type=click.FloatRange(1e-9, 1.0), metavar="S")
+@click.option("--call-s", type=DecimalNumber(1e-9, 1.0), metavar="S")
 @click.option(
     "--timeout",
     "longest_s",
-    type=click.FloatRange(0.1, 86_400.0),
+    type=DecimalNumber(0.1, 86_400.0),
     default=60.0,
     show_default=True,
     metavar="S",

@@ -8,6 +8,7 @@ import click
 from sim.cli.dialect_options import Offsets, OrRegister, offsets_of, with_dialect
 from sim.cli.scenario_options import Length
 from sim.cli.spoken import Spoken, spoken, words
+from sim.cli.spoken.values import FilePath
 
 if TYPE_CHECKING:
     from parser.program import Program
@@ -15,8 +16,8 @@ if TYPE_CHECKING:
 
 
 @click.command(cls=Spoken)
-@click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
-@click.argument("drawing", type=click.Path(path_type=Path), metavar="[DRAWING.dxf]", required=False)
+@click.argument("path", type=FilePath(path_type=Path), metavar="PROGRAM|SCENARIO")
+@click.argument("drawing", type=FilePath(path_type=Path), metavar="[DRAWING.dxf]", required=False)
 @click.option(
     "--offset",
     type=OrRegister(Length()),

@@ -5,9 +5,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
+from parser.findings.messages import Message
 from sim.cli.dialect_options import Dialect, Offsets, OrRegister, offsets_of
 from sim.cli.scenario_options import Length
 from sim.cli.spoken import Spoken, spoken
+from sim.cli.spoken.values import FilePath, WholeNumber
 
 if TYPE_CHECKING:
     from parser.dialect.choices import Choices
@@ -43,11 +45,11 @@ class _Asked(NamedTuple):
 
 
 @click.command(cls=Spoken)
-@click.argument("path", type=click.Path(path_type=Path, dir_okay=False), metavar="PROGRAM")
+@click.argument("path", type=FilePath(path_type=Path, dir_okay=False), metavar="PROGRAM")
 @click.option(
     "-o",
     "--output",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FilePath(path_type=Path, dir_okay=False),
     required=True,
     metavar="FILE",
 )
@@ -69,8 +71,8 @@ class _Asked(NamedTuple):
 @click.option("--form", type=click.Choice(["compact", "aligned", "detailed"]))
 @click.option("--distance", type=click.Choice(["absolute", "incremental"]))
 @click.option("--centers", type=click.Choice(["from-start", "absolute"]))
-@click.option("--decimals", type=click.IntRange(1, 6))
-@click.option("--number-step", type=click.IntRange(0, 1000))
+@click.option("--decimals", type=WholeNumber(1, 6))
+@click.option("--number-step", type=WholeNumber(0, 1000))
 @click.option("--tape/--no-tape", default=None)
 @click.option("--pmac", type=click.Choice(["native", "gcode"]))
 @click.option("--card", type=click.Choice(["turbo", "power"]))
@@ -123,7 +125,7 @@ def _language(output: Path) -> "Language":
 
     language: Language | None = "pmac" if output.suffix.lower() == ".pmc" else SUFFIXES.get(output.suffix.lower())
     if language is None:
-        raise click.BadParameter(f"{output} does not say its language by its suffix; give --to", param_hint="-o")
+        raise click.BadParameter(Message("suffix-needs-to", output=output), param_hint="-o")
     return language
 
 
@@ -142,16 +144,21 @@ def _refuse_misfits(asked: _Asked, language: "Language") -> None:
     for name, value in ({**of_iso, "--form": asked.form} if language == "pmac" else misfits).items():
         if value is not None:
             raise click.UsageError(
-                f"{name} is for {'3B and 4B' if language == 'iso' else 'ISO'}, and not for {language}"
+                Message(
+                    "option-not-for-language",
+                    name=name,
+                    languages="3B and 4B" if language == "iso" else "ISO",
+                    language=language,
+                )
             )
     of_pmac = {"--pmac": asked.pmac, "--card": asked.card}
     for name, value in ({} if language == "pmac" else of_pmac).items():
         if value is not None:
-            raise click.UsageError(f"{name} is for PMAC, and not for {language}")
+            raise click.UsageError(Message("option-for-pmac", name=name, language=language))
     if language == "pmac" and asked.compensation == "kept":
-        raise click.UsageError("--compensation kept: PMAC programs carry none here; it is worked in")
+        raise click.UsageError(Message("pmac-keeps-no-compensation"))
     if language == "3b" and asked.compensation == "kept":
-        raise click.UsageError("--compensation kept: 3B carries none; it can be worked in, or kept in ISO and 4B")
+        raise click.UsageError(Message("3b-keeps-no-compensation"))
 
 
 def _choices(asked: _Asked, language: "Language", given: Offsets) -> "Choices":
@@ -166,7 +173,7 @@ def _choices(asked: _Asked, language: "Language", given: Offsets) -> "Choices":
 def _with_offset(program: "Program", given: Offsets, side: str | None) -> "Program":
     """The program with an offset worked in where one is asked for. UsageError where only half of one is."""
     if (given.plain is None) != (side is None):
-        raise click.UsageError("--offset 0.1mm and --side belong together; D0=0.1mm is the value of a register")
+        raise click.UsageError(Message("convert-offset-without-side"))
     if given.plain is None or side is None:
         return program
     from sim.run.offsetting import as_run
@@ -218,6 +225,6 @@ def _write(path: Path, output: Path, data: bytes) -> None:
     from sim.files import staged
 
     if output.exists() and output.samefile(path):
-        raise click.BadParameter(f"{output} is the program itself", param_hint="-o")
+        raise click.BadParameter(Message("output-is-the-program-itself", output=output), param_hint="-o")
     with staged(output.parent, [output.name]) as stage:
         (stage / output.name).write_bytes(data)

@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING
 import click
 
 from parser.findings.errors import ProgramError
+from parser.findings.messages import Message
 from sim.cli.dialect_options import RegisterSet, RegisterValue, with_dialect
 from sim.cli.scenario_options import describe
 from sim.cli.spoken import Spoken, spoken
+from sim.cli.spoken.values import FilePath, WholeNumber
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,11 +19,12 @@ if TYPE_CHECKING:
 
 
 @click.command(cls=Spoken)
-@click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM")
+@click.argument("path", type=FilePath(path_type=Path), metavar="PROGRAM")
 @click.option(
     "--block",
     "number",
-    type=int,
+    type=WholeNumber(),
+    metavar="INTEGER",
 )
 @click.option("--json", "as_json", is_flag=True)
 @with_dialect
@@ -46,7 +49,6 @@ def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.decode.document import document_text
     from sim.show.terminal.decode import print_decoded
     from sim.show.terminal.printer import say, write
-    from sim.show.words import Words
 
     language = spoken()
     try:
@@ -56,10 +58,10 @@ def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
             say(line, err=True)
         raise click.exceptions.Exit(2) from None
     if program.decoder is None:
-        raise click.UsageError(Words(language)("decode.not-iso", name=program.name, dialect=program.reading.dialect))
+        raise click.UsageError(Message("not-decoded", name=program.name, dialect=program.reading.dialect))
     blocks = _chosen(decoded(program, program.toolpath), number)
     if not blocks:
-        raise click.UsageError(Words(language)("decode.none", name=program.name, block=number))
+        raise click.UsageError(Message("no-block-of-number", name=program.name, block=number))
     if as_json:
         write(document_text(program, blocks, language), "json")
     else:

@@ -5,6 +5,8 @@ from typing import Any, NamedTuple, TypeVar
 
 import click
 
+from parser.findings.messages import Message
+
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 _DIALECTS = "fast-wire, classroom, skd2, robofil, sodick, mitsubishi, fanuc, patent-mill, common, strict"
@@ -27,7 +29,7 @@ class Dialect(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
         from parser.program import dialects
 
         if value not in dialects():
-            self.fail(f"{value!r} is not one of {', '.join(dialects())}", param, ctx)
+            self.fail(Message("not-one-of", found=value, known=", ".join(dialects())), param, ctx)
         return str(value)
 
 
@@ -39,7 +41,7 @@ class RegisterValue(click.ParamType):  # type: ignore[type-arg]  # generic in ne
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """The register. A length without a register is bad use: it is an offset for ``drycut run``."""
         if "=" not in value:
-            self.fail(f"{value!r} names no register; write it such as D0=0.1mm", param, ctx)
+            self.fail(Message("names-no-register", found=value), param, ctx)
         return register_set(value)
 
 
@@ -70,7 +72,7 @@ def offsets_of(values: Iterable[Any]) -> Offsets:
     registers = tuple(one for one in given if isinstance(one, RegisterSet))
     others = [one for one in given if not isinstance(one, RegisterSet)]
     if len(others) > 1:
-        raise click.UsageError("--offset is given again for registers alone, such as D1=0.1mm; it has two plain values")
+        raise click.UsageError(Message("two-plain-offsets"))
     return Offsets(registers, others[0] if others else None)
 
 
@@ -86,9 +88,7 @@ def register_set(text: str) -> RegisterSet:
     before, _, length = text.partition("=")
     name = register_name(before)
     if not name:
-        raise SettingsError(
-            f"--offset: {before.strip()!r} is no offset register; write it such as D0=0.1mm or H1=0.1mm"
-        )
+        raise SettingsError("option-no-offset-register", found=before.strip())
     by_um = parse_length(length)
     number(mm(by_um), REGISTER_MM, f"--offset {name} in mm")
     return RegisterSet(name, by_um)

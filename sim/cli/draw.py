@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from parser.findings.errors import ProgramError
+from parser.findings.messages import Message
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
 from sim.cli.spoken import Spoken, spoken, words
+from sim.cli.spoken.values import FilePath
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
@@ -40,15 +42,15 @@ class Width(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
         if value.isdecimal() and LEAST_THUMBNAIL <= int(value) <= MOST_WIDTH:
             return int(value)
         names, widths = ", ".join(SIZES_PX), f"{LEAST_THUMBNAIL} to {MOST_WIDTH} px"
-        raise click.BadParameter(f"{value!r} is none of {names}, nor a width of {widths}", ctx, param)
+        raise click.BadParameter(Message("neither-page-nor-width", found=value, pages=names, widths=widths), ctx, param)
 
 
 @click.command(cls=Spoken)
-@click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
+@click.argument("path", type=FilePath(path_type=Path), metavar="PROGRAM|SCENARIO")
 @click.option(
     "-o",
     "--output",
-    type=click.Path(path_type=Path),
+    type=FilePath(path_type=Path),
     required=True,
     metavar="FILE|DIR",
 )
@@ -125,17 +127,19 @@ def _asked(output: Path, names: tuple[str, ...], svg: bool) -> "PictureFiles":
 
     for name in names:
         if name != PATH and name not in _all():
-            raise click.BadParameter(f"{name!r} is none of {', '.join(_all())}", param_hint="--picture")
+            raise click.BadParameter(Message("none-of", name=name, names=", ".join(_all())), param_hint="--picture")
     suffix = output.suffix.lower()
     if suffix not in SUFFIXES or output.is_dir():
         if suffix and not output.is_dir():
-            raise click.BadParameter(f"{output} is neither a folder nor a .png or .svg", param_hint="-o")
+            raise click.BadParameter(Message("neither-folder-nor-picture", output=output), param_hint="-o")
         kind = ".svg" if svg else ".png"
         return PictureFiles(output, {name: name + kind for name in names or _all()})
     if len(set(names)) > 1:
-        raise click.BadParameter(f"{output} is one picture, of {' or '.join(names)}; give a folder", param_hint="-o")
+        raise click.BadParameter(
+            Message("one-picture-of-many", output=output, names=" or ".join(names)), param_hint="-o"
+        )
     if svg and suffix != ".svg":
-        raise click.BadParameter(f"--svg is for folders; {output} says itself what it is", param_hint="--svg")
+        raise click.BadParameter(Message("svg-is-for-folders", output=output), param_hint="--svg")
     return PictureFiles(output.parent, {(names or (PATH,))[0]: output.name})
 
 

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 import click
 
 from parser.findings.errors import ProgramError, SettingsError
+from parser.findings.messages import Message
 from sim.cli.dialect_options import RegisterSet, RegisterValue, with_dialect
 from sim.cli.scenario_options import describe
 from sim.cli.spoken import Spoken, localised, words
+from sim.cli.spoken.values import FilePath, WholeNumber
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,10 +25,10 @@ _LEVELS: "dict[str, Level]" = {"easy": "words", "medium": "picture", "hard": "su
 
 
 @click.command(cls=Spoken)
-@click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM")
-@click.option("-o", "--output", type=click.Path(path_type=Path, file_okay=False), required=True, metavar="DIR")
-@click.option("--set", "number", type=click.IntRange(1, 9999), default=1, show_default=True)
-@click.option("--count", type=click.IntRange(1, 30), default=10, show_default=True)
+@click.argument("path", type=FilePath(path_type=Path), metavar="PROGRAM")
+@click.option("-o", "--output", type=FilePath(path_type=Path, file_okay=False), required=True, metavar="DIR")
+@click.option("--set", "number", type=WholeNumber(1, 9999), default=1, show_default=True)
+@click.option("--count", type=WholeNumber(1, 30), default=10, show_default=True)
 @click.option("--level", type=click.Choice(list(_LEVELS)))
 @with_dialect
 @click.option("--offset", "registers", type=RegisterValue(), multiple=True)
@@ -82,7 +84,7 @@ def _refuse_own_file(path: Path, output: Path, program: "Program", count: int) -
 
     for file in (output / name for name in names_of(program, count)):
         if file.exists() and file.samefile(path):
-            raise click.BadParameter(f"{file} is what the drills are made of", param_hint="-o")
+            raise click.BadParameter(Message("output-is-the-drilled-program", file=file), param_hint="-o")
 
 
 def _drills(program: "Program", asked: "Asked") -> "tuple[Drill, ...]":
@@ -97,7 +99,7 @@ def _drills(program: "Program", asked: "Asked") -> "tuple[Drill, ...]":
             progress("drills", 0, 1)
             return drills_of(program, CheckSettings.reading(program.choices), asked)
     except SettingsError as error:
-        say(words()("commands.error", message=localised(str(error))), err=True)
+        say(words()("commands.error", message=localised(error.message)), err=True)
         raise click.exceptions.Exit(1) from None
 
 

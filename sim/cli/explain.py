@@ -7,6 +7,7 @@ import click
 
 from parser.findings.catalogue import Language
 from parser.findings.codes import CODES
+from parser.findings.messages import Message
 from sim.cli.spoken import Spoken, spoken
 
 
@@ -40,12 +41,12 @@ def _markdown(name: str | None, sections: tuple[str, ...], language: Language) -
     if code in CODES and not sections:
         return cited(page_text(code, language))
     if code not in of_documents:
-        raise click.UsageError(f"no finding has the code {name!r}, and no document the name; drycut explain lists them")
+        raise click.UsageError(Message("nothing-to-explain", name=name))
     text = document(of_documents[code], language)
     try:
         return cited("\n\n".join(section(text, one) for one in _numbers(sections)) if sections else text)
     except KeyError as error:
-        raise click.UsageError(f"document {name!r} has no section {error.args[0]}") from None
+        raise click.UsageError(Message("no-such-section", name=name, section=error.args[0])) from None
 
 
 def _numbers(sections: tuple[str, ...]) -> Iterator[str]:

@@ -6,18 +6,19 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.spoken import Spoken, words
+from sim.cli.spoken.values import FilePath, WholeNumber
 
 if TYPE_CHECKING:
     from sim.open.programs import Programs
 
 
 @click.command(cls=Spoken)
-@click.argument("file", required=False, type=click.Path(path_type=Path), metavar="[FILE|FOLDER]")
+@click.argument("file", required=False, type=FilePath(path_type=Path), metavar="[FILE|FOLDER]")
 @click.option("--no-browser", is_flag=True)
-@click.option("--port", type=click.IntRange(0, 65_535), default=0, metavar="N")
+@click.option("--port", type=WholeNumber(0, 65_535), default=0, metavar="N")
 @click.option(
     "--shortcut",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=FilePath(path_type=Path, file_okay=False),
     metavar="DIR",
 )
 @click.option("--from-icon", is_flag=True, hidden=True)
@@ -55,7 +56,6 @@ def _programs(file: Path | None, *, from_icon: bool) -> "Programs":
     from parser.files.reading import read_bytes
     from parser.findings.errors import FileUnreadableError
     from sim.open.programs import Opened, Programs
-    from sim.show.words.told import told
 
     if file is None:
         return Programs(Opened())
@@ -64,4 +64,4 @@ def _programs(file: Path | None, *, from_icon: bool) -> "Programs":
     except FileUnreadableError as error:
         if not from_icon:
             raise
-        return Programs(Opened(why=told(error)))
+        return Programs(Opened(why=error.in_both()))

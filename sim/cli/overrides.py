@@ -119,9 +119,9 @@ def _offset(offset: "Offset | None", by_um: tuple[float, ...] | None, side_word:
             number(mm(one.by_um), OFFSET_MM, "--offset in mm")
     side = SIDES[side_word] if side_word is not None else offset and offset.side
     if side is None:
-        raise SettingsError("--offset needs --side left or --side right: where the wire runs along the contour")
+        raise SettingsError("offset-needs-side")
     if passes is None:
-        raise SettingsError("--side needs --offset, such as --offset 0.1mm")
+        raise SettingsError("side-needs-offset")
     return Offset(passes, side)
 
 
@@ -165,7 +165,7 @@ def _drawing(own: "DrawingTarget | None", options: Overrides) -> "DrawingTarget 
     asked = {"layer": of.layer, "tolerance": of.tolerance, "no-fit": of.no_fit, "sharp-corners": of.sharp_corners}
     for name, given in asked.items():
         if drawing is None and given not in (None, False):
-            raise SettingsError(f"--{name} needs --drawing, such as --drawing part.dxf")
+            raise SettingsError("option-needs-drawing", option=name)
     return drawing
 
 

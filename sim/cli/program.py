@@ -5,8 +5,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
+from parser.findings.messages import Message
 from sim.cli.program_options import Options, making_of, program_options, refuse_own_files, writing_of
 from sim.cli.spoken import Spoken, spoken
+from sim.cli.spoken.values import FilePath
 
 if TYPE_CHECKING:
     from parser.findings.catalogue import Language as Tongue
@@ -35,11 +37,11 @@ class _Picture(NamedTuple):
 
 
 @click.command(cls=Spoken)
-@click.argument("path", type=click.Path(path_type=Path), metavar="DRAWING.dxf|SCENARIO")
+@click.argument("path", type=FilePath(path_type=Path), metavar="DRAWING.dxf|SCENARIO")
 @click.option(
     "-o",
     "--output",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FilePath(path_type=Path, dir_okay=False),
     metavar="FILE",
 )
 @program_options
@@ -47,7 +49,7 @@ class _Picture(NamedTuple):
 @click.option("--force", is_flag=True)
 @click.option(
     "--picture",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FilePath(path_type=Path, dir_okay=False),
     metavar="FILE",
 )
 @click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True)
@@ -115,7 +117,7 @@ def _asked(path: Path, output: Path | None, options: Options, *, is_written: boo
     else:
         own, file = ToMake(), path
     if output is None and is_written:
-        raise click.UsageError("-o FILE says where the program is written; --preview writes none")
+        raise click.UsageError(Message("output-and-preview"))
     language = options.language or _language(output)
     to_make = own._replace(
         file=output or Path(f"{file.stem}.{language}"),
@@ -158,18 +160,17 @@ def _language(output: Path | None) -> "Language":
     try:
         return language_of(output)
     except SettingsError:
-        message = f"{output} does not say its language by its suffix; give --as"
-        raise click.BadParameter(message, param_hint="-o") from None
+        raise click.BadParameter(Message("suffix-needs-as", output=output), param_hint="-o") from None
 
 
 def _refuse_pictures(picture: Path | None, asked: _Asked) -> None:
     if picture is None:
         return
     if picture.suffix.lower() not in {".png", ".svg"}:
-        raise click.BadParameter(f"{picture} is neither a .png nor a .svg", param_hint="--picture")
+        raise click.BadParameter(Message("neither-png-nor-svg", picture=picture), param_hint="--picture")
     refuse_own_files(picture, (asked.drawing,))
     if asked.output is not None and picture.resolve() == asked.output.resolve():
-        raise click.BadParameter(f"{picture} is the program", param_hint="--picture")
+        raise click.BadParameter(Message("picture-is-the-program", picture=picture), param_hint="--picture")
 
 
 def _made(asked: _Asked) -> "Made | NotMade":

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
 
+from parser.findings.messages import Message
 from sim.cli.dialect_options import READ_WITH
 from sim.cli.scenario_options import Length
+from sim.cli.spoken.values import WholeNumber
 from sim.setup.making import CORNERS, DIRECTION_WISHES, ENCODINGS, FORMS, LEAD_INS, SIDE_WISHES
 
 if TYPE_CHECKING:
@@ -32,7 +34,7 @@ class Place(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
             return value
         parts = value.split(",")
         if len(parts) != 2:
-            self.fail(f"{value!r} is no place; write it such as 50,100 in mm", param, ctx)
+            self.fail(Message("no-place", found=value), param, ctx)
         x, y = (_length_um(part) for part in parts)
         for one in (x, y):
             number(mm(one), PLACE_MM, "--start in mm")
@@ -50,10 +52,10 @@ class Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
             return value
         parts = [part.strip() for part in value.split(",")]
         if not all(part.isascii() and part.isdigit() and len(part) < 8 and int(part) for part in parts):
-            self.fail(f"{value!r} are no numbers of figures; write them such as 3,1,2", param, ctx)
+            self.fail(Message("no-figure-numbers", found=value), param, ctx)
         numbers = tuple(map(int, parts))
         if len(set(numbers)) < len(numbers):
-            self.fail(f"{value!r} names a figure twice", param, ctx)
+            self.fail(Message("figure-named-twice", found=value), param, ctx)
         return numbers
 
 
@@ -71,12 +73,12 @@ class OnLayer(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
         layer, colon, rest = value.rpartition(":")
         wishes = [part.partition("=") for part in rest.split(",")]
         if not colon or not layer or not all(equals and asked.strip() for _, equals, asked in wishes):
-            self.fail(f"{value!r} is no wish; write it such as HOLES:side=inside,rank=1,pass=0.12mm", param, ctx)
+            self.fail(Message("no-layer-wish", found=value), param, ctx)
         passes_um = tuple(_length_um(asked) for name, _, asked in wishes if name.strip() == "pass")
         others = {name.strip(): asked.strip() for name, _, asked in wishes if name.strip() != "pass"}
         side, rank = others.pop("side", None), others.pop("rank", None)
         if others or (side is not None and side not in SIDE_WISHES) or not _is_rank(rank):
-            self.fail(f"{value!r}: a layer takes side={'|'.join(SIDE_WISHES)}, rank=NUMBER and pass=LENGTH", param, ctx)
+            self.fail(Message("no-such-layer-wish", found=value, sides="|".join(SIDE_WISHES)), param, ctx)
         return LayerWish(layer, side, None if rank is None else int(rank), passes_um)  # type: ignore[arg-type]
 
 
@@ -114,7 +116,7 @@ OPTIONS = (
     click.option("--corners", type=click.Choice(CORNERS)),
     click.option("--as", "language", type=click.Choice(["3b", "4b", "iso"])),
     *READ_WITH,
-    click.option("--decimals", type=click.IntRange(1, 6)),
+    click.option("--decimals", type=WholeNumber(1, 6)),
     click.option(
         "--compensation",
         type=click.Choice(["worked-in", "kept"]),
@@ -209,7 +211,7 @@ def _passes(options: Options) -> tuple[float, ...] | None:
     asked = {"--offset": options.offset is not None, "--no-offset": options.no_offset, "--pass": bool(options.passes)}
     named = [name for name, is_there in asked.items() if is_there]
     if len(named) > 1:
-        raise click.UsageError(f"{' and '.join(named)} are ways to say one thing; give one of them")
+        raise click.UsageError(Message("options-say-one-thing", options=" and ".join(named)))
     if options.no_offset:
         return (0.0,)
     return options.passes or (None if options.offset is None else (options.offset,))
@@ -233,4 +235,4 @@ def refuse_own_files(output: Path, others: "tuple[Path, ...]") -> None:
     """BadParameter where what is written would take the place of what it is made of."""
     for other in others:
         if output.exists() and other.exists() and output.samefile(other):
-            raise click.BadParameter(f"{output} is what the program is made of", param_hint="-o")
+            raise click.BadParameter(Message("output-is-the-source", output=output), param_hint="-o")

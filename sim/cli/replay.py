@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from parser.findings.errors import ProgramError
+from parser.findings.messages import Message
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
 from sim.cli.spoken import Spoken, spoken, words
+from sim.cli.spoken.values import DecimalNumber, FilePath, WholeNumber
 
 if TYPE_CHECKING:
     from sim.run.recording import Recording
@@ -34,30 +36,30 @@ class FrameSize(click.ParamType):  # type: ignore[type-arg]  # generic in newer 
             return value
         match = _SIZE.fullmatch(value.strip().lower())
         if not match:
-            raise click.BadParameter(f"{value!r} is no size; write it as 1280x720", ctx, param)
+            raise click.BadParameter(Message("no-size", found=value), ctx, param)
         size = int(match[1]), int(match[2])
         if any(not least <= side <= most for least, side, most in zip(LEAST_PX, size, MOST_PX, strict=True)):
-            raise click.BadParameter(f"{value!r} is out of bounds; sizes are {_BOUNDS}", ctx, param)
+            raise click.BadParameter(Message("size-out-of-bounds", found=value, bounds=_BOUNDS), ctx, param)
         return size
 
 
-class Seconds(click.FloatRange):
+class Seconds(DecimalNumber):
     """A length of time within bounds, which "nan" passes."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """The length, s."""
         seconds = super().convert(value, param, ctx)
         if math.isnan(seconds):
-            raise click.BadParameter(f"{value!r} is no length of time", ctx, param)
+            raise click.BadParameter(Message("no-duration", found=value), ctx, param)
         return seconds
 
 
 @click.command(cls=Spoken)
-@click.argument("path", type=click.Path(path_type=Path), metavar="PROGRAM|SCENARIO")
+@click.argument("path", type=FilePath(path_type=Path), metavar="PROGRAM|SCENARIO")
 @click.option(
     "-o",
     "--output",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FilePath(path_type=Path, dir_okay=False),
     metavar="FILE",
 )
 @click.option(
@@ -66,7 +68,7 @@ class Seconds(click.FloatRange):
     default=10.0,
     show_default=True,
 )
-@click.option("--fps", type=click.IntRange(1, 60), default=25, show_default=True)
+@click.option("--fps", type=WholeNumber(1, 60), default=25, show_default=True)
 @click.option("--size", type=FrameSize(), default="1280x720", show_default=True)
 @click.option("--theme", type=click.Choice(["light", "dark"]), default="light", show_default=True)
 @scenario_options

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from parser.findings.errors import ProgramError
+from parser.findings.messages import Message
 from sim.cli.batch import is_shop, run_shop
 from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import refused, scenario_options
 from sim.cli.spoken import Spoken, spoken, words
+from sim.cli.spoken.values import FilePath
 from sim.cli.spread import Spread, spread_options
 
 if TYPE_CHECKING:
@@ -22,14 +24,14 @@ if TYPE_CHECKING:
 @click.option(
     "-o",
     "--output",
-    type=click.Path(path_type=Path),
+    type=FilePath(path_type=Path),
     metavar="DIR",
 )
 @spread_options
 @scenario_options
 @click.option(
     "--card-log",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FilePath(path_type=Path, dir_okay=False),
     metavar="FILE",
 )
 @click.option("--trace", is_flag=True)
@@ -78,17 +80,17 @@ class _Files(NamedTuple):
 def _refuse_for_many(files: _Files) -> None:
     """UsageError for what only one program can have."""
     if files.card_log is not None:
-        raise click.UsageError("--card-log takes the calls of one program")
+        raise click.UsageError(Message("card-log-of-one-program"))
     if files.trace:
-        raise click.UsageError("--trace is for one program; of many, it would fill the disk")
+        raise click.UsageError(Message("trace-of-one-program"))
 
 
 def _refuse_for_one(files: _Files, spread: Spread) -> None:
     """UsageError for what only many programs can have, and for a trace that has no folder."""
     if spread != Spread(None, None):
-        raise click.UsageError("--jobs and --scheduler are for many programs; this is one")
+        raise click.UsageError(Message("workers-for-one-program"))
     if files.trace and files.output is None:
-        raise click.UsageError("--trace needs -o DIR, where trace.npz is to go")
+        raise click.UsageError(Message("trace-needs-a-folder"))
 
 
 def _run_one(scenario: "Scenario", files: _Files, *, as_json: bool) -> int:
@@ -149,12 +151,12 @@ def _refuse_to_overwrite(card_log: Path | None, *, program_file: Path, output: P
     if card_log is None:
         return
     if not card_log.name:
-        raise click.BadParameter("names no file", param_hint="--card-log")
-    taken = {program_file.resolve(): "the program"}
+        raise click.BadParameter(Message("names-no-file"), param_hint="--card-log")
+    taken = {program_file.resolve(): Message("the-program")}
     if output is not None:
         from sim.jobs.run_into import NAMES
 
-        taken |= {(output / name).resolve(): "a file of the run" for name in NAMES}
+        taken |= {(output / name).resolve(): Message("a-file-of-the-run") for name in NAMES}
     other = taken.get(card_log.resolve())
     if other is not None:
-        raise click.BadParameter(f"{card_log} is {other}; give the log a name of its own", param_hint="--card-log")
+        raise click.BadParameter(Message("card-log-is-taken", file=card_log, other=other), param_hint="--card-log")

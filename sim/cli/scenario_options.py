@@ -9,6 +9,7 @@ import click
 from parser.findings.errors import ProgramError, SettingsError
 from sim.cli.dialect_options import READ_WITH, OrRegister
 from sim.cli.spoken import spoken
+from sim.cli.spoken.values import FilePath
 from sim.show.terminal.colours import painted
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.printer import say
@@ -47,7 +48,7 @@ class Lengths(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
             return value
         lengths = value.split(",")
         if len(lengths) > 1 and not all(one.strip() for one in lengths):
-            raise SettingsError(f"{value!r} lacks a length beside a comma; write them such as 0.18mm,0.12mm,0.1mm")
+            raise SettingsError("lacks-a-length", found=value)
         return tuple(parse_length(one) for one in lengths)
 
 
@@ -82,7 +83,7 @@ _OPTIONS = (
     click.option("--open", "may_stay_open", is_flag=True),
     click.option(
         "--drawing",
-        type=click.Path(path_type=Path, dir_okay=False),
+        type=FilePath(path_type=Path, dir_okay=False),
         metavar="DXF",
     ),
     click.option("--layer", metavar="NAME"),

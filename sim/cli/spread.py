@@ -6,13 +6,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
 
+from parser.findings.messages import Message
+from sim.cli.spoken.values import WholeNumber
+
 if TYPE_CHECKING:
     from sim.workers.pool import Pool
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 _OPTIONS = (
-    click.option("--jobs", type=click.IntRange(1), metavar="N"),
+    click.option("--jobs", type=WholeNumber(1), metavar="N"),
     click.option("--scheduler", metavar="ADDRESS"),
 )
 
@@ -40,7 +43,7 @@ def pool_of(spread: Spread) -> Iterator["Pool"]:
         yield Processes(spread.jobs)
         return
     if spread.jobs is not None:
-        raise click.UsageError("--jobs and --scheduler say two things: the scheduler knows its workers")
+        raise click.UsageError(Message("jobs-and-scheduler"))
     from sim.workers.cluster import cluster
 
     with cluster(spread.scheduler) as pool:

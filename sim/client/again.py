@@ -60,9 +60,9 @@ def again(name: str, session: Session) -> Again:
         try:
             call(card, one.call)
         except Damaged as error:
-            raise CardLogError(f"{name}:{one.line}: {error}") from None
+            raise CardLogError("in-line", file=name, line=one.line, message=error.message) from None
         if heard.pop() != one.call:
-            raise CardLogError(f"{name}:{one.line}: the card answers otherwise when the call is made again")
+            raise CardLogError("card-answers-otherwise", name=name, line=one.line)
     stands = _to_rest(card, session.end_s)
     card.GT_SwitchtoCardNo(0)
     last_s = spans.joined[-1][1] if spans.joined else 0.0

@@ -118,7 +118,7 @@ def _head(name: str, numbered: Iterator[tuple[int, str]]) -> CardSettings:
         check_format(next(numbered, (1, ""))[1].rstrip("\n"))
         return settings_of(next(numbered, (2, ""))[1].rstrip("\n"))
     except Damaged as error:
-        raise CardLogError(f"{name}: {error}") from None
+        raise CardLogError("in-file", file=name, message=error.message) from None
 
 
 def _add(events: list[Event], name: str, number: int, text: str) -> float:
@@ -134,6 +134,6 @@ def _add(events: list[Event], name: str, number: int, text: str) -> float:
             return t_s
         call = call_of(text)
     except Damaged as error:
-        raise CardLogError(f"{name}:{number}: {error}") from None
+        raise CardLogError("in-line", file=name, line=number, message=error.message) from None
     events.append(Told(number, call, is_question=asks))
     return call.t_s

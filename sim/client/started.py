@@ -68,9 +68,9 @@ def started(wanted: Wanted, log: Path, *, out: int | None = None) -> Ended:
     """
     for name in (LIBRARY, SLEEP):
         if not (wanted.library / name).is_file():
-            raise FileUnreadableError(f"{wanted.library / name}: no such file; 'drycut card build' makes it")
+            raise FileUnreadableError("no-libges-there", file=wanted.library / name)
     if re.search(r"[\s:;]", str(wanted.library.resolve())):  # the loader parts its lists there, and nothing hinders it
-        raise StartError(f"{printable(str(wanted.library))}: a library is not found in a folder with a blank or colon")
+        raise StartError("library-folder-blank", folder=printable(str(wanted.library)))
     command = [_program(wanted.command[0]), *wanted.command[1:]]
     try:
         child = subprocess.Popen(  # noqa: S603 - the user's own program
@@ -78,7 +78,7 @@ def started(wanted: Wanted, log: Path, *, out: int | None = None) -> Ended:
         )
     except OSError as error:
         why = error.strerror or str(error)
-        raise StartError(f"{printable(wanted.command[0])}: cannot be started: {why}") from None
+        raise StartError("not-startable", program=printable(wanted.command[0]), why=why) from None
     with _ended_with_us(child):
         return _waited(child, wanted.longest_s)
 

@@ -90,7 +90,7 @@ def drills_of(program: Program, settings: CheckSettings, asked: Asked) -> tuple[
             if _is_enough(found, asked):
                 break
     if not found:
-        raise SettingsError(f"nothing in {program.name} can be damaged in such a way that it shows at this level")
+        raise SettingsError("nothing-to-damage", name=program.name)
     told = Counter(_told(program, before.findings))
     drills = [_drill(program, fault, settings, told) for fault in _chosen(found, asked.drills)]
     return tuple(sorted(drills, key=lambda one: (LEVELS.index(one.level), -one.by.most_um)))
@@ -99,16 +99,14 @@ def drills_of(program: Program, settings: CheckSettings, asked: Asked) -> tuple[
 def _refuse_long(program: Program) -> None:
     blocks = max(program.reading.counts.run, len(program.toolpath))
     if blocks > MOST_BLOCKS:
-        raise SettingsError(f"{program.name} has {blocks} blocks; nobody looks through more than {MOST_BLOCKS}")
+        raise SettingsError("too-many-blocks-to-drill", name=program.name, blocks=blocks, most=MOST_BLOCKS)
 
 
 def _refuse_unsound(program: Program, result: CheckResult) -> None:
     if result.verdict == "fail":
         codes = ", ".join(sorted({found.code for found in result.findings if found.severity is Severity.ERROR}))
         name = program.name
-        raise SettingsError(
-            f"drills are made of sound programs, and {name} has findings that fail it: {codes}; drycut check shows them"
-        )
+        raise SettingsError("drills-of-unsound", name=name, codes=codes)
 
 
 def _is_enough(found: list["_Fault"], asked: Asked) -> bool:

@@ -78,9 +78,7 @@ def _waited_for(folder: Path) -> int | None:
             return take_lock(folder)
         except BlockingIOError:
             if time.monotonic() > end_s:
-                raise FileUnreadableError(
-                    f"{folder}: cannot be written: another run has been changing its files for {MOST_WAIT_S:.0f} s"
-                ) from None
+                raise FileUnreadableError("folder-locked", folder=folder, seconds=MOST_WAIT_S) from None
         except OSError:
             return None
         time.sleep(_PAUSE_S)

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError
+from parser.findings.messages import system_message
 from sim.files.stages import clear_once, stage_in
 
 
@@ -33,28 +34,23 @@ def replace_file(path: Path, before: bytes, after: bytes) -> None:
             _keep_attributes(path, made, target)
             made.chmod(stat.S_IMODE(was.st_mode))
             if target.read_bytes() != before:
-                raise FileUnreadableError(f"{path}: cannot be written: it has changed since it was read")
+                raise FileUnreadableError("has-changed-since-read", path=path)
             made.replace(target)
     except FileUnreadableError:
         raise
     except OSError as error:
-        raise FileUnreadableError(f"{path}: cannot be written: {error.strerror or error}") from None
+        raise FileUnreadableError("cannot-be-written", file=path, why=system_message(error)) from None
 
 
 def _refuse(path: Path, target: Path, was: os.stat_result) -> None:
     """FileUnreadableError where a file may not be replaced."""
     if was.st_nlink > 1:
-        raise FileUnreadableError(
-            f"{path}: cannot be written: it has {was.st_nlink} names (hard links), "
-            "and the others would keep what it was; give it a copy of its own"
-        )
+        raise FileUnreadableError("has-hard-links", path=path, names=was.st_nlink)
     # Root may write all files; one that nobody may write is still not meant to change.
     if not was.st_mode & 0o222 or not _may(target, os.W_OK):
-        raise FileUnreadableError(f"{path}: cannot be written: it is read-only")
+        raise FileUnreadableError("is-read-only", path=path)
     if not _may(target.parent, os.W_OK | os.X_OK):
-        raise FileUnreadableError(
-            f"{path}: cannot be written: a file is replaced as a whole, and nothing may be added to its folder"
-        )
+        raise FileUnreadableError("folder-takes-no-file", path=path)
 
 
 def _may(path: Path, what: int) -> bool:
@@ -70,9 +66,7 @@ def _keep_owner(path: Path, made: Path, was: os.stat_result) -> None:
         if (own.st_uid, own.st_gid) != (was.st_uid, was.st_gid):
             os.chown(made, was.st_uid, was.st_gid)
     except OSError:
-        raise FileUnreadableError(
-            f"{path}: cannot be written: it belongs to another user or group, and would then be yours"
-        ) from None
+        raise FileUnreadableError("belongs-to-another-user", path=path) from None
 
 
 def _keep_attributes(path: Path, made: Path, target: Path) -> None:
@@ -91,7 +85,7 @@ def _keep_attributes(path: Path, made: Path, target: Path) -> None:
                 os.setxattr(made, name, value)
     except OSError as error:
         raise FileUnreadableError(
-            f"{path}: cannot be written: its attributes ({', '.join(sorted(wanted))}) cannot be kept: {error.strerror}"
+            "attributes-cannot-be-kept", path=path, names=", ".join(sorted(wanted)), why=system_message(error)
         ) from None
 
 

@@ -6,6 +6,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError
+from parser.findings.messages import Message, system_message
 from sim.files.locks import alone_in
 from sim.files.stages import clear, close, stage_in
 from sim.files.swap import swap
@@ -39,7 +40,7 @@ def staged(target: Path, names: Sequence[str]) -> Iterator[Path]:
     except FileUnreadableError:
         raise
     except OSError as error:
-        raise FileUnreadableError(f"{_named(error, target)}: cannot be written: {error.strerror or error}") from None
+        raise FileUnreadableError("cannot-be-written", file=_named(error, target), why=system_message(error)) from None
 
 
 def _named(error: OSError, target: Path) -> Path:
@@ -56,14 +57,14 @@ def _refuse_other_than_files(target: Path, names: Sequence[str]) -> None:
         except OSError:  # nothing is there, or a link that leads nowhere
             continue
         if not stat.S_ISREG(mode):
-            kind = "a folder" if stat.S_ISDIR(mode) else "no plain file"
-            raise FileUnreadableError(f"{path}: is {kind}; a file of this name is to be written")
+            kind = Message("a-folder" if stat.S_ISDIR(mode) else "no-plain-file")
+            raise FileUnreadableError("is-no-file-to-replace", path=path, kind=kind)
 
 
 def _make_folders(target: Path) -> list[Path]:
     """Make a folder with its parents; those that were missing, innermost first."""
     if target.exists() and not target.is_dir():
-        raise FileUnreadableError(f"{target}: is a file; a folder of this name is to be written into")
+        raise FileUnreadableError("is-a-file-not-a-folder", path=target)
     missing = [folder for folder in (target, *target.parents) if not folder.exists()]
     with _removed_on_error(missing):
         target.mkdir(parents=True, exist_ok=True)

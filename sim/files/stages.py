@@ -11,6 +11,7 @@ from functools import cache
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError
+from parser.findings.messages import system_message
 from sim.files.locks import alone_in, drop_lock, take_lock
 from sim.files.swap import finish
 
@@ -42,7 +43,7 @@ def _make(stage: Path) -> None:
     try:
         stage.mkdir()
     except OSError as error:
-        raise FileUnreadableError(f"{stage.parent}: cannot be written: {error.strerror or error}") from None
+        raise FileUnreadableError("cannot-be-written", file=stage.parent, why=system_message(error)) from None
 
 
 @contextmanager
@@ -69,8 +70,7 @@ def close(stage: Path, folder: Path) -> None:
         finish(stage, folder)
     except OSError as error:
         raise FileUnreadableError(
-            f"{folder}: files of it are still in {stage.name} there and cannot be moved: {error.strerror or error}; "
-            "the next run into this folder tries again"
+            "files-left-in-stage", folder=folder, stage=stage.name, why=system_message(error)
         ) from None
     shutil.rmtree(stage, ignore_errors=True)
 

@@ -14,6 +14,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from controller.stepping.pulses import Pulses
 from parser.findings.errors import FileUnreadableError
+from parser.findings.messages import system_message
 
 
 class StepFiles:
@@ -71,7 +72,9 @@ class StepFiles:
         try:
             yield
         except OSError as error:
-            raise FileUnreadableError(f"{self._folder.parent}: cannot be written: {error.strerror or error}") from None
+            raise FileUnreadableError(
+                "cannot-be-written", file=self._folder.parent, why=system_message(error)
+            ) from None
 
 
 def _write_head(file: IO[bytes], dtype: DTypeLike, length: int) -> None:

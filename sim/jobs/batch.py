@@ -7,6 +7,7 @@ from typing import Any, Final, NamedTuple
 from parser.files.reading import read_bytes
 from parser.findings.catalogue import Language, Said
 from parser.findings.errors import DrawingError, FileUnreadableError, SettingsError
+from parser.findings.messages import in_both
 from parser.text.encoding import printable
 from sim.files import staged
 from sim.jobs.index import Entry, Row, build_index, index_text
@@ -16,7 +17,6 @@ from sim.jobs.run_into import NAMES
 from sim.jobs.shop import ShopProgram
 from sim.jobs.source import source_of
 from sim.show.index_page import Beside, index_page
-from sim.show.words.told import in_both, told
 from sim.workers.makers import made_by
 from sim.workers.pool import Pool
 from sim.workers.rounds import DIED, Lost, results
@@ -47,7 +47,7 @@ def run_batch(
     done. FileUnreadableError where `out` cannot be written; ClusterError where workers fail as a whole.
     """
     if out.exists() and not out.is_dir():
-        raise FileUnreadableError(f"{out}: is a file; a folder of this name is to be written into")
+        raise FileUnreadableError("is-a-file-not-a-folder", path=out)
     work = _Work(programs, out, progress, language)
     for number, done in results(run_task, work.tasks(), pool):
         work.take(number, done)
@@ -77,7 +77,7 @@ class _Work:
             try:
                 task = _task(program, self._language)
             except (FileUnreadableError, DrawingError, SettingsError) as error:
-                self._refuse(number, told(error))
+                self._refuse(number, error.in_both())
                 continue
             if task is None:
                 self._refuse(number, in_both(program.error))

@@ -49,11 +49,11 @@ def client_into(folder: Path, log: Path, ended: Ended, scenario: Scenario, progr
 def read_log(log: Path) -> Read:
     """A log read, and its calls made again. CardLogError where it holds no call."""
     if not log.exists():
-        raise CardLogError("the program made no call to the card: is it linked with -lges?")
+        raise CardLogError("no-call-unlinked")
     with log.open(encoding="utf-8", newline="\n") as lines:
         session = session_of(LOG, lines)
     if not session.events:
-        raise CardLogError("the program made no call to the card")
+        raise CardLogError("no-call")
     return read_again(LOG, session)
 
 

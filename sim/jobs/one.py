@@ -20,7 +20,6 @@ from sim.run.findings import verdict
 from sim.setup.scenario import Scenario
 from sim.show.index_page.thumbnail import thumbnail
 from sim.show.words.phrases import same
-from sim.show.words.told import told
 from sim.workers.makers import Maker, refuse_other_makers
 
 _BY_ITSELF: Final = threading.Lock()  # workers of a cluster may have several threads, and pygame knows one
@@ -72,10 +71,10 @@ def run_task(task: Task) -> Done:
         with _BY_ITSELF, scratch() as folder:
             return _run(task, folder)
     except ProgramError as error:
-        row = Row("refused", task.scenario.title, told(error), counted((*error.others, error.finding)))
+        row = Row("refused", task.scenario.title, error.in_both(), counted((*error.others, error.finding)))
         return Done(row, {})
     except DrycutError as error:
-        return Done(Row("refused", task.scenario.title, told(error)), {})
+        return Done(Row("refused", task.scenario.title, error.in_both()), {})
     except Exception:
         return fault_of(task.scenario.title, traceback.format_exc())
 
@@ -93,7 +92,8 @@ def _run(task: Task, folder: Path) -> Done:
         program = moving(load_program(task.data, task.name, scenario.choices))
         run = run_into(made, program, scenario, language=task.language)
     except DrawingError as error:  # people know the drawing by where it stands
-        raise DrawingError(str(error).replace(*_places_of_drawing(scenario, task.scenario))) from None
+        here, own = _places_of_drawing(scenario, task.scenario)
+        raise DrawingError(error.message.with_values(lambda value: own if str(value) == here else value)) from None
     beside = {task.scenario.program.name: task.data} if task.is_made else {}
     return Done(_row(run), {**{name: (made / name).read_bytes() for name in FILES if (made / name).exists()}, **beside})
 

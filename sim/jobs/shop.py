@@ -76,7 +76,7 @@ def _scenario(folder: Path, scenario_of: Callable[[Path], Scenario]) -> Scenario
     try:
         return scenario_of(folder)
     except DrycutError as error:
-        return str(error)
+        return error.message
 
 
 class _Theirs:

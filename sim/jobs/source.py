@@ -34,12 +34,11 @@ def _made(scenario: Scenario, to_make: ToMake, progress: Progress) -> bytes:
     from sim.cam.maker import NotMade  # noqa: PLC0415 - few programs are made, and what makes them takes long to load
     from sim.cam.of_scenario import program_of  # noqa: PLC0415 - as above
     from sim.show.refusals import why_refused  # noqa: PLC0415 - as above
-    from sim.show.words import Words  # noqa: PLC0415 - as above
 
     done = program_of(scenario, to_make, progress)
     if isinstance(done, NotMade):
         drawing = printable(str(scenario.drawing and scenario.drawing.file))
-        raise DrawingError(Words("en")("program.not-written", name=drawing, why=why_refused(done.refusal)))
+        raise DrawingError("no-program-of-drawing", drawing=drawing, why=why_refused(done.refusal))
     return done.data
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parser.findings.errors import FileUnreadableError
+from parser.findings.messages import system_message
 from parser.geometry.curves import Floats
 from sim.files import write_npz
 from sim.run.dryrun import DryRun
@@ -64,9 +65,9 @@ def read_trace(path: Path | str) -> StoredTrace:
         with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             return StoredTrace(**{field.name: arrays[field.name] for field in fields(StoredTrace)})
     except OSError as error:
-        raise FileUnreadableError(f"{path}: {error.strerror or 'holds no trace of a run'}") from None
+        raise FileUnreadableError("in-file", file=path, message=system_message(error)) from None
     except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile, zlib.error):
-        raise FileUnreadableError(f"{path}: holds no trace of a run, as drycut run -o DIR --trace writes it") from None
+        raise FileUnreadableError("no-trace", path=path) from None
 
 
 def write_trace(folder: Path, run: DryRun, steps: Mapping[str, Path]) -> None:

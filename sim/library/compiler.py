@@ -39,7 +39,7 @@ class Compiler(NamedTuple):
         )
         if done.returncode:
             said = "\n".join(done.stderr.splitlines()[:_TOLD_LINES])
-            raise CompilerError(f"{self.call[0]} cannot make {made.name}:\n{said}")
+            raise CompilerError("compiler-failed", compiler=self.call[0], made=made.name, said=said)
 
 
 def found_compiler() -> Compiler:
@@ -48,7 +48,7 @@ def found_compiler() -> Compiler:
     CompilerError where one of the three is missing.
     """
     if not sys.platform.startswith("linux"):
-        raise CompilerError(f"libges is made on Linux; this is {sys.platform}")
+        raise CompilerError("no-libges-here", system=sys.platform)
     return Compiler(_call(), _headers(), _python())
 
 
@@ -59,19 +59,14 @@ def _call() -> tuple[str, ...]:
         if path := shutil.which(name):
             return (path, *call[1:])
     if named:
-        raise CompilerError(f"there is no C compiler {printable(named)}, which CC names")
-    raise CompilerError(
-        f"there is no C compiler here ({', '.join(_NAMES)}); on Debian and Ubuntu: apt install gcc libc6-dev"
-    )
+        raise CompilerError("compiler-of-cc-missing", name=printable(named))
+    raise CompilerError("no-compiler", names=", ".join(_NAMES))
 
 
 def _headers() -> Path:
     folder = Path(sysconfig.get_path("include"))
     if not (folder / "Python.h").is_file():
-        raise CompilerError(
-            f"the headers of this Python are missing: {folder / 'Python.h'}; on Debian and Ubuntu: apt install "
-            f"python{sysconfig.get_python_version()}-dev"
-        )
+        raise CompilerError("python-headers-missing", file=folder / "Python.h", version=sysconfig.get_python_version())
     return folder
 
 
@@ -83,8 +78,4 @@ def _python() -> Path:
         for path in (folder / name, folder / beneath / name):
             if ".so" in path.name and path.is_file():
                 return path
-    raise CompilerError(
-        f"this Python ({sys.executable}) has no shared library (libpython{sysconfig.get_python_version()}.so), which "
-        "libges needs: a Python built with --enable-shared has one; on Debian and Ubuntu: apt install "
-        f"libpython{sysconfig.get_python_version()}"
-    )
+    raise CompilerError("no-shared-python", python=sys.executable, version=sysconfig.get_python_version())

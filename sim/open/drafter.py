@@ -15,6 +15,7 @@ from parser.drawing.model import Drawing, running
 from parser.drawing.read import read_drawing
 from parser.findings.catalogue import LANGUAGES, Language, Said
 from parser.findings.errors import DrycutError, SettingsError
+from parser.findings.messages import Message
 from parser.findings.remarks import remark_text
 from parser.geometry.curves import CurveKind, Curves
 from parser.program import load_program, moving
@@ -42,7 +43,6 @@ from sim.show.replay.curve_columns import exact_columns
 from sim.show.terminal.program import told_lines
 from sim.show.terminal.proof import against
 from sim.show.words import Words
-from sim.show.words.told import told
 
 _WIDE: Final = 100_000
 """Cells of a line that is not to be broken."""
@@ -61,7 +61,7 @@ def _make(asked: Asked) -> dict[str, Any]:
     """Make a program of the drawing, and prove it by a run."""
     drawing, written = Path(asked["drawing_file"]), asked["language"]
     if written not in PROGRAM_LANGUAGES:
-        raise SettingsError(f"programs are written in {', '.join(PROGRAM_LANGUAGES)}, not {written[:40]!r}")
+        raise SettingsError("no-program-language", languages=", ".join(PROGRAM_LANGUAGES), found=written[:40])
     file = drawing.with_suffix(f".{written}")
     to_make = ToMake()._replace(file=file, making=_making(asked))
     scenario = scenario_of({**asked, "offset_mm": "", "drawing_file": ""}, file)
@@ -79,7 +79,7 @@ def _make(asked: Asked) -> dict[str, Any]:
 def _making(asked: Asked) -> Making:
     """How it is to be made. SettingsError for numbers out of their bounds."""
     passes, tab = offsets_um(asked, OR_NONE_MM), asked["tab_mm"]
-    making = Making(passes_um=passes, tab_um=from_mm(number_of(tab, OVERCUT_MM, "the tab in mm")) if tab else 0.0)
+    making = Making(passes_um=passes, tab_um=from_mm(number_of(tab, OVERCUT_MM, Message("name-tab"))) if tab else 0.0)
     refuse_odd(making, "the program")
     return making
 
@@ -98,7 +98,7 @@ def _placement(asked: Asked, drawing: Drawing, target: DrawingTarget) -> tuple[P
         how = Compared(target.tolerance_um, target.fit, target.sharp_corners)
         return compare_program(path, scenario.wire.reach_um, drawing, how).placement, []
     except DrycutError as error:
-        return IN_PLACE, [told(error)]
+        return IN_PLACE, [error.in_both()]
 
 
 def _path(asked: Asked, scenario: Scenario) -> Toolpath:

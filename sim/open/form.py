@@ -4,6 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from parser.findings.errors import SettingsError
+from parser.findings.messages import Message
 from parser.text.encoding import narrow
 from parser.units import from_mm
 from sim.open.telling import Asked
@@ -22,12 +23,14 @@ def scenario_of(asked: Asked, file: Path) -> Scenario:
     scenario = load_scenario(file)
     if asked["machine"]:
         if asked["machine"] not in machine_names():  # a page names no file of the disk
-            raise SettingsError(f"machine {asked['machine'][:40]!r} is not shipped")
+            raise SettingsError("machine-not-shipped-on-page", name=asked["machine"][:40])
         scenario = replace(scenario, machine=load_machine(asked["machine"]), machine_by_default=False)
     if asked["thickness_mm"]:
-        scenario = replace(scenario, thickness_mm=number_of(asked["thickness_mm"], THICKNESS_MM, "the thickness in mm"))
+        scenario = replace(
+            scenario, thickness_mm=number_of(asked["thickness_mm"], THICKNESS_MM, Message("name-thickness"))
+        )
     if asked["wire_mm"]:
-        wire_um = from_mm(number_of(asked["wire_mm"], WIRE_DIAMETER_MM, "the wire in mm"))
+        wire_um = from_mm(number_of(asked["wire_mm"], WIRE_DIAMETER_MM, Message("name-wire")))
         scenario = replace(scenario, wire=replace(scenario.wire, diameter_um=wire_um))
     if asked["drawing_file"]:
         scenario = replace(scenario, drawing=DrawingTarget(Path(asked["drawing_file"])))
@@ -38,8 +41,8 @@ def offsets_um(asked: Asked, bound: Bound) -> tuple[float, ...]:
     """The offsets of the passes; none where nothing is said. SettingsError where one is out of its bounds."""
     words = narrow(asked["offset_mm"]).replace(",", " ").split()  # digits and commas of a Chinese keyboard, too
     if words:
-        number(len(words), PASSES, "the number of passes")
-    return tuple(from_mm(number_of(word, bound, "the offset in mm")) for word in words)
+        number(len(words), PASSES, Message("name-passes"))
+    return tuple(from_mm(number_of(word, bound, Message("name-offset"))) for word in words)
 
 
 def number_of(text: str, bound: Bound, name: str) -> float:
@@ -47,7 +50,7 @@ def number_of(text: str, bound: Bound, name: str) -> float:
     try:
         value = float(text)
     except ValueError:
-        raise SettingsError(f"{name} is a number, not {text[:40]!r}") from None
+        raise SettingsError("text-is-no-number", name=name, found=text[:40]) from None
     return number(value, bound, name)
 
 

@@ -9,10 +9,10 @@ from typing import Any, Final
 
 from parser.files.reading import read_bytes, read_stdin
 from parser.findings.errors import FileUnreadableError
+from parser.findings.messages import in_both
 from sim.open.row import refused, row_or_why
 from sim.show.terminal.printer import write
 from sim.show.words.phrases import same
-from sim.show.words.told import in_both
 from sim.workers.processes import Processes
 from sim.workers.rounds import DIED, Lost, in_order, results
 
@@ -33,7 +33,7 @@ def _row(asked: tuple[str, Path]) -> dict[str, Any]:
     try:
         data = read_bytes(file)
     except FileUnreadableError as error:
-        return refused(name, in_both(error.detail or str(error)))
+        return refused(name, in_both(error.detail or error.message))
     return row_or_why(name, file, data)
 
 

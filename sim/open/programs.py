@@ -67,7 +67,7 @@ class Programs:
         """The bytes of the program of a number, as its file has them now. FileUnreadableError where it has none."""
         file = self.file(number)
         if file is None or not self._is_inside(file):
-            raise FileUnreadableError(f"there is no program {number[:9]}")
+            raise FileUnreadableError("no-such-program", number=number[:9])
         return read_bytes(file)
 
     async def again(self) -> None:

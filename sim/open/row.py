@@ -13,7 +13,6 @@ from sim.check.as_typed import as_typed
 from sim.open.answers import read_file, size_of
 from sim.show.index_page.thumbnail import thumbnail
 from sim.show.words.phrases import same
-from sim.show.words.told import told
 
 
 def row_of(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
@@ -40,7 +39,7 @@ def row_or_why(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
     try:
         return row_of(name, file, data)
     except DrycutError as error:
-        return refused(name, told(error))
+        return refused(name, error.in_both())
     except Exception:
         return _row(name, "fault", message=same(traceback.format_exc().strip().splitlines()[-1]))
 

@@ -12,6 +12,7 @@ from typing import Any, Final
 from parser.files.reading import read_bytes
 from parser.findings.catalogue import Language
 from parser.findings.errors import SettingsError
+from parser.findings.messages import Message
 from parser.program import Program, load_program, moving
 from sim.check.as_typed import settings_near
 from sim.check.settings import CheckSettings
@@ -50,9 +51,9 @@ def _run(asked: Asked) -> dict[str, Any]:
 def _film(asked: Asked) -> dict[str, Any]:
     """Make a film of the run."""
     if f".{asked['form']}" not in FORMATS:  # nor does a page say in which folder
-        raise SettingsError(f"films are {', '.join(FORMATS)}, not {asked['form'][:40]!r}")
+        raise SettingsError("no-film-format", formats=", ".join(FORMATS), found=asked["form"][:40])
     file = Path(asked["folder"]) / f"film.{asked['form']}"
-    seconds = number_of(asked["seconds"], _FILM_S, "the length of the film in s")
+    seconds = number_of(asked["seconds"], _FILM_S, Message("name-film-length"))
     look = Look(*_FILM_PX, "light", _language(asked))
     format_of(file, seconds, _FILM_FPS, look)  # what cannot be is told before the run
     with _again(asked, "film") as (recording, progress):
@@ -71,7 +72,7 @@ def _pictures(asked: Asked) -> dict[str, Any]:
 
 def _drills(asked: Asked) -> dict[str, Any]:
     """Make the fault drills of a set of the program that ran."""
-    number = int(number_of(asked["set"], _SETS, "the number of the set"))
+    number = int(number_of(asked["set"], _SETS, Message("name-set")))
     progress = telling(["drills"])
     progress("drills", 0, 1)
     program = _program(asked, scenario_of(asked, Path(asked["file"])))

@@ -13,6 +13,7 @@ from typing import Final
 import uvicorn
 
 from parser.findings.errors import DrycutError
+from parser.findings.messages import system_message
 from sim.files import scratch
 from sim.open.app import app_of
 from sim.open.drawings import Drawings
@@ -86,7 +87,7 @@ def _listening(port: int) -> Iterator[socket.socket]:
             listening.bind((_HOST, port))
             listening.listen()  # from here on nobody else can have the port
         except OSError as error:
-            raise PortError(f"port {port} cannot be listened on: {error.strerror or error}") from None
+            raise PortError("port-taken", port=port, why=system_message(error)) from None
         yield listening
 
 

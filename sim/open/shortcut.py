@@ -33,7 +33,7 @@ def write_shortcut(folder: Path, platform: str = sys.platform) -> list[Path]:
         entry = desktop_entry(Path(sys.executable), folder / _PICTURE)
         files = {_ENTRY: entry.encode(), _PICTURE: _ICON.read_bytes()}
     else:
-        raise SettingsError(f"a shortcut is written for Linux and Windows, not for {platform}")
+        raise SettingsError("no-shortcut-here", system=platform)
     with staged(folder, list(files)) as stage:
         for name, data in files.items():
             (stage / name).write_bytes(data)

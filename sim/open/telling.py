@@ -7,7 +7,6 @@ from typing import Any, Final
 from parser.files.reading import read_stdin
 from parser.findings.errors import DrycutError
 from sim.show.terminal.printer import write
-from sim.show.words.told import told
 from sim.table.progress import Progress
 
 Asked = dict[str, str]
@@ -22,7 +21,7 @@ def do(jobs: Mapping[str, Callable[[Asked], dict[str, Any]]]) -> None:
     try:
         _tell(done=jobs[asked["job"]](asked))
     except DrycutError as error:
-        _tell(wrong=told(error)._asdict())
+        _tell(wrong=error.in_both()._asdict())
 
 
 def telling(stages: Sequence[str]) -> Progress:

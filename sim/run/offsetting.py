@@ -70,10 +70,7 @@ def offsetting(program: Program, offset: Offset) -> Offsetting:
 def refuse_twice(program: Program, offset: Offset | None) -> None:
     """SettingsError where an offset is asked for besides the compensation of the program's own."""
     if offset is not None and compensation_of(program.toolpath) is not None:
-        raise SettingsError(
-            f"{program.name}: compensates itself, by G41 or G42: leave out --offset and --side, or [offset];"
-            " --offset D0=0.1mm gives the value of a register"
-        )
+        raise SettingsError("compensates-itself", name=program.name)
 
 
 def refuse_unknown(program: Program, findings: Sequence[Finding]) -> None:

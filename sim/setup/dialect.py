@@ -38,7 +38,7 @@ class RegisterTable(ValueKind):
 def _register(name: str, by_mm: object, where: str) -> tuple[str, float]:
     known = register_name(name)
     if not known:
-        raise SettingsError(f"{where}: {name!r} is no offset register; write it such as D1 or H1")
+        raise SettingsError("no-offset-register", where=where, name=name)
     return known, number(by_mm, REGISTER_MM, f"{where}: {name}")
 
 

@@ -52,10 +52,7 @@ def read_expectation(table: Mapping[str, Any], where: str) -> tuple[Expectation,
             continue
         low, high = value.get("min", -math.inf), value.get("max", math.inf)
         if not value or set(value) - {"min", "max"} or not (_is_number(low) and _is_number(high) and low <= high):
-            raise SettingsError(
-                f"{where}: {path} is a value or {{min = …, max = …}}, and a path with dots stands in quotes, "
-                f'"{path}.…"; found {dict(value)!r}'
-            )
+            raise SettingsError("no-expected-value", where=where, path=path, found=dict(value))
         found.append(Expectation(path, (_end(low), _end(high)), is_range=True))
     return tuple(found)
 

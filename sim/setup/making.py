@@ -165,5 +165,5 @@ def language_of(file: Path) -> Language:
     """The language that the suffix of a file says. SettingsError where it says none."""
     language = SUFFIXES.get(file.suffix.lower())
     if language is None:
-        raise SettingsError(f"{file}: the suffix says no language; expected one of {', '.join(SUFFIXES)}")
+        raise SettingsError("suffix-without-language", file=file, suffixes=", ".join(SUFFIXES))
     return language

@@ -71,10 +71,10 @@ def _clamp(table: Mapping[str, Any], at: int, where: str) -> Clamp:
 def read_outline(table: Mapping[str, Any], where: str, key: str = "outline_mm") -> Outline:
     """Outline of a key. SettingsError where it is missing or no simple polygon."""
     if key not in table:
-        raise SettingsError(f"{where}: {key} is missing")
+        raise SettingsError("key-missing", where=where, key=key)
     where, value = f"{where}: {key}", table[key]
     if not isinstance(value, list) or not all(isinstance(point, list) and len(point) == 2 for point in value):
-        raise SettingsError(f"{where} is a list of points [x, y]; found {value!r}")
+        raise SettingsError("no-list-of-points", where=where, found=value)
     number(len(value), POINTS, f"{where}: the number of points")
     corners = from_mm(np.array([_place(point, f"{where}: point {at}") for at, point in enumerate(value, start=1)]))
     _refuse_tangled(corners, where)
@@ -97,14 +97,11 @@ def _area_um2(corners: Floats) -> float:
 def _refuse_tangled(corners: Floats, where: str) -> None:
     """SettingsError where sides of a polygon (n, 2) cross, touch or fold back."""
     if (corners[0] == corners[-1]).all():
-        raise SettingsError(f"{where}: the last point repeats the first; leave it out, an outline closes by itself")
+        raise SettingsError("outline-closed-twice", where=where)
     for side, point in np.argwhere(_distances_um(corners) < APART_UM).tolist():
-        raise SettingsError(
-            f"{where}: point {point + 1} lies on the side that begins at point {side + 1}, "
-            f"or nearer to it than {APART_UM:g} µm"
-        )
+        raise SettingsError("outline-touches-itself", where=where, point=point + 1, side=side + 1, apart_um=APART_UM)
     for one, other in np.argwhere(_crossings(corners)).tolist():
-        raise SettingsError(f"{where}: the sides that begin at points {one + 1} and {other + 1} cross")
+        raise SettingsError("outline-crosses-itself", where=where, one=one + 1, other=other + 1)
 
 
 def _distances_um(corners: Floats) -> Floats:

@@ -9,6 +9,7 @@ from typing import Any, Literal, NamedTuple, get_args
 from controller.offset.sections import Side
 from parser.drawing.model import DEFAULT_GAP_UM
 from parser.findings.errors import SettingsError
+from parser.findings.messages import Message
 from parser.text.encoding import printable
 from sim.setup.toml.keys import Key, Section
 from sim.setup.toml.kinds import MM_AS_UM, MM_MIN_AS_UM_S, FileName, Number, OneOf, Text, Truth
@@ -126,7 +127,7 @@ class _SideWord(OneOf):
         """The word."""
         name = text(table, key, where)
         if name not in SIDES:
-            raise SettingsError(f"{where}: {key} is {' or '.join(SIDES)}; found {name!r}")
+            raise SettingsError("no-side", where=where, key=key, sides=" or ".join(SIDES), found=name)
         return name
 
     def kept(self, value: Any) -> Side:
@@ -180,26 +181,26 @@ def read_offset(scenario: Mapping[str, Any], where: str) -> Offset | None:
     passes = tables(scenario, "pass", where)
     if "offset" not in scenario:
         if "pass" in scenario:
-            raise SettingsError(f'{where}: [[pass]] needs [offset] with side = "left" or side = "right"')
+            raise SettingsError("pass-needs-offset", where=where)
         return None
     value = OFFSET.read_in(scenario, where)
     by_um, side = value["by_um"], value["side"]
     if "pass" not in scenario:
         if by_um is None:
-            raise SettingsError(f"{where}: [offset]: by_mm is missing; or give it in a [[pass]] for each pass")
+            raise SettingsError("offset-missing", where=where)
         return Offset((OffsetPass(by_um),), side)
     if by_um is not None:
-        raise SettingsError(f"{where}: [offset]: by_mm is left out where there are [[pass]], which have their own")
-    number(len(passes), PASSES, f"{where}: the number of [[pass]]")
+        raise SettingsError("offset-given-twice", where=where)
+    number(len(passes), PASSES, Message("name-number", where=where, key="[[pass]]"))
     return Offset(tuple(_pass(table, at, f"{where}: [[pass]] {at}") for at, table in enumerate(passes, start=1)), side)
 
 
 def _pass(table: Mapping[str, Any], at: int, where: str) -> OffsetPass:
     one = OffsetPass(**PASS.read(table, where))
     if at == 1 and one.direction == "back":
-        raise SettingsError(f"{where}: direction is that of the program in the first pass; a later one may run back")
+        raise SettingsError("first-pass-runs-back", where=where)
     if one.feed_um_s is not None and one.area_rate_mm2_min is not None:
-        raise SettingsError(f"{where}: feed_mm_min and area_rate_mm2_min are two ways to say one thing; give one")
+        raise SettingsError("feed-and-area-rate", where=where)
     return one
 
 

@@ -5,6 +5,7 @@ from itertools import pairwise
 from typing import Any
 
 from parser.findings.errors import SettingsError
+from parser.findings.messages import Message
 from parser.units import mm
 from sim.setup.making import (
     COMPENSATIONS,
@@ -89,10 +90,10 @@ def read_to_make(scenario: Mapping[str, Any], where: str, drawing: DrawingTarget
     )
     if not isinstance(scenario.get("program"), Mapping):
         if wishes:
-            raise SettingsError(f"{where}: [[layer]] needs [program], which makes the program of the drawing")
+            raise SettingsError("layer-needs-program", where=where)
         return None
     if drawing is None:
-        raise SettingsError(f"{where}: [program] needs [drawing] with the file that the program is made of")
+        raise SettingsError("program-needs-drawing", where=where)
     value = PROGRAM.read_in(scenario, where)
     making = of_drawing(Making(**value["making"])._replace(layers=wishes), drawing)
     refuse_odd(making, f"{where}: [program]")
@@ -108,13 +109,13 @@ def of_drawing(making: Making, drawing: DrawingTarget) -> Making:
 
 def refuse_odd(making: Making, where: str) -> None:
     """SettingsError where numbers are out of their bounds, or say what cannot be meant."""
-    number(making.tolerance_um, FIT_UM, f"{where}: the tolerance in µm")
-    number(making.held_to_um, TOLERANCE_UM, f"{where}: the tolerance of the part in µm")
-    number(making.gap_um, GAP_UM, f"{where}: the gap in µm")
-    number(mm(making.overcut_um), OVERCUT_MM, f"{where}: the overcut in mm")
-    number(mm(making.tab_um), OVERCUT_MM, f"{where}: the tab in mm")
+    number(making.tolerance_um, FIT_UM, _named(where, "name-tolerance"))
+    number(making.held_to_um, TOLERANCE_UM, _named(where, "name-part-tolerance"))
+    number(making.gap_um, GAP_UM, _named(where, "name-gap"))
+    number(mm(making.overcut_um), OVERCUT_MM, _named(where, "name-overcut"))
+    number(mm(making.tab_um), OVERCUT_MM, _named(where, "name-tab"))
     if making.lead_um is not None:
-        number(mm(making.lead_um), LEAD_MM, f"{where}: the length of the lead in mm")
+        number(mm(making.lead_um), LEAD_MM, _named(where, "name-lead"))
     for passes_um in (making.passes_um, *(wish.passes_um for wish in making.layers)):
         _refuse_odd_passes(passes_um, where)
 
@@ -131,24 +132,31 @@ def refuse_misfits(writing: Writing, language: Language, where: str) -> None:
     for languages, names in others.items():
         for name in names:
             if getattr(writing, name) != getattr(usual, name):
-                raise SettingsError(f"{where}: {name} is for {languages}, not {language}")
+                raise SettingsError(
+                    "key-not-for-language", where=where, name=name, languages=languages, language=language
+                )
 
 
 def _refuse_odd_codes(writing: Writing, where: str) -> None:
     for code in (writing.end_code, writing.pause_code):
         if code is not None and (not code.isprintable() or len(code.split()) != 1 or code != code.strip()):
-            raise SettingsError(f"{where}: a code for the end or a pause is one word; found {code!r}")
+            raise SettingsError("end-code-no-word", where=where, found=code)
     if (writing.end_code or "DD") == (writing.pause_code or "D"):
-        raise SettingsError(f"{where}: the end and a pause need different words, or nobody can tell them apart")
+        raise SettingsError("same-end-and-pause", where=where)
 
 
 def _refuse_odd_passes(passes_um: tuple[float, ...], where: str) -> None:
     if not passes_um:
         return
-    number(len(passes_um), PASSES, f"{where}: the number of passes")
+    number(len(passes_um), PASSES, _named(where, "name-passes"))
     for one in passes_um:
-        number(mm(one), OR_NONE_MM, f"{where}: the offset of a pass in mm")
+        number(mm(one), OR_NONE_MM, _named(where, "name-pass-offset"))
     if any(later > before for before, later in pairwise(passes_um)):
-        raise SettingsError(f"{where}: the offset of a pass is no larger than that of the pass before it")
+        raise SettingsError("pass-offset-rises", where=where)
     if len(passes_um) > 1 and not min(passes_um):
-        raise SettingsError(f"{where}: a pass of offset 0 is one on the contour itself, and the only one")
+        raise SettingsError("pass-of-offset-0", where=where)
+
+
+def _named(where: str, name: str) -> Message:
+    """What a number is called in a message: the name that stands in the texts, behind its place."""
+    return Message("in-file", file=where, message=Message(name))

@@ -7,6 +7,7 @@ import numpy as np
 
 from parser.findings.catalogue import Said
 from parser.findings.errors import SettingsError
+from parser.findings.messages import Message
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from sim.setup.toml.keys import Key, Section
@@ -60,10 +61,10 @@ class _Answers(ValueKind):
         """The answers."""
         value = table.get(key)
         if not isinstance(value, list) or not all(isinstance(answer, str) and answer for answer in value):
-            raise SettingsError(f"{where}: {key} is a list of texts and must be given; found {value!r}")
-        number(len(value), ANSWERS, f"{where}: the number of {key}")
+            raise SettingsError("no-list-of-texts", where=where, key=key, found=value)
+        number(len(value), ANSWERS, Message("name-number", where=where, key=key))
         if len(set(value)) < len(value):
-            raise SettingsError(f"{where}: {key} holds the same text twice")
+            raise SettingsError("same-text-twice", where=where, key=key)
         return value
 
     def kept(self, value: Any) -> list[str]:
@@ -112,7 +113,7 @@ def _question(table: Mapping[str, Any], where: str) -> Question:
         return Question(block, _written(table, where), where)
     given = next((key.name for key in _FREE if key.name in table), None)
     if given:
-        raise SettingsError(f"{where}: about asks a question of its own and takes no {given}")
+        raise SettingsError("about-takes-no-key", where=where, given=given)
     return Question(block, _ABOUT.read(table, where), where)
 
 
@@ -121,7 +122,7 @@ def _written(table: Mapping[str, Any], where: str) -> WrittenQuestion:
     answers = _ANSWERS.read(table, where)
     chinese = _ANSWERS_ZH.read(table, where) or answers
     if len(answers) != len(chinese):
-        raise SettingsError(f"{where}: there are {len(answers)} answers and {len(chinese)} answers_zh")
+        raise SettingsError("answers-differ-in-number", where=where, answers=len(answers), chinese=len(chinese))
     ask, why = _ASK.read(table, where), _WHY.read(table, where)
     right = Whole(Bound(1, len(answers))).checked(table, _RIGHT.name, where)
     return WrittenQuestion(
@@ -138,13 +139,11 @@ def refuse_unanswerable(questions: Iterable[Question], toolpath: Toolpath) -> No
         rows = np.flatnonzero(toolpath.source.block == question.block)
         if not len(rows):
             last = int(toolpath.source.block[-1])
-            raise SettingsError(f"{question.where}: block {question.block} is not in the program, which ends at {last}")
+            raise SettingsError("no-such-block", where=question.where, block=question.block, last=last)
         row = int(rows[0])
         if question.what in _OF_WORDS and toolpath.words is None:
-            raise SettingsError(
-                f"{question.where}: the program has no words to ask about, but senses (turn) and ends (end)"
-            )
+            raise SettingsError("no-words-to-ask-about", where=question.where)
         if question.what == "turn" and not toolpath.is_arc[row]:
-            raise SettingsError(f"{question.where}: block {question.block} is a line, and does not turn")
+            raise SettingsError("line-does-not-turn", where=question.where, block=question.block)
         if not isinstance(question.what, WrittenQuestion) and not toolpath.length_um[row] > 0.0:
-            raise SettingsError(f"{question.where}: block {question.block} has no length, and nothing to ask about")
+            raise SettingsError("block-without-length", where=question.where, block=question.block)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from parser.dialect.choices import Choices, Registers, merged
 from parser.findings.errors import FileUnreadableError, SettingsError
+from parser.findings.messages import system_message
 from parser.program import suffixes
 from parser.text.encoding import printable
 from parser.units import from_mm
@@ -206,12 +207,12 @@ def load_scenario(path: Path | str) -> Scenario:
     try:
         is_folder = path.is_dir()
     except OSError as error:
-        raise FileUnreadableError(f"{path}: cannot be read: {error.strerror or error}") from None
+        raise FileUnreadableError("cannot-be-read", file=path, why=system_message(error)) from None
     if not is_folder:
         return Scenario(printable(path.name), path, load_machine(DEFAULT_MACHINE), machine_by_default=True)
     file = path / "scenario.toml"
     if not file.exists():
-        raise SettingsError(f"{path}: is a folder without scenario.toml; give a program or a scenario folder")
+        raise SettingsError("folder-without-scenario", path=path)
     content, where = load_toml(file), str(file)
     drawing = read_drawing_target(content, where, path)
     to_make = read_to_make(content, where, drawing)

@@ -42,10 +42,7 @@ class WireForces(NamedTuple):
         """
         span_mm = thickness_mm if self.guide_span_mm is None else self.guide_span_mm
         if span_mm < thickness_mm:
-            raise SettingsError(
-                f"the work is {thickness_mm:g} mm thick and the guides are {span_mm:g} mm apart; "
-                "[wire] guide_span_mm must be no less than the thickness"
-            )
+            raise SettingsError("guides-closer-than-work", thickness_mm=thickness_mm, span_mm=span_mm)
         return from_mm(self.pressure_n_mm * thickness_mm * (2.0 * span_mm - thickness_mm) / (8.0 * self.tension_n))
 
 
@@ -70,12 +67,9 @@ class Wire:
     def __post_init__(self) -> None:
         """Check that there is a wire, and that it cuts a kerf."""
         if not self.diameter_um > 0.0:
-            raise SettingsError(f"a wire's diameter is more than 0; found {self.diameter_um:g} µm")
+            raise SettingsError("wire-without-diameter", diameter_um=self.diameter_um)
         if self.kerf_um <= 0.0:
-            raise SettingsError(
-                f"a wire of {self.diameter_um:g} µm with a spark gap of {self.spark_gap_um:g} µm cuts no kerf; "
-                "the diameter and twice the gap must come to more than 0"
-            )
+            raise SettingsError("wire-cuts-no-kerf", diameter_um=self.diameter_um, spark_gap_um=self.spark_gap_um)
 
     @property
     def radius_um(self) -> float:
@@ -99,8 +93,12 @@ class Wire:
         lag_um = self.lag.lag_um(thickness_mm)
         if lag_um > WIRE_LAG_UM.high:
             raise SettingsError(
-                f"{self.lag.pressure_n_mm:g} N/mm on {thickness_mm:g} mm of a wire under {self.lag.tension_n:g} N bow "
-                f"it by {lag_um:g} µm; it must be no more than {WIRE_LAG_UM.high:g}"
+                "wire-bows-too-far",
+                pressure_n_mm=self.lag.pressure_n_mm,
+                thickness_mm=thickness_mm,
+                tension_n=self.lag.tension_n,
+                lag_um=lag_um,
+                most_um=WIRE_LAG_UM.high,
             )
         return lag_um
 
@@ -150,8 +148,8 @@ def _lag(lag_um: float | None, forces: Mapping[str, float], where: str) -> float
     if not forces:
         return lag_um or 0.0
     if lag_um is not None:
-        raise SettingsError(f"{where}: {_LAG.name} is given, or {' and '.join(forces)} that tell it; found both")
+        raise SettingsError("lag-given-twice", where=where, name=_LAG.name, forces=" and ".join(forces))
     for key in ("tension_n", "pressure_n_mm"):
         if key not in forces:
-            raise SettingsError(f"{where}: {next(iter(forces))} needs {key}, which is missing")
+            raise SettingsError("lag-force-missing", where=where, force=next(iter(forces)), key=key)
     return WireForces(**forces)

@@ -35,30 +35,28 @@ def cluster(address: str) -> Iterator["Pool"]:
         try:
             client.wait_for_workers(1, timeout=MOST_WAIT_S)
         except TimeoutError:
-            raise ClusterError(f"{address}: the scheduler has had no workers for {MOST_WAIT_S} s") from None
+            raise ClusterError("scheduler-without-workers", address=address, seconds=MOST_WAIT_S) from None
         yield _Cluster(client)
     except ImportError as error:
-        raise ClusterError(f"{address}: the worker on {error}") from None
+        raise ClusterError("worker-without-drycut", address=address, why=str(error)) from None
     except CancelledError:
-        raise ClusterError(
-            f"{address}: the scheduler is lost; what is done is kept, and the next call goes on"
-        ) from None
+        raise ClusterError("scheduler-lost", address=address) from None
     finally:
         client.close()
 
 
 def _client(address: str) -> Any:
     if not _ADDRESS.fullmatch(address):
-        raise ClusterError(f"{address}: is no address of a scheduler, such as tcp://host:8786")
+        raise ClusterError("no-scheduler-address", address=address)
     try:
         from distributed import Client  # noqa: PLC0415 - an extra, which takes half a second to load
     except ImportError:
-        raise ClusterError("a scheduler needs the extra cluster: pip install 'drycut[cluster]'") from None
+        raise ClusterError("no-cluster-extra") from None
     logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what is lost is told here
     try:
         return Client(address, timeout=MOST_WAIT_S, set_as_default=False)
     except (OSError, ValueError) as error:
-        raise ClusterError(f"{address}: no Dask scheduler answers there: {error}") from None
+        raise ClusterError("scheduler-silent", address=address, why=str(error)) from None
 
 
 class _Cluster:

@@ -34,7 +34,4 @@ def refuse_other_makers(asked: Maker) -> None:
     theirs = dict(asked)
     for name, here in made_by():
         if here != theirs.get(name):
-            raise ClusterError(
-                f"the worker on {platform.node()} has {name} {here}, not {theirs.get(name)} as this machine; "
-                "its results could be others"
-            )
+            raise ClusterError("worker-differs", machine=platform.node(), name=name, here=here, theirs=theirs.get(name))

@@ -204,7 +204,7 @@ def columns(line: str) -> int:
 
 def test_every_code_has_a_page_and_every_page_a_code() -> None:
     names = {entry.name.removesuffix(".toml") for entry in PAGES.iterdir() if entry.name.endswith(".toml")}
-    assert names - {"joints", "remarks", "terms"} == set(CODES) == set(VALUES)
+    assert names - {"joints", "messages", "remarks", "terms"} == set(CODES) == set(VALUES)
     assert get_args(Language) == LANGUAGES
 
 

@@ -44,7 +44,7 @@ def asked(environment: Mapping[str, str]) -> Asked:
     try:
         return Asked(settings_of(told), times, Path(log) if log else None)
     except ValueError as error:
-        raise SettingsError(f"{environment.get(CARD) or CALL_S}: {error}") from None
+        raise SettingsError("in-file", file=environment.get(CARD) or CALL_S, message=str(error)) from None
 
 
 def _times(text: str) -> float | None:
@@ -52,7 +52,7 @@ def _times(text: str) -> float | None:
         return None
     times = _number(text)
     if times is None or not 0.0 < times <= _FASTEST:
-        raise SettingsError(f"{CLOCK} is {_SIMULATED}, or a number up to {_FASTEST:g}, not {text!r}")
+        raise SettingsError("card-clock-no-number", name=CLOCK, simulated=_SIMULATED, most=_FASTEST, found=text)
     return times
 
 
@@ -61,7 +61,7 @@ def _call_s(text: str) -> dict[str, float]:
         return {}
     seconds = _number(text)
     if seconds is None:
-        raise SettingsError(f"{CALL_S} is a number of seconds, not {text!r}")
+        raise SettingsError("no-seconds", name=CALL_S, found=text)
     return {"call_s": seconds}
 
 
@@ -79,6 +79,6 @@ def _table(name: str) -> dict[str, Any]:
     try:
         return tomllib.loads(read_text(Path(name)))
     except UnicodeDecodeError:
-        raise SettingsError(f"{name}: is no text in UTF-8") from None
+        raise SettingsError("no-utf-8", file=name) from None
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise SettingsError(f"{name}: {error}") from None
+        raise SettingsError("in-file", file=name, message=str(error)) from None

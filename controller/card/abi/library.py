@@ -15,6 +15,7 @@ from controller.card.abi.turns import Passed, Turns
 from controller.card.ge import GECard
 from controller.card.log.writer import CardLog
 from parser.findings.errors import FileUnreadableError
+from parser.findings.messages import system_message
 from parser.text.encoding import printable
 
 _HOOK = ctypes.CFUNCTYPE(None, ctypes.c_char_p, ctypes.c_short)
@@ -110,7 +111,7 @@ def _opened(path: Path) -> TextIO:
     try:
         return path.open("w", encoding="utf-8", buffering=1)
     except OSError as error:
-        raise FileUnreadableError(f"{path}: cannot be written: {error.strerror or error}") from None
+        raise FileUnreadableError("cannot-be-written", file=path, why=system_message(error)) from None
 
 
 def _hook(place: int) -> Callable[[str, int], None] | None:

@@ -24,7 +24,7 @@ def start(made_for: str, passed: memoryview) -> tuple[Callable[..., Any], ...]:
     FileUnreadableError where a file that it names cannot be read, or the log not be written.
     """
     if made_for != digest():
-        raise SettingsError("this libges was made by another drycut: make it again with 'drycut card build'")
+        raise SettingsError("libges-of-another-drycut")
     wanted = asked(os.environ)
     before = all_tasks()
     from controller.card.abi.library import Library  # noqa: PLC0415 - loads all else, and that begins threads

@@ -22,7 +22,7 @@ class CardLogError(DrycutError, ValueError):
     """A log of a card that cannot be read; names the file and, where one is at fault, the line."""
 
 
-class Damaged(ValueError):  # noqa: N818 - becomes a `CardLogError` where file and line are known
+class Damaged(DrycutError, ValueError):  # noqa: N818 - becomes a `CardLogError` where file and line are known
     """A line that is no line of a log."""
 
 
@@ -38,28 +38,28 @@ class End(NamedTuple):
 def check_format(line: str) -> None:
     """Damaged where the first line is not that of a log."""
     if line != FORMAT:
-        raise Damaged(f"the first line of a log of a card is {FORMAT!r}, not {line[:40]!r}")
+        raise Damaged("log-of-another-format", format=FORMAT, found=line[:40])
 
 
 def settings_of(line: str) -> CardSettings:
     """Settings of the card from the second line. Damaged where it holds none."""
     if not line.startswith("settings "):
-        raise Damaged("the second line of a log holds the settings")
+        raise Damaged("log-without-settings")
     try:
         return settings_from(line.removeprefix("settings "))
     except json.JSONDecodeError as error:
-        raise Damaged(f"the settings are no JSON: {error}") from None
+        raise Damaged("log-settings-no-json", why=str(error)) from None
     except RecursionError:
-        raise Damaged("the settings are nested too deep") from None
+        raise Damaged("log-settings-nested") from None
     except ValueError as error:
-        raise Damaged(str(error)) from None
+        raise Damaged("quoted", text=str(error)) from None
 
 
 def call_of(line: str) -> Logged:
     """The call of a line. Damaged where it holds none."""
     found = _CALL.fullmatch(line)
     if found is None:
-        raise Damaged("no call as a log has them: time, status, NAME(arguments) = answer")
+        raise Damaged("log-no-call")
     t_s, status, name, arguments, answer = found.groups()
     return Logged(time_of(t_s), name, _value(f"({arguments},)" if arguments else "()"), _value(answer), int(status, 16))
 
@@ -70,7 +70,7 @@ def end_of(line: str) -> End:
         entry = json.loads(line.removeprefix("end "))
         return End(**entry)
     except (ValueError, TypeError, RecursionError):
-        raise Damaged("the last line tells time, status, places and pulses as JSON") from None
+        raise Damaged("log-end-damaged") from None
 
 
 def time_of(text: str) -> float:
@@ -78,9 +78,9 @@ def time_of(text: str) -> float:
     try:
         t_s = float(text)
     except ValueError:
-        raise Damaged(f"the time is a number, not {text[:40]!r}") from None
+        raise Damaged("log-time-no-number", found=text[:40]) from None
     if not 0.0 <= t_s <= LONGEST_S:
-        raise Damaged(f"the time lies between 0 and {LONGEST_S:g} s; found {text[:40]!r}")
+        raise Damaged("log-time-out-of-bounds", most_s=LONGEST_S, found=text[:40])
     return t_s
 
 
@@ -90,7 +90,7 @@ def _value(text: str) -> Any:
             return int(text)
         return _read(ast.parse(text.strip(), mode="eval").body)
     except (SyntaxError, ValueError, MemoryError, RecursionError):
-        raise Damaged(f"no number, text or tuple: {text[:40]!r}") from None
+        raise Damaged("log-no-value", found=text[:40]) from None
 
 
 def _read(node: ast.expr) -> Any:

@@ -69,14 +69,14 @@ class Replay:
     def _line(self) -> tuple[int, str]:
         number, text = next(self._lines, (0, ""))
         if not number:
-            raise CardLogError(f"{self._name}: the log breaks off; its last line begins with 'end'")
+            raise CardLogError("log-breaks-off", name=self._name)
         return number, text
 
     def _placed(self, number: int, text: Any, read: Callable[[Any], Any]) -> Any:
         try:
             return read(text)
         except Damaged as error:
-            raise CardLogError(f"{self._name}:{number}: {error}") from None
+            raise CardLogError("in-line", file=self._name, line=number, message=error.message) from None
 
     def _repeated(self, number: int, text: str) -> Iterator[Difference]:
         expected = self._placed(number, text, call_of)
@@ -93,19 +93,19 @@ class Replay:
         if expected != end_of(found):
             yield Difference(number, text, found)
         if any(more.strip() for _, more in self._lines):
-            raise CardLogError(f"{self._name}:{number + 1}: nothing comes after the end of a log")
+            raise CardLogError("log-goes-on", name=self._name, line=number + 1)
 
 
 def call(card: GECard, logged: Logged) -> None:
     """Make a logged call. Damaged where the card has none of that name, or not with these arguments."""
     if not _fits(logged.name, len(logged.arguments)):
-        raise Damaged(f"the card has no function {logged.name} of {len(logged.arguments)} arguments")
+        raise Damaged("no-card-function", name=logged.name, arguments=len(logged.arguments))
     try:
         getattr(card, logged.name)(*logged.arguments)
     except (TypeError, ValueError) as error:
         if logged.name not in OWN:
             raise
-        raise Damaged(str(error)) from None
+        raise Damaged("quoted", text=str(error)) from None
 
 
 @functools.cache
@@ -125,5 +125,5 @@ def replay_file(path: Path) -> Replay:
     try:
         text = read_text(path)
     except UnicodeDecodeError:
-        raise CardLogError(f"{path}: is no log of a card: no text in UTF-8") from None
+        raise CardLogError("no-card-log", path=path) from None
     return Replay(str(path), text.splitlines())

@@ -88,10 +88,10 @@ def placed_entities(document: Document, place: Floats) -> Iterator[Placed]:
         placed = _placed(entity, inside, layers)
         opened = _opened(entity, placed, inside, layers) if isinstance(entity, Insert) else None
         if number + (opened.least if opened else 0) > MOST_ENTITIES:
-            raise DrawingError(f"holds more than {MOST_ENTITIES:,} entities once its blocks are inserted")
+            raise DrawingError("too-many-entities-inserted", most=MOST_ENTITIES)
         if opened is not None:
             if len(opened.blocks) > MOST_NESTED:
-                raise DrawingError(f"has blocks within blocks, more than {MOST_NESTED} deep; explode them")
+                raise DrawingError("blocks-nested-too-deep", most=MOST_NESTED)
             stack.append(opened)
         else:
             yield placed

@@ -17,7 +17,7 @@ from ezdxf.lldxf.tagger import binary_tags_loader
 from parser.drawing.dxf.subclasses import with_marks
 from parser.files.kinds import kind_of
 from parser.files.reading import read_bytes
-from parser.findings.catalogue import term
+from parser.findings.catalogue import LANGUAGES, Said, term
 from parser.findings.errors import DrawingError
 from parser.findings.remarks import Remark
 from parser.text.encoding import printable
@@ -50,14 +50,14 @@ def read_document(path: Path) -> tuple[Document, list[Remark]]:
 
 def _loaded(path: Path, data: bytes) -> tuple[Document, list[Remark]]:
     if not data.strip():
-        raise DrawingError(f"{path}: is empty; expected a DXF drawing")
+        raise DrawingError("drawing-empty", path=path)
     if data.startswith(_BINARY):
         return _binary(path, data), []
     _refuse_too_many(path, _ENTITY.finditer(data))
     if not _SECTION.search(data):
         kind = kind_of(data)
-        found = f" ({term(kind)})" if kind else ""
-        raise DrawingError(f"{path}: is no DXF file{found}; expected a drawing saved as DXF")
+        found = Said(*(term(kind, language) for language in LANGUAGES)) if kind else ""
+        raise DrawingError("no-dxf", path=path, kind=found)
     if _END.search(data[-4096:]):
         early = []
     else:
@@ -90,7 +90,7 @@ def _ended(data: bytes) -> bytes:
 def _refuse_too_many(path: Path, entities: Iterable[object]) -> None:
     """DrawingError for more entities than are read, before the library makes an object of each."""
     if next(islice(entities, MOST_ENTITIES, None), None) is not None:
-        raise DrawingError(f"{path}: holds more than {MOST_ENTITIES:,} entities; save the contour of the part alone")
+        raise DrawingError("too-many-entities", path=path, most=MOST_ENTITIES)
 
 
 def _binary(path: Path, data: bytes) -> Document:
@@ -124,10 +124,7 @@ def _recovered(path: Path, data: bytes) -> tuple[Document, list[Remark]]:
 
 
 def _beyond_mending(path: Path, error: Exception) -> DrawingError:
-    return DrawingError(
-        f"{path}: is damaged beyond what can be mended ({_foreign(str(error)) or type(error).__name__}); expected a DXF"
-        " drawing"
-    )
+    return DrawingError("drawing-beyond-mending", path=path, why=_foreign(str(error)) or type(error).__name__)
 
 
 def _foreign(message: str) -> str:

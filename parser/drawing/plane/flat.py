@@ -82,7 +82,7 @@ def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float, fi
 def refuse_many(curves: int) -> None:
     """DrawingError, without the name of the file, for more curves than are compared."""
     if curves > MOST_CURVES:
-        raise DrawingError(f"becomes more than {MOST_CURVES:,} lines and arcs; save the contour of the part alone")
+        raise DrawingError("too-many-curves", most=MOST_CURVES)
 
 
 def is_near(place: Floats) -> NDArray[np.bool_]:

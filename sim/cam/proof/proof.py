@@ -61,7 +61,7 @@ def proved(given: Given, scenario: Scenario, progress: Progress = silent) -> Pro
     except ProgramError as error:
         return none._replace(findings=(*error.others, error.finding))
     except SettingsError as error:
-        return none._replace(unproved=(*how.unproved, Remark("run", {"why": str(error)})))
+        return none._replace(unproved=(*how.unproved, Remark("run", {"why": error.message})))
     progress("comparison", 0, 1)
     of_run, notes = _of_run(run, how)
     by_cut = _by_cut(given, run)
@@ -133,7 +133,7 @@ def _path(given: Given, target: Target, run: DryRun, how: AsRun) -> tuple[Compar
         try:
             found = compare_program(toolpath, max(by_um, 0.0), target.drawing, Asked(bound_um, fitted=False))
         except SettingsError as error:
-            return first, _Found(tuple(faults), (), (Remark("path", {"why": str(error)}),))
+            return first, _Found(tuple(faults), (), (Remark("path", {"why": error.message}),))
         first = first or found
         faults += _off_faults(given, target, run, found, np.array(how.edge_um) == by_um)
     return first, _Found(tuple(faults))

@@ -34,7 +34,7 @@ class PathPattern(NamedTuple):
 def pattern_list(value: object, folder: Path, where: str) -> tuple[PathPattern, ...]:
     """Patterns of a list of texts. SettingsError where it is none, or where one is empty."""
     if not isinstance(value, list) or not all(isinstance(text, str) and text.strip("./") for text in value):
-        raise SettingsError(f'{where} is a list of patterns such as "old" or "jigs/*"; found {value!r}')
+        raise SettingsError("no-list-of-patterns", where=where, found=value)
     return tuple(PathPattern(text, folder) for text in value)
 
 

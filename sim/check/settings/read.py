@@ -113,18 +113,18 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
 def code_list(value: object, where: str) -> tuple[str, ...]:
     """Codes or their beginnings, such as ``3B2``. SettingsError for one that no code begins with."""
     if not isinstance(value, list) or not all(isinstance(code, str) for code in value):
-        raise SettingsError(f"{where} is a list of codes; found {value!r}")
+        raise SettingsError("no-list-of-codes", where=where, found=value)
     codes = tuple(code.strip().upper() for code in value if code.strip())
     for code in codes:
         if not any(known.startswith(code) for known in CODES):
-            raise SettingsError(f"{where}: no code begins with {code!r}; they are {_first_last()}")
+            raise SettingsError("no-such-code", where=where, code=code, codes=_first_last())
     return codes
 
 
 def severity(value: object, where: str) -> Severity:
     """Least severity that fails: warning or error. SettingsError otherwise."""
     if value not in (Severity.WARNING, Severity.ERROR):
-        raise SettingsError(f'{where} is "warning" or "error"; found {value!r}')
+        raise SettingsError("no-severity", where=where, found=value)
     return Severity(str(value))
 
 
@@ -142,7 +142,7 @@ def _machine(content: Mapping[str, Any], file: Path, where: str) -> "Machine | N
     if name is None:
         return None
     if not isinstance(name, str):
-        raise SettingsError(f"{where}: machine is the name of a machine, or its .toml file; found {name!r}")
+        raise SettingsError("no-machine-name", where=where, found=name)
     from sim.setup.machine.machine import load_machine  # noqa: PLC0415 - most checks know no machine
 
     return load_machine(name, beside=file.parent)
@@ -155,9 +155,9 @@ def _marks(content: Mapping[str, Any], where: str) -> Marks:
     for key, words, other in (("end_marks", end, (*own.pause, *pause)), ("pause_marks", pause, (*own.end, *end))):
         for word in words:
             if word in of_blocks:
-                raise SettingsError(f"{where}: {key}: {word!r} is a word of blocks; a mark is another")
+                raise SettingsError("mark-is-a-block-word", where=where, key=key, word=word)
             if word in other:
-                raise SettingsError(f"{where}: {key}: {word!r} cannot both end and pause a program")
+                raise SettingsError("mark-ends-and-pauses", where=where, key=key, word=word)
     return Marks(end, pause)
 
 
@@ -167,7 +167,7 @@ def _words(content: Mapping[str, Any], key: str, where: str) -> tuple[str, ...]:
     if not isinstance(words, list) or not all(
         isinstance(word, str) and word.isascii() and word.isalpha() and len(word) <= 4 for word in words
     ):
-        raise SettingsError(f"{where}: {key} is a list of marks of up to four letters; found {words!r}")
+        raise SettingsError("no-list-of-marks", where=where, key=key, found=words)
     return tuple(word.upper() for word in words)
 
 

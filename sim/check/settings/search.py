@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from parser.findings.errors import DrycutError, FileUnreadableError, SettingsError
+from parser.findings.messages import system_message
 from sim.check.settings.read import NAMES, NO_SETTINGS, SettingsFile, content_of, read_settings
 
 
@@ -64,7 +65,7 @@ class SettingsSearch:
         file = self.placed(file)
         content = content_of(file)
         if content is None:
-            raise SettingsError(f"{self._told(file)}: has no [tool.drycut]")
+            raise SettingsError("no-tool-drycut", file=self._told(file))
         return read_settings(content, file, self._told(file))
 
     def _nearest(self, folder: Path) -> SettingsFile:
@@ -131,10 +132,7 @@ class SettingsSearch:
             trusted.add(folder.stat().st_uid)
         owners = {file.stat().st_uid, file.lstat().st_uid}
         if owners - trusted:
-            raise SettingsError(
-                f"{self._told(file)}: belongs to another user (number {min(owners - trusted)}) and would count here; "
-                "take it with --config FILE, or do without with --no-config"
-            )
+            raise SettingsError("settings-of-another-user", file=self._told(file), owner=min(owners - trusted))
 
 
 def _stands(file: Path) -> bool:
@@ -144,7 +142,7 @@ def _stands(file: Path) -> bool:
     except (FileNotFoundError, NotADirectoryError):
         return False
     except OSError as error:
-        raise FileUnreadableError(f"{file}: cannot be read: {error.strerror or error}") from None
+        raise FileUnreadableError("cannot-be-read", file=file, why=system_message(error)) from None
     return True
 
 
@@ -153,7 +151,7 @@ def _working_folder() -> Path:
     try:
         return Path.cwd().resolve()
     except OSError as error:
-        raise FileUnreadableError(f"the working folder cannot be read: {error.strerror or error}") from None
+        raise FileUnreadableError("working-folder-unreadable", why=system_message(error)) from None
 
 
 def _home() -> Path | None:

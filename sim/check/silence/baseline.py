@@ -66,14 +66,14 @@ def read_baseline(path: Path) -> Baseline:
     try:
         content = json.loads(read_text(path))
     except (ValueError, RecursionError) as error:  # no JSON, no UTF-8, or nested without end
-        raise SettingsError(f"{path}: is no baseline: {error}") from None
+        raise SettingsError("baseline-damaged", path=path, why=str(error)) from None
     if not isinstance(content, dict) or not isinstance(content.get("files"), dict):
-        raise SettingsError(f"{path}: is no baseline; write it with --write-baseline")
+        raise SettingsError("no-baseline", path=path)
     if content.get("schema") != SCHEMA:
-        raise SettingsError(f"{path}: is of schema {content.get('schema')!r}; expected {SCHEMA}: write it anew")
+        raise SettingsError("baseline-of-another-schema", path=path, found=content.get("schema"), schema=SCHEMA)
     for name, known in content["files"].items():
         if not isinstance(known, dict) or not _are_codes(known.values()):
-            raise SettingsError(f"{path}: {name}: expected codes by fingerprints; write it anew with --write-baseline")
+            raise SettingsError("baseline-without-codes", path=path, name=name)
     return Baseline(path, content["files"])
 
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
+from parser.findings.messages import Message
 from sim.cli.check.options import check_options
 from sim.cli.spoken import Spoken, spoken
 from sim.cli.spread import Spread, pool_of, spread_options
@@ -20,9 +21,9 @@ if TYPE_CHECKING:
     from sim.show.findings.options import Options
 
 _OF_FILES = {
-    "--fix": "mends files; it cannot mend the standard input",
-    "--diff": "shows mends of files; the standard input has none",
-    "--watch": "looks at files; the standard input does not change",
+    "--fix": "mends-no-stdin",
+    "--diff": "shows-no-mends-of-stdin",
+    "--watch": "watches-no-stdin",
 }
 
 
@@ -103,15 +104,15 @@ def _refuse_contradictions(
 
     asked = [option for option, is_given in given.items() if is_given]
     if len(asked) > 1:
-        raise click.UsageError(f"{' and '.join(asked)} cannot be done in one run")
+        raise click.UsageError(Message("options-exclude-each-other", options=" and ".join(asked)))
     if asked and STDIN in files:
-        raise click.UsageError(f"{asked[0]} {_OF_FILES[asked[0]]}")
+        raise click.UsageError(Message(_OF_FILES[asked[0]], option=asked[0]))
     needs = {"--format": formats, "--write-baseline": settings["write_baseline"]}
     beside = [option for option, is_given in needs.items() if is_given]
     if beside and asked == ["--diff"]:
-        raise click.UsageError(f"--diff shows mends and no findings; {beside[0]} has no place beside it")
+        raise click.UsageError(Message("diff-shows-no-findings", option=beside[0]))
     if settings["write_baseline"] and asked == ["--watch"]:
-        raise click.UsageError("--watch checks again and again; --write-baseline has no place beside it")
+        raise click.UsageError(Message("watch-writes-no-baseline"))
 
 
 def _jobs(work: _Work) -> list["Job"]:

@@ -8,6 +8,7 @@ import click
 
 from parser.dialect.choices import merged
 from parser.files.reading import read_stdin
+from parser.findings.messages import Message
 from parser.units import mm
 from sim.check.batch import Job
 from sim.check.files import find_files
@@ -54,9 +55,9 @@ def jobs_of(names: Sequence[str], asked: Asked) -> list[Job]:
     Raises FileUnreadableError for a name that leads to none, SettingsError for settings that cannot be.
     """
     if asked.config and asked.no_config:
-        raise click.UsageError("--config and --no-config say two things; one of them is to go")
+        raise click.UsageError(Message("config-and-no-config"))
     if asked.baseline and asked.write_baseline:
-        raise click.UsageError("--baseline and --write-baseline say two things; one of them is to go")
+        raise click.UsageError(Message("baseline-and-write-baseline"))
     making = _Making(asked)
     return [making.job(name) for name in find_files(names, making.is_excluded)]
 

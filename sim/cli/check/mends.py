@@ -116,7 +116,7 @@ def fix_files(jobs: Sequence[Job], language: Language) -> bool:
         try:
             mend = fix_file(job.source, job.name, job.settings, job.known)
         except FileUnreadableError as error:
-            say(f"drycut: error: {error}", err=True)
+            say(Words(language)("commands.error", message=error.message), err=True)
             all_written = False
         else:
             if mend:
@@ -142,7 +142,7 @@ def _show(job: Job, put: _Put, language: Language) -> int:
             say(line, err=True)
         return 2
     except FileUnreadableError as error:
-        say(f"drycut: error: {error}", err=True)
+        say(Words(language)("commands.error", message=error.message), err=True)
         return 2
     if mend.changed:
         put(mend)

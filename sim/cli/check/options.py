@@ -6,9 +6,11 @@ from typing import Any, TypeVar
 
 import click
 
+from parser.findings.messages import Message
 from sim.cli.check.outputs import Output
 from sim.cli.dialect_options import READ_WITH, RegisterValue
 from sim.cli.scenario_options import Length
+from sim.cli.spoken.values import FilePath
 from sim.show.findings import FORMATS
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -25,13 +27,13 @@ class OutputType(click.ParamType):  # type: ignore[type-arg]  # generic in newer
             return value
         form, into, file = value.partition("=")
         if form not in FORMATS:
-            self.fail(f"{form!r} is not one of {', '.join(FORMATS)}", param, ctx)
+            self.fail(Message("not-one-of", found=form, known=", ".join(FORMATS)), param, ctx)
         if into and not file:
-            self.fail(f"{value!r} lacks the name of a file", param, ctx)
+            self.fail(Message("lacks-a-file-name", found=value), param, ctx)
         return Output(form, Path(file) if file else None)
 
 
-_FILE = click.Path(path_type=Path, dir_okay=False)
+_FILE = FilePath(path_type=Path, dir_okay=False)
 _OUTPUT = (
     click.option(
         "--format",
@@ -40,7 +42,7 @@ _OUTPUT = (
         multiple=True,
         metavar="FORMAT[=FILE]",
     ),
-    click.option("--output-file", "-o", type=click.Path(path_type=Path), metavar="FILE"),
+    click.option("--output-file", "-o", type=FilePath(path_type=Path), metavar="FILE"),
     click.option("--statistics", is_flag=True),
     click.option("--quiet", is_flag=True),
 )

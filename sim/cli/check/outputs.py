@@ -13,6 +13,7 @@ from typing import IO, TYPE_CHECKING, NamedTuple
 
 import click
 
+from parser.findings.messages import Message
 from sim.show.findings import FORMATS, render
 from sim.show.terminal import printer
 from sim.show.terminal.printer import coloured, made
@@ -46,14 +47,14 @@ def outputs_of(asked: Sequence[Output], file: Path | None, baseline: Path | None
     plain = [output._replace(file=file) for output in asked if output.file is None]
     if len(plain) > 1:
         forms = " and ".join(output.form for output in plain)
-        raise click.UsageError(f"--format: {forms} cannot go to one place; write --format {plain[1].form}=FILE")
+        raise click.UsageError(Message("formats-in-one-place", formats=forms, form=plain[1].form))
     if file and not plain:
-        raise click.UsageError("--output-file has nothing to hold: each --format has a file of its own")
+        raise click.UsageError(Message("output-file-for-nothing"))
     outputs = (*plain, *(output for output in asked if output.file))
     seen = {_identity(baseline)} if baseline else set()
     for path in (output.file for output in outputs if output.file):
         if _identity(path) in seen:
-            raise click.UsageError(f"{path}: two outputs cannot go into one file")
+            raise click.UsageError(Message("two-outputs-in-one-file", path=path))
         seen.add(_identity(path))
     return outputs
 
@@ -65,10 +66,10 @@ def refuse_inputs(files: Iterable[Path], jobs: Iterable["Job"], others: Iterable
         return
     for path in others:
         if file := written.get(_identity(path)):
-            raise click.UsageError(f"{file}: is read by this run; an output cannot take its place")
+            raise click.UsageError(Message("output-is-an-input", file=file))
     for source in (job.source for job in jobs):
         if isinstance(source, Path) and (file := written.get(_identity(source))):
-            raise click.UsageError(f"{file}: is one of the programs; an output cannot take its place")
+            raise click.UsageError(Message("output-is-a-program", file=file))
 
 
 def write(results: Iterable["CheckResult"], outputs: Sequence[Output], options: "Options") -> None:

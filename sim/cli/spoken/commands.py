@@ -14,6 +14,7 @@ from typing import Final
 
 import click
 
+from parser.findings.messages import Message
 from sim.cli.spoken.formatter import Formatter
 from sim.cli.spoken.tongue import OPTION, speak_as_asked, words
 from sim.show.words.words import texts
@@ -35,7 +36,21 @@ class Spoken(click.Command):
         """Take the language first: errors in the arguments are told in it."""
         if any(argument.startswith(OPTION) for argument in args) or ctx.parent is None:
             speak_as_asked(args)
-        return super().parse_args(ctx, args)
+        takes_more, ctx.allow_extra_args = ctx.allow_extra_args, True
+        try:
+            more = super().parse_args(ctx, args)
+        except click.BadOptionUsage as error:
+            raise click.BadOptionUsage(error.option_name, self._misused(ctx, error.option_name), ctx) from None
+        if more and not takes_more and not ctx.resilient_parsing:
+            code = "extra-arguments" if len(more) > 1 else "extra-argument"
+            ctx.fail(Message(code, arguments=" ".join(more)))
+        return more
+
+    def _misused(self, ctx: click.Context, name: str) -> Message:
+        """What is wrong with an option: it lacks its value, or is a flag and has one."""
+        options = (one for one in self.get_params(ctx) if isinstance(one, click.Option))
+        flags = {flag for option in options if option.is_flag for flag in (*option.opts, *option.secondary_opts)}
+        return Message("option-with-value" if name in flags else "option-without-value", option=name)
 
     def get_params(self, ctx: click.Context) -> list[click.Parameter]:
         """Its own, ``--lang``, and the help."""

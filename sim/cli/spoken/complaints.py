@@ -2,16 +2,13 @@
 
 import click
 
+from parser.findings.catalogue import in_language
 from sim.cli.spoken.tongue import spoken, words
 
 
 def localised(message: str) -> str:
-    """The message of an error in the language of the command."""
-    if spoken() == "en":
-        return message
-    from sim.show.words.told import in_both
-
-    return in_both(message).zh
+    """A text in the language of the command, where it is a message; what a library says stays as it is."""
+    return str(in_language(message, spoken()))
 
 
 def complaint(error: click.ClickException) -> str:
@@ -30,7 +27,7 @@ def complaint(error: click.ClickException) -> str:
         return tell("commands.no-choice", name=_named(error), choices=choices)
     if isinstance(error, click.BadParameter) and (error.param or error.param_hint):
         return tell("commands.bad-value", name=_named(error), why=localised(error.message))
-    return localised(error.format_message())
+    return localised(error.message)
 
 
 def _named(error: click.BadParameter) -> str:

@@ -142,7 +142,7 @@ def compare(edge: Edge, drawing: Drawing, asked: Asked) -> Comparison:
     try:
         return _compare(edge, drawing, asked)
     except DrawingError as error:
-        raise DrawingError(f"{printable(drawing.name)}: {error}") from None
+        raise DrawingError("in-file", file=printable(drawing.name), message=error.message) from None
 
 
 def _compare(edge: Edge, drawing: Drawing, asked: Asked) -> Comparison:

@@ -114,14 +114,14 @@ def compare_program(toolpath: Toolpath, offset_um: float, drawing: Drawing, aske
     """
     of = program_edges(toolpath, offset_um)
     if not of.rings.rings:
-        raise SettingsError("no contour of the program closes a loop, so that there is no edge to compare")
+        raise SettingsError("no-closed-contour")
     try:
         tried = [(edge_at(of, sides, offset_um), sides) for sides in of.sides]
     except RegionError as error:
-        raise SettingsError(f"{error}, so that there is no edge to compare") from None
+        raise SettingsError("no-edge-worked-out", first=error.first, last=error.last) from None
     tried = [(with_gouges(of, edge), sides) for edge, sides in tried if len(edge.curves)]
     if not tried:
-        raise SettingsError(f"an offset of {mm(offset_um):g} mm leaves no edge of the program's contours")
+        raise SettingsError("offset-leaves-no-edge", offset_mm=mm(offset_um))
     results = [(compare(edge, drawing, asked), sides) for edge, sides in tried]
     best, sides = min(results, key=lambda result: result[0].edge_to_drawing.rms_um)
     if len(of.sides) > 1:

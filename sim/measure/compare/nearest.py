@@ -132,9 +132,6 @@ def nearest(index: Index, place_um: Floats) -> Nearest:
     most = MOST_HELD - index.effort.held
     looked_at = search(np.ascontiguousarray(place_um), (*index.tree,), index.shape, most, (*found,))
     if looked_at == TOO_MANY:
-        raise DrawingError(
-            f"cannot be compared: more than {MOST_HELD:,} pairs of places and curves would have to be looked at; "
-            "compare one layer, or a drawing of fewer curves"
-        )
+        raise DrawingError("too-much-to-compare", most=MOST_HELD)
     index.effort.held += looked_at
     return found

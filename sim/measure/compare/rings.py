@@ -129,15 +129,9 @@ def _is_ring(passes: Sequence[Pass]) -> bool:
 def _refuse_too_many(edges: Sequence[Sequence[Pass]]) -> None:
     rings = [len(passes) for passes in edges if _is_ring(passes)]
     if len(rings) > MOST_CONTOURS:
-        raise SettingsError(
-            f"the program has {len(rings):,} closed contours, and no more than {MOST_CONTOURS:,} are compared; "
-            "split the program"
-        )
+        raise SettingsError("too-many-contours", found=len(rings), most=MOST_CONTOURS)
     if sum(rings) > MOST_PASSES:
-        raise SettingsError(
-            f"the program has {sum(rings):,} passes over its contours, and no more than {MOST_PASSES:,} are compared; "
-            "split the program"
-        )
+        raise SettingsError("too-many-passes", found=sum(rings), most=MOST_PASSES)
 
 
 def _path(toolpath: Toolpath, one: Pass) -> tuple[PathPass, PathPass]:

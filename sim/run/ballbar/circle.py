@@ -94,7 +94,7 @@ def circle_test(machine: Machine, radius_um: float, feed_um_s: float | None) -> 
     most_mm = min(table.travel_x_mm, table.travel_y_mm) / 2.0
     number(mm(radius_um), Bound(LEAST_RADIUS_MM, most_mm), f"--radius in mm (travel of {machine.name})")
     if radius_um != int(radius_um):
-        raise SettingsError(f"--radius is a whole number of µm, as 3B counts them; found {radius_um:g} µm")
+        raise SettingsError("radius-not-whole", radius_um=radius_um)
     if feed_um_s is None:
         feed_um_s = from_mm(machine.controller.jump_feed_mm_s)
     number(mm(feed_um_s) * 60.0, FEED_MM_MIN, "--feed in mm/min")

@@ -11,6 +11,7 @@ from controller.motion.junctions import Junction, JunctionDeviation, SlowAt, Sto
 from controller.motion.limits import MotionLimits
 from parser.dialect.choices import Registers
 from parser.findings.errors import SettingsError
+from parser.findings.messages import Message
 from sim.setup.dialect import REGISTERS
 from sim.setup.toml.keys import Key, Section
 from sim.setup.toml.kinds import DEGREES_AS_RAD, MM_AS_UM, MS_AS_S, US_AS_S, Number, OneOf
@@ -70,7 +71,7 @@ class _WholeMs(Number):
         """The wait, ms."""
         wait_ms = super().checked(table, key, where)
         if wait_ms != int(wait_ms):
-            raise SettingsError(f"{where}: {key} is a whole number; found {wait_ms:g}")
+            raise SettingsError("key-not-whole", where=where, key=key, found=wait_ms)
         return wait_ms
 
 
@@ -124,7 +125,7 @@ def _junction(value: dict[str, Any], where: str) -> Junction:
     own = {of: value.pop(key) for of, key in _OWN_NUMBER.items()}
     for of, key in _OWN_NUMBER.items():
         if (rule == of) != (own[of] is not None):
-            needs = f"needs {key}" if rule == of else f"takes no {key}, which belongs to junction = {of!r}"
-            raise SettingsError(f"{where}: junction = {rule!r} {needs}")
+            needs = Message("needs-number", key=key) if rule == of else Message("takes-no-number", key=key, rule=of)
+            raise SettingsError("junction-number", where=where, rule=rule, why=needs)
     made: Junction = _JUNCTIONS[rule](*([own[rule]] if rule in own else []))
     return made

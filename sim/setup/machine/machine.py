@@ -82,7 +82,7 @@ def load_machine(name: str, beside: Path | None = None) -> Machine:
     shipped = resources.files("sim.setup.machine")
     known = machine_names()
     if name not in known:
-        raise SettingsError(f"machine {name!r} is not shipped; known: {', '.join(known)}, or give a .toml file")
+        raise SettingsError("machine-not-shipped", name=name, known=", ".join(known))
     with resources.as_file(shipped / f"{name}.toml") as path:
         return _read(path)
 
@@ -106,5 +106,5 @@ def _read(path: Path) -> Machine:
     known = {key.name for section in SECTIONS[1:] for key in section.keys}
     for name in machine.assumed:
         if name not in known:
-            raise SettingsError(f"{where}: assumed names {name!r}, which is no key of a machine file")
+            raise SettingsError("assumed-key-unknown", where=where, name=name)
     return machine

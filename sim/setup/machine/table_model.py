@@ -82,13 +82,13 @@ class _ForceAtRate(ValueKind):
         """Its points."""
         value, where = table[key], f"{where}: {key}"
         if not isinstance(value, list) or not all(isinstance(point, list) and len(point) == 2 for point in value):
-            raise SettingsError(f"{where} is a list of [step rate in Hz, force in N]; found {value!r}")
+            raise SettingsError("no-list-of-rates", where=where, found=value)
         points = tuple(
             (number(rate, _RATE_HZ, f"{where}: Hz"), number(force, _FORCE_N, f"{where}: N")) for rate, force in value
         )
         rates = (0.0, *(rate for rate, _ in points))
         if any(later <= earlier for earlier, later in pairwise(rates)):
-            raise SettingsError(f"{where}: rates rise from above 0; found {list(rates[1:])}")
+            raise SettingsError("rates-do-not-rise", where=where, rates=list(rates[1:]))
         return points
 
     def written(self, value: Any) -> list[list[float]]:
@@ -147,7 +147,7 @@ def _motor(table: Mapping[str, Any], force_n: float, where: str) -> Motor:
     kind = value["kind"]
     for of, key in _OF_KIND.items():
         if kind != of and key in table:
-            raise SettingsError(f"{where}: {key} belongs to a {of}; found with kind = {kind!r}")
+            raise SettingsError("key-of-another-kind", where=where, key=key, of=of, kind=kind)
     if kind == "servo" and "following_error_limit_um" not in table:
-        raise SettingsError(f"{where}: following_error_limit_um is missing")
+        raise SettingsError("following-error-limit-missing", where=where)
     return Motor(force_curve=((0.0, force_n), *value.pop("force_at_rate")), **value)

@@ -83,7 +83,7 @@ class FileName(Text):
         """The path, which ends in a name."""
         path = super().checked(table, key, where)
         if not Path(path).name:
-            raise SettingsError(f"{where}: {key} is the name of a file; found {path!r}")
+            raise SettingsError("no-file-name", where=where, key=key, found=path)
         return path
 
     def kept(self, value: Any) -> Path:
@@ -104,7 +104,7 @@ class Keys(ValueKind):
         """The names."""
         names = table[key]
         if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-            raise SettingsError(f"{where}: {key} is a list of names of keys; found {names!r}")
+            raise SettingsError("no-list-of-keys", where=where, key=key, found=names)
         return tuple(names)
 
     def written(self, value: Any) -> list[str] | None:
@@ -123,7 +123,7 @@ class OneOf(ValueKind):
         """The word."""
         word = text(table, key, where)
         if word not in self.words:
-            raise SettingsError(f"{where}: {key} is one of {', '.join(self.words)}; found {word!r}")
+            raise SettingsError("key-not-one-of", where=where, key=key, words=", ".join(self.words), found=word)
         return word
 
 
@@ -139,7 +139,7 @@ class Number(ValueKind):
     def checked(self, table: Mapping[str, Any], key: str, where: str) -> Any:
         """The number."""
         if key not in table:
-            raise SettingsError(f"{where}: {key} is missing")
+            raise SettingsError("key-missing", where=where, key=key)
         return number(table[key], self.bound, f"{where}: {key}")
 
     def kept(self, value: Any) -> float:
@@ -159,7 +159,7 @@ class Whole(Number):
     def checked(self, table: Mapping[str, Any], key: str, where: str) -> Any:
         """The number, an integer."""
         if isinstance(table.get(key), float):
-            raise SettingsError(f"{where}: {key} is a whole number; found {table[key]:g}")
+            raise SettingsError("key-not-whole", where=where, key=key, found=table[key])
         return super().checked(table, key, where)
 
     def kept(self, value: Any) -> int:

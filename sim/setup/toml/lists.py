@@ -24,7 +24,7 @@ class _List(ValueKind):
         """The entries."""
         value = table[key]
         if not isinstance(value, list) or len(value) > MOST:
-            raise SettingsError(f"{where}: {key} is a list of up to {MOST:,} entries")
+            raise SettingsError("list-too-long", where=where, key=key, most=MOST)
         return tuple(self._entry(one, f"{where}: {key}: entry {at}") for at, one in enumerate(value, start=1))
 
     def _entry(self, value: Any, where: str) -> Any:
@@ -54,7 +54,7 @@ class Places(_List):
 
     def _entry(self, value: Any, where: str) -> tuple[float, float]:
         if not isinstance(value, list) or len(value) != 2:
-            raise SettingsError(f"{where} is [x, y]; found {value!r}")
+            raise SettingsError("no-point", where=where, found=value)
         x, y = (number(one, self.bound, where) for one in value)
         return x, y
 
@@ -74,7 +74,7 @@ class Wholes(_List):
 
     def _entry(self, value: Any, where: str) -> int:
         if isinstance(value, float):
-            raise SettingsError(f"{where} is a whole number; found {value:g}")
+            raise SettingsError("not-whole", where=where, found=value)
         return int(number(value, self.bound, where))
 
     def kept(self, value: Any) -> tuple[int, ...]:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from parser.files.reading import read_text
 from parser.findings.errors import SettingsError
+from parser.findings.messages import Message
 from sim.units import in_digits
 
 
@@ -37,13 +38,13 @@ def load_toml(path: Path) -> dict[str, Any]:
 
         content = tomllib.loads(_bounded(path, read_text(path)))
         if _is_endless(content):
-            raise SettingsError(f"{path}: holds a whole number of more than {_MOST_BITS:,} bits; no setting takes one")
+            raise SettingsError("number-too-long", path=path, most=_MOST_BITS)
     except RecursionError:
-        raise SettingsError(f"{path}: is nested too deep") from None
+        raise SettingsError("nested-too-deep", path=path) from None
     except SettingsError:
         raise
     except ValueError as error:  # TOMLDecodeError, UnicodeDecodeError, and integers of thousands of digits
-        raise SettingsError(f"{path}: is no TOML: {error}") from None
+        raise SettingsError("no-toml", path=path, why=str(error)) from None
     return content
 
 
@@ -56,9 +57,9 @@ def _is_endless(value: object) -> bool:
 def _bounded(path: Path, content: str) -> str:
     """The content of a settings file. SettingsError for more than the library reads in a second or so."""
     if len(content) > MOST_CHARACTERS:
-        raise SettingsError(f"{path}: is longer than {MOST_CHARACTERS:,} characters, as no settings are")
+        raise SettingsError("settings-too-long", path=path, most=MOST_CHARACTERS)
     if _DOTTED.search(content):
-        raise SettingsError(f"{path}: is nested too deep: a key has more than {MOST_PARTS} parts")
+        raise SettingsError("keys-nested-too-deep", path=path, most=MOST_PARTS)
     return content
 
 
@@ -70,15 +71,15 @@ def refuse_unknown(table: Mapping[str, Any], known: Iterable[str], where: str) -
             import difflib  # noqa: PLC0415 - few keys are misspelt
 
             near = difflib.get_close_matches(key, names, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"known keys: {', '.join(names)}"
-            raise SettingsError(f"{where}: unknown key {key!r}; {hint}")
+            hint = Message("did-you-mean", name=near[0]) if near else Message("known-keys", names=", ".join(names))
+            raise SettingsError("unknown-key", where=where, key=key, hint=hint)
 
 
 def section(table: Mapping[str, Any], key: str, where: str) -> Mapping[str, Any]:
     """Sub-table `key`, empty where there is none. SettingsError where it is no table."""
     value = table.get(key, {})
     if not isinstance(value, Mapping):
-        raise SettingsError(f"{where}: {key} is a table, [{key}]; found {value!r}")
+        raise SettingsError("no-table", where=where, key=key, found=value)
     return value
 
 
@@ -86,7 +87,7 @@ def tables(content: Mapping[str, Any], key: str, where: str) -> list[Mapping[str
     """Tables ``[[key]]``, none where they are left out. SettingsError where they are something else."""
     value = content.get(key, [])
     if not isinstance(value, list) or not all(isinstance(table, Mapping) for table in value):
-        raise SettingsError(f"{where}: {key} are tables, [[{key}]]; found {value!r}")
+        raise SettingsError("no-tables", where=where, key=key, found=value)
     return value
 
 
@@ -94,7 +95,7 @@ def text(table: Mapping[str, Any], key: str, where: str) -> str:
     """Text `key`. SettingsError where it is missing or no text."""
     value = table.get(key)
     if not isinstance(value, str) or not value:
-        raise SettingsError(f"{where}: {key} is a text and must be given; found {value!r}")
+        raise SettingsError("no-text", where=where, key=key, found=value)
     return value
 
 
@@ -102,19 +103,19 @@ def truth(table: Mapping[str, Any], key: str, where: str) -> bool:
     """Truth `key`; false where it is left out. SettingsError where it is something else."""
     value = table.get(key, False)
     if not isinstance(value, bool):
-        raise SettingsError(f"{where}: {key} is true or false; found {value!r}")
+        raise SettingsError("no-truth", where=where, key=key, found=value)
     return value
 
 
 def number(value: object, bound: Bound, where: str) -> float:
     """A number in its bounds. SettingsError otherwise."""
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise SettingsError(f"{where} is a number; found {value!r}")
+        raise SettingsError("no-number", where=where, found=value)
     if isinstance(value, int) and abs(value) > 1e300:
         value = math.inf if value > 0 else -math.inf
     if not bound.low <= value <= bound.high:  # also refuses NaN
         found, low, high = (in_digits(one) for one in (value, *bound))
-        raise SettingsError(f"{where} is {found}; it must lie between {low} and {high}")
+        raise SettingsError("out-of-bounds", where=where, found=found, low=low, high=high)
     return float(value)
 
 
@@ -124,6 +125,6 @@ def pair(table: Mapping[str, Any], key: str, where: str) -> tuple[float, float] 
         return None
     value = table[key]
     if not isinstance(value, list) or len(value) != 2:
-        raise SettingsError(f"{where}: {key} is [x, y] on the table; found {value!r}")
+        raise SettingsError("no-point-on-table", where=where, key=key, found=value)
     x, y = (number(place, PLACE_MM, f"{where}: {key}") for place in value)
     return x, y

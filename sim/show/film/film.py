@@ -21,18 +21,22 @@ def format_of(path: Path, seconds: float, fps: int, look: Look) -> Format:
     """How a file of this name is written; SettingsError where a film of this length and size cannot be."""
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
-        raise SettingsError(f"{path}: films are {FORMAT_NAMES}, told by the end of the name")
+        raise SettingsError("film-suffix", path=path, formats=FORMAT_NAMES)
     found = FORMATS[suffix]
     if fps > found.most_fps:
-        raise SettingsError(f"a {suffix} shows {found.most_fps} frames a second at most, not {fps}; write an .mp4")
+        raise SettingsError("too-many-frames-a-second", suffix=suffix, most_fps=found.most_fps, fps=fps)
     pixels = round(seconds * fps) * look.width_px * look.height_px
     if found.holds_frames and pixels > MOST_HELD_PX:
         raise SettingsError(
-            f"a {suffix} of {round(seconds * fps):,} frames of {look.width_px}x{look.height_px} would need "
-            f"{2 * pixels / 1e9:.1f} GB of memory; make it shorter or smaller, or write an .mp4"
+            "film-needs-memory",
+            suffix=suffix,
+            frames=round(seconds * fps),
+            width_px=look.width_px,
+            height_px=look.height_px,
+            memory_gb=2 * pixels / 1e9,
         )
     if not found.holds_frames and (look.width_px % 2 or look.height_px % 2):
-        raise SettingsError(f"an {suffix} has an even number of pixels both ways, not {look.width_px}x{look.height_px}")
+        raise SettingsError("film-size-odd", suffix=suffix, width_px=look.width_px, height_px=look.height_px)
     if suffix == ".mp4":
         encoder()
     return found

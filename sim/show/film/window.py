@@ -31,13 +31,13 @@ def open_display() -> None:
     """Get ready to show windows. SettingsError where there is no display."""
     try:
         if not _may_have_display():
-            raise SettingsError(NO_DISPLAY)
+            raise SettingsError("no-display")
         pygame.display.init()
         if pygame.display.get_driver() in _UNSEEN and not os.environ.get("SDL_VIDEODRIVER"):
             pygame.display.quit()
-            raise SettingsError(NO_DISPLAY)
+            raise SettingsError("no-display")
     except pygame.error:
-        raise SettingsError(NO_DISPLAY) from None
+        raise SettingsError("no-display") from None
 
 
 def _may_have_display() -> bool:

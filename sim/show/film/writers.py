@@ -75,11 +75,11 @@ def write_mp4(path: Path, frames: Frames, clock: FilmClock) -> None:
         for frame in chain([first], frames.made):
             sink.send(frame.tobytes())
     except OSError:
-        raise FileUnreadableError(f"{path.name}: the encoder could not write the film") from None
+        raise FileUnreadableError("encoder-failed", file=path.name) from None
     finally:
         sink.close()
     if not path.exists() or not path.stat().st_size:
-        raise FileUnreadableError(f"{path.name}: the encoder wrote no film")
+        raise FileUnreadableError("encoder-wrote-nothing", file=path.name)
 
 
 FORMATS: Final[Mapping[str, Format]] = {
@@ -110,4 +110,4 @@ def encoder() -> ModuleType:
     try:
         return importlib.import_module("imageio_ffmpeg")
     except ImportError:
-        raise SettingsError("an .mp4 needs an encoder: pip install 'drycut[film]'; or write a .webp") from None
+        raise SettingsError("no-encoder") from None

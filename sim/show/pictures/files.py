@@ -44,7 +44,7 @@ def write_pictures(
                 written = _write_pixels(stage / file, name, shown, pixels(*made), width_px)
             drawn += [file] * written
         if not drawn:
-            raise SettingsError(f"{', '.join(asked.files)}: this program has nothing to show there; nothing written")
+            raise SettingsError("nothing-to-draw", pictures=", ".join(asked.files))
     return [asked.folder / file for file in drawn]
 
 

@@ -15,6 +15,7 @@ import sys
 from typing import Final, Self, TextIO, cast
 
 from parser.findings.errors import DrycutError
+from parser.findings.messages import system_message
 from parser.text.harmless import harmless
 
 _PLAIN: Final = {"µ": "u", "×": "x", "–": "-", "−": "-", "·": "-", "…": "...", "≤": "<=", "≥": ">=", "²": "2"}
@@ -83,7 +84,7 @@ class Outlet(io.TextIOBase):
         self._lost = True
         _to_nowhere(self._stream)
         if self._must_arrive and error.errno not in _GONE:
-            raise OutputError(f"output: {error.strerror or error}") from None
+            raise OutputError("output-failed", why=system_message(error)) from None
 
 
 class Cleaned(io.TextIOBase):

@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from parser.findings.catalogue import LANGUAGES, Language, Said
+from parser.findings.catalogue import LANGUAGES, Language, Said, in_language
 
 FOLDER: Final = Path(__file__).parent
 
@@ -20,13 +20,13 @@ class Words(NamedTuple):
     language: Language
 
     def __call__(self, key: str, /, **values: object) -> str:
-        """Text of a key, its places filled; of a value that is `Said` the text of the language is taken.
+        """Text of a key, its places filled; of a value in both languages the text of the language is taken.
 
         KeyError where there is no such text.
         """
         file, _, name = key.partition(".")
         template = getattr(texts(file)[name], self.language)
-        filled: str = template.format(**{name: _in(value, self.language) for name, value in values.items()})
+        filled: str = template.format(**{name: in_language(value, self.language) for name, value in values.items()})
         return filled
 
 
@@ -44,7 +44,3 @@ def texts(file: str) -> Mapping[str, Said]:
     if not path.is_file():
         raise KeyError(file)
     return {name: Said(**text) for name, text in tomllib.loads(path.read_text(encoding="utf-8")).items()}
-
-
-def _in(value: object, language: Language) -> object:
-    return getattr(value, language) if isinstance(value, Said) else value

@@ -172,7 +172,7 @@ def test_files_behind_one_that_cannot_be_written_are_mended(tmp_path: Path, monk
 
     def refused(path: Path, before: bytes, after: bytes) -> None:
         if path == first:
-            raise FileUnreadableError(f"{path}: cannot be written")
+            raise FileUnreadableError("is-read-only", path=path)
         replace_file(path, before, after)
 
     monkeypatch.setattr("sim.cli.check.mends.replace_file", refused)

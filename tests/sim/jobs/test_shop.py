@@ -72,7 +72,7 @@ def test_a_name_that_leads_nowhere_is_told(shop: Path, name: str) -> None:
 
 def test_settings_that_no_program_can_have_are_told_once() -> None:
     def refusing(path: Path) -> None:
-        raise SettingsError("--thickness in mm is not between")
+        raise SettingsError("no-length", found="thickness")
 
     with pytest.raises(SettingsError, match="thickness"):
         find_programs(["shop/b.3b"], refusing, Path("out"), frozenset())  # type: ignore[arg-type]
