@@ -18,16 +18,16 @@ if TYPE_CHECKING:
     from parser.findings.findings import Finding
     from parser.program import Program, parse_program, read_program
     from parser.write.iso_choices import iso_choices
-    from sim.cam.maker import Made, NotMade
-    from sim.cam.maker import made as make_program
     from sim.check.batch import check_program
     from sim.check.result import CheckResult
     from sim.check.settings import CheckSettings
-    from sim.convert.convert import Converted, Refused
-    from sim.convert.convert import converted as convert_program
-    from sim.convert.wanted import Wanted
     from sim.jobs.run_into import run_into
     from sim.jobs.trace_file import StoredTrace, read_trace
+    from sim.make.cam.maker import Made, NotMade
+    from sim.make.cam.maker import made as make_program
+    from sim.make.convert.convert import Converted, Refused
+    from sim.make.convert.convert import converted as convert_program
+    from sim.make.convert.wanted import Wanted
     from sim.measure.compare.compared_program import compare_program
     from sim.measure.compare.result import Comparison
     from sim.run.dryrun import DryRun
@@ -91,33 +91,33 @@ _HOMES = {
     "CheckSettings": "sim.check.settings",
     "Choices": "parser.dialect.choices",
     "Comparison": "sim.measure.compare.result",
-    "Converted": "sim.convert.convert",
+    "Converted": "sim.make.convert.convert",
     "DrawingTarget": "sim.setup.part",
     "DryRun": "sim.run.dryrun",
     "DrycutError": "parser.findings.errors",
     "Finding": "parser.findings.findings",
-    "Made": "sim.cam.maker",
+    "Made": "sim.make.cam.maker",
     "Making": "sim.setup.making",
-    "NotMade": "sim.cam.maker",
+    "NotMade": "sim.make.cam.maker",
     "Offset": "sim.setup.part",
     "OffsetPass": "sim.setup.part",
     "PictureFiles": "sim.show.pictures.files",
     "Program": "parser.program",
-    "Refused": "sim.convert.convert",
+    "Refused": "sim.make.convert.convert",
     "Scenario": "sim.setup.scenario",
     "StoredTrace": "sim.jobs.trace_file",
-    "Wanted": "sim.convert.wanted",
+    "Wanted": "sim.make.convert.wanted",
     "Wire": "sim.setup.wire",
     "__version__": "parser",
     "build_report": "sim.run.report",
     "check_program": "sim.check.batch",
     "compare_program": "sim.measure.compare.compared_program",
-    "convert_program": "sim.convert.convert:converted",
+    "convert_program": "sim.make.convert.convert:converted",
     "dry_run": "sim.run.running",
     "iso_choices": "parser.write.iso_choices",
     "load_machine": "sim.setup.machine.machine",
     "load_scenario": "sim.setup.scenario",
-    "make_program": "sim.cam.maker:made",
+    "make_program": "sim.make.cam.maker:made",
     "parse_program": "parser.program",
     "read_drawing": "parser.drawing.read",
     "read_program": "parser.program",

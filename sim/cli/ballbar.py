@@ -22,7 +22,7 @@ class Speed(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """The speed in µm/s."""
-        from sim.units import parse_speed
+        from sim.base.units import parse_speed
 
         return value if isinstance(value, float) else parse_speed(value)
 
@@ -94,7 +94,7 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
 
 def _write(done: "Ballbar", tolerance_um: float | None, output: Path) -> list[str]:
     """Files of a test, all of them or none; names of those written. A turn that does not go round has no picture."""
-    from sim.files import staged
+    from sim.base.files import staged
     from sim.run.ballbar.document import document_text
 
     alone = output.suffix.lower() == ".png"
@@ -112,7 +112,7 @@ def _write(done: "Ballbar", tolerance_um: float | None, output: Path) -> list[st
 
 def _write_trace(done: "Ballbar", file: Path) -> str:
     """Both turns of the table as CSV, whole or not at all; the name of the file."""
-    from sim.files import staged
+    from sim.base.files import staged
     from sim.run.ballbar.document import trace_text
 
     with staged(file.parent, [file.name]) as stage:

@@ -65,8 +65,8 @@ def build(output: Path) -> None:
     cc client.c -o client -I ges/include -L ges -lges -ldrycut_sleep
     LD_LIBRARY_PATH=ges ./client
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.library.build import build as made_in
-    from sim.library.compiler import found_compiler
+    from sim.clients.library.build import build as made_in
+    from sim.clients.library.compiler import found_compiler
 
     for path in made_in(output, found_compiler()):
         say(str(path))

@@ -29,9 +29,9 @@ class Asked(NamedTuple):
 
 def run_client(asked: Asked, *, as_json: bool) -> int:
     """Start the client, run its calls again and print what came of it; the exit code."""
+    from sim.base.files import scratch
     from sim.cli.progress import StageProgress
-    from sim.client.started import Wanted, started
-    from sim.files import scratch
+    from sim.clients.started import Wanted, started
     from sim.jobs.client_into import STAGES, client_into, names_of
     from sim.run.findings import verdict
     from sim.run.report import report_text
@@ -63,7 +63,7 @@ def scenario_of(asked: Asked) -> "Scenario":
 
     from parser.text.encoding import printable
     from sim.cli.overrides import Overrides, overridden
-    from sim.client.table import following
+    from sim.clients.table import following
     from sim.jobs.client_into import LOG
 
     given = dict.fromkeys(Overrides._fields, None) | {
@@ -96,8 +96,8 @@ def _library(given: Path | None, scratch: Path) -> Iterator[Path]:
     if given is not None:
         yield given
         return
-    from sim.library.build import build
-    from sim.library.compiler import found_compiler
+    from sim.clients.library.build import build
+    from sim.clients.library.compiler import found_compiler
 
     build(scratch / "library", found_compiler())
     yield scratch / "library"

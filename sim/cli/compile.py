@@ -5,8 +5,8 @@ from typing import Final
 
 LOOPS: Final[tuple[str, ...]] = (
     "controller.stepping.chunks",
-    "sim.cam.order.order",
-    "sim.cam.order.shorter",
+    "sim.make.cam.order.order",
+    "sim.make.cam.order.shorter",
     "sim.cut.kerf.edges",
     "sim.cut.kerf.last_beside",
     "sim.cut.kerf.stars",

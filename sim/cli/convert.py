@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from parser.program import Program
     from parser.write.iso_choices import IsoChoices, Unit
     from parser.write.pmac import PmacChoices
-    from sim.convert.wanted import Language, Wanted
+    from sim.make.convert.wanted import Language, Wanted
 
 _UNITS = click.Choice(["um", "mm", "inch"])
 
@@ -90,7 +90,7 @@ def convert(path: Path, output: Path, **options: Any) -> None:
     from parser.findings.errors import ProgramError
     from parser.program import read_program
     from sim.cli.scenario_options import describe
-    from sim.convert.convert import Converted, converted
+    from sim.make.convert.convert import Converted, converted
     from sim.show.terminal.convert import converted_lines, read_as_lines, refused_lines
     from sim.show.terminal.printer import say
     from sim.show.terminal.streams import outlet
@@ -183,7 +183,7 @@ def _with_offset(program: "Program", given: Offsets, side: str | None) -> "Progr
 
 
 def _wanted(asked: _Asked, language: "Language", program: "Program", given: Offsets) -> "Wanted":
-    from sim.convert.wanted import Wanted
+    from sim.make.convert.wanted import Wanted
 
     keeps = asked.compensation != "worked-in" and language in {"4b", "iso"}
     return Wanted(
@@ -222,7 +222,7 @@ def _iso(asked: _Asked, program: "Program") -> "IsoChoices":
 
 
 def _write(path: Path, output: Path, data: bytes) -> None:
-    from sim.files import staged
+    from sim.base.files import staged
 
     if output.exists() and output.samefile(path):
         raise click.BadParameter(Message("output-is-the-program-itself", output=output), param_hint="-o")

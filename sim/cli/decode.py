@@ -15,7 +15,7 @@ from sim.cli.spoken.values import FilePath, WholeNumber
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from sim.decode.blocks import Decoded
+    from controller.decode.blocks import Decoded
 
 
 @click.command(cls=Spoken)
@@ -43,10 +43,10 @@ def decode(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut decode part.iso
     drycut decode part.iso --block 6 --offset D11=0.1mm
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
+    from controller.decode.blocks import decoded
+    from controller.decode.document import document_text
     from parser.dialect.choices import Choices
     from parser.program import read_program
-    from sim.decode.blocks import decoded
-    from sim.decode.document import document_text
     from sim.show.terminal.decode import print_decoded
     from sim.show.terminal.printer import say, write
 

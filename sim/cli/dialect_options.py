@@ -81,9 +81,9 @@ def register_set(text: str) -> RegisterSet:
     from parser.dialect.choices import register_name
     from parser.findings.errors import SettingsError
     from parser.units import mm
+    from sim.base.units import parse_length
     from sim.setup.dialect import REGISTER_MM
     from sim.setup.toml.reader import number
-    from sim.units import parse_length
 
     before, _, length = text.partition("=")
     name = register_name(before)

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from parser.dialect.choices import Choices
     from parser.program import Program
-    from sim.drill.drills import Asked, Drill
-    from sim.drill.proof import Level
+    from sim.teach.drill.drills import Asked, Drill
+    from sim.teach.drill.proof import Level
 
 _LEVELS: "dict[str, Level]" = {"easy": "words", "medium": "picture", "hard": "sums"}
 
@@ -49,9 +49,9 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     drycut drill part.3b -o drills/ --set 17 --count 5 --level hard
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from parser.dialect.choices import Choices
-    from sim.drill.drills import Asked
     from sim.jobs.drills_into import PAGES, drills_into, names_of
     from sim.show.terminal.printer import say
+    from sim.teach.drill.drills import Asked
 
     choices = Choices(dialect=dialect or "", unit=unit or "", registers=registers)
     asked = Asked(number, count, None if level is None else _LEVELS[level])
@@ -91,8 +91,8 @@ def _drills(program: "Program", asked: "Asked") -> "tuple[Drill, ...]":
     """Drills of a program; the end of the command where none can be made of it."""
     from sim.check.settings import CheckSettings
     from sim.cli.progress import StageProgress
-    from sim.drill.drills import drills_of
     from sim.show.terminal.printer import say
+    from sim.teach.drill.drills import drills_of
 
     try:
         with StageProgress("drills") as progress:

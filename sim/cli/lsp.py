@@ -14,7 +14,7 @@ _STDOUT = 1
 @click.option("--lang", type=click.Choice(["en", "zh"]))
 def lsp(lang: str | None) -> None:
     """Speak the Language Server Protocol over stdin and stdout, for an editor that starts this."""
-    from sim.editor.server import language_server
+    from sim.serve.editor.server import language_server
 
     server = language_server("zh" if lang == "zh" else "en" if lang == "en" else None)
     with open(_STDOUT, "wb", closefd=False) as out:

@@ -9,7 +9,7 @@ from sim.cli.spoken import Spoken, words
 from sim.cli.spoken.values import FilePath, WholeNumber
 
 if TYPE_CHECKING:
-    from sim.open.programs import Programs
+    from sim.serve.page.programs import Programs
 
 
 @click.command(cls=Spoken)
@@ -34,11 +34,11 @@ def open(  # noqa: A001 - named as the command
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     import webbrowser
 
-    from sim.open.served import serve
+    from sim.serve.page.served import serve
     from sim.show.terminal.printer import say
 
     if shortcut is not None:
-        from sim.open.shortcut import write_shortcut
+        from sim.serve.page.shortcut import write_shortcut
 
         say(words()("commands.written", names=", ".join(map(str, write_shortcut(shortcut)))))
         return
@@ -55,7 +55,7 @@ def _programs(file: Path | None, *, from_icon: bool) -> "Programs":
     """What is to be open at the start. From an icon nobody reads a terminal: the page says what cannot be opened."""
     from parser.files.reading import read_bytes
     from parser.findings.errors import FileUnreadableError
-    from sim.open.programs import Opened, Programs
+    from sim.serve.page.programs import Opened, Programs
 
     if file is None:
         return Programs(Opened())

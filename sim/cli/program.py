@@ -12,7 +12,7 @@ from sim.cli.spoken.values import FilePath
 
 if TYPE_CHECKING:
     from parser.findings.catalogue import Language as Tongue
-    from sim.cam.maker import Made, NotMade
+    from sim.make.cam.maker import Made, NotMade
     from sim.setup.making import Language, ToMake
     from sim.setup.scenario import Scenario
     from sim.show.draw.paints import ThemeName
@@ -74,7 +74,7 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
     drycut program part.dxf --preview --picture plan.png
     drycut program scenarios/plate -o plate.3b
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.cam.maker import Made
+    from sim.make.cam.maker import Made
     from sim.show.terminal.printer import write
 
     asked = _asked(path, output, Options(**options), is_written=not preview)
@@ -86,7 +86,7 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
     if made and picture is not None:
         _draw(made, _Picture(picture, theme), tongue)
     if as_json:
-        from sim.cam.document import document_text
+        from sim.make.cam.document import document_text
         from sim.show.words import Words
 
         write(document_text(done, Words(tongue)), "json")
@@ -105,7 +105,7 @@ def _written(made: "Made", asked: _Asked, tongue: "Tongue", *, force: bool) -> P
 
 def _asked(path: Path, output: Path | None, options: Options, *, is_written: bool) -> _Asked:
     """What is to be made. UsageError where it is not said which drawing, or where to."""
-    from sim.cam.of_scenario import drawing_to_cut
+    from sim.make.cam.of_scenario import drawing_to_cut
     from sim.setup.making import ToMake
     from sim.setup.program_section import of_drawing, refuse_misfits
 
@@ -177,9 +177,9 @@ def _made(asked: _Asked) -> "Made | NotMade":
     """The program, made and proved, with progress on stderr."""
     from dataclasses import replace
 
-    from sim.cam.asked import wanted_of
-    from sim.cam.maker import made
     from sim.cli.progress import StageProgress
+    from sim.make.cam.asked import wanted_of
+    from sim.make.cam.maker import made
     from sim.run.recording import stages_of
 
     wanted = wanted_of(asked.to_make, asked.language, asked.scenario)
@@ -190,8 +190,8 @@ def _made(asked: _Asked) -> "Made | NotMade":
 
 def _with_findings(done: "Made", asked: _Asked, tongue: "Tongue") -> bytes:
     """The program with what speaks against it at its head."""
-    from sim.cam.asked import wanted_of
-    from sim.cam.remarked import remarked
+    from sim.make.cam.asked import wanted_of
+    from sim.make.cam.remarked import remarked
     from sim.show.terminal.proof import against
 
     wanted = wanted_of(asked.to_make, asked.language, asked.scenario)
@@ -199,7 +199,7 @@ def _with_findings(done: "Made", asked: _Asked, tongue: "Tongue") -> bytes:
 
 
 def _write(output: Path, data: bytes) -> None:
-    from sim.files import staged
+    from sim.base.files import staged
 
     with staged(output.parent, [output.name]) as stage:
         (stage / output.name).write_bytes(data)
@@ -216,7 +216,7 @@ def _draw(done: "Made", picture: _Picture, tongue: "Tongue") -> None:
 
 
 def _tell(done: "Made | NotMade", asked: _Asked, written: Path | None, picture: Path | None, tongue: "Tongue") -> None:
-    from sim.cam.maker import Made
+    from sim.make.cam.maker import Made
     from sim.show.terminal.program import print_made, print_not_made
 
     if isinstance(done, Made):

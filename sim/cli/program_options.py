@@ -84,7 +84,7 @@ class OnLayer(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
 
 def _length_um(text: str) -> float:
     """A length with its unit, or a number in mm, in µm."""
-    from sim.units import parse_length
+    from sim.base.units import parse_length
 
     text = text.strip()
     return parse_length(text if not text or text[-1].isalpha() else f"{text}mm")

@@ -15,10 +15,10 @@ from sim.cli.spoken import Spoken, spoken, words
 from sim.cli.spoken.values import DecimalNumber, FilePath, WholeNumber
 
 if TYPE_CHECKING:
+    from sim.base.progress import Progress
     from sim.run.recording import Recording
     from sim.show.draw.paints import ThemeName
     from sim.show.film.screen import Look
-    from sim.table.progress import Progress
 
 _SIZE = re.compile(r"(\d{3,4})\s*[x×]\s*(\d{3,4})", re.ASCII)
 LEAST_PX, MOST_PX = (320, 240), (3840, 2160)

@@ -30,7 +30,7 @@ class Length(click.ParamType):  # type: ignore[type-arg]  # generic in newer cli
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """The length in µm."""
-        from sim.units import parse_length
+        from sim.base.units import parse_length
 
         return value if isinstance(value, float) else parse_length(value)
 
@@ -42,7 +42,7 @@ class Lengths(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
         """The lengths in µm. SettingsError for what is none, and where one is missing beside a comma."""
-        from sim.units import parse_length
+        from sim.base.units import parse_length
 
         if isinstance(value, tuple):
             return value

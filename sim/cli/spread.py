@@ -10,7 +10,7 @@ from parser.findings.messages import Message
 from sim.cli.spoken.values import WholeNumber
 
 if TYPE_CHECKING:
-    from sim.workers.pool import Pool
+    from sim.base.workers.pool import Pool
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -38,13 +38,13 @@ def spread_options(command: Command) -> Command:
 def pool_of(spread: Spread) -> Iterator["Pool"]:
     """The workers that are asked for. UsageError where both kinds are, ClusterError where none can be reached."""
     if spread.scheduler is None:
-        from sim.workers.processes import Processes
+        from sim.base.workers.processes import Processes
 
         yield Processes(spread.jobs)
         return
     if spread.jobs is not None:
         raise click.UsageError(Message("jobs-and-scheduler"))
-    from sim.workers.cluster import cluster
+    from sim.base.workers.cluster import cluster
 
     with cluster(spread.scheduler) as pool:
         yield pool

@@ -9,7 +9,10 @@ from parser.findings.catalogue import Language, Said
 from parser.findings.errors import DrawingError, FileUnreadableError, SettingsError
 from parser.findings.messages import in_both
 from parser.text.encoding import printable
-from sim.files import staged
+from sim.base.files import staged
+from sim.base.workers.makers import made_by
+from sim.base.workers.pool import Pool
+from sim.base.workers.rounds import DIED, Lost, results
 from sim.jobs.index import Entry, Row, build_index, index_text
 from sim.jobs.kept import NAME, digest_of, drop, keep, kept
 from sim.jobs.one import Done, Task, fault_of, run_task
@@ -17,9 +20,6 @@ from sim.jobs.run_into import NAMES
 from sim.jobs.shop import ShopProgram
 from sim.jobs.source import source_of
 from sim.show.index_page import Beside, index_page
-from sim.workers.makers import made_by
-from sim.workers.pool import Pool
-from sim.workers.rounds import DIED, Lost, results
 
 INDEX: Final = ("index.html", "index.json")
 TAKEN: Final = frozenset({*NAMES, NAME, *INDEX})

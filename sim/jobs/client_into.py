@@ -5,18 +5,18 @@ from pathlib import Path
 from typing import Final
 
 from controller.card.log.lines import CardLogError
-from sim.client.document import card_document, without_motion
-from sim.client.listing import NAME as CALLS
-from sim.client.result import ClientRun
-from sim.client.run import Read, read_again, run_client
-from sim.client.said import session_of
-from sim.client.started import Ended
-from sim.files import StepFiles, staged
+from sim.base.files import StepFiles, staged
+from sim.base.progress import Progress, silent
+from sim.clients.document import card_document, without_motion
+from sim.clients.listing import NAME as CALLS
+from sim.clients.result import ClientRun
+from sim.clients.run import Read, read_again, run_client
+from sim.clients.said import session_of
+from sim.clients.started import Ended
 from sim.jobs.run_into import FILES, NAMES, write_files
 from sim.run.recording import recording_of
 from sim.run.report import build_report, report_text
 from sim.setup.scenario import Scenario
-from sim.table.progress import Progress, silent
 
 LOG: Final = "card.log"
 STAGES: Final = ("calls", "plan", "run", "pieces", "pictures", "pages")

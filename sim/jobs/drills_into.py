@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Final
 
 from parser.program import Program, usual_name
-from sim.drill.drills import Drill
-from sim.files import staged
+from sim.base.files import staged
 from sim.show.drill_page import answers_page, drill_page
+from sim.teach.drill.drills import Drill
 
 PAGES: Final = ("drill.html", "answers.html")
 

@@ -18,10 +18,10 @@ from parser.findings.catalogue import Language, Said
 from parser.findings.codes import Severity
 from parser.findings.errors import FileUnreadableError
 from parser.findings.findings import Count
-from sim.files import staged
+from sim.base.files import staged
+from sim.base.workers.makers import Maker
 from sim.jobs.index import Row
 from sim.setup.scenario import Scenario
-from sim.workers.makers import Maker
 
 NAME: Final = "kept.json"
 _SCHEMA: Final = "drycut.kept/1"

@@ -11,16 +11,16 @@ from parser.findings.catalogue import Language
 from parser.findings.errors import DrawingError, DrycutError, ProgramError
 from parser.findings.findings import counted
 from parser.program import load_program, moving
-from sim.files import scratch
+from sim.base.files import scratch
+from sim.base.rounded import rounded
+from sim.base.workers.makers import Maker, refuse_other_makers
 from sim.jobs.index import Row
 from sim.jobs.run_into import FILES, run_into
-from sim.rounded import rounded
 from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
 from sim.setup.scenario import Scenario
 from sim.show.index_page.thumbnail import thumbnail
 from sim.show.words.phrases import same
-from sim.workers.makers import Maker, refuse_other_makers
 
 _BY_ITSELF: Final = threading.Lock()  # workers of a cluster may have several threads, and pygame knows one
 

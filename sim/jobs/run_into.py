@@ -8,7 +8,8 @@ from typing import Any, Final
 from controller.card.log.writer import CardLog
 from parser.findings.catalogue import Language
 from parser.program import Program
-from sim.files import StepFiles, staged
+from sim.base.files import StepFiles, staged
+from sim.base.progress import Progress, silent
 from sim.jobs.trace_file import TRACE, write_trace
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recording_of, reported, stages_of
@@ -21,7 +22,6 @@ from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.inline import inline_pictures
 from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
-from sim.table.progress import Progress, silent
 
 FILES: Final = ("report.html", "replay.html", "cut.png", "report.json")
 """What every run writes."""

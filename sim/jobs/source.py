@@ -7,9 +7,9 @@ from parser.findings.errors import DrawingError
 from parser.program import Program, load_program
 from parser.text.encoding import printable
 from parser.write.threeb import with_usual_codes
+from sim.base.progress import Progress, silent
 from sim.setup.making import ToMake
 from sim.setup.scenario import Scenario
-from sim.table.progress import Progress, silent
 
 
 class Source(NamedTuple):
@@ -31,8 +31,8 @@ def source_of(scenario: Scenario, progress: Progress = silent) -> Source:
 
 
 def _made(scenario: Scenario, to_make: ToMake, progress: Progress) -> bytes:
-    from sim.cam.maker import NotMade  # noqa: PLC0415 - few programs are made, and what makes them takes long to load
-    from sim.cam.of_scenario import program_of  # noqa: PLC0415 - as above
+    from sim.make.cam.maker import NotMade  # noqa: PLC0415 - few programs are made, and what makes them takes long to load
+    from sim.make.cam.of_scenario import program_of  # noqa: PLC0415 - as above
     from sim.show.refusals import why_refused  # noqa: PLC0415 - as above
 
     done = program_of(scenario, to_make, progress)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from parser.findings.errors import FileUnreadableError
 from parser.findings.messages import system_message
 from parser.geometry.curves import Floats
-from sim.files import write_npz
+from sim.base.files import write_npz
 from sim.run.dryrun import DryRun
 
 TRACE: Final = "trace.npz"

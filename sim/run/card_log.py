@@ -6,7 +6,7 @@ from pathlib import Path
 
 from controller.card.core.settings import CardSettings
 from controller.card.log.writer import CardLog
-from sim.files import staged
+from sim.base.files import staged
 
 
 @contextmanager

@@ -6,6 +6,7 @@ from parser.drawing.model import Drawing
 from parser.findings.findings import Finding
 from parser.program import Program
 from parser.shape.contours import Contour
+from sim.base.progress import Progress
 from sim.check.result import CheckState
 from sim.cut.pieces.findings import piece_findings, region_finding
 from sim.cut.regions import RegionError
@@ -14,7 +15,6 @@ from sim.measure.compare.findings import compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison
 from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
-from sim.table.progress import Progress
 from sim.table.trace import Trace
 
 _REMAINS: Final = "check-remains"  # the check of what a cut leaves, which only a run makes

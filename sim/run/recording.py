@@ -10,17 +10,17 @@ import numpy as np
 
 from controller.stepping.pulses import Pulses
 from parser.program import Program
+from sim.base.files import StepFiles, scratch
+from sim.base.progress import Progress, silent
 from sim.cut.pieces.pieces import Frame, Pieces
 from sim.cut.regions import RegionError
 from sim.cut.remains import pieces_left
-from sim.files import StepFiles, scratch
 from sim.run.dryrun import DryRun
 from sim.run.findings import expectation_findings
 from sim.run.report import build_report
 from sim.run.running import dry_run
 from sim.setup.expectations import missed
 from sim.setup.scenario import Scenario
-from sim.table.progress import Progress, silent
 
 NO_PIECES = Pieces(Frame(None, None, None, ()), (), 0)
 MOST_PASSES = 6.0

@@ -19,6 +19,7 @@ from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.shape.passes import Passes, find_passes
+from sim.base.progress import Progress, silent
 from sim.cut.obstacles.findings import missed_work_findings, obstacle_findings
 from sim.cut.wire_lag import bowed
 from sim.measure.deviation.measured import Meters
@@ -30,7 +31,6 @@ from sim.run.prepare import Prepared, prepare
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
 from sim.table.motion import Motion, Moved, Source, of_host, simulate
-from sim.table.progress import Progress, silent
 from sim.table.trace import Trace
 
 

@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 from typing import Final, NamedTuple
 
+from controller.decode.blocks import Decoded, Way
+from controller.decode.document import plain
 from parser.dialect.decoding import UNREAD, DecodedBlock, DecodeStep
 from parser.findings.catalogue import Said
 from parser.toolpath import Point
 from parser.units import mm
-from sim.decode.blocks import Decoded, Way
-from sim.decode.document import plain
 from sim.show.words import said
 from sim.show.words.phrases import same
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from parser.findings.catalogue import Said
 from parser.text.encoding import printable
 from parser.units import mm
-from sim.cam.model import Refusal
+from sim.make.cam.model import Refusal
 from sim.show.words import said
 from sim.show.words.phrases import same
 

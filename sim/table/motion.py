@@ -15,9 +15,9 @@ from controller.motion.limits import Feeds, row_limits
 from controller.motion.planner import plan_rows
 from controller.stepping.pulses import Pulses
 from parser.toolpath import Toolpath
+from sim.base.progress import Progress
 from sim.setup.machine.machine import Machine
 from sim.table.follow import Following, Setup
-from sim.table.progress import Progress
 from sim.table.record.history import History
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak

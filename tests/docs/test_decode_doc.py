@@ -6,11 +6,11 @@ import re
 import pytest
 from places import ROOT
 
+from controller.decode.blocks import decoded
+from controller.decode.document import block_entry
 from controller.offset.block_ends import JointKind
 from parser.dialect.choices import Choices
 from parser.program import parse_program
-from sim.decode.blocks import decoded
-from sim.decode.document import block_entry
 
 SECTION = re.split(r"^## ", (ROOT / "docs" / "iso.md").read_text(encoding="utf-8"), flags=re.MULTILINE)[8]
 SCHEMA = json.loads((ROOT / "docs" / "decode.schema.json").read_text(encoding="utf-8"))

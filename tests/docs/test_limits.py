@@ -9,13 +9,13 @@ from parser.drawing.dxf import blocks, document
 from parser.drawing.plane import flat, splined
 from parser.files import reading
 from parser.threeb import reader
+from sim.base.workers import cluster
 from sim.check import too_large
 from sim.check.blame import settle
 from sim.check.shape import crossings
 from sim.jobs import folders
 from sim.measure.compare import nearest, rings
 from sim.setup.toml import reader as toml
-from sim.workers import cluster
 
 PAGE = (ROOT / "docs" / "limits.md").read_text("utf-8")
 VALUES = {

@@ -19,10 +19,10 @@ from runs import plain_scenario, scenario_recording
 
 from parser.findings.catalogue import Said
 from parser.program import parse_program
+from sim.base.progress import silent
 from sim.run.recording import recorded
 from sim.setup.quiz import Question, WrittenQuestion
 from sim.show.replay.document import replay_page
-from sim.table.progress import silent
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page

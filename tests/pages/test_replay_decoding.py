@@ -10,9 +10,9 @@ from runs import plain_scenario
 
 from parser.dialect.choices import Choices
 from parser.program import parse_program
+from sim.base.progress import silent
 from sim.run.recording import recorded
 from sim.show.replay.document import replay_document, replay_page
-from sim.table.progress import silent
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

@@ -22,6 +22,7 @@ from parser import program as door
 from parser.findings.errors import FileUnreadableError, ProgramError, SettingsError
 from parser.program import load_program, parse_program
 from parser.units import mm
+from sim.base.progress import silent
 from sim.check.batch import Job, check_file
 from sim.check.files import find_files
 from sim.check.settings import CheckSettings
@@ -33,7 +34,6 @@ from sim.run.running import dry_run
 from sim.setup.part import Offset, OffsetPass
 from sim.setup.quiz import Question
 from sim.show.pictures.gallery import PICTURES
-from sim.table.progress import silent
 
 SLOT = "10: go 4 0\narc 4 4 4 2 left\n30: go 0 4\narc 0 0 0 2 left\nend\n"
 """A slot of 4 mm between centres and 4 mm width, its path run counter-clockwise."""
@@ -271,7 +271,7 @@ _SPEAK_3B = {
     "sim/check/radius_rule.py": "the marks of 4B, where a program has them",
     "sim/cli/convert.py": "writes 3B, whose forms its options name",
     "sim/cli/program.py": "makes 3B, which its help names",
-    "sim/drill/kinds.py": "letters that a hand leaves out of blocks, where a program has them",
+    "sim/teach/drill/kinds.py": "letters that a hand leaves out of blocks, where a program has them",
     "sim/setup/making.py": "makes 3B, whose forms and codes its types name",
     "sim/setup/program_section.py": "asks for 3B, whose forms and codes its settings name",
     "sim/run/ballbar/circle.py": "writes the circle of the test as a 3B program",

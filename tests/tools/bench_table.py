@@ -18,11 +18,11 @@ from controller.host.host import Host
 from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from parser.program import parse_program
+from sim.base.progress import silent
 from sim.run.ballbar.circle import circle_test, run_test
 from sim.setup.machine.machine import Machine, TableEngine, load_machine
 from sim.table.follow import Following
 from sim.table.motion import Motion, Moved, motion_of, of_host, simulate
-from sim.table.progress import silent
 
 FINE_TICK_S = 1e-4
 THICKNESS_MM = 40.0

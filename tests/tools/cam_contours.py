@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 
 from parser.geometry.curves import Curves, Floats, curves_between
-from sim.cam.model import Figure
+from sim.make.cam.model import Figure
 
 FLAT_UM = 0.01
 """How far lines lie off the arcs that they stand for at most."""

@@ -6,8 +6,8 @@ from report_pages import PART
 
 from parser.program import Program, parse_program
 from sim.check.settings import CheckSettings
-from sim.drill.drills import Asked, Drill, drills_of
 from sim.show.drill_page import answers_page, drill_page
+from sim.teach.drill.drills import Asked, Drill, drills_of
 
 
 @cache

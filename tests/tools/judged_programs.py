@@ -28,8 +28,8 @@ from plain import SIGNS, PlainBlock, plain_end
 from runs import plain_scenario
 from sound_cam import plain_sweep
 
-from sim.cam.maker import Made, NotMade, made, unproved
-from sim.convert.wanted import Wanted
+from sim.make.cam.maker import Made, NotMade, made, unproved
+from sim.make.convert.wanted import Wanted
 from sim.setup.making import Making
 
 Points = npt.NDArray[np.float64]

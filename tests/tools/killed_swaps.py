@@ -17,7 +17,7 @@ from pathlib import Path
 
 from swaps import NAMES, NEW, OLD, before_each_call, found, left, memory_folder, without_links, write
 
-from sim.files import staged
+from sim.base.files import staged
 
 MOST_S = 0.02
 """Within which a random kill comes; a child swaps some ten sets in it."""

@@ -12,13 +12,13 @@ from runs import plain_scenario
 from parser.drawing.read import read_drawing
 from parser.geometry.curves import Curves
 from parser.program import load_program
-from sim.cam.maker import planned
-from sim.cam.model import CutPlan, FigureCut
-from sim.cam.path.drafted import draft_of_plan
-from sim.cam.proof.proof import Given, proved
-from sim.cam.proof.result import Proof
-from sim.convert.proof import proof as held_against
-from sim.convert.wanted import Wanted, read_with, written
+from sim.make.cam.maker import planned
+from sim.make.cam.model import CutPlan, FigureCut
+from sim.make.cam.path.drafted import draft_of_plan
+from sim.make.cam.proof.proof import Given, proved
+from sim.make.cam.proof.result import Proof
+from sim.make.convert.proof import proof as held_against
+from sim.make.convert.wanted import Wanted, read_with, written
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 

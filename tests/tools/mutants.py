@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 from cam_programs import Sound
 
-import sim.drill.sound
+import sim.teach.drill.sound
 from parser.program import parse_program
-from sim.drill.kinds import KINDS as OF_DRILLS
+from sim.teach.drill.kinds import KINDS as OF_DRILLS
 
 
 class Mutant(NamedTuple):
@@ -55,5 +55,5 @@ def mutant(rng: random.Random, sound: Sound, kind: str | None = None) -> Mutant 
 
 
 @cache
-def _read(text: str) -> sim.drill.sound.Sound:
-    return sim.drill.sound.Sound(parse_program(text))
+def _read(text: str) -> sim.teach.drill.sound.Sound:
+    return sim.teach.drill.sound.Sound(parse_program(text))

@@ -10,10 +10,10 @@ from places import ROOT
 from runs import plain_scenario
 
 from parser.program import parse_program
+from sim.base.progress import silent
 from sim.run.recording import Recording, recorded
 from sim.show.html.bundle import joined
 from sim.show.replay.document import replay_document
-from sim.table.progress import silent
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

@@ -7,12 +7,12 @@ from typing import Any, NamedTuple
 
 from replayed import recording_of
 
+from sim.base.progress import silent
 from sim.run.dryrun import DryRun
 from sim.run.report import build_report
 from sim.show.pictures.gallery import subject_of
 from sim.show.pictures.inline import inline_pictures
 from sim.show.report_page import report_page
-from sim.table.progress import silent
 
 PART = """\
 N1: B0 B500 B500 GYL2;0.000,0.500//lead-in

@@ -11,13 +11,13 @@ from places import SCENARIOS
 from controller.motion.limits import row_limits
 from controller.stepping.pulses import Pulses
 from parser.program import parse_program
+from sim.base.progress import silent
 from sim.jobs.source import program_read, source_of
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, check_expectations, recorded
 from sim.run.running import dry_run
 from sim.setup.machine.machine import Machine, load_machine
 from sim.setup.scenario import Scenario, load_scenario
-from sim.table.progress import silent
 
 
 def plain_scenario(**changes: object) -> Scenario:

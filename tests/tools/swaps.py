@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from unittest import mock
 
-from sim.files import staged
+from sim.base.files import staged
 
 NAMES = ("a.html", "b.json", "c.png", "d.npz", "e.html")
 OLD = {"a.html": "old a", "b.json": "old b", "c.png": "old c", "d.npz": "old d"}

@@ -9,11 +9,11 @@ from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from parser.program import parse_program
+from sim.base.progress import silent
 from sim.setup.machine.machine import Machine, TableEngine
 from sim.setup.machine.table_model import Motor, TableModel
 from sim.table.follow import Following, Setup
 from sim.table.motion import Motion, Moved, motion_of, of_host, simulate
-from sim.table.progress import silent
 from sim.table.when.ticks import Ticks
 
 TICK_S = 1e-4

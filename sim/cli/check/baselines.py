@@ -60,7 +60,7 @@ class Written(Ledger):
 
     def closed(self, language: Language) -> str:
         """Write the baseline, whole or not at all; what was written."""
-        from sim.files import staged
+        from sim.base.files import staged
 
         path = self._baseline.path
         with staged(path.parent, (path.name,)) as folder:

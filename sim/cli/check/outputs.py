@@ -105,7 +105,7 @@ def _write_one(output: Output, results: Iterable["CheckResult"], files: Files, o
 @contextmanager
 def _opened(paths: Sequence[Path]) -> Iterator[Files]:
     """The files, empty and open in UTF-8 with line feeds on every system; they take their places at the end."""
-    from sim.files import staged
+    from sim.base.files import staged
 
     with ExitStack() as stack:
         opened: dict[Path, IO[str]] = {}

@@ -11,6 +11,7 @@ from parser.findings.errors import SettingsError
 from parser.geometry.curves import Floats
 from parser.program import parse_program
 from parser.units import from_mm, mm
+from sim.base.progress import Progress
 from sim.run.ballbar.figures import Figures, circularity, figures_of
 from sim.run.ballbar.parts import DeviationParts, parts_of
 from sim.run.ballbar.turn import NAMES, SENSES, MeasuredTurn, Sense
@@ -18,7 +19,6 @@ from sim.setup.machine.machine import Machine
 from sim.setup.toml.reader import Bound, number
 from sim.table.motion import Motion, motion_of, of_host, simulate
 from sim.table.physics.turning import motors_um
-from sim.table.progress import Progress
 from sim.table.record.losses import Loss
 
 FEED_MM_MIN: Final = Bound(0.1, 100_000.0)

@@ -7,7 +7,7 @@ import numpy as np
 from parser.geometry.curves import CurveKind
 from parser.told.step_words import Axis
 from parser.toolpath import Toolpath
-from sim.rounded import DEG_DIGITS, column, points, rows
+from sim.base.rounded import DEG_DIGITS, column, points, rows
 from sim.run.dryrun import DryRun
 
 _CURVES = (None, "convex", "concave")

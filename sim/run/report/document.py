@@ -9,9 +9,9 @@ from parser.findings.catalogue import texts
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.shape.contours import Contour
+from sim.base.rounded import column, rounded
 from sim.check.result import Coverage
 from sim.measure.compare.result import Comparison
-from sim.rounded import column, rounded
 from sim.run.assumptions import assumptions_of
 from sim.run.dryrun import DryRun
 from sim.run.findings import verdict

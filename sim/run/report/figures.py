@@ -7,11 +7,11 @@ import numpy as np
 
 from controller.offset.path import Made
 from parser.geometry.curves import CurveKind, Ints
+from sim.base.rounded import DEG_DIGITS, column, moment, points, rounded, rows
 from sim.check.beside import Offsetting
 from sim.measure.deviation.causes import Part
 from sim.measure.deviation.deviation import Deviation, Where
 from sim.measure.deviation.measured import Deviations
-from sim.rounded import DEG_DIGITS, column, moment, points, rounded, rows
 from sim.run.dryrun import DryRun
 from sim.run.ending import Ending
 from sim.table.record.losses import Loss

@@ -5,10 +5,10 @@ Entries of the report on where the wire is threaded, and taken out again.
 
 from typing import Any
 
+from sim.base.rounded import moment, rounded
 from sim.measure.passes.figures import PassFigures
 from sim.measure.passes.stock import Stock
 from sim.measure.threadings import Threading, threadings
-from sim.rounded import moment, rounded
 from sim.run.dryrun import DryRun
 
 

@@ -8,13 +8,13 @@ import numpy as np
 import shapely
 
 from parser.toolpath import Point
+from sim.base.rounded import column, known, moment, points, rounded, rows
 from sim.cut.kerf.edges import Range
 from sim.cut.kerf.region import Kerf
 from sim.cut.pieces.pieces import Frame, Piece
 from sim.cut.play.freedom import Play
 from sim.cut.remains import Remains
 from sim.cut.sizes.sizes import BoxSize, DistanceSize, RadiusSize, Sizes
-from sim.rounded import column, known, moment, points, rounded, rows
 from sim.run.outlines import simpler
 
 _OUTLINE_UM = 1.0  # one step, as exact as the cut is known anyway

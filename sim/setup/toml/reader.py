@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from parser.files.reading import read_text
 from parser.findings.errors import SettingsError
 from parser.findings.messages import Message
-from sim.units import in_digits
+from sim.base.units import in_digits
 
 
 class Bound(NamedTuple):

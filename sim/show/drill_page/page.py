@@ -16,11 +16,11 @@ from parser.program import Program
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from parser.units import mm
-from sim.drill.drills import Drill, lines_of
-from sim.drill.kinds import groups_of
 from sim.show.drill_page.picture import HEIGHT, WIDTH, picture_of
 from sim.show.html.environment import rendered
 from sim.show.words import said
+from sim.teach.drill.drills import Drill, lines_of
+from sim.teach.drill.kinds import groups_of
 
 _MOST_FINDINGS: Final = 4
 """That an answer cites: a fault near the beginning may have dozens."""

@@ -5,14 +5,14 @@ from pathlib import Path
 from typing import Final
 
 from parser.findings.errors import SettingsError
-from sim.files import staged
+from sim.base.files import staged
+from sim.base.progress import Progress
 from sim.run.course import course_of
 from sim.run.recording import Recording
 from sim.show.film.clock import FilmClock
 from sim.show.film.plate import Pixels
 from sim.show.film.screen import Look, Screen
 from sim.show.film.writers import FORMATS, MOST_HELD_PX, Format, Frames, encoder
-from sim.table.progress import Progress
 
 FORMAT_NAMES: Final = ", ".join(FORMATS)
 

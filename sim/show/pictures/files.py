@@ -8,7 +8,7 @@ from PIL import Image, ImageOps
 
 from parser.findings.catalogue import Language
 from parser.findings.errors import SettingsError
-from sim.files import staged
+from sim.base.files import staged
 from sim.show.draw.paints import THEMES, ThemeName
 from sim.show.draw.raster import Raster
 from sim.show.draw.sheet import Sheet, drawing, pixels

@@ -5,11 +5,11 @@ from collections.abc import Mapping
 from typing import Final, NamedTuple
 
 from parser.findings.catalogue import LANGUAGES, Language
+from sim.base.progress import Progress
 from sim.show.draw.sheet import drawing
 from sim.show.pictures.gallery import PICTURES, Subject
 from sim.show.pictures.path import PATH
 from sim.show.pictures.shown import label
-from sim.table.progress import Progress
 
 WIDTH_PX = 1600
 

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from parser.geometry.curves import CurveKind, Curves, Floats
-from sim.rounded import column
+from sim.base.rounded import column
 
 _ANGLE_DIGITS = 12
 """On a radius of a metre they tell a place to 10⁻⁶ µm, as its own digits do."""

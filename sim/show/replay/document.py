@@ -13,15 +13,15 @@ from typing import Any
 import numpy as np
 import shapely
 
+from controller.decode.blocks import Decoded, decoded
 from controller.motion.plan import Plan
 from controller.stepping.words import words_of
 from parser import __version__
 from parser.program import Program
 from parser.text.encoding import printable
 from parser.told.step_words import Axis, StepWords
+from sim.base.rounded import column, rounded
 from sim.cut.pieces.pieces import Piece
-from sim.decode.blocks import Decoded, decoded
-from sim.rounded import column, rounded
 from sim.run.course import Happening, course_of, passes_of
 from sim.run.dryrun import DryRun
 from sim.run.findings import verdict

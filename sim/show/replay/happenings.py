@@ -9,7 +9,7 @@ from parser.findings.findings import Finding
 from parser.shape.contours import Contour
 from parser.toolpath import Stop
 from parser.units import from_mm
-from sim.rounded import rounded
+from sim.base.rounded import rounded
 from sim.run.course import Happening, PassOf
 from sim.run.ending import Ending
 from sim.show.draw.tones import paint_of_pass

@@ -11,6 +11,7 @@ from typing import Any, Final, NamedTuple
 from markupsafe import Markup
 
 from parser.text.encoding import encode_text
+from sim.base.workers.makers import Maker, versions
 from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
 from sim.run.recording import NO_PIECES
@@ -40,7 +41,6 @@ from sim.show.report_page.sheet import MOST_THREADS, sheet_of, thread_table
 from sim.show.report_page.tables import Column, ReportTable, yes_or_no
 from sim.show.words import said
 from sim.show.words.phrases import machine_name
-from sim.workers.makers import Maker, versions
 
 
 class Reproduction(NamedTuple):

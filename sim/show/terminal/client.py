@@ -7,9 +7,9 @@ from controller.card.log.lines import LONGEST_S
 from parser.findings.catalogue import Language
 from parser.text.encoding import printable
 from parser.units import mm
-from sim.client.result import ClientRun
-from sim.client.said import Asked
-from sim.client.started import Ended
+from sim.clients.result import ClientRun
+from sim.clients.said import Asked
+from sim.clients.started import Ended
 from sim.show.terminal.colours import painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.layout import paragraph, show, table

@@ -7,12 +7,12 @@ from parser.findings.remarks import remark_text
 from parser.shape.passes import Pass
 from parser.text.block_names import BlockNames
 from parser.units import mm
+from sim.base.units import in_figures
 from sim.cut.pieces.pieces import Piece
 from sim.measure.passes.figures import PassFigures
 from sim.run.dryrun import DryRun
 from sim.show.words import Words
 from sim.show.words.phrases import lasting
-from sim.units import in_figures
 
 _MOST_PIECES = 4
 _MOST_PASSES = 8

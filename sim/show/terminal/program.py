@@ -9,9 +9,9 @@ from parser.findings.catalogue import LANGUAGES, Language, Said
 from parser.findings.remarks import Remark, remark_text
 from parser.text.encoding import printable
 from parser.units import mm
-from sim.cam.maker import Made, NotMade
-from sim.cam.model import CutPlan, FigureCut
-from sim.cam.sums import FigureSum, figure_sums
+from sim.make.cam.maker import Made, NotMade
+from sim.make.cam.model import CutPlan, FigureCut
+from sim.make.cam.sums import FigureSum, figure_sums
 from sim.show.refusals import place_text, places_said, why_refused
 from sim.show.terminal.colours import styled
 from sim.show.terminal.layout import show, table

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from parser.findings.catalogue import Language, texts
 from parser.findings.codes import Severity
 from parser.findings.facts import ReadAs
-from sim.cam.maker import Made
-from sim.cam.proof.result import Proof
+from sim.make.cam.maker import Made
+from sim.make.cam.proof.result import Proof
 from sim.show.terminal.colours import COLOURS, painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped

@@ -8,6 +8,7 @@ from parser.findings.facts import ReadAs
 from parser.shape.contours import Contour
 from parser.text.block_names import BlockNames
 from parser.units import mm
+from sim.base.units import in_figures
 from sim.measure.deviation.deviation import Where
 from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
@@ -23,7 +24,6 @@ from sim.show.terminal.wrap import width_of
 from sim.show.words import Words
 from sim.show.words.phrases import lasting, machine_name, numbered
 from sim.table.record.peaks import Peak
-from sim.units import in_figures
 
 _CAUSES = ("interpolation", "carried", "planning", "table", "wire")
 _UNITS = {"force": (1.0, "N"), "speed": (1e-3, "mm/s"), "lag": (1.0, "µm")}

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from parser.dialect.reader import Assumption
 from parser.findings.catalogue import LANGUAGES, Said, term
 from parser.shape.passes import Pass
+from sim.base.units import clock
 from sim.show.words.words import said
-from sim.units import clock
 
 if TYPE_CHECKING:
     from sim.setup.machine.machine import Machine

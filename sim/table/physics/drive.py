@@ -8,8 +8,8 @@ import math
 from typing import NamedTuple
 
 from controller.compiled.loops import compiled
+from sim.base.units import engine_force, engine_stiffness, engine_viscosity
 from sim.setup.machine.table_model import TableModel
-from sim.units import engine_force, engine_stiffness, engine_viscosity
 
 _STILL_UM = 1e-9
 

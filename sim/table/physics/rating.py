@@ -6,10 +6,10 @@ import numpy as np
 
 from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats
+from sim.base.units import engine_force
 from sim.setup.machine.table_model import Motor
 from sim.table.physics.drive import Drive
 from sim.table.physics.turning import Train
-from sim.units import engine_force
 
 RATE_WINDOW_S = 0.02
 """Time over which the step rate is taken, to each side; 50 Hz is one step of it. It is taken anew as often."""

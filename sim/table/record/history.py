@@ -10,11 +10,11 @@ from typing import Final
 import numpy as np
 
 from parser.geometry.curves import Floats
+from sim.base.units import newtons
 from sim.table.physics.drive import Drive
 from sim.table.record.bins import VALUES, Envelope
 from sim.table.record.gather import Record
 from sim.table.when.ticks import Ticks
-from sim.units import newtons
 
 BINS: Final = 2000
 """Most bins of a run: about one for each pixel across a picture."""

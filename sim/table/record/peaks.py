@@ -3,11 +3,11 @@
 from typing import Final, Literal, NamedTuple
 
 from parser.told.step_words import Axis
+from sim.base.units import newtons
 from sim.table.physics.drive import Drive
 from sim.table.record.gather import PEAK_COLUMNS, Record
 from sim.table.trace import Trace
 from sim.table.when.ticks import Ticks
-from sim.units import newtons
 
 Quantity = Literal["force", "speed", "lag"]
 _QUANTITIES: Final[tuple[Quantity, ...]] = ("force", "speed", "lag")

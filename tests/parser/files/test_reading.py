@@ -21,16 +21,16 @@ SHIPPED = {
     *("sim/show/html/bundle.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/documents.py"),
     *("parser/iso/profiles/profile.py", "parser/write/iso_choices.py", "parser/drawing/dxf/linetypes.py"),
     "controller/compiled/loops.py",  # its own modules
-    "sim/open/shortcut.py",  # its icon
-    *("controller/card/abi/c_text.py", "sim/library/build.py"),  # C that libraries are made of
+    "sim/serve/page/shortcut.py",  # its icon
+    *("controller/card/abi/c_text.py", "sim/clients/library/build.py"),  # C that libraries are made of
 }
 """Modules that read files which drycut brings along, or its own documents."""
 OWN = {
-    *("sim/files/swap.py", "sim/files/replaced.py", "sim/files/steps.py", "sim/run/recording.py"),
+    *("sim/base/files/swap.py", "sim/base/files/replaced.py", "sim/base/files/steps.py", "sim/run/recording.py"),
     *("sim/jobs/kept.py", "sim/jobs/one.py", "sim/jobs/trace_file.py"),
     "sim/show/terminal/streams.py",  # reopens closed streams on nothing
-    *("sim/cli/lsp.py", "sim/open/child.py"),  # hand a protocol, or a process of ours, its streams
-    *("sim/open/drawings.py", "sim/open/zipped.py"),  # what a process of ours found, and the files of a run
+    *("sim/cli/lsp.py", "sim/serve/page/child.py"),  # hand a protocol, or a process of ours, its streams
+    *("sim/serve/page/drawings.py", "sim/serve/page/zipped.py"),  # what a process of ours found, and the files of a run
 }
 """Modules that read what drycut wrote, or look whether a file is still what the door read."""
 SQUARE = b"B9B0B9GXL1\nB0B9B9GYL2\nB9B0B9GXL3\nB0B9B9GYL4\nDD\n"

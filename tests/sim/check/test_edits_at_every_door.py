@@ -18,10 +18,10 @@ from sim.check.as_typed import as_typed
 from sim.check.mended import mended_text
 from sim.check.settings import CheckSettings
 from sim.cli.check.patches import for_tools
-from sim.editor.diagnostics import actions_of
-from sim.editor.opened import Text
-from sim.editor.places import Places
-from sim.open.answers import answer, file_of, read_file
+from sim.serve.editor.diagnostics import actions_of
+from sim.serve.editor.opened import Text
+from sim.serve.editor.places import Places
+from sim.serve.page.answers import answer, file_of, read_file
 
 UNITS = {"utf-8": ("utf-8", 1), "utf-16": ("utf-16-le", 2), "utf-32": ("utf-32-le", 4)}
 WIDE = {code: code + 0xFEE0 for code in range(0x21, 0x7F)}

@@ -9,8 +9,8 @@ from checking import SOUND, drycut
 from click.testing import CliRunner
 
 from parser.findings.errors import FileUnreadableError
+from sim.base.files import replace_file
 from sim.cli.check.command import check
-from sim.files import replace_file
 
 PRINTED = (
     "N1: B0 B24900 B24900 GYL2;0.000,24.900//起点\r\n"

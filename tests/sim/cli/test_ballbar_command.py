@@ -20,6 +20,7 @@ from places import ROOT
 
 from parser.findings.catalogue import LANGUAGES, Language
 from parser.told.step_words import Axis
+from sim.base.progress import silent
 from sim.cli.ballbar import ballbar as command
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test
 from sim.run.ballbar.document import document
@@ -29,7 +30,6 @@ from sim.show.draw.dial import RING_SIZES, RINGS, ring_for
 from sim.show.draw.paints import LIGHT, Paint
 from sim.show.pictures.ballbar.plot import draw_ballbar
 from sim.show.terminal.ballbar import print_ballbar
-from sim.table.progress import silent
 from sim.table.record.losses import Loss
 
 SMALL = ("ballbar", "--radius", "1mm")

@@ -7,11 +7,11 @@ import pytest
 from checking import SOUND, WRONG_AXIS, drycut
 from command import run_inside
 
+from sim.base.workers.processes import Processes
 from sim.check.batch import check_file
 from sim.check.parallel import check_files
 from sim.check.result import CheckResult, Silenced
 from sim.cli.check.jobs import Asked, jobs_of
-from sim.workers.processes import Processes
 
 NOTHING = Asked(*[None] * 6, False, None, None, (), (), None, no_config=False, baseline=None, write_baseline=None)
 

@@ -16,11 +16,11 @@ from shops import TINY, instead_of_running, make_shop, rows, run_folder
 import sim.jobs.one
 from parser.findings.errors import ClusterError
 from parser.program import read_program
+from sim.base.workers.makers import made_by
+from sim.base.workers.processes import Processes
 from sim.jobs.run_into import FILES, run_into
 from sim.setup.scenario import Scenario, load_scenario
 from sim.setup.wire import Wire
-from sim.workers.makers import made_by
-from sim.workers.processes import Processes
 
 
 @pytest.fixture

@@ -18,13 +18,13 @@ from shops import TINY, make_shop, rows, run_folder
 
 from parser.findings.errors import ClusterError
 from parser.program import read_program
+from sim.base.workers.cluster import _caller, cluster
+from sim.base.workers.processes import Processes
 from sim.check.batch import Job, check_any
 from sim.check.parallel import check_files
 from sim.check.settings import CheckSettings
 from sim.jobs.run_into import run_into
 from sim.setup.scenario import load_scenario
-from sim.workers.cluster import _caller, cluster
-from sim.workers.processes import Processes
 
 pytestmark = pytest.mark.skipif(find_spec("distributed") is None, reason="Dask is not installed")
 SCHEDULER = ("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--no-show")
@@ -96,7 +96,7 @@ def test_a_worker_of_two_is_killed_and_then_the_scheduler(running: Running, tmp_
 
 @pytest.mark.filterwarnings("ignore")
 def test_a_scheduler_that_does_not_answer_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sim.workers.cluster.MOST_WAIT_S", 0.2)
+    monkeypatch.setattr("sim.base.workers.cluster.MOST_WAIT_S", 0.2)
     make_shop(tmp_path / "shop", 1)
     done = run_inside("run", "shop", "-o", "out", "--scheduler", "tcp://127.0.0.1:9", cwd=tmp_path)
     assert done.returncode == 2

@@ -15,6 +15,7 @@ from runs import machine, plain_scenario, run_text, scenario_run
 from controller.motion.plan import Plan
 from parser.program import read_program
 from parser.toolpath import Toolpath
+from sim.base.progress import silent
 from sim.measure.deviation.across import across_um, summed
 from sim.measure.deviation.causes import NOTHING, Stage, added, cut_off
 from sim.measure.deviation.deviation import DeviationMeter
@@ -24,7 +25,6 @@ from sim.run.running import dry_run
 from sim.setup.machine.controller_model import read_controller
 from sim.setup.scenario import load_scenario
 from sim.setup.wire import DEFAULT_WIRE
-from sim.table.progress import silent
 from sim.table.trace import Trace
 
 RING = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 DD"

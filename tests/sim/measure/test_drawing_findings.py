@@ -12,13 +12,13 @@ from runs import codes, machine, plain_scenario
 from parser.findings.errors import DrawingError
 from parser.program import parse_program
 from parser.toolpath import Point
+from sim.base.progress import silent
 from sim.measure.compare.as_cut import edge_as_cut
 from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.result import Asked
 from sim.run.dryrun import DryRun
 from sim.run.running import dry_run
 from sim.setup.part import DrawingTarget
-from sim.table.progress import silent
 
 LED_SQUARE = """B0B2000B2000GYL2
 B2000B0B2000GXL1 B0B4000B4000GYL2 B4000B0B4000GXL3 B0B4000B4000GYL4 B2000B0B2000GXL1

@@ -9,12 +9,12 @@ from runs import machine
 
 from parser.findings.errors import SettingsError
 from parser.told.step_words import Axis
+from sim.base.progress import silent
+from sim.base.units import parse_speed
 from sim.run.ballbar.circle import circle_test, measure, run_test
 from sim.run.ballbar.figures import circularity, figures_of, least_squares_circle
 from sim.run.ballbar.turn import SENSES, MeasuredTurn
 from sim.setup.machine.machine import load_machine
-from sim.table.progress import silent
-from sim.units import parse_speed
 
 EXACT_UM = 0.002
 """What the closed forms leave out, (deviation / radius)² and the grid, for deviations of some 10 µm on 50 mm."""

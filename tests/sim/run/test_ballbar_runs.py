@@ -5,9 +5,9 @@ import pytest
 from runs import machine
 
 from parser.told.step_words import Axis
+from sim.base.progress import silent
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test
 from sim.run.ballbar.parts import DeviationParts
-from sim.table.progress import silent
 
 RADIUS_UM = 10_000.0
 FEED_UM_S = 4_000.0

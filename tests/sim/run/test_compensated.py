@@ -15,6 +15,7 @@ from parser.findings.catalogue import texts
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError, SettingsError
 from parser.program import Program, parse_program
+from sim.base.progress import silent
 from sim.run.dryrun import DryRun
 from sim.run.offsetting import as_run
 from sim.run.report import build_report
@@ -22,7 +23,6 @@ from sim.run.running import dry_run
 from sim.setup.part import Offset, OffsetPass
 from sim.show.terminal.cut_rows import pass_rows
 from sim.show.words import Words
-from sim.table.progress import silent
 
 ASKED = Offset((OffsetPass(100.0),), Side.LEFT)
 

@@ -10,11 +10,11 @@ from runs import plain_scenario, scenario_recording
 from parser.findings.findings import Finding
 from parser.program import parse_program
 from parser.toolpath import Stop
+from sim.base.progress import silent
 from sim.cut.pieces.pieces import Piece
 from sim.measure.deviation.across import across_um
 from sim.run.course import Course, course_of
 from sim.run.recording import recorded
-from sim.table.progress import silent
 from sim.table.record.losses import Loss
 
 PART = """

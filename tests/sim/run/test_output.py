@@ -15,10 +15,10 @@ from runs import plain_scenario
 
 from parser.findings.errors import FileUnreadableError, ProgramError
 from parser.program import parse_program
-from sim.files import staged
+from sim.base.files import staged
+from sim.base.progress import silent
 from sim.jobs.run_into import run_into
 from sim.jobs.trace_file import read_trace
-from sim.table.progress import silent
 
 TEXT = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3 D B3000B0B3000GXL2 D B50B0B50GXL1 DD"
 NAMES = ["cut.png", "replay.html", "report.html", "report.json"]

@@ -12,11 +12,11 @@ from runs import plain_scenario, run_text
 
 from parser.program import parse_program
 from parser.told.step_words import Axis
+from sim.base.progress import silent
 from sim.jobs.run_into import run_into
 from sim.run.report import build_report
 from sim.setup.wire import DEFAULT_WIRE
 from sim.show.terminal.run import print_summary
-from sim.table.progress import silent
 from sim.table.record.losses import Loss
 from sim.table.record.peaks import Peak
 

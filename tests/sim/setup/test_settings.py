@@ -7,10 +7,10 @@ import pytest
 from places import MACHINES
 
 from parser.findings.errors import FileUnreadableError, SettingsError
+from sim.base.units import clock, parse_length
 from sim.setup.machine.machine import load_machine
 from sim.setup.scenario import load_scenario
 from sim.setup.toml.reader import load_toml
-from sim.units import clock, parse_length
 
 SHIPPED = MACHINES / "dk7740.toml"
 

@@ -13,6 +13,7 @@ from parser.findings.catalogue import LANGUAGES, Example, Language, example
 from parser.findings.codes import CODES
 from parser.program import parse_program
 from parser.text.block_names import BlockNames
+from sim.base.progress import silent
 from sim.check.batch import Job, check_file
 from sim.check.settings import CheckSettings
 from sim.run.course import course_of
@@ -22,7 +23,6 @@ from sim.show.replay.document import replay_document
 from sim.show.terminal.finding import message
 from sim.show.terminal.run import summary_rows
 from sim.show.words import Words
-from sim.table.progress import silent
 
 COUNTED = re.compile(r"(?<!two )\bblocks? \d+\b(?!\.)|(?:第|至|到|段号) ?\d+(?:–\d+)? ?段|第 \d+(?:–| 至)")
 """A block that is called by its number, in both languages."""

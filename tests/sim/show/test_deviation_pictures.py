@@ -21,6 +21,7 @@ from recorder import Recorder, recording_sheet
 from runs import plain_scenario, run_text, scenario_run
 
 from parser.program import parse_program
+from sim.base.progress import silent
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recorded
 from sim.setup.part import DrawingTarget
@@ -38,7 +39,6 @@ from sim.show.pictures.deviation.polar import circles_of, draw_polar
 from sim.show.pictures.deviation.samples import Samples, samples_of
 from sim.show.pictures.deviation.whiskers import APART, draw_whiskers
 from sim.show.pictures.deviation.worst import draw_worst
-from sim.table.progress import silent
 from sim.table.trace import Trace
 
 SQUARE = "B900 B0 B900 GX L1 B0 B700 B700 GY L2 B900 B0 B900 GX L3 B0 B700 B700 GY L4 DD"

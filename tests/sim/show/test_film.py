@@ -14,6 +14,7 @@ from runs import plain_scenario, scenario_recording
 
 from parser.findings.errors import SettingsError
 from parser.program import parse_program
+from sim.base.progress import silent
 from sim.run.course import Course, course_of
 from sim.run.recording import recorded
 from sim.run.report import build_report
@@ -33,7 +34,6 @@ from sim.show.film.window import LEAST_PX, NO_DISPLAY, Window, open_display
 from sim.show.keys import OF_BOTH, OF_PAGE, OF_WINDOW, actions_of
 from sim.show.words import Words
 from sim.show.words.words import texts
-from sim.table.progress import silent
 from sim.table.trace import Trace
 
 PART = """

@@ -11,6 +11,7 @@ from recorder import Drawn, Recorder, recording_sheet
 from runs import run_text, scenario_run
 
 from parser.geometry.curves import Floats
+from sim.base.units import in_figures
 from sim.run.dryrun import DryRun
 from sim.show.draw.labels import MOST_NUMBERS
 from sim.show.draw.layout import Box
@@ -20,7 +21,6 @@ from sim.show.pictures.motion.events import PAUSE
 from sim.show.pictures.motion.picture import draw_motion
 from sim.table.record.bins import Envelope
 from sim.table.record.history import History
-from sim.units import in_figures
 
 TEXT = "B800B0B800GXL1 D B0B500B500GYL2 B300B0B300GXL3 DD"
 

@@ -11,8 +11,8 @@ from golden_pictures import assert_golden
 from numpy.typing import NDArray
 
 from parser.toolpath import Point
-from sim.cam.maker import planned
-from sim.cam.model import CutPlan
+from sim.make.cam.maker import planned
+from sim.make.cam.model import CutPlan
 from sim.setup.machine.machine import load_machine
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario

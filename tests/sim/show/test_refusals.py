@@ -8,13 +8,13 @@ from places import ROOT
 
 from parser.drawing.loops.flat import WhyFlat
 from parser.toolpath import Point
-from sim.cam.model import Refusal
+from sim.make.cam.model import Refusal
 from sim.show.refusals import places_said, why_refused
 from sim.show.words.words import texts
 
 TREES = [
     ast.parse(path.read_text("utf-8"))
-    for folder in ("sim/cam", "parser/drawing")
+    for folder in ("sim/make/cam", "parser/drawing")
     for path in sorted((ROOT / folder).rglob("*.py"))
 ]
 

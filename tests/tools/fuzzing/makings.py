@@ -13,10 +13,10 @@ from fuzzing.target import Input, Judged
 from parser.findings.catalogue import LANGUAGES
 from parser.findings.codes import Severity
 from parser.findings.errors import DrycutError
-from sim.cam.maker import Made, NotMade, unproved
 from sim.check.batch import Job, check_file
 from sim.check.settings import CheckSettings
-from sim.convert.wanted import Wanted
+from sim.make.cam.maker import Made, NotMade, unproved
+from sim.make.convert.wanted import Wanted
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 from sim.show.refusals import why_refused

@@ -1,4 +1,4 @@
-// What the server answers (sim/open/answers.py): its JSON, by name and type. Places in a text count UTF-16 units.
+// What the server answers (sim/serve/page/answers.py): its JSON, by name and type. Places in a text count UTF-16 units.
 
 /**
  * @import { Said } from "../../html/assets/language.js"
@@ -21,7 +21,7 @@
 /** @typedef {[first: number, past: number, text: string]} Edit */
 
 /**
- * A drawing (sim/open/drafter.py): its curves as they lie beneath the program, and what there is to say; else why not.
+ * A drawing (sim/serve/page/drafter.py): its curves as they lie beneath the program, and what there is to say; else why not.
  * @typedef {object} Looked
  * @property {Curves} [curves]
  * @property {Said[]} told
@@ -95,7 +95,7 @@
  */
 
 /**
- * Lines that are others than in an earlier text (sim/open/lines.py).
+ * Lines that are others than in an earlier text (sim/serve/page/lines.py).
  * @typedef {object} Place
  * @property {number} line from 1, in the text after
  * @property {string} before
@@ -110,7 +110,7 @@
  */
 
 /**
- * A program in a list (sim/open/row.py).
+ * A program in a list (sim/serve/page/row.py).
  * @typedef {object} Row
  * @property {string} file
  * @property {string} title
@@ -125,7 +125,7 @@
  */
 
 /**
- * How far the check of a folder is (sim/open/programs.py).
+ * How far the check of a folder is (sim/serve/page/programs.py).
  * @typedef {object} Rows
  * @property {string} folder empty where none is open
  * @property {number} list another one once the folder was looked through again
@@ -143,7 +143,7 @@
  */
 
 /**
- * How far a run is, or what more is made of it (sim/open/runs.py).
+ * How far a run is, or what more is made of it (sim/serve/page/runs.py).
  * @typedef {object} RunState
  * @property {"idle" | "running" | "done" | "wrong" | "cancelled"} state
  * @property {"run" | "film" | "pictures" | "program"} [job]

@@ -9,6 +9,7 @@ import numpy as np
 from parser.geometry.curves import Floats, Ints
 from parser.told.step_words import Axis
 from parser.units import mm
+from sim.base.units import in_figures
 from sim.run.dryrun import DryRun
 from sim.show.draw.chart import AxisRange, range_of
 from sim.show.draw.paints import Paint
@@ -16,7 +17,6 @@ from sim.show.words import Words
 from sim.table.record.bins import Envelope
 from sim.table.record.history import History
 from sim.table.record.peaks import Quantity
-from sim.units import in_figures
 
 ROOM: Final = 0.08
 """Share of its range that a panel leaves free at either side."""

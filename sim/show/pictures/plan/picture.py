@@ -9,7 +9,7 @@ import numpy as np
 
 from parser.geometry.curves import Curves, Floats
 from parser.units import mm
-from sim.cam.model import CutPlan, FigureCut
+from sim.make.cam.model import CutPlan, FigureCut
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import bounds_um, flatten

@@ -2,7 +2,7 @@
 
 from typing import Final, NamedTuple
 
-from sim.cam.model import CutPlan
+from sim.make.cam.model import CutPlan
 from sim.show.draw import style
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.plan.picture import draw_plan

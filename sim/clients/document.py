@@ -1,0 +1,79 @@
+"""``card`` of ``report.json``: what a program asked of the card, how it ended, and what it did not look at."""
+
+import math
+from typing import Any
+
+from parser import __version__
+from sim.clients.findings import call_text
+from sim.clients.run import Read
+from sim.clients.said import Asked
+from sim.clients.started import Ended
+from sim.run.report.document import finding_entry
+
+SCHEMA = "drycut.card/1"
+"""Of a report of a program that moved neither X nor Y."""
+
+
+def card_document(read: Read, ended: Ended) -> dict[str, Any]:
+    """What the report has under ``card``; times s on the card's clock, lines those of ``calls.txt``."""
+    session, again, unseen = read.session, read.again, read.unseen
+    return {
+        "ended": {"code": ended.exit_code, "signal": ended.signal or None, "is_stopped": ended.is_stopped},
+        "calls": session.calls,
+        "asked": _asked(read),
+        "time_s": session.end_s,
+        "went_on_s": again.went_on_s if math.isfinite(again.went_on_s) else None,
+        "places": again.places,
+        "status": f"{again.status:04x}",
+        "refused": unseen.refused,
+        "refused_unread": [
+            {
+                "line": one.event + 1,
+                "call": call_text(session, one.event),
+                "code": _code(read, one.event),
+                "then": call_text(session, one.then),
+            }
+            for one in unseen.refusals
+        ],
+        "ended_on_limit": [
+            {
+                "line": one.event + 1,
+                "t_s": one.met.t_s,
+                "axis": one.met.axis,
+                "limit": "positive" if one.met.is_positive else "negative",
+                "then": None if one.then is None else call_text(session, one.then),
+            }
+            for one in unseen.on_limit
+        ],
+        "sleeps_too_short": [
+            {
+                "line": one.event + 1,
+                "slept_s": one.slept_s,
+                "needed_s": one.needed_s,
+                "refused": [call_text(session, at) for at in one.refused],
+            }
+            for one in unseen.short_sleeps
+        ],
+    }
+
+
+def without_motion(read: Read, name: str, ended: Ended) -> dict[str, Any]:
+    """The report of a program that moved neither X nor Y: of a run there is nothing to tell."""
+    return {
+        "schema": SCHEMA,
+        "drycut": __version__,
+        "verdict": "pass",
+        "program": {"name": read.program.name, "title": name, "dialect": read.program.reading.dialect},
+        "findings": [finding_entry(finding) for finding in read.program.findings],
+        "card": card_document(read, ended),
+    }
+
+
+def _asked(read: Read) -> int:
+    """Questions among the calls."""
+    return sum(one.count for one in read.session.events if isinstance(one, Asked))
+
+
+def _code(read: Read, event: int) -> int:
+    one = read.session.events[event]
+    return 0 if isinstance(one, Asked) else one.answered

@@ -1,8 +1,0 @@
-"""Files written whole or not at all: `staged` sets, `replace_file`; `StepFiles` of all steps, a `scratch` folder."""
-
-from sim.files.replaced import replace_file
-from sim.files.staged import staged
-from sim.files.stages import scratch
-from sim.files.steps import StepFiles, write_npz
-
-__all__ = ["StepFiles", "replace_file", "scratch", "staged", "write_npz"]

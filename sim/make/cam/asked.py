@@ -1,0 +1,40 @@
+"""What is asked of the text of a program, as its writers take it."""
+
+from parser.write.iso_choices import IsoChoices, iso_choices
+from sim.make.convert.wanted import Wanted
+from sim.setup.making import Language, Making, ToMake, Writing
+from sim.setup.scenario import Scenario
+
+_USUAL_DIALECT = "fast-wire"
+
+
+def wanted_of(to_make: ToMake, language: Language, scenario: Scenario) -> Wanted:
+    """How a program is to be written for the machine of a scenario, whose dialect and unit ISO has.
+
+    SettingsError where the dialect has no such numbers.
+    """
+    writing = to_make.writing
+    return Wanted(
+        language=language,
+        iso=_iso(writing, scenario) if language == "iso" else None,
+        form=writing.form,
+        keeps=writing.compensation == "kept",
+        newline="\r\n" if writing.crlf else "\n",
+        name=to_make.file.stem,
+        offset_um=_offset_um(to_make.making, scenario),
+        end_code=writing.end_code,
+        pause_code=writing.pause_code,
+        encoding=writing.encoding,
+    )
+
+
+def _offset_um(making: Making, scenario: Scenario) -> float | None:
+    """The offset that makes the edge, for headers; None where it is not one for all, or the controller's."""
+    if any(wish.passes_um for wish in making.layers):
+        return None
+    return min(making.passes_um or (scenario.wire.reach_um,)) or None
+
+
+def _iso(writing: Writing, scenario: Scenario) -> IsoChoices:
+    unit = scenario.unit or None
+    return iso_choices(scenario.dialect or _USUAL_DIALECT, unit, writing.decimals)  # type: ignore[arg-type]  # checked

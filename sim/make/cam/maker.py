@@ -1,0 +1,249 @@
+"""A drawing to a proved program: `made`, the one way in.
+
+How near arcs are fitted to what is drawn, so that the written path keeps its tolerance with few of them.
+"""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.drawing.model import DEFAULT_FLATTEN_UM, Drawing
+from parser.drawing.read import read_drawing
+from parser.findings.errors import SettingsError
+from parser.findings.remarks import Remark
+from parser.program import Program, load_program
+from parser.write.draft import Draft
+from sim.base.progress import Progress, silent
+from sim.make.cam.model import CannotCutError, CutPlan, Refusal
+from sim.make.cam.order.order import in_order
+from sim.make.cam.order.sides import with_sides
+from sim.make.cam.parts.parts import parts_of
+from sim.make.cam.parts.walls import walls
+from sim.make.cam.passes.around import offsets_of
+from sim.make.cam.passes.passes import figure_cut
+from sim.make.cam.path.drafted import draft_of_plan
+from sim.make.cam.path.kept import added_draft, kept_draft
+from sim.make.cam.proof.as_run import least_um
+from sim.make.cam.proof.proof import Given, proved
+from sim.make.cam.proof.result import Proof
+from sim.make.cam.proof.target import target_of
+from sim.make.cam.threads.threads import thread_notes, threads_of
+from sim.make.convert.proof import Proof as Written
+from sim.make.convert.proof import proof as held_against
+from sim.make.convert.wanted import Wanted, begun, encoded, read_with, written
+from sim.measure.compare.compared_program import compare_program
+from sim.measure.compare.result import Asked
+from sim.setup.making import Making
+from sim.setup.scenario import Scenario
+
+_STEP = 0.03  # of the tolerance, by which each fit is nearer than the one before it
+_MOST_STEPS = 6
+_MOST_CURVES = 500
+"""Of all fits in steps together: of so many arcs some one is always rounded to its wrong side."""
+_ROUNDING_UM = 0.5
+"""What whole µm add at most: 0.49 µm, written as 3B over an ellipse of 40 × 20 mm fitted within 0.5 … 5 µm."""
+_LEAST_SHARE = 0.5
+"""Of the tolerance: with less of it, a fit takes ever more arcs, each of them rounded."""
+
+
+def fits_um(tolerance_um: float, curves: int) -> tuple[float, ...]:
+    """How far arcs may lie off what is drawn, the first fit to be tried first, where the path may by a tolerance.
+
+    `curves` says how many the first fit has. Other arcs are rounded otherwise, mostly by less than the last fit allows
+    for: so as few of them as of the whole tolerance often do.
+    """
+    steps = min(_MOST_STEPS, _MOST_CURVES // max(curves, 1) - 1)
+    surely_um = max(tolerance_um - _ROUNDING_UM, _LEAST_SHARE * tolerance_um)
+    nearer = (round(tolerance_um * (1.0 - _STEP * step), 6) for step in range(1, steps + 1))
+    return (tolerance_um, *(one for one in nearer if one > surely_um), surely_um)
+
+
+def path_off_um(program: Program, plan: CutPlan, drawn: Drawing, reach_um: float) -> float | None:
+    """How far a written path lies at most from where the drawing wants it, both ways, gaps aside.
+
+    None where figures end at different offsets, or where it cannot be worked out.
+    """
+    edge_um = {least_um(cut.figure, plan.making, reach_um) for cut in plan.cuts}
+    target, _ = target_of(drawn, plan)
+    if target is None or len(edge_um) != 1:
+        return None
+    try:
+        asked = Asked(plan.making.tolerance_um, fitted=False)
+        found = compare_program(program.toolpath, edge_um.pop(), target.drawing, asked)
+    except SettingsError:
+        return None
+    return max(found.max_um - target.gap_um, 0.0) if np.isfinite(found.max_um) else None
+
+
+_SURELY_ALONE = 2  # fits: of a large drawing no more is looked at than the one that is surely near enough
+_FLATTEN_SHARE = 0.01  # of the tolerance: how far the lines of the drawing as it is drawn lie off its curves
+
+
+class Made(NamedTuple):
+    """A program that was made of a drawing.
+
+    Attributes
+    ----------
+    data
+        Bytes of its text.
+    program
+        What reading them gives.
+    plan, draft
+        What it was written of.
+    written
+        How far the path of its text lies off that which was planned, and what else of it is not the same.
+    proof
+        What its run shows; None where nobody asked for one.
+    drawn
+        The drawing without the fit of arcs; None where it was not read so.
+    """
+
+    data: bytes
+    program: Program
+    plan: CutPlan
+    draft: Draft
+    written: Written
+    proof: Proof | None = None
+    drawn: Drawing | None = None
+
+    @property
+    def is_proved(self) -> bool:
+        """Whether its run was looked at, all of it, and nothing speaks against it."""
+        return self.proof is not None and self.proof.verdict == "pass"
+
+
+class NotMade(NamedTuple):
+    """Why there is none, and as much of the plan as there is."""
+
+    refusal: Refusal
+    plan: CutPlan | None = None
+
+
+def planned(
+    path: Path, making: Making, scenario: Scenario, progress: Progress = silent, fit_um: float | None = None
+) -> CutPlan:
+    """What is to be cut, and how, with arcs fitted within `fit_um`, else the tolerance of the path.
+
+    CannotCutError where the drawing asks for what cannot be.
+    """
+    progress("drawing", 0, 1)
+    drawing = read_drawing(path, making.layer, making.gap_um, fit_um=fit_um or making.tolerance_um)
+    progress("figures", 0, 1)
+    parts = parts_of(drawing, making)
+    passes_um = making.passes_um or (scenario.wire.reach_um,)
+    figures = with_sides(parts.figures, making)
+    widest_um = [max(offsets_of(figure, passes_um, making)) for figure in figures]
+    notes = (*parts.notes, *walls(figures, widest_um, scenario.wire.reach_um))
+    threads = threads_of(drawing, figures, making, max(widest_um))
+    notes += thread_notes(figures, threads, making)
+    order = in_order(figures, threads, making)
+    cuts = tuple(figure_cut(figures[one], threads[one], passes_um, making) for one in order)
+    return CutPlan(drawing, making, passes_um, cuts, parts.left_out, notes)
+
+
+class _Asked(NamedTuple):
+    """What `made` is asked for."""
+
+    path: Path
+    making: Making
+    wanted: Wanted
+    scenario: Scenario
+    progress: Progress
+
+
+def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress = silent) -> Made | NotMade:
+    """A program of a drawing, proved on the machine of a scenario.
+
+    Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where the dialect cannot say
+    what it needs.
+    """
+    done = unproved(path, making, wanted, scenario, progress)
+    if isinstance(done, NotMade):
+        return done
+    done = _with_drawn(done, path)
+    assert done.drawn is not None  # noqa: S101 - read before
+    given = Given(done.program, done.plan, done.drawn, done.written, wanted.bound_um)
+    return done._replace(proof=proved(given, scenario, progress))
+
+
+def unproved(
+    path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress = silent
+) -> Made | NotMade:
+    """A program as `made` gives it, before anything is run.
+
+    Arcs are fitted within the tolerance. Where whole µm move the written path past it, they are fitted anew, nearer.
+    """
+    asked = _Asked(path, making, wanted, scenario, progress)
+    try:
+        done = _fitted(asked, making.tolerance_um)
+        fit = done.plan.drawing.fit
+        fits = fits_um(making.tolerance_um, 0 if fit is None else fit.arcs + fit.lines)
+        for fit_um in fits[1:]:
+            if _is_surely_within(done):
+                break
+            if len(fits) > _SURELY_ALONE:
+                done = _with_drawn(done, path)
+                if not _is_rounded_off(done, asked):
+                    break
+            done = _fitted(asked, fit_um)._replace(drawn=done.drawn)
+    except CannotCutError as error:
+        return NotMade(error.refusal)
+    return done
+
+
+def _fitted(asked: _Asked, fit_um: float) -> Made:
+    """A program whose arcs are fitted within `fit_um`. CannotCutError where there is none, or its language has none."""
+    path, making, wanted, scenario, progress = asked
+    plan = planned(path, making, scenario, progress, fit_um)
+    progress("write", 0, 1)
+    plan = plan._replace(notes=(*plan.notes, *_own_codes(wanted)))
+    plan = plan._replace(is_added=wanted.keeps and wanted.language == "4b" and any(plan.passes_um))
+    draft = begun(_drafted(plan, wanted), wanted)
+    text = written(draft, wanted)
+    told = text.text.encode(wanted.encoding, "replace")
+    program = load_program(told, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
+    return Made(encoded(text.text, wanted), program, plan, draft, held_against(draft, text, program.toolpath))
+
+
+def _is_surely_within(done: Made) -> bool:
+    """Whether the fit and rounding together keep the tolerance; no fit, no other fit."""
+    fit = done.plan.drawing.fit
+    return fit is None or fit.max_um <= 0.0 or fit.max_um + done.written.off_um <= done.plan.making.tolerance_um
+
+
+def _is_rounded_off(done: Made, asked: _Asked) -> bool:
+    """Whether the written path lies past the tolerance, by no more than rounding explains."""
+    assert done.drawn is not None  # noqa: S101 - read before
+    off_um = path_off_um(done.program, done.plan, done.drawn, asked.scenario.wire.reach_um)
+    return off_um is not None and 0.0 < off_um - asked.making.tolerance_um <= asked.wanted.bound_um
+
+
+def _own_codes(wanted: Wanted) -> tuple[Remark, ...]:
+    """What is to be said of words for the end and a pause that other readers do not know."""
+    codes = [one for one in (wanted.end_code, wanted.pause_code) if one is not None]
+    return (Remark("own-codes", {"codes": ", ".join(codes)}),) if codes else ()
+
+
+def _with_drawn(done: Made, path: Path) -> Made:
+    """With the drawing as it is drawn, read again where arcs were fitted to it."""
+    if done.drawn is not None:
+        return done
+    plan = done.plan
+    if plan.drawing.fit is None:
+        return done._replace(drawn=plan.drawing)
+    flatten_um = min(DEFAULT_FLATTEN_UM, _FLATTEN_SHARE * plan.making.tolerance_um)
+    return done._replace(drawn=read_drawing(path, plan.making.layer, plan.making.gap_um, flatten_um))
+
+
+def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
+    """What is written of a plan. CannotCutError where the controller cannot add its offsets."""
+    if not wanted.keeps or not any(plan.passes_um):
+        return draft_of_plan(plan)
+    wishes = tuple(wish._replace(passes_um=(0.0,) * len(wish.passes_um)) for wish in plan.making.layers)
+    making = plan.making._replace(layers=wishes)
+    nothing = (0.0,) * len(plan.passes_um)
+    on_contour = tuple(figure_cut(cut.figure, cut.thread, nothing, making) for cut in plan.cuts)
+    if wanted.iso is None:
+        return added_draft(plan, on_contour)
+    return kept_draft(plan, on_contour, wanted.iso.profile.rules)

@@ -1,0 +1,131 @@
+"""Where contours cross, touch, or run over themselves or each other."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from controller.offset.closest import Approaches, approaches_of
+from parser.drawing.loops.overlaps import over
+from parser.drawing.model import BESIDE_UM
+from parser.geometry.along import along_um, places, places_at
+from parser.geometry.broad_phase_pairs import near_pairs
+from parser.geometry.broad_phase_places import nearest_um
+from parser.geometry.curves import Bools, Curves, Floats, Ints
+from sim.make.cam.parts.contours import Contours
+from sim.make.cam.parts.inside import is_inside
+
+_TOUCH_UM: Final = 0.01
+"""A contour that comes so near to itself touches itself: far above rounding, far below what any wire cuts."""
+_LOCAL_UM: Final = 60.0
+"""Round the finest wire, of 0.02 mm: shorter loops of a contour at a corner are rounding of its drawing, and no wire
+follows them."""
+_SHARES: Final = np.linspace(0.0, 1.0, 9)[:-1]  # of each curve, at which it is looked on which side of others it lies
+_BETWEEN: Final = np.array([0.25, 0.5, 0.75])  # of each stretch from one contact to the next
+_MOST_PAIRS: Final = 20_000_000
+
+
+class Contacts(NamedTuple):
+    """Places (k, 2) where contours come near each other, or themselves.
+
+    Attributes
+    ----------
+    one, other
+        (k,) the contours.
+    row
+        (k,) row of the contours' curves, of `one`, that comes near.
+    place_um
+        (k, 2) on that row.
+    """
+
+    one: Ints
+    other: Ints
+    row: Ints
+    place_um: Floats
+
+    def take(self, at: Ints | Bools) -> "Contacts":
+        """Those at the indices `at`."""
+        return Contacts(self.one[at], self.other[at], self.row[at], self.place_um[at])
+
+
+def overlaps(contours: Contours) -> Contacts:
+    """Where curves of contours run over each other; over others of their own contour, `one` is `other`."""
+    curves, loop = contours.curves, contours.loop
+    early, late, _ = near_pairs(curves, np.zeros_like(loop), _TOUCH_UM, _MOST_PAIRS, BESIDE_UM)
+    like = np.flatnonzero(curves.kind[early] == curves.kind[late])
+    found = over(curves, early[like], late[like])
+    middle = 0.5 * (found.first_um + found.last_um)
+    place = places(curves, found.row, middle / curves.length_um[found.row])
+    return Contacts(loop[found.row], loop[found.by], found.row, place)
+
+
+def self_contacts(contours: Contours) -> Contacts:
+    """Where contours cross or touch themselves."""
+    curves, loop = contours.curves, contours.loop
+    early, late, _ = near_pairs(curves, loop, 0.0, _MOST_PAIRS, _TOUCH_UM)
+    near = approaches_of(curves, curves, early, late, _TOUCH_UM)
+    first = np.searchsorted(loop, np.arange(int(loop[-1]) + 2))
+    total = np.add.reduceat(curves.length_um, first[:-1])
+    before = curves.before_um
+    at = [before[row] + along_um(curves, row, near.place_um) for row in (near.path_row, near.row)]
+    along = np.abs(at[1] - at[0])
+    along = np.minimum(along, total[loop[near.row]] - along)
+    apart = near.take(np.flatnonzero(along > _LOCAL_UM))
+    return Contacts(loop[apart.path_row], loop[apart.row], apart.path_row, apart.place_um)
+
+
+def contacts(contours: Contours) -> Contacts:
+    """Where different contours cross or touch; `one` is less than `other`."""
+    near = between_contours(contours.curves, contours.loop, BESIDE_UM)
+    return Contacts(contours.loop[near.path_row], contours.loop[near.row], near.path_row, near.place_um)
+
+
+def between_contours(curves: Curves, loop: Ints, within_um: float) -> Approaches:
+    """Where curves of a contour and of a later one come within a distance, by numbers (n,) that do not decrease."""
+    early, late, _ = near_pairs(curves, np.zeros_like(loop), 0.0, _MOST_PAIRS, within_um)
+    other = np.flatnonzero(loop[early] != loop[late])
+    early, late = early[other], late[other]
+    near = np.flatnonzero(~_are_rings_apart(curves, early, late, within_um))
+    return approaches_of(curves, curves, early[near], late[near], within_um)
+
+
+def _are_rings_apart(curves: Curves, early: Ints, late: Ints, within_um: float) -> Bools:
+    """Whether circles of pairs of arcs (k,) lie apart, most of all those one within another, whose boxes meet."""
+    between = np.hypot(*(curves.center_um[early] - curves.center_um[late]).T)
+    radius, other = curves.radius_um[early], curves.radius_um[late]
+    apart: Bools = np.maximum(between - radius - other, np.abs(radius - other) - between) > within_um
+    return apart
+
+
+def crossed(contours: Contours, found: Contacts, within_um: float) -> Contacts:
+    """Those of contacts at which contours cross: a part of one lies within the other, a part of it outside.
+
+    What lies within a distance of the other contour is on neither side of it.
+    """
+    if not len(found.one):
+        return found
+    key = found.one * (int(contours.loop[-1]) + 1) + found.other
+    order = np.argsort(key, kind="stable")
+    pairs = np.split(order, np.flatnonzero(np.diff(key[order])) + 1)
+    cross = [pair for pair in pairs if _cross(contours, found.take(pair), within_um)]
+    return found.take(np.concatenate([*cross, order[:0]]))
+
+
+def _cross(contours: Contours, found: Contacts, within_um: float) -> bool:
+    """Whether two contours cross, by all of their contacts."""
+    around, rows = contours.one(int(found.other[0])), contours.rows(int(found.one[0]))
+    ring = contours.curves.picked(rows)
+    row, before = found.row - rows.start, ring.before_um
+    at = np.unique(before[row] + along_um(ring, row, found.place_um))
+    past = np.append(at[1:], at[0] + before[-1])
+    middle = np.mod((at[:, None] + _BETWEEN * (past - at)[:, None]).ravel(), before[-1])
+    of = np.clip(np.searchsorted(before, middle, side="right") - 1, 0, len(ring) - 1)
+    place = np.concatenate([places_at(ring, of, middle - before[of]), spread(ring)])
+    clear = place[nearest_um(around, place, within_um) > within_um]
+    inside = is_inside(around, clear)
+    return bool(inside.any() and not inside.all())
+
+
+def spread(ring: Curves) -> Floats:
+    """Places (m, 2) along all curves of a contour."""
+    row = np.repeat(np.arange(len(ring)), len(_SHARES))
+    return places(ring, row, np.tile(_SHARES, len(ring)))

@@ -1,0 +1,205 @@
+"""Parts of a drawing: its closed loops as figures, by how they lie within each other."""
+
+from collections.abc import Iterator
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from parser.drawing.loops.flat import flat_loops
+from parser.drawing.model import BESIDE_UM, Drawing, DrawnLoop, Entity, LeftOut
+from parser.geometry.broad_phase_places import nearest_um
+from parser.geometry.curves import Bools, Floats, Ints
+from parser.geometry.extents import extents
+from parser.toolpath import Point
+from sim.make.cam.model import CannotCutError, Figure, Parts, Refusal
+from sim.make.cam.parts.contacts import Contacts, contacts, crossed, overlaps, self_contacts, spread
+from sim.make.cam.parts.contours import Contours, contours_of
+from sim.make.cam.parts.loose import left_open, named
+from sim.make.cam.parts.nesting import Nesting, nesting
+from sim.setup.making import Making
+
+_MOST_PLACES: Final = 20  # of one refusal
+_CLEAR_UM: Final = 1000.0  # from other contours is far enough to tell within which ones a place lies
+
+
+class _Found(NamedTuple):
+    """Closed loops as contours, and what each one (l,) is: its area µm², its box (l, 2) µm."""
+
+    loops: list[DrawnLoop]
+    contours: Contours
+    area_um2: Floats
+    low_um: Floats
+    high_um: Floats
+
+
+def parts_of(drawing: Drawing, making: Making) -> Parts:
+    """Figures of the closed loops of a drawing, and what is cut of none.
+
+    Figures are numbered part by part, parts from left to right by the leftmost place of their outlines, from below
+    where these begin equally far left; in each part its holes in the same order, and its outline last. Neither the
+    order of entities in the file nor the way they were drawn changes a number.
+
+    CannotCutError, by name and place, where what is drawn is not certain: ``no-contour``, ``crosses-itself``,
+    ``crossing``, ``shared-edge``, and those of `left_open`.
+    """
+    loops = [loop for loop in drawing.loops if not _is_thread(drawing, loop, making.thread_layer)]
+    closed, loose = ([loop for loop in loops if loop.closed is whole] for whole in (True, False))
+    flat = flat_loops(drawing.curves, closed)
+    drawn = contours_of(drawing, closed) if len(flat) < len(closed) else None
+    left = left_open(drawing, loose, None if drawn is None else drawn.curves, making.gap_um)
+    if drawn is None:
+        starts = [drawing.curves.start_um[closed[at].row[0]].tolist() for at, _ in flat]
+        places = [*starts, *(one.place_um for one in left if one.place_um)]
+        raise CannotCutError(Refusal("no-contour", tuple(Point(*place) for place in places)))
+    found = _found(closed, drawn)
+    _refuse_itself(drawing, found)
+    within = BESIDE_UM + 2.0 * (0.0 if drawing.fit is None else drawing.fit.tolerance_um)
+    found, again = _once(drawing, found, within)
+    touching = _touching(drawing, found, within)
+    nested = nesting(found.contours, _places(found, touching), found.area_um2)
+    return Parts(_figures(drawing, found, nested), (*_left_of(drawing, making.thread_layer), *left, *again), ())
+
+
+def _is_thread(drawing: Drawing, loop: DrawnLoop, layer: str | None) -> bool:
+    """Whether a loop lies on the layer of thread points."""
+    return _is_on(drawing.entities[int(drawing.entity[loop.row[0]])], layer)
+
+
+def _is_on(entity: Entity, layer: str | None) -> bool:
+    return layer is not None and entity.layer.lower() == layer.lower()
+
+
+def _left_of(drawing: Drawing, thread_layer: str | None) -> Iterator[LeftOut]:
+    """What its reader left out; dots on the layer of thread points are meant as such."""
+    return (one for one in drawing.left_out if one.why != "dot" or not _is_on(one.entity, thread_layer))
+
+
+def _found(loops: list[DrawnLoop], contours: Contours) -> _Found:
+    curves, first = contours.curves, np.searchsorted(contours.loop, np.arange(len(loops)))
+    start, end = curves.start_um, curves.end_um
+    segment = np.where(curves.is_arc, curves.radius_um**2 * (curves.sweep_rad - np.sin(curves.sweep_rad)), 0.0)
+    origin = start[first][contours.loop]
+    cross = (start - origin)[:, 0] * (end - origin)[:, 1] - (start - origin)[:, 1] * (end - origin)[:, 0]
+    low, high = extents(curves)
+    return _Found(
+        loops,
+        contours,
+        np.add.reduceat(0.5 * (cross + segment), first),
+        np.minimum.reduceat(low, first),
+        np.maximum.reduceat(high, first),
+    )
+
+
+def _kept(found: _Found, keep: Bools) -> _Found:
+    """Those loops that are kept, numbered anew."""
+    at = np.flatnonzero(keep)
+    contours = found.contours
+    row = np.flatnonzero(keep[contours.loop])
+    number = np.cumsum(keep) - 1
+    left = Contours(contours.curves.picked(row), number[contours.loop[row]], contours.entity[row])
+    loops = [found.loops[one] for one in at.tolist()]
+    return _Found(loops, left, found.area_um2[at], found.low_um[at], found.high_um[at])
+
+
+def _left_out(drawing: Drawing, found: _Found, which: Ints, why: str) -> tuple[LeftOut, ...]:
+    return tuple(
+        LeftOut(drawing.entities[int(drawing.entity[found.loops[at].row[0]])], why, _start(found, at))
+        for at in which.tolist()
+    )
+
+
+def _start(found: _Found, at: int) -> tuple[float, float]:
+    x, y = found.contours.one(at).start_um[0].tolist()
+    return x, y
+
+
+def _refuse_itself(drawing: Drawing, found: _Found) -> None:
+    itself, over = self_contacts(found.contours), overlaps(found.contours)
+    is_own = over.one == over.other
+    for places, why in ((itself, "crosses-itself"), (over.take(is_own), "crosses-itself"), (over, "shared-edge")):
+        if len(places.one):
+            raise CannotCutError(_refusal(drawing, found, places, why))
+
+
+def _once(drawing: Drawing, found: _Found, within_um: float) -> tuple[_Found, tuple[LeftOut, ...]]:
+    """Loops without those that lie upon another one all round, as curves do that were fitted twice."""
+    order = np.lexsort([found.low_um[:, 1], found.low_um[:, 0]])
+    low = found.low_um[order, 0]
+    past = np.searchsorted(low, low + within_um, side="right")
+    number = past - np.arange(len(low)) - 1
+    one = np.repeat(np.arange(len(low)), number)
+    other = one + 1 + np.arange(len(one)) - (np.cumsum(number) - number)[one]
+    one, other = order[one], order[other]
+    off = np.maximum(np.abs(found.low_um[one] - found.low_um[other]), np.abs(found.high_um[one] - found.high_um[other]))
+    keep = np.ones(len(found.loops), dtype=np.bool_)
+    for at in np.flatnonzero(off.max(axis=1) <= within_um).tolist():
+        first, again = int(one[at]), int(other[at])
+        rings = [found.contours.one(number) for number in (first, again)]
+        if keep[first] and all(
+            (nearest_um(ring, spread(mate), within_um) <= within_um).all() for ring, mate in (rings, rings[::-1])
+        ):
+            keep[again] = False
+    return _kept(found, keep), _left_out(drawing, found, np.flatnonzero(~keep), "drawn-twice")
+
+
+def _touching(drawing: Drawing, found: _Found, within_um: float) -> Contacts:
+    """Where contours touch. CannotCutError where they cross."""
+    touching = contacts(found.contours)
+    crossing = crossed(found.contours, touching, within_um)
+    if len(crossing.one):
+        raise CannotCutError(_refusal(drawing, found, crossing, "crossing"))
+    return touching
+
+
+def _refusal(drawing: Drawing, found: _Found, contact: Contacts, why: str) -> Refusal:
+    places = np.unique(np.round(contact.place_um, 3), axis=0)[:_MOST_PLACES]
+    names = [
+        named(drawing.entities[int(drawing.entity[found.loops[int(numbers[0])].row[0]])])
+        for numbers in (contact.one, contact.other)
+    ]
+    values = tuple(zip(("entity", "other"), names, strict=True))
+    return Refusal(why, tuple(Point(x, y) for x, y in places.tolist()), values)
+
+
+def _places(found: _Found, touching: Contacts) -> Floats:
+    """A place (l, 2) of each contour that lies on no other one."""
+    contours = found.contours
+    first = np.searchsorted(contours.loop, np.arange(len(found.loops)))
+    place = contours.curves.start_um[first].copy()
+    both = np.append(touching.one, touching.other), np.append(touching.other, touching.one)
+    pairs = np.unique(np.stack(both, axis=1), axis=0)
+    for at in np.unique(pairs[:, 0]).tolist():
+        mates = pairs[slice(*np.searchsorted(pairs[:, 0], (at, at + 1)).tolist()), 1]
+        on = spread(contours.one(at))
+        clear = [nearest_um(contours.one(mate), on, _CLEAR_UM) for mate in mates.tolist()]
+        place[at] = on[np.argmax(np.min(clear, axis=0))]
+    return place
+
+
+def _figures(drawing: Drawing, found: _Found, nested: Nesting) -> tuple[Figure, ...]:
+    """Figures in the order of their numbers."""
+    is_hole = nested.depth % 2 == 1
+    outline = np.where(is_hole, nested.around, np.arange(len(is_hole)))
+    rank = np.argsort(_order(found))
+    order = np.lexsort([rank, ~is_hole, rank[outline]])
+    part = np.cumsum(np.diff(outline[order], prepend=-1) != 0)
+    return tuple(
+        Figure(
+            number=number,
+            kind="hole" if is_hole[at] else "outline",
+            part=int(part[number - 1]),
+            depth=int(nested.depth[at]),
+            contour=found.contours.one(at),
+            entity=found.contours.entity[found.contours.rows(at)],
+            layer=drawing.entities[int(drawing.entity[found.loops[at].row[0]])].layer,
+            runs_inside=bool(is_hole[at]),
+        )
+        for number, at in enumerate(order.tolist(), 1)
+    )
+
+
+def _order(found: _Found) -> Ints:
+    """Contours (l,) from left to right, from below where they begin equally far left, to a whole µm."""
+    low = np.round(found.low_um)
+    start = np.round([_start(found, at) for at in range(len(low))])
+    return np.lexsort([found.area_um2, start[:, 1], low[:, 1], low[:, 0]])

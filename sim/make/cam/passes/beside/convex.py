@@ -1,0 +1,113 @@
+"""The offset of a contour that turns one way, joint by joint: circles, slots, rectangles, most of what is punched.
+
+Outside of such a contour each curve moves outward as long as it is, with an arc about each corner: no place comes
+nearer to another curve. Within it neighbours are shortened to where they meet. If something is left of each curve,
+then what they make turns one way too, by one turn. It is the boundary of all places that are the offset away from the
+contour, since a convex region is what lies on the inner side of all its tangents, and these are those of the contour,
+moved inward. (At a corner the disc about it touches both neighbours, and bends more than either: it crosses neither.)
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from controller.offset.reach import OffsetLoop
+from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
+from parser.geometry.directions import directions, to_left
+from sim.make.cam.passes.beside.ends import met_near, with_ends
+
+_SAME_UM = 1e-3
+"""What files lose by printing decimals: ends so near are one. A turn that parts them no farther is none."""
+_LEFT_UM = 1e-2  # what is at least left of each curve; of less, the general way decides
+_TURN_RAD = 2.0 * np.pi + 1e-2  # a contour that turns more runs round twice
+_BACK_RAD = np.pi - 1e-3  # a corner that turns more runs back along itself
+
+
+def beside_convex(contour: Curves, by_um: float, is_inside: bool) -> OffsetLoop | None:
+    """The loop at an offset of a closed counter-clockwise contour, within or outside of it.
+
+    None where the contour does not turn one way, or the offset uses up one of its curves.
+    """
+    moved_um = by_um if is_inside else -by_um
+    if len(contour) == 1:
+        return _circle(contour, moved_um)
+    if (contour.sweep_rad < 0.0).any():
+        return None
+    leaving, arriving = directions(contour)
+    leaving_next = _next(leaving)
+    cross = arriving[:, 0] * leaving_next[:, 1] - arriving[:, 1] * leaving_next[:, 0]
+    kink = np.arctan2(cross, (arriving * leaving_next).sum(axis=1))
+    gap = contour.end_um - _next(contour.start_um)
+    if kink.min() * by_um < -_SAME_UM or kink.max() > _BACK_RAD or np.abs(gap).max() > _SAME_UM:
+        return None
+    radius = contour.radius_um - moved_um
+    if contour.sweep_rad.sum() + kink.sum() > _TURN_RAD or np.fmin.reduce(radius, initial=np.inf) < _LEFT_UM:
+        return None
+    shifted = Curves(
+        contour.kind,
+        contour.start_um + moved_um * to_left(leaving),
+        contour.end_um + moved_um * to_left(arriving),
+        contour.center_um,
+        radius,
+        contour.start_angle_rad,
+        contour.sweep_rad,
+        np.where(contour.is_arc, radius * contour.sweep_rad, contour.length_um),
+    )
+    corner = np.flatnonzero(kink * by_um > _SAME_UM)
+    if not is_inside:
+        return _with_arcs(shifted, contour, corner, kink)
+    return _shortened(shifted, corner)
+
+
+def _circle(contour: Curves, moved_um: float) -> OffsetLoop | None:
+    radius = contour.radius_um - moved_um
+    if radius[0] < _LEFT_UM:
+        return None
+    start = contour.center_um + (radius / contour.radius_um)[:, None] * (contour.start_um - contour.center_um)
+    circle = replace(contour, start_um=start, end_um=start, radius_um=radius, length_um=radius * contour.sweep_rad)
+    return OffsetLoop(circle, np.array([0]), np.array([False]))
+
+
+def _next(rows: Floats) -> Floats:
+    return np.concatenate([rows[1:], rows[:1]])
+
+
+def _with_arcs(shifted: Curves, contour: Curves, corner: Ints, kink: Floats) -> OffsetLoop:
+    """Curves moved outward, welded where they are tangent, with an arc about each corner."""
+    rows = np.arange(len(shifted))
+    is_corner = np.zeros(len(shifted), dtype=np.bool_)
+    is_corner[corner] = True
+    welded = _welded(shifted, ~is_corner)
+    if not len(corner):
+        return OffsetLoop(welded, rows, is_corner)
+    arcs = curves_between(welded.end_um[corner], _next(welded.start_um)[corner], contour.end_um[corner], kink[corner])
+    order = np.argsort(np.concatenate([2 * rows, 2 * corner + 1]), kind="stable")
+    is_arc = np.repeat([False, True], [len(rows), len(corner)])
+    return OffsetLoop(joined([welded, arcs]).picked(order), np.concatenate([rows, corner])[order], is_arc[order])
+
+
+def _shortened(shifted: Curves, corner: Ints) -> OffsetLoop | None:
+    """Curves moved inward and shortened to where neighbours meet; None where nothing is left of one."""
+    rows, none = np.arange(len(shifted)), np.zeros(len(shifted), dtype=np.bool_)
+    end = 0.5 * (shifted.end_um + _next(shifted.start_um))
+    if len(corner):
+        behind = (corner + 1) % len(shifted)
+        met = met_near(shifted, corner, behind, end[corner])
+        if not ((met.on_um < 0.0) & (met.before_um < 0.0)).all():
+            return None
+        less = np.zeros(len(shifted))
+        np.add.at(less, corner, -met.on_um)
+        np.add.at(less, behind, -met.before_um)
+        if (shifted.length_um - less < _LEFT_UM).any():
+            return None
+        end[corner] = met.place_um
+    return OffsetLoop(with_ends(shifted, np.roll(end, 1, axis=0), end), rows, none)
+
+
+def _welded(shifted: Curves, is_tangent: Bools) -> Curves:
+    """Curves whose ends at tangent joints are made one."""
+    begun = _next(shifted.start_um)
+    middle = 0.5 * (shifted.end_um + begun)
+    end = np.where(is_tangent[:, None], middle, shifted.end_um)
+    start = np.roll(np.where(is_tangent[:, None], middle, begun), 1, axis=0)
+    return with_ends(shifted, start, end)

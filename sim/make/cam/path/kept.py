@@ -1,0 +1,99 @@
+"""A plan to a draft whose offsets the controller adds: the contours of the drawing; ISO says so by G41 and G42."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.geometry.curves import Curves
+from parser.geometry.directions import directions
+from parser.told.compensation import Compensation, CompensationRules
+from parser.toolpath import Point
+from parser.write.draft import Draft
+from sim.make.cam.model import CannotCutError, CutPlan, FigureCut, PassCut, Refusal
+from sim.make.cam.path.drafted import draft_of_cuts
+
+_TANGENT_RAD = np.radians(0.5)
+"""At f = 0.1 mm the neighbours then miss each other by 0.9 µm; `drycut check` tells larger turns (3B214)."""
+
+
+class _Sided(NamedTuple):
+    """So many rows with a side, 1 for left and −1 for right, 0 for none; the offset, and its register."""
+
+    rows: int
+    side: int
+    by_um: float
+    register: str
+
+
+def kept_draft(plan: CutPlan, on_contour: Sequence[FigureCut], rules: CompensationRules) -> Draft:
+    """The draft of a plan of which `on_contour` are the same cuts on the contours themselves.
+
+    Compensation is set up by the first line of a lead-in and ended by the lead-out (docs/iso.md §9). CannotCutError
+    where that cannot be.
+    """
+    _refuse_misfits(plan, on_contour)
+    draft = draft_of_cuts(on_contour)
+    sided = list(_sided(plan, on_contour))
+    rows = [one.rows for one in sided]
+    compensation = Compensation(
+        side=np.repeat(np.array([one.side for one in sided], dtype=np.int64), rows),
+        by_um=np.repeat(np.array([one.by_um for one in sided], dtype=np.float64), rows),
+        register=tuple(one.register for one in sided for _ in range(one.rows)),
+        rules=rules,
+    )
+    return replace(draft, compensation=compensation)
+
+
+def added_draft(plan: CutPlan, on_contour: Sequence[FigureCut]) -> Draft:
+    """The same without a word of it: f of a 4B controller, which lengthens and shortens the radii of arcs.
+
+    It has one offset, on one side, for all, and moves the neighbours of tangent joints alone (docs/3b.md §6).
+    CannotCutError where the plan needs more.
+    """
+    _refuse_misfits(plan, on_contour)
+    if len({one.by_um for cut in plan.cuts for one in cut.passes}) > 1 or len({cut.side for cut in plan.cuts}) > 1:
+        raise CannotCutError(Refusal("kept-several"))
+    for cut in on_contour:
+        for one in cut.passes:
+            _refuse_corners(cut, one.along)
+    return draft_of_cuts(on_contour)
+
+
+def _refuse_corners(cut: FigureCut, along: Curves) -> None:
+    leaving, arriving = directions(along)
+    onward = np.roll(leaving, -1, axis=0)
+    turn = np.arctan2(arriving[:, 0] * onward[:, 1] - arriving[:, 1] * onward[:, 0], (arriving * onward).sum(axis=1))
+    sharp = np.flatnonzero(np.abs(turn) > _TANGENT_RAD)
+    if len(sharp):
+        places = tuple(Point(*place) for place in along.end_um[sharp].tolist())
+        values = (("figure", str(cut.figure.number)), ("degrees", f"{np.degrees(np.abs(turn).max()):.1f}"))
+        raise CannotCutError(Refusal("kept-corner", places, values))
+
+
+def _sided(plan: CutPlan, on_contour: Sequence[FigureCut]) -> Iterator[_Sided]:
+    """The rows of the draft in order: jumps, ways in and along, ways out."""
+    registers: dict[float, str] = {}
+    for at, (cut, bare) in enumerate(zip(plan.cuts, on_contour, strict=True)):
+        if at:
+            yield _Sided(1, 0, 0.0, "")
+        for one, way in zip(cut.passes, bare.passes, strict=True):
+            side = -int(cut.side) if one.is_back else int(cut.side)
+            register = registers.setdefault(one.by_um, f"D{len(registers) + 1}")
+            yield _Sided(len(way.into) + len(way.along), side, one.by_um, register)
+            yield _Sided(len(way.out), 0, 0.0, "")
+
+
+def _refuse_misfits(plan: CutPlan, on_contour: Sequence[FigureCut]) -> None:
+    """CannotCutError for tabs and overcuts, whose ways back would need the other side, and for leads without lines."""
+    if plan.making.tab_um or plan.making.overcut_um:
+        raise CannotCutError(Refusal("kept-tab"))
+    for cut in on_contour:
+        if not all(_is_led(one) for one in cut.passes):
+            raise CannotCutError(Refusal("kept-lead", (cut.thread.place_um,), (("figure", str(cut.figure.number)),)))
+
+
+def _is_led(one: PassCut) -> bool:
+    """Whether a line comes first, and a line last: no controller sets compensation up on an arc, or ends it on one."""
+    return bool(len(one.into) and len(one.out) and not one.into.is_arc[0] and not one.out.is_arc[0])

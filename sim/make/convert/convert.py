@@ -1,0 +1,203 @@
+"""A program checked, written in another language, read back, checked again and held against what it was written of.
+
+Contours that the path of a wire leaves open, and its kerf closes.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from parser.dialect.choices import Choices, Registers
+from parser.findings.codes import Severity
+from parser.findings.errors import ProgramError
+from parser.findings.facts import NotSimulated, telling
+from parser.findings.findings import Finding
+from parser.geometry.distance import distance_to_curves
+from parser.program import Program, load_program
+from parser.told.compensation import Compensation
+from parser.toolpath import Toolpath
+from parser.units import mm
+from parser.write.draft import Draft, Written
+from parser.write.losses import Loss, some
+from sim.check.closures import OpenContour
+from sim.check.engine import Checked, run_checks
+from sim.check.path_checks import Demands
+from sim.make.convert.losses import losses
+from sim.make.convert.proof import Proof, proof
+from sim.make.convert.wanted import Wanted, carried_events, draft_for, read_with, written
+
+_LAST_BLOCKS = 2
+"""Blocks before its end beside which a path always runs."""
+
+
+def closed_by_kerf(
+    findings: Sequence[Finding], path: Toolpath, compensation: Compensation
+) -> tuple[tuple[Finding, ...], float]:
+    """Findings of open contours that a compensated path closes but for a kerf, and the widest of these gaps, µm.
+
+    Where a contour begins and ends at a corner, its first block and its last one are moved aside in two directions. The
+    wire, which cuts as far to each side as the path was moved, frees the piece all the same.
+    """
+    kerf_um = 2.0 * float(np.nanmax(np.abs(compensation.left_um)))
+    gaps = [(finding, _gap_um(finding, path)) for finding, _ in telling(findings, OpenContour)]
+    narrow = [(finding, gap_um) for finding, gap_um in gaps if gap_um <= kerf_um]
+    return tuple(finding for finding, _ in narrow), max((gap_um for _, gap_um in narrow), default=0.0)
+
+
+def _gap_um(finding: Finding, path: Toolpath) -> float:
+    """How far the contour of a finding ends from the rest of itself."""
+    first, last = int(finding.values["first"]) - 1, int(finding.values["last"]) - 1
+    row = np.arange(first, last + 1 - _LAST_BLOCKS)
+    if not len(row):
+        return np.inf
+    end = np.tile(path.end_um[last], (len(row), 1))
+    return float(distance_to_curves(path, row, end[:, 0], end[:, 1])[0].min())
+
+
+class Converted(NamedTuple):
+    """A program that was written and proved.
+
+    Attributes
+    ----------
+    data
+        Bytes of its text.
+    program, checked
+        What reading them gives, and what its check finds.
+    off_um, bound_um
+        How far it is from what it was written of, at most, and how far it may be.
+    lost
+        What it has not got of the program that it was converted of.
+    told_by_itself
+        Whether it is read the same without being told its dialect and unit.
+    open_um
+        How far apart the ends of a contour lie at most that only the kerf closes, as those of the compensated path do;
+        0 where there is none.
+    registers
+        Values, µm, that the controller's table has to hold, by the names of their registers.
+    ramp_ms
+        Acceleration time that it sets, ms, as its shortest blocks ask for it; 0 where it sets none.
+    """
+
+    data: bytes
+    program: Program
+    checked: Checked
+    off_um: float
+    bound_um: float
+    lost: tuple[Loss, ...]
+    told_by_itself: bool
+    open_um: float
+    registers: Registers
+    ramp_ms: int = 0
+
+
+class Refused(NamedTuple):
+    """Why there is no conversion.
+
+    Attributes
+    ----------
+    why
+        Name of a text for people, ``convert.refused-…``.
+    program
+        The one that its findings are of: that to be converted, or the one that was written.
+    findings
+        What speaks against it.
+    values
+        What fills the text.
+    """
+
+    why: str
+    program: Program
+    findings: tuple[Finding, ...] = ()
+    values: tuple[tuple[str, str], ...] = ()
+
+
+def converted(program: Program, wanted: Wanted) -> Converted | Refused:
+    """Convert a program; what has errors, or could not be read as a whole, is not converted.
+
+    A contour that stays open has a path all the same: it is converted, and stays as open as it was.
+
+    SettingsError where the dialect cannot say what the program needs.
+    """
+    checked = run_checks(program, Demands(may_stay_open=True))
+    if _errors(checked):
+        return Refused("source", program, _errors(checked))
+    beside = ", ".join(program.reading.not_simulated.words)
+    if beside:
+        said = tuple(finding for finding, _ in telling(checked.findings, NotSimulated))
+        return Refused("not-simulated", program, said, (("words", beside),))
+    if not checked.coverage.is_complete:
+        return Refused("incomplete", program)
+    several = _several_offsets(program.toolpath, wanted)
+    if several:
+        return Refused("several-offsets", program, values=(("of", several),))
+    path = _path(program, checked, wanted)
+    is_offset = path is not program.toolpath or wanted.offset_um is not None
+    draft = draft_for(path, wanted, carried_events(program, path, wanted) or (), is_offset=is_offset)
+    if not len(draft):
+        return Refused("nothing", program)
+    return _word_for_word_or_not(program, path, draft, wanted, is_open=any(one.is_open for one in checked.contours))
+
+
+def _word_for_word_or_not(
+    program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, is_open: bool
+) -> Converted | Refused:
+    """The written program; of its path, where its words mean another one to a PMAC card."""
+    done = _proved(program, path, draft, wanted, is_open=is_open)
+    if isinstance(done, Converted) or wanted.pmac is None or wanted.pmac.blocks is None:
+        return done
+    return _proved(program, path, draft, wanted._replace(pmac=wanted.pmac._replace(blocks=None)), is_open=is_open)
+
+
+def _path(program: Program, checked: Checked, wanted: Wanted) -> Toolpath:
+    """The path as programmed where compensation is kept, else with what the controller makes of it."""
+    if wanted.keeps or checked.compensation is None:
+        return program.toolpath
+    return checked.compensation.program.toolpath
+
+
+def _several_offsets(toolpath: Toolpath, wanted: Wanted) -> str:
+    """The offsets of a program for people, mm, where there are more than the one that 4B leaves to the controller."""
+    told = toolpath.compensation
+    if told is None or wanted.language != "4b" or not wanted.keeps:
+        return ""
+    left = np.unique(told.left_um[told.side != 0])
+    return some(f"{mm(one):+.3f} mm" for one in left.tolist()) if len(left) > 1 else ""
+
+
+def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, is_open: bool) -> Converted | Refused:
+    """The written program, or what speaks against it; its contours may be open where one of the source is."""
+    made = written(draft, wanted)
+    data = made.text.encode()
+    choices = read_with(draft, wanted)
+    try:
+        back = load_program(data, f"{program.name} → {wanted.language}", choices)
+    except ProgramError as error:
+        return Refused("result", program, (error.finding,))
+    checked = run_checks(back, Demands(may_stay_open=is_open))
+    told, open_um = program.toolpath.compensation, 0.0
+    closed: tuple[Finding, ...] = ()
+    if told is not None and not wanted.keeps:
+        closed, open_um = closed_by_kerf(checked.findings, back.toolpath, told)
+    wrong = tuple(finding for finding in _errors(checked) if finding not in closed)
+    if wrong:
+        return Refused("result", back, wrong)
+    held = proof(draft, made, back.toolpath)
+    if held.differs:
+        return Refused("differs", back, values=(("what", f"convert.differs-{held.differs}"),))
+    bound_um = wanted.bound_for_um(draft)
+    if held.off_um > bound_um:
+        return Refused("off", back, values=(("off", f"{held.off_um:.3f}"), ("bound", f"{bound_um:g}")))
+    alone = wanted.iso is None or _is_told_by_itself(data, draft, made, wanted, choices)
+    lost = losses(program, path, draft, made, wanted)
+    return Converted(data, back, checked, held.off_um, bound_um, lost, alone, open_um, choices.registers, made.ramp_ms)
+
+
+def _is_told_by_itself(data: bytes, draft: Draft, made: Written, wanted: Wanted, choices: Choices) -> bool:
+    """Whether the text alone tells how it is to be read."""
+    alone = proof(draft, made, load_program(data, "alone", Choices(registers=choices.registers)).toolpath)
+    return alone == Proof(alone.off_um) and alone.off_um <= wanted.bound_for_um(draft)
+
+
+def _errors(checked: Checked) -> tuple[Finding, ...]:
+    return tuple(finding for finding in checked.findings if finding.severity is Severity.ERROR)

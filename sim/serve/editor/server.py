@@ -1,0 +1,127 @@
+"""The language server: what an editor asks, answered of the texts that it has open."""
+
+import asyncio
+from pathlib import Path
+from typing import Final
+from urllib.parse import unquote
+
+from lsprotocol import types
+from pygls.lsp.server import LanguageServer
+from pygls.uris import to_fs_path
+
+from parser import __version__
+from parser.findings.catalogue import Language
+from sim.check.as_typed import as_typed
+from sim.serve.editor.diagnostics import actions_of, diagnostics_of
+from sim.serve.editor.layout import layout_of
+from sim.serve.editor.opened import Text
+from sim.serve.editor.places import Places
+from sim.serve.editor.shown import hover_of, outline_of
+
+NAME: Final = "drycut"
+_PAUSE_S: Final = 0.03
+"""Between two keys of who types fast lies more."""
+_ACTIONS: Final = types.CodeActionOptions([types.CodeActionKind.QuickFix, types.CodeActionKind.SourceFixAll])
+
+
+class _Texts:
+    """The texts that an editor has open, read and checked once for each version."""
+
+    def __init__(self, server: LanguageServer, asked: Language | None) -> None:
+        self._server, self._asked, self._locale = server, asked, ""
+        self._knows_versions = False
+        self._open: dict[str, tuple[int | None, Text]] = {}
+
+    def meet(self, params: types.InitializeParams) -> None:
+        """The editor says in which language people use it, and whether its edits may be of one version of a text."""
+        self._locale = params.locale or ""
+        workspace = params.capabilities.workspace
+        edits = workspace.workspace_edit if workspace else None
+        self._knows_versions = bool(edits and edits.document_changes)
+
+    def of(self, uri: str) -> Text:
+        """A text as it stands now."""
+        document = self._server.workspace.get_text_document(uri)
+        version, known = self._open.get(uri, (None, None))
+        if known is not None and version == document.version is not None:
+            return known
+        place = to_fs_path(uri)
+        file = Path(place) if uri.startswith("file:") and place else None
+        name = file.name if file else unquote(uri.rpartition("/")[2]) or "untitled"
+        made = as_typed(name, file, document.source)
+        encoding = self._server.workspace.position_encoding or types.PositionEncodingKind.Utf16
+        of_version = document.version if self._knows_versions else None
+        text = Text(uri, of_version, made, Places(made.lines, encoding), self._language)
+        self._open[uri] = document.version, text
+        return text
+
+    def forget(self, uri: str) -> None:
+        """A text is closed, or what it is checked with may be another."""
+        self._open.pop(uri, None)
+
+    @property
+    def _language(self) -> Language:
+        return self._asked or ("zh" if self._locale.lower().startswith("zh") else "en")
+
+
+def language_server(asked: Language | None) -> LanguageServer:
+    """The server; its texts are in the language that is asked for, None for that of the editor."""
+    server = LanguageServer(NAME, __version__, text_document_sync_kind=types.TextDocumentSyncKind.Full)
+    texts = _Texts(server, asked)
+    _answer_changes(server, texts)
+    _answer_questions(server, texts)
+    return server
+
+
+def _answer_changes(server: LanguageServer, texts: _Texts) -> None:
+    def publish(uri: str) -> None:
+        version = server.workspace.get_text_document(uri).version
+        found = diagnostics_of(texts.of(uri))
+        server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, found, version=version))
+
+    @server.feature(types.INITIALIZE)
+    def initialize(params: types.InitializeParams) -> None:
+        texts.meet(params)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
+    def did_open(params: types.DidOpenTextDocumentParams) -> None:
+        publish(params.text_document.uri)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_CHANGE)
+    async def did_change(params: types.DidChangeTextDocumentParams) -> None:
+        """Of changes that come while one types, or while a large text is checked, only the last one is looked at."""
+        await asyncio.sleep(_PAUSE_S)
+        document = server.workspace.text_documents.get(params.text_document.uri)
+        if document is not None and document.version == params.text_document.version:
+            publish(params.text_document.uri)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_SAVE)
+    def did_save(params: types.DidSaveTextDocumentParams) -> None:
+        texts.forget(params.text_document.uri)  # settings near it may be others now
+        publish(params.text_document.uri)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_CLOSE)
+    def did_close(params: types.DidCloseTextDocumentParams) -> None:
+        texts.forget(params.text_document.uri)
+        server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(params.text_document.uri, []))
+
+
+def _answer_questions(server: LanguageServer, texts: _Texts) -> None:
+    @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, _ACTIONS)
+    def code_action(params: types.CodeActionParams) -> list[types.CodeAction]:
+        kinds = [str(getattr(kind, "value", kind)) for kind in params.context.only or ()]
+        return actions_of(texts.of(params.text_document.uri), params.range, kinds)
+
+    @server.feature(types.TEXT_DOCUMENT_HOVER)
+    def hover(params: types.HoverParams) -> types.Hover | None:
+        return hover_of(texts.of(params.text_document.uri), params.position)
+
+    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+    def document_symbol(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
+        return outline_of(texts.of(params.text_document.uri))
+
+    @server.feature(types.TEXT_DOCUMENT_FORMATTING)
+    def formatting(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+        text = texts.of(params.text_document.uri)
+        edits = layout_of(text.opened.program) if text.opened.program else ()
+        return [types.TextEdit(text.places.range_of((edit.first, edit.past)), edit.text) for edit in edits]

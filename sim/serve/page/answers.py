@@ -1,0 +1,180 @@
+"""What the page is told of a program: its findings with their mends, its path in columns, its figures and its size."""
+
+from functools import cache
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from controller.motion.limits import Feeds
+from controller.stepping.words import interpolate
+from parser.findings.catalogue import LANGUAGES, Said, texts
+from parser.findings.findings import Finding
+from parser.program import Program, usual_name
+from parser.shape.contours import find_contours
+from parser.text.encoding import decode_text, encode_text, printable
+from parser.text.lines import LINE_END
+from sim.base.rounded import rounded
+from sim.check.as_typed import as_typed
+from sim.check.result import CheckResult
+from sim.setup.machine.machine import load_machine
+from sim.setup.scenario import DEFAULT_MACHINE, DEFAULT_THICKNESS_MM
+from sim.show.replay.curve_columns import exact_columns
+from sim.show.words import said
+from sim.show.words.phrases import lasting
+
+
+class ReadFile(NamedTuple):
+    """The text of a file with lines that end with LF, as a page has it, and what brings back its bytes.
+
+    `newline` is how all its lines end; of a file that mixes line ends, a letter of `_ENDS` for each line, in order.
+    """
+
+    text: str
+    encoding: str
+    newline: str
+
+
+_ENDS: Final = {"w": "\r\n", "u": "\n", "m": "\r"}
+"""Letter of a line -> its end."""
+
+
+def read_file(data: bytes) -> ReadFile:
+    """The text of a file's bytes. ProgramError (3B100) where they are no text."""
+    text, encoding = decode_text(data)
+    ends = LINE_END.findall(text)
+    letter = {end: letter for letter, end in _ENDS.items()}
+    mixed = "".join(letter[end] for end in ends) if len(set(ends)) > 1 else ""
+    return ReadFile(LINE_END.sub("\n", text), encoding, mixed or (ends[0] if ends else "\n"))
+
+
+def file_of(read: ReadFile, text: str) -> bytes:
+    """The bytes of a text made of a file as read; where its encoding lacks a letter, all of it is in UTF-8.
+
+    Of mixed line ends each line that stayed has its own; lines put between others end as the one that stood there.
+    """
+    ends = _line_ends(read, text)
+    whole = "".join(part for line, end in zip(text.split("\n"), [*ends, ""], strict=True) for part in (line, end))
+    try:
+        return encode_text(whole, read.encoding)
+    except (UnicodeEncodeError, LookupError):
+        return whole.encode("utf-8", "replace")
+
+
+def _line_ends(read: ReadFile, text: str) -> list[str]:
+    """The end of each line of a text but the last."""
+    count = text.count("\n")
+    was = [_ENDS[letter] for letter in read.newline if letter in _ENDS]
+    if not was:
+        return [read.newline if read.newline in _ENDS.values() else "\n"] * count
+    before, after = read.text.split("\n")[:-1], text.split("\n")[:-1]
+    most = min(len(was), count)
+    head = next((at for at in range(most) if before[at] != after[at]), most)
+    most -= head
+    tail = next((at for at in range(most) if before[~at] != after[~at]), most)
+    between = [was[min(at, len(was) - 1)] for at in range(head, count - tail)]
+    return [*was[:head], *between, *was[len(was) - tail :]]
+
+
+def answer(name: str, file: Path | None, text: str) -> dict[str, Any]:
+    """What is found in a text, and its path; an empty name is given the usual one.
+
+    `file` is where the text stands, None where nobody knows.
+    """
+    name = name or usual_name(text)
+    found, offsets = as_typed(name, file, text), Offsets(text)
+    program, result = found.program, found.result
+    return {
+        "name": printable(name),
+        "dialect": result.dialect,
+        "verdict": "none" if result.unreadable else result.verdict,
+        "settings": printable(found.wrong_settings),
+        "findings": [_finding(finding, offsets) for finding in result.findings],
+        "path": _path(program, offsets) if program and len(program.toolpath) else None,
+        "figures": _figures(program) if program and result.coverage.stepped else [],
+        "size": size_of(result),
+    }
+
+
+class Offsets:
+    """Places of characters in a text, as a page counts them: in units of UTF-16."""
+
+    def __init__(self, text: str) -> None:
+        beyond = np.array([letter > "\uffff" for letter in text], dtype=np.int64) if not text.isascii() else None
+        self._before = None if beyond is None else np.concatenate([[0], np.cumsum(beyond)])
+
+    def of(self, character: int) -> int:
+        """Units before a character."""
+        return character if self._before is None else character + int(self._before[character])
+
+
+def _finding(finding: Finding, offsets: Offsets) -> dict[str, Any]:
+    said = {language: texts(finding, language) for language in LANGUAGES}
+    return {
+        "code": finding.code,
+        "severity": str(finding.severity),
+        "title": {language: text.title for language, text in said.items()},
+        "message": {language: text.message for language, text in said.items()},
+        "hint": {language: text.hint for language, text in said.items()},
+        "line": finding.line,
+        "block": finding.block,
+        "block_name": finding.block_name,
+        "first": offsets.of(finding.span[0]),
+        "past": offsets.of(finding.span[1]),
+        "edits": [[offsets.of(edit.first), offsets.of(edit.past), edit.text] for edit in finding.edits],
+    }
+
+
+def _path(program: Program, offsets: Offsets) -> dict[str, list[Any]]:
+    """Columns of n blocks, and where each stands in the text."""
+    path, source = program.toolpath, program.toolpath.source
+    return {
+        **exact_columns(path),
+        "line": source.line.tolist(),
+        "first": [offsets.of(first) for first in source.span[:, 0].tolist()],
+        "past": [offsets.of(past) for past in source.span[:, 1].tolist()],
+        "name": source.names.of_rows(),
+    }
+
+
+def _figures(program: Program) -> list[dict[str, Any]]:
+    path = program.toolpath
+    contours = find_contours(path, interpolate(path).corner_um)
+    return [
+        {
+            "first": contour.first,
+            "last": contour.last,
+            "length_um": rounded(float(path.length_um[contour.first - 1 : contour.last].sum())),
+            "closes": None if not contour.encloses else not contour.is_open,
+            "thread_um": [rounded(place) for place in path.start_um[contour.first - 1].tolist()],
+        }
+        for contour in contours
+    ]
+
+
+def size_of(result: CheckResult) -> dict[str, Any] | None:
+    """How large a program is, lengths in µm, and about how long it takes; None where its path is not known."""
+    told = result.programmed
+    if told is None:
+        return None
+    return {
+        "lines": told.lines,
+        "arcs": told.arcs,
+        "rapids": told.rapids,
+        "cut_um": rounded(told.cut_length_um),
+        "box_um": None if told.box_um is None else [rounded(place) for place in told.box_um],
+        "steps": result.steps,
+        "time": _about(told.cut_length_um, result.length_um)._asdict(),
+    }
+
+
+def _about(cut_um: float, length_um: float) -> Said:
+    """How long the feeds of the default machine take, without accelerations and stops: a run tells it exactly."""
+    feeds = _usual_feeds()
+    time_s = cut_um / float(feeds.cut_um_s) + (length_um - cut_um) / feeds.jump_um_s
+    return said("open.time", time=lasting(time_s), machine=DEFAULT_MACHINE, thickness=f"{DEFAULT_THICKNESS_MM:g}")
+
+
+@cache
+def _usual_feeds() -> Feeds:
+    return load_machine(DEFAULT_MACHINE).feeds(DEFAULT_THICKNESS_MM)

@@ -1,0 +1,86 @@
+"""The drawings that came to the page, by number, and what is found in them: their files go with the server."""
+
+import asyncio
+import json
+import re
+from pathlib import Path
+from typing import Any, Final
+
+from parser.text.encoding import printable
+from sim.serve.page.child import Child, begun
+from sim.serve.page.file_names import safe_name
+
+LOOK_KEYS: Final = ("name", "text", "machine", "thickness_mm", "wire_mm", "offset_mm", "side")
+"""What the page says where a drawing is to be laid beneath its program."""
+MAKE_KEYS: Final = ("language", "machine", "thickness_mm", "wire_mm", "offset_mm", "tab_mm")
+"""What it says where a program is to be made; empty texts leave what is usual."""
+_MOST: Final = 20
+"""Drawings that are kept, the last ones."""
+_LONGEST_S: Final = 60.0
+"""Of a look."""
+_MARK: Final = rb"(?:\xef\xbb\xbf)?"
+_BEGINS: Final = re.compile(_MARK + rb"(?:AutoCAD Binary DXF|\s*(?:999[^\n]*\n[^\n]*\n\s*)*0\s*\n\s*SECTION)")
+
+
+def is_drawing(name: str, data: bytes) -> bool:
+    """Whether a file is meant as a drawing: its name says so, or its first lines."""
+    return name.lower().endswith(".dxf") or _BEGINS.match(data[:4096].replace(b"\r", b"\n")) is not None
+
+
+class Drawings:
+    """The drawings, and a look at them.
+
+    Parameters
+    ----------
+    folder
+        Of their files; who gave it clears it away.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder / "drawings"
+        self._files: list[Path] = []
+
+    def keep(self, name: str, data: bytes) -> str:
+        """The number of a drawing that came."""
+        number = len(self._files)
+        file = self._folder / str(number) / Path(safe_name(name)).with_suffix(".dxf").name
+        file.parent.mkdir(parents=True)
+        file.write_bytes(data)
+        self._files.append(file)
+        if number >= _MOST:
+            self._files[number - _MOST].unlink(missing_ok=True)
+        return str(number)
+
+    def file(self, number: str) -> Path | None:
+        """The file of a number; None where there is none."""
+        is_one = number.isascii() and number.isdigit() and int(number[:9]) < len(self._files)
+        file = self._files[int(number[:9])] if is_one else None
+        return file if file is not None and file.is_file() else None
+
+    def result(self, number: str) -> Path:
+        """Where the program that is made of the drawing of a number is told."""
+        return self._folder / number / "made.json"
+
+    async def look(self, file: Path, asked: dict[str, str]) -> bytes:
+        """What is found in a drawing, in JSON: ``why`` alone where it is none, or took too long."""
+        result = file.with_name("look.json")
+        child = await begun("sim.serve.page.drafter")
+        told = {**asked, "drawing_file": str(file), "result_file": str(result), "job": "look"}
+        try:
+            last = await asyncio.wait_for(_last(child, told), _LONGEST_S)
+        except TimeoutError:
+            last = {}
+        finally:
+            child.end()
+        return result.read_bytes() if "done" in last else _why(last.get("wrong"))
+
+
+async def _last(child: Child, asked: dict[str, str]) -> dict[str, Any]:
+    """What a process tells last; nothing where it tells nothing."""
+    lines = [line async for line in child.tells(asked)]
+    return lines[-1] if lines else {}
+
+
+def _why(said: dict[str, str] | None) -> bytes:
+    """Why there is no look, in both languages; None where nothing was told."""
+    return json.dumps({"why": said and {language: printable(text) for language, text in said.items()}}).encode()

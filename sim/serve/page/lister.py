@@ -1,0 +1,41 @@
+"""The process that checks the programs of a folder: names and files come as JSON on stdin, rows go to stdout in order.
+
+It has processes of its own, one a core; they end with it.
+"""
+
+import json
+from pathlib import Path
+from typing import Any, Final
+
+from parser.files.reading import read_bytes, read_stdin
+from parser.findings.errors import FileUnreadableError
+from parser.findings.messages import in_both
+from sim.base.workers.processes import Processes
+from sim.base.workers.rounds import DIED, Lost, in_order, results
+from sim.serve.page.row import refused, row_or_why
+from sim.show.terminal.printer import write
+from sim.show.words.phrases import same
+
+_AT_ONCE: Final = 8
+"""Files that are handed over together."""
+
+
+def main() -> None:
+    """Check all files that are asked for."""
+    asked = [(name, Path(file)) for name, file in json.loads(read_stdin())]
+    rows = in_order(results(_row, enumerate(asked), Processes(), _AT_ONCE))
+    for (name, _), row in zip(asked, rows, strict=True):
+        write(f"{json.dumps(refused(name, same(DIED)) if isinstance(row, Lost) else row)}\n", "json")
+
+
+def _row(asked: tuple[str, Path]) -> dict[str, Any]:
+    name, file = asked
+    try:
+        data = read_bytes(file)
+    except FileUnreadableError as error:
+        return refused(name, in_both(error.detail or error.message))
+    return row_or_why(name, file, data)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,109 @@
+"""What the page asks of runs and drawings, and the files that they gave."""
+
+from typing import Final
+
+from starlette.requests import Request
+from starlette.responses import FileResponse, JSONResponse, Response, StreamingResponse
+
+from sim.serve.page.drawings import LOOK_KEYS, MAKE_KEYS, Drawings
+from sim.serve.page.life import Life
+from sim.serve.page.programs import Programs
+from sim.serve.page.request import MISSING, told
+from sim.serve.page.runs import KEYS, MORE_KEYS, Runs
+from sim.serve.page.zipped import zipped
+
+_OF_FILES: Final = (
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; "
+    "form-action 'none'; base-uri 'none'; frame-ancestors 'self'"
+)
+"""Pages of a run hold all that they show: they may ask nobody, this server neither; the page itself may frame them."""
+_KINDS: Final = {
+    ".html": "text/html; charset=utf-8",
+    ".json": "application/json",
+    ".png": "image/png",
+    ".apng": "image/apng",
+    ".gif": "image/gif",
+    ".webp": "image/webp",
+    ".mp4": "video/mp4",
+}
+
+
+class Drawn:
+    """Drawings: laid beneath a program, and made into one."""
+
+    def __init__(self, drawings: Drawings, runs: Runs) -> None:
+        self._drawings, self._runs = drawings, runs
+
+    async def look(self, request: Request) -> Response:
+        """The curves of a drawing as they lie beneath a text, and what there is to say of it."""
+        asked = await told(request, "drawing", *LOOK_KEYS)
+        file = self._drawings.file(asked["drawing"])
+        if file is None:
+            return Response(status_code=MISSING)
+        return Response(await self._drawings.look(file, asked), media_type="application/json")
+
+    async def draft(self, request: Request) -> Response:
+        """Make a program of a drawing."""
+        asked = await told(request, "drawing", *MAKE_KEYS)
+        file = self._drawings.file(asked["drawing"])
+        if file is None:
+            return Response(status_code=MISSING)
+        files = {"drawing_file": str(file), "result_file": str(self._drawings.result(asked["drawing"]))}
+        await self._runs.draft({**asked, **files})
+        return JSONResponse(self._runs.state)
+
+    async def drafted(self, request: Request) -> Response:
+        """The program that was made of a drawing last."""
+        number = (await told(request, "drawing"))["drawing"]
+        result = self._drawings.result(number) if self._drawings.file(number) else None
+        if result is None or not result.is_file():
+            return Response(status_code=MISSING)
+        return FileResponse(result, media_type="application/json")
+
+
+class Running:
+    """The run of the page."""
+
+    def __init__(self, life: Life, runs: Runs, programs: Programs, drawings: Drawings) -> None:
+        self._life, self._runs, self._programs, self._drawings = life, runs, programs, drawings
+
+    async def run(self, request: Request) -> Response:
+        """Run a text."""
+        asked = await told(request, "name", "text", "number", "drawing", *KEYS)
+        files = {
+            "drawing_file": str(self._drawings.file(asked["drawing"]) or ""),
+            "near_file": str(self._programs.file(asked["number"]) or ""),
+        }
+        await self._runs.start(asked["name"], asked["text"].encode("utf-8", "replace"), {**asked, **files})
+        return JSONResponse(self._runs.state)
+
+    async def more(self, request: Request) -> Response:
+        """Make a film or pictures of the run."""
+        await self._runs.make(await told(request, *MORE_KEYS))
+        return JSONResponse(self._runs.state)
+
+    async def progress(self, _: Request) -> Response:
+        """How far it is."""
+        self._life.seen()
+        return JSONResponse(self._runs.state)
+
+    async def cancel(self, _: Request) -> Response:
+        """End it."""
+        await self._runs.cancel()
+        return JSONResponse(self._runs.state)
+
+    async def made(self, request: Request) -> Response:
+        """A file that it made."""
+        path = self._runs.file(request.path_params["number"], request.path_params["name"])
+        if path is None:
+            return Response(status_code=MISSING)
+        kind = _KINDS.get(path.suffix, "application/octet-stream")
+        return FileResponse(path, media_type=kind, headers={"content-security-policy": _OF_FILES})
+
+    async def zip(self, request: Request) -> Response:
+        """All files of a run."""
+        number = request.path_params["number"]
+        files = [self._runs.file(number, name) for name in self._runs.files(number)]
+        if not files:
+            return Response(status_code=MISSING)
+        return StreamingResponse(zipped(filter(None, files)), media_type="application/zip")

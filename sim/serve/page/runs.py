@@ -1,0 +1,151 @@
+"""The run of the page: one at a time, in a process of its own, with its files in a folder that goes with the server.
+
+What more is made of a finished run, a film, pictures or fault drills, is made in such a process too, and stands beside
+its files.
+"""
+
+import asyncio
+import contextlib
+import os
+import shutil
+from pathlib import Path
+from typing import Any, Final
+
+from parser.text.encoding import printable
+from sim.serve.page.child import Child, begun
+from sim.serve.page.file_names import safe_name
+
+KEYS: Final = ("machine", "thickness_mm", "wire_mm", "offset_mm", "side")
+"""What the page may say of a run, as texts; empty ones leave what is usual."""
+MORE_KEYS: Final = ("job", "form", "seconds", "set", "language")
+"""What it may say of a film, of pictures, or of fault drills."""
+_IDLE: Final[dict[str, Any]] = {"state": "idle"}
+_MORE: Final = ("film", "pictures", "drills")
+
+
+class Runs:
+    """The run of the page, and its files.
+
+    Parameters
+    ----------
+    folder
+        Of its files; who gave it clears it away.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._number = 0
+        self._child: Child | None = None
+        self._following: asyncio.Task[None] | None = None
+        self._state = _IDLE
+        self._turn = asyncio.Lock()  # two tabs may ask at the same moment
+        self._asked: dict[str, str] = {}
+        self._ran: dict[str, Any] = {}
+
+    @property
+    def state(self) -> dict[str, Any]:
+        """How far it is: ``state`` is idle, running, done, wrong or cancelled; more of it by its kind.
+
+        Once the run has ended well it has its number, ``verdict``, ``machine`` and ``files``, whatever comes behind it.
+        """
+        if not self._ran:
+            return self._state
+        files = [{"name": name, "bytes": size} for name, size in self.files(self._ran["run"]).items()]
+        return {**self._state, **self._ran, "files": files}
+
+    async def start(self, name: str, text: bytes, asked: dict[str, str]) -> None:
+        """Run a text of a name, in place of the run before; ``drawing_file`` is what it is held against.
+
+        Settings near ``near_file`` say how it is read; each is empty where there is none.
+        """
+        async with self._turn:
+            await self._start(name, text, asked)
+
+    async def make(self, asked: dict[str, str]) -> None:
+        """Make a film, pictures or fault drills of the finished run; nothing where there is none."""
+        async with self._turn:
+            if self._ran and asked["job"] in _MORE:
+                await self._end()
+                await self._begin({**self._asked, **{key: asked[key] for key in MORE_KEYS}})
+
+    async def draft(self, asked: dict[str, str]) -> None:
+        """Make a program of ``drawing_file``, which is told in ``result_file``."""
+        async with self._turn:
+            await self._end()
+            await self._begin({**asked, "job": "program"})
+
+    async def cancel(self) -> None:
+        """End the run that is on, if one is."""
+        async with self._turn:
+            await self._end()
+
+    async def _start(self, name: str, text: bytes, asked: dict[str, str]) -> None:
+        await self._end()
+        self._number += 1
+        self._ran = {}
+        # Who still looks at the run before this one may; the one before that goes.
+        shutil.rmtree(self._folder / str(self._number - 2), ignore_errors=True)
+        folder = self._folder / str(self._number)
+        file = folder / "program" / safe_name(name)
+        file.parent.mkdir(parents=True)
+        file.write_bytes(text)
+        self._asked = {
+            **{key: asked[key] for key in (*KEYS, "drawing_file", "near_file")},
+            "file": str(file),
+            "folder": str(self._made_in(self._number)),
+        }
+        await self._begin({**self._asked, "job": "run"})
+
+    async def _end(self) -> None:
+        child, following = self._child, self._following
+        self._child = self._following = None
+        if child is None or following is None:
+            return
+        child.end()
+        await following
+        if self._state["state"] == "running":
+            self._state = {**self._state, "state": "cancelled"}
+
+    def file(self, number: int, name: str) -> Path | None:
+        """A file of a run; None where none of this name stands in its folder."""
+        return self._made_in(number) / name if name in self.files(number) else None
+
+    def files(self, number: int) -> dict[str, int]:
+        """How many bytes each file of a run has, by their names: what stands in its folder, no folder and no link."""
+        made: dict[str, int] = {}
+        with contextlib.suppress(FileNotFoundError), os.scandir(self._made_in(number)) as entries:
+            for entry in sorted(entries, key=lambda entry: entry.name):
+                with contextlib.suppress(FileNotFoundError):  # a film is just being put in place of the last one
+                    if entry.is_file(follow_symlinks=False):
+                        made[entry.name] = entry.stat(follow_symlinks=False).st_size
+        return made
+
+    def _made_in(self, number: int) -> Path:
+        return self._folder / str(number) / "out"
+
+    async def _begin(self, asked: dict[str, str]) -> None:
+        self._state = {"state": "running", "job": asked["job"], "run": self._number}
+        self._child = await begun("sim.serve.page.drafter" if asked["job"] == "program" else "sim.serve.page.runner")
+        self._following = asyncio.create_task(self._follow(self._child, asked))
+
+    async def _follow(self, child: Child, asked: dict[str, str]) -> None:
+        last: dict[str, Any] = {}
+        begin = self._state
+        async for last in child.tells(asked):
+            if "stage" in last:
+                self._state = {**begin, **last}
+        if "done" in last:
+            self._ran = {"run": begin["run"], **last["done"]} if asked["job"] == "run" else self._ran
+            self._state = {**begin, "state": "done"}
+        elif "wrong" in last:
+            self._state = {**begin, "state": "wrong", "why": _by_names(last["wrong"], asked)}
+        elif child is self._child:
+            self._state = {**begin, "state": "wrong", "why": None}
+
+
+def _by_names(why: dict[str, str], asked: dict[str, str]) -> dict[str, str]:
+    """A message in both languages, in which files of the page stand by their names alone."""
+    folders = {str(Path(asked[key]).parent) for key in ("file", "drawing_file") if asked.get(key)}
+    for folder in folders:
+        why = {language: text.replace(f"{folder}{os.sep}", "") for language, text in why.items()}
+    return {language: printable(text) for language, text in why.items()}

@@ -1,0 +1,1 @@
+"""What a class is given: fault drills of a sound program; what crosses the border is `Drill`."""

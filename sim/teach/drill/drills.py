@@ -1,0 +1,211 @@
+"""A set of drills of one program: faults of as many kinds and levels as there are, each of which does something."""
+
+from collections import Counter
+from collections.abc import Iterator
+from random import Random
+from typing import Final, NamedTuple
+
+from parser.findings.codes import Severity
+from parser.findings.errors import ProgramError, SettingsError
+from parser.findings.findings import Finding
+from parser.program import Program, parse_program
+from sim.check.batch import check_program
+from sim.check.result import CheckResult
+from sim.check.settings import CheckSettings
+from sim.teach.drill.kinds import KINDS, Group
+from sim.teach.drill.proof import LEVELS, Departure, Level, departure, level_of
+from sim.teach.drill.sound import Slip, Sound
+
+MOST_BLOCKS: Final = 500
+"""Blocks of a program that people can look through."""
+MOST_SETS: Final = 9999
+_TRIES: Final = 8  # for each drill that is wanted
+
+
+class Asked(NamedTuple):
+    """Which drills are wanted.
+
+    Attributes
+    ----------
+    number
+        Of the set, from 1: the same program has the same drills under the same number.
+    drills
+        How many.
+    level
+        The level of all of them; None for all levels.
+    """
+
+    number: int = 1
+    drills: int = 10
+    level: Level | None = None
+
+
+class Drill(NamedTuple):
+    """A program with one fault.
+
+    Attributes
+    ----------
+    kind, group, level
+        What the fault is, in one word and as people are asked for it, and what gives it away.
+    lines
+        Lines of the damaged text, from 1, any of which is a right answer.
+    was, stands
+        Lines of the sound text that are no longer there, none where one was added; and those that stand there instead.
+    program
+        The damaged one.
+    by
+        How its path differs.
+    findings
+        What its check finds, and that of the sound one does not.
+    """
+
+    kind: str
+    group: Group
+    level: Level
+    lines: tuple[int, ...]
+    was: tuple[str, ...]
+    stands: tuple[str, ...]
+    program: Program
+    by: Departure
+    findings: tuple[Finding, ...]
+
+
+def drills_of(program: Program, settings: CheckSettings, asked: Asked) -> tuple[Drill, ...]:
+    """Drills of a sound program, from easy to hard; fewer than asked where there are no more.
+
+    Each is proved: its text cannot be obeyed as it stands, or its path leaves the sound one by more than a path may lie
+    open. Its findings are those of the check, lengths in µm. Raises SettingsError for a program that is too long, that
+    has findings that fail it, or in which nothing can be damaged so.
+    """
+    _refuse_long(program)
+    before = check_program(program, settings)
+    _refuse_unsound(program, before)
+    chance = Random(asked.number)  # noqa: S311 - the same for all who are told the number
+    found: list[_Fault] = []
+    seen: set[str] = set()
+    for fault in _faults(Sound(program), chance, asked):
+        if fault.slip.text not in seen and asked.level in {None, fault.level}:
+            seen.add(fault.slip.text)
+            found.append(fault)
+            if _is_enough(found, asked):
+                break
+    if not found:
+        raise SettingsError("nothing-to-damage", name=program.name)
+    told = Counter(_told(program, before.findings))
+    drills = [_drill(program, fault, settings, told) for fault in _chosen(found, asked.drills)]
+    return tuple(sorted(drills, key=lambda one: (LEVELS.index(one.level), -one.by.most_um)))
+
+
+def _refuse_long(program: Program) -> None:
+    blocks = max(program.reading.counts.run, len(program.toolpath))
+    if blocks > MOST_BLOCKS:
+        raise SettingsError("too-many-blocks-to-drill", name=program.name, blocks=blocks, most=MOST_BLOCKS)
+
+
+def _refuse_unsound(program: Program, result: CheckResult) -> None:
+    if result.verdict == "fail":
+        codes = ", ".join(sorted({found.code for found in result.findings if found.severity is Severity.ERROR}))
+        name = program.name
+        raise SettingsError("drills-of-unsound", name=name, codes=codes)
+
+
+def _is_enough(found: list["_Fault"], asked: Asked) -> bool:
+    """Whether each level that is asked for has as many faults to choose from as there may be drills."""
+    counts = Counter(fault.level for fault in found)
+    return all(counts[level] >= asked.drills for level in LEVELS if asked.level in {None, level})
+
+
+class _Fault(NamedTuple):
+    kind: str
+    level: Level
+    slip: Slip
+    program: Program
+
+
+def _faults(sound: Sound, chance: Random, asked: Asked) -> Iterator[_Fault]:
+    """Faults of all kinds in turn, those left out that do nothing, or after which nothing can be read."""
+    for _ in range(_TRIES * max(1, asked.drills // 8)):
+        for kind in chance.sample(sorted(KINDS), len(KINDS)):
+            slip = KINDS[kind].make(chance, sound)
+            fault = slip and slip.text != sound.text and _proved(sound.program, kind, slip)
+            if fault:
+                yield fault
+
+
+def _proved(sound: Program, kind: str, slip: Slip) -> _Fault | None:
+    try:
+        damaged = parse_program(slip.text, sound.name, sound.encoding, sound.choices)
+    except ProgramError:
+        return None
+    if damaged.toolpath.is_jump.all():
+        return None
+    level = level_of(sound, damaged, slip.lines)
+    return _Fault(kind, level, slip, damaged) if level else None
+
+
+def _chosen(found: list[_Fault], count: int) -> Iterator[_Fault]:
+    """Of as many levels, groups, kinds and places as there are, in the order of chance otherwise."""
+    levels: Counter[str] = Counter()
+    groups: Counter[str] = Counter()
+    kinds: Counter[str] = Counter()
+    places: Counter[int] = Counter()
+    left = list(found)
+    for _ in range(min(count, len(left))):
+        best = min(
+            left,
+            key=lambda one: (
+                levels[one.level],
+                groups[KINDS[one.kind].group],
+                kinds[one.kind],
+                places[min(one.slip.lines)],
+            ),
+        )
+        left.remove(best)
+        levels[best.level] += 1
+        groups[KINDS[best.kind].group] += 1
+        kinds[best.kind] += 1
+        places[min(best.slip.lines)] += 1
+        yield best
+
+
+def _drill(sound: Program, fault: _Fault, settings: CheckSettings, before: Counter[tuple[str, str]]) -> Drill:
+    """A fault with what the check says of it."""
+    result = check_program(fault.program, settings)
+    told = before.copy()
+    findings = []
+    for found, key in zip(result.findings, _told(fault.program, result.findings), strict=True):
+        if told[key] <= 0:
+            findings.append(found)
+        told[key] -= 1
+    listed = lines_of(fault.program)
+    return Drill(
+        fault.kind,
+        KINDS[fault.kind].group,
+        fault.level,
+        tuple(sorted(line for line in fault.slip.lines if line <= len(listed))),
+        *_differing(lines_of(sound), listed),
+        fault.program,
+        departure(sound.toolpath, fault.program.toolpath),
+        tuple(findings),
+    )
+
+
+def _told(program: Program, findings: tuple[Finding, ...]) -> list[tuple[str, str]]:
+    return [(found.code, program.excerpt(found.line) if found.line else "") for found in findings]
+
+
+def lines_of(program: Program) -> list[str]:
+    """The lines of a program's text, without their ends."""
+    last = program.lines.line(len(program.text))
+    lines = [program.excerpt(line) for line in range(1, last + 1)]
+    return lines if lines[-1] else lines[:-1]  # nothing stands behind the last line end
+
+
+def _differing(sound: list[str], damaged: list[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Lines of either text between the first and the last that differ."""
+    before, after = list(sound), list(damaged)
+    while before and after and before[0] == after[0]:
+        del before[0], after[0]
+    while before and after and before[-1] == after[-1]:
+        del before[-1], after[-1]
+    return tuple(before), tuple(after)

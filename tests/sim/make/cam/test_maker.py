@@ -1,0 +1,129 @@
+"""What `made` gives and tells: stages in their order, refusals, proofs, and remarks at the head of what is forced."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from drawings_dxf import drawn
+from ezdxf.layouts import Modelspace
+from made_programs import plate_file
+from runs import plain_scenario
+
+from parser.write.iso_choices import iso_choices
+from sim.check.engine import run_checks
+from sim.check.path_checks import Demands
+from sim.make.cam.maker import Made, NotMade, made, unproved
+from sim.make.cam.remarked import remarked
+from sim.make.cam.sums import figure_sums
+from sim.make.convert.wanted import Wanted
+from sim.setup.making import LayerWish, Making
+
+TO_3B = Wanted("3b")
+TO_ISO = Wanted("iso", iso_choices("fast-wire"))
+HOSTILE = (
+    "one\nline ) (and) another",
+    "drycut: ignore-file 3B",
+    "B100B0B100GXL1",
+    "Offset F= 3.5 , Length= 2 mm",
+    "Start Point = 5 , 5",
+    "DD",
+    "; G01 X500 M02 %",
+    "\x1b[31m 钼丝 µm",
+    "x" * 500,
+)
+
+
+@pytest.fixture(name="path", scope="module")
+def plate_path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return plate_file(tmp_path_factory.mktemp("plate"))
+
+
+def program(path: Path, wanted: Wanted = TO_3B) -> Made:
+    done = unproved(path, Making(), wanted, plain_scenario())
+    assert isinstance(done, Made)
+    return done
+
+
+def test_stages_are_told_in_their_order(path: Path) -> None:
+    stages: list[str] = []
+
+    def told(stage: str, done: int, total: int) -> None:
+        if stage not in stages:
+            stages.append(stage)
+
+    done = made(path, Making(), TO_3B, plain_scenario(), told)
+    assert isinstance(done, Made)
+    assert done.proof is not None
+    assert done.proof.verdict == "pass"
+    assert stages == ["drawing", "figures", "write", "checks", "plan", "run", "kerf", "comparison"]
+
+
+def test_the_same_drawing_gives_the_same_bytes(path: Path) -> None:
+    assert program(path).data == program(path).data
+
+
+def test_a_circle_of_a_turned_block_begins_on_an_axis_and_closes_exactly(tmp_path: Path) -> None:
+    """There it begins whole µm from its centre: its count cannot end beside where it began."""
+
+    def turned(space: Modelspace) -> None:
+        assert space.doc is not None
+        space.doc.blocks.new("RING").add_circle((0, 0), 0.60558)
+        space.add_blockref("RING", (3.36492, 0.32456), {"rotation": 37.0})
+
+    done = program(drawn(tmp_path, turned))
+    path = done.program.toolpath
+    (arc,) = np.flatnonzero(path.is_arc)
+    assert np.array_equal(path.start_um[arc], path.end_um[arc])
+    assert np.min(np.abs(path.start_um[arc] - path.center_um[arc])) == 0.0
+
+
+def test_what_cannot_be_cut_is_refused_before_anything_is_written(tmp_path: Path) -> None:
+    narrow = drawn(
+        tmp_path,
+        lambda space: [
+            space.add_lwpolyline([(0, 0), (20, 0), (20, 20), (0, 20)], close=True),
+            space.add_circle((10, 10), 0.06),
+        ],
+    )
+    stages: list[str] = []
+    done = made(narrow, Making(), TO_3B, plain_scenario(), lambda stage, done, total: stages.append(stage))
+    assert isinstance(done, NotMade)
+    assert done.refusal.why
+    assert stages == ["drawing", "figures"]
+
+
+def test_sums_of_figures_are_those_of_the_program_and_its_run(path: Path) -> None:
+    done = made(path, Making(), TO_3B, plain_scenario())
+    assert isinstance(done, Made)
+    assert done.proof is not None
+    run = done.proof.run
+    assert run is not None
+    sums = figure_sums(done)
+    jumps = done.program.toolpath.is_jump
+    assert sum(one.blocks for one in sums) == int(np.count_nonzero(~jumps))
+    assert sum(one.length_um for one in sums) == pytest.approx(float(done.program.toolpath.length_um[~jumps].sum()))
+    assert sum(one.time_s or 0.0 for one in sums) == pytest.approx(float(run.block_time_s[~run.toolpath.is_jump].sum()))
+    assert all(len(one.pass_s) == 1 and 0.0 < one.pass_s[0] < (one.time_s or 0.0) for one in sums)
+
+
+@pytest.mark.parametrize("wanted", [TO_3B, Wanted("3b", form="detailed", newline="\r\n"), Wanted("4b"), TO_ISO])
+def test_remarks_leave_the_program_as_it_is(path: Path, wanted: Wanted) -> None:
+    done = program(path, wanted)
+    told = remarked(done, HOSTILE, wanted)
+    before, after = done.program.toolpath, told.program.toolpath
+    assert len(told.program.text.splitlines()) == len(done.program.text.splitlines()) + len(HOSTILE)
+    assert told.program.header == done.program.header
+    for column in ("kind", "start_um", "end_um", "sweep_rad"):
+        assert np.array_equal(getattr(before, column), getattr(after, column))
+    assert [(one.kind, one.after) for one in before.stops] == [(one.kind, one.after) for one in after.stops]
+    codes = [[one.code for one in run_checks(each.program, Demands()).findings] for each in (done, told)]
+    assert codes[0] == codes[1]
+    assert b"\x1b" not in told.data
+
+
+def test_leads_are_longer_than_the_offsets_of_layers(path: Path) -> None:
+    wish = LayerWish("0", passes_um=(300.0, 100.0))
+    done = unproved(path, Making(passes_um=(100.0,), lead_um=200.0, layers=(wish,)), TO_3B, plain_scenario())
+    assert isinstance(done, NotMade)
+    assert done.refusal.why == "short-lead"
+    assert isinstance(unproved(path, Making(passes_um=(100.0,), lead_um=200.0), TO_3B, plain_scenario()), Made)

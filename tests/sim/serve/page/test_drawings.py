@@ -1,0 +1,207 @@
+"""Drawings on the page: laid beneath a program, made into one, and what a run is held against."""
+
+import json
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from drawings_dxf import drawn
+from ezdxf.layouts import Modelspace
+from opened_page import OpenedPage, opened_page
+
+from parser.findings.errors import DrawingError, SettingsError
+from sim.serve.page.answers import answer
+from sim.serve.page.drafter import _look, _make
+from sim.serve.page.drawings import LOOK_KEYS, MAKE_KEYS, is_drawing
+
+# The plate of `plate` as a punch: the wire of 0.18 mm and its gap of 10 µm run 0.1 mm outside, from a thread point
+# that lies 1 mm above its upper edge, at (0, 0) of the program.
+PUNCH = """B0B900B900GYL4
+B10100B0B10100GXL1
+B0B10200B10200GYL4
+B20200B0B20200GXL3
+B0B10200B10200GYL2
+B10100B0B10100GXL1
+B0B900B900GYL2
+DD
+"""
+
+
+def plate(space: Modelspace) -> None:
+    """20 mm by 10 mm, its lower left corner at (30, 40) mm."""
+    corners = [(30.0, 40.0), (50.0, 40.0), (50.0, 50.0), (30.0, 50.0)]
+    for one, next_ in zip(corners, [*corners[1:], corners[0]], strict=True):
+        space.add_line(one, next_)
+
+
+@pytest.fixture(name="drawing", scope="module")
+def drawing_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return drawn(tmp_path_factory.mktemp("drawn"), plate).rename(tmp_path_factory.mktemp("named") / "plate.dxf")
+
+
+@pytest.fixture(name="dxf", scope="module")
+def drawing_bytes(drawing: Path) -> bytes:
+    return drawing.read_bytes()
+
+
+@pytest.fixture(name="served", scope="module")
+def served_page() -> Iterator[OpenedPage]:
+    with opened_page() as served:
+        yield served
+
+
+def came(served: OpenedPage, data: bytes, name: str = "plate.dxf") -> str:
+    """The number of a drawing that came to the page."""
+    number: str = json.loads(served.ask(f"read?name={name}", data).body)["drawing"]
+    return number
+
+
+@pytest.fixture(name="came_oddly", scope="module")
+def drawing_of_an_odd_name(served: OpenedPage, dxf: bytes) -> tuple[str, Any]:
+    """The number of a drawing whose name would lead elsewhere, and what the page is told of it."""
+    number = came(served, dxf, "..%2F..%2F%3Cb%3E.dxf")
+    return number, look(served, number)
+
+
+def look(served: OpenedPage, number: str) -> Any:
+    told = dict.fromkeys(LOOK_KEYS, "")
+    return json.loads(served.ask("look", json.dumps({**told, "name": "part.3b", "drawing": number})).body)
+
+
+def looked(drawing: Path, text: str, result: Path) -> Any:
+    """What a look finds, a second sooner: here, in no process of its own."""
+    files = {"drawing_file": str(drawing), "result_file": str(result)}
+    _look({**dict.fromkeys(LOOK_KEYS, ""), "name": "part.3b", "text": text, **files})
+    return json.loads(result.read_text("utf-8"))
+
+
+def made(drawing: Path, result: Path, **values: str) -> Any:
+    """What is made of a drawing, here as well."""
+    files = {"drawing_file": str(drawing), "result_file": str(result)}
+    _make({**dict.fromkeys(MAKE_KEYS, ""), "language": "3b", **files, **values})
+    return json.loads(result.read_text("utf-8"))
+
+
+def draft(served: OpenedPage, number: str, **values: str) -> Any:
+    """The state once a program of a drawing is made, or is not."""
+    told = dict.fromkeys(("machine", "thickness_mm", "wire_mm", "offset_mm", "tab_mm"), "") | {"language": "3b"}
+    assert served.ask("draft", json.dumps({**told, "drawing": number, **values})).status == 200
+    return ended(served)
+
+
+def ended(served: OpenedPage) -> Any:
+    for _ in range(1200):
+        state = json.loads(served.ask("progress").body)
+        if state["state"] != "running":
+            return state
+        time.sleep(0.05)
+    raise AssertionError(state)
+
+
+def extent(curves: dict[str, list[float]]) -> tuple[float, float, float, float]:
+    xs, ys = curves["place_x_um"], curves["place_y_um"]
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def test_a_file_is_a_drawing_by_its_name_or_its_first_lines() -> None:
+    for data in (
+        b"0\nSECTION\n2\nHEADER",
+        b"  0\r\nSECTION",
+        b"999\nby a CAD\n  0\nSECTION",
+        b"AutoCAD Binary DXF\r\n",
+    ):
+        assert is_drawing("part", data)
+    assert is_drawing("PART.DXF", b"")
+    for data in (b"", b"B0B0B0GXL1", b"0\nB1B1B1GXL1", b"// SECTION"):
+        assert not is_drawing("part.3b", data)
+
+
+def test_a_drawing_alone_lies_as_it_is_drawn(came_oddly: tuple[str, Any]) -> None:
+    _, found = came_oddly
+    assert extent(found["curves"]) == (30_000.0, 40_000.0, 50_000.0, 50_000.0)
+    assert found["curves"]["kind"] == ["line"] * 4
+
+
+def test_beneath_a_program_it_lies_where_the_part_is_cut(drawing: Path, tmp_path: Path) -> None:
+    found = looked(drawing, PUNCH, tmp_path / "look.json")
+    # The path spans -10.1 to 10.1 and -11.1 to -0.9 mm; the part lies 0.1 mm inside of it.
+    assert extent(found["curves"]) == pytest.approx((-10_000.0, -11_000.0, 10_000.0, -1000.0), abs=0.01)
+
+
+def test_where_no_edge_can_be_told_it_lies_as_it_is_and_says_why(drawing: Path, tmp_path: Path) -> None:
+    found = looked(drawing, "B1000B0B1000GXL1\nDD\n", tmp_path / "look.json")
+    assert extent(found["curves"]) == (30_000.0, 40_000.0, 50_000.0, 50_000.0)
+    assert "no contour of the program closes a loop" in found["told"][-1]["en"]
+
+
+def test_a_program_is_made_of_it_that_is_proved(served: OpenedPage, dxf: bytes) -> None:
+    number = came(served, dxf)
+    assert draft(served, number)["state"] == "done"
+    made = json.loads(served.ask("drafted", json.dumps({"drawing": number})).body)
+    assert (made["is_proved"], made["told"][0]) == (True, {"en": "proved", "zh": "验证通过"})
+    assert made["program"]["name"] == "plate.3b"
+    asked = {"name": "plate.3b", "text": made["program"]["text"], "number": ""}
+    checked = json.loads(served.ask("check", json.dumps(asked)).body)
+    assert checked["verdict"] == "pass"
+    low_x, _, high_x, _ = checked["size"]["box_um"]
+    assert high_x - low_x == 20_200.0  # the wire runs 0.1 mm outside
+
+
+def test_passes_and_language_of_the_program_are_those_of_the_form(drawing: Path, tmp_path: Path) -> None:
+    program = made(drawing, tmp_path / "made.json", language="iso", offset_mm="0.2, 0.1")["program"]
+    assert program["name"] == "plate.iso"
+    assert program["text"].count("G92") <= 1
+    assert answer("plate.iso", None, program["text"])["size"]["cut_um"] > 2 * 60_000.0
+
+
+def test_a_program_that_is_not_proved_says_so_at_its_head(drawing: Path, tmp_path: Path) -> None:
+    found = made(drawing, tmp_path / "made.json", offset_mm="0.2 0.1")  # the first pass sets the part free
+    assert (found["is_proved"], found["told"][0]["en"]) == (False, "not proved: the program fails its own proof")
+    assert "3B406" in found["program"]["text"][:400]
+
+
+def test_what_cannot_be_made_says_why(served: OpenedPage, dxf: bytes, drawing: Path, tmp_path: Path) -> None:
+    state = draft(served, came(served, dxf), tab_mm="a lot")
+    assert state["state"] == "wrong"
+    assert "the tab in mm is a number, not 'a lot'" in state["why"]["en"]
+    with pytest.raises(SettingsError, match="programs are written in 3b, 4b, iso"):
+        made(drawing, tmp_path / "made.json", language="/etc/passwd")
+
+
+def test_a_run_is_held_against_it(served: OpenedPage, dxf: bytes) -> None:
+    told = dict.fromkeys(("machine", "thickness_mm", "wire_mm", "offset_mm", "side"), "")
+    wrong = PUNCH.replace("10200", "10300")
+    asked = {**told, "name": "part.3b", "text": wrong, "number": "", "drawing": came(served, dxf)}
+    assert served.ask("run", json.dumps(asked)).status == 200
+    state = ended(served)
+    assert (state["state"], state["verdict"]) == ("done", "fail")
+    report = json.loads(served.ask(f"run/{state['run']}/report.json", method="GET").body)
+    assert report["drawing"]["max_um"] > 5.0
+
+
+def test_what_is_no_drawing_says_why(served: OpenedPage, tmp_path: Path) -> None:
+    assert look(served, came(served, b"0\nSECTION\n2\nENTITIES\n0\nEOF\n"))["why"]
+    (tmp_path / "part.dxf").write_bytes(b"\x00\xff" * 1000)
+    with pytest.raises(DrawingError, match="is no DXF file"):
+        looked(tmp_path / "part.dxf", "", tmp_path / "look.json")
+
+
+def test_a_name_leads_nowhere_and_numbers_that_are_none_get_nothing(
+    served: OpenedPage, came_oddly: tuple[str, Any]
+) -> None:
+    number, found = came_oddly
+    assert found["curves"]["kind"] == ["line"] * 4
+    told = dict.fromkeys(("name", "text", "machine", "thickness_mm", "wire_mm", "offset_mm", "side"), "")
+    for wrong in ("999", "-1", "", "../0", "9" * 5000):
+        assert served.ask("look", json.dumps({**told, "drawing": wrong})).status == 404
+        assert served.ask("drafted", json.dumps({"drawing": wrong})).status == 404
+    assert served.ask("look", json.dumps({"drawing": number})).status == 400
+
+
+def test_a_drawing_can_be_what_is_opened(tmp_path: Path) -> None:
+    with opened_page(drawn(tmp_path, plate)) as served:
+        first = json.loads(served.ask("first").body)
+        assert (first["name"], first["text"]) == ("part.dxf", "")
+        assert look(served, first["drawing"])["curves"]["kind"] == ["line"] * 4
