@@ -1,8 +1,8 @@
 """The host's part: a toolpath driven through the card, call by call, as a program on the machine's computer does it."""
 
 import math
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import Any, Final
 
 import numpy as np
 
@@ -19,6 +19,10 @@ from parser.findings.errors import ControllerError
 AXES = (1, 2)  # X and Y
 
 
+_SLICE_S: Final = 10.0
+"""Simulated time after which pulses are handed on while the host sleeps, so that few of them are held at a time."""
+
+
 class Host:
     """Drives one program through a card of its own.
 
@@ -28,9 +32,6 @@ class Host:
         What is driven.
     settings
         Of the card.
-    take
-        Told the pulses as they come, in program coordinates, with times from the start of motion and the rows of the
-        toolpath.
     on_call
         Told every call.
     until_s
@@ -42,13 +43,13 @@ class Host:
         self,
         drive: Drive,
         settings: CardSettings,
-        take: Callable[[Pulses], None],
         on_call: Callable[[Logged], None] | None = None,
         until_s: float = math.inf,
     ) -> None:
         self._until_s = until_s
-        self.card = GECard(settings, on_pulses=self._pulses, on_call=on_call)
-        self._drive, self._take = drive, take
+        self._due: list[Pulses] = []
+        self.card = GECard(settings, on_pulses=self._due.append, on_call=on_call)
+        self._drive = drive
         words = words_of(drive.toolpath) if drive.interpolation == "point-by-point" else None
         self._entries = entries_of(drive, words)
         self._row_of = np.concatenate([[0], self._entries.row]).astype(np.int32)
@@ -59,8 +60,12 @@ class Host:
         self._pushed = 0
         self._began_s: float | None = None
 
-    def run(self) -> None:
-        """Run the whole program. ControllerError where the card refuses a call that it should take."""
+    def pulses(self) -> Iterator[Pulses]:
+        """Run the whole program, and hand on its pulses as the card makes them.
+
+        They are in program coordinates, with times from the start of motion and the rows of the toolpath.
+        ControllerError where the card refuses a call that it should take.
+        """
         self._prepare()
         push = self._push_words if self._steps_words else self._push_geometry
         entries = self._entries
@@ -73,13 +78,13 @@ class Host:
                 self._must(self.card.GT_SetSynAcc, acceleration)
             if ends[entry] >= 0.0:  # else NaN
                 self._must(self.card.GT_SetDccVel, ends[entry])
-            push(entry)
+            yield from push(entry)
             if self._is_over:
                 break
             self._pushed += 1
             if waits[entry]:
-                self._push(self.card.GT_Delay, waits[entry])
-        self._finish()
+                yield from self._push(self.card.GT_Delay, waits[entry])
+        yield from self._finish()
 
     def _prepare(self) -> None:
         """Open the card, and begin its list where the axes stand; that entry sets speed and acceleration."""
@@ -97,17 +102,17 @@ class Host:
             motion = float(entries.speed_pulse_ms[0]), float(entries.acceleration_pulse_ms2[0])
             self._must(card.GT_MvXY, 0.0, 0.0, *motion)
 
-    def _push_words(self, entry: int) -> None:
-        self._push(self.card.step_block, *self._told[entry])
+    def _push_words(self, entry: int) -> Iterator[Pulses]:
+        return self._push(self.card.step_block, *self._told[entry])
 
-    def _push_geometry(self, entry: int) -> None:
+    def _push_geometry(self, entry: int) -> Iterator[Pulses]:
         call = self.card.GT_ArcXY if self._entries.angle_deg[entry] else self.card.GT_LnXY
-        self._push(call, *self._told[entry])
+        return self._push(call, *self._told[entry])
 
-    def _push(self, call: Callable[..., int], *arguments: float) -> None:
-        """Make a call that needs room in the list, when there is room."""
+    def _push(self, call: Callable[..., int], *arguments: float) -> Iterator[Pulses]:
+        """Make a call that needs room in the list, when there is room; the pulses that go out until then."""
         while (code := call(*arguments)) == Code.COMMAND and self.card.GT_GetCmdSts()[1] == LIST_FULL:
-            self._make_room()
+            yield from self._make_room()
             if self._is_over:
                 return
         if code != Code.OK:
@@ -123,17 +128,23 @@ class Host:
         """Whether the time has come at which the machine is to stop."""
         return self._began_s is not None and self.card.time_s >= self._began_s + self._until_s
 
-    def _make_room(self) -> None:
+    def _make_room(self) -> Iterator[Pulses]:
         """Let the card run until about half of its list is done."""
         done = self._pushed - self.card.settings.capacity // 2
-        self._sleep_until(float(self._end_s[min(max(done, 0), self._pushed - 1)]))
+        return self._sleep_until(float(self._end_s[min(max(done, 0), self._pushed - 1)]))
 
-    def _sleep_until(self, t_s: float) -> None:
+    def _sleep_until(self, t_s: float) -> Iterator[Pulses]:
         """Sleep until a time from the start of motion, 1 ms at least; starts the list where it does not run yet."""
         if self._began_s is None:
             self._start()
         began = self._began_s or 0.0
-        self.card.sleep(max((began + min(t_s, self._until_s) - self.card.time_s) * 1e3, 1.0))
+        return self._sleep(max((began + min(t_s, self._until_s) - self.card.time_s) * 1e3, 1.0))
+
+    def _sleep(self, ms: float) -> Iterator[Pulses]:
+        """Sleep, and hand on the pulses that go out."""
+        for _ in self.card.sleeping(ms, _SLICE_S):
+            yield from map(self._placed, self._due)
+            self._due.clear()
 
     def _start(self) -> None:
         """Start the list with a servo period, so that what the card samples does not depend on the calls before."""
@@ -144,24 +155,25 @@ class Host:
         self._must(card.GT_StrtMtn)
         self._began_s = card.time_s
 
-    def _finish(self) -> None:
+    def _finish(self) -> Iterator[Pulses]:
         """Close the list, wait for its end or stop it, ask where the axes stand."""
         card = self.card
         self._must(card.GT_EndList)
-        self._sleep_until(self._drive.plan.duration_s)
+        yield from self._sleep_until(self._drive.plan.duration_s)
         if self._is_over:
             self._must(card.GT_EStpMtn)
         while not card.GT_GetCrdSts()[1] & CrdSts.IDLE:
-            card.sleep(1.0)
+            yield from self._sleep(1.0)
         for axis in AXES:
             card.GT_GetAtlPos(axis)
         self._must(card.GT_Close)
 
-    def _pulses(self, pulses: Pulses) -> None:
+    def _placed(self, pulses: Pulses) -> Pulses:
+        """Pulses of the card from the start of motion, in program coordinates, with rows of the toolpath."""
         began = self._began_s or 0.0  # no pulse comes before the start
         x0, y0 = self._drive.origin_um
         t_s = np.maximum(pulses.t_s - began, 0.0)
-        self._take(Pulses(t_s, pulses.x_um + np.int32(x0), pulses.y_um + np.int32(y0), self._row_of[pulses.row]))
+        return Pulses(t_s, pulses.x_um + np.int32(x0), pulses.y_um + np.int32(y0), self._row_of[pulses.row])
 
 
 def _refused(call: Any, arguments: tuple[float, ...], code: int) -> ControllerError:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.option(
     "--block",
     "number",
-    type=WholeNumber(),
+    type=WholeNumber(0),
     metavar="INTEGER",
 )
 @click.option("--json", "as_json", is_flag=True)

@@ -1,7 +1,7 @@
 """A session made again on a card: the way that it drove, when it stood, and where a limit stopped it."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Iterator
 from typing import Final, NamedTuple
 
 from controller.card.calls.base import Logged
@@ -15,6 +15,8 @@ from controller.stepping.pulses import Pulses
 from sim.clients.said import Session, Told
 
 _MOMENT_S: Final = 1e-9
+_SLICE_S: Final = 10.0
+"""Simulated time after which pulses are handed on, so that few of them are held at a time."""
 
 
 class Again(NamedTuple):
@@ -70,15 +72,25 @@ def again(name: str, session: Session) -> Again:
     return Again(recorder.way(), told, tuple(spans.joined), card.limits_met, card.places, card.status, went_on_s)
 
 
-def pulses_again(session: Session, made: Again, taken: Callable[[Pulses], None], until_s: float) -> None:
-    """Make the calls again, and hand on the pulses of the first card up to a time on its clock."""
-    card = GECard(session.settings, on_pulses=taken)
+def pulses_again(session: Session, made: Again, until_s: float) -> Iterator[Pulses]:
+    """Make the calls again: the pulses of the first card up to a time on its clock."""
+    due: list[Pulses] = []
+    card = GECard(session.settings, on_pulses=due.append)
+
+    def waited(t_s: float) -> Iterator[Pulses]:
+        while card.time_s < t_s or due:
+            card.wait_until(min(card.time_s + _SLICE_S, t_s))
+            yield from due
+            due.clear()
+
     for one in made.told:
         if one.call.t_s > until_s:
             break
-        card.wait_until(one.call.t_s)
+        yield from waited(one.call.t_s)
         call(card, one.call)
-    card.wait_until(min(until_s, made.moving_s[-1][1] if made.moving_s else 0.0))
+    yield from waited(min(until_s, made.moving_s[-1][1] if made.moving_s else 0.0))
+    card.wait_until(card.time_s)
+    yield from due
 
 
 def _to_rest(card: GECard, since_s: float) -> bool:

@@ -1,6 +1,6 @@
 """A session as a dry run: the table follows the pulses that the calls made."""
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -91,15 +91,9 @@ def _motion(read: Read, scenario: Scenario) -> Motion:
     return Motion(drive, read.session.settings, table, ticks)
 
 
-def _of_calls(read: Read, motion: Motion) -> Callable[[Callable[[Pulses], None]], None]:
+def _of_calls(read: Read, motion: Motion) -> Iterator[Pulses]:
     """The pulses of the card, each with its row of the path."""
     way = read.again.way
-
-    def run(taken: Callable[[Pulses], None]) -> None:
-        def placed(pulses: Pulses) -> None:
-            row = way.row_of(pulses.t_s, pulses.row.astype(np.int64)).astype(np.int32)
-            taken(pulses._replace(row=np.maximum.accumulate(row)))
-
-        pulses_again(read.session, read.again, placed, motion.until_s)
-
-    return run
+    for pulses in pulses_again(read.session, read.again, motion.until_s):
+        row = way.row_of(pulses.t_s, pulses.row.astype(np.int64)).astype(np.int32)
+        yield pulses._replace(row=np.maximum.accumulate(row))

@@ -3,7 +3,7 @@
 Passes over each edge of a run, and what each came to.
 """
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -30,7 +30,7 @@ from sim.run.left import drawing_of, left_of
 from sim.run.prepare import Prepared, prepare
 from sim.setup.scenario import Scenario
 from sim.table.findings import loss_findings
-from sim.table.motion import Motion, Moved, Source, of_host, simulate
+from sim.table.motion import Motion, Moved, TableRun, driven
 from sim.table.trace import Trace
 
 
@@ -50,12 +50,12 @@ def passes_of(
 
 
 class Along(NamedTuple):
-    """What is run: a program that is ready, its motion, where that ends early, what makes its pulses, and its feeds."""
+    """What is run: a program that is ready, its motion, where that ends early, its pulses, and its feeds."""
 
     ready: Prepared
     motion: Motion
     ended: Ending | None
-    source: Source
+    pulses: Iterator[Pulses]
     feeds: Feeds | None
 
 
@@ -75,7 +75,7 @@ def dry_run(
     drawing, ready = drawing_of(scenario.drawing), prepare(program, scenario)
     progress("plan", 0, 1)
     motion, ended = motion_to_end(ready, scenario)
-    return run_along(Along(ready, motion, ended, of_host(motion, log), ready.feeds), scenario, drawing, progress, sink)
+    return run_along(Along(ready, motion, ended, driven(motion, log), ready.feeds), scenario, drawing, progress, sink)
 
 
 def run_along(
@@ -86,10 +86,16 @@ def run_along(
     sink: PulseSink | None = None,
 ) -> DryRun:
     """Let the table follow what is run, and tell all that came of it; the pulses go to `sink`, too."""
-    ready, motion, ended, source, feeds = along
+    ready, motion, ended, pulses, feeds = along
     program, toolpath = ready.program, ready.program.toolpath
-    meters = Meters(motion, ready.steps)
-    moved = simulate(motion, source, _handed_to(meters, sink, motion), progress)
+    meters, table = Meters(motion, ready.steps), TableRun(motion, progress)
+    if sink is not None:
+        sink.open(motion.drive.origin_um)
+    for followed in table.followed(pulses):
+        meters.take(followed)
+        if sink is not None:
+            sink.take(followed)
+    moved = table.moved
     trace = bowed(moved.trace, toolpath, scenario.wire_lag_um)
     stepped, plan = meters.tally.result(), motion.drive.plan
     contours = find_contours(toolpath, stepped.corner_um)
@@ -138,16 +144,3 @@ def _met(
         *missed_work_findings(program, trace, scenario),
         *loss_findings(program, moved.losses, scenario.machine.table.motor),
     ]
-
-
-def _handed_to(meters: Meters, sink: PulseSink | None, motion: Motion) -> Callable[[Pulses], None]:
-    """Hands pulses to the meters, and to the sink where there is one."""
-    if sink is None:
-        return meters.take
-    sink.open(motion.drive.origin_um)
-
-    def take(pulses: Pulses) -> None:
-        meters.take(pulses)
-        sink.take(pulses)
-
-    return take

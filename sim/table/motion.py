@@ -2,7 +2,7 @@
 
 import math
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from controller.motion.limits import Feeds, row_limits
 from controller.motion.planner import plan_rows
 from controller.stepping.pulses import Pulses
 from parser.toolpath import Toolpath
-from sim.base.progress import Progress
+from sim.base.progress import Progress, silent
 from sim.setup.machine.machine import Machine
 from sim.table.follow import Following, Setup
 from sim.table.record.history import History
@@ -77,54 +77,56 @@ def motion_of(
     return Motion(drive, controller.card_settings, table, ticks)
 
 
-Source = Callable[[Callable[[Pulses], None]], None]
-"""Runs a motion, and hands its pulses, in program coordinates and in order, to what it is given."""
-
-
-def of_host(motion: Motion, log: CardLog | None = None) -> Source:
-    """The host drives the card along the motion; every call goes to `log`, which is told the end too."""
-
-    def run(taken: Callable[[Pulses], None]) -> None:
-        def counted(pulses: Pulses) -> None:
-            if log is not None:
-                log.count(pulses)
-            taken(pulses)
-
-        host = Host(motion.drive, motion.card, counted, log, motion.until_s)
-        host.run()
+def driven(motion: Motion, log: CardLog | None = None) -> Iterator[Pulses]:
+    """The pulses of a motion, as the host drives the card along it; every call, and the end, goes to `log`."""
+    host = Host(motion.drive, motion.card, log, motion.until_s)
+    for pulses in host.pulses():
         if log is not None:
-            log.close(host.card)
+            log.count(pulses)
+        yield pulses
+    if log is not None:
+        log.close(host.card)
 
-    return run
 
+class TableRun:
+    """A table that follows the pulses of a motion; they end where the machine stops.
 
-def simulate(motion: Motion, source: Source, take: Callable[[Pulses], None], progress: Progress) -> Moved:
-    """Run the motion on the table by the pulses of a source. Every pulse goes to `take`, in program coordinates.
-
-    The pulses end where the machine stops: at the motion's `until_s`, or where a servo trips.
+    That is at the motion's `until_s`, or where a servo trips.
     """
-    table = Following(motion.table, motion.ticks)
-    total = int(min(motion.drive.plan.duration_s, motion.until_s))
-    waiting: deque[Pulses] = deque()
 
-    def hand_on(until_s: float) -> None:
-        while waiting and waiting[0].t_s[-1] <= until_s:
-            ran = _up_to(waiting.popleft(), table.tripped_s)
+    def __init__(self, motion: Motion, progress: Progress = silent) -> None:
+        self._table = Following(motion.table, motion.ticks)
+        self._until_s, self._progress = motion.until_s, progress
+        self._total = int(min(motion.drive.plan.duration_s, motion.until_s))
+        self._waiting: deque[Pulses] = deque()
+        self._moved: Moved | None = None
+
+    @property
+    def moved(self) -> Moved:
+        """How the table moved, once it has come to rest behind the last pulses."""
+        if self._moved is None:
+            self._moved = Moved(*self._table.finish())
+        return self._moved
+
+    def followed(self, pulses: Iterable[Pulses]) -> Iterator[Pulses]:
+        """Let the table follow; the pulses come out again as soon as it is sure that the machine ran them."""
+        for handed in pulses:
+            due = _up_to(handed, self._until_s)
+            if not len(due.t_s):
+                continue
+            self._waiting.append(due)
+            self._table.take(due)
+            yield from self._ran(self._table.followed_s)
+            self._progress("run", min(int(due.t_s[-1]), self._total), self._total)
+        assert self.moved  # noqa: S101 - it comes to rest, which may trip it
+        yield from self._ran(math.inf)
+
+    def _ran(self, until_s: float) -> Iterator[Pulses]:
+        """Those that wait and end by a time, as far as the machine ran."""
+        while self._waiting and self._waiting[0].t_s[-1] <= until_s:
+            ran = _up_to(self._waiting.popleft(), self._table.tripped_s)
             if len(ran.t_s):
-                take(ran)
-
-    def taken(pulses: Pulses) -> None:
-        pulses = _up_to(pulses, motion.until_s)
-        if len(pulses.t_s):
-            waiting.append(pulses)
-            table.take(pulses)
-            hand_on(table.followed_s)
-            progress("run", min(int(pulses.t_s[-1]), total), total)
-
-    source(taken)
-    moved = Moved(*table.finish())
-    hand_on(math.inf)
-    return moved
+                yield ran
 
 
 def _up_to(pulses: Pulses, t_s: float) -> Pulses:

@@ -42,9 +42,8 @@ def drive_along(toolpath: Toolpath, interpolation: Interpolation, limits: Motion
 
 
 def driven(drive: Drive, card: CardSettings | None = None) -> tuple[Pulses, list[Logged]]:
-    taken: list[Pulses] = []
     calls: list[Logged] = []
-    Host(drive, card or CardSettings(servo_period_s=PERIOD_S), taken.append, calls.append).run()
+    taken = list(Host(drive, card or CardSettings(servo_period_s=PERIOD_S), calls.append).pulses())
     if not taken:
         return Pulses(*(np.zeros(0) for _ in range(4))), calls
     return Pulses(*(np.concatenate(columns) for columns in zip(*taken, strict=True))), calls

@@ -16,13 +16,12 @@ import numpy as np
 
 from controller.host.host import Host
 from controller.motion.limits import Feeds
-from controller.stepping.pulses import Pulses
 from parser.program import parse_program
 from sim.base.progress import silent
 from sim.run.ballbar.circle import circle_test, run_test
 from sim.setup.machine.machine import Machine, TableEngine, load_machine
 from sim.table.follow import Following
-from sim.table.motion import Motion, Moved, motion_of, of_host, simulate
+from sim.table.motion import Motion, Moved, TableRun, driven, motion_of
 
 FINE_TICK_S = 1e-4
 THICKNESS_MM = 40.0
@@ -66,7 +65,10 @@ def rapid() -> Motion:
 def timed(run: Motion) -> tuple[float, Moved]:
     """Seconds to simulate, and what came of it."""
     began = time.perf_counter()
-    moved = simulate(run, of_host(run), _drop, silent)
+    table = TableRun(run)
+    for _ in table.followed(driven(run)):
+        pass  # nobody looks at the pulses
+    moved = table.moved
     return time.perf_counter() - began, moved
 
 
@@ -80,8 +82,7 @@ class Followed(NamedTuple):
 
 def followed(run: Motion, times: int = 5) -> Followed:
     """CPU time of the table alone, without card and host: the least of some times."""
-    stretches: list[Pulses] = []
-    Host(run.drive, run.card, stretches.append).run()
+    stretches = list(Host(run.drive, run.card).pulses())
     taken = []
     for _ in range(times):
         table, began = Following(run.table, run.ticks), time.process_time()
@@ -124,10 +125,6 @@ def fine(run: Motion) -> Motion:
     """The same in ticks of 0.1 ms all the way, sampled at the same times."""
     alike = dict.fromkeys(("step_tick_s", "steps_tick_s", "shaken_tick_s"), (FINE_TICK_S, FINE_TICK_S))
     return run._replace(ticks=run.ticks._replace(**alike))
-
-
-def _drop(pulses: Pulses) -> None:
-    """Nobody looks at them here."""
 
 
 def apart_um(one: Moved, other: Moved) -> float:

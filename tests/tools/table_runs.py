@@ -9,11 +9,10 @@ from controller.motion.limits import Feeds
 from controller.stepping.pulses import Pulses
 from parser.geometry.curves import Floats
 from parser.program import parse_program
-from sim.base.progress import silent
 from sim.setup.machine.machine import Machine, TableEngine
 from sim.setup.machine.table_model import Motor, TableModel
 from sim.table.follow import Following, Setup
-from sim.table.motion import Motion, Moved, motion_of, of_host, simulate
+from sim.table.motion import Motion, Moved, TableRun, driven, motion_of
 from sim.table.when.ticks import Ticks
 
 TICK_S = 1e-4
@@ -102,11 +101,10 @@ def fixed(chosen: Motion, tick_s: float = TICK_S) -> Motion:
 
 def moved(motion: Motion) -> Moved:
     """What the table makes of a motion."""
-    return simulate(motion, of_host(motion), _drop, silent)
-
-
-def _drop(pulses: Pulses) -> None:
-    """Nobody looks at them."""
+    table = TableRun(motion)
+    for _ in table.followed(driven(motion)):
+        pass  # nobody looks at the pulses
+    return table.moved
 
 
 def farthest_um(one: Moved, other: Moved) -> float:

@@ -3,7 +3,8 @@
 Threads may share it: one call at a time is made, and the others wait for it.
 """
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterator
 from threading import RLock
 from typing import Any, NamedTuple, TypeAlias
 
@@ -80,11 +81,27 @@ class CardBase:
         TypeError where ms is no number, ValueError where it is negative or goes beyond `LONGEST_S` on the card's clock.
         """
         with self._alone:
-            began = self._now_s
-            self._pass(_slept_s(ms, began))
-            for engine in self._engines:
-                engine.motion.hand_out_heard()
-            self._log(began, "sleep", (ms,), None)
+            for _ in self.sleeping(ms, math.inf):
+                pass
+
+    def sleeping(self, ms: float, slice_s: float) -> Iterator[None]:
+        """`sleep` in slices: after each of them the pulses due by then are handed out; it is one call in the log.
+
+        Errors are those of `sleep`, raised when the first slice is asked for.
+        """
+        began = self._now_s
+        end_s = began + _slept_s(ms, began)
+        while True:
+            with self._alone:
+                self._reach(min(self._now_s + slice_s, end_s))
+                for engine in self._engines:
+                    engine.motion.hand_out_heard()
+                is_over = self._now_s >= end_s
+                if is_over:
+                    self._log(began, "sleep", (ms,), None)
+            yield
+            if is_over:
+                return
 
     def wait_until(self, t_s: float) -> None:
         """Let simulated time pass up to a moment; none where that has passed. No function of the library, not logged.

@@ -17,7 +17,7 @@ from sim.run.ballbar.parts import DeviationParts, parts_of
 from sim.run.ballbar.turn import NAMES, SENSES, MeasuredTurn, Sense
 from sim.setup.machine.machine import Machine
 from sim.setup.toml.reader import Bound, number
-from sim.table.motion import Motion, motion_of, of_host, simulate
+from sim.table.motion import Motion, TableRun, driven, motion_of
 from sim.table.physics.turning import motors_um
 from sim.table.record.losses import Loss
 
@@ -141,15 +141,18 @@ def _run(test: CircleTest, sense: Sense, progress: Progress) -> _Run:
     def told(stage: str, done: int, total: int) -> None:
         progress(f"{stage}-{NAMES[sense]}", done, total)
 
-    trace, losses, *_ = simulate(motion, of_host(motion), window.take, told)
+    table = TableRun(motion, told)
+    for pulses in table.followed(driven(motion)):
+        window.take(pulses)
+    trace, losses, *_ = table.moved
     measured = (trace.t_s >= start_s) & (trace.t_s <= end_s)
     center_um = trace.commanded_um[0] - (test.radius_um, 0.0)
-    pulses = window.pulses()
-    motors = motors_um(pulses, window.before_um, step_time_s, trace.t_s[measured])
+    turned = window.pulses()
+    motors = motors_um(turned, window.before_um, step_time_s, trace.t_s[measured])
     return _Run(
         table=MeasuredTurn(sense, trace.table_um[measured] - center_um),
         motors=MeasuredTurn(sense, motors - center_um),
-        steps=MeasuredTurn(sense, _stepped_um(pulses, start_s) - center_um),
+        steps=MeasuredTurn(sense, _stepped_um(turned, start_s) - center_um),
         feed_um_s=float(plan.at(middle_s).speed_um_s),
         losses=losses,
     )

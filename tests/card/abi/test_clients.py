@@ -158,6 +158,6 @@ def test_programs_of_the_other_card_do_not_link(library: Made, tmp_path: Path) -
 
 
 def test_all_clients_are_run() -> None:
-    texts = (Path(__file__), ROOT / "tests" / "sim" / "client" / "test_run.py")
+    texts = (Path(__file__), ROOT / "tests" / "sim" / "clients" / "test_run.py")
     named = {name for path in texts for name in re.findall(r'client\("(\w+)"\)', path.read_text("utf-8"))}
     assert {path.stem for path in CLIENTS.glob("*.c")} <= named
