@@ -21,3 +21,8 @@ def mm(length_um: _Length) -> _Length:
 def from_mm(length_mm: _Length) -> _Length:
     """Mm to µm, a number or an array."""
     return length_mm * UM_PER_MM
+
+
+def mm_text(length_um: float, digits: int = 3) -> str:
+    """A length in mm for people, to the µm where nothing else is said; never −0."""
+    return f"{round(mm(float(length_um)), digits) + 0.0:.{digits}f}"

@@ -11,7 +11,7 @@ from typing import Any, Literal, NamedTuple, Protocol, runtime_checkable
 
 from parser.findings.codes import CODES
 from parser.findings.findings import NO_NAMES, Finding
-from parser.units import UM_PER_MM, mm
+from parser.units import UM_PER_MM, mm, mm_text
 
 Language = Literal["en", "zh"]
 LANGUAGES: tuple[Language, ...] = ("en", "zh")
@@ -158,7 +158,7 @@ class _Filler(string.Formatter):
     def format_field(self, value: Any, format_spec: str) -> str:
         own: dict[str, Callable[[Any], str]] = {
             "um": lambda um: length(float(um)),
-            "mm": lambda um: f"{round(mm(float(um)), 3) + 0.0:.3f}",
+            "mm": mm_text,
             "instant": lambda t_s: instant(float(t_s)),
             "block": lambda number: self._names.get(number, str(number)),
             "term": lambda key: term(str(key), self._language),

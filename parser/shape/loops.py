@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from parser.geometry.curves import Curves, Floats, Ints, total_before
 from parser.geometry.distance import distance_to_curves
+from parser.geometry.inside import turned_about
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
 
@@ -159,7 +160,7 @@ def _is_inside(toolpath: Toolpath, ring: _Ring, place_um: Floats) -> NDArray[np.
     place = place_um[ring.of]
     radial = toolpath.center_um[ring.row] - place
     in_disc = np.hypot(radial[:, 0], radial[:, 1]) < toolpath.radius_um[ring.row]
-    turned = _turned_about(ring.start_um - place, ring.end_um - place, ring.turn_rad, in_disc)
+    turned = turned_about(ring.start_um - place, ring.end_um - place, ring.turn_rad, in_disc)
     inside: NDArray[np.bool_] = np.rint(np.bincount(ring.of, turned, len(place_um)) / (2.0 * np.pi)) != 0.0
     return inside
 
@@ -180,14 +181,3 @@ def _doubled_areas(start: Floats, end: Floats, turn: Floats, radius: Floats) -> 
     """Twice the signed areas (m,) µm² between the origin and the blocks."""
     segment = np.where(turn == 0.0, 0.0, np.nan_to_num(radius) ** 2 * (turn - np.sin(turn)))
     return start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0] + segment
-
-
-def _turned_about(start: Floats, end: Floats, turn: Floats, in_disc: NDArray[np.bool_]) -> Floats:
-    """Signed angles (m,) that blocks run round the origin: that of the chord, a turn more where the arc spans it."""
-    cross = start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0]
-    chord = np.arctan2(cross, (start * end).sum(axis=1))
-    # On the chord itself, as in the middle of a half circle, the sign of a zero must not tell.
-    chord = np.where((cross == 0.0) & in_disc, np.abs(chord) * np.sign(turn), chord)
-    beyond = (cross * turn < 0.0) | (np.abs(turn) >= 2.0 * np.pi)
-    turned: Floats = chord + np.where(in_disc & beyond, 2.0 * np.pi * np.sign(turn), 0.0)
-    return turned

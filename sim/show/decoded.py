@@ -8,7 +8,7 @@ from controller.decode.document import plain
 from parser.dialect.decoding import UNREAD, DecodedBlock, DecodeStep
 from parser.findings.catalogue import Said
 from parser.toolpath import Point
-from parser.units import mm
+from parser.units import mm, mm_text
 from sim.show.words import said
 from sim.show.words.phrases import same
 
@@ -115,7 +115,7 @@ def _contour(way: Way) -> Said:
 
 def _place(place: Point, digits: int = 3) -> str:
     """A place in mm, without −0."""
-    x, y = (f"{round(mm(value), digits) + 0.0:.{digits}f}" for value in place)
+    x, y = (mm_text(value, digits) for value in place)
     return f"({x}, {y})".replace("-", "−")
 
 

@@ -11,7 +11,7 @@ from parser.program import Program
 from parser.shape.contours import Contour, find_contours
 from parser.text.encoding import printable
 from parser.toolpath import Block, Point
-from parser.units import mm
+from parser.units import mm_text
 from sim.serve.editor.opened import Text
 from sim.serve.editor.places import Places
 from sim.show.words import Words
@@ -53,13 +53,13 @@ def _row_at(program: Program, character: int) -> int | None:
 
 def _block_lines(block: Block, called: str, words: Words) -> Iterator[str]:
     name = f"{called} ({block.number})" if called != str(block.number) else called
-    yield words(f"editor.block-{block.kind.name.lower()}", name=f"**{name}**", length=_mm(block.length_um))
+    yield words(f"editor.block-{block.kind.name.lower()}", name=f"**{name}**", length=mm_text(block.length_um))
     yield words("editor.ends", start=_place(block.start_um), end=_place(block.end_um))
     if block.center_um is None or block.sweep_rad is None:
         return
     yield words(
         "editor.arc",
-        radius=_mm(block.radius_um or 0.0),
+        radius=mm_text(block.radius_um or 0.0),
         center=_place(block.center_um),
         sweep=f"{np.degrees(block.sweep_rad):+.3f}",
     )
@@ -68,7 +68,7 @@ def _block_lines(block: Block, called: str, words: Words) -> Iterator[str]:
 def _figure(program: Program, places: Places, contour: Contour, number: int, words: Words) -> DocumentSymbol:
     path, rows = program.toolpath, slice(contour.first - 1, contour.last)
     first, past = int(path.source.span[rows, 0].min()), int(path.source.span[rows, 1].max())
-    length = _mm(float(path.length_um[rows].sum()))
+    length = mm_text(float(path.length_um[rows].sum()))
     kind = "open" if contour.is_open else "closed" if contour.encloses else "parting"
     name = words("editor.figure", number=number, first=_name(program, contour.first), last=_name(program, contour.last))
     blocks = range(contour.first - 1, contour.last) if len(path) <= _MOST_BLOCKS else ()
@@ -95,9 +95,5 @@ def _name(program: Program, block: int) -> str:
     return program.toolpath.source.names.at(block)
 
 
-def _mm(um: float) -> str:
-    return f"{round(mm(um), 3) + 0.0:.3f}"
-
-
 def _place(place: Point) -> str:
-    return f"{_mm(place.x)}, {_mm(place.y)}"
+    return f"{mm_text(place.x)}, {mm_text(place.y)}"

@@ -15,7 +15,7 @@ from parser.findings.findings import Finding
 from parser.program import Program
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
-from parser.units import mm
+from parser.units import mm_text
 from sim.show.drill_page.picture import HEIGHT, WIDTH, picture_of
 from sim.show.html.environment import rendered
 from sim.show.words import said
@@ -59,16 +59,12 @@ def places_of(path: Toolpath) -> list[dict[str, Any]]:
 def _form(path: Toolpath, row: int) -> Said:
     if path.is_arc[row]:
         turn = "counter_clockwise" if path.sweep_rad[row] > 0.0 else "clockwise"
-        return said(f"drill.{turn}", radius=_mm(float(path.radius_um[row])))
+        return said(f"drill.{turn}", radius=mm_text(float(path.radius_um[row])))
     return said("drill.jump" if path.is_jump[row] else "drill.line")
 
 
 def _pair(place: "np.ndarray[tuple[int], np.dtype[np.float64]]") -> str:
-    return ", ".join(_mm(float(value)) for value in place)
-
-
-def _mm(um: float) -> str:
-    return f"{round(mm(um), 3) + 0.0:.3f}"
+    return ", ".join(mm_text(float(value)) for value in place)
 
 
 def _does(drill: Drill) -> Said:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 from parser.findings.catalogue import instant, page
 from parser.findings.findings import Finding
 from parser.toolpath import Stop, Toolpath
-from parser.units import mm
+from parser.units import mm, mm_text
 from sim.cut.pieces.pieces import Piece
 from sim.run.course import Course, Event, Moment
 from sim.show.draw.paints import Paint
@@ -27,7 +27,7 @@ class Line(NamedTuple):
 
 def read_out(course: Course, moment: Moment, speed: float, say: Words) -> list[Line]:
     """Lines of a moment, always as many; `speed` is seconds of the run in each second of the film."""
-    x, y = (f"{round(mm(float(place)), 3) + 0.0:.3f} mm".replace("-", "−") for place in moment.wire_um)
+    x, y = (f"{mm_text(place)} mm".replace("-", "−") for place in moment.wire_um)
     feed = say("film.feed_value", value=f"{mm(moment.feed_um_s) * 60.0:.2f}")
     toolpath = course.run.toolpath
     first, past = toolpath.source.span[moment.row].tolist()

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from parser.findings.catalogue import LANGUAGES, Said, length, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
-from parser.units import mm
+from parser.units import mm, mm_text
 from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
 from sim.show.report_page.tables import reached
@@ -129,7 +129,7 @@ def _worst(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     where = report["deviation"]["wire"]["where"]
     if where is not None:
         block = run.block_names.at(where["block"])
-        place = said("report.at-place", block=block, x=_mm(where["x_um"]), y=_mm(where["y_um"]))
+        place = said("report.at-place", block=block, x=mm_text(where["x_um"]), y=mm_text(where["y_um"]))
         figure = _figure("worst-deviation", report, "deviation.wire.max_um", 2)
         yield figure._replace(unit="µm", beside=place)
 
@@ -169,8 +169,3 @@ def _offset(report: Mapping[str, Any]) -> Iterator[Figure]:
         side = said(f"report.side-{report['offset']['side']}")
         by = ", ".join(f"{mm(one['by_um']):.3f}" for one in report["offset"]["passes"])
         yield _figure("offset-added", report, "offset.by_um")._replace(shown=same(by), unit="mm", beside=side)
-
-
-def _mm(length_um: float) -> str:
-    """Millimetres to the µm; never −0."""
-    return f"{round(mm(length_um), 3) + 0.0:.3f}"

@@ -5,7 +5,7 @@ from typing import Any, Final, NamedTuple
 
 from parser.findings.catalogue import Said
 from parser.text.block_names import BlockNames
-from parser.units import mm
+from parser.units import mm, mm_text
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.run.dryrun import DryRun
 from sim.run.recording import NO_PIECES
@@ -116,7 +116,7 @@ def _offset(report: Mapping[str, Any]) -> Said:
     offset = report["offset"]
     if offset is None:
         within_um = report["program"]["header"].get("offset_um")
-        return said("sheet.offset-within", by=_mm(within_um)) if within_um else said("sheet.offset-none")
+        return said("sheet.offset-within", by=mm_text(within_um)) if within_um else said("sheet.offset-none")
     by = ", ".join(f"{mm(one['by_um']):.3f}" for one in offset["passes"])
     return said(f"sheet.offset-{offset['side']}", by=by)
 
@@ -127,7 +127,7 @@ def _passes(report: Mapping[str, Any]) -> Said:
     most = max(found, key=lambda one: one["number"], default=None)
     if most is None or most["number"] == 1 or report["offset"] is not None:
         return same(1 if most is None else most["number"])
-    by = ", ".join(_mm(one["offset_um"]) for one in found if one["contour"] == most["contour"])
+    by = ", ".join(mm_text(one["offset_um"]) for one in found if one["contour"] == most["contour"])
     return said("sheet.passes-by", n=most["number"], by=by)
 
 
@@ -157,16 +157,11 @@ def _mass(mass_g: float) -> str:
 
 def _thread(entry: Mapping[str, Any], names: BlockNames) -> Thread:
     first, last = (names.at(number) for number in entry["blocks"])
-    x, y, out_x, out_y = map(_mm, (*entry["at_um"], *entry["out_um"]))
-    reach = tuple(_mm(entry[f"{side}_um"]) for side in ("left", "right", "down", "up"))
+    x, y, out_x, out_y = map(mm_text, (*entry["at_um"], *entry["out_um"]))
+    reach = tuple(mm_text(entry[f"{side}_um"]) for side in ("left", "right", "down", "up"))
     blocks = first if first == last else f"{first}–{last}"
     return Thread(blocks, x, y, _after(entry["at_s"]), reach, out_x, out_y, _after(entry["out_s"]))
 
 
 def _after(time_s: float | None) -> Said:
     return said("sheet.not-reached") if time_s is None else lasting(time_s)
-
-
-def _mm(length_um: float) -> str:
-    """Millimetres to the µm; never −0."""
-    return f"{round(mm(length_um), 3) + 0.0:.3f}"

@@ -6,7 +6,7 @@ from rich.table import Table
 from parser.findings.catalogue import Language
 from parser.findings.remarks import remark_text
 from parser.text.block_names import BlockNames
-from parser.units import mm
+from parser.units import mm, mm_text
 from sim.measure.compare.result import Comparison, WorstPlace
 from sim.measure.compare.tables import by_block, by_entity, corner_places, worst_places
 from sim.show.terminal.layout import paragraph, show, table
@@ -121,4 +121,4 @@ def _entity(of: Comparison, number: int) -> str:
 
 def _xy(x_um: float, y_um: float) -> str:
     """A pair in millimetres, to the micrometre; never −0."""
-    return ", ".join(f"{round(mm(by), 3) + 0.0:.3f}" for by in (x_um, y_um))
+    return ", ".join(mm_text(by) for by in (x_um, y_um))

@@ -7,7 +7,7 @@ from parser.findings.catalogue import Language, length
 from parser.findings.facts import ReadAs
 from parser.shape.contours import Contour
 from parser.text.block_names import BlockNames
-from parser.units import mm
+from parser.units import mm, mm_text
 from sim.base.units import in_figures
 from sim.measure.deviation.deviation import Where
 from sim.run.dryrun import DryRun
@@ -158,7 +158,7 @@ def _deviations(run: DryRun, tell: Words) -> list[Row]:
 def _largest(max_um: float, where: Where | None, names: BlockNames, tell: Words) -> str:
     if where is None or max_um < _LEAST_UM:
         return tell("summary.none")
-    place = {"block": names.at(where.block), "x": _mm(where.x_um), "y": _mm(where.y_um)}
+    place = {"block": names.at(where.block), "x": mm_text(where.x_um), "y": mm_text(where.y_um)}
     return tell("summary.largest", most=length(max_um), **place)
 
 
@@ -173,13 +173,8 @@ def _limit(peak: Peak, names: BlockNames, tell: Words) -> str:
     scale, unit = _UNITS[peak.quantity]
     what = tell(f"summary.limit-{peak.quantity}")
     met = {"share": _percent(peak.share), "limit": in_figures(peak.limit * scale), "unit": unit}
-    place = {"block": names.of_row(peak.row), "x": _mm(peak.x_um, 1), "y": _mm(peak.y_um, 1)}
+    place = {"block": names.of_row(peak.row), "x": mm_text(peak.x_um, 1), "y": mm_text(peak.y_um, 1)}
     return tell("summary.limit", what=what, axis=peak.axis.name, **met, **place)
-
-
-def _mm(length_um: float, digits: int = 3) -> str:
-    """Millimetres, to the micrometre at most; never −0."""
-    return f"{round(mm(length_um), digits) + 0.0:.{digits}f}"
 
 
 def _percent(share: float) -> str:

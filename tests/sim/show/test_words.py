@@ -143,7 +143,7 @@ def test_scripts_ask_for_texts_that_their_page_hands_over(page: str) -> None:
 
 def test_every_stage_of_the_work_has_a_text() -> None:
     source = "\n".join(sources(".py").values())
-    stages = set(re.findall(r"""\bprogress\("([\w-]+)",""", source)) | {f"run-{NAMES[sense]}" for sense in SENSES}
+    stages = set(re.findall(r"""progress\("([\w-]+)",""", source)) | {f"run-{NAMES[sense]}" for sense in SENSES}
     assert stages | {"step", "left", "line"} == set(texts("progress"))
 
 

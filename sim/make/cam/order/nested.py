@@ -7,8 +7,8 @@ import numpy as np
 from parser.geometry.along import places
 from parser.geometry.curves import Floats
 from parser.geometry.extents import extents
+from parser.geometry.inside import is_inside
 from sim.make.cam.model import Figure
-from sim.make.cam.parts.inside import is_inside
 
 _PLACES = 8  # of a contour that say within which others it lies; some of them may lie on one that touches it
 

@@ -11,8 +11,8 @@ from parser.geometry.along import along_um, places, places_at
 from parser.geometry.broad_phase_pairs import near_pairs
 from parser.geometry.broad_phase_places import nearest_um
 from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.inside import is_inside
 from sim.make.cam.parts.contours import Contours
-from sim.make.cam.parts.inside import is_inside
 
 _TOUCH_UM: Final = 0.01
 """A contour that comes so near to itself touches itself: far above rounding, far below what any wire cuts."""

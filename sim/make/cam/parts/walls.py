@@ -8,11 +8,11 @@ import numpy as np
 from parser.drawing.model import BESIDE_UM
 from parser.findings.remarks import Remark
 from parser.geometry.curves import Floats, Ints, joined
+from parser.geometry.inside import is_inside
 from parser.toolpath import Point
 from parser.units import mm
 from sim.make.cam.model import CannotCutError, Figure, Refusal
 from sim.make.cam.parts.contacts import between_contours, spread
-from sim.make.cam.parts.inside import is_inside
 
 _LIMIT_SHARE = 1.0 - 1e-6  # a gap as wide as the kerf is cut
 

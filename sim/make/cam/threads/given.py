@@ -10,10 +10,10 @@ from parser.geometry.broad_phase_places import near_places
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.distance import distance_to_curves
 from parser.geometry.extents import extents
+from parser.geometry.inside import is_inside
 from parser.toolpath import Point
 from sim.make.cam.leads.room import Room, are_free
 from sim.make.cam.model import CannotCutError, Entry, Figure, Refusal
-from sim.make.cam.parts.inside import is_inside
 from sim.make.cam.threads.entries import MOST, Asked, Entries, across_from, corners
 
 ON_UM: Final = 1.0

@@ -8,7 +8,7 @@ from parser.geometry.curves import Floats, Ints
 from parser.shape.contours import contour_rows
 from parser.shape.loops import Loops, find_loops
 from parser.toolpath import Toolpath
-from parser.units import mm
+from parser.units import mm_text
 from sim.show.draw.flatten import bounds_um, flatten
 from sim.show.pictures.cut.subject import Cut
 
@@ -59,7 +59,7 @@ class _Arcs(NamedTuple):
 
 def length_text(length_um: float) -> str:
     """A length in mm with three decimals at most, such as ``12.5``."""
-    return f"{round(mm(length_um), 3) + 0.0:.3f}".rstrip("0").rstrip(".")
+    return mm_text(length_um).rstrip("0").rstrip(".")
 
 
 def sizes_of_cut(cut: Cut) -> CutSizes:
