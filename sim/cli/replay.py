@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from sim.show.film.screen import Look
 
 _SIZE = re.compile(r"(\d{3,4})\s*[x×]\s*(\d{3,4})", re.ASCII)
+PAGE = ".html"
 LEAST_PX, MOST_PX = (320, 240), (3840, 2160)
 _BOUNDS = f"{LEAST_PX[0]}x{LEAST_PX[1]} to {MOST_PX[0]}x{MOST_PX[1]}"
 
@@ -84,7 +85,7 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     """Dry-run a 3B or ISO program, or a scenario folder that holds one, and watch it being cut.
 
     \b
-    drycut replay part.3b
+    drycut replay part.3b -o part.html
     drycut replay part.3b -o cut.mp4
     drycut replay scenarios/keyhole -o cut.gif --seconds 5 --fps 20 --size 640x360
     drycut replay part.3b -o cut.webp --thickness 60mm --theme dark --lang zh
@@ -97,47 +98,46 @@ def replay(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.show.film.screen import Look
     from sim.show.terminal.printer import say
 
-    look = Look(*size, theme, spoken())
-    _refuse(output, seconds, fps, look)
+    if output is None:
+        raise click.UsageError(Message("replay-without-output"))
+    look, is_page = Look(*size, theme, spoken()), output.suffix.lower() == PAGE
+    if not is_page:
+        _refuse(output, seconds, fps, look)
     scenario = overridden(path, Overrides(**options))
     try:
-        stages = [*stages_of(scenario), *([] if output is None else ["film"])]
         program = moving(program_read(scenario, source_of(scenario)))
+        stages = [*stages_of(scenario), "pages" if is_page else "film"]
         with StageProgress(*stages) as progress, recorded(program, scenario, progress) as recording:
-            if output is None:
-                progress.finish()
-            _show(recording, output, seconds, fps, look, progress)
+            if is_page:
+                _write_page(output, recording, progress)
+            else:
+                _write_film(output, recording, seconds, fps, look, progress)
             passed = verdict(recording.run.findings) == "pass"
     except ProgramError as error:
         raise refused(scenario, error) from None
-    if output is not None:
-        say(words()("commands.written", names=output))
+    say(words()("commands.written", names=output))
     raise click.exceptions.Exit(0 if passed else 1)
 
 
-def _refuse(output: Path | None, seconds: float, fps: int, look: "Look") -> None:
-    """SettingsError, before anything runs, where there can be no such film, or no window."""
-    if output is not None:
-        from sim.show.film.film import format_of
+def _refuse(output: Path, seconds: float, fps: int, look: "Look") -> None:
+    """SettingsError, before anything runs, where there can be no such film."""
+    from sim.show.film.film import format_of
 
-        format_of(output, seconds, fps, look)
-    else:
-        from sim.show.film.window import open_display
-
-        open_display()
+    format_of(output, seconds, fps, look)
 
 
-def _show(  # noqa: PLR0913, PLR0917 - a run, where to, and how
-    recording: "Recording", output: Path | None, seconds: float, fps: int, look: "Look", progress: "Progress"
+def _write_page(output: Path, recording: "Recording", progress: "Progress") -> None:
+    from sim.base.files import staged
+    from sim.show.replay.document import replay_page
+
+    progress("pages", 0, 1)
+    with staged(output.parent, [output.name]) as stage:
+        (stage / output.name).write_text(replay_page(recording), encoding="utf-8")
+
+
+def _write_film(  # noqa: PLR0913, PLR0917 - a run, where to, and how
+    output: Path, recording: "Recording", seconds: float, fps: int, look: "Look", progress: "Progress"
 ) -> None:
-    if output is not None:
-        from sim.show.film.film import write_film
+    from sim.show.film.film import write_film
 
-        write_film(output, recording, seconds, fps, look, progress)
-    else:
-        from sim.run.course import course_of
-        from sim.show.film.clock import FilmClock
-        from sim.show.film.window import Window
-
-        course = course_of(recording)
-        Window(course, look, FilmClock(seconds, fps, course.duration_s).speed).play()
+    write_film(output, recording, seconds, fps, look, progress)

@@ -1,4 +1,4 @@
-"""The keys of a replay, in the window and in the page: what each does, and how the lists of keys show it."""
+"""The keys of a replay: what each does, and how the list of keys shows it."""
 
 from collections.abc import Mapping
 from typing import Final, NamedTuple
@@ -14,7 +14,7 @@ class Key(NamedTuple):
     shown
         What is pressed, as it is written, or as a text ``keys.key_…``.
     actions
-        For each action the keys that call it, as browsers name them; none of what the mouse does.
+        For each action the keys that call it, as browsers name them; none of keys that act elsewhere.
     """
 
     does: str
@@ -22,7 +22,7 @@ class Key(NamedTuple):
     actions: Mapping[str, tuple[str, ...]] = {}
 
 
-OF_BOTH: Final = (
+OF_PAGE: Final = (
     Key("play", ("key_space",), {"toggle": (" ",)}),
     Key("step", ("←", "→"), {"stepBack": ("ArrowLeft",), "stepOn": ("ArrowRight",)}),
     Key("hundred_steps", ("PgUp", "PgDn"), {"hundredBack": ("PageUp",), "hundredOn": ("PageDown",)}),
@@ -33,16 +33,6 @@ OF_BOTH: Final = (
     Key("fit", ("0",), {"fit": ("0",)}),
     Key("follow", ("F",), {"follow": ("f",)}),
     Key("help", ("?",), {"help": ("?",)}),
-)
-OF_WINDOW: Final = (
-    *OF_BOTH,
-    Key("zoom", ("key_wheel",)),
-    Key("pan", ("key_drag",)),
-    Key("seek", ("key_strip",)),
-    Key("quit", ("Esc",), {"quit": ("Escape",)}),
-)
-OF_PAGE: Final = (
-    *OF_BOTH,
     Key("fit_table", ("9",), {"fitTable": ("9",)}),
     Key("to_steps", ("Z",), {"toSteps": ("z",)}),
     Key("pan", ("Shift + ← ↑ → ↓",)),

@@ -1,9 +1,9 @@
-"""Where things stand on a frame: title, plot, read-outs and the strip of the run; and other views of the plot."""
+"""Where things stand on a frame: title, plot, read-outs and the strip of the run."""
 
 from typing import Final, NamedTuple
 
 from sim.show.draw import style
-from sim.show.draw.layout import Box, View
+from sim.show.draw.layout import Box
 
 WIDE: Final = 1.15
 """Width over height from which on the read-outs stand beside the plot, else below it."""
@@ -14,9 +14,6 @@ STRIP: Final = 74.0
 AXIS: Final = 44.0
 SHAPE: Final = (1600.0, 900.0)
 """Sizes of `sim.show.draw.style` are those of a frame like this."""
-FINEST_PX_PER_UM: Final = 60.0
-COARSEST: Final = 0.25
-"""Of the scale at which the whole fits."""
 
 
 class Layout(NamedTuple):
@@ -61,15 +58,3 @@ def layout_for(width_px: int, height_px: int) -> Layout:
 def _whole(box: Box) -> Box:
     """The box with its sides on whole pixels."""
     return Box(*(float(round(side)) for side in box))
-
-
-def zoomed(view: View, factor: float, at: tuple[float, float], whole: View) -> View:
-    """The view enlarged about a place on the page, px, between the coarsest and the finest scale."""
-    scale = min(max(view.px_per_um * factor, COARSEST * whole.px_per_um), FINEST_PX_PER_UM)
-    factor = scale / view.px_per_um
-    return View(scale, at[0] + (view.x_px - at[0]) * factor, at[1] + (view.y_px - at[1]) * factor)
-
-
-def shifted(view: View, by: tuple[float, float]) -> View:
-    """The view moved on the page, px."""
-    return view._replace(x_px=view.x_px + by[0], y_px=view.y_px + by[1])

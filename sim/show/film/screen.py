@@ -1,4 +1,4 @@
-"""A frame of a film or of the window: the plot at a moment, with read-outs beside it and the strip below.
+"""A frame of a film: the plot at a moment, with read-outs beside it and the strip below.
 
 What the marks of a frame mean, below its read-outs.
 
@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
-from PIL import Image
 
 from parser.findings.catalogue import Language
 from parser.geometry.curves import Floats
@@ -193,13 +192,12 @@ class Screen:
         self._top = round(self.layout.head.bottom - style.TICK * self.layout.unit / 2)
         self._todo, self._done = (self._strip(done=done) for done in (False, True))
 
-    def frame(self, t_s: float, view: View, speed: float, *, settled: bool = True) -> Pixels:
+    def frame(self, t_s: float, view: View, speed: float) -> Pixels:
         """The frame of a moment, (h, w, 3); the array is the caller's.
 
-        Past the end of the run, pieces go on to fall. `speed` is seconds of the run in each second of the film. While
-        the view moves, not `settled`, the plot of the last view is shown enlarged or shifted.
+        Past the end of the run, pieces go on to fall. `speed` is seconds of the run in each second of the film.
         """
-        if self._scene is None or (settled and self._scene.view != view):
+        if self._scene is None or self._scene.view != view:
             self._scene = Scene(self._course, self.layout, view, self._theme)
         moment = self._course.at(t_s)
         fates = (fate(piece.t_s, t_s, speed) for piece in self._course.pieces)
@@ -207,8 +205,6 @@ class Screen:
         self._panel.show(read_out(self._course, moment, speed, self._say), self._page)
         frame = self._page.copy()
         frame[self._top : plot.shape[0], : plot.shape[1]] = plot[self._top :]
-        if self._scene.view != view:
-            self._move(frame, self._scene.view, view)
         self._mark(frame, moment, view)
         self._draw_strip(frame, moment.t_s)
         return frame
@@ -260,16 +256,6 @@ class Screen:
         draw_wire(canvas, wire - (left, top), radius, unit)
         draw_commanded(canvas, commanded - (left, top), unit)
         frame[top:bottom, left:right] = canvas.pixels()
-
-    def _move(self, frame: Pixels, was: View, now: View) -> None:
-        """Show the plot of another view as it would lie in this one."""
-        left, top, right, bottom = (round(side) for side in self.layout.plot)
-        shown = Image.fromarray(frame[top:bottom, left:right])
-        scale = was.px_per_um / now.px_per_um
-        x, y = was.x_px - left - (now.x_px - left) * scale, was.y_px - top - (now.y_px - top) * scale
-        matrix = (scale, 0.0, x, 0.0, scale, y)
-        moved = shown.transform(shown.size, Image.Transform.AFFINE, matrix, fillcolor=self._theme[Paint.PAGE])
-        frame[top:bottom, left:right] = np.asarray(moved)
 
 
 def _bounds_um(course: Course) -> Floats:

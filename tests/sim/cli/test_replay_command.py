@@ -1,4 +1,4 @@
-"""``drycut replay`` as a user meets it: films that play back, bad use, and a window where there is a display."""
+"""``drycut replay`` as a user meets it: films that play back, a page, and bad use."""
 
 import subprocess
 import sys
@@ -7,7 +7,6 @@ from pathlib import Path
 
 import imageio_ffmpeg
 import numpy as np
-import pygame
 import pytest
 from command import run_command, run_inside
 from PIL import Image
@@ -15,7 +14,6 @@ from PIL import Image
 from sim.show.film import film, writers
 from sim.show.film.film import format_of
 from sim.show.film.screen import Look, Screen
-from sim.show.film.window import Window
 
 PART = "B600 B0 B600 GX L1 B0 B600 B600 GY L2 B600 B0 B600 GX L3 B0 B600 B600 GY L4 DD"
 FAULTY = PART.replace("B600 B0 B600 GX L3", "B600 B0 B600 GX L7")
@@ -101,8 +99,8 @@ def test_only_the_file_goes_to_stdout_and_progress_to_stderr(part: Path, tmp_pat
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("-o", "cut.avi"), "films are .gif, .webp, .apng, .mp4"),
-        (("-o", "cut"), "films are .gif, .webp, .apng, .mp4"),
+        (("-o", "cut.avi"), "a replay is .html, or a film: .gif, .webp, .apng, .mp4"),
+        (("-o", "cut"), "a replay is .html, or a film: .gif, .webp, .apng, .mp4"),
         (("-o", "cut.gif", "--fps", "60"), "a .gif shows 50 frames a second at most, not 60"),
         (("-o", "cut.mp4", "--size", "641x360"), "an even number of pixels"),
         (("-o", "cut.apng", "--seconds", "600"), "would need 27.6 GB of memory"),
@@ -184,24 +182,16 @@ def test_animated_pictures_may_be_as_large_as_memory_allows(tmp_path: Path) -> N
     assert film.FORMAT_NAMES.split(", ") == [*writers.FORMATS]
 
 
-def test_without_a_display_there_is_advice(part: Path) -> None:
-    done = run_command("replay", part, DISPLAY="", WAYLAND_DISPLAY="", SDL_VIDEODRIVER="none such")
+def test_a_page_plays_the_run_as_that_of_a_run_does(part: Path, tmp_path: Path) -> None:
+    file = tmp_path / "new" / "part.HTML"
+    done = run_inside("replay", part, "-o", file, "--kerf")
+    assert (done.returncode, done.stdout.decode()) == (0, f"written: {file}\n")
+    assert run_inside("run", part, "-o", tmp_path / "run", "--kerf").returncode == 0
+    assert file.read_bytes() == (tmp_path / "run" / "replay.html").read_bytes()
+
+
+def test_without_output_the_ways_to_watch_it_are_told(part: Path) -> None:
+    done = run_inside("replay", part)
     assert (done.returncode, done.stdout) == (2, b"")
-    assert said(done) == (
-        "drycut: error: no display: write a film with -o cut.mp4, or open replay.html of drycut run\n"
-    )
-
-
-def test_without_output_a_window_plays_the_run(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    speeds, play = [], Window.play
-
-    def closed_at_once(window: Window) -> None:
-        speeds.append(window.controls.playback.speed)
-        pygame.event.post(pygame.event.Event(pygame.QUIT))
-        play(window)
-
-    monkeypatch.setattr(Window, "play", closed_at_once)
-    done = run_inside("replay", part, "--seconds", "10", "--size", "640x400", SDL_VIDEODRIVER="dummy")
-    pygame.display.quit()
-    assert (done.returncode, done.stdout) == (0, b"")
-    assert 1.0 < speeds[0] < 10.0  # 2.4 mm at 2.6 mm/min, in the nine seconds before the end stands
+    assert "-o part.html is a page" in said(done)
+    assert "drycut open" in said(done)

@@ -1,18 +1,15 @@
-"""Frames of films and of the window: what they show against the run itself, and what keys and mouse do."""
+"""Frames of films: what they show against the run itself; and the keys of the replay."""
 
-import os
 from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
-import pygame
 import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 from runs import plain_scenario, scenario_recording
 
-from parser.findings.errors import SettingsError
 from parser.program import parse_program
 from sim.base.progress import silent
 from sim.run.course import Course, course_of
@@ -21,17 +18,14 @@ from sim.run.report import build_report
 from sim.show.draw.layout import Box, View, centred
 from sim.show.draw.paints import LIGHT, Paint
 from sim.show.film.clock import FilmClock
-from sim.show.film.controls import ZOOM, Controls
 from sim.show.film.cut_map import FULL, CutMap, Discs, Span, discs_of
 from sim.show.film.ground import near_runs, outlines_um
-from sim.show.film.layout import FINEST_PX_PER_UM, layout_for, zoomed
+from sim.show.film.layout import layout_for
 from sim.show.film.marks import THE_WIRE, WIRE
-from sim.show.film.playback import SPEEDS, Playback
 from sim.show.film.readout import read_out, told
 from sim.show.film.screen import Look, Screen
 from sim.show.film.strip import bar_of
-from sim.show.film.window import LEAST_PX, NO_DISPLAY, Window, open_display
-from sim.show.keys import OF_BOTH, OF_PAGE, OF_WINDOW, actions_of
+from sim.show.keys import OF_PAGE
 from sim.show.words import Words
 from sim.show.words.words import texts
 from sim.table.trace import Trace
@@ -321,14 +315,6 @@ def test_boxes_of_a_frame_lie_in_it_and_apart(width: int, height: int) -> None:
     assert not any(one.meets(other) for one in boxes for other in boxes if one is not other)
 
 
-@given(st.floats(1e-3, 5.0), st.floats(0.3, 3.0), st.tuples(st.floats(0, 900), st.floats(0, 600)))
-def test_zooming_keeps_the_place_under_the_pointer(scale: float, factor: float, at: tuple[float, float]) -> None:
-    view, whole = View(scale, 100.0, 300.0), View(scale, 0.0, 0.0)
-    place = (np.array(at) - (view.x_px, view.y_px)) / (scale, -scale)
-    assert zoomed(view, factor, at, whole).to_px(place) == pytest.approx(np.array(at), abs=1e-6)
-    assert zoomed(view, 1e9, at, whole).px_per_um == FINEST_PX_PER_UM
-
-
 @given(st.lists(st.tuples(st.integers(-50, 150), st.integers(-50, 150)), min_size=2, max_size=12))
 def test_chords_that_may_show_are_kept_in_order(points: list[tuple[int, int]]) -> None:
     box = Box(0.0, 0.0, 100.0, 100.0)
@@ -336,245 +322,6 @@ def test_chords_that_may_show_are_kept_in_order(points: list[tuple[int, int]]) -
     kept = [tuple(map(tuple, chord)) for run in near_runs(line, box) for chord in pairwise(run)]
     near = [c for c in pairwise(line) if (np.maximum(*c) >= 0).all() and (np.minimum(*c) <= 100).all()]
     assert kept == [(tuple(first), tuple(last)) for first, last in near]
-
-
-def test_steps_are_gone_through_one_by_one_and_back(course: Course) -> None:
-    play = Playback(course, 1.0)
-    there = []
-    for _ in range(400):
-        play.by_step(forward=True)
-        there.append(tuple(course.at(play.t_s).commanded_um))
-    steps = course.steps
-    assert there == list(zip(steps.x_um[:400].tolist(), steps.y_um[:400].tolist(), strict=True))
-    assert not play.playing
-    for place in reversed(there[:-1]):
-        play.by_step(forward=False)
-        assert tuple(course.at(play.t_s).commanded_um) == place
-    play.by_step(forward=False)
-    assert play.t_s == 0.0
-
-
-def test_blocks_are_gone_through_to_both_ends(course: Course) -> None:
-    play, begins = Playback(course, 1.0), [*course.border_s[:-1].tolist(), course.duration_s]
-    for t_s in [*begins[1:], course.duration_s]:
-        play.by_block(forward=True)
-        assert play.t_s == t_s
-    for t_s in [*reversed(begins[:-1]), 0.0]:
-        play.by_block(forward=False)
-        assert play.t_s == t_s
-
-
-def test_speed_goes_by_1_2_5_between_its_bounds(course: Course) -> None:
-    play = Playback(course, 37.0)
-    speeds = []
-    for _ in range(9):
-        play.change_speed(faster=True)
-        speeds.append(play.speed)
-    assert speeds == [50, 100, 200, 500, 1000, 2000, 5000, 10_000, 10_000]
-    for _ in range(30):
-        play.change_speed(faster=False)
-    assert play.speed == pytest.approx(SPEEDS[0])
-
-
-def test_time_passes_while_it_plays_and_stops_at_the_end(course: Course) -> None:
-    play = Playback(course, 10.0)
-    play.pass_time(0.5)
-    assert play.t_s == 5.0
-    play.toggle()
-    play.pass_time(0.5)
-    assert play.t_s == 5.0
-    play.toggle()
-    play.pass_time(1e6)
-    assert not play.playing
-    play.toggle()
-    assert (play.playing, play.t_s) == (True, 0.0)
-
-
-@pytest.fixture
-def window(course: Course, monkeypatch: pytest.MonkeyPatch) -> Iterator[Window]:
-    monkeypatch.setitem(os.environ, "SDL_VIDEODRIVER", "dummy")
-    open_display()
-    yield Window(course, LOOK, SPEED)
-    pygame.display.quit()
-
-
-def press(controls: Controls, key: int, unicode: str = "") -> None:
-    controls.handle(pygame.event.Event(pygame.KEYDOWN, key=key, mod=0, unicode=unicode))
-
-
-def type_in(controls: Controls, sign: str) -> None:
-    """A key by what stands on it, wherever the keyboard's layout has it."""
-    press(controls, pygame.K_UNKNOWN, sign)
-
-
-def pointed(kind: int, at: tuple[float, float], **more: object) -> pygame.event.Event:
-    return pygame.event.Event(kind, pos=(round(at[0]), round(at[1])), button=1, **more)
-
-
-def test_keys_do_what_they_are_to(window: Window, course: Course) -> None:
-    controls, play = window.controls, window.controls.playback
-    press(controls, pygame.K_SPACE, " ")
-    assert not play.playing
-    press(controls, pygame.K_DOWN)
-    assert play.t_s == course.border_s[1]
-    press(controls, pygame.K_RIGHT)
-    assert course.steps_by(play.t_s) == 301
-    press(controls, pygame.K_PAGEDOWN)
-    assert course.steps_by(play.t_s) == 401
-    press(controls, pygame.K_PAGEUP)
-    press(controls, pygame.K_LEFT)
-    assert course.steps_by(play.t_s) == 300
-    press(controls, pygame.K_UP)
-    press(controls, pygame.K_UP)
-    assert play.t_s == 0.0
-    press(controls, pygame.K_END)
-    assert play.t_s == course.duration_s
-    type_in(controls, "]")
-    assert play.speed == 50.0
-    type_in(controls, "[")
-    assert play.speed == 20.0
-    whole = controls.view
-    type_in(controls, "+")
-    assert controls.view.px_per_um == pytest.approx(whole.px_per_um * ZOOM)
-    type_in(controls, "-")
-    assert controls.view.px_per_um == pytest.approx(whole.px_per_um)
-    type_in(controls, "?")
-    assert controls.helps
-    type_in(controls, "F")
-    assert controls.follows
-    type_in(controls, "0")
-    assert not controls.follows
-    press(controls, pygame.K_F5)
-    press(controls, pygame.K_ESCAPE)
-    assert controls.quits
-
-
-def test_the_mouse_scrubs_drags_and_zooms(window: Window, course: Course) -> None:
-    controls, layout = window.controls, layout_for(*LOOK[:2])
-    middle = ((layout.strip.left + layout.strip.right) / 2, layout.strip.top + 20)
-    controls.handle(pointed(pygame.MOUSEBUTTONDOWN, middle))
-    assert controls.playback.t_s == pytest.approx(course.duration_s / 2, rel=0.01)
-    controls.handle(pointed(pygame.MOUSEMOTION, (layout.strip.right + 50, 0), rel=(1, 1)))
-    assert controls.playback.t_s == course.duration_s
-    controls.handle(pointed(pygame.MOUSEBUTTONUP, middle))
-    whole = controls.view
-    controls.handle(pointed(pygame.MOUSEMOTION, (100, 100), rel=(9, 9)))
-    assert controls.view == whole
-    controls.handle(pointed(pygame.MOUSEBUTTONDOWN, (layout.plot.left + 50, layout.plot.top + 50)))
-    controls.handle(pointed(pygame.MOUSEMOTION, (100, 100), rel=(12, -7)))
-    assert controls.view == whole._replace(x_px=whole.x_px + 12, y_px=whole.y_px - 7)
-    controls.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=2, x=0))
-    assert controls.view.px_per_um == pytest.approx(whole.px_per_um * 1.25**2)
-    type_in(controls, "0")
-    assert controls.view == whole
-
-
-def test_window_and_page_have_the_same_keys_for_the_same() -> None:
-    window, page = actions_of(OF_WINDOW), actions_of(OF_PAGE)
-    both = set(window) & set(page)
-    assert both >= set(actions_of(OF_BOTH))
-    assert {key: window[key] for key in both} == {key: page[key] for key in both}
-    for keys in (OF_WINDOW, OF_PAGE):
-        pressed = [name for key in keys for names in key.actions.values() for name in names]
-        assert len(pressed) == len(set(pressed))
-    assert {key.does for key in (*OF_WINDOW, *OF_PAGE)} == {
-        name.removeprefix("does_") for name in texts("keys") if name.startswith("does_")
-    }
-
-
-def test_every_action_of_a_key_of_the_window_is_one_that_it_has(window: Window) -> None:
-    assert set(actions_of(OF_WINDOW).values()) == set(window.controls._actions)
-
-
-def on_screen() -> np.ndarray:
-    return pygame.surfarray.array3d(pygame.display.get_surface()).transpose(1, 0, 2)
-
-
-def test_the_window_shows_the_frame_of_its_moment(window: Window, course: Course) -> None:
-    window.controls.playback.seek(0.4 * course.duration_s)
-    window.show(1.0)
-    assert (on_screen() == Screen(course, LOOK).frame(0.4 * course.duration_s, window.controls.view, SPEED)).all()
-
-
-def test_a_moving_view_is_drawn_anew_once_it_rests(window: Window, course: Course) -> None:
-    window.show(1.0)
-    window.controls.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=3, x=0))
-    window.show(1.01)
-    moving = on_screen()
-    window.show(1.5)
-    rested = on_screen()
-    expected = Screen(course, LOOK).frame(0.0, window.controls.view, SPEED)
-    assert (rested == expected).all()
-    assert (moving != expected).any()
-    assert np.abs(moving.astype(int) - expected).mean() < 6.0  # grey levels: the same plot, blurred, with old axes
-
-
-def test_a_wire_that_is_followed_stays_near_the_middle(window: Window, course: Course) -> None:
-    controls, plot = window.controls, layout_for(*LOOK[:2]).plot
-    for _ in range(12):
-        controls.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=1, x=0))
-    type_in(controls, "f")
-    for share in (0.1, 0.3, 0.6, 0.9):
-        wire = course.at(share * course.duration_s).wire_um
-        controls.follow(wire)
-        x, y = controls.view.to_px(wire)
-        assert plot.left + 0.2 * (plot.right - plot.left) < x < plot.right - 0.2 * (plot.right - plot.left)
-        assert plot.top + 0.2 * (plot.bottom - plot.top) < y < plot.bottom - 0.2 * (plot.bottom - plot.top)
-
-
-def test_another_size_of_the_window_lays_the_frame_out_anew(window: Window) -> None:
-    pygame.display.set_mode((900, 700), pygame.RESIZABLE)
-    window._surface = pygame.display.get_surface()
-    window._fit_window()
-    window.show(1.0)
-    assert window._screen.layout.width_px == 900
-    window._surface = pygame.display.set_mode((100, 100), pygame.RESIZABLE)
-    window._fit_window()
-    window.show(2.0)
-    assert window._screen.layout[:2] == LEAST_PX
-
-
-def test_the_keys_are_shown_over_the_frame_in_both_languages(course: Course, window: Window) -> None:
-    window.controls.playback.playing = False
-    window.show(1.0)
-    plain = on_screen()
-    type_in(window.controls, "?")
-    window.show(1.0)
-    changed = np.argwhere((on_screen() != plain).any(axis=2))
-    assert len(changed) > 5000
-    assert changed.min() > 0
-    assert changed.max(axis=0)[0] < LOOK.height_px
-
-
-def test_playing_ends_when_the_window_is_closed(window: Window, monkeypatch: pytest.MonkeyPatch) -> None:
-    events = iter([[], [], [pygame.event.Event(pygame.QUIT)]])
-    monkeypatch.setattr(pygame.event, "get", lambda: next(events))
-    window.play()
-    assert next(events, None) is None
-    assert window.controls.playback.t_s > 0.0
-
-
-def test_without_a_display_there_is_no_window(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
-        monkeypatch.delenv(name, raising=False)
-    monkeypatch.setattr("sys.platform", "linux")
-    with pytest.raises(SettingsError, match="no display: write a film"):
-        open_display()
-    monkeypatch.setenv("SDL_VIDEODRIVER", "none such")
-    with pytest.raises(SettingsError) as told_so:
-        open_display()
-    assert str(told_so.value) == NO_DISPLAY
-
-
-def test_a_display_that_does_not_answer_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
-    pygame.display.quit()
-    for name in ("WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
-        monkeypatch.delenv(name, raising=False)
-    monkeypatch.setenv("DISPLAY", ":4711")
-    monkeypatch.setattr(pygame.display, "get_driver", lambda: "offscreen")  # what SDL takes then
-    with pytest.raises(SettingsError, match="no display: write a film"):
-        open_display()
-    assert not pygame.display.get_init()
 
 
 def test_pieces_are_drawn_up_into_their_kerf_and_no_further() -> None:
@@ -591,3 +338,11 @@ def test_the_line_that_is_followed_has_the_name_that_it_has_in_the_replay(langua
     """It is the path that runs: beside a contour none that is programmed."""
     say = Words(language)
     assert say("film.ideal") == say("replay.ideal_path")
+
+
+def test_each_key_does_one_thing_and_has_its_text() -> None:
+    pressed = [name for key in OF_PAGE for names in key.actions.values() for name in names]
+    assert len(pressed) == len(set(pressed))
+    assert {key.does for key in OF_PAGE} == {
+        name.removeprefix("does_") for name in texts("keys") if name.startswith("does_")
+    }
