@@ -46,7 +46,6 @@ def room_for(most: int) -> Iterator[None]:
 def test_a_full_disk_changes_no_output(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: tuple[str, ...], most: int
 ) -> None:
-    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     (tmp_path / "part.3b").write_text(PART)
     (tmp_path / "out").mkdir()
     for name in ("report.json", "cut.png", "part.log", "cut.svg", "ballbar.png", "film.gif"):
