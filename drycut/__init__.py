@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from sim.check.settings import CheckSettings
     from sim.jobs.run_into import run_into
     from sim.jobs.trace_file import StoredTrace, read_trace
-    from sim.make.cam.maker import Made, NotMade
-    from sim.make.cam.maker import made as make_program
+    from sim.make.cam.maker import MadeProgram, NotMade
+    from sim.make.cam.maker import made_program as make_program
     from sim.make.convert.convert import Converted, Refused
     from sim.make.convert.convert import converted as convert_program
     from sim.make.convert.wanted import Wanted
@@ -53,7 +53,7 @@ __all__ = [
     "DryRun",
     "DrycutError",
     "Finding",
-    "Made",
+    "MadeProgram",
     "Making",
     "NotMade",
     "Offset",
@@ -96,7 +96,7 @@ _HOMES = {
     "DryRun": "sim.run.dryrun",
     "DrycutError": "parser.findings.errors",
     "Finding": "parser.findings.findings",
-    "Made": "sim.make.cam.maker",
+    "MadeProgram": "sim.make.cam.maker",
     "Making": "sim.setup.making",
     "NotMade": "sim.make.cam.maker",
     "Offset": "sim.setup.part",
@@ -117,7 +117,7 @@ _HOMES = {
     "iso_choices": "parser.write.iso_choices",
     "load_machine": "sim.setup.machine.machine",
     "load_scenario": "sim.setup.scenario",
-    "make_program": "sim.make.cam.maker:made",
+    "make_program": "sim.make.cam.maker:made_program",
     "parse_program": "parser.program",
     "read_drawing": "parser.drawing.read",
     "read_program": "parser.program",

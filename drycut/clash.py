@@ -46,7 +46,7 @@ def _found(name: str) -> Path | None:
 
 
 def _why(name: str, found: Path | None) -> str:
-    own, there = _shown(_OWN / name), _shown(found)
+    own, there = _printable_path(_OWN / name), _printable_path(found)
     if found is None:
         return f"its package {name} is missing; expected {own}: install drycut again"
     whose = _distribution(name)
@@ -55,7 +55,7 @@ def _why(name: str, found: Path | None) -> str:
     return f"{there} stands in place of drycut's package {name}; expected {own}: rename it, or run from elsewhere"
 
 
-def _shown(path: Path | None) -> str:
+def _printable_path(path: Path | None) -> str:
     """A path without what a terminal would obey."""
     return "".join(sign if sign.isprintable() else "?" for sign in str(path))
 

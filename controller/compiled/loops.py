@@ -26,9 +26,16 @@ from controller.compiled.telling import compiling
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
+
 _COMPILING: Final = "numba:compile"  # an event of numba, where no code on disk fits
+
+
 _OPTIONS: Final = {"nogil": True, "error_model": "numpy"}
+
+
 _OF_TUPLES: Final = {"forceinline": True, "_nrt": False}
+
+
 _TYPES: Final[dict[Any, types.Type]] = {
     float: types.float64,
     int: types.int64,
@@ -36,6 +43,8 @@ _TYPES: Final[dict[Any, types.Type]] = {
     NDArray[np.float64]: types.float64[::1],
     NDArray[np.int64]: types.int64[::1],
 }
+
+
 _made_of: Final[dict[Callable[..., Any], str]] = {}  # loops, with the digest of all sources that went into them
 
 
@@ -51,7 +60,7 @@ def compiled(signature: str, *tuples: type) -> Callable[[Function], Function]:
     be written, it is compiled again in each process. Division by zero gives infinities and NaN, as in numpy.
     """
 
-    def made(function: Function) -> Function:
+    def compiled_loop(function: Function) -> Function:
         digest, typed = _digest(function), _signature(signature, tuples)
         options = _OPTIONS | _OF_TUPLES if tuples else _OPTIONS
         with _keeping(digest):
@@ -62,20 +71,20 @@ def compiled(signature: str, *tuples: type) -> Callable[[Function], Function]:
         _made_of[loop] = digest
         return loop
 
-    return made
+    return compiled_loop
 
 
 def _signature(text: str, tuples: tuple[type, ...]) -> Any:
     """A signature as numba has it; numba itself reads a text so, but knows no tuples of others."""
-    return eval(text, {}, vars(types) | {one.__name__: _tuple_type(one) for one in tuples})  # noqa: S307
+    return eval(text, {}, vars(types) | {tuple_.__name__: _tuple_type(tuple_) for tuple_ in tuples})  # noqa: S307
 
 
-def _tuple_type(one: type) -> types.Type:
+def _tuple_type(each: type) -> types.Type:
     """Type of a NamedTuple; numba has one of its own for those with fields that are all alike."""
-    fields = tuple(_TYPES[of] if of in _TYPES else _tuple_type(of) for of in get_type_hints(one).values())
+    fields = tuple(_TYPES[of] if of in _TYPES else _tuple_type(of) for of in get_type_hints(each).values())
     if len(set(fields)) == 1:
-        return types.NamedUniTuple(fields[0], len(fields), one)
-    return types.NamedTuple(fields, one)
+        return types.NamedUniTuple(fields[0], len(fields), each)
+    return types.NamedTuple(fields, each)
 
 
 class _Started(event.Listener):  # type: ignore[misc]  # numba has no types

@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.offset.block_ends import AsideEnds, JointKind, aside_ends, joint_kinds
-from controller.offset.path import Made
 from controller.offset.programmed import compensated
+from controller.offset.rows import RowOrigin
 from parser.dialect.decoding import DecodedBlock
 from parser.geometry.curves import CurveKind, Floats
 from parser.program import Program
@@ -116,7 +116,7 @@ def _way(toolpath: Toolpath, row: int, runs: int, stage: _Stage | None) -> Way:
 def _center_ends(toolpath: Toolpath) -> Floats:
     """Ends (n, 2) of blocks on the path of the wire's centre; NaN of those without offset or place."""
     path = compensated(toolpath).path
-    own = np.flatnonzero((path.made == Made.SHIFTED) | (path.made == Made.LEAD))
+    own = np.flatnonzero((path.made == RowOrigin.SHIFTED) | (path.made == RowOrigin.LEAD))
     ends = np.full((len(toolpath), 2), np.nan)
     ends[path.source_row[own]] = path.curves.end_um[own]
     return ends

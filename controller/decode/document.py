@@ -26,8 +26,8 @@ def document(program: Program, blocks: Sequence[Decoded], language: Language) ->
         "drycut": __version__,
         "file": program.name,
         "dialect": program.reading.dialect,
-        "assumptions": [one.entry(language) for one in program.reading.assumptions],
-        "blocks": [block_entry(one) for one in blocks],
+        "assumptions": [assumption.entry(language) for assumption in program.reading.assumptions],
+        "blocks": [block_entry(decoded) for decoded in blocks],
     }
 
 
@@ -36,9 +36,9 @@ def document_text(program: Program, blocks: Sequence[Decoded], language: Languag
     return json.dumps(document(program, blocks, language), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
 
 
-def block_entry(one: Decoded) -> dict[str, Any]:
+def block_entry(decoded: Decoded) -> dict[str, Any]:
     """A block: the buffer that it fills, the steps in which it does so, what is in force, and its way."""
-    block = one.block
+    block = decoded.block
     return {
         "line": block.line,
         "buf_state": 1,
@@ -49,7 +49,7 @@ def block_entry(one: Decoded) -> dict[str, Any]:
         "others": {letter: plain(value) for letter, value in block.others.items()},
         "steps": [{**step._asdict(), "value": plain(step.value)} for step in block.steps],
         "in_force": None if block.in_force is None else _in_force(block.in_force),
-        "way": None if one.way is None else _way(one.way),
+        "way": None if decoded.way is None else _way(decoded.way),
     }
 
 

@@ -72,18 +72,18 @@ def entries_of(drive: Drive, words: StepWords | None = None) -> Entries:
     """Entries of a whole toolpath, which the card steps by its `words`, one for each row, where they are given."""
     toolpath, limits = drive.toolpath, drive.limits
     moves = limits.length_um > 0.0
-    kept = np.flatnonzero(moves if words is None else moves & (words.count_um > 0))
-    if not len(kept):
+    kept_rows = np.flatnonzero(moves if words is None else moves & (words.count_um > 0))
+    if not len(kept_rows):
         empty, pairs = np.zeros(0), np.zeros((0, 2))
-        return Entries(kept, pairs, pairs, empty, empty, empty, empty, kept)
+        return Entries(kept_rows, pairs, pairs, empty, empty, empty, empty, kept_rows)
     # The borders from each kept row's end to the start of the next kept one are one place.
-    ends_at = np.minimum.reduceat(limits.border_um_s, kept + 1)
-    waits = np.add.reduceat(limits.wait_s, kept + 1)
-    ahead = np.append(limits.speed_um_s[kept[1:]], np.inf)
-    told = ends_at < np.minimum(limits.speed_um_s[kept], ahead)
+    ends_at = np.minimum.reduceat(limits.border_um_s, kept_rows + 1)
+    waits = np.add.reduceat(limits.wait_s, kept_rows + 1)
+    ahead = np.append(limits.speed_um_s[kept_rows[1:]], np.inf)
+    told = ends_at < np.minimum(limits.speed_um_s[kept_rows], ahead)
     told[-1] = False  # the list ends at the start speed by itself
-    turns = _turns(toolpath.sweep_rad[kept], drive.interpolation)
-    row = np.repeat(kept, turns)
+    turns = _turns(toolpath.sweep_rad[kept_rows], drive.interpolation)
+    row = np.repeat(kept_rows, turns)
     last = np.cumsum(turns) - 1
     end, wait = np.full(len(row), np.nan), np.zeros(len(row), dtype=np.int64)
     end[last] = np.where(told, np.where(ends_at < STANDING_UM_S, 0.0, ends_at), np.nan) / UM_S_PER_PULSE_MS

@@ -177,5 +177,7 @@ class Host:
 
 
 def _refused(call: Any, arguments: tuple[float, ...], code: int) -> ControllerError:
-    asked = ", ".join(map(str, arguments))
-    return ControllerError("card-refused", call=call.__name__, arguments=asked, code=code, name=Code(code).name.lower())
+    asked_text = ", ".join(map(str, arguments))
+    return ControllerError(
+        "card-refused", call=call.__name__, arguments=asked_text, code=code, name=Code(code).name.lower()
+    )

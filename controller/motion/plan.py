@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.motion.phases import Phases, times_of_lengths
+from controller.motion.s_curve import Phases, times_of_lengths
 from parser.geometry.curves import Floats, Ints, total_before
 
 

@@ -41,37 +41,37 @@ class Alarm(NamedTuple):
     stops: bool
 
 
-def alarms_of(toolpath: Toolpath, told: Compensation, runs: Runs, row: Ints, gone: Ints) -> tuple[Alarm, ...]:
+def alarms_of(toolpath: Toolpath, compensation: Compensation, runs: Runs, row: Ints, gone: Ints) -> tuple[Alarm, ...]:
     """All of a toolpath, by row.
 
     `row` has the row of each block of the runs; `gone` (v,) are the rows with length that have vanished.
     """
     found = [
-        *_unknown(told),
-        *_setups(toolpath, told, row[runs.first[runs.is_setup]]),
-        *_changes(runs, row, told.rules),
+        *_unknown(compensation),
+        *_setups(toolpath, compensation, row[runs.first[runs.is_setup]]),
+        *_changes(runs, row, compensation.rules),
         *_ends(toolpath, runs, row),
-        *_vanished(toolpath, told, gone),
+        *_vanished(toolpath, compensation, gone),
     ]
     return tuple(sorted(found, key=lambda alarm: alarm.row))
 
 
-def _unknown(told: Compensation) -> list[Alarm]:
+def _unknown(compensation: Compensation) -> list[Alarm]:
     """At the first row of each that has a register without a value behind one with another register, or none."""
-    is_open = (told.side != 0) & np.isnan(told.by_um)
+    is_open = (compensation.side != 0) & np.isnan(compensation.by_um)
     if not is_open.any():
         return []
-    register = np.array(told.register, dtype=object)
+    register = np.array(compensation.register, dtype=object)
     goes_on = is_open[1:] & is_open[:-1] & (register[1:] == register[:-1])
     first = np.flatnonzero(is_open & ~np.append(False, goes_on))
-    return _told(AlarmKind.UNKNOWN, first, stops=False)
+    return _alarms_of(AlarmKind.UNKNOWN, first, stops=False)
 
 
-def _setups(toolpath: Toolpath, told: Compensation, setup: Ints) -> list[Alarm]:
-    is_short = toolpath.length_um[setup] <= np.abs(told.by_um[setup]) + NOTHING_UM
+def _setups(toolpath: Toolpath, compensation: Compensation, setup: Ints) -> list[Alarm]:
+    is_short = toolpath.length_um[setup] <= np.abs(compensation.by_um[setup]) + NOTHING_UM
     return [
-        *_told(AlarmKind.SETUP_ARC, setup[toolpath.is_arc[setup]], stops=True),
-        *_told(AlarmKind.SETUP_SHORT, setup[is_short], stops=told.rules.startup == "own-normal"),
+        *_alarms_of(AlarmKind.SETUP_ARC, setup[toolpath.is_arc[setup]], stops=True),
+        *_alarms_of(AlarmKind.SETUP_SHORT, setup[is_short], stops=compensation.rules.startup == "own-normal"),
     ]
 
 
@@ -80,8 +80,8 @@ def _changes(runs: Runs, row: Ints, rules: CompensationRules) -> list[Alarm]:
     before, behind = runs.left_um[at - 1], runs.left_um[at]
     stops, first = rules.change_on == "alarm", row[runs.first[at]]
     return [
-        *_told(AlarmKind.SIDE_CHANGED, first[before * behind < 0.0], stops=stops),
-        *_told(AlarmKind.OFFSET_CHANGED, first[np.abs(before) != np.abs(behind)], stops=stops),
+        *_alarms_of(AlarmKind.SIDE_CHANGED, first[before * behind < 0.0], stops=stops),
+        *_alarms_of(AlarmKind.OFFSET_CHANGED, first[np.abs(before) != np.abs(behind)], stops=stops),
     ]
 
 
@@ -89,20 +89,20 @@ def _ends(toolpath: Toolpath, runs: Runs, row: Ints) -> list[Alarm]:
     cancel = row[runs.cancel[runs.cancel >= 0]]
     open_end = row[runs.past[-1:] - 1] if runs.is_open else row[:0]
     return [
-        *_told(AlarmKind.CANCEL_ARC, cancel[toolpath.is_arc[cancel]], stops=True),
-        *_told(AlarmKind.NO_CANCEL, open_end, stops=False),
+        *_alarms_of(AlarmKind.CANCEL_ARC, cancel[toolpath.is_arc[cancel]], stops=True),
+        *_alarms_of(AlarmKind.NO_CANCEL, open_end, stops=False),
     ]
 
 
-def _vanished(toolpath: Toolpath, told: Compensation, gone: Ints) -> list[Alarm]:
-    stops = told.rules.too_small == "alarm"
-    is_inner = toolpath.sweep_rad[gone] * told.left_um[gone] > 0.0
-    is_small: Bools = is_inner & (toolpath.radius_um[gone] <= np.abs(told.by_um[gone]) + NOTHING_UM)
+def _vanished(toolpath: Toolpath, compensation: Compensation, gone: Ints) -> list[Alarm]:
+    stops = compensation.rules.too_small == "alarm"
+    is_inner = toolpath.sweep_rad[gone] * compensation.left_um[gone] > 0.0
+    is_small: Bools = is_inner & (toolpath.radius_um[gone] <= np.abs(compensation.by_um[gone]) + NOTHING_UM)
     return [
-        *_told(AlarmKind.TOO_SMALL, gone[is_small], stops=stops),
-        *_told(AlarmKind.VANISHED, gone[~is_small], stops=stops),
+        *_alarms_of(AlarmKind.TOO_SMALL, gone[is_small], stops=stops),
+        *_alarms_of(AlarmKind.VANISHED, gone[~is_small], stops=stops),
     ]
 
 
-def _told(kind: AlarmKind, rows: Ints, *, stops: bool) -> list[Alarm]:
+def _alarms_of(kind: AlarmKind, rows: Ints, *, stops: bool) -> list[Alarm]:
     return [Alarm(kind, row, stops) for row in rows.tolist()]

@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from controller.offset.chain import Chain, joined_blocks
 from controller.offset.joints import Joining
-from controller.offset.path import Made, OffsetPath
-from controller.offset.rows import Order, Rows, bridge_rows, in_order, lines_between, moved_rows
+from controller.offset.rows import OffsetPath, Order, RowOrigin, Rows, bridge_rows, in_order, lines_between, moved_rows
 from controller.offset.sections import OffsetSection, Side
 from controller.offset.shifted import Blocks, shifted_blocks
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints
@@ -49,7 +48,7 @@ def compensate(
     """
     n = len(toolpath)
     if not sections:
-        return OffsetPath(toolpath.picked(slice(None)), np.arange(n), np.full(n, Made.AS_IT_IS), np.arange(0))
+        return OffsetPath(toolpath.picked(slice(None)), np.arange(n), np.full(n, RowOrigin.AS_IT_IS), np.arange(0))
     left_um = np.broadcast_to(np.asarray(offset_um * side, dtype=np.float64), len(sections))
     blocks = shifted_blocks(toolpath, sections, left_um)
     chain = joined_blocks(blocks, sections, "lengthen")
@@ -100,8 +99,8 @@ def _others(toolpath: Curves, inside: Ints, edges: _Edges) -> list[Rows]:
     rest[leads] = rest[inside] = False
     as_it_is = np.flatnonzero(rest)
     return [
-        Rows(lines_between(start[leads], end[leads]), leads, Made.LEAD, Order.ITSELF),
-        Rows(toolpath.picked(as_it_is), as_it_is, Made.AS_IT_IS, Order.ITSELF),
+        Rows(lines_between(start[leads], end[leads]), leads, RowOrigin.LEAD, Order.ITSELF),
+        Rows(toolpath.picked(as_it_is), as_it_is, RowOrigin.AS_IT_IS, Order.ITSELF),
     ]
 
 
@@ -116,6 +115,6 @@ def _leads(toolpath: Curves, edges: _Edges) -> list[Rows]:
     lead_in = lines_between(toolpath.start_um[first[into]], edges.start_um[into])
     lead_out = lines_between(edges.end_um[out], toolpath.end_um[last[out]])
     return [
-        Rows(lead_in, first[into], Made.LEAD, Order.LEAD_IN),
-        Rows(lead_out, last[out], Made.LEAD, Order.LEAD_OUT),
+        Rows(lead_in, first[into], RowOrigin.LEAD, Order.LEAD_IN),
+        Rows(lead_out, last[out], RowOrigin.LEAD, Order.LEAD_OUT),
     ]

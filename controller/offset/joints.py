@@ -206,10 +206,10 @@ def _too_small(blocks: Blocks, early: Ints, late: Ints, misses: Bools) -> tuple[
     R ≥ 2 f is not too small: its corner is sharp, or what lay between the two blocks has vanished.
     """
     smaller = (blocks.drawn.sweep_rad * blocks.left_um > 0.0) & (blocks.drawn.radius_um < 2.0 * np.abs(blocks.left_um))
-    one, other = misses & smaller[early], misses & smaller[late]
+    this, other = misses & smaller[early], misses & smaller[late]
     length = blocks.shifted.radius_um * np.abs(blocks.shifted.sweep_rad)
-    longer = one & other & ~np.isclose(length[early], length[late], rtol=1e-6, atol=0.0)
-    return one & ~(longer & (length[early] > length[late])), other & ~(longer & (length[late] > length[early]))
+    longer = this & other & ~np.isclose(length[early], length[late], rtol=1e-6, atol=0.0)
+    return this & ~(longer & (length[early] > length[late])), other & ~(longer & (length[late] > length[early]))
 
 
 def _length(way: Floats) -> Floats:

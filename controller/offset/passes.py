@@ -53,7 +53,7 @@ class PassedPath:
     @property
     def sections(self) -> tuple[OffsetSection, ...]:
         """Blocks that are offset, of each round."""
-        return tuple(one.round.section for one in self.rounds)
+        return tuple(round_.round.section for round_ in self.rounds)
 
 
 class NoWayBack(NamedTuple):
@@ -84,14 +84,14 @@ def in_passes(toolpath: Toolpath, rounds: Sequence[Round], back: Sequence[bool])
     stretches: list[_Stretch] = []
     passed: list[PassedRound] = []
     at = before = 0
-    for one in rounds:
-        stretches.append(_Stretch(at, one.begin))
-        before += one.begin - at
+    for round_ in rounds:
+        stretches.append(_Stretch(at, round_.begin))
+        before += round_.begin - at
         for number, is_back in enumerate(back):
-            stretches.append(_Stretch(one.begin, one.past, number, is_back))
-            passed.append(PassedRound(_moved(one, before, is_back), number))
-            before += one.past - one.begin
-        at = one.past
+            stretches.append(_Stretch(round_.begin, round_.past, number, is_back))
+            passed.append(PassedRound(_moved(round_, before, is_back), number))
+            before += round_.past - round_.begin
+        at = round_.past
     stretches.append(_Stretch(at, len(toolpath)))
     row = np.concatenate([stretch.row for stretch in stretches])
     length = [stretch.past - stretch.begin for stretch in stretches]
@@ -103,21 +103,21 @@ def in_passes(toolpath: Toolpath, rounds: Sequence[Round], back: Sequence[bool])
 
 def first_without_way_back(toolpath: Toolpath, rounds: Sequence[Round], back: Sequence[bool]) -> NoWayBack | None:
     """The first pass that does not begin where the one before it ended; None where all do."""
-    for one in rounds:
-        ends = toolpath.start_um[one.begin], toolpath.end_um[one.past - 1]
+    for round_ in rounds:
+        ends = toolpath.start_um[round_.begin], toolpath.end_um[round_.past - 1]
         gap_um = float(np.hypot(*(ends[1] - ends[0])))
         for number in range(1, len(back)):
             if back[number] == back[number - 1] and gap_um > CLOSED_WITHIN_UM:
-                return NoWayBack(one, number, gap_um)
+                return NoWayBack(round_, number, gap_um)
     return None
 
 
-def _moved(one: Round, to: int, is_back: bool) -> Round:
+def _moved(round_: Round, to: int, is_back: bool) -> Round:
     """The round with its first row at `to`, run through backwards where it is."""
-    first, last, closed = one.section
-    lead = one.past - 1 - last if is_back else first - one.begin
+    first, last, closed = round_.section
+    lead = round_.past - 1 - last if is_back else first - round_.begin
     section = OffsetSection(to + lead, to + lead + last - first, closed)
-    return Round(to, to + one.past - one.begin, section)
+    return Round(to, to + round_.past - round_.begin, section)
 
 
 def _turned(curves: Curves, is_back: Bools) -> Curves:
@@ -144,7 +144,7 @@ def _wrapped(angle_rad: Floats, where: Bools) -> Floats:
 
 def _stops(toolpath: Toolpath, rounds: Sequence[Round], back: Sequence[bool]) -> tuple[Stop, ...]:
     """The stops of a toolpath where they fall among the rows of its passes."""
-    begin, past = np.array([(one.begin, one.past) for one in rounds], dtype=np.int64).reshape(-1, 2).T
+    begin, past = np.array([(round_.begin, round_.past) for round_ in rounds], dtype=np.int64).reshape(-1, 2).T
     found: list[Stop] = []
     for stop in toolpath.stops:
         added = (len(back) - 1) * int((past - begin)[past <= stop.after].sum())

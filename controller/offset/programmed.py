@@ -7,8 +7,7 @@ import numpy as np
 
 from controller.offset.alarms import Alarm, alarms_of
 from controller.offset.chain import Chain, joined_blocks
-from controller.offset.path import Made, OffsetPath
-from controller.offset.rows import Order, Rows, bridge_rows, in_order, lines_between, moved_rows
+from controller.offset.rows import OffsetPath, Order, RowOrigin, Rows, bridge_rows, in_order, lines_between, moved_rows
 from controller.offset.shifted import NOTHING_UM, Blocks, shifted_blocks
 from controller.offset.stretches import Runs, Stretch, idle_rows, known_sides, runs_of, stretches_of
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
@@ -73,7 +72,7 @@ def _parts(blocks: Curves, side: Ints, runs: Runs, rules: CompensationRules) -> 
     alone = side == 0
     alone[runs.cancel[runs.cancel >= 0]] = False
     free = np.flatnonzero(alone)
-    parts = [Rows(blocks.picked(free), free, Made.AS_IT_IS, Order.ITSELF)]
+    parts = [Rows(blocks.picked(free), free, RowOrigin.AS_IT_IS, Order.ITSELF)]
     if not len(runs.first):
         return parts, free[:0]
     sections = runs.sections
@@ -126,8 +125,8 @@ def _leads(blocks: Curves, runs: Runs, ends: _Ends) -> list[Rows]:
     into, out = np.flatnonzero(runs.is_setup), np.flatnonzero(runs.cancel >= 0)
     setup, cancel = runs.first[into], runs.cancel[out]
     return [
-        Rows(_line(blocks, setup, blocks.start_um[setup], ends.start_um[into]), setup, Made.LEAD, Order.ITSELF),
-        Rows(_line(blocks, cancel, ends.end_um[out], blocks.end_um[cancel]), cancel, Made.LEAD, Order.ITSELF),
+        Rows(_line(blocks, setup, blocks.start_um[setup], ends.start_um[into]), setup, RowOrigin.LEAD, Order.ITSELF),
+        Rows(_line(blocks, cancel, ends.end_um[out], blocks.end_um[cancel]), cancel, RowOrigin.LEAD, Order.ITSELF),
     ]
 
 
@@ -141,8 +140,8 @@ def _changes(blocks: Curves, runs: Runs, ends: _Ends) -> list[Rows]:
     row, before = runs.first[wedge], runs.first[step] - 1
     across = lines_between(ends.end_um[step - 1], ends.start_um[step])
     return [
-        Rows(_line(blocks, row, ends.end_um[wedge - 1], ends.start_um[wedge]), row, Made.SHIFTED, Order.ITSELF),
-        Rows(across, before, Made.BRIDGE, Order.LEAD_OUT),
+        Rows(_line(blocks, row, ends.end_um[wedge - 1], ends.start_um[wedge]), row, RowOrigin.SHIFTED, Order.ITSELF),
+        Rows(across, before, RowOrigin.BRIDGE, Order.LEAD_OUT),
     ]
 
 

@@ -1,7 +1,10 @@
-"""Rows of an offset path: made of joined blocks, and put in their order."""
+"""Rows of an offset path: made of joined blocks, and put in their order.
+
+The offset path, block by block, each with the block that it comes from, and the toolpath that it makes.
+"""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, fields, replace
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -9,9 +12,66 @@ import numpy as np
 
 from controller.offset.chain import Chain, turned_ends
 from controller.offset.joints import Joining
-from controller.offset.path import Made, OffsetPath
+from controller.offset.passes import PassedPath
 from controller.offset.shifted import NOTHING_UM, Blocks
+from controller.stepping.words import stepped_words
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
+from parser.toolpath import Toolpath
+
+
+class RowOrigin(IntEnum):
+    """How a row of the offset path came about.
+
+    AS_IT_IS: a block without offset, such as a jump. LEAD: a lead-in or lead-out, between a place without offset and
+    the offset path. SHIFTED: a block moved aside, shortened or lengthened at its ends. BRIDGE: an arc or a chamfer
+    round an outer corner, or a line between ends that do not meet.
+    """
+
+    AS_IT_IS = 0
+    LEAD = 1
+    SHIFTED = 2
+    BRIDGE = 3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OffsetPath:
+    """Path of the wire's centre, m rows.
+
+    Attributes
+    ----------
+    curves
+        Its geometry, each row from the end of the one before it. Offset arcs have the centres of their blocks, and
+        radii that differ from theirs by the offset, exactly.
+    source_row
+        (m,) row that each comes from, rising; a bridge has that of the block before it.
+    made
+        (m,) values of `RowOrigin`.
+    vanished
+        (v,) rows that have no place on the offset path.
+    """
+
+    curves: Curves
+    source_row: Ints
+    made: Ints
+    vanished: Ints
+
+
+def offset_toolpath(passed: PassedPath, path: OffsetPath) -> Toolpath:
+    """Toolpath of the offset `path` of a toolpath in passes: its exact curves, to be stepped like any other.
+
+    If the program has words, its offset has words too, in whole µm. Every row has the source of the block that it comes
+    from, and stops keep their places among these blocks. Only blocks without offset keep their printed ends, and only
+    where they run as they are drawn.
+    """
+    drawn, row = passed.drawn, passed.row[path.source_row]
+    as_it_is = (path.made == RowOrigin.AS_IT_IS) & ~passed.is_back[path.source_row]
+    return Toolpath(
+        **{field.name: getattr(path.curves, field.name) for field in fields(Curves)},
+        printed_end_um=np.where(as_it_is[:, None], drawn.printed_end_um[row], np.nan),
+        words=None if drawn.words is None else stepped_words(path.curves),
+        source=drawn.source.picked(row),
+        stops=tuple(stop._replace(after=int(np.searchsorted(path.source_row, stop.after))) for stop in passed.stops),
+    )
 
 
 class Order(IntEnum):
@@ -30,13 +90,13 @@ class Rows(NamedTuple):
 
     curves: Curves
     source_row: Ints
-    made: Made
+    made: RowOrigin
     place: Order
 
 
 def moved_rows(blocks: Blocks, chain: Chain, left: Ints) -> Rows:
     """The blocks `left` (k,) of a chain as rows, each from where it begins to where it ends."""
-    return Rows(_cut(blocks, chain, left), blocks.row[left], Made.SHIFTED, Order.ITSELF)
+    return Rows(_cut(blocks, chain, left), blocks.row[left], RowOrigin.SHIFTED, Order.ITSELF)
 
 
 def bridge_rows(blocks: Blocks, chain: Chain, left: Ints) -> list[Rows]:
@@ -47,8 +107,8 @@ def bridge_rows(blocks: Blocks, chain: Chain, left: Ints) -> list[Rows]:
     radius = np.abs(blocks.left_um[arc])
     arcs = replace(arcs, radius_um=radius, length_um=radius * np.abs(arcs.sweep_rad))
     return [
-        Rows(arcs, blocks.row[arc], Made.BRIDGE, Order.BRIDGE),
-        Rows(lines, blocks.row[line], Made.BRIDGE, Order.BRIDGE),
+        Rows(arcs, blocks.row[arc], RowOrigin.BRIDGE, Order.BRIDGE),
+        Rows(lines, blocks.row[line], RowOrigin.BRIDGE, Order.BRIDGE),
         *_chamfers(blocks, chain, chamfer),
     ]
 
@@ -63,9 +123,9 @@ def _chamfers(blocks: Blocks, chain: Chain, early: Ints) -> list[Rows]:
     far_start = start - np.where(back[:, None], by_um * blocks.leaving[late], 0.0)
     row = blocks.row[early]
     return [
-        Rows(lines_between(end[on], far_end[on]), row[on], Made.BRIDGE, Order.BRIDGE),
-        Rows(lines_between(far_end, far_start), row, Made.BRIDGE, Order.CHAMFER),
-        Rows(lines_between(far_start[back], start[back]), row[back], Made.BRIDGE, Order.BACK),
+        Rows(lines_between(end[on], far_end[on]), row[on], RowOrigin.BRIDGE, Order.BRIDGE),
+        Rows(lines_between(far_end, far_start), row, RowOrigin.BRIDGE, Order.CHAMFER),
+        Rows(lines_between(far_start[back], start[back]), row[back], RowOrigin.BRIDGE, Order.BACK),
     ]
 
 

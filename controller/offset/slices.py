@@ -1,19 +1,142 @@
-"""Curves cut wherever they meet: slices between one place and the next."""
+"""Curves cut wherever they meet: slices between one place and the next.
+
+Things that hang together, directly or through others.
+
+All curves that lie at the offset from a block or a corner, wherever a part of the true offset may run.
+"""
 
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from controller.offset.candidates import SNAP_UM
-from controller.offset.groups import same_places
 from controller.offset.sections import Side
 from parser.geometry.along import along_um
+from parser.geometry.boxes import cell_keys
 from parser.geometry.broad_phase_pairs import near_pairs
 from parser.geometry.broad_phase_places import near_places
-from parser.geometry.curves import Curves, Floats, Ints
-from parser.geometry.directions import headings_at
+from parser.geometry.curves import CurveKind, Curves, Floats, Ints, curves_between, joined
+from parser.geometry.directions import directions, headings_at, to_left
 from parser.geometry.distance import distance_to_curves
 from parser.geometry.meets import curves_meet
+
+SNAP_UM = 1e-5
+"""Places this near each other are one. Double precision keeps ends and crossings within 1e-9 µm over 1 m."""
+_BACK_RAD = 1e-9  # within this of half a turn, a contour goes back on itself, and its end is an outer corner
+
+
+class Candidates(NamedTuple):
+    """m curves along the contour's direction, in its order.
+
+    Attributes
+    ----------
+    curves
+        Blocks moved aside, and arcs about outer corners.
+    source_row
+        (m,) row of the contour; of a corner's arc the one before the corner.
+    corner
+        (m,) True on arcs about corners.
+    """
+
+    curves: Curves
+    source_row: Ints
+    corner: NDArray[np.bool_]
+
+
+class ClosedContour(NamedTuple):
+    """A closed contour without gaps and blocks of no length: its curves, and the rows (n,) that they come from."""
+
+    curves: Curves
+    row: Ints
+
+
+def closed_ring(contour: Curves) -> ClosedContour:
+    """The contour with its gaps bridged by lines that belong to the block before them."""
+    row = np.flatnonzero(contour.length_um > SNAP_UM)
+    curves = contour.picked(row)
+    start, end = curves.end_um, np.roll(curves.start_um, -1, axis=0)
+    gap = np.flatnonzero(np.hypot(*(end - start).T) > SNAP_UM)
+    bridges = curves_between(start[gap], end[gap], np.full((len(gap), 2), np.nan), np.zeros(len(gap)))
+    order = np.argsort(np.concatenate([np.arange(len(row)), gap]), kind="stable")
+    return ClosedContour(joined([curves, bridges]).picked(order), np.concatenate([row, row[gap]])[order])
+
+
+def candidates(ring: ClosedContour, offset_um: float, side: Side) -> Candidates:
+    """Blocks moved by the offset to the side, and arcs about the corners that point to it.
+
+    An arc with a radius of no more than the offset has no place for it on its inner side, and is left out there.
+    """
+    contour = ring.curves
+    leaving, arriving = directions(contour)
+    kept, moved = _moved(contour, leaving, arriving, offset_um * side)
+    at, corners = _corners(contour, np.roll(leaving, -1, axis=0), arriving, offset_um * side)
+    order = np.argsort(np.concatenate([2 * kept, 2 * at + 1]), kind="stable")
+    return Candidates(
+        curves=joined([moved, corners]).picked(order),
+        source_row=ring.row[np.concatenate([kept, at])[order]],
+        corner=np.repeat([False, True], [len(kept), len(at)])[order],
+    )
+
+
+def _moved(contour: Curves, leaving: Floats, arriving: Floats, left_um: float) -> tuple[Ints, Curves]:
+    """Rows of the blocks that have a place at the offset, and these moved to the left, or to the right if it is < 0."""
+    radius = contour.radius_um - np.sign(contour.sweep_rad) * left_um
+    kept_rows = np.flatnonzero(~contour.is_arc | (radius * np.minimum(np.abs(contour.sweep_rad), 1.0) > SNAP_UM))
+    shifted = Curves(
+        kind=np.where(contour.is_arc, CurveKind.ARC, CurveKind.LINE).astype(np.int64),
+        start_um=contour.start_um + left_um * to_left(leaving),
+        end_um=contour.end_um + left_um * to_left(arriving),
+        center_um=contour.center_um,
+        radius_um=radius,
+        start_angle_rad=contour.start_angle_rad,
+        sweep_rad=contour.sweep_rad,
+        length_um=np.where(contour.is_arc, radius * np.abs(contour.sweep_rad), contour.length_um),
+    )
+    return kept_rows, shifted.picked(kept_rows)
+
+
+def _corners(contour: Curves, leaving: Floats, arriving: Floats, left_um: float) -> tuple[Ints, Curves]:
+    """Blocks that end at an outer corner, and the arcs about those; `leaving` is that of the next block."""
+    turn = np.arctan2(arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0], (arriving * leaving).sum(axis=1))
+    outward = -np.sign(left_um)
+    turn = np.where(np.abs(turn) > np.pi - _BACK_RAD, outward * np.abs(turn), turn)
+    at = np.flatnonzero(outward * turn * abs(left_um) > SNAP_UM)
+    about = contour.end_um[at]
+    start, end = (about + left_um * to_left(way[at]) for way in (arriving, leaving))
+    return at, curves_between(start, end, about, turn[at])
+
+
+_CORNERS = np.array([[0, 0], [1, 0], [0, 1], [1, 1]])  # a place belongs to the cells of all four that meet near it
+
+
+def groups(count: int, this: Ints, other: Ints) -> Ints:
+    """(count,) the least number in the group of each of 0 … count − 1, where the pairs (k,) hang together."""
+    least = np.arange(count)
+    while True:
+        lower = least.copy()
+        np.minimum.at(lower, this, least[other])
+        np.minimum.at(lower, other, least[this])
+        np.minimum.at(lower, least, lower)  # the whole group so far moves with any of its members
+        lower = lower[lower]
+        if np.array_equal(lower, least):
+            return least
+        least = lower
+
+
+def same_places(place_um: Floats, within_um: float) -> Ints:
+    """(m,) for each of the places (m, 2) the least index of those that are one with it, directly or through others.
+
+    Two places within the distance are one. Two places three times as far apart are one only through others.
+    """
+    low = np.floor(place_um / within_um - 0.5).astype(np.int64)
+    cells = cell_keys(*(low[:, None, :] + _CORNERS).reshape(-1, 2).T)
+    order = np.argsort(cells)
+    same = np.flatnonzero(cells[order[1:]] == cells[order[:-1]])
+    this, other = order[same] // 4, order[same + 1] // 4
+    # Two cells of one hash are found out by their distance.
+    near = np.abs(place_um[this] - place_um[other]).max(axis=1) <= 2.0 * within_um
+    return groups(len(place_um), this[near], other[near])
+
 
 _SHORT_UM = 1e-3  # a slice that ends where it starts is rounding if it is shorter than this, else it goes round
 _ALL = 1 << 62

@@ -80,13 +80,13 @@ def idle_rows(toolpath: Toolpath, side: Ints) -> Bools:
     return idle
 
 
-def known_sides(told: Compensation) -> Ints:
+def known_sides(compensation: Compensation) -> Ints:
     """(n,) the sides, but 0 all along a stretch in which the value of a register is not known."""
-    is_on = told.side != 0
+    is_on = compensation.side != 0
     number = np.cumsum(is_on & ~_before(is_on))
     is_unknown = np.zeros(len(number) + 1, dtype=np.bool_)
-    is_unknown[number[is_on & np.isnan(told.by_um)]] = True
-    return np.where(is_unknown[number], 0, told.side)
+    is_unknown[number[is_on & np.isnan(compensation.by_um)]] = True
+    return np.where(is_unknown[number], 0, compensation.side)
 
 
 def runs_of(blocks: Curves, side: Ints, left_um: Floats, rules: CompensationRules) -> Runs:
@@ -119,7 +119,7 @@ def stretches_of(runs: Runs, row: Ints) -> tuple[Stretch, ...]:
     end = np.append(begin[1:], len(runs.first)) - 1 if len(begin) else begin
     cancel = runs.cancel[end]
     columns = row[runs.first[begin]], row[runs.past[end] - 1] + 1, np.where(cancel < 0, -1, row[cancel])
-    return tuple(Stretch(*one) for one in zip(*(column.tolist() for column in columns), strict=True))
+    return tuple(Stretch(*each) for each in zip(*(column.tolist() for column in columns), strict=True))
 
 
 def _before(is_on: Bools) -> Bools:

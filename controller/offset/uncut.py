@@ -68,8 +68,8 @@ def _halved(on: _Stretches, is_open: Bools, may_be_nearest: Bools) -> _Stretches
     open_ = np.flatnonzero(is_open)
     number = np.full(len(on.of), -1)
     number[open_] = np.arange(len(open_))
-    kept = np.flatnonzero(is_open[on.pair] & may_be_nearest)
-    pair, curve = number[on.pair[kept]], on.curve[kept]
+    kept_rows = np.flatnonzero(is_open[on.pair] & may_be_nearest)
+    pair, curve = number[on.pair[kept_rows]], on.curve[kept_rows]
     of, first, last = on.of[open_], on.first_um[open_], on.last_um[open_]
     middle = 0.5 * (first + last)
     return _Stretches(

@@ -109,7 +109,7 @@ class SampledMotion:
         spans = end - np.maximum((k - 1) * self._clock.period_s, self._clock.began_s)
         count = np.abs(by)
         period = [np.repeat(np.arange(len(k)), count[:, axis]) for axis in (0, 1)]
-        left = np.concatenate([_left(count[:, axis], of) for axis, of in enumerate(period)])
+        left = np.concatenate([_period_left(count[:, axis], of) for axis, of in enumerate(period)])
         of = np.concatenate(period)
         time = end[of] - spans[of] * left
         order = np.argsort(time, kind="stable")
@@ -191,7 +191,7 @@ def end_speeds(plan: Plan) -> Floats:
     return plan.speed_um_s + dt * (plan.acceleration_um_s2 + dt * plan.jerk_um_s3 / 2.0)
 
 
-def _left(count: Ints, of: Ints) -> Floats:
+def _period_left(count: Ints, of: Ints) -> Floats:
     """What is left of the period at each of its pulses, 0 to 1."""
     past = np.cumsum(count)[of]
     left: Floats = (past - 1 - np.arange(len(of))) / count[of]

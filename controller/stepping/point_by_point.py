@@ -5,9 +5,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from controller.stepping.quadrants import walk_arcs
 from controller.stepping.steps import Steps
-from controller.stepping.strokes import arc_strokes, line_strokes, reached
+from controller.stepping.strokes import arc_strokes, line_strokes, reached, walk_arcs
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.told.step_words import Axis, StepWords
 

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from controller.stepping.quadrants import ArcWalk
-from controller.stepping.strokes import Strokes, arc_strokes, line_strokes, reached
+from controller.stepping.strokes import ArcWalk, Strokes, arc_strokes, line_strokes, reached
 from parser.geometry.curves import Bools, Floats, Ints
 
 

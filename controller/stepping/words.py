@@ -33,21 +33,21 @@ def stepped_words(curves: Curves) -> StepWords:
     origin = curves.start_um[:1]
     begins = np.rint(curves.start_um - origin).astype(np.int64)
     ends = np.empty_like(begins)
-    told = {name: np.empty(n, dtype=np.int64) for name in StepWords.__slots__}
+    told_slots = {name: np.empty(n, dtype=np.int64) for name in StepWords.__slots__}
     row = np.arange(n)
     while len(row):
-        words = _told(curves, row, begins[row] + origin)
-        for name, column in told.items():
+        words = _words_from(curves, row, begins[row] + origin)
+        for name, column in told_slots.items():
             column[row] = getattr(words, name)
         moved = np.diff(interpolate_words(words, curves.length_um[row]).corner_um, axis=0)
         ends[row] = begins[row] + moved
         late = row[row < n - 1] + 1
         row = late[(begins[late] != ends[late - 1]).any(axis=1)]
         begins[row] = ends[row - 1]
-    return StepWords(**told)
+    return StepWords(**told_slots)
 
 
-def _told(curves: Curves, row: Ints, begin_um: Floats) -> StepWords:
+def _words_from(curves: Curves, row: Ints, begin_um: Floats) -> StepWords:
     """Words of the rows (k,) that begin at places (k, 2) and end where they should."""
     end = curves.end_um[row]
     words = words_of_lines(end - begin_um)

@@ -75,5 +75,5 @@ class Mender(Protocol):
     def edit(self, toolpath: Toolpath, row: int, mend: Mend) -> Edit:
         """What a mend changes in the program's text. ValueError where the block in the row has no such field."""
 
-    def told(self, mends: tuple[Mend, ...]) -> str:
+    def mends_text(self, mends: tuple[Mend, ...]) -> str:
         """Mends of one block for people, so that they see which fields are meant."""

@@ -46,7 +46,7 @@ class Assumption(NamedTuple):
         return {"what": self.what.removeprefix("assumed-"), "taken": self.taken, "why": term(self.why, language)}
 
 
-class Beside(NamedTuple):
+class BesideThePath(NamedTuple):
     """What a text asks for beside its path, and is not simulated.
 
     Attributes
@@ -61,7 +61,7 @@ class Beside(NamedTuple):
     words: tuple[str, ...] = ()
 
 
-PATH_IS_ALL = Beside()
+PATH_IS_ALL = BesideThePath()
 
 
 class Damage(NamedTuple):
@@ -157,7 +157,7 @@ class Reading(NamedTuple):
     assumptions: tuple[Assumption, ...] = ()
     codes: Mapping[str, str] = MappingProxyType({})
     threadings: int = 0
-    not_simulated: Beside = PATH_IS_ALL
+    not_simulated: BesideThePath = PATH_IS_ALL
 
 
 def in_codes(reading: Reading, findings: Iterable[Finding]) -> tuple[Finding, ...]:

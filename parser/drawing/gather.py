@@ -15,7 +15,7 @@ from parser.drawing.dxf.forms import COLUMNS, ReadEntity, Spline, WrongNumbersEr
 from parser.drawing.model import SAME_WITHIN_UM
 from parser.drawing.plane.flat import Flat, flat_forms, refuse_many
 from parser.drawing.plane.splined import flat_splines, placed_spline
-from parser.findings.remarks import Remark
+from parser.findings.catalogue import Remark
 from parser.geometry.curves import Curves, Floats, Ints, joined
 from parser.text.encoding import printable
 
@@ -78,7 +78,7 @@ def gather(placed: Sequence[Placed], tolerance_um: float, fit_um: float | None =
     Raises DrawingError, without the name of the file, where they become too many.
     """
     counts = EntityCounts()
-    read = [_read(at, one.entity, counts) for at, one in enumerate(placed)]
+    read = [_read(at, each_placed.entity, counts) for at, each_placed in enumerate(placed)]
     forms = _forms(placed, read)
     refuse_many(len(forms.forms))
     flat = flat_forms(forms.forms, forms.maps, forms.which, tolerance_um, fit_um)
@@ -122,13 +122,13 @@ def _forms(placed: Sequence[Placed], read: Sequence[ReadEntity | None]) -> _Form
     forms, number, which = [np.empty((0, COLUMNS))], [], []
     maps: list[Floats] = []
     known: dict[tuple[int, bytes], int] = {}
-    for at, (one, found) in enumerate(zip(placed, read, strict=True)):
+    for at, (each_placed, found) in enumerate(zip(placed, read, strict=True)):
         if found is None or isinstance(found.forms, Spline):
             continue
-        key = (id(one.place), b"" if found.own is None else found.own.tobytes())
+        key = (id(each_placed.place), b"" if found.own is None else found.own.tobytes())
         if key not in known:
             known[key] = len(maps)
-            maps.append(one.place if found.own is None else behind(found.own, one.place))
+            maps.append(each_placed.place if found.own is None else behind(found.own, each_placed.place))
         forms.append(found.forms)
         which.append(known[key])
         number.append(at)

@@ -7,8 +7,8 @@ from ezdxf.document import Drawing as Document
 
 from parser.drawing.dxf.blocks import Placed
 from parser.drawing.dxf.entities import reader_of
+from parser.drawing.dxf.forms import place_of
 from parser.drawing.dxf.linetypes import Linetypes
-from parser.drawing.dxf.places import place_of
 from parser.drawing.gather import Missed
 from parser.drawing.model import Entity, LeftOut
 from parser.text.encoding import printable
@@ -58,12 +58,12 @@ def wanted_of(document: Document, placed: Sequence[Placed], layer: str | None) -
     These are of broken linetypes, such as centre lines, and on the layer that is never plotted.
     """
     linetypes, wanted = Linetypes(document), Wanted([], [])
-    for one in placed:
-        why = _why_not(one, linetypes) if layer is None else _why_other(one, layer.lower())
+    for each_placed in placed:
+        why = _why_not(each_placed, linetypes) if layer is None else _why_other(each_placed, layer.lower())
         if why:
-            wanted.left.append((one, why))
+            wanted.left.append((each_placed, why))
         else:
-            wanted.kept.append(one)
+            wanted.kept.append(each_placed)
     return wanted
 
 
@@ -85,10 +85,10 @@ def left_out(wanted: Wanted, missed: Sequence[Missed]) -> Iterator[LeftOut]:
     """What is not read, and what of that which is read gives no curve, with the places of both."""
     for placed, why in wanted.left:
         yield LeftOut(entity_of(placed), why, place_of(placed.entity, placed.place))
-    for one in missed:
-        placed = wanted.kept[one.entity]
-        why = one.why or _WHY.get(placed.entity.dxftype(), "no-curve")
-        yield LeftOut(entity_of(placed), why, place_of(placed.entity, placed.place), detail=one.detail)
+    for each_missed in missed:
+        placed = wanted.kept[each_missed.entity]
+        why = each_missed.why or _WHY.get(placed.entity.dxftype(), "no-curve")
+        yield LeftOut(entity_of(placed), why, place_of(placed.entity, placed.place), detail=each_missed.detail)
 
 
 def entity_of(placed: Placed) -> Entity:

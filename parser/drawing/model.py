@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.findings.remarks import Remark
+from parser.findings.catalogue import Remark
 from parser.geometry.curves import CurveKind, Curves, Ints
 
 DEFAULT_GAP_UM = 10.0

@@ -1,9 +1,12 @@
 """A DXF file to a drawing: `read_drawing`, the one way in.
 
 Points and circles of a drawing, which may be thread points.
+
+What is said of a drawing as it was read: what is missing of it, what was assumed and what was mended.
 """
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -16,39 +19,102 @@ from parser.drawing.dxf.blocks import Placed, placed_entities
 from parser.drawing.dxf.document import read_document
 from parser.drawing.dxf.forms import behind, of_extrusion, scaled
 from parser.drawing.fit.loops import loops_with_arcs
-from parser.drawing.gather import gather
+from parser.drawing.gather import Gathered, gather
 from parser.drawing.left import entity_of, left_out, wanted_of
-from parser.drawing.loops.chain import chain
-from parser.drawing.loops.flat import without_flat
+from parser.drawing.loops.chain import Chained, chain, without_flat
 from parser.drawing.loops.once import Again, drawn_once
 from parser.drawing.loops.weld import welded
 from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, FitFigures, LeftOut, Mark
-from parser.drawing.notes import no_contour, notes_of
 from parser.drawing.plane.flat import FARTHEST_UM
+from parser.findings.catalogue import LANGUAGES, Bilingual, Remark, remark_text
 from parser.findings.errors import DrawingError
-from parser.findings.remarks import Remark
+from parser.findings.messages import Message
 from parser.geometry.curves import Floats
 from parser.text.encoding import printable
-from parser.units import UM_PER_MM
+from parser.units import UM_PER_MM, mm
+
+_MOST_NAMED = 5  # places and entities named one by one
+_UNSEEN = ("off", "frozen", "hidden", "other-layer")
+_BY_HABIT = ("broken-line", "never-plotted")  # seen, but drawn as no contour is; read where their layer is asked for
+
+
+def notes_of(left: Sequence[LeftOut], gathered: Gathered, again: Sequence[Again], chained: Chained) -> Iterator[Remark]:
+    """What was left out or mended."""
+    counts, why = gathered.counts, Counter(each_left_out.why for each_left_out in left)
+    yield from _not_wanted(left)
+    if counts.no_curves:
+        yield Remark("no-curves", {"kinds": _listed(counts.no_curves)})
+    if counts.unreadable:
+        yield Remark("unreadable", {"kinds": _listed(counts.unreadable)})
+    yield from [each_left_out.detail for each_left_out in left if each_left_out.detail][:_MOST_NAMED]
+    for number, name in (
+        (counts.beyond, "beyond"),
+        (counts.upright, "upright"),
+        (counts.slanted, "slanted"),
+        (why["no-width"], "no-width"),
+        (why["dot"], "dot"),
+        (sum(each.curves for each in again if each.whole), "drawn-twice"),
+        (sum(each.curves for each in again if not each.whole), "overlaps"),
+    ):
+        if number:
+            yield Remark(name, {"number": number})
+    yield from _of_chain(chained)
+
+
+def _not_wanted(left: Sequence[LeftOut]) -> Iterator[Remark]:
+    """What would be curves, and was not read."""
+    why = Counter(each_left_out.why for each_left_out in left)
+    unseen = sum(why[each] for each in _UNSEEN)
+    if unseen:
+        yield Remark("other-layers", {"number": unseen})
+    for name in _BY_HABIT:
+        if why[name]:
+            yield Remark(name, {"number": why[name]})
+
+
+def no_contour(left: Sequence[LeftOut], layer: str | None) -> DrawingError:
+    """What is wrong with a drawing that gives no curve: what is there instead, as far as that can be told."""
+    where = "" if layer is None else Message("on-layer", layer=printable(layer))
+    wrong = [each_left_out.detail for each_left_out in left if each_left_out.detail][:1]
+    instead = [*([] if layer else _not_wanted(left)), *wrong]
+    aside = Bilingual(*("; ".join(remark_text(remark, language) for remark in instead) for language in LANGUAGES))
+    return DrawingError("no-curve", where=where, instead=aside)
+
+
+def _of_chain(chained: Chained) -> Iterator[Remark]:
+    bridged = [loop.gap_um for loop in chained.loops if loop.gap_um > 0.0]
+    if bridged:
+        yield Remark("bridged", {"gap": max(bridged), "loops": len(bridged)})
+    places = [f"({mm(x):g}, {mm(y):g})" for x, y in chained.branches_um[:_MOST_NAMED].tolist()]
+    more = len(chained.branches_um) - len(places)
+    if more:
+        yield Remark("many-branches", {"places": ", ".join(places), "more": more})
+    elif places:
+        yield Remark("branches", {"places": ", ".join(places)})
+
+
+def _listed(counts: Counter[str]) -> str:
+    return ", ".join(f"{number} {kind}" for kind, number in sorted(counts.items()))
+
 
 _AT = {"POINT": "location", "CIRCLE": "center"}
 
 
 def marks_of(placed: Sequence[Placed]) -> tuple[Mark, ...]:
     """Marks in file order, of all layers; circles that are stretched by their block count by their width in X."""
-    found = [one for one in placed if one.entity.dxftype() in _AT]
+    found = [each_placed for each_placed in placed if each_placed.entity.dxftype() in _AT]
     centers, radii = np.full((len(found), 3), np.nan), np.zeros((len(found), 3))
     maps: list[Floats] = []
     which, known = np.zeros(len(found), dtype=np.int64), dict[tuple[int, bytes], int]()
-    for row, one in enumerate(found):
+    for row, each in enumerate(found):
         try:
-            centers[row], radii[row, 0], own = _numbers(one)
+            centers[row], radii[row, 0], own = _numbers(each)
         except Exception:  # damaged numbers; the entity is told of where it is read  # noqa: S112
             continue
-        key = (id(one.place), b"" if own is None else own.tobytes())
+        key = (id(each.place), b"" if own is None else own.tobytes())
         if key not in known:
             known[key] = len(maps)
-            maps.append(one.place if own is None else behind(own, one.place))
+            maps.append(each.place if own is None else behind(own, each.place))
         which[row] = known[key]
     return _marks(found, centers, radii, np.array(maps).reshape(-1, 4, 3)[which] if maps else np.zeros((0, 4, 3)))
 
@@ -73,7 +139,7 @@ def _marks(found: Sequence[Placed], centers: Floats, radii: Floats, maps: Floats
 _INCH_MM = 25.4
 
 
-class _Asked(NamedTuple):
+class _ReadWith(NamedTuple):
     """What a drawing is read with; see `read_drawing`."""
 
     layer: str | None
@@ -112,24 +178,24 @@ def read_drawing(
     document, notes = read_document(path)
     try:
         with np.errstate(all="ignore"):  # damaged numbers overflow; what comes of them is left out by its value
-            return _drawing(path.name, document, _Asked(layer, gap_um, flatten_um, fit_um), notes)
+            return _drawing(path.name, document, _ReadWith(layer, gap_um, flatten_um, fit_um), notes)
     except DrawingError as error:
         raise DrawingError("in-file", file=path, message=error.message) from None
     except Exception as error:  # what no part of the reader foresaw in a damaged file
         raise DrawingError("drawing-damaged", path=path, name=type(error).__name__) from None
 
 
-def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) -> Drawing:
+def _drawing(name: str, document: Document, read_with: _ReadWith, notes: list[Remark]) -> Drawing:
     unit, assumed = unit_of(document.header.get("$INSUNITS", None))
     placed = list(placed_entities(document, scaled(unit.um)))
-    _refuse_unknown(document, placed, asked.layer)
-    wanted = wanted_of(document, placed, asked.layer)
-    gathered = gather(wanted.kept, asked.flatten_um, asked.fit_um)
+    _refuse_unknown(document, placed, read_with.layer)
+    wanted = wanted_of(document, placed, read_with.layer)
+    gathered = gather(wanted.kept, read_with.flatten_um, read_with.fit_um)
     left = tuple(left_out(wanted, gathered.counts.missed))
     if not len(gathered.curves):
-        raise no_contour(left, asked.layer)
+        raise no_contour(left, read_with.layer)
     once = drawn_once(gathered.curves, gathered.entity)
-    chained = chain(once.curves, np.unique(once.entity, return_inverse=True)[1], asked.gap_um)
+    chained = chain(once.curves, np.unique(once.entity, return_inverse=True)[1], read_with.gap_um)
     contours = without_flat(once.curves, once.entity, chained.loops)
     flat = [LeftOut(entity_of(wanted.kept[once.entity[each.row]]), each.why, each.place_um) for each in contours.flat]
     number, entity = np.unique(contours.entity, return_inverse=True)
@@ -142,12 +208,12 @@ def _drawing(name: str, document: Document, asked: _Asked, notes: list[Remark]) 
         entities=tuple(entity_of(wanted.kept[at]) for at in number.tolist()),
         loops=contours.loops,
         flattened=gathered.counts.flattened,
-        flatten_um=asked.flatten_um,
+        flatten_um=read_with.flatten_um,
         notes=(*notes, *([assumed] if assumed else []), *notes_of([*left, *flat], gathered, once.again, chained)),
         left_out=(*left, *(_again(wanted.kept, again) for again in once.again), *flat),
         marks=marks_of(placed),
     )
-    return drawing if asked.fit_um is None else _with_arcs(drawing, asked.fit_um, gathered.counts.fit_max_um)
+    return drawing if read_with.fit_um is None else _with_arcs(drawing, read_with.fit_um, gathered.counts.fit_max_um)
 
 
 def _with_arcs(drawing: Drawing, fit_um: float, so_far_um: float) -> Drawing:
@@ -159,11 +225,11 @@ def _with_arcs(drawing: Drawing, fit_um: float, so_far_um: float) -> Drawing:
 
 
 def _refuse_unknown(document: Document, placed: Sequence[Placed], layer: str | None) -> None:
-    drawn = {one.layer for one in placed}
+    drawn = {each_placed.layer for each_placed in placed}
     names = drawn | {str(entry.dxf.name) for entry in document.layers}
     if layer is not None and layer.lower() not in map(str.lower, names):
-        shown = ", ".join(sorted(map(printable, drawn or names)))
-        raise DrawingError("no-such-layer", layer=printable(layer), layers=shown)
+        shown_text = ", ".join(sorted(map(printable, drawn or names)))
+        raise DrawingError("no-such-layer", layer=printable(layer), layers=shown_text)
 
 
 def _again(wanted: Sequence[Placed], again: Again) -> LeftOut:

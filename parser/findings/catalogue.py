@@ -1,16 +1,19 @@
 """Texts of the findings in English and Chinese: one page a code, in ``parser/findings/pages``.
 
 Terms, remarks and what joins texts stand there too, each kind in a file.
+
+Remarks: what is to be said of a result beside its figures, as data; their words stand in ``pages/remarks.toml``.
 """
 
 import string
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal, NamedTuple, Protocol, runtime_checkable
 
 from parser.findings.codes import CODES
-from parser.findings.findings import NO_NAMES, Finding
+from parser.findings.findings import NO_NAMES, Finding, Value
 from parser.units import UM_PER_MM, mm, mm_text
 
 Language = Literal["en", "zh"]
@@ -22,7 +25,7 @@ TO = "‥"
 _PAGES = Path(__file__).with_name("pages")
 
 
-class Said(NamedTuple):
+class Bilingual(NamedTuple):
     """A text in both languages."""
 
     en: str
@@ -31,7 +34,7 @@ class Said(NamedTuple):
 
 @runtime_checkable
 class InBoth(Protocol):
-    """A text in both languages: `Said`, and messages."""
+    """A text in both languages: `Bilingual`, and messages."""
 
     @property
     def en(self) -> str:
@@ -127,9 +130,9 @@ def term(key: str, language: Language = "en") -> str:
 
 
 @cache
-def message_templates() -> Mapping[str, Said]:
+def message_templates() -> Mapping[str, Bilingual]:
     """Templates of all messages by their codes."""
-    return {code: Said(**text) for code, text in _read("messages").items()}
+    return {code: Bilingual(**text) for code, text in _read("messages").items()}
 
 
 def length(um: float) -> str:
@@ -196,3 +199,21 @@ def _read(name: str) -> dict[str, Any]:
     import tomllib  # noqa: PLC0415 - a program without findings needs no page
 
     return tomllib.loads((_PAGES / f"{name}.toml").read_text(encoding="utf-8"))
+
+
+class Remark(NamedTuple):
+    """One thing to be said: its name, and what fills its text.
+
+    Lengths among the values are in µm, those that end on ``_mm`` and ``_deg`` in mm and degrees.
+    """
+
+    name: str
+    values: Mapping[str, Value] = MappingProxyType({})
+
+
+def remark_text(remark: Remark, language: Language = "en", names: Mapping[int, str] = NO_NAMES) -> str:
+    """Text of a remark in one language. KeyError where the catalogue has no such remark.
+
+    `names` has the blocks, by number, that the listing calls by another name.
+    """
+    return filled(remark_template(remark.name, language), remark.values, language, names)

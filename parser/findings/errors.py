@@ -3,7 +3,7 @@
 Every error doubles as the built-in that a caller without drycut's names would catch.
 """
 
-from parser.findings.catalogue import LANGUAGES, Said, texts
+from parser.findings.catalogue import LANGUAGES, Bilingual, texts
 from parser.findings.findings import Finding
 from parser.findings.messages import Message, in_both
 
@@ -21,7 +21,7 @@ class DrycutError(Exception):
         self.message = code if isinstance(code, Message) else Message(code, **values)
         super().__init__(self.message)
 
-    def in_both(self) -> Said:
+    def in_both(self) -> Bilingual:
         """The message in both languages."""
         return in_both(self.message)
 
@@ -58,7 +58,9 @@ class ProgramError(DrycutError, ValueError):
     """
 
     def __init__(self, finding: Finding, *, excerpt: str = "", others: tuple[Finding, ...] = ()) -> None:
-        super().__init__("of-a-finding", finding=Said(*(texts(finding, language).message for language in LANGUAGES)))
+        super().__init__(
+            "of-a-finding", finding=Bilingual(*(texts(finding, language).message for language in LANGUAGES))
+        )
         self.finding = finding
         self.excerpt = excerpt
         self.others = others

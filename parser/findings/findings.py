@@ -106,7 +106,7 @@ def counted(findings: Iterable[Finding]) -> tuple[Count, ...]:
     counts = Counter((finding.severity, finding.code) for finding in findings)
     worst_first = tuple(Severity)
     of_each = (Count(code, severity, n) for (severity, code), n in counts.items())
-    return tuple(sorted(of_each, key=lambda one: (worst_first.index(one.severity), one.code)))
+    return tuple(sorted(of_each, key=lambda each: (worst_first.index(each.severity), each.code)))
 
 
 def compatible(edits: Iterable[Edit]) -> tuple[Edit, ...]:

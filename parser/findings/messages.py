@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Final
 
-from parser.findings.catalogue import Language, Said, filled, message_templates
+from parser.findings.catalogue import Bilingual, Language, filled, message_templates
 
 _OF_THE_SYSTEM: Final[Mapping[int, str]] = {
     errno.ENOENT: "no-such-file-or-directory",
@@ -28,9 +28,9 @@ _NUL: Final = "embedded null byte"
 class Message(str):
     """A message by its code and values; as a ``str`` it is its English text, which libraries such as click take.
 
-    Values are numbers, names that users gave, other messages, and texts in both languages (`Said`). Only messages and
-    such texts have another language: a name stays as it is. KeyError for a code without text, or a value that its text
-    has a place for and that is missing.
+    Values are numbers, names that users gave, other messages, and texts in both languages (`Bilingual`). Only messages
+    and such texts have another language: a name stays as it is. KeyError for a code without text, or a value that its
+    text has a place for and that is missing.
     """
 
     __slots__ = ("code", "values")
@@ -69,9 +69,9 @@ class Message(str):
         )
 
 
-def in_both(text: str) -> Said:
+def in_both(text: str) -> Bilingual:
     """A text in both languages; one that is no message, such as that of a library, is the same in both."""
-    return Said(text.en, text.zh) if isinstance(text, Message) else Said(text, text)
+    return Bilingual(text.en, text.zh) if isinstance(text, Message) else Bilingual(text, text)
 
 
 def system_message(error: OSError | ValueError) -> str:

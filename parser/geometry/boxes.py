@@ -1,4 +1,7 @@
-"""Curves in a grid: pieces of them, the box of each, and the cells that it touches."""
+"""Curves in a grid: pieces of them, the box of each, and the cells that it touches.
+
+Cells of a grid as keys: places that fall into one cell are found by sorting.
+"""
 
 from collections.abc import Iterator
 from typing import Final, NamedTuple
@@ -6,8 +9,19 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.geometry.cells import cell_keys
 from parser.geometry.curves import Curves, Floats, Ints
+
+_FACTORS: Final = (-7046029254386353131, 7809847782465536322, -4417276706812531889)
+"""Mixed bits, signed: 2⁶⁴ over the golden ratio, the upper half of the basis of FNV for 128 bits, a prime of xxHash."""
+
+
+def cell_keys(column: Ints, row: Ints | int, layer: Ints | int = 0) -> Ints:
+    """One key (n,) a cell from its column, row and layer (n,) int64; sums wrap round.
+
+    Keys of two cells may be the same, if seldom. That costs time, not truth, where what shares a key is compared.
+    """
+    return column * _FACTORS[0] + row * _FACTORS[1] + layer * _FACTORS[2]
+
 
 Bytes = NDArray[np.uint8]
 

@@ -46,9 +46,9 @@ def near_pairs(
     if looked_at < whole:  # where a cell is left out, its pairs count in any other one that they share
         whole, corner = _first_of_cell(mates, looked_at), np.full_like(corner, CORNER)
     found = _in_whole_cells(boxes, corner, mates[:whole]), _in_cut_cell(boxes, corner, mates, whole, looked_at)
-    one, other = (np.concatenate(rows) for rows in zip(*found, strict=True))
+    this, other = (np.concatenate(rows) for rows in zip(*found, strict=True))
     # Rows of several pieces may meet in more than one; in order, rows of one place lie in one place of the memory.
-    key = distinct(np.minimum(one, other) * len(curves) + np.maximum(one, other))
+    key = distinct(np.minimum(this, other) * len(curves) + np.maximum(this, other))
     early = key // len(curves)
     return NearPairs(early, key - early * len(curves), incomplete)
 
@@ -86,8 +86,8 @@ def _in_whole_cells(boxes: Boxes, corner: Bytes, mates: Ints) -> tuple[Ints, Int
     boxes, corner, mates = boxes.take(order), corner[order], mates[order]
     found = [(order[:0], order[:0])]
     for step, past in enumerate(number[:-1].tolist(), start=1):
-        one, other = slice(0, past - step), slice(step, past)
-        at = np.flatnonzero((mates[one] >= step) & _meet(boxes, corner, one, other))
+        this, other = slice(0, past - step), slice(step, past)
+        at = np.flatnonzero((mates[this] >= step) & _meet(boxes, corner, this, other))
         found.append((boxes.row[at], boxes.row[at + step]))
     early, late = (np.concatenate(rows) for rows in zip(*found, strict=True))
     return early, late
@@ -96,16 +96,16 @@ def _in_whole_cells(boxes: Boxes, corner: Bytes, mates: Ints) -> tuple[Ints, Int
 def _in_cut_cell(boxes: Boxes, corner: Bytes, mates: Ints, first: int, past: int) -> tuple[Ints, Ints]:
     """Pairs of rows whose boxes meet, of the entries from `first` up to `past` with their mates, all in one cell."""
     count = mates[first:past]
-    one = np.repeat(np.arange(first, past), count)
-    other = one + 1 + np.arange(len(one)) - np.repeat(np.cumsum(count) - count, count)
-    near = _meet(boxes, corner, one, other)
-    return boxes.row[one[near]], boxes.row[other[near]]
+    each = np.repeat(np.arange(first, past), count)
+    other = each + 1 + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
+    near = _meet(boxes, corner, each, other)
+    return boxes.row[each[near]], boxes.row[other[near]]
 
 
-def _meet(boxes: Boxes, corner: Bytes, one: Ints | slice, other: Ints | slice) -> Bools:
+def _meet(boxes: Boxes, corner: Bytes, this: Ints | slice, other: Ints | slice) -> Bools:
     """Which entries of one cell are boxes of two rows of one contour that meet, and count in this cell."""
-    near: Bools = (corner[one] | corner[other]) == CORNER
-    near &= (boxes.low_x[one] <= boxes.high_x[other]) & (boxes.low_x[other] <= boxes.high_x[one])
-    near &= (boxes.low_y[one] <= boxes.high_y[other]) & (boxes.low_y[other] <= boxes.high_y[one])
-    near &= (boxes.row[one] != boxes.row[other]) & (boxes.contour[one] == boxes.contour[other])
+    near: Bools = (corner[this] | corner[other]) == CORNER
+    near &= (boxes.low_x[this] <= boxes.high_x[other]) & (boxes.low_x[other] <= boxes.high_x[this])
+    near &= (boxes.low_y[this] <= boxes.high_y[other]) & (boxes.low_y[other] <= boxes.high_y[this])
+    near &= (boxes.row[this] != boxes.row[other]) & (boxes.contour[this] == boxes.contour[other])
     return near

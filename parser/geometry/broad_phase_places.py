@@ -66,15 +66,15 @@ def _near(curves: Curves, others: Boxes, cell: float, margin_um: float) -> Near:
     for begin, end in chunks(np.cumsum(number)):
         count = number[begin:end]
         other = np.repeat(np.arange(begin, end), count)
-        one = np.repeat(first[begin:end] - np.cumsum(count) + count, count) + np.arange(len(other))
-        found.append(_meeting(boxes, others, one, other, base))
+        each = np.repeat(first[begin:end] - np.cumsum(count) + count, count) + np.arange(len(other))
+        found.append(_meeting(boxes, others, each, other, base))
     pair = distinct(np.concatenate(found))
     return Near(pair // base, pair % base)
 
 
-def _meeting(boxes: Boxes, others: Boxes, one: Ints, other: Ints, base: int) -> Ints:
+def _meeting(boxes: Boxes, others: Boxes, this: Ints, other: Ints, base: int) -> Ints:
     """Those of the pairs whose boxes meet, as rows: other × base + row."""
-    near = (boxes.low_x[one] <= others.high_x[other]) & (others.low_x[other] <= boxes.high_x[one])
-    one, other = one[near], other[near]
-    near = (boxes.low_y[one] <= others.high_y[other]) & (others.low_y[other] <= boxes.high_y[one])
-    return distinct(others.row[other[near]] * base + boxes.row[one[near]])
+    near = (boxes.low_x[this] <= others.high_x[other]) & (others.low_x[other] <= boxes.high_x[this])
+    this, other = this[near], other[near]
+    near = (boxes.low_y[this] <= others.high_y[other]) & (others.low_y[other] <= boxes.high_y[this])
+    return distinct(others.row[other[near]] * base + boxes.row[this[near]])

@@ -1,4 +1,9 @@
-"""Lines and arcs in absolute µm, as columns, one row a curve."""
+"""Lines and arcs in absolute µm, as columns, one row a curve.
+
+How far lines and arcs reach.
+
+Whether places lie within closed contours of lines and arcs: by the angle that a contour turns about them.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
@@ -95,3 +100,49 @@ def curves_between(start_um: Floats, end_um: Floats, center_um: Floats, sweep_ra
 def joined(parts: Sequence[Curves]) -> Curves:
     """Rows of one or more parts, one behind the other."""
     return Curves(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(Curves)))
+
+
+def extents(curves: Curves) -> tuple[Floats, Floats]:
+    """Lowest and highest places (n, 2) µm of each curve."""
+    low = np.minimum(curves.start_um, curves.end_um)
+    high = np.maximum(curves.start_um, curves.end_um)
+    arc = np.flatnonzero(curves.is_arc)
+    first = curves.start_angle_rad[arc] + np.minimum(curves.sweep_rad[arc], 0.0)
+    reach = np.abs(curves.sweep_rad[arc])
+    for quarter, (sign_x, sign_y) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
+        passed = np.mod(quarter * np.pi / 2.0 - first, 2.0 * np.pi) <= reach
+        rows = arc[passed]
+        extreme = curves.center_um[rows] + curves.radius_um[rows, None] * np.array([sign_x, sign_y])
+        axis = int(sign_x == 0)
+        low[rows, axis] = np.minimum(low[rows, axis], extreme[:, axis])
+        high[rows, axis] = np.maximum(high[rows, axis], extreme[:, axis])
+    return low, high
+
+
+_FULL_RAD = 2.0 * np.pi
+
+
+def is_inside(contour: Curves, place_um: Floats) -> Bools:
+    """(m,) whether places (m, 2) lie within a closed contour: it turns once about those that do."""
+    start = contour.start_um[None] - place_um[:, None]
+    end = contour.end_um[None] - place_um[:, None]
+    out = contour.center_um[None] - place_um[:, None]
+    in_disc = np.hypot(out[..., 0], out[..., 1]) < contour.radius_um
+    turned = turned_about(start, end, np.broadcast_to(contour.sweep_rad, in_disc.shape), in_disc).sum(axis=1)
+    inside: Bools = np.abs(turned) > np.pi
+    return inside
+
+
+def turned_about(start: Floats, end: Floats, turn_rad: Floats, in_disc: Bools) -> Floats:
+    """Signed angles (…) that lines and arcs from `start` to `end` (…, 2) turn about the origin.
+
+    The angle is that of the chord, and a full turn more where the origin lies between chord and arc. `turn_rad` is 0 on
+    lines; `in_disc` says where the origin is nearer to the centre of an arc than its radius.
+    """
+    cross = start[..., 0] * end[..., 1] - start[..., 1] * end[..., 0]
+    chord = np.arctan2(cross, (start * end).sum(axis=-1))
+    # On the chord itself, as in the middle of a half circle, the sign of a zero must not tell.
+    chord = np.where((cross == 0.0) & in_disc, np.abs(chord) * np.sign(turn_rad), chord)
+    beyond = (cross * turn_rad < 0.0) | (np.abs(turn_rad) >= _FULL_RAD)
+    turned: Floats = chord + np.where(in_disc & beyond, _FULL_RAD * np.sign(turn_rad), 0.0)
+    return turned

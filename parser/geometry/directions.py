@@ -27,16 +27,16 @@ def directions(curves: Curves) -> Directions:
     return Directions(leaving, arriving)
 
 
-def runs_back_over(curves: Curves, one: Ints, other: Ints) -> Bools:
+def runs_back_over(curves: Curves, this: Ints, other: Ints) -> Bools:
     """(k,) whether rows `other` run back over the rows `one`: the opposite way along the same line or circle."""
     way, length = directions(curves), np.maximum(curves.length_um, 1.0)
-    arriving, leaving = way.arriving[one], way.leaving[other]
+    arriving, leaving = way.arriving[this], way.leaving[other]
     cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
     angle = np.pi - np.abs(np.arctan2(cross, (arriving * leaving).sum(axis=1)))
-    arcs, lines = curves.is_arc[one] & curves.is_arc[other], ~curves.is_arc[one] & ~curves.is_arc[other]
-    off = np.hypot(*(np.nan_to_num(curves.center_um[other]) - np.nan_to_num(curves.center_um[one])).T)
+    arcs, lines = curves.is_arc[this] & curves.is_arc[other], ~curves.is_arc[this] & ~curves.is_arc[other]
+    off = np.hypot(*(np.nan_to_num(curves.center_um[other]) - np.nan_to_num(curves.center_um[this])).T)
     opposite: Bools = (lines | (arcs & (off <= _SAME_CENTER_UM))) & (
-        angle <= _BACK_RAD + 1.0 / length[one] + 1.0 / length[other]
+        angle <= _BACK_RAD + 1.0 / length[this] + 1.0 / length[other]
     )
     return opposite
 

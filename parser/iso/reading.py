@@ -10,11 +10,10 @@ from parser.iso.listing.lexer import read_listing
 from parser.iso.listing.listing import Listing
 from parser.iso.path.motion import Moved, moved
 from parser.iso.telling.mill_code import mill_code
-from parser.iso.telling.mode_checks import mode_findings
-from parser.iso.telling.told import Told, in_other_distance, reread, told
+from parser.iso.telling.told import ToldProfile, in_other_distance, mode_findings, profile_told, reread
 from parser.iso.trace import Trace
 from parser.iso.words.not_simulated import not_simulated
-from parser.iso.words.text_checks import checked
+from parser.iso.words.numbering import checked
 from parser.text.encoding import no_program
 
 
@@ -26,7 +25,7 @@ def read_iso(text: str, choices: Choices) -> ReadText:
     mill = mill_code(listing)
     if mill:
         raise ProgramError(mill, excerpt=text[slice(*listing.lines.bounds(mill.line))])
-    family = told(listing, choices)
+    family = profile_told(listing, choices)
     listing = checked(listing, family.profile)
     taken, path = _as_arcs_agree(listing, family, choices)
     besides = not_simulated(listing, taken.profile)
@@ -43,7 +42,7 @@ def _without_motion(path: Moved) -> tuple[Finding, ...]:
     return () if len(path.toolpath) else (no_program("no-motion", language="ISO"),)
 
 
-def _as_arcs_agree(listing: Listing, family: Told, choices: Choices) -> tuple[Told, Moved]:
+def _as_arcs_agree(listing: Listing, family: ToldProfile, choices: Choices) -> tuple[ToldProfile, Moved]:
     """The family with modes in which the radii of arcs agree, where these were assumed, and the path that it makes."""
     path = moved(listing, family.profile, choices)
     turned = in_other_distance(family) if path.agreement.is_neither else None
@@ -54,11 +53,11 @@ def _as_arcs_agree(listing: Listing, family: Told, choices: Choices) -> tuple[To
     return taken, path if taken.profile == family.profile else moved(listing, taken.profile, choices)
 
 
-def _reading(listing: Listing, family: Told, path: Moved) -> Reading:
+def _reading(listing: Listing, family: ToldProfile, path: Moved) -> Reading:
     n = len(path.toolpath)
     return Reading(
         dialect=family.profile.name,
-        counts=BlockCounts(n + len({one.block for one in listing.unread}), n, n),
+        counts=BlockCounts(n + len({each.block for each in listing.unread}), n, n),
         damages=path.damages,
         spelling=Spelling(clockwise="G02", counter_clockwise="G03", end="M02", pause="M00", rapid="G00"),
         is_drawing=path.toolpath.compensation is not None,

@@ -14,9 +14,8 @@ import numpy as np
 from parser.dialect.choices import Choices
 from parser.dialect.decoding import UNREAD, DecodedBlock, DecodeStep, InForce
 from parser.iso.listing.listing import Assignment, Listing
-from parser.iso.path.flow import flow
-from parser.iso.path.given import Given
-from parser.iso.path.modes import NO_MOTION, carried, modes
+from parser.iso.path.flow import GivenColumns, flow
+from parser.iso.path.places import NO_MOTION, carried, modes
 from parser.iso.path.registers import offsets
 from parser.iso.profiles.profile import Profile
 
@@ -66,7 +65,7 @@ class Trace:
     @cached_property
     def _modes(self) -> dict[int, _Mode]:
         """What is in force in each block, as it runs for the first time; none for blocks that never run."""
-        given = Given(self._listing, self._profile)
+        given = GivenColumns(self._listing, self._profile)
         runs = flow(given).block
         mode = modes(given, runs)
         offset = offsets(given, runs, mode, self._choices)
@@ -92,16 +91,16 @@ class Trace:
     def _assignments(self) -> dict[int, list[Assignment]]:
         """Registers that are set, by their blocks."""
         by_block: dict[int, list[Assignment]] = {}
-        for one in self._listing.assignments:
-            by_block.setdefault(one.block, []).append(one)
+        for assignment in self._listing.assignments:
+            by_block.setdefault(assignment.block, []).append(assignment)
         return by_block
 
     @cached_property
     def _left_out(self) -> dict[int, list[DecodeStep]]:
         """Steps that set no field, by their blocks: lines in other forms than words, and pieces that are no words."""
         by_block: dict[int, list[DecodeStep]] = {}
-        statements = ((one.block, one.span, one.form.value) for one in self._listing.statements)
-        unread = ((one.block, one.span, UNREAD) for one in self._listing.unread)
+        statements = ((statement.block, statement.span, statement.form.value) for statement in self._listing.statements)
+        unread = ((each.block, each.span, UNREAD) for each in self._listing.unread)
         for block, span, field in (*statements, *unread):
             text = " ".join(self._listing.text[slice(*span)].split())
             by_block.setdefault(block, []).append(DecodeStep(0, text, self._column(span[0]), field, None))
@@ -114,7 +113,7 @@ class Trace:
         last = {word.letter: word.value for word in words}
         g_words = tuple(word.value for word in words if word.letter == "G")
         count = _whole(last.get("N"))
-        others = [self._assigned(one, *scale) for one in self._assignments.get(at, ())]
+        others = [self._assigned(each, *scale) for each in self._assignments.get(at, ())]
         steps = [*map(_set_by, words), *others, *self._left_out.get(at, ())]
         steps = [*sorted(steps, key=lambda step: step.column), self._closing(int(blocks.past[at]))]
         return DecodedBlock(
@@ -145,15 +144,15 @@ class Trace:
             self._text(first, int(words.past[at])), self._column(first), letter, value, _rounded(value * scale)
         )
 
-    def _assigned(self, one: Assignment, integer_um: float, point_um: float) -> DecodeStep:
+    def _assigned(self, assignment: Assignment, integer_um: float, point_um: float) -> DecodeStep:
         """The step of a register that is set: its value where numbers tell it, else none: it depends on other ones."""
         profile = self._profile
         integer_um *= profile.register_integer_um / profile.integer_um
         point_um *= profile.register_point_um / profile.point_um
-        parts = [None if isinstance(term, str) else _scaled(*term, integer_um, point_um) for term in one.terms]
+        parts = [None if isinstance(term, str) else _scaled(*term, integer_um, point_um) for term in assignment.terms]
         known = [part for part in parts if part is not None]
         um = _rounded(sum(known)) if len(known) == len(parts) else None
-        return DecodeStep(0, self._text(*one.span), self._column(one.span[0]), one.register, um)
+        return DecodeStep(0, self._text(*assignment.span), self._column(assignment.span[0]), assignment.register, um)
 
     def _closing(self, past: int) -> DecodeStep:
         """The step that tells the next stage that the block is whole: a closing ``;``, or the end of the line."""

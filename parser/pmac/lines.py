@@ -213,7 +213,7 @@ class _Reading:
         if not self.is_online:
             self.unread += self.outside
 
-    def take(self, piece: Piece, kept: list[Piece]) -> None:
+    def take(self, piece: Piece, kept_pieces: list[Piece]) -> None:
         """A piece: a command to the card itself is done at once, all others are of the buffer that is open.
 
         An element in a buffer is set when it runs: it holds for the whole program in front of its first word alone.
@@ -225,7 +225,7 @@ class _Reading:
             self._online(piece)
         elif self.opened is not None:
             self.opened.has_words |= piece.kind is Kind.WORD
-            kept.append(piece)
+            kept_pieces.append(piece)
         elif piece.kind is Kind.ASSIGN:
             self.is_online = True
             self.online.assign(piece.name, piece.worked, in_another=self.is_other)
@@ -268,7 +268,7 @@ def _take_line(reading: _Reading, bare: Expanded, span: Span, lines: LineIndex) 
     """One line of a text without remarks."""
     (at, past), text = span, bare.text
     reading.begin_line(bare.span(*span)[0])
-    kept: list[Piece] = []
+    kept_pieces: list[Piece] = []
     while match := _TOKEN.search(text, at, past):
         _leave(reading, bare, (at, match.start()))
         at, place = match.end(), bare.span(*match.span())
@@ -279,38 +279,38 @@ def _take_line(reading: _Reading, bare: Expanded, span: Span, lines: LineIndex) 
             reading.close(by_close=False)
             reading.is_other = True
         elif group == "UNKNOWN":
-            _name(reading, bare, place, kept)
+            _name(reading, bare, place, kept_pieces)
         elif group in _WITH_SUMS:
             try:
                 piece, at = _piece_with_sum(match, bare, past)
             except NotAnExpressionError:
-                _name(reading, bare, bare.span(match.start(), past), kept)
+                _name(reading, bare, bare.span(match.start(), past), kept_pieces)
                 break
-            _take(reading, piece, kept)
+            _take(reading, piece, kept_pieces)
         else:
-            _take(reading, _piece(match, place), kept)
+            _take(reading, _piece(match, place), kept_pieces)
     else:
         _leave(reading, bare, (at, past))
     reading.end_line()
-    if kept and reading.opened is not None:
-        place = (kept[0].span[0], kept[-1].span[1])
-        reading.opened.lines.append(Line(tuple(kept), place, lines.line(bare.span(*span)[0])))
+    if kept_pieces and reading.opened is not None:
+        place = (kept_pieces[0].span[0], kept_pieces[-1].span[1])
+        reading.opened.lines.append(Line(tuple(kept_pieces), place, lines.line(bare.span(*span)[0])))
 
 
-def _name(reading: _Reading, bare: Expanded, span: Span, kept: list[Piece]) -> None:
+def _name(reading: _Reading, bare: Expanded, span: Span, kept_pieces: list[Piece]) -> None:
     """What is nothing of the language: a name, where a file that is included may say what it stands for."""
     if bare.left and reading.opened is not None:
-        kept.append(Piece(Kind.BESIDE, NAMED_ELSEWHERE, math.nan, span))
+        kept_pieces.append(Piece(Kind.BESIDE, NAMED_ELSEWHERE, math.nan, span))
     else:
         reading.leave(span)
 
 
-def _take(reading: _Reading, piece: Piece, kept: list[Piece]) -> None:
+def _take(reading: _Reading, piece: Piece, kept_pieces: list[Piece]) -> None:
     """A piece that was read; one with a number beyond any that is meant is not."""
     if abs(piece.value) > _LARGEST:  # NaN, of a piece without a number, is not
         reading.unread.append(piece.span)
     else:
-        reading.take(piece, kept)
+        reading.take(piece, kept_pieces)
 
 
 def _leave(reading: _Reading, bare: Expanded, span: Span) -> None:

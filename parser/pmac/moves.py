@@ -82,7 +82,7 @@ class MovedLine:
         most_um = _MOST_UM.get(piece.name)
         if most_um is not None and abs(from_mm(piece.value)) > most_um:
             limits = f"±{mm(most_um) / 1000.0:g} m"
-            self.state.finding("PMC108", piece.span, {"word": _shown(piece), "limits": limits}, TooLarge())
+            self.state.finding("PMC108", piece.span, {"word": _excerpt(piece), "limits": limits}, TooLarge())
         return piece
 
     def _mode(self, piece: Piece) -> None:
@@ -110,7 +110,7 @@ class MovedLine:
     def _timed(self, piece: Piece) -> None:
         state = self.state
         if piece.value < 0.0:
-            self._at("PMC209", piece, word=_shown(piece))
+            self._at("PMC209", piece, word=_excerpt(piece))
         elif piece.name == "TA":
             state.ramp = piece.value
         elif piece.name == "TS":
@@ -124,21 +124,21 @@ class MovedLine:
         name = piece.name
         if self.is_normal and name in _CENTER:
             if name != "K" or piece.value >= 0.0:
-                self._at("PMC101", piece, text=f"NORMAL {_shown(piece)}")
+                self._at("PMC101", piece, text=f"NORMAL {_excerpt(piece)}")
             return
         if name == "F":
             if piece.value <= 0.0:
-                self._at("PMC209", piece, word=_shown(piece))
+                self._at("PMC209", piece, word=_excerpt(piece))
             else:
                 self.state.feed = piece.value
         elif name in _PLANE | _OTHER_AXES | set("IJKR"):
             if name in self.words:
-                self._at("PMC104", piece, word=_shown(piece), other=_shown(self.words[name]))
+                self._at("PMC104", piece, word=_excerpt(piece), other=_excerpt(self.words[name]))
             self.words[name] = piece
             if name in _OTHER_AXES:
                 self.state.others.setdefault((piece.name, piece.span), piece)
         elif name != "S":
-            self._at("PMC101", piece, text=_shown(piece))
+            self._at("PMC101", piece, text=_excerpt(piece))
 
     def _name_place(self) -> None:
         """PSET: the place has another name from here; behind a stop the wire is threaded there."""
@@ -205,7 +205,7 @@ class MovedLine:
 _MOTIONS: Mapping[str, int] = {"RAPID": 0, "LINEAR": 1, "CIRCLE1": 2, "CIRCLE2": 3}
 
 
-def _shown(piece: Piece) -> str:
+def _excerpt(piece: Piece) -> str:
     return f"{piece.name}{piece.value:g}"
 
 

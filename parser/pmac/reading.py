@@ -5,16 +5,14 @@ from bisect import bisect_left
 from collections.abc import Iterator, Mapping
 from itertools import accumulate
 
-from parser.dialect.reader import PATH_IS_ALL, Beside, BlockCounts, Damage, Reading, ReadText, Spelling
+from parser.dialect.reader import PATH_IS_ALL, BesideThePath, BlockCounts, Damage, Reading, ReadText, Spelling
 from parser.findings.codes import Check, Severity
 from parser.findings.errors import ProgramError
 from parser.findings.facts import DamagedBlock, NotSimulated
 from parser.findings.findings import Finding, file_order
-from parser.pmac.arcs import Arc, arc_of
 from parser.pmac.lines import Buffer, Text, read_lines
-from parser.pmac.path import path_of
-from parser.pmac.routines import holds_routines
-from parser.pmac.running import run
+from parser.pmac.path import Arc, arc_of, path_of
+from parser.pmac.running import holds_routines, run
 from parser.pmac.speed import speed_findings
 from parser.pmac.state import State
 from parser.text.encoding import no_program, printable
@@ -52,8 +50,8 @@ def read_pmac(text: str) -> ReadText:
         *beside,
     ]
     findings += [
-        read.lines.finding(one.code, state.moves[one.row].at.span, block[one.row], **one.values)
-        for one in speed_findings(toolpath, state.moves, _time_unit_ms(state))
+        read.lines.finding(finding.code, state.moves[finding.row].at.span, block[finding.row], **finding.values)
+        for finding in speed_findings(toolpath, state.moves, _time_unit_ms(state))
     ]
     reading = _reading(read, state, toolpath, damages)
     return ReadText(read.lines, reading, {}, toolpath, tuple(sorted(findings, key=file_order)))
@@ -119,7 +117,7 @@ def _beside_findings(read: Text, state: State) -> tuple[Finding, ...]:
         at, why, what, more = state.beside[0].span, "pmac-beside", "", len(_places(state)) - 1
     else:
         return ()
-    found = read.lines.finding("PMC107", at, text=_shown(read, at), why=why, what=what, more=more)
+    found = read.lines.finding("PMC107", at, text=_excerpt(read, at), why=why, what=what, more=more)
     return (found.with_fact(NotSimulated(otherwise=True)),)
 
 
@@ -129,22 +127,22 @@ def _places(state: State) -> tuple[Span, ...]:
     return tuple(dict.fromkeys((*(piece.span for piece in state.beside), *halted)))
 
 
-def _shown(read: Text, span: Span) -> str:
+def _excerpt(read: Text, span: Span) -> str:
     return printable(read.lines.text[slice(*span)]).strip()[:_MOST_SHOWN]
 
 
-def _not_simulated(read: Text, state: State) -> Beside:
-    names = tuple(dict.fromkeys(_shown(read, span) for span in _places(state)))
+def _not_simulated(read: Text, state: State) -> BesideThePath:
+    names = tuple(dict.fromkeys(_excerpt(read, span) for span in _places(state)))
     if not names:
         return PATH_IS_ALL
-    return Beside("reason-at-run", names[:_MOST_NAMED] + ("…",) * (len(names) > _MOST_NAMED))
+    return BesideThePath("reason-at-run", names[:_MOST_NAMED] + ("…",) * (len(names) > _MOST_NAMED))
 
 
 def _line_findings(read: Text, state: State) -> Iterator[Finding]:
     """What the lines themselves have wrong, and PMC106 for axes beside the plane."""
-    for one in state.told.values():
-        found = read.lines.finding(one.code, one.span, 0, **one.values)
-        yield found.with_fact(one.fact) if one.fact else found
+    for each in state.told.values():
+        found = read.lines.finding(each.code, each.span, 0, **each.values)
+        yield found.with_fact(each.fact) if each.fact else found
     others = list(state.others.values())
     for axis in others[:1]:
         word = axis.name if math.isnan(axis.value) else f"{axis.name}{axis.value:g}"

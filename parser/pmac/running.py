@@ -2,6 +2,8 @@
 
 What a text does not say is asked of nobody: where the way of the wire depends on it, the run halts there (docs/pmac.md
 §7).
+
+Routines that G, M, T and D words call: programs of their own, with a label for each word.
 """
 
 from collections.abc import Mapping
@@ -12,10 +14,24 @@ from parser.pmac.expressions import indexed
 from parser.pmac.flow import Order, OrderKind, Orders, orders_of
 from parser.pmac.lines import NAMED_ELSEWHERE, Buffer, Kind, Line, Piece
 from parser.pmac.moves import MovedLine
-from parser.pmac.routines import ROUTINES, called_by
 from parser.pmac.state import Halt, State
 from parser.pmac.values import UnknownValue, Values
 from parser.text.source import Span
+
+ROUTINES: Mapping[str, int] = {"G": 1000, "M": 1001, "T": 1002, "D": 1003}
+"""Programs that hold the routines of G, M, T and D words, by letter (PMAC User's Manual, p. 204)."""
+
+
+def holds_routines(number: int) -> bool:
+    """Whether a program of this number holds routines: 1000 to 1003, and 1010, 1020 … of words of 100 and more."""
+    return 1000 <= number < 1100 and 1000 + number % 10 in ROUTINES.values()
+
+
+def called_by(piece: Piece) -> tuple[int, int]:
+    """The program and the label that a G, M, T or D word calls: G123 is label 23000 of program 1010."""
+    hundred, below = divmod(int(abs(piece.value)), 100)
+    return ROUTINES[piece.name] + 10 * hundred, below * 1000
+
 
 _MOST_ORDERS = 1_000_000  # loops of a few lines may stand for more than anyone waits for
 _DEEPEST = 15  # calls in one another (Turbo PMAC Software Reference Manual, CALL)
@@ -115,7 +131,7 @@ class _Runner:
             elif piece.kind is Kind.READ:
                 self._read(piece)
             elif piece.kind is Kind.BESIDE:
-                self._beside(order, piece)
+                self._note_beside(order, piece)
             elif piece.name in {"RET", "RETURN"}:
                 self._leave(frame)
             elif piece.kind is Kind.WORD and piece.name in ROUTINES and not self._line(frame, order.line).is_normal:
@@ -256,7 +272,7 @@ class _Runner:
             caller.at += 1
         values.set("Q100", float(found))
 
-    def _beside(self, order: Order, piece: Piece) -> None:
+    def _note_beside(self, order: Order, piece: Piece) -> None:
         if piece.name == NAMED_ELSEWHERE:
             self._halt(order, "pmac-included")
         else:

@@ -37,27 +37,27 @@ def speed_findings(toolpath: Toolpath, moves: Sequence[Move], unit_ms: float | N
     feed = np.array([np.nan if move.feed is None else move.feed for move in moves])
     ramp = np.array([move.ramp_ms for move in moves])
     known = cut & ~np.isnan(feed) & ~np.isnan(ramp)
-    told = np.flatnonzero(known)
+    told_rows = np.flatnonzero(known)
     silent = np.flatnonzero(cut & np.array([move.feed is None for move in moves]))
     if len(silent):
         yield _at("PMC208", int(silent[0]), {})
-    if not len(told):
+    if not len(told_rows):
         return
     if unit_ms is None:
-        yield _at("PMC206", int(told[0]), {"feed": float(feed[told[0]])})
+        yield _at("PMC206", int(told_rows[0]), {"feed": float(feed[told_rows[0]])})
     speed = from_mm(feed) / (unit_ms or DEFAULT_UNIT_MS)
-    yield from _too_short(toolpath, told, speed, ramp, feed)
+    yield from _too_short(toolpath, told_rows, speed, ramp, feed)
     yield from _rounded(toolpath, moves, known, _reached(toolpath, speed, ramp), ramp)
 
 
-def _too_short(toolpath: Toolpath, told: Ints, speed: Floats, ramp: Floats, feed: Floats) -> Iterator[Slow]:
+def _too_short(toolpath: Toolpath, told_rows: Ints, speed: Floats, ramp: Floats, feed: Floats) -> Iterator[Slow]:
     """PMC204 at the block that runs slowest of its F."""
-    share = toolpath.length_um[told] / (speed[told] * np.where(ramp[told] > 0.0, ramp[told], 1e-9))
+    share = toolpath.length_um[told_rows] / (speed[told_rows] * np.where(ramp[told_rows] > 0.0, ramp[told_rows], 1e-9))
     short = np.flatnonzero((share < _SAME) & (share > 0.0))
     if not len(short):
         return
     worst = short[int(np.argmin(share[short]))]
-    row = int(told[worst])
+    row = int(told_rows[worst])
     values: dict[str, Value] = {
         "time": float(toolpath.length_um[row] / speed[row]),
         "ramp": float(ramp[row]),

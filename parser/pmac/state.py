@@ -12,7 +12,7 @@ from parser.text.source import Span
 from parser.toolpath import Stop
 
 
-class Told(NamedTuple):
+class LineFault(NamedTuple):
     """Something wrong with a line: the code of its finding, its place, its values, and its fact."""
 
     code: str
@@ -97,14 +97,14 @@ class State:
     others: dict[tuple[str, Span], Piece] = field(default_factory=dict)
     moves: list[Move] = field(default_factory=list)
     stops: list[Stop] = field(default_factory=list)
-    told: dict[tuple[str, Span], Told] = field(default_factory=dict)
+    told: dict[tuple[str, Span], LineFault] = field(default_factory=dict)
     beside: list[Piece] = field(default_factory=list)
     halt: Halt | None = None
     is_steep_told: bool = False
 
     def finding(self, code: str, span: Span, values: Mapping[str, Value], fact: Fact | None = None) -> None:
         """What is wrong with a line, once a place however often a loop runs it."""
-        self.told.setdefault((code, span), Told(code, span, values, fact))
+        self.told.setdefault((code, span), LineFault(code, span, values, fact))
 
     @property
     def ramp_ms(self) -> float:

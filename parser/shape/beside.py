@@ -7,10 +7,9 @@ import numpy as np
 
 from parser.geometry.along import headings_along, places_at
 from parser.geometry.broad_phase_places import Near, near_places
-from parser.geometry.curves import Curves, Floats, Ints, total_before
+from parser.geometry.curves import Curves, Floats, Ints, extents, total_before
 from parser.geometry.directions import headings_at
-from parser.geometry.extents import extents
-from parser.geometry.feet import feet
+from parser.geometry.distance import feet
 from parser.toolpath import Toolpath
 
 BESIDE_UM = 400.0
@@ -61,7 +60,7 @@ class Neighbours(NamedTuple):
     sense: Ints
 
 
-class Beside(NamedTuple):
+class RunBeside(NamedTuple):
     """How k pairs of stretches run beside each other.
 
     Attributes
@@ -94,10 +93,10 @@ def sampled(toolpath: Toolpath, stretches: Stretches, samples: int = _SAMPLES) -
 def neighbours(toolpath: Toolpath, rows: Ints, place_um: Floats, way: Floats) -> Neighbours:
     """Those of the `rows` (r,) that run beside places (m, 2) µm on the path, passed in the directions (m, 2)."""
     near = _near(toolpath.picked(rows), place_um)
-    return _beside(toolpath, rows[near.row], near.other, place_um, way)
+    return _running_beside(toolpath, rows[near.row], near.other, place_um, way)
 
 
-def _beside(toolpath: Toolpath, row: Ints, at: Ints, place_um: Floats, way: Floats) -> Neighbours:
+def _running_beside(toolpath: Toolpath, row: Ints, at: Ints, place_um: Floats, way: Floats) -> Neighbours:
     """Those of the pairs (p,) of a row and a place, by its number, that run beside each other."""
     foot = feet(toolpath, row, place_um[at]).place_um
     heading = headings_at(toolpath, row, foot)
@@ -119,54 +118,58 @@ def _near(curves: Curves, place_um: Floats) -> Near:
     return Near(np.repeat(place, len(row)), np.tile(row, len(place)))
 
 
-def run_beside(toolpath: Toolpath, stretches: Stretches, one: Ints, other: Ints) -> Beside:
+def run_beside(toolpath: Toolpath, stretches: Stretches, this: Ints, other: Ints) -> RunBeside:
     """How the stretches `one` (k,) run beside the stretches `other` (k,), by their numbers.
 
     Each pair is looked at by itself: where a thousand passes lie on one another, all rows lie near all places.
     """
-    nothing = np.zeros(len(one))
-    if not len(one):
-        return Beside(nothing, nothing, nothing)
+    nothing = np.zeros(len(this))
+    if not len(this):
+        return RunBeside(nothing, nothing, nothing)
     boxes = extents(toolpath)
-    rows = stretches.last[one] - stretches.first[one] + 1
+    rows = stretches.last[this] - stretches.first[this] + 1
     part = np.cumsum(rows) // (_MOST_LOOKED_AT // _SAMPLES)
-    bounds = np.append(np.flatnonzero(np.diff(part, prepend=-1)), len(one))
+    bounds = np.append(np.flatnonzero(np.diff(part, prepend=-1)), len(this))
     parts = [
-        _some_beside(toolpath, boxes, stretches, one[low:past], other[low:past])
+        _some_beside(toolpath, boxes, stretches, this[low:past], other[low:past])
         for low, past in pairwise(bounds.tolist())
     ]
     share, sense, aside = (np.concatenate(column) for column in zip(*parts, strict=True))
-    return Beside(share, sense, aside)
+    return RunBeside(share, sense, aside)
 
 
 def _some_beside(
-    toolpath: Toolpath, boxes: tuple[Floats, Floats], stretches: Stretches, one: Ints, other: Ints
-) -> Beside:
+    toolpath: Toolpath, boxes: tuple[Floats, Floats], stretches: Stretches, this: Ints, other: Ints
+) -> RunBeside:
     """How some stretches run beside others, `boxes` being the lowest and highest places (n, 2) of the rows."""
     places = sampled(toolpath, stretches.take(other))
-    number = stretches.last[one] - stretches.first[one] + 1
-    pair = np.repeat(np.arange(len(one)), number)
-    row = np.arange(len(pair)) + (stretches.first[one] - np.cumsum(number) + number)[pair]
+    number = stretches.last[this] - stretches.first[this] + 1
+    pair = np.repeat(np.arange(len(this)), number)
+    row = np.arange(len(pair)) + (stretches.first[this] - np.cumsum(number) + number)[pair]
     at = pair[:, None] * _SAMPLES + np.arange(_SAMPLES)
     near = np.ones(at.shape, dtype=np.bool_)
     for axis, (low, high) in enumerate(zip(boxes[0].T, boxes[1].T, strict=True)):
         place = places.place_um[:, axis][at]
         near &= (place >= (low[row] - BESIDE_UM)[:, None]) & (place <= (high[row] + BESIDE_UM)[:, None])
     of, sample = np.nonzero(near)
-    return _by_pair(_beside(toolpath, row[of], at[of, sample], places.place_um, places.way), len(one))
+    return _by_pair(_running_beside(toolpath, row[of], at[of, sample], places.place_um, places.way), len(this))
 
 
-def _by_pair(beside: Neighbours, pairs: int) -> Beside:
+def _by_pair(beside_neighbours: Neighbours, pairs: int) -> RunBeside:
     """Rows beside places summed up by pairs of stretches, each with so many places one after the other."""
     # Of the rows of one stretch the nearest one counts at a place.
-    nearest = np.lexsort((np.abs(beside.aside_um), beside.at))
-    once = nearest[np.diff(beside.at[nearest], prepend=-1) != 0]
-    pair, aside, sense = beside.at[once] // _SAMPLES, beside.aside_um[once], beside.sense[once]
+    nearest = np.lexsort((np.abs(beside_neighbours.aside_um), beside_neighbours.at))
+    once = nearest[np.diff(beside_neighbours.at[nearest], prepend=-1) != 0]
+    pair, aside, sense = (
+        beside_neighbours.at[once] // _SAMPLES,
+        beside_neighbours.aside_um[once],
+        beside_neighbours.sense[once],
+    )
     count = np.bincount(pair, minlength=pairs)
     usual = _medians(pair, aside, count)
     like = np.abs(aside - usual[pair]) <= _UNLIKE_UM + _UNLIKE_SHARE * np.abs(usual[pair])
     share = np.bincount(pair, like, pairs) / _SAMPLES
-    return Beside(share, np.bincount(pair, sense, pairs) / np.maximum(count, 1), usual)
+    return RunBeside(share, np.bincount(pair, sense, pairs) / np.maximum(count, 1), usual)
 
 
 def _medians(group: Ints, value: Floats, count: Ints) -> Floats:

@@ -1,6 +1,8 @@
 """Which stretches of contours cut along an edge: loops, open sections, or the whole contour where it is cut once.
 
 Tabs that another contour cuts: the edge was left open, and the wire comes back to it after a jump.
+
+Which stretches of a path run over one edge: those that lie in like boxes and run beside one another.
 """
 
 from typing import NamedTuple
@@ -9,25 +11,89 @@ import numpy as np
 
 from parser.geometry.boxes import distinct
 from parser.geometry.broad_phase_places import near_places
-from parser.geometry.curves import Bools, Ints
+from parser.geometry.curves import Bools, Floats, Ints, extents
 from parser.geometry.distance import distance_to_curves
-from parser.shape.beside import Stretches
+from parser.shape.beside import BESIDE_UM, Stretches, run_beside
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import runs
-from parser.shape.edges import edges_of
 from parser.shape.loops import find_loops
 from parser.shape.open_edges import (
     AT_END_UM,
     MOST_ASIDE_UM,
     Section,
+    Turns,
+    find_turns,
     is_slot,
     open_sections,
     sections_elsewhere,
     sections_of_tours,
 )
 from parser.shape.several_loops import several_loops
-from parser.shape.turns import Turns, find_turns
 from parser.toolpath import Toolpath
+
+_BOX_UM = 2.0 * BESIDE_UM
+"""Sides of boxes about passes over one edge lie this near each other: at a sharp corner farther than the passes do."""
+_BOX_SHARE = 0.4  # of the box: no pass takes more of a small one
+_LEAST_SHARE = 0.6  # of a pass that runs beside another one; corners are rounded in one and not in the other
+_LEAST_SENSE = 0.8  # all of a pass runs one way
+_MOST_LIKE = 8  # stretches whose boxes one is held against: the latest before it that begin near
+_MOST_HELD = 2  # of these, stretches that one is held against itself
+_CELLS = 1 << 31  # more cells than any path has across
+
+
+def edges_of(toolpath: Toolpath, stretches: Stretches) -> Ints:
+    """Which edge each stretch (k,) runs over: the number of the first stretch over it."""
+    this, other = _alike(toolpath, stretches)
+    beside = run_beside(toolpath, stretches, this, other)
+    back = run_beside(toolpath, stretches, other, this)
+    share = np.minimum(beside.share, back.share)
+    mates = (share >= _LEAST_SHARE) & (np.abs(beside.sense) >= _LEAST_SENSE)
+    edge = list(range(len(stretches.first)))
+    for early, late in zip(this[mates].tolist(), other[mates].tolist(), strict=True):
+        here, there = _root(edge, early), _root(edge, late)
+        edge[max(here, there)] = min(here, there)
+    return np.array([_root(edge, number) for number in range(len(edge))], dtype=np.int64)
+
+
+def _root(edge: list[int], number: int) -> int:
+    while edge[number] != number:
+        edge[number] = edge[edge[number]]
+        number = edge[number]
+    return number
+
+
+def _alike(toolpath: Toolpath, stretches: Stretches) -> tuple[Ints, Ints]:
+    """Pairs (m,) of stretches in boxes that are alike, the earlier one first."""
+    low, high = _boxes(toolpath, stretches)
+    most_off = np.minimum(_BOX_UM, _BOX_SHARE * (high - low).max(axis=1, initial=0.0))
+    k = len(stretches.first)
+    found = [np.empty(0, dtype=np.int64)]
+    # Corners within half a cell of each other share a cell of one of four grids that lie half a cell apart.
+    for shift in np.ndindex(2, 2):
+        cell = np.floor(low / (2.0 * _BOX_UM) + np.array(shift) / 2.0).astype(np.int64)
+        key = cell[:, 0] * _CELLS + cell[:, 1]
+        order = np.argsort(key, kind="stable")
+        for step in range(1, min(_MOST_LIKE, k - 1) + 1):
+            this, other = order[:-step], order[step:]
+            off = np.maximum(np.abs(low[this] - low[other]), np.abs(high[this] - high[other])).max(axis=1)
+            alike = (key[this] == key[other]) & (off <= np.maximum(most_off[this], most_off[other]))
+            found.append(this[alike] * k + other[alike])
+    pairs, _ = np.unique(np.concatenate(found), return_index=True)
+    this, other = pairs // k, pairs % k
+    # The latest before each are enough: passes follow each other.
+    order = np.lexsort((-this, other))
+    first = np.searchsorted(other[order], other[order])
+    kept_order = order[np.arange(len(order)) - first < _MOST_HELD]
+    return this[kept_order], other[kept_order]
+
+
+def _boxes(toolpath: Toolpath, stretches: Stretches) -> tuple[Floats, Floats]:
+    """Lowest and highest places (k, 2) of stretches."""
+    low, high = extents(toolpath)
+    # Every other one of these ranges lies between two stretches.
+    edges = np.stack([stretches.first, np.minimum(stretches.last + 1, len(toolpath))], axis=1).reshape(-1)
+    low, high = np.append(low, low[-1:], axis=0), np.append(high, high[-1:], axis=0)
+    return np.minimum.reduceat(low, edges)[::2], np.maximum.reduceat(high, edges)[::2]
 
 
 def cut_elsewhere(
@@ -47,7 +113,7 @@ def cut_elsewhere(
         section = sections[left[number]][-1]
         edge = np.arange(section.first, section.last + 1)
         several = sections_elsewhere(toolpath, bounds[at], edge)
-        if bounds[at][0] > section.last and any(one.is_tab for one in several):
+        if bounds[at][0] > section.last and any(each.is_tab for each in several):
             found[at] = left[number], several
     return found
 
@@ -113,8 +179,8 @@ def find_cuts(toolpath: Toolpath, contour: Ints) -> Cuts:
     others = _without(np.arange(contour.max(initial=-1) + 1), np.concatenate([opened, kept.contour]))
     elsewhere = cut_elsewhere(toolpath, contour, sections, others)
     others = _without(others, np.array(sorted(elsewhere), dtype=np.int64))
-    rows = [(one, at, several[0].first) for at, several in sections.items() for one in several]
-    rows += [(one, at, sections[of][0].first) for at, (of, several) in elsewhere.items() for one in several]
+    rows = [(each, at, several[0].first) for at, several in sections.items() for each in several]
+    rows += [(each, at, sections[of][0].first) for at, (of, several) in elsewhere.items() for each in several]
     found = _joined(kept, _of_sections(rows), *_cut_once(toolpath, contour, others))
     return found.take(np.argsort(found.first))
 
@@ -135,9 +201,9 @@ def _open(toolpath: Toolpath, contour: Ints, loops: Cuts, edge: Ints) -> dict[in
     found: dict[int, list[Section]] = {}
     again = _trimmed(loops, edge)
     for at, stretches in again.items():
-        one, other = (np.arange(first, last + 1) for first, last in stretches)
-        if np.hypot(*(toolpath.start_um[one[0]] - toolpath.start_um[other[0]])) <= CLOSED_WITHIN_UM:
-            found[at] = sections_of_tours(toolpath, bounds[at], one, other)
+        this, other = (np.arange(first, last + 1) for first, last in stretches)
+        if np.hypot(*(toolpath.start_um[this[0]] - toolpath.start_um[other[0]])) <= CLOSED_WITHIN_UM:
+            found[at] = sections_of_tours(toolpath, bounds[at], this, other)
     turned = {at: of for at, of in _turned(contour, find_turns(toolpath, contour)).items() if at not in again}
     for at, of in turned.items():
         found[at] = open_sections(toolpath, bounds[at], of)
@@ -179,7 +245,7 @@ def _turned(contour: Ints, turns: Turns) -> dict[int, Turns]:
 
 def _of_sections(sections: list[tuple[Section, int, int]]) -> Cuts:
     """Sections with their contours, and with the first row of their edge."""
-    rows = [(one.first, one.last, at, of, one.is_tab) for one, at, of in sections]
+    rows = [(each.first, each.last, at, of, each.is_tab) for each, at, of in sections]
     first, last, contour, edge_row, tab = np.array(rows, dtype=np.int64).reshape(-1, 5).T
     return Cuts(first, last, contour, np.zeros(len(first), dtype=np.bool_), tab.astype(np.bool_), edge_row)
 

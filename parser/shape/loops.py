@@ -5,9 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.geometry.curves import Curves, Floats, Ints, total_before
+from parser.geometry.curves import Curves, Floats, Ints, total_before, turned_about
 from parser.geometry.distance import distance_to_curves
-from parser.geometry.inside import turned_about
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
 

@@ -3,6 +3,8 @@
 Where the first pass turns back, the second one runs beside it. What both have in common is the open edge. Its two ends
 are known then, and every other stretch of the contour is told by the ends that it runs between: from one end to the
 other beside the edge it is a pass, and away from the edge a pass over the tab. All else is lead or step.
+
+Where a path turns back: at once, or behind a short step aside, as from one pass to the next one.
 """
 
 from itertools import pairwise
@@ -11,12 +13,71 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.along import places
-from parser.geometry.curves import Bools, Floats, Ints
-from parser.geometry.directions import headings
+from parser.geometry.curves import Bools, Floats, Ints, total_before
+from parser.geometry.directions import directions, headings
 from parser.shape.beside import neighbours
 from parser.shape.closing import CLOSED_WITHIN_UM
-from parser.shape.turns import Turns
 from parser.toolpath import Toolpath
+
+_BACK = -0.96  # cosine of the angle between the ways there and back; whole µm tilt short blocks
+_MOST_STEP_UM = 400.0
+_MOST_STEPS = 3  # blocks of a step aside
+
+
+class Turns(NamedTuple):
+    """Turns (k,) in the order they are met.
+
+    Attributes
+    ----------
+    arrive, leave
+        Rows up to but without `arrive` run there, those from `leave` on back; rows between them are the step.
+    aside_um
+        How far the way back lies to the left of the way there.
+    """
+
+    arrive: Ints
+    leave: Ints
+    aside_um: Floats
+
+    def take(self, at: Ints | slice) -> "Turns":
+        """Those at the indices `at`."""
+        return Turns(self.arrive[at], self.leave[at], self.aside_um[at])
+
+
+def find_turns(toolpath: Toolpath, contour: Ints) -> Turns:
+    """Turns within contours; `contour` (n,) is each row's, −1 on jumps."""
+    n = len(toolpath)
+    ways, before = directions(toolpath), total_before(toolpath.length_um)
+    leave = np.full(n, -1, dtype=np.int64)
+    for blocks in range(min(_MOST_STEPS, n - 1), -1, -1):
+        arriving, leaving = ways.arriving[: n - blocks - 1], ways.leaving[blocks + 1 :]
+        turned = arriving[:, 0] * leaving[:, 0] + arriving[:, 1] * leaving[:, 1] <= _BACK
+        turned &= (contour[: n - blocks - 1] >= 0) & (contour[: n - blocks - 1] == contour[blocks + 1 :])
+        turned &= before[blocks + 1 : n] - before[1 : n - blocks] <= _MOST_STEP_UM
+        row = np.flatnonzero(turned)
+        leave[row] = row + blocks + 1
+    there = np.flatnonzero(leave >= 0)
+    # Blocks may be shorter than a step: of turns that leave by one row, the last one is no step longer than it must be.
+    there = there[np.diff(leave[there], append=n) != 0]
+    there = _apart(there, leave[there], before)
+    back = leave[there]
+    by = toolpath.start_um[back] - toolpath.end_um[there]
+    way = ways.arriving[there]
+    return Turns(there + 1, back, way[:, 0] * by[:, 1] - way[:, 1] * by[:, 0])
+
+
+def _apart(there: Ints, back: Ints, before_um: Floats) -> Ints:
+    """Rows (k,) that turn back, without those whose way back would be the step of another one: of two the shorter step.
+
+    Behind a corner the step itself runs back beside the side before it.
+    """
+    step_um = before_um[back] - before_um[there + 1]
+    meets = back[:-1] >= there[1:] + 1
+    gone = np.zeros(len(there), dtype=np.bool_)
+    gone[:-1] |= meets & (step_um[:-1] > step_um[1:])
+    gone[1:] |= meets & (step_um[:-1] <= step_um[1:])
+    return there[~gone]
+
 
 MOST_ASIDE_UM = 150.0
 """Trims take no more; two sides of a slot are farther apart."""
@@ -74,7 +135,7 @@ def _repeated(toolpath: Toolpath, bounds: tuple[int, int], turns: Turns) -> list
     edge = _common(toolpath, there, back[: np.searchsorted(run_um, whole_um)], 0.0)
     found = _sections(toolpath, low, past, edge) if len(edge) else []
     tabs = [section for section in found if section.is_tab]
-    lengths = [toolpath.length_um[one.first : one.last + 1].sum() for one in (*found[:1], *tabs)]
+    lengths = [toolpath.length_um[tab.first : tab.last + 1].sum() for tab in (*found[:1], *tabs)]
     return found if tabs and max(lengths[1:]) < lengths[0] else []
 
 
@@ -89,12 +150,12 @@ def is_slot(sections: list[Section], begin: int, loop: tuple[int, int] | None) -
     return within and (loop[0] > begin or sections[0].first == begin)  # else the way from the hole back to it
 
 
-def sections_of_tours(toolpath: Toolpath, bounds: tuple[int, int], one: Ints, other: Ints) -> list[Section]:
+def sections_of_tours(toolpath: Toolpath, bounds: tuple[int, int], this: Ints, other: Ints) -> list[Section]:
     """Passes over the open edge that two ways from the hole and back to it have in common; `bounds` are the contour's.
 
     The ways `one` and `other` are given by their rows.
     """
-    edge = _common(toolpath, one, other)
+    edge = _common(toolpath, this, other)
     return _sections(toolpath, *bounds, edge) if len(edge) else []
 
 
@@ -124,10 +185,10 @@ def _common(toolpath: Toolpath, early: Ints, late: Ints, least_um: float = LEAST
 def _row_by_row(toolpath: Toolpath, early: Ints, late: Ints) -> tuple[Ints, Floats, Ints]:
     """Those of the rows `late` whose middle has one of `early` beside it, how far aside to the left, and its sense."""
     half = np.full(len(late), 0.5)
-    beside = neighbours(toolpath, early, places(toolpath, late, half), headings(toolpath, late, half))
-    nearest = np.lexsort((np.abs(beside.aside_um), beside.at))
-    once = nearest[np.flatnonzero(np.diff(beside.at[nearest], prepend=-1))]
-    return late[beside.at[once]], beside.aside_um[once], beside.sense[once]
+    beside_neighbours = neighbours(toolpath, early, places(toolpath, late, half), headings(toolpath, late, half))
+    nearest = np.lexsort((np.abs(beside_neighbours.aside_um), beside_neighbours.at))
+    once = nearest[np.flatnonzero(np.diff(beside_neighbours.at[nearest], prepend=-1))]
+    return late[beside_neighbours.at[once]], beside_neighbours.aside_um[once], beside_neighbours.sense[once]
 
 
 def sections_elsewhere(toolpath: Toolpath, bounds: tuple[int, int], edge: Ints) -> list[Section]:

@@ -2,6 +2,8 @@
 
 A contour may be cut at once, or roughed and then trimmed: in runs of their own, by its start hole, or there and back
 without leaving it, with a tab left to the last. A contour that is cut once is one pass.
+
+How far each block of an earlier pass lies from the last pass over its edge.
 """
 
 from bisect import bisect_left
@@ -10,11 +12,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.geometry.along import places
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.shape.beside import run_beside
+from parser.geometry.directions import headings
+from parser.shape.beside import neighbours, run_beside
 from parser.shape.contours import contour_rows, runs
-from parser.shape.cuts import Cuts, find_cuts
-from parser.shape.edges import edges_of
+from parser.shape.cuts import Cuts, edges_of, find_cuts
 from parser.shape.loops import part_sides
 from parser.toolpath import Toolpath
 
@@ -85,7 +88,7 @@ class Passes(NamedTuple):
 
     def around(self, row: int) -> tuple[Pass, Pass] | None:
         """The last pass that begins before a row and the first that does not; None where one is missing."""
-        later = bisect_left(self.passes, row, key=lambda one: one.first)
+        later = bisect_left(self.passes, row, key=lambda each: each.first)
         return (self.passes[later - 1], self.passes[later]) if 0 < later < len(self.passes) else None
 
 
@@ -116,10 +119,10 @@ def leads_of(passes: Passes, toolpath: Toolpath) -> Bools:
 def with_edges(passes: Sequence[Pass]) -> tuple[Pass, ...]:
     """The passes of a toolpath, each with the least shift over its edge, or over its tab."""
     least: dict[tuple[int, bool], float] = {}
-    for one in passes:
-        over = one.edge, one.is_tab
-        least[over] = min(least.get(over, one.shift_um), one.shift_um)
-    return tuple(one._replace(edge_um=least[one.edge, one.is_tab]) for one in passes)
+    for pass_ in passes:
+        over = pass_.edge, pass_.is_tab
+        least[over] = min(least.get(over, pass_.shift_um), pass_.shift_um)
+    return tuple(pass_._replace(edge_um=least[pass_.edge, pass_.is_tab]) for pass_ in passes)
 
 
 def _edges(toolpath: Toolpath, cuts: Cuts) -> Ints:
@@ -188,3 +191,42 @@ def _shifts(toolpath: Toolpath, cuts: Cuts, edge: Ints, part_side: Ints) -> Floa
     waste = np.where(part_side != 0, -part_side, 0.0)[last[other]]
     aside[other] *= np.where(waste != 0.0, waste, np.sign(aside[first[other]]))
     return aside + 0.0  # no −0
+
+
+_SHARES = np.array([1.0, 3.0, 5.0]) / 6.0  # of a block, at which it is held against the last pass
+
+
+def row_shifts_um(toolpath: Toolpath, passes: Passes) -> Floats:
+    """(n,) how far µm the blocks of earlier passes lie from the last pass, at the place where they come nearest to it.
+
+    Positive on the side of the waste. NaN where there is no later pass, or none beside the block, or the side of the
+    part is not known; passes over a tab are held against the last one over it.
+    """
+    shift = np.full(len(toolpath), np.nan)
+    last = {(pass_.edge, pass_.is_tab): number for number, pass_ in enumerate(passes.passes)}
+    later = np.array([last[pass_.edge, pass_.is_tab] for pass_ in passes.passes], dtype=np.int64)
+    side = np.array([pass_.part_side for pass_ in passes.passes], dtype=np.int64)
+    same = np.array([not pass_.is_back for pass_ in passes.passes], dtype=np.int64) * 2 - 1
+    is_held = (later != np.arange(len(later))) & (side != 0)
+    if not is_held.any():
+        return shift
+    row = np.flatnonzero((passes.of_row >= 0) & is_held[passes.of_row])
+    is_last = np.isin(passes.of_row, later[is_held])
+    at, share = np.repeat(row, len(_SHARES)), np.tile(_SHARES, len(row))
+    beside_neighbours = neighbours(
+        toolpath, np.flatnonzero(is_last), places(toolpath, at, share), headings(toolpath, at, share)
+    )
+    mine, other = passes.of_row[at[beside_neighbours.at]], passes.of_row[beside_neighbours.row]
+    own = np.flatnonzero((other == later[mine]) & (beside_neighbours.sense == same[mine] * same[other]))
+    # The last pass lies to the left of the place by so much; the part may lie there too.
+    return _least(
+        shift, at[beside_neighbours.at[own]], beside_neighbours.at[own], (beside_neighbours.aside_um * side[mine])[own]
+    )
+
+
+def _least(shift: Floats, row: Ints, place: Ints, aside: Floats) -> Floats:
+    """The rows' shifts (n,) filled in: at each place the nearest neighbour counts, in each row the lowest shift."""
+    order = np.lexsort((np.abs(aside), place))
+    once = order[np.flatnonzero(np.diff(place[order], prepend=-1))]
+    np.fmin.at(shift, row[once], aside[once])
+    return shift

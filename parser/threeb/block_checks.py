@@ -12,7 +12,7 @@ from parser.geometry.curves import Ints
 from parser.text.lines import LineIndex
 from parser.text.source import Field
 from parser.threeb.decode import decoded_words
-from parser.threeb.stolen_numbers import RADIUS_TOLERANCE_UM
+from parser.threeb.reader import RADIUS_TOLERANCE_UM
 from parser.told.step_words import Axis, StepWords
 from parser.toolpath import Toolpath
 from parser.words.labels import label

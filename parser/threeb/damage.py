@@ -10,7 +10,7 @@ from parser.findings.facts import DamagedBlock
 from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
 from parser.text.lines import LineIndex
-from parser.threeb.grammar import FLAGS, LABEL
+from parser.threeb.tokens import FLAGS, LABEL
 
 _INKED_LINE = re.compile(r"[^\s\0-\x1f][^\r\n]*")
 # A damaged block reaches from its first B to the first B behind other letters than those between numbers.

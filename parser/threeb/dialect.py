@@ -12,11 +12,11 @@ from parser.text.encoding import narrow, no_program
 from parser.threeb.block_checks import block_findings
 from parser.threeb.columns import RawBlocks
 from parser.threeb.decode import decode
-from parser.threeb.grammar import BLOCK_WORDS, LIKE_A_BLOCK, OWN_MARKS
 from parser.threeb.mend import MENDER
 from parser.threeb.order_checks import damaged_after, dialect, lost_blocks, order_findings
 from parser.threeb.print_checks import print_findings
 from parser.threeb.reader import Records, read_records
+from parser.threeb.tokens import BLOCK_WORDS, LIKE_A_BLOCK, OWN_MARKS
 from parser.toolpath import Toolpath
 from parser.words.labels import SENSES
 

@@ -11,8 +11,8 @@ from parser.findings.findings import Finding
 from parser.shape.closing import ends_closed
 from parser.shape.passes import Passes, find_passes
 from parser.threeb.figures import is_open_way, placed_marks
-from parser.threeb.grammar import FOREIGN_ENDS, LIKE_A_BLOCK
 from parser.threeb.reader import Mark, Records
+from parser.threeb.tokens import FOREIGN_ENDS, LIKE_A_BLOCK
 from parser.toolpath import Toolpath
 
 _SAME_PLACE_UM = 2.0  # printed places are rounded to 1 µm
@@ -116,7 +116,9 @@ def _idle_pauses(records: Records, toolpath: Toolpath) -> Iterator[Finding]:
         begin = row
     passes = None if all(repeated for _, _, repeated in idle) else find_passes(toolpath)
     trimmed = (
-        {one.edge for one in passes.passes if abs(one.shift_um) > _SAME_PLACE_UM or one.is_tab} if passes else set()
+        {pass_.edge for pass_ in passes.passes if abs(pass_.shift_um) > _SAME_PLACE_UM or pass_.is_tab}
+        if passes
+        else set()
     )
     for mark, row, repeated in idle:
         if repeated or passes is None or not _before_trim(passes, trimmed, row):

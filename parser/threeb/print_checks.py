@@ -68,18 +68,18 @@ def _misprints(toolpath: Toolpath, missing: Ints) -> list[_Misprint]:
     gaps = np.searchsorted(missing, rows, side="right").tolist()
     shifts: list[list[float]] = off[1:].tolist()
     found: list[_Misprint] = []
-    kept, base, gap = [0.0, 0.0], [0.0, 0.0], 0
+    kept_shifts, base, gap = [0.0, 0.0], [0.0, 0.0], 0
     for at, row in enumerate(rows.tolist()):
         if gaps[at] != gap:
-            kept = base = shifts[at]
+            kept_shifts = base = shifts[at]
             gap = gaps[at]
-        elif _apart(toolpath, row, shifts[at], kept):
+        elif _apart(toolpath, row, shifts[at], kept_shifts):
             is_far = math.dist(shifts[at], base) >= _ERROR_UM - _ROUNDING_UM
-            is_alone = not _apart(toolpath, row, shifts[at + 1], kept) if at + 1 < len(rows) else None
+            is_alone = not _apart(toolpath, row, shifts[at + 1], kept_shifts) if at + 1 < len(rows) else None
             found.append(_Misprint(row, is_far, is_alone))
             if not is_alone:
-                kept = shifts[at]
-                base = kept if is_far else base
+                kept_shifts = shifts[at]
+                base = kept_shifts if is_far else base
     return found
 
 
@@ -109,9 +109,9 @@ def _may_be_apart(off: Floats) -> NDArray[np.bool_]:
     return may
 
 
-def _apart(toolpath: Toolpath, row: int, one: Sequence[float], other: Sequence[float]) -> bool:
+def _apart(toolpath: Toolpath, row: int, this: Sequence[float], other: Sequence[float]) -> bool:
     """Whether two shifts differ by more than the rounding of the end printed beside a row."""
-    off = math.hypot(one[0] - other[0], one[1] - other[1])
+    off = math.hypot(this[0] - other[0], this[1] - other[1])
     if off < _HALF_DIGITS * _FINEST_HALF_DIGIT_UM - _ROUNDING_UM:
         return False
     return off >= _HALF_DIGITS * _half_digit_um(toolpath, row) - _ROUNDING_UM

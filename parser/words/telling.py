@@ -95,9 +95,9 @@ def counted_way(angle_rad: Floats) -> Floats:
     return 2.0 * halves + 1.0 - np.cos(angle_rad - halves * np.pi)
 
 
-def chosen(is_one: Bools, one: StepWords, other: StepWords) -> StepWords:
+def chosen(is_one: Bools, this: StepWords, other: StepWords) -> StepWords:
     """Words of `one` where `is_one` (n,), of `other` elsewhere."""
-    return StepWords(*(np.where(is_one, getattr(one, name), getattr(other, name)) for name in StepWords.__slots__))
+    return StepWords(*(np.where(is_one, getattr(this, name), getattr(other, name)) for name in StepWords.__slots__))
 
 
 def _quadrant(x: Ints, y: Ints) -> Ints:

@@ -1,16 +1,110 @@
-"""A draft: what is to be written, whatever the language; from a toolpath, or made by whoever has curves."""
+"""A draft: what is to be written, whatever the language; from a toolpath, or made by whoever has curves.
 
+Rapids as a language says them: 3B has no word for one, and a line is in the air because the wire is out.
+
+What an ISO program switches where it stands, beside moving the wire: dwells, optional stops, feeds, conditions.
+
+Words mean the same in every family for a dwell and for M01. A feed and a condition are numbers of one family's tables:
+they are kept where that family's ISO is written, and else told to be lost.
+"""
+
+import math
 import re
 from dataclasses import dataclass, fields, replace
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints, curves_between, joined
+from parser.iso.listing.lexer import read_listing
+from parser.iso.listing.listing import Listing
 from parser.told.compensation import Compensation
 from parser.told.step_words import StepWords
 from parser.toolpath import Stop, Toolpath
-from parser.write.events import Event
+
+EventKind = Literal["dwell", "optional-stop", "feed", "condition"]
+OF_THE_FAMILY = "FECS"
+"""Letters of feeds and cutting conditions (docs/iso.md §4)."""
+_DWELL, _OPTIONAL = 4, 1
+_TIMES = "XUP"
+
+
+class Event(NamedTuple):
+    """One of them: how many rows of a toolpath run before it, its word as it is written, and its number.
+
+    The number of a dwell is s, that of the others as written.
+    """
+
+    kind: EventKind
+    after: int
+    word: str
+    number: float
+
+    @property
+    def is_common(self) -> bool:
+        """Whether its word means the same in every family."""
+        return self.kind in {"dwell", "optional-stop"}
+
+
+def events_of(toolpath: Toolpath) -> tuple[Event, ...] | None:
+    """Events of an ISO program in the order in which they stand; None where blocks do not run in that order.
+
+    A stop counts behind the move of its block, the others in front of it. What stands behind the end is none.
+    """
+    first = toolpath.source.span[:, 0]
+    if (np.diff(first) < 0).any():
+        return None
+    listing = read_listing(toolpath.source.text)
+    words, blocks = listing.words, listing.blocks
+    end = next((stop.line for stop in toolpath.stops if stop.kind == "end"), math.inf)
+    is_dwell = listing.blocks_of(np.flatnonzero((words.letter == ord("G")) & (words.value == _DWELL)))
+    is_time = is_dwell[words.block] & np.isin(words.letter, [ord(letter) for letter in _TIMES])
+    is_optional = (words.letter == ord("M")) & (words.value == _OPTIONAL)
+    is_of_family = np.isin(words.letter, [ord(letter) for letter in OF_THE_FAMILY])
+    runs = blocks.line[words.block] <= end
+    found = []
+    for at in np.flatnonzero((is_time | is_optional | is_of_family) & runs).tolist():
+        place = (blocks.past if is_optional[at] else blocks.first)[words.block[at]]
+        after = int(np.searchsorted(first, place))
+        found.append(_dwell(listing, at, after) if is_time[at] else _other(listing, at, after))
+    return tuple(found)
+
+
+def _dwell(listing: Listing, word: int, after: int) -> Event:
+    """X and U are s; P is s with a point, else ms (docs/iso.md §4)."""
+    number, letter = float(listing.words.value[word]), chr(listing.words.letter[word])
+    seconds = number / 1000.0 if letter == "P" and listing.words.decimals[word] < 0 else number
+    return Event("dwell", after, f"G04 X{seconds:.3f}", seconds)
+
+
+def _other(listing: Listing, word: int, after: int) -> Event:
+    letter, number = chr(listing.words.letter[word]), float(listing.words.value[word])
+    kind: EventKind = "optional-stop" if letter == "M" else "feed" if letter == "F" else "condition"
+    return Event(kind, after, "M01" if letter == "M" else listing.written(word), number)
+
+
+def written_events(events: tuple[Event, ...]) -> dict[int, list[str]]:
+    """Blocks by how many rows run before them: dwells alone, feeds and conditions together."""
+    blocks: dict[int, list[str]] = {}
+    together: set[int] = set()
+    for event in events:
+        lines = blocks.setdefault(event.after, [])
+        if event.kind == "dwell":
+            lines.append(event.word)
+            together.discard(event.after)
+        elif event.kind != "optional-stop":
+            if event.after in together:
+                lines[-1] += f" {event.word}"
+            else:
+                lines.append(event.word)
+            together.add(event.after)
+    return blocks
+
+
+def optional_stops(events: tuple[Event, ...]) -> set[int]:
+    """How many rows run before each optional stop."""
+    return {event.after for event in events if event.kind == "optional-stop"}
+
 
 _PLACED = re.compile(r"\s*(?:N\s*\d+\s*)?(?:Start|PSET|.*G\s*92(?!\d))", re.IGNORECASE)
 _STAYS_UM = 1.5
@@ -86,7 +180,7 @@ def draft_of(toolpath: Toolpath) -> Draft:
         curves=Curves(**{field.name: getattr(toolpath, field.name) for field in fields(Curves)}),
         stops=(*(stop for after, stop in sorted(pauses.items()) if 0 < after < len(toolpath)), *ends[:1]),
         is_placed=_placed(toolpath),
-        told_um=_told(toolpath),
+        told_um=_center_ways(toolpath),
         words=toolpath.words,
         compensation=toolpath.compensation,
     )
@@ -99,7 +193,7 @@ def _placed(toolpath: Toolpath) -> Bools:
     return placed
 
 
-def _told(toolpath: Toolpath) -> Floats:
+def _center_ways(toolpath: Toolpath) -> Floats:
     """Ways to the centres: of blocks with words exactly as they say, else as told where start and end agree."""
     nowhere = np.full((len(toolpath), 2), np.nan)
     if toolpath.words is not None:
@@ -125,3 +219,58 @@ def picked(draft: Draft, row: Ints) -> Draft:
     stops = (stop._replace(after=int(np.searchsorted(row, stop.after))) for stop in draft.stops)
     columns = draft.curves.picked(row), tuple(stops), draft.is_placed[row], draft.told_um[row]
     return Draft(*columns, words, compensation, draft.is_meant)
+
+
+_SAME_UM = 2.0
+
+
+def with_rapid_to_start(draft: Draft) -> Draft:
+    """A draft that begins at (0, 0), with a rapid to where it began; for languages that have no words to count by."""
+    if not len(draft) or not draft.curves.start_um[0].any():
+        return draft
+    curves = draft.curves
+    rapid = curves_between(np.zeros((1, 2)), curves.start_um[:1], np.full((1, 2), np.nan), np.zeros(1))
+    rapid.kind[:] = CurveKind.JUMP
+    told = draft.compensation and replace(
+        draft.compensation,
+        side=np.append(0, draft.compensation.side),
+        by_um=np.append(0.0, draft.compensation.by_um),
+        register=("", *draft.compensation.register),
+    )
+    return replace(
+        draft,
+        curves=joined([rapid, curves]),
+        stops=tuple(stop._replace(after=stop.after + 1) for stop in draft.stops),
+        events=tuple(event._replace(after=event.after + 1) for event in draft.events),
+        is_placed=np.append(False, draft.is_placed),
+        told_um=np.concatenate([np.full((1, 2), np.nan), draft.told_um]),
+        words=None,
+        compensation=told,
+    )
+
+
+def without_rapids(draft: Draft) -> Draft:
+    """A draft that begins with a cut, and whose rapids lead to other figures.
+
+    Where the first cut begins the wire is threaded, however it gets there. A rapid back to a place of its own figure,
+    such as the way out to the start hole, runs with the wire through what is cut: it is a block like others.
+    """
+    cuts = np.flatnonzero(draft.curves.kind != CurveKind.JUMP)
+    begun = picked(draft, np.arange(cuts[0] if len(cuts) else len(draft), len(draft)))
+    kind = begun.curves.kind.copy()
+    kind[_returning(begun)] = CurveKind.LINE
+    stops = tuple(stop for stop in begun.stops if stop.kind == "end" or stop.after > 0)
+    return replace(begun, curves=replace(begun.curves, kind=kind), stops=stops)
+
+
+def _returning(draft: Draft) -> Ints:
+    """Rows in the air, not placed, that end where a block of the figure before them begins."""
+    jumps = np.flatnonzero(draft.curves.kind == CurveKind.JUMP)
+    figures = zip([0, *(jumps[:-1] + 1).tolist()], jumps.tolist(), strict=True) if len(jumps) else ()
+    back = [row for first, row in figures if not draft.is_placed[row] and _is_back(draft.curves, first, row)]
+    return np.array(back, dtype=np.int64)
+
+
+def _is_back(curves: Curves, first: int, row: int) -> bool:
+    away = curves.start_um[first:row] - curves.end_um[row]
+    return bool((np.hypot(away[:, 0], away[:, 1]) <= _SAME_UM).any())

@@ -55,7 +55,7 @@ def lost_words(text: str, carried: CarriedOver) -> tuple[Loss, ...]:
     switches |= is_m & ~np.isin(words.value, _OF_THE_PATH)
     losses = [
         _named("switches", listing, switches),
-        _of("settings", listing.text, [one.span for one in listing.statements]),
+        _of("settings", listing.text, [statement.span for statement in listing.statements]),
         _named("stops", listing, is_m & np.isin(words.value, stops)),
         _of("dwells", listing.text, [_block_span(listing, at) for at in np.flatnonzero(dwells).tolist()]),
         _named("calls", listing, is_m & (words.value == 98)),

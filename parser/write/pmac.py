@@ -65,7 +65,7 @@ def blocks_of_source(text: str, toolpath: Toolpath, decoder: Decoder | None) -> 
         return None
     if any(line.lstrip().startswith("/") for line in text.splitlines()):
         return None
-    blocks = [_taken(block) for block in decoder.blocks()]
+    blocks = [_with_move(block) for block in decoder.blocks()]
     return None if None in blocks else tuple(block for block in blocks if block is not None)
 
 
@@ -87,12 +87,12 @@ def blocks_of_text(text: str) -> tuple[GBlock, ...]:
 def written_pmac(blocks: Sequence[GBlock], choices: PmacChoices) -> str:
     """Text of a motion program: settings, the routines of G words where they are kept, PROG 1."""
     native = choices.way == "native"
-    body = [*_ramp(blocks), *(_native(blocks) if native else _kept(blocks))]
+    body = [*_ramp(blocks), *(_native(blocks) if native else _with_g_words(blocks))]
     routines = [] if native else _buffer(1000, _routines(choices.card), choices.card)
     return "\n".join([*_head(choices.card), *routines, *_buffer(1, body, choices.card), ""])
 
 
-def _taken(block: DecodedBlock) -> GBlock | None:
+def _with_move(block: DecodedBlock) -> GBlock | None:
     whole = all(number == int(number) for number in (*block.g, *block.m))
     g, m = tuple(map(int, block.g)), tuple(map(int, block.m))
     known = whole and set(g) <= _KNOWN_G and set(m) <= _KNOWN_M
@@ -160,12 +160,12 @@ def _native(blocks: Sequence[GBlock]) -> Iterator[str]:
     yield "DWELL0"
 
 
-def _kept(blocks: Sequence[GBlock]) -> Iterator[str]:
+def _with_g_words(blocks: Sequence[GBlock]) -> Iterator[str]:
     """With the G words of the moves kept; what PROG 1000 does not hold is a command of the card."""
-    kept = {number for number, _ in _ROUTINES}
+    kept_routines = {number for number, _ in _ROUTINES}
     for block in blocks:
         words = [] if _PLACE in block.g else _words(block)
-        line = " ".join([*(f"G{number:02d}" for number in block.g if number in kept), *words])
+        line = " ".join([*(f"G{number:02d}" for number in block.g if number in kept_routines), *words])
         if line:
             yield line
         yield from _between(block)
@@ -204,7 +204,7 @@ def ramp_of(blocks: Sequence[GBlock]) -> int:
     least = min(_times_ms(blocks), default=math.inf)
     if least >= _USUAL_RAMP_MS:
         return 0
-    return next((one for one in _RAMPS_MS if one <= least), _RAMPS_MS[-1])
+    return next((ramp for ramp in _RAMPS_MS if ramp <= least), _RAMPS_MS[-1])
 
 
 def _ramp(blocks: Sequence[GBlock]) -> list[str]:

@@ -60,8 +60,8 @@ def strokes_of(draft: Draft, step_um: float) -> Strokes:
         [curves.kind == CurveKind.JUMP, ~curves.is_arc | short, curves.sweep_rad < 0.0], [0, 1, 2], 3
     ).astype(np.int64)
     center = np.where((motion >= 2)[:, None], _to_center(turned, start, places, step_um), 0)
-    kept = np.flatnonzero((chord > 0.0) | full | turned.is_placed)
-    return Strokes(row[kept], motion[kept], start[kept], end[kept], center[kept])
+    kept_rows = np.flatnonzero((chord > 0.0) | full | turned.is_placed)
+    return Strokes(row[kept_rows], motion[kept_rows], start[kept_rows], end[kept_rows], center[kept_rows])
 
 
 def _in_turns(draft: Draft) -> tuple[Draft, Ints]:

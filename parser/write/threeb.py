@@ -49,9 +49,9 @@ def written_3b(draft: Draft, choices: ThreeBChoices) -> Written:
     A jump stands behind a pause: one that is placed as a start node, any other as a line in the air. Blocks that whole
     µm leave no length are left out.
     """
-    told = _told(draft)
-    is_block = (told.words.count_um > 0) & ~draft.is_placed
-    lines = [*_head(draft, choices), *_body(draft, choices, told, is_block)]
+    told_words = _words_of(draft)
+    is_block = (told_words.words.count_um > 0) & ~draft.is_placed
+    lines = [*_head(draft, choices), *_body(draft, choices, told_words, is_block)]
     return Written("\n".join([*lines, ""]), np.flatnonzero(is_block | draft.is_placed))
 
 
@@ -69,7 +69,7 @@ def with_usual_codes(data: bytes, end: bytes | None, pause: bytes | None) -> byt
     return re.sub(alone, lambda found: found[1] + usual[found[2]], data)
 
 
-def _told(draft: Draft) -> Chained:
+def _words_of(draft: Draft) -> Chained:
     """Words of the rows, and where they end: as they are, or told one from the end of the other."""
     if draft.words is not None:
         return Chained(draft.words, draft.curves.end_um)
@@ -90,9 +90,9 @@ def _head(draft: Draft, choices: ThreeBChoices) -> Iterator[str]:
         yield _node(start)
 
 
-def _body(draft: Draft, choices: ThreeBChoices, told: Chained, is_block: Bools) -> Iterator[str]:
+def _body(draft: Draft, choices: ThreeBChoices, chained: Chained, is_block: Bools) -> Iterator[str]:
     """Blocks with the marks between them, in the detailed form with labels and ends."""
-    numbers = _numbers(told.words, choices.curve)
+    numbers = _numbers(chained.words, choices.curve)
     width = len(str(max(map(max, numbers), default=0)))
     pauses = _pauses(draft)
     labels = (f"N{number:>4}: " if choices.form == "detailed" else "" for number in count(1))
@@ -100,11 +100,11 @@ def _body(draft: Draft, choices: ThreeBChoices, told: Chained, is_block: Bools) 
         if row in pauses:
             yield next(labels) + _PAUSE
         if draft.is_placed[row]:
-            yield _node(told.end_um[row])
+            yield _node(chained.end_um[row])
         elif is_block[row]:
-            words = [*_spelt(numbers[row], choices.form, width), *_axis_and_label(told.words, row, choices.curve)]
+            words = [*_spelt(numbers[row], choices.form, width), *_axis_and_label(chained.words, row, choices.curve)]
             code = ("" if choices.form == "compact" else " ").join(words)
-            yield next(labels) + code + (_printed(told.end_um[row]) if choices.form == "detailed" else "")
+            yield next(labels) + code + (_printed(chained.end_um[row]) if choices.form == "detailed" else "")
     yield next(labels) + _END
 
 

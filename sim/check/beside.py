@@ -7,8 +7,8 @@ import numpy as np
 
 from controller.offset.gouges import TOLERANCE_UM, Gouge, gouges
 from controller.offset.passes import PassedPath
-from controller.offset.path import Made, OffsetPath
 from controller.offset.reach import reach
+from controller.offset.rows import OffsetPath, RowOrigin
 from controller.offset.sections import Round, Side
 from controller.offset.uncut import uncut_um
 from parser.findings.findings import Finding
@@ -66,7 +66,7 @@ class Offsetting:
     @property
     def by_um(self) -> float:
         """Least offset: of the pass that makes the edge."""
-        return min(one.by_um for one in self.passes)
+        return min(pass_.by_um for pass_ in self.passes)
 
     @property
     def pass_of_row(self) -> Ints:
@@ -92,7 +92,7 @@ class Distances(NamedTuple):
     side: Side
 
 
-class Beside(NamedTuple):
+class PassOverRound(NamedTuple):
     """What a pass over one round does to its contour.
 
     Attributes
@@ -110,31 +110,31 @@ class Beside(NamedTuple):
     loops: int | None
 
 
-def beside_round(contour: Curves, path: OffsetPath, one: Round, run: Distances, *, counted: bool) -> Beside:
+def beside_round(contour: Curves, path: OffsetPath, round_: Round, run: Distances, *, counted: bool) -> PassOverRound:
     """What a pass over a round does to the `contour` of its section; `counted` asks for the closed paths as well."""
-    section = one.section
-    near = rows_beside(path, one)
+    section = round_.section
+    near = rows_beside(path, round_)
     curves = path.curves.picked(near)
-    met = [g for g in gouges(contour, curves, run.kerf_um, run.side) if not _is_overhang(contour, one, g)]
+    met = [g for g in gouges(contour, curves, run.kerf_um, run.side) if not _is_overhang(contour, round_, g)]
     gone = path.vanished[slice(*np.searchsorted(path.vanished, (section.first, section.last + 1)))] - section.first
-    return Beside(
+    return PassOverRound(
         left_um=uncut_um(contour, curves, run.by_um, gone),
         gouges=tuple(g._replace(row=section.first + g.row, path_row=int(near[g.path_row])) for g in met),
         loops=len(reach(contour, run.by_um, run.side).loops) if counted else None,
     )
 
 
-def rows_beside(path: OffsetPath, one: Round) -> Ints:
+def rows_beside(path: OffsetPath, round_: Round) -> Ints:
     """Rows of the path that come from a round. Leads of an open section are left out: they may begin and end on it."""
-    rows = np.arange(*np.searchsorted(path.source_row, one[:2]).tolist())
-    near: Ints = rows[one.section.closed | (path.made[rows] != Made.LEAD)]
+    rows = np.arange(*np.searchsorted(path.source_row, round_[:2]).tolist())
+    near: Ints = rows[round_.section.closed | (path.made[rows] != RowOrigin.LEAD)]
     return near
 
 
-def _is_overhang(contour: Curves, one: Round, gouge: Gouge) -> bool:
+def _is_overhang(contour: Curves, round_: Round, gouge: Gouge) -> bool:
     """Whether no more is cut than what the ends of a contour miss each other by, where they meet.
 
     Whole µm never close a contour exactly. Ends that lie side by side are joined midway, which cuts into one of them.
     """
     gap_um = float(np.hypot(*(contour.end_um[-1] - contour.start_um[0])))
-    return one.section.closed and gouge.row in (0, len(contour) - 1) and gouge.depth_um <= gap_um + TOLERANCE_UM
+    return round_.section.closed and gouge.row in (0, len(contour) - 1) and gouge.depth_um <= gap_um + TOLERANCE_UM

@@ -124,25 +124,28 @@ def _suspects(program: Program, contour: Contour, guilty: Ints) -> list[Finding]
     if program.mender is None:
         return []
     found: dict[int, list[Suspect]] = {}
-    for one in program.mender.suspects(program.toolpath, contour.first - 1, contour.last):
-        if not len(guilty) or one.row + 1 in guilty:
-            found.setdefault(one.row, []).append(one)
+    for suspect in program.mender.suspects(program.toolpath, contour.first - 1, contour.last):
+        if not len(guilty) or suspect.row + 1 in guilty:
+            found.setdefault(suspect.row, []).append(suspect)
     return [suspect_finding(program, contour.first, contour.last, tuple(of)) for of in found.values()]
 
 
 def suspect_finding(program: Program, first: int, last: int, suspects: tuple[Suspect, ...]) -> Finding:
     """Finding 3B304 at a block with which the contour of the blocks from `first` to `last` closes in these ways."""
-    one, others = suspects[0], [] if program.mender is None else [program.mender.told((s.mend,)) for s in suspects[1:]]
+    each, others = (
+        suspects[0],
+        [] if program.mender is None else [program.mender.mends_text((s.mend,)) for s in suspects[1:]],
+    )
     return at_block(
         program.toolpath,
         program.lines,
         "3B304",
-        one.row,
-        one.field,
+        each.row,
+        each.field,
         first=first,
         last=last,
-        field=one.field.term,
-        written=one.written,
-        other=one.other,
+        field=each.field.term,
+        written=each.written,
+        other=each.other,
         others=" / ".join(others),
     ).with_fact(Suspected(first, suspects))

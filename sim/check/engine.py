@@ -10,10 +10,10 @@ from parser.findings.facts import TooLarge, telling
 from parser.findings.findings import Finding, file_order
 from parser.program import Program, parse_program
 from parser.shape.contours import Contour, find_contours
-from sim.check.compensation.asked import compensation_of
+from sim.check.compensation.words import compensation_of
 from sim.check.path_checks import Demands, PathChecks, state_of
 from sim.check.result import CheckState, Coverage
-from sim.check.too_large import too_many_steps
+from sim.check.travel import too_many_steps
 
 if TYPE_CHECKING:  # most programs do not compensate
     from sim.check.beside import Offsetting

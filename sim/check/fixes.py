@@ -43,7 +43,7 @@ def choices(program: Program, finding: Finding, findings: tuple[Finding, ...]) -
     if mender is None:
         return ()
     possible = _possible(program, mender, finding, findings)
-    return tuple(Choice(block, mender.told(mends)) for block, mends in possible)
+    return tuple(Choice(block, mender.mends_text(mends)) for block, mends in possible)
 
 
 def _possible(
@@ -57,7 +57,12 @@ def _possible(
                 return []
             return [(block, (mend,)) for mend in mender.printed_mends(program.toolpath, block - 1)]
         case WrongLabel(ruled, slips) if not finding.edits:
-            here = [one for at, fact in telling(findings, Suspected) if at.block == block for one in fact.suspects]
+            here = [
+                each_suspect
+                for at, fact in telling(findings, Suspected)
+                if at.block == block
+                for each_suspect in fact.suspects
+            ]
             others = [suspect.mend for suspect in here if suspect.field is Field.SENSE]
             others += [Mend(Field.SENSE, other) for other in slips]
             return [(block, (mend,)) for mend in dict.fromkeys((Mend(Field.SENSE, ruled), *others))]
@@ -68,7 +73,7 @@ def _possible(
         case OpenContour(first):
             suspected = telling(findings, Suspected)
             of = [(at.block, fact.suspects) for at, fact in suspected if fact.first == first]
-            return [(at, (one.mend,)) for at, suspects in of for one in suspects]
+            return [(at, (each_suspect.mend,)) for at, suspects in of for each_suspect in suspects]
     return []
 
 
@@ -89,11 +94,13 @@ class _Mends:
         self._doubtful = {finding.block for finding, _ in telling(found, DoubtfulEnd)}
         self._open = {contour.first for _, contour in telling(found, OpenContour)}
         suspected = [
-            (finding.block, fact.first, one) for finding, fact in telling(found, Suspected) for one in fact.suspects
+            (finding.block, fact.first, suspect)
+            for finding, fact in telling(found, Suspected)
+            for suspect in fact.suspects
         ]
         self._suspects = Counter(first for _, first, _ in suspected)
-        self._other_sense = {block for block, _, one in suspected if one.field is Field.SENSE}
-        self._other_word = {block for block, _, one in suspected if one.field is not Field.AXIS}
+        self._other_sense = {block for block, _, each in suspected if each.field is Field.SENSE}
+        self._other_word = {block for block, _, each in suspected if each.field is not Field.AXIS}
 
     def of(self, finding: Finding) -> tuple[Edit, ...]:
         """The edits that certainly mend a finding, all together."""

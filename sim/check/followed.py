@@ -11,8 +11,7 @@ from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
 from parser.program import Program
-from parser.shape.passes import Passes
-from parser.shape.row_shifts import row_shifts_um
+from parser.shape.passes import Passes, row_shifts_um
 
 _STRAY_UM = 20.0
 """Contours of two passes in whole µm, each from its own start, drift apart by less."""
@@ -26,10 +25,10 @@ def followed_findings(program: Program, contour: Ints, passes: Passes) -> Iterat
     if program.toolpath.compensation is None or len(passes.passes) < 2:
         return
     off_um = np.abs(row_shifts_um(program.toolpath, passes))
-    for one in passes.passes:
-        of_pass = off_um[one.first : one.last + 1]
-        if contour[one.first] < 0 or np.isnan(of_pass).all():
+    for pass_ in passes.passes:
+        of_pass = off_um[pass_.first : pass_.last + 1]
+        if contour[pass_.first] < 0 or np.isnan(of_pass).all():
             continue
-        row = one.first + int(np.nanargmax(of_pass))
+        row = pass_.first + int(np.nanargmax(of_pass))
         if off_um[row] > _STRAY_UM:
-            yield at_block(program.toolpath, program.lines, "ISO306", row, number=one.number, by=float(off_um[row]))
+            yield at_block(program.toolpath, program.lines, "ISO306", row, number=pass_.number, by=float(off_um[row]))

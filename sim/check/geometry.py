@@ -73,19 +73,19 @@ def crossing_findings(program: Program, contour: Ints, passes: Passes) -> tuple[
     """The first crossing of each contour with itself (3B307), and whether all pairs of blocks were looked at."""
     crossings = find_crossings(program.toolpath, contour, passes)
     found = []
-    for one in crossings:
-        if one.first is not None:
-            later, earlier, (x, y) = one.first
+    for each_crossing in crossings:
+        if each_crossing.first is not None:
+            later, earlier, (x, y) = each_crossing.first
             values: dict[str, Value] = {
                 "crossing": later + 1,
                 "other": earlier + 1,
                 "x": x,
                 "y": y,
-                "more": one.crossings - 1,
+                "more": each_crossing.crossings - 1,
             }
             crossing = at_block(program.toolpath, program.lines, "3B307", later, **values)
             found.append(crossing.with_fact(OddShape()))
-    return found, all(one.is_complete for one in crossings)
+    return found, all(each_crossing.is_complete for each_crossing in crossings)
 
 
 def corner_findings(program: Program, contour: Ints, passes: Passes, offset_um: float) -> list[Finding]:

@@ -2,7 +2,7 @@
 
 How deep one cuts does not depend on the wire, whose kerf reaches as far beside a lead as beside a pass. So the path of
 the lead is held against that of the pass that runs nearest to the part: what of it lies on the part's side is cut out
-of the part. A comparison with a drawing does the same with the edges (`sim/measure/compare/leads.py`).
+of the part. A comparison with a drawing does the same with the edges (`sim/measure/compare/program_edge.py`).
 """
 
 from collections.abc import Callable, Iterator
@@ -12,9 +12,8 @@ import numpy as np
 
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Finding
-from parser.geometry.along import corners
+from parser.geometry.along import corners, deepest
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between
-from parser.geometry.deepest import deepest
 from parser.geometry.directions import runs_back_over
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
@@ -90,8 +89,8 @@ def gouge_findings(program: Program, contour: Ints, passes: Passes) -> Iterator[
 def _rings(toolpath: Toolpath, contour: Ints, passes: Passes) -> tuple[Ints, _Rings]:
     """The ring (e,) of each edge, −1 of one that is open, not judged, or whose part nobody knows; and the rings."""
     over: dict[int, tuple[list[Pass], list[Pass]]] = {}
-    for one in passes.passes:
-        over.setdefault(one.edge, ([], []))[one.is_tab].append(one)
+    for pass_ in passes.passes:
+        over.setdefault(pass_.edge, ([], []))[pass_.is_tab].append(pass_)
     ring_of_edge = np.full(len(over), -1, dtype=np.int64)
     own: list[tuple[Pass, ...]] = []
     turn_rad = np.abs(toolpath.sweep_rad)
@@ -99,12 +98,12 @@ def _rings(toolpath: Toolpath, contour: Ints, passes: Passes) -> tuple[Ints, _Ri
         ring = tuple(_nearest(part) for part in (main, tab) if part)
         last = ring[0]
         is_known = bool(main) and last.part_side != 0 and contour[last.first] >= 0 and (last.is_closed or bool(tab))
-        if is_known and not any((turn_rad[one.first : one.last + 1] > _MOST_RAD).any() for one in ring):
+        if is_known and not any((turn_rad[each.first : each.last + 1] > _MOST_RAD).any() for each in ring):
             ring_of_edge[edge] = len(own)
             own.append(ring)
-    rows = [np.arange(one.first, one.last + 1) for ring in own for one in ring]
+    rows = [np.arange(each.first, each.last + 1) for ring in own for each in ring]
     row = np.concatenate([np.zeros(0, dtype=np.int64), *rows])
-    first = np.cumsum([0, *(sum(one.last + 1 - one.first for one in ring) for ring in own)])
+    first = np.cumsum([0, *(sum(each.last + 1 - each.first for each in ring) for ring in own)])
     corner_um, of = corners(toolpath.picked(row), _SAGITTA_UM)
     corner = np.searchsorted(of, first)
     side = np.array([ring[0].part_side for ring in own], dtype=np.int64)
@@ -115,15 +114,15 @@ def _rings(toolpath: Toolpath, contour: Ints, passes: Passes) -> tuple[Ints, _Ri
 
 def _bridges(toolpath: Toolpath, rings: list[tuple[Pass, ...]]) -> Curves:
     """Lines from the end of each pass to the start of the next one round its ring; short where the path closes."""
-    last = np.array([one.last for ring in rings for one in ring], dtype=np.int64)
-    first = np.array([one.first for ring in rings for one in (*ring[1:], ring[0])], dtype=np.int64)
+    last = np.array([each.last for ring in rings for each in ring], dtype=np.int64)
+    first = np.array([each.first for ring in rings for each in (*ring[1:], ring[0])], dtype=np.int64)
     start, end = toolpath.end_um[last], toolpath.start_um[first]
     return curves_between(start, end, np.full_like(start, np.nan), np.zeros(len(last)))
 
 
 def _nearest(passes: list[Pass]) -> Pass:
     """Of passes over one edge the last of those that run nearest to the part."""
-    return [one for one in passes if one.shift_um <= one.edge_um][-1]
+    return [pass_ for pass_ in passes if pass_.shift_um <= pass_.edge_um][-1]
 
 
 def _areas(corner_um: Floats, first: Ints) -> Floats:
@@ -149,8 +148,8 @@ def _pairs(toolpath: Toolpath, contour: Ints, passes: Passes, ring_of_edge: Ints
     blocks = np.bincount(number[is_lead], minlength=1)
     row = np.flatnonzero(is_lead)
     row = row[blocks[number[row]] <= _MOST_BLOCKS]
-    first = np.array([one.first for one in passes.passes], dtype=np.int64)
-    edge = np.array([one.edge for one in passes.passes], dtype=np.int64)
+    first = np.array([pass_.first for pass_ in passes.passes], dtype=np.int64)
+    edge = np.array([pass_.edge for pass_ in passes.passes], dtype=np.int64)
     if not len(first):
         return _Pairs(row[:0], row[:0])
     later = np.searchsorted(first, row)

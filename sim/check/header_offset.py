@@ -43,4 +43,4 @@ def _is_four_b(program: Program) -> Bools:
 
 def _one_pass(passes: Passes) -> bool:
     """Whether there are closed contours alone, and each is cut once."""
-    return bool(passes.passes) and all(one.is_closed and one.number == 1 for one in passes.passes)
+    return bool(passes.passes) and all(pass_.is_closed and pass_.number == 1 for pass_ in passes.passes)

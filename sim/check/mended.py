@@ -11,7 +11,7 @@ from sim.check.batch import result_of
 from sim.check.engine import Checked, run_checks
 from sim.check.fixes import with_edits
 from sim.check.settings import CheckSettings
-from sim.check.silence.sift import without_known
+from sim.check.silence.directives import without_known
 
 
 class MendedText(NamedTuple):
@@ -41,13 +41,13 @@ def mended_text(program: Program, settings: CheckSettings, known: frozenset[str]
     """
     checked = run_checks(program, settings.demands)
     findings = with_edits(program, checked)
-    shown = without_known(result_of(program, checked._replace(findings=findings), settings), known).findings
-    edits = compatible(edit for finding in shown for edit in finding.edits)
+    shown_findings = without_known(result_of(program, checked._replace(findings=findings), settings), known).findings
+    edits = compatible(edit for finding in shown_findings for edit in finding.edits)
     text = edited(program.text, edits)
     data = encode_text(text, program.encoding)
     if text != program.text and _brings_errors(load_program(data, program.name, settings.choices), settings, checked):
         text, data, edits = program.text, encode_text(program.text, program.encoding), ()
-    return MendedText(text, data, edits, findings, shown)
+    return MendedText(text, data, edits, findings, shown_findings)
 
 
 def _brings_errors(program: Program, settings: CheckSettings, before: Checked) -> bool:

@@ -7,7 +7,7 @@ import numpy as np
 
 from controller.offset.gouges import TOLERANCE_UM, Gouge
 from controller.offset.passes import NoWayBack, PassedPath
-from controller.offset.path import OffsetPath
+from controller.offset.rows import OffsetPath
 from controller.offset.sections import OffsetSection
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Fact, Finding, Value
@@ -44,7 +44,7 @@ def uncut_findings(
     passes at the least offset leave stays on the part.
     """
     run = Distances(offset.by_um, offset.by_um, offset.side)
-    nearest = [number for number, one in enumerate(offset.passes) if one.by_um == offset.by_um]
+    nearest = [number for number, pass_ in enumerate(offset.passes) if pass_.by_um == offset.by_um]
     last = np.isin(passed.number[gone], nearest)
     rows, of, times = np.unique(passed.row[gone[last]], return_inverse=True, return_counts=True)
     least = np.full(len(rows), np.inf)

@@ -6,7 +6,7 @@ from pathlib import Path
 from parser.files.reading import read_bytes
 from parser.findings.errors import FileUnreadableError
 from sim.base.workers.makers import Maker, made_by, refuse_other_makers
-from sim.base.workers.pool import Pool
+from sim.base.workers.processes import Pool
 from sim.base.workers.rounds import DIED, Lost, in_order, results
 from sim.check.batch import Job, check_any, not_checked
 from sim.check.result import CheckResult

@@ -16,8 +16,7 @@ from parser.geometry.directions import directions
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
 from parser.shape.beside import BESIDE_UM
-from parser.shape.passes import WIDEST_TAB, Pass, Passes
-from parser.shape.row_shifts import row_shifts_um
+from parser.shape.passes import WIDEST_TAB, Pass, Passes, row_shifts_um
 from parser.toolpath import Toolpath
 from sim.setup.wire import DEFAULT_WIRE
 
@@ -55,7 +54,7 @@ def asked_pass_findings(program: Program, passes: Passes, offset_um: float) -> l
 
     It keeps to one side of the material, which no direction can have wrong (3B316).
     """
-    several = _by_edge(Passes(tuple(one._replace(part_side=0) for one in passes.passes), passes.of_row))
+    several = _by_edge(Passes(tuple(pass_._replace(part_side=0) for pass_ in passes.passes), passes.of_row))
     return [found for of in several for found in _offsets(program, of, offset_um)]
 
 
@@ -66,82 +65,84 @@ def _judged(contour: Ints, passes: Passes) -> list[list[Pass]]:
 
 def _main_and_tab(passes: list[Pass]) -> tuple[list[Pass], list[Pass]]:
     """Passes along an edge, and those over its tab."""
-    main, tab = ([one for one in passes if one.is_tab == is_tab] for is_tab in (False, True))
+    main, tab = ([pass_ for pass_ in passes if pass_.is_tab == is_tab] for is_tab in (False, True))
     return main, tab
 
 
 def _by_edge(passes: Passes) -> list[list[Pass]]:
     """Passes over each edge that is cut by several."""
     of_edge: dict[int, list[Pass]] = {}
-    for one in passes.passes:
-        of_edge.setdefault(one.edge, []).append(one)
+    for pass_ in passes.passes:
+        of_edge.setdefault(pass_.edge, []).append(pass_)
     return [several for several in of_edge.values() if len(several) > 1]
 
 
 def _offsets(program: Program, passes: list[Pass], offset_um: float | None) -> Iterator[Finding]:
     """Passes over one edge that lie farther from the part than an earlier one, or so much nearer that it is wrong."""
     nearest = passes[:1]
-    for one in passes[1:]:
-        other, values = nearest[0], {"number": one.number, "other": nearest[0].number}
-        by = other.shift_um - one.shift_um
-        turned = one.is_back != other.is_back and one.part_side != 0
-        if by < -(_SAME_UM if one.told_um is None else _RISES_UM):
-            yield at_block(program.toolpath, program.lines, "3B312", one.first, by=-by, **values)
+    for pass_ in passes[1:]:
+        other, values = nearest[0], {"number": pass_.number, "other": nearest[0].number}
+        by = other.shift_um - pass_.shift_um
+        turned = pass_.is_back != other.is_back and pass_.part_side != 0
+        if by < -(_SAME_UM if pass_.told_um is None else _RISES_UM):
+            yield at_block(program.toolpath, program.lines, "3B312", pass_.first, by=-by, **values)
         elif turned and by > _OTHER_SIDE * (DEFAULT_WIRE.reach_um if offset_um is None else offset_um):
-            yield at_block(program.toolpath, program.lines, "3B316", one.first, by=by, **values)
+            yield at_block(program.toolpath, program.lines, "3B316", pass_.first, by=by, **values)
         elif offset_um is not None and by > 2.0 * offset_um + _SAME_UM:
             left, kerf = by - 2.0 * offset_um, 2.0 * offset_um
-            yield at_block(program.toolpath, program.lines, "3B313", one.first, by=by, left=left, kerf=kerf, **values)
-            nearest = [one]
+            yield at_block(program.toolpath, program.lines, "3B313", pass_.first, by=by, left=left, kerf=kerf, **values)
+            nearest = [pass_]
         elif by > 0.0:
-            nearest = [one]
+            nearest = [pass_]
 
 
 def _deeper(program: Program, passes: Passes, judged: list[list[Pass]]) -> Iterator[Finding]:
     """Of each earlier pass the block that comes nearer to the part than the last one, where that is not all of it."""
     shift_um = row_shifts_um(program.toolpath, passes)
-    for one in (one for several in judged for one in several):
-        of_pass = shift_um[one.first : one.last + 1]
-        if one.shift_um < -_SAME_UM or np.isnan(of_pass).all():
+    for each in (each for several in judged for each in several):
+        of_pass = shift_um[each.first : each.last + 1]
+        if each.shift_um < -_SAME_UM or np.isnan(of_pass).all():
             continue
-        row = one.first + int(np.nanargmin(of_pass))
+        row = each.first + int(np.nanargmin(of_pass))
         if shift_um[row] < -_DEEPER_UM:
             by = float(-shift_um[row])
-            found = at_block(program.toolpath, program.lines, "3B314", row, number=one.number, by=by)
+            found = at_block(program.toolpath, program.lines, "3B314", row, number=each.number, by=by)
             yield found.with_fact(OddShape())
 
 
 def _uncut_tab(program: Program, main: list[Pass]) -> Iterator[Finding]:
     """A tab that passes over all the rest of a figure leave, and that no later block cuts."""
-    toolpath, one = program.toolpath, main[-1]
-    start, end = toolpath.start_um[one.first], toolpath.end_um[one.last]
+    toolpath, last = program.toolpath, main[-1]
+    start, end = toolpath.start_um[last.first], toolpath.end_um[last.last]
     gap = float(np.hypot(*(end - start)))
-    length = float(toolpath.length_um[one.first : one.last + 1].sum())
+    length = float(toolpath.length_um[last.first : last.last + 1].sum())
     if any(each.is_closed for each in main) or gap > WIDEST_TAB * length:
         return
-    if abs(_turned_rad(toolpath, one)) < _TURNED_RAD or _is_cut(program.toolpath, one):
+    if abs(_turned_rad(toolpath, last)) < _TURNED_RAD or _is_cut(program.toolpath, last):
         return
-    blocks = {"first": main[0].first + 1, "last": one.last + 1}
+    blocks = {"first": main[0].first + 1, "last": last.last + 1}
     pause = program.reading.spelling.pause
-    yield at_block(toolpath, program.lines, "3B315", one.last, **blocks, gap=gap, pause=pause)
+    yield at_block(toolpath, program.lines, "3B315", last.last, **blocks, gap=gap, pause=pause)
 
 
-def _turned_rad(toolpath: Toolpath, one: Pass) -> float:
+def _turned_rad(toolpath: Toolpath, pass_: Pass) -> float:
     """Angle that the heading turns along a pass, positive counter-clockwise."""
     ways = directions(toolpath)
-    before, after = ways.arriving[one.first : one.last], ways.leaving[one.first + 1 : one.last + 1]
+    before, after = ways.arriving[pass_.first : pass_.last], ways.leaving[pass_.first + 1 : pass_.last + 1]
     cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
-    return float(toolpath.sweep_rad[one.first : one.last + 1].sum() + np.arctan2(cross, (before * after).sum(1)).sum())
+    return float(
+        toolpath.sweep_rad[pass_.first : pass_.last + 1].sum() + np.arctan2(cross, (before * after).sum(1)).sum()
+    )
 
 
-def _is_cut(toolpath: Toolpath, one: Pass) -> bool:
+def _is_cut(toolpath: Toolpath, pass_: Pass) -> bool:
     """Whether a block behind the last pass may cut the tab: it comes by its middle, or another contour comes near."""
-    start, end = toolpath.start_um[one.first], toolpath.end_um[one.last]
+    start, end = toolpath.start_um[pass_.first], toolpath.end_um[pass_.last]
     x, y = (0.5 * (start + end)).tolist()
     gap = float(np.hypot(*(end - start)))
-    later = np.arange(one.last + 1, len(toolpath))
+    later = np.arange(pass_.last + 1, len(toolpath))
     later = later[~toolpath.is_jump[later]]
     off, _ = distance_to_curves(toolpath, later, np.full(len(later), x), np.full(len(later), y))
-    own = np.append(toolpath.is_jump[one.last :], True)
-    same = later < one.last + int(np.argmax(own))
+    own = np.append(toolpath.is_jump[pass_.last :], True)
+    same = later < pass_.last + int(np.argmax(own))
     return bool((off <= np.where(same, _MIDDLE * gap + _STEP_UM, 0.5 * gap + BESIDE_UM)).any())

@@ -15,7 +15,7 @@ from parser.program import Program
 from parser.shape.contours import Contour, contour_rows
 from parser.shape.passes import find_passes
 from sim.check.closures import OpenContour, contour_findings
-from sim.check.compensation.asked import compensation_of, is_known
+from sim.check.compensation.words import compensation_of, is_known
 from sim.check.count_axes import stepped_end_findings
 from sim.check.followed import followed_findings
 from sim.check.geometry import corner_findings, crossing_findings, sense_findings
@@ -23,12 +23,10 @@ from sim.check.gouges import gouge_findings
 from sim.check.header_offset import header_offset_findings
 from sim.check.passes import pass_findings, tab_findings
 from sim.check.radius_rule import radius_rule_findings, vanishing_findings
-from sim.check.rapids import rapid_findings
+from sim.check.rapids import rapid_findings, tab_stop_findings, uncut_jump_findings
 from sim.check.result import CheckState
-from sim.check.stops import tab_stop_findings
 from sim.check.strokes import doubled_findings, retraced_contours, retraced_findings, swapped_findings
 from sim.check.travel import travel_findings
-from sim.check.uncut_jumps import uncut_jump_findings
 
 if TYPE_CHECKING:  # most checks know no machine, and most programs do not compensate
     from sim.check.compensation.check import OwnCompensation
@@ -70,7 +68,7 @@ class PathChecks:
         self.compensation = own.made if own else None
         self._passes = own.drawn_passes if own else find_passes(program.toolpath)
         self._retraced = retraced_contours(program.toolpath, self.judged, self._passes)
-        opened = {one.contour.first: one.opened for one in self._retraced}
+        opened = {each.contour.first: each.opened for each in self._retraced}
         self.judged = tuple(opened.get(contour.first, contour) for contour in self.judged)
         self.states: list[CheckState] = []
 

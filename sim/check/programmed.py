@@ -4,8 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import CurveKind
-from parser.geometry.extents import extents
+from parser.geometry.curves import CurveKind, extents
 from parser.toolpath import Point, Toolpath
 
 

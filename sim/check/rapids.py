@@ -1,16 +1,116 @@
-"""Rapids of a program: through work that is not cut, and while compensation is on."""
+"""Rapids of a program: through work that is not cut, and while compensation is on.
+
+Ways cut from one closed figure to another, where a pause and a jump were meant.
+
+Stops before a part comes free: the tab that is left until then.
+"""
 
 from collections.abc import Iterator
 
 import numpy as np
 
 from parser.dialect.at_block import at_block
+from parser.findings.facts import WrongBlock
 from parser.findings.findings import Finding
 from parser.geometry.along import places
-from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.curves import Bools, Curves, Floats, Ints, total_before
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
 from parser.shape.contours import runs
+from parser.shape.loops import find_loops
+from parser.shape.passes import Pass, Passes
+from parser.shape.several_loops import loops_in_order
+from parser.toolpath import Toolpath
+
+_WIDEST_TAB = 0.25  # of the length of a loop: what is longer is no tab
+
+
+def tab_stop_findings(program: Program, contour: Ints, passes: Passes) -> Iterator[Finding]:
+    """Finding ISO309 at the first block behind a stop that leaves a tab; `contour` (n,) is each row's.
+
+    The tab is the last part of a loop, or what a pass of its own cuts behind the passes along the edge.
+    """
+    after = np.array([stop.after for stop in program.toolpath.stops if stop.kind == "pause"], dtype=np.int64)
+    if not program.reading.spelling.rapid or not len(after):
+        return
+    run_um = total_before(program.toolpath.length_um)
+    tabs = {**_in_loops(program, contour, after), **_before_passes(passes, after)}
+    for row, past in sorted(tabs.items()):
+        if contour[row] >= 0:
+            left = float(run_um[past] - run_um[row])
+            yield at_block(program.toolpath, program.lines, "ISO309", row, left=left)
+
+
+def _in_loops(program: Program, contour: Ints, after: Ints) -> dict[int, int]:
+    """First rows behind stops within the last part of a loop, and one past its last row."""
+    run_um = total_before(program.toolpath.length_um)
+    after = after[(after > 0) & (after < len(contour))]
+    after = after[(contour[after] >= 0) & (contour[after - 1] == contour[after])]
+    loops = find_loops(program.toolpath, contour, np.array(sorted(set(contour[after].tolist())), dtype=np.int64))
+    found = {}
+    for number, first, last, _ in zip(*(column.tolist() for column in loops), strict=True):
+        for row in after[contour[after] == number].tolist():
+            left_um, whole_um = float(run_um[last + 1] - run_um[row]), float(run_um[last + 1] - run_um[first])
+            if first < row <= last and left_um <= _WIDEST_TAB * whole_um:
+                found[row] = last + 1
+    return found
+
+
+def _before_passes(passes: Passes, after: Ints) -> dict[int, int]:
+    """First rows of passes over a tab with a stop between them and the pass before, and one past their last rows."""
+    before: dict[int, Pass] = {}
+    found = {}
+    for pass_ in passes.passes:
+        last = before.get(pass_.edge, pass_)
+        if pass_.is_tab and not last.is_tab and ((after > last.last) & (after <= pass_.first)).any():
+            found[pass_.first] = pass_.last + 1
+        before[pass_.edge] = pass_
+    return found
+
+
+_APART_UM = 1000.0
+"""Passes of one cut lie within the kerf of each other; figures this far apart are two."""
+
+
+def uncut_jump_findings(program: Program, contour: Ints, passes: Passes) -> list[Finding]:
+    """Finding 3B310 at the first line cut on the way from a closed figure to the next one.
+
+    `contour` (n,) is each row's contour, −1 where it has none. By its hole the wire goes to the next pass over an edge.
+    """
+    toolpath = program.toolpath
+    is_arc = toolpath.is_arc
+    first, last = loops_in_order(toolpath, contour)
+    encloses = _enclose(toolpath, first, last)
+    first, last = first[encloses], last[encloses]
+    found = []
+    for here, there in zip(range(len(first) - 1), range(1, len(first)), strict=True):
+        begin, arrival = int(last[here]) + 1, int(first[there])
+        if contour[begin - 1] != contour[arrival] or arrival <= begin or is_arc[begin:arrival].any():
+            continue
+        around = passes.around(begin)
+        if around and around[0].edge == around[1].edge:
+            continue
+        if _distance(toolpath, arrival, np.arange(first[here], begin)) > _APART_UM:
+            way = float(toolpath.length_um[begin:arrival].sum())
+            jump = program.reading.spelling.jump
+            told = at_block(toolpath, program.lines, "3B310", begin, length=way, jump=jump)
+            found.append(told.with_fact(WrongBlock()))
+    return found
+
+
+def _enclose(toolpath: Toolpath, first: Ints, last: Ints) -> Bools:
+    """Which of k figures enclose anything: two lines there and back, such as the set-up of an offset, do not."""
+    arcs = np.concatenate([[0], np.cumsum(toolpath.is_arc)])
+    encloses: Bools = (last - first >= 2) | (arcs[last + 1] > arcs[first])
+    return encloses
+
+
+def _distance(toolpath: Toolpath, row: int, figure: Ints) -> float:
+    """Distance µm of a row's start from the blocks of a figure."""
+    x, y = toolpath.start_um[row]
+    off, _ = distance_to_curves(toolpath, figure, np.full(len(figure), x), np.full(len(figure), y))
+    return float(off.min())
+
 
 _KERF_UM = 500.0
 """A rapid this near to a cut runs in its kerf: offsets and leads lie as far from the contour."""

@@ -202,9 +202,9 @@ def _area(toolpath: Toolpath, rows: Ints) -> float:
 
 def retraced_findings(program: Program, retraced: tuple[Retraced, ...]) -> Iterator[Finding]:
     """Finding 3B317 at the block that runs back."""
-    for one in retraced:
-        values = {"by": one.by_um, "first": one.contour.first, "last": one.contour.last}
-        yield at_block(program.toolpath, program.lines, "3B317", one.row, **values).with_fact(OddOrder())
+    for each_retraced in retraced:
+        values = {"by": each_retraced.by_um, "first": each_retraced.contour.first, "last": each_retraced.contour.last}
+        yield at_block(program.toolpath, program.lines, "3B317", each_retraced.row, **values).with_fact(OddOrder())
 
 
 def swapped_findings(program: Program, rows: Ints, passes: Passes) -> Iterator[Finding]:
@@ -246,13 +246,13 @@ class _Joints:
         self._slack = 1.0 / np.maximum(toolpath.length_um, 1.0)
         self._is_arc = toolpath.is_arc & (toolpath.length_um > _SHORT_UM)
 
-    def tangent(self, one: Ints, other: Ints) -> Ints:
+    def tangent(self, this: Ints, other: Ints) -> Ints:
         """(k,) 1 where a row would run smoothly into another one, and one of them is an arc; else 0."""
-        arriving, leaving = self._way.arriving[one], self._way.leaving[other]
+        arriving, leaving = self._way.arriving[this], self._way.leaving[other]
         cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
         angle = np.abs(np.arctan2(cross, (arriving * leaving).sum(axis=1)))
-        smooth = angle <= _SMOOTH_RAD + self._slack[one] + self._slack[other]
-        return np.asarray(smooth & (self._is_arc[one] | self._is_arc[other]), dtype=np.int64)
+        smooth = angle <= _SMOOTH_RAD + self._slack[this] + self._slack[other]
+        return np.asarray(smooth & (self._is_arc[this] | self._is_arc[other]), dtype=np.int64)
 
 
 def _swapped_leads(toolpath: Toolpath, contour: Ints, joints: _Joints) -> Ints:
@@ -263,8 +263,8 @@ def _swapped_leads(toolpath: Toolpath, contour: Ints, joints: _Joints) -> Ints:
     start, end = toolpath.start_um, toolpath.end_um
     by = end - start
 
-    def near(one: Floats, other: Floats) -> Bools:
-        close: Bools = np.hypot(*(one - other).T) <= CLOSED_WITHIN_UM
+    def near(this: Floats, other: Floats) -> Bools:
+        close: Bools = np.hypot(*(this - other).T) <= CLOSED_WITHIN_UM
         return close
 
     # In: block 2 would lead in, and the loop close at its end, with or without a lead-out.

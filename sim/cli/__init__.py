@@ -128,7 +128,7 @@ def _complain(message: str) -> int:
     return 2
 
 
-def _tell_fault(told: str) -> int:
+def _tell_fault(told_text: str) -> int:
     from sim.cli.faults import tell_faults
 
-    return tell_faults({"": told}, spoken())
+    return tell_faults({"": told_text}, spoken())

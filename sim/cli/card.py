@@ -18,7 +18,7 @@ SHOWN = 20
 _Command = TypeVar("_Command", bound=Callable[..., None])
 
 
-def _into(told: str) -> Callable[[_Command], _Command]:
+def _into(told_text: str) -> Callable[[_Command], _Command]:
     """The option that names the folder of what is made."""
     kind = FilePath(path_type=Path, file_okay=False)
     return click.option("-o", "--output", type=kind, required=True, metavar="DIR")
@@ -114,19 +114,19 @@ def run(  # noqa: PLR0913 - click hands over each option by its name
     drycut card run ./client -o out/
     drycut card run --card machine.toml --timeout 300 -o out/ ./client part.dat
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.cli.card_client import Asked, run_client
+    from sim.cli.card_client import ClientOptions, run_client
 
-    asked = Asked(command, output, library, settings, call_s, longest_s, machine)
+    asked = ClientOptions(command, output, library, settings, call_s, longest_s, machine)
     raise click.exceptions.Exit(run_client(asked, as_json=as_json))
 
 
-def _text(name: str, done: "Replay", count: int, shown: "list[Difference]") -> Iterator[str]:
-    for entry in shown:
+def _text(name: str, done: "Replay", count: int, shown_differences: "list[Difference]") -> Iterator[str]:
+    for entry in shown_differences:
         yield f"{name}:{entry.line}: error: the card differs"
         yield f"  expected: {entry.expected}"
         yield f"     found: {entry.found}"
-    if count > len(shown):
-        yield f"{name}: and {count - len(shown):,} more"
+    if count > len(shown_differences):
+        yield f"{name}: and {count - len(shown_differences):,} more"
     verdict = f"{count:,} {'difference' if count == 1 else 'differences'}" if count else "equal"
     places = "; ".join(", ".join(f"{place:,}" for place in axes) for axes in done.card.places)
     yield (
@@ -135,7 +135,7 @@ def _text(name: str, done: "Replay", count: int, shown: "list[Difference]") -> I
     )
 
 
-def _json(name: str, done: "Replay", count: int, shown: "list[Difference]") -> str:
+def _json(name: str, done: "Replay", count: int, shown_differences: "list[Difference]") -> str:
     import json
 
     result = {
@@ -147,6 +147,6 @@ def _json(name: str, done: "Replay", count: int, shown: "list[Difference]") -> s
         "places": done.card.places,
         "status": f"{done.card.status:04x}",
         "differences": count,
-        "first": [entry._asdict() for entry in shown],
+        "first": [entry._asdict() for entry in shown_differences],
     }
     return json.dumps(result, ensure_ascii=False, indent=2) + "\n"

@@ -49,7 +49,7 @@ def compare(
     from parser.drawing.read import read_drawing
     from sim.cli.overrides import OfDrawing, drawing_target, read_with
     from sim.measure.compare.compared_program import compare_program
-    from sim.measure.compare.result import Asked
+    from sim.measure.compare.result import FitRequest
     from sim.run.report.drawing import document_text
     from sim.setup.scenario import load_scenario
     from sim.show.terminal.compare import print_comparison
@@ -63,7 +63,7 @@ def compare(
     program = _program(scenario)
     offset_um, source = _offset(given.plain, program, scenario)
     shown = read_drawing(drawing.file, layer=drawing.layer, gap_um=drawing.gap_um)
-    asked = Asked(drawing.tolerance_um, drawing.fit, drawing.sharp_corners)
+    asked = FitRequest(drawing.tolerance_um, drawing.fit, drawing.sharp_corners)
     done = compare_program(program.toolpath, offset_um, shown, asked)
     if as_json:
         write(document_text(done), "json")
@@ -86,7 +86,7 @@ def _program(scenario: "Scenario") -> "Program":
     """The program of a scenario, with the offset that its controller is to add; one that cannot be read is refused."""
     from parser.findings.errors import ProgramError
     from parser.program import moving
-    from sim.check.too_large import refuse_too_large
+    from sim.check.travel import refuse_too_large
     from sim.cli.scenario_options import refused
     from sim.jobs.source import program_read, source_of
     from sim.run.offsetting import as_run

@@ -20,9 +20,9 @@ LOOPS: Final[tuple[str, ...]] = (
     "sim.measure.deviation.meters",
     "sim.table.physics.drive",
     "sim.table.physics.rating",
-    "sim.table.physics.turning",
+    "sim.table.physics.rating",
     "sim.table.record.bins",
-    "sim.table.record.gather",
+    "sim.table.record.history",
     "sim.table.solve.tick",
 )
 """Modules with compiled loops."""

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _UNITS = click.Choice(["um", "mm", "inch"])
 
 
-class _Asked(NamedTuple):
+class _ConvertOptions(NamedTuple):
     """The options, by their names; None and False where they are left out."""
 
     to: "Language | None"
@@ -96,7 +96,7 @@ def convert(path: Path, output: Path, **options: Any) -> None:
     from sim.show.terminal.streams import outlet
     from sim.show.terminal.wrap import width_of
 
-    asked = _Asked(**options)
+    asked = _ConvertOptions(**options)
     language = asked.to or _language(output)
     _refuse_misfits(asked, language)
     given = offsets_of(asked.offset)
@@ -129,19 +129,19 @@ def _language(output: Path) -> "Language":
     return language
 
 
-def _refuse_misfits(asked: _Asked, language: "Language") -> None:
+def _refuse_misfits(options: _ConvertOptions, language: "Language") -> None:
     """UsageError for options that the written language has nothing for."""
     of_iso = {
-        "--from-dialect": asked.from_dialect,
-        "--from-unit": asked.from_unit,
-        "--distance": asked.distance,
-        "--centers": asked.centers,
-        "--decimals": asked.decimals,
-        "--number-step": asked.number_step,
-        "--tape": asked.tape,
+        "--from-dialect": options.from_dialect,
+        "--from-unit": options.from_unit,
+        "--distance": options.distance,
+        "--centers": options.centers,
+        "--decimals": options.decimals,
+        "--number-step": options.number_step,
+        "--tape": options.tape,
     }
-    misfits = {"--form": asked.form} if language == "iso" else of_iso
-    for name, value in ({**of_iso, "--form": asked.form} if language == "pmac" else misfits).items():
+    misfits = {"--form": options.form} if language == "iso" else of_iso
+    for name, value in ({**of_iso, "--form": options.form} if language == "pmac" else misfits).items():
         if value is not None:
             raise click.UsageError(
                 Message(
@@ -151,22 +151,22 @@ def _refuse_misfits(asked: _Asked, language: "Language") -> None:
                     language=language,
                 )
             )
-    of_pmac = {"--pmac": asked.pmac, "--card": asked.card}
+    of_pmac = {"--pmac": options.pmac, "--card": options.card}
     for name, value in ({} if language == "pmac" else of_pmac).items():
         if value is not None:
             raise click.UsageError(Message("option-for-pmac", name=name, language=language))
-    if language == "pmac" and asked.compensation == "kept":
+    if language == "pmac" and options.compensation == "kept":
         raise click.UsageError(Message("pmac-keeps-no-compensation"))
-    if language == "3b" and asked.compensation == "kept":
+    if language == "3b" and options.compensation == "kept":
         raise click.UsageError(Message("3b-keeps-no-compensation"))
 
 
-def _choices(asked: _Asked, language: "Language", given: Offsets) -> "Choices":
+def _choices(options: _ConvertOptions, language: "Language", given: Offsets) -> "Choices":
     """What the program is read with: --dialect and --unit say it where nothing of ISO is written."""
     from parser.dialect.choices import Choices, merged
 
     is_written = language == "iso"
-    dialect, unit = (asked.from_dialect, asked.from_unit) if is_written else (asked.dialect, asked.unit)
+    dialect, unit = (options.from_dialect, options.from_unit) if is_written else (options.dialect, options.unit)
     return Choices(dialect=dialect or "", unit=unit or "", registers=merged([given.registers]))
 
 
@@ -182,42 +182,44 @@ def _with_offset(program: "Program", given: Offsets, side: str | None) -> "Progr
     return as_run(program, Offset((OffsetPass(given.plain),), SIDES[side]))
 
 
-def _wanted(asked: _Asked, language: "Language", program: "Program", given: Offsets) -> "Wanted":
+def _wanted(options: _ConvertOptions, language: "Language", program: "Program", given: Offsets) -> "Wanted":
     from sim.make.convert.wanted import Wanted
 
-    keeps = asked.compensation != "worked-in" and language in {"4b", "iso"}
+    keeps = options.compensation != "worked-in" and language in {"4b", "iso"}
     return Wanted(
         language=language,
-        iso=_iso(asked, program) if language == "iso" else None,
-        form=asked.form or "compact",
+        iso=_iso(options, program) if language == "iso" else None,
+        form=options.form or "compact",
         keeps=keeps,
-        newline="\r\n" if asked.crlf else "\n",
+        newline="\r\n" if options.crlf else "\n",
         name=program.name,
         offset_um=given.plain,
-        pmac=_pmac(asked, program) if language == "pmac" else None,
+        pmac=_pmac(options, program) if language == "pmac" else None,
     )
 
 
-def _pmac(asked: _Asked, program: "Program") -> "PmacChoices":
+def _pmac(options: _ConvertOptions, program: "Program") -> "PmacChoices":
     from parser.write.pmac import PmacChoices, blocks_of_source
 
     return PmacChoices(
-        asked.pmac or "native", asked.card or "turbo", blocks_of_source(program.text, program.toolpath, program.decoder)
+        options.pmac or "native",
+        options.card or "turbo",
+        blocks_of_source(program.text, program.toolpath, program.decoder),
     )
 
 
-def _iso(asked: _Asked, program: "Program") -> "IsoChoices":
+def _iso(options: _ConvertOptions, program: "Program") -> "IsoChoices":
     """Choices of ISO: of the dialect that is asked for, else of that which was read, else of fast wire."""
     from parser.program import dialects
     from parser.write.iso_choices import iso_choices
 
     own = program.reading.dialect if program.reading.dialect in dialects() else "fast-wire"
-    usual = iso_choices(asked.dialect or own, asked.unit, asked.decimals)
+    usual = iso_choices(options.dialect or own, options.unit, options.decimals)
     return usual._replace(
-        distance=asked.distance or usual.distance,
-        centers=asked.centers or usual.centers,
-        number_step=usual.number_step if asked.number_step is None else asked.number_step,
-        tape=usual.tape if asked.tape is None else asked.tape,
+        distance=options.distance or usual.distance,
+        centers=options.centers or usual.centers,
+        number_step=usual.number_step if options.number_step is None else options.number_step,
+        tape=usual.tape if options.tape is None else options.tape,
     )
 
 

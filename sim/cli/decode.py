@@ -72,6 +72,6 @@ def _chosen(blocks: "Sequence[Decoded]", number: int | None) -> "Sequence[Decode
     """The blocks with a number; all without one."""
     if number is None:
         return blocks
-    if all(one.block.number is None for one in blocks):
+    if all(decoded.block.number is None for decoded in blocks):
         return blocks[number - 1 : number] if number > 0 else ()
-    return [one for one in blocks if one.block.number == number]
+    return [decoded for decoded in blocks if decoded.block.number == number]

@@ -69,8 +69,8 @@ class Offsets(NamedTuple):
 def offsets_of(values: Iterable[Any]) -> Offsets:
     """The values of an option that may be given again for registers. UsageError where two are of the other type."""
     given = tuple(values)
-    registers = tuple(one for one in given if isinstance(one, RegisterSet))
-    others = [one for one in given if not isinstance(one, RegisterSet)]
+    registers = tuple(each for each in given if isinstance(each, RegisterSet))
+    others = [each for each in given if not isinstance(each, RegisterSet)]
     if len(others) > 1:
         raise click.UsageError(Message("two-plain-offsets"))
     return Offsets(registers, others[0] if others else None)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from sim.setup.scenario import Scenario
     from sim.show.draw.paints import ThemeName
     from sim.show.pictures.files import PictureFiles
-    from sim.show.pictures.shown import Shown
+    from sim.show.pictures.shown import Drawable
 
 SUFFIXES = (".png", ".svg")
 
@@ -85,10 +85,10 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from sim.show.pictures.files import write_pictures
     from sim.show.terminal.printer import say
 
-    asked = _asked(output, names, svg)
+    asked = _picture_files(output, names, svg)
     scenario = overridden(path, Overrides(**options))
     try:
-        with _shown(asked, scenario) as (shown, findings):
+        with _drawn_from(asked, scenario) as (shown, findings):
             written = write_pictures(shown, asked, size, theme, spoken())
     except ProgramError as error:
         raise refused(scenario, error) from None
@@ -97,14 +97,16 @@ def draw(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
 
 
 @contextmanager
-def _shown(asked: "PictureFiles", scenario: "Scenario") -> "Iterator[tuple[Shown, tuple[Finding, ...]]]":
+def _drawn_from(
+    picture_files: "PictureFiles", scenario: "Scenario"
+) -> "Iterator[tuple[Drawable, tuple[Finding, ...]]]":
     """What the pictures are drawn of, with its findings: the program alone where no other picture needs a run."""
     from parser.program import moving
     from sim.jobs.source import program_read, source_of
     from sim.show.pictures.path import PATH, PathAlone
 
     program = moving(program_read(scenario, source_of(scenario)))
-    if set(asked.files) == {PATH}:
+    if set(picture_files.files) == {PATH}:
         from sim.show.pictures.cut.of_path import programmed
 
         alone = PathAlone(programmed(program, scenario))
@@ -120,7 +122,7 @@ def _shown(asked: "PictureFiles", scenario: "Scenario") -> "Iterator[tuple[Shown
         yield subject_of(recording), recording.run.findings
 
 
-def _asked(output: Path, names: tuple[str, ...], svg: bool) -> "PictureFiles":
+def _picture_files(output: Path, names: tuple[str, ...], svg: bool) -> "PictureFiles":
     """Which pictures are to become which files. BadParameter for what does not fit together."""
     from sim.show.pictures.files import PictureFiles
     from sim.show.pictures.path import PATH

@@ -18,8 +18,7 @@ if TYPE_CHECKING:
 
     from parser.dialect.choices import Choices
     from parser.program import Program
-    from sim.teach.drill.drills import Asked, Drill
-    from sim.teach.drill.proof import Level
+    from sim.teach.drill.drills import Drill, DrillRequest, Level
 
 _LEVELS: "dict[str, Level]" = {"easy": "words", "medium": "picture", "hard": "sums"}
 
@@ -51,10 +50,10 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     from parser.dialect.choices import Choices
     from sim.jobs.drills_into import PAGES, drills_into, names_of
     from sim.show.terminal.printer import say
-    from sim.teach.drill.drills import Asked
+    from sim.teach.drill.drills import DrillRequest
 
     choices = Choices(dialect=dialect or "", unit=unit or "", registers=registers)
-    asked = Asked(number, count, None if level is None else _LEVELS[level])
+    asked = DrillRequest(number, count, None if level is None else _LEVELS[level])
     program = _read(path, choices)
     _refuse_own_file(path, output, program, count)
     drills = _drills(program, asked)
@@ -62,7 +61,7 @@ def drill(  # noqa: PLR0913, PLR0917 - click hands over each option by its name
     names = names_of(program, len(drills))
     if len(drills) < count:
         say(words()("drill.few", name=program.name, made=len(drills), asked=count), err=True)
-    say(_told(program, drills, number))
+    say(_counts_text(program, drills, number))
     say(words()("commands.written", names=f"{output}/ {', '.join(PAGES)}, {names[0]} … {names[-1]}"))
 
 
@@ -87,7 +86,7 @@ def _refuse_own_file(path: Path, output: Path, program: "Program", count: int) -
             raise click.BadParameter(Message("output-is-the-drilled-program", file=file), param_hint="-o")
 
 
-def _drills(program: "Program", asked: "Asked") -> "tuple[Drill, ...]":
+def _drills(program: "Program", request: "DrillRequest") -> "tuple[Drill, ...]":
     """Drills of a program; the end of the command where none can be made of it."""
     from sim.check.settings import CheckSettings
     from sim.cli.progress import StageProgress
@@ -97,16 +96,16 @@ def _drills(program: "Program", asked: "Asked") -> "tuple[Drill, ...]":
     try:
         with StageProgress("drills") as progress:
             progress("drills", 0, 1)
-            return drills_of(program, CheckSettings.reading(program.choices), asked)
+            return drills_of(program, CheckSettings.reading(program.choices), request)
     except SettingsError as error:
         say(words()("commands.error", message=localised(error.message)), err=True)
         raise click.exceptions.Exit(1) from None
 
 
-def _told(program: "Program", drills: "Sequence[Drill]", number: int) -> str:
+def _counts_text(program: "Program", drills: "Sequence[Drill]", number: int) -> str:
     """How many drills of which level there are."""
     say = words()
-    counts = Counter(one.level for one in drills)
+    counts = Counter(each_drill.level for each_drill in drills)
     levels = say("findings.comma").join(
         f"{counts[level]} {say(f'drill.level-name-{level}')}" for level in _LEVELS.values() if counts[level]
     )

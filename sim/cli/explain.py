@@ -22,12 +22,12 @@ def explain(name: str | None, sections: tuple[str, ...]) -> None:
     drycut explain 3b 2
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from sim.show.terminal.colours import styled
-    from sim.show.terminal.markdown import shown
+    from sim.show.terminal.markdown import shown_lines
     from sim.show.terminal.printer import say
     from sim.show.terminal.streams import outlet
     from sim.show.terminal.wrap import width_of
 
-    for text, is_heading in shown(_markdown(name, sections, spoken()), width_of(outlet())):
+    for text, is_heading in shown_lines(_markdown(name, sections, spoken()), width_of(outlet())):
         say(styled(text, "bold" if is_heading else ""))
 
 
@@ -44,12 +44,12 @@ def _markdown(name: str | None, sections: tuple[str, ...], language: Language) -
         raise click.UsageError(Message("nothing-to-explain", name=name))
     text = document(of_documents[code], language)
     try:
-        return cited("\n\n".join(section(text, one) for one in _numbers(sections)) if sections else text)
+        return cited("\n\n".join(section(text, number) for number in _numbers(sections)) if sections else text)
     except KeyError as error:
         raise click.UsageError(Message("no-such-section", name=name, section=error.args[0])) from None
 
 
 def _numbers(sections: tuple[str, ...]) -> Iterator[str]:
     """Numbers of sections, which may be written as pages cite them, such as ``§2``; what has none is taken whole."""
-    for one in sections:
-        yield from re.findall(r"\d+", one) or [one]
+    for section in sections:
+        yield from re.findall(r"\d+", section) or [section]

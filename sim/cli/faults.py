@@ -9,7 +9,7 @@ from typing import Final
 
 from parser import __version__
 from parser.findings.catalogue import Language
-from parser.text.harmless import harmless
+from parser.text.encoding import harmless
 from sim.show.terminal.printer import say
 from sim.show.terminal.wrap import wrapped
 from sim.show.words import Words
@@ -32,7 +32,7 @@ def tell_faults(tracebacks: Mapping[str, str], language: Language) -> int:
         _tell(words("fault.more", count=f"{len(named) - _MOST_FILES:,}"))
     _tell(words("fault.what"), _INDENT)
     facts = [f"{words('fault.command')}{shlex.join(['drycut', *sys.argv[1:]])}", _version()]
-    kept = _kept([*facts, *_told(tracebacks)])
+    kept = _written_file([*facts, *_fault_lines(tracebacks)])
     for fact in (*facts, f"{words('fault.traceback')}{kept or words('fault.not-written')}"):
         _tell(fact, _INDENT)
     return EXIT
@@ -51,12 +51,12 @@ def _last_line(traceback: str) -> str:
     return (traceback.strip().splitlines() or [""])[-1]
 
 
-def _told(tracebacks: Mapping[str, str]) -> Iterator[str]:
+def _fault_lines(tracebacks: Mapping[str, str]) -> Iterator[str]:
     for name, traceback in tracebacks.items():
         yield from ("", name, *traceback.splitlines())
 
 
-def _kept(lines: list[str]) -> str:
+def _written_file(lines: list[str]) -> str:
     """Name of the file that holds the lines, in the system's folder for such; empty where none can be written."""
     try:
         with tempfile.NamedTemporaryFile(

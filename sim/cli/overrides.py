@@ -114,9 +114,9 @@ def _offset(offset: "Offset | None", by_um: tuple[float, ...] | None, side_word:
     passes = offset and offset.passes
     if by_um is not None:
         number(len(by_um), PASSES, "--offset: the number of passes")
-        passes = tuple(OffsetPass(one) for one in by_um)
-        for one in passes:
-            number(mm(one.by_um), OFFSET_MM, "--offset in mm")
+        passes = tuple(OffsetPass(each) for each in by_um)
+        for pass_ in passes:
+            number(mm(pass_.by_um), OFFSET_MM, "--offset in mm")
     side = SIDES[side_word] if side_word is not None else offset and offset.side
     if side is None:
         raise SettingsError("offset-needs-side")

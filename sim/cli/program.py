@@ -12,13 +12,13 @@ from sim.cli.spoken.values import FilePath
 
 if TYPE_CHECKING:
     from parser.findings.catalogue import Language as Tongue
-    from sim.make.cam.maker import Made, NotMade
+    from sim.make.cam.maker import MadeProgram, NotMade
     from sim.setup.making import Language, ToMake
     from sim.setup.scenario import Scenario
     from sim.show.draw.paints import ThemeName
 
 
-class _Asked(NamedTuple):
+class _ProgramRequest(NamedTuple):
     """What is to be made: of which drawing, on whose machine, how, in which language, and whether and where it goes."""
 
     drawing: Path
@@ -74,14 +74,14 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
     drycut program part.dxf --preview --picture plan.png
     drycut program scenarios/plate -o plate.3b
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.make.cam.maker import Made
+    from sim.make.cam.maker import MadeProgram
     from sim.show.terminal.printer import write
 
-    asked = _asked(path, output, Options(**options), is_written=not preview)
+    asked = _program_request(path, output, Options(**options), is_written=not preview)
     _refuse_pictures(picture, asked)
     tongue: Tongue = spoken()
-    done = _made(asked)
-    made = done if isinstance(done, Made) else None
+    done = _made_program(asked)
+    made = done if isinstance(done, MadeProgram) else None
     written = _written(made, asked, tongue, force=force) if made else None
     if made and picture is not None:
         _draw(made, _Picture(picture, theme), tongue)
@@ -95,17 +95,17 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
     raise click.exceptions.Exit(0 if made and made.is_proved else 1)
 
 
-def _written(made: "Made", asked: _Asked, tongue: "Tongue", *, force: bool) -> Path | None:
+def _written(made: "MadeProgram", request: _ProgramRequest, tongue: "Tongue", *, force: bool) -> Path | None:
     """The file that a proved program is written to, an unproved one with its findings by `force`; None if neither."""
-    if not asked.is_written or asked.output is None or not (made.is_proved or force):
+    if not request.is_written or request.output is None or not (made.is_proved or force):
         return None
-    _write(asked.output, made.data if made.is_proved else _with_findings(made, asked, tongue))
-    return asked.output
+    _write(request.output, made.data if made.is_proved else _with_findings(made, request, tongue))
+    return request.output
 
 
-def _asked(path: Path, output: Path | None, options: Options, *, is_written: bool) -> _Asked:
+def _program_request(path: Path, output: Path | None, options: Options, *, is_written: bool) -> _ProgramRequest:
     """What is to be made. UsageError where it is not said which drawing, or where to."""
-    from sim.make.cam.of_scenario import drawing_to_cut
+    from sim.make.cam.asked import drawing_to_cut
     from sim.setup.making import ToMake
     from sim.setup.program_section import of_drawing, refuse_misfits
 
@@ -127,7 +127,7 @@ def _asked(path: Path, output: Path | None, options: Options, *, is_written: boo
     refuse_misfits(to_make.writing, language, "drycut program")
     if output is not None:
         refuse_own_files(output, (file, *([path / "scenario.toml"] if path.is_dir() else [])))
-    return _Asked(file, scenario, to_make, language, output, is_written)
+    return _ProgramRequest(file, scenario, to_make, language, output, is_written)
 
 
 def _scenario(path: Path, output: Path | None, options: Options) -> "Scenario":
@@ -163,38 +163,38 @@ def _language(output: Path | None) -> "Language":
         raise click.BadParameter(Message("suffix-needs-as", output=output), param_hint="-o") from None
 
 
-def _refuse_pictures(picture: Path | None, asked: _Asked) -> None:
+def _refuse_pictures(picture: Path | None, request: _ProgramRequest) -> None:
     if picture is None:
         return
     if picture.suffix.lower() not in {".png", ".svg"}:
         raise click.BadParameter(Message("neither-png-nor-svg", picture=picture), param_hint="--picture")
-    refuse_own_files(picture, (asked.drawing,))
-    if asked.output is not None and picture.resolve() == asked.output.resolve():
+    refuse_own_files(picture, (request.drawing,))
+    if request.output is not None and picture.resolve() == request.output.resolve():
         raise click.BadParameter(Message("picture-is-the-program", picture=picture), param_hint="--picture")
 
 
-def _made(asked: _Asked) -> "Made | NotMade":
+def _made_program(request: _ProgramRequest) -> "MadeProgram | NotMade":
     """The program, made and proved, with progress on stderr."""
     from dataclasses import replace
 
     from sim.cli.progress import StageProgress
     from sim.make.cam.asked import wanted_of
-    from sim.make.cam.maker import made
+    from sim.make.cam.maker import made_program
     from sim.run.recording import stages_of
 
-    wanted = wanted_of(asked.to_make, asked.language, asked.scenario)
-    stages = stages_of(replace(asked.scenario, kerf=True, drawing=None))
+    wanted = wanted_of(request.to_make, request.language, request.scenario)
+    stages = stages_of(replace(request.scenario, kerf=True, drawing=None))
     with StageProgress("drawing", "figures", "write", *stages, "comparison") as progress:
-        return made(asked.drawing, asked.to_make.making, wanted, asked.scenario, progress)
+        return made_program(request.drawing, request.to_make.making, wanted, request.scenario, progress)
 
 
-def _with_findings(done: "Made", asked: _Asked, tongue: "Tongue") -> bytes:
+def _with_findings(done: "MadeProgram", request: _ProgramRequest, tongue: "Tongue") -> bytes:
     """The program with what speaks against it at its head."""
     from sim.make.cam.asked import wanted_of
-    from sim.make.cam.remarked import remarked
+    from sim.make.cam.maker import remarked
     from sim.show.terminal.proof import against
 
-    wanted = wanted_of(asked.to_make, asked.language, asked.scenario)
+    wanted = wanted_of(request.to_make, request.language, request.scenario)
     return remarked(done, [*against(done, tongue)], wanted).data
 
 
@@ -205,23 +205,29 @@ def _write(output: Path, data: bytes) -> None:
         (stage / output.name).write_bytes(data)
 
 
-def _draw(done: "Made", picture: _Picture, tongue: "Tongue") -> None:
+def _draw(done: "MadeProgram", picture: _Picture, tongue: "Tongue") -> None:
     from sim.show.draw.sheet import SIZES_PX
     from sim.show.pictures.files import PictureFiles, write_pictures
-    from sim.show.pictures.plan.shown import PLAN, PlanShown
+    from sim.show.pictures.plan.picture import PLAN, PlanShown
 
     assert picture.file is not None  # noqa: S101 - asked before
     files = PictureFiles(picture.file.parent, {PLAN: picture.file.name})
     write_pictures(PlanShown(done.plan), files, SIZES_PX["screen"], picture.theme, tongue)
 
 
-def _tell(done: "Made | NotMade", asked: _Asked, written: Path | None, picture: Path | None, tongue: "Tongue") -> None:
-    from sim.make.cam.maker import Made
+def _tell(
+    done: "MadeProgram | NotMade",
+    request: _ProgramRequest,
+    written: Path | None,
+    picture: Path | None,
+    tongue: "Tongue",
+) -> None:
+    from sim.make.cam.maker import MadeProgram
     from sim.show.terminal.program import print_made, print_not_made
 
-    if isinstance(done, Made):
+    if isinstance(done, MadeProgram):
         where = "written" if done.is_proved else "forced" if written else "held-back"
-        shown = where if written or asked.is_written else "previewed"
-        print_made(done, asked.to_make.file, shown, picture, tongue)
+        shown = where if written or request.is_written else "previewed"
+        print_made(done, request.to_make.file, shown, picture, tongue)
     else:
-        print_not_made(done, asked.drawing, tongue)
+        print_not_made(done, request.drawing, tongue)

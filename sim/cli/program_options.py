@@ -36,8 +36,8 @@ class Place(click.ParamType):  # type: ignore[type-arg]  # generic in newer clic
         if len(parts) != 2:
             self.fail(Message("no-place", found=value), param, ctx)
         x, y = (_length_um(part) for part in parts)
-        for one in (x, y):
-            number(mm(one), PLACE_MM, "--start in mm")
+        for each in (x, y):
+            number(mm(each), PLACE_MM, "--start in mm")
         return Point(x, y)
 
 

@@ -47,9 +47,9 @@ class Lengths(click.ParamType):  # type: ignore[type-arg]  # generic in newer cl
         if isinstance(value, tuple):
             return value
         lengths = value.split(",")
-        if len(lengths) > 1 and not all(one.strip() for one in lengths):
+        if len(lengths) > 1 and not all(length.strip() for length in lengths):
             raise SettingsError("lacks-a-length", found=value)
-        return tuple(parse_length(one) for one in lengths)
+        return tuple(parse_length(length) for length in lengths)
 
 
 ENGINE_OPTION = click.option(

@@ -10,7 +10,7 @@ from parser.findings.messages import Message
 from sim.cli.spoken.values import WholeNumber
 
 if TYPE_CHECKING:
-    from sim.base.workers.pool import Pool
+    from sim.base.workers.processes import Pool
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 

@@ -12,7 +12,7 @@ from controller.card.log.lines import LONGEST_S, CardLogError, Damaged
 from controller.card.log.replay import call
 from controller.card.way.way import Way, WayRecorder
 from controller.stepping.pulses import Pulses
-from sim.clients.said import Session, Told
+from sim.clients.said import ClientCall, Session
 
 _MOMENT_S: Final = 1e-9
 _SLICE_S: Final = 10.0
@@ -39,7 +39,7 @@ class Again(NamedTuple):
     """
 
     way: Way
-    told: tuple[Told, ...]
+    told: tuple[ClientCall, ...]
     moving_s: tuple[tuple[float, float], ...]
     limits: tuple[LimitMet, ...]
     places: list[list[int]]
@@ -51,20 +51,24 @@ def again(name: str, session: Session) -> Again:
     """Make the calls of a session again. CardLogError where the card answers otherwise than the log `name` says."""
     recorder, spans, heard = WayRecorder(), _Spans(), list[Logged]()
 
-    def driven(one: Driven) -> None:
-        recorder(one)
-        spans.add(one.stretch.start.clock_s, one.until_s)
+    def driven(each_driven: Driven) -> None:
+        recorder(each_driven)
+        spans.add(each_driven.stretch.start.clock_s, each_driven.until_s)
 
     card = GECard(session.settings, on_driven=driven, on_call=heard.append)
-    told = tuple(one for one in session.events if isinstance(one, Told) and not one.is_sleep and not one.is_question)
-    for one in told:
-        card.wait_until(one.call.t_s)
+    told = tuple(
+        event
+        for event in session.events
+        if isinstance(event, ClientCall) and not event.is_sleep and not event.is_question
+    )
+    for each in told:
+        card.wait_until(each.call.t_s)
         try:
-            call(card, one.call)
+            call(card, each.call)
         except Damaged as error:
-            raise CardLogError("in-line", file=name, line=one.line, message=error.message) from None
-        if heard.pop() != one.call:
-            raise CardLogError("card-answers-otherwise", name=name, line=one.line)
+            raise CardLogError("in-line", file=name, line=each.line, message=error.message) from None
+        if heard.pop() != each.call:
+            raise CardLogError("card-answers-otherwise", name=name, line=each.line)
     stands = _to_rest(card, session.end_s)
     card.GT_SwitchtoCardNo(0)
     last_s = spans.joined[-1][1] if spans.joined else 0.0
@@ -83,11 +87,11 @@ def pulses_again(session: Session, made: Again, until_s: float) -> Iterator[Puls
             yield from due
             due.clear()
 
-    for one in made.told:
-        if one.call.t_s > until_s:
+    for each in made.told:
+        if each.call.t_s > until_s:
             break
-        yield from waited(one.call.t_s)
-        call(card, one.call)
+        yield from waited(each.call.t_s)
+        call(card, each.call)
     yield from waited(min(until_s, made.moving_s[-1][1] if made.moving_s else 0.0))
     card.wait_until(card.time_s)
     yield from due

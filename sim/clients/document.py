@@ -6,7 +6,7 @@ from typing import Any
 from parser import __version__
 from sim.clients.findings import call_text
 from sim.clients.run import Read
-from sim.clients.said import Asked
+from sim.clients.said import Questions
 from sim.clients.started import Ended
 from sim.run.report.document import finding_entry
 
@@ -20,7 +20,7 @@ def card_document(read: Read, ended: Ended) -> dict[str, Any]:
     return {
         "ended": {"code": ended.exit_code, "signal": ended.signal or None, "is_stopped": ended.is_stopped},
         "calls": session.calls,
-        "asked": _asked(read),
+        "asked": _questions(read),
         "time_s": session.end_s,
         "went_on_s": again.went_on_s if math.isfinite(again.went_on_s) else None,
         "places": again.places,
@@ -28,31 +28,31 @@ def card_document(read: Read, ended: Ended) -> dict[str, Any]:
         "refused": unseen.refused,
         "refused_unread": [
             {
-                "line": one.event + 1,
-                "call": call_text(session, one.event),
-                "code": _code(read, one.event),
-                "then": call_text(session, one.then),
+                "line": refusal.event + 1,
+                "call": call_text(session, refusal.event),
+                "code": _code(read, refusal.event),
+                "then": call_text(session, refusal.then),
             }
-            for one in unseen.refusals
+            for refusal in unseen.refusals
         ],
         "ended_on_limit": [
             {
-                "line": one.event + 1,
-                "t_s": one.met.t_s,
-                "axis": one.met.axis,
-                "limit": "positive" if one.met.is_positive else "negative",
-                "then": None if one.then is None else call_text(session, one.then),
+                "line": each.event + 1,
+                "t_s": each.met.t_s,
+                "axis": each.met.axis,
+                "limit": "positive" if each.met.is_positive else "negative",
+                "then": None if each.then is None else call_text(session, each.then),
             }
-            for one in unseen.on_limit
+            for each in unseen.on_limit
         ],
         "sleeps_too_short": [
             {
-                "line": one.event + 1,
-                "slept_s": one.slept_s,
-                "needed_s": one.needed_s,
-                "refused": [call_text(session, at) for at in one.refused],
+                "line": sleep.event + 1,
+                "slept_s": sleep.slept_s,
+                "needed_s": sleep.needed_s,
+                "refused": [call_text(session, at) for at in sleep.refused],
             }
-            for one in unseen.short_sleeps
+            for sleep in unseen.short_sleeps
         ],
     }
 
@@ -69,11 +69,11 @@ def without_motion(read: Read, name: str, ended: Ended) -> dict[str, Any]:
     }
 
 
-def _asked(read: Read) -> int:
+def _questions(read: Read) -> int:
     """Questions among the calls."""
-    return sum(one.count for one in read.session.events if isinstance(one, Asked))
+    return sum(event.count for event in read.session.events if isinstance(event, Questions))
 
 
 def _code(read: Read, event: int) -> int:
-    one = read.session.events[event]
-    return 0 if isinstance(one, Asked) else one.answered
+    each_event = read.session.events[event]
+    return 0 if isinstance(each_event, Questions) else each_event.answered

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from parser.findings.findings import Finding
 from parser.text.lines import LineIndex
-from sim.clients.said import Session, Told
+from sim.clients.said import ClientCall, Session
 from sim.clients.unseen import Unseen
 
 
@@ -14,49 +14,49 @@ def unseen_findings(session: Session, unseen: Unseen, lines: LineIndex) -> tuple
     What was refused because of a sleep is told there.
     """
     found = [*_refusals(session, unseen, lines), *_limits(unseen, lines), *_sleeps(session, unseen, lines)]
-    return tuple(sorted(found, key=lambda one: one.line))
+    return tuple(sorted(found, key=lambda each: each.line))
 
 
 def call_text(session: Session, event: int) -> str:
     """The call of an event as it is written: ``GT_LnXY(10.0, 0.0)``."""
-    one = session.events[event]
-    assert isinstance(one, Told)  # noqa: S101 - found so
-    return f"{one.call.name}({', '.join(map(repr, one.call.arguments))})"
+    each_event = session.events[event]
+    assert isinstance(each_event, ClientCall)  # noqa: S101 - found so
+    return f"{each_event.call.name}({', '.join(map(repr, each_event.call.arguments))})"
 
 
 def _refusals(session: Session, unseen: Unseen, lines: LineIndex) -> Iterator[Finding]:
     of_sleeps = {at for sleep in unseen.short_sleeps for at in sleep.refused}
-    for one in unseen.refusals:
-        if one.event in of_sleeps:
+    for refusal in unseen.refusals:
+        if refusal.event in of_sleeps:
             continue
-        told = session.events[one.event]
-        assert isinstance(told, Told)  # noqa: S101 - found so
+        told_events = session.events[refusal.event]
+        assert isinstance(told_events, ClientCall)  # noqa: S101 - found so
         yield lines.finding(
             "GEC401",
-            _span(lines, one.event),
-            call=call_text(session, one.event),
-            answer=told.answered,
-            function=told.call.name,
-            then=call_text(session, one.then),
+            _span(lines, refusal.event),
+            call=call_text(session, refusal.event),
+            answer=told_events.answered,
+            function=told_events.call.name,
+            then=call_text(session, refusal.then),
         )
 
 
 def _limits(unseen: Unseen, lines: LineIndex) -> Iterator[Finding]:
-    for one in unseen.on_limit:
-        side = "limit-positive" if one.met.is_positive else "limit-negative"
-        yield lines.finding("GEC402", _span(lines, one.event), axis=one.met.axis, side=side, t_s=one.met.t_s)
+    for each in unseen.on_limit:
+        side = "limit-positive" if each.met.is_positive else "limit-negative"
+        yield lines.finding("GEC402", _span(lines, each.event), axis=each.met.axis, side=side, t_s=each.met.t_s)
 
 
 def _sleeps(session: Session, unseen: Unseen, lines: LineIndex) -> Iterator[Finding]:
-    for one in unseen.short_sleeps:
+    for sleep in unseen.short_sleeps:
         yield lines.finding(
             "GEC403",
-            _span(lines, one.event),
-            slept_s=one.slept_s,
-            needed_s=one.needed_s,
-            short_s=one.needed_s - one.slept_s,
-            call=call_text(session, one.refused[0]),
-            more=len(one.refused) - 1,
+            _span(lines, sleep.event),
+            slept_s=sleep.slept_s,
+            needed_s=sleep.needed_s,
+            short_s=sleep.needed_s - sleep.slept_s,
+            call=call_text(session, sleep.refused[0]),
+            more=len(sleep.refused) - 1,
         )
 
 

@@ -14,7 +14,7 @@ from parser.text.lines import LineIndex
 from parser.text.source import Source
 from parser.toolpath import Toolpath
 from sim.clients.again import Again
-from sim.clients.said import Asked, Event, Session
+from sim.clients.said import Event, Questions, Session
 
 NAME: Final = "calls.txt"
 """Of the text, as a file."""
@@ -39,9 +39,11 @@ def listing_of(session: Session) -> str:
 
 
 def _line(event: Event) -> str:
-    if isinstance(event, Asked):
-        asked = ", ".join(f"{text} ×{times.often}" if times.often > 1 else text for text, times in event.calls.items())
-        return f"{event.t_s:12.6f}  ? {asked}"
+    if isinstance(event, Questions):
+        asked_text = ", ".join(
+            f"{text} ×{times.often}" if times.often > 1 else text for text, times in event.calls.items()
+        )
+        return f"{event.t_s:12.6f}  ? {asked_text}"
     call = event.call
     arguments = ", ".join(map(repr, call.arguments))
     answer = f" = {call.answer!r}" if call.answer is not None else ""
@@ -80,9 +82,9 @@ def _toolpath(text: str, lines: LineIndex, session: Session, again: Again) -> To
     way, n = again.way, len(again.way.call)
     line_of = {id(event): number for number, event in enumerate(session.events, start=1)}
     made = [again.told[call - 1] for call in way.call.tolist()]
-    line = np.array([line_of[id(one)] for one in made], dtype=np.int64)
+    line = np.array([line_of[id(each)] for each in made], dtype=np.int64)
     spans = np.array([_span(text, lines, int(number)) for number in line], dtype=np.int64).reshape(-1, 2)
-    names = [one.call.name for one in made]
+    names = [each.call.name for each in made]
     positions = np.array([name.startswith("GT_Mv") or "G0" in name for name in names], dtype=np.bool_)
     curves = _with_jumps(way.curves, positions)
     return Toolpath(

@@ -1,8 +1,11 @@
-"""A session as a dry run: the table follows the pulses that the calls made."""
+"""A session as a dry run: the table follows the pulses that the calls made.
+
+What came of a program for the card.
+"""
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,12 +17,12 @@ from parser.findings.codes import Check
 from parser.program import Program
 from sim.base.progress import Progress, silent
 from sim.check.result import CheckState, Coverage
-from sim.check.too_large import refusal, too_many_steps
-from sim.check.travel import middle_mm, travel_findings
+from sim.check.travel import middle_mm, refusal, too_many_steps, travel_findings
 from sim.clients.again import Again, again, pulses_again
 from sim.clients.findings import unseen_findings
 from sim.clients.listing import program_of
 from sim.clients.said import Session
+from sim.clients.started import Ended
 from sim.clients.unseen import Unseen, unseen_of
 from sim.run.dryrun import DryRun, PulseSink
 from sim.run.ending import travel_end
@@ -29,8 +32,7 @@ from sim.setup.scenario import Scenario
 from sim.table.follow import Setup
 from sim.table.motion import Motion
 from sim.table.trace import origin_um
-from sim.table.when.rhythm import rhythm
-from sim.table.when.ticks import choose_ticks
+from sim.table.when.ticks import choose_ticks, rhythm
 
 
 class Read(NamedTuple):
@@ -97,3 +99,24 @@ def _of_calls(read: Read, motion: Motion) -> Iterator[Pulses]:
     for pulses in pulses_again(read.session, read.again, motion.until_s):
         row = way.row_of(pulses.t_s, pulses.row.astype(np.int64)).astype(np.int32)
         yield pulses._replace(row=np.maximum.accumulate(row))
+
+
+class ClientRun(NamedTuple):
+    """What came of a program for the card.
+
+    Attributes
+    ----------
+    read
+        Its calls, what the card did, and what it did not look at.
+    ended
+        How it ended.
+    run
+        The table under its pulses; None where neither X nor Y moved.
+    report
+        All of it as ``report.json`` has it.
+    """
+
+    read: Read
+    ended: Ended
+    run: DryRun | None
+    report: dict[str, Any]

@@ -22,7 +22,7 @@ _ALWAYS_ANSWERED: Final = "GT_GetCurrentCardNo"
 """Its answer is a number, and no code."""
 
 
-class Told(NamedTuple):
+class ClientCall(NamedTuple):
     """A call that may change something, a question that was refused, or a sleep; with its line in the log, from 1."""
 
     line: int
@@ -50,7 +50,7 @@ class Times(NamedTuple):
 
 
 @dataclass(slots=True)
-class Asked:
+class Questions:
     """All that was asked in a row and answered, by how it is written, such as ``GT_GetSts(1)``; its first line."""
 
     line: int
@@ -68,7 +68,7 @@ class Asked:
         return sum(times.often for times in self.calls.values())
 
 
-Event: TypeAlias = Told | Asked
+Event: TypeAlias = ClientCall | Questions
 
 
 class Session(NamedTuple):
@@ -94,8 +94,8 @@ class Session(NamedTuple):
     @property
     def calls(self) -> int:
         """Calls to the card, without sleeps."""
-        told = (one.count if isinstance(one, Asked) else not one.is_sleep for one in self.events)
-        return sum(map(int, told))
+        told_events = (event.count if isinstance(event, Questions) else not event.is_sleep for event in self.events)
+        return sum(map(int, told_events))
 
 
 def session_of(name: str, lines: Iterable[str]) -> Session:
@@ -128,12 +128,12 @@ def _add(events: list[Event], name: str, number: int, text: str) -> float:
     try:
         if found is not None and asks and (found[5] == "0" or found[3] == _ALWAYS_ANSWERED):
             t_s = time_of(found[1])
-            if not events or not isinstance(events[-1], Asked):
-                events.append(Asked(number, t_s))
+            if not events or not isinstance(events[-1], Questions):
+                events.append(Questions(number, t_s))
             events[-1].add(found[2], t_s)  # type: ignore[union-attr]  # the one just added
             return t_s
         call = call_of(text)
     except Damaged as error:
         raise CardLogError("in-line", file=name, line=number, message=error.message) from None
-    events.append(Told(number, call, is_question=asks))
+    events.append(ClientCall(number, call, is_question=asks))
     return call.t_s

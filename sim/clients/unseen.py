@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 from controller.card.core.codes import Code
 from controller.card.core.state import LimitMet
 from sim.clients.again import Again
-from sim.clients.said import Asked, Event, Session, Told
+from sim.clients.said import ClientCall, Event, Questions, Session
 
 _ANSWERS: Final = frozenset(
     (
@@ -71,8 +71,8 @@ class Unseen(NamedTuple):
 
 def unseen_of(session: Session, again: Again) -> Unseen:
     """What a program did not look at."""
-    events, times = session.events, [_began_s(one) for one in session.events]
-    refused = [at for at, one in enumerate(events) if isinstance(one, Told) and one.answered]
+    events, times = session.events, [_began_s(event) for event in session.events]
+    refused = [at for at, event in enumerate(events) if isinstance(event, ClientCall) and event.answered]
     first_card = _to_first_card(events)
     wanted_rest = set(refused) & first_card - _into_list(events)
     short = _short_sleeps(events, wanted_rest, again.moving_s)
@@ -81,21 +81,21 @@ def unseen_of(session: Session, again: Again) -> Unseen:
     pairs = zip(again.limits, before, strict=True)
     call_s = session.settings.call_s
     found = (_on_limit(events, met, at, first_card, call_s) for met, at in pairs)
-    on_limit = (one for one in found if one is not None)
+    on_limit = (each for each in found if each is not None)
     return Unseen(len(refused), tuple(unread), tuple(on_limit), tuple(_by_sleep(short)))
 
 
 def _went_on(events: Sequence[Event], at: int) -> int | None:
     """The call that a program went on with after a refusal; None where it looked, or called nothing more."""
-    call = _told(events[at]).call
-    if isinstance(events[min(at + 1, len(events) - 1)], Asked) and _asks(events[at + 1], "GT_GetCmdSts"):
+    call = _call_at(events[at]).call
+    if isinstance(events[min(at + 1, len(events) - 1)], Questions) and _asks(events[at + 1], "GT_GetCmdSts"):
         return None
     first: int | None = None
-    for n, (index, one) in enumerate(_calls(events, at + 1)):
-        if (one.call.name, one.call.arguments) == (call.name, call.arguments) or n >= _TRIES:
+    for n, (index, each) in enumerate(_calls(events, at + 1)):
+        if (each.call.name, each.call.arguments) == (call.name, call.arguments) or n >= _TRIES:
             return None if n < _TRIES else first
-        if first is None and one.call.name not in _BESIDE:
-            if one.call.name in _ANSWERS:
+        if first is None and each.call.name not in _BESIDE:
+            if each.call.name in _ANSWERS:
                 return None
             first = index
     return first
@@ -104,9 +104,9 @@ def _went_on(events: Sequence[Event], at: int) -> int | None:
 def _to_first_card(events: Sequence[Event]) -> set[int]:
     """Events that are about the first card, whose way is known: it is the one that is selected at first."""
     card, about = 0, set[int]()
-    for index, one in enumerate(events):
-        if isinstance(one, Told) and one.call.name == "GT_SwitchtoCardNo" and not one.answered:
-            card = one.call.arguments[0]
+    for index, event in enumerate(events):
+        if isinstance(event, ClientCall) and event.call.name == "GT_SwitchtoCardNo" and not event.answered:
+            card = event.call.arguments[0]
         if card == 0:
             about.add(index)
     return about
@@ -115,10 +115,10 @@ def _to_first_card(events: Sequence[Event]) -> set[int]:
 def _into_list(events: Sequence[Event]) -> set[int]:
     """Path calls that were made while the list was open: those are stored, and need no rest."""
     is_open, stored = False, set[int]()
-    for index, one in _calls(events, 0):
-        if not one.answered and one.call.name in _OPENS:
-            is_open = _OPENS[one.call.name]
-        if is_open and one.call.name.startswith(_MOVES):
+    for index, each in _calls(events, 0):
+        if not each.answered and each.call.name in _OPENS:
+            is_open = _OPENS[each.call.name]
+        if is_open and each.call.name.startswith(_MOVES):
             stored.add(index)
     return stored
 
@@ -134,13 +134,13 @@ def _on_limit(
     ways = (f"GT_GetSts({met.axis})", "GT_GetLmtSwt()")
     clears = {("GT_ClrSts", met.axis), ("GT_RstSts", met.axis)}
     for at in (at for at in range(before, len(events)) if at in first_card):
-        one = events[at]
-        if isinstance(one, Asked):
-            if any(way in one.calls and one.calls[way].last_s >= asked_s for way in ways):
+        event = events[at]
+        if isinstance(event, Questions):
+            if any(way in event.calls and event.calls[way].last_s >= asked_s for way in ways):
                 return None
-        elif at > before and one.call.arguments and (one.call.name, one.call.arguments[0]) in clears:
+        elif at > before and event.call.arguments and (event.call.name, event.call.arguments[0]) in clears:
             return None
-        elif at > before and not one.answered and (one.call.name.startswith(_MOVES) or one.call.name in _STARTS):
+        elif at > before and not event.answered and (event.call.name.startswith(_MOVES) or event.call.name in _STARTS):
             return OnLimit(met, before, at)
     return OnLimit(met, before, None)
 
@@ -151,48 +151,48 @@ def _short_sleeps(
     """The sleep before each call that was refused because the axes still moved, where the program waited so alone."""
     begins = [begin for begin, _ in moving_s]
     span, slept, first, has_asked = -1, 0.0, -1, False
-    for index, one in enumerate(events):
-        now = bisect_right(begins, _began_s(one)) - 1
+    for index, event in enumerate(events):
+        now = bisect_right(begins, _began_s(event)) - 1
         if now != span:  # what was slept and asked before this motion is not about it
             span, slept, first, has_asked = now, 0.0, -1, False
-        if isinstance(one, Asked):
-            has_asked = has_asked or _asks(one, *_STATUS)
-        elif one.is_sleep:
-            slept, first = slept + float(one.call.arguments[0]) / 1e3, first if first >= 0 else index
-        elif index in wanted_rest and _is_for_rest(one) and first >= 0 and not has_asked:
+        if isinstance(event, Questions):
+            has_asked = has_asked or _asks(event, *_STATUS)
+        elif event.is_sleep:
+            slept, first = slept + float(event.call.arguments[0]) / 1e3, first if first >= 0 else index
+        elif index in wanted_rest and _is_for_rest(event) and first >= 0 and not has_asked:
             end_s = moving_s[span][1] if span >= 0 else 0.0
-            if one.call.t_s < end_s:
+            if event.call.t_s < end_s:
                 yield ShortSleep(first, (index,), slept, end_s - _began_s(events[first]))
 
 
-def _is_for_rest(one: Told) -> bool:
+def _is_for_rest(client_call: ClientCall) -> bool:
     """Whether a call was refused because the axes are to stand for it."""
-    return one.answered == Code.COMMAND and one.call.name.startswith(_NEEDS_REST)
+    return client_call.answered == Code.COMMAND and client_call.call.name.startswith(_NEEDS_REST)
 
 
 def _by_sleep(sleeps: Iterable[ShortSleep]) -> Iterator[ShortSleep]:
     """One for each sleep, with all that was refused because of it."""
-    for _, ones in groupby(sleeps, key=lambda one: one.event):
+    for _, ones in groupby(sleeps, key=lambda short_sleep: short_sleep.event):
         first, *others = ones
-        yield first._replace(refused=(*first.refused, *(at for one in others for at in one.refused)))
+        yield first._replace(refused=(*first.refused, *(at for other in others for at in other.refused)))
 
 
-def _told(event: Event) -> Told:
-    assert isinstance(event, Told)  # noqa: S101 - found so
+def _call_at(event: Event) -> ClientCall:
+    assert isinstance(event, ClientCall)  # noqa: S101 - found so
     return event
 
 
-def _calls(events: Sequence[Event], since: int) -> Iterator[tuple[int, Told]]:
+def _calls(events: Sequence[Event], since: int) -> Iterator[tuple[int, ClientCall]]:
     """Calls from an event on that may change something, with their indices."""
     for index in range(since, len(events)):
-        one = events[index]
-        if isinstance(one, Told) and not one.is_sleep:
-            yield index, one
+        event = events[index]
+        if isinstance(event, ClientCall) and not event.is_sleep:
+            yield index, event
 
 
 def _asks(event: Event, *names: str) -> bool:
-    return isinstance(event, Asked) and any(text.startswith(f"{name}(") for text in event.calls for name in names)
+    return isinstance(event, Questions) and any(text.startswith(f"{name}(") for text in event.calls for name in names)
 
 
 def _began_s(event: Event) -> float:
-    return event.t_s if isinstance(event, Asked) else event.call.t_s
+    return event.t_s if isinstance(event, Questions) else event.call.t_s

@@ -41,17 +41,17 @@ def cut_by_blocks(first: int, last: int) -> Iterator[None]:
         raise RegionError(first, last) from error
 
 
-def union(one: Region, other: Region) -> Region:
+def union(this: Region, other: Region) -> Region:
     """Union of two regions."""
-    return _robust(shapely.union, (one, other))
+    return _robust(shapely.union, (this, other))
 
 
-def unions(one: Regions, other: Regions) -> Regions:
+def unions(this: Regions, other: Regions) -> Regions:
     """Union of each of n regions with its partner, (n,)."""
     try:
-        both: Regions = np.asarray(shapely.union(one, other), dtype=np.object_)
+        both: Regions = np.asarray(shapely.union(this, other), dtype=np.object_)
     except GEOSException:  # of one pair or more
-        both = np.array([union(*pair) for pair in zip(one, other, strict=True)], dtype=np.object_)
+        both = np.array([union(*pair) for pair in zip(this, other, strict=True)], dtype=np.object_)
     return both
 
 
@@ -67,9 +67,9 @@ def _union_all(*regions: Region, grid_size: float | None = None) -> Region:
     return apart
 
 
-def difference(one: Region, other: Region) -> Region:
+def difference(this: Region, other: Region) -> Region:
     """What of a region lies outside of another."""
-    return _robust(shapely.difference, (one, other))
+    return _robust(shapely.difference, (this, other))
 
 
 def _robust(made: Callable[..., Region], regions: tuple[Region, ...]) -> Region:

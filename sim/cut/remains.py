@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.toolpath import Toolpath
-from sim.cut.kerf.region import Kerf, kerf_of
+from sim.cut.kerf.swept import Kerf, kerf_of
 from sim.cut.pieces.pieces import Material, Pieces, pieces_of
 from sim.cut.play.freedom import Play, plays_of
 from sim.cut.regions import cut_by_blocks

@@ -21,8 +21,8 @@ def drills_into(folder: Path, program: Program, drills: Sequence[Drill], number:
     with staged(folder, [*PAGES, *names]) as stage:
         (stage / PAGES[0]).write_text(drill_page(program, drills, number, names), "utf-8")
         (stage / PAGES[1]).write_text(answers_page(program, drills, number), "utf-8")
-        for name, one in zip(names, drills, strict=True):
-            (stage / name).write_bytes(one.program.text.encode(program.encoding))
+        for name, drill in zip(names, drills, strict=True):
+            (stage / name).write_bytes(drill.program.text.encode(program.encoding))
 
 
 def names_of(program: Program, count: int) -> list[str]:

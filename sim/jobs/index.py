@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from typing import Any, Final, NamedTuple
 
 from parser import __version__
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from parser.findings.codes import Severity
 from parser.findings.findings import Count
 
-_NONE: Final = Said("", "")
+_NONE: Final = Bilingual("", "")
 SCHEMA: Final = "drycut.index/1"
 VERDICTS: Final = ("pass", "fail", "refused", "fault")
 _WORST_FIRST: Final = tuple(Severity)
@@ -33,12 +33,12 @@ class Row(NamedTuple):
     time_s, max_um
         How long the machine runs, and the largest deviation of the wire; None without a report.
     picture
-        The path that ran, small: SVG path data (`sim.show.index_page.thumbnail`); empty without a report.
+        The path that ran, small: SVG path data (`sim.show.index_page.page`); empty without a report.
     """
 
     verdict: str
     title: str
-    message: Said = _NONE
+    message: Bilingual = _NONE
     findings: tuple[Count, ...] = ()
     time_s: float | None = None
     max_um: float | None = None

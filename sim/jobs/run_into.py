@@ -1,19 +1,29 @@
-"""A run with its files: picture, pages and report in one folder, and its trace where asked for; all or none of them."""
+"""A run with its files: picture, pages and report in one folder, and its trace where asked for; all or none of them.
 
+A program for the card, run, with its files: those of every run, the log of its card, and its calls as a text.
+"""
+
+import shutil
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final
 
+from controller.card.log.lines import CardLogError
 from controller.card.log.writer import CardLog
 from parser.findings.catalogue import Language
 from parser.program import Program
 from sim.base.files import StepFiles, staged
 from sim.base.progress import Progress, silent
+from sim.clients.document import card_document, without_motion
+from sim.clients.listing import NAME as CALLS
+from sim.clients.run import ClientRun, Read, read_again, run_client
+from sim.clients.said import session_of
+from sim.clients.started import Ended
 from sim.jobs.trace_file import TRACE, write_trace
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recording_of, reported, stages_of
-from sim.run.report import report_text
+from sim.run.report import build_report, report_text
 from sim.run.running import dry_run
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import pixels
@@ -88,3 +98,47 @@ def write_files(  # noqa: PLR0913 - what was run, where to, and in which languag
     progress("pages", 2, 3)
     page = report_page(run, report, pictures, recording.pieces, has_trace=has_trace)
     (folder / "report.html").write_text(page, encoding="utf-8")
+
+
+LOG: Final = "card.log"
+STAGES: Final = ("calls", "plan", "run", "pieces", "pictures", "pages")
+"""Stages that `client_into` tells its progress of, in their order."""
+
+
+def client_into(folder: Path, log: Path, ended: Ended, scenario: Scenario, progress: Progress = silent) -> ClientRun:
+    """Run the calls of a log again and write the files of the run, the log and the calls into a folder.
+
+    Of a program that moved neither X nor Y the pages and pictures are left out. CardLogError where the log holds no
+    call or cannot be repeated, ProgramError where it makes more steps than any table does, FileUnreadableError where
+    the folder cannot be written; then no file of it has changed.
+    """
+    progress("calls", 0, 1)
+    read = read_log(log)
+    with staged(folder, [*NAMES, LOG, CALLS]) as stage:
+        shutil.copyfile(log, stage / LOG)
+        (stage / CALLS).write_text(read.program.text, "utf-8")
+        if not len(read.program.toolpath):
+            report = without_motion(read, scenario.title, ended)
+            (stage / "report.json").write_text(report_text(report), "utf-8")
+            return ClientRun(read, ended, None, report)
+        with StepFiles(stage) as files:
+            run = run_client(read, scenario, progress, files)
+        report = build_report(run) | {"card": card_document(read, ended)}
+        write_files(recording_of(run, files.paths, progress), report, stage, progress)
+    return ClientRun(read, ended, run, report)
+
+
+def read_log(log: Path) -> Read:
+    """A log read, and its calls made again. CardLogError where it holds no call."""
+    if not log.exists():
+        raise CardLogError("no-call-unlinked")
+    with log.open(encoding="utf-8", newline="\n") as lines:
+        session = session_of(LOG, lines)
+    if not session.events:
+        raise CardLogError("no-call")
+    return read_again(LOG, session)
+
+
+def names_of(done: ClientRun) -> tuple[str, ...]:
+    """Names of the files that were written."""
+    return (*(FILES if done.run else ("report.json",)), LOG, CALLS)

@@ -27,12 +27,12 @@ def source_of(scenario: Scenario, progress: Progress = silent) -> Source:
     """
     if scenario.to_make is None or scenario.program.exists():
         return Source(read_bytes(scenario.program), is_made=False)
-    return Source(_made(scenario, scenario.to_make, progress), is_made=True)
+    return Source(_made_bytes(scenario, scenario.to_make, progress), is_made=True)
 
 
-def _made(scenario: Scenario, to_make: ToMake, progress: Progress) -> bytes:
+def _made_bytes(scenario: Scenario, to_make: ToMake, progress: Progress) -> bytes:
+    from sim.make.cam.asked import program_of  # noqa: PLC0415 - as above
     from sim.make.cam.maker import NotMade  # noqa: PLC0415 - few programs are made, and what makes them takes long to load
-    from sim.make.cam.of_scenario import program_of  # noqa: PLC0415 - as above
     from sim.show.refusals import why_refused  # noqa: PLC0415 - as above
 
     done = program_of(scenario, to_make, progress)

@@ -1,1 +1,4 @@
-"""Programs made, of drawings and of other languages, proved before they are given: `Made`, `Converted`, or why not."""
+"""Programs made, of drawings and of other languages, proved before they are given.
+
+What crosses the border is `MadeProgram` and `Converted`, or why there is none.
+"""

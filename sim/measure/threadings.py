@@ -4,8 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Floats
-from parser.geometry.extents import extents
+from parser.geometry.curves import Floats, extents
 from parser.shape.contours import runs
 from parser.toolpath import Point, Toolpath
 

@@ -47,7 +47,7 @@ class Happening(NamedTuple, Generic[What_co]):
 class PassOf(NamedTuple):
     """A pass, and how many there are over its edge."""
 
-    one: Pass
+    pass_: Pass
     among: int
 
 
@@ -148,7 +148,7 @@ class Course:
         """Number of the pass that runs at times (m,): 1 on leads and jumps too, and where every edge is cut once."""
         if not self.passes:
             return np.ones(len(t_s), dtype=np.int64)
-        numbers = np.array([*(one.number for one, _ in self.passes), 1])  # the last for rows of no pass, −1
+        numbers = np.array([*(each.number for each, _ in self.passes), 1])  # the last for rows of no pass, −1
         row = np.maximum(np.searchsorted(self.border_s[:-1], t_s, side="right") - 1, 0)
         return np.asarray(numbers[self.run.passes.of_row[row]])
 
@@ -174,7 +174,7 @@ def course_of(recording: Recording) -> Course:
     duration_s = run.ran_s if run.ended else max(run.ran_s, float(trace.t_s[-1]))
     findings, stops, losses = findings_of(run), stops_of(run), losses_of(run)
     pieces = pieces_freed(recording.pieces)
-    met = (one for one in chain[Happening[Event]](findings, stops, pieces, losses) if one.t_s <= duration_s)
+    met = (each for each in chain[Happening[Event]](findings, stops, pieces, losses) if each.t_s <= duration_s)
     return Course(
         run=run,
         steps=recording.steps,
@@ -187,7 +187,7 @@ def course_of(recording: Recording) -> Course:
         stops=stops,
         pieces=pieces,
         losses=losses,
-        happenings=tuple(sorted(met, key=lambda one: one.t_s)),
+        happenings=tuple(sorted(met, key=lambda each: each.t_s)),
     )
 
 
@@ -195,8 +195,8 @@ def passes_of(run: DryRun) -> tuple[PassOf, ...]:
     """Passes of a run in the order they are cut; none where every edge is cut once."""
     if not run.has_trims:
         return ()
-    among = Counter(one.edge for one in run.passes.passes)
-    return tuple(PassOf(one, among[one.edge]) for one in run.passes.passes)
+    among = Counter(pass_.edge for pass_ in run.passes.passes)
+    return tuple(PassOf(pass_, among[pass_.edge]) for pass_ in run.passes.passes)
 
 
 def findings_of(run: DryRun) -> tuple[Happening[Finding], ...]:
@@ -206,7 +206,7 @@ def findings_of(run: DryRun) -> tuple[Happening[Finding], ...]:
     begins_s = [*run.border_s.tolist()[:-1], math.nan]
     placed = [(finding, first_row.get(finding.block, -1)) for finding in run.findings]
     placed = [(finding, _row_in_pass(run, finding, row)) for finding, row in placed]
-    return tuple(Happening(float(one.values.get("t_s", begins_s[row])), row, one) for one, row in placed)
+    return tuple(Happening(float(each.values.get("t_s", begins_s[row])), row, each) for each, row in placed)
 
 
 def _row_in_pass(run: DryRun, finding: Finding, row: int) -> int:

@@ -1,33 +1,37 @@
-"""The dry run: one program through controller, card and table, and what came of it."""
+"""The dry run: one program through controller, card and table, and what came of it.
+
+What a run took for granted, and what it did not look at: no run without a finding is to promise more than it can.
+"""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from controller.motion.limits import Feeds
 from controller.motion.plan import Plan
 from controller.stepping.pulses import Pulses
+from parser.dialect.reader import Assumption
 from parser.findings.findings import Finding
 from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.shape.passes import Passes
-from parser.text.block_names import BlockNames
+from parser.text.source import BlockNames
 from parser.toolpath import Toolpath
 from sim.check.beside import Offsetting
 from sim.check.result import Coverage
 from sim.cut.remains import Remains
 from sim.measure.compare.result import Comparison
-from sim.measure.deviation.measured import Deviations
+from sim.measure.deviation.causes import Deviations
 from sim.measure.deviation.meters import BlockSteps
 from sim.measure.passes.figures import PassFigures
 from sim.run.ending import Ending
 from sim.setup.expectations import Missed
+from sim.setup.machine.machine import Machine
 from sim.setup.scenario import Scenario
 from sim.table.record.history import History
-from sim.table.record.losses import Loss
-from sim.table.record.peaks import Peak
+from sim.table.record.losses import Loss, Peak
 from sim.table.trace import Trace
 
 
@@ -112,14 +116,14 @@ class DryRun:
     @property
     def has_trims(self) -> bool:
         """Whether any edge is cut in more than one pass; those who show a run speak of passes only then."""
-        return any(one.number > 1 for one in self.passes.passes)
+        return any(pass_.number > 1 for pass_ in self.passes.passes)
 
     @property
     def pass_feed_um_s(self) -> tuple[float, ...]:
         """Feed of each pass of the offset; where the program compensates itself, that of the machine for all."""
         asked = self.scenario.offset
         if asked is not None:
-            return tuple(self.scenario.pass_feed_um_s(one) for one in asked.passes)
+            return tuple(self.scenario.pass_feed_um_s(pass_) for pass_ in asked.passes)
         feeds = self.scenario.machine.feeds(self.scenario.thickness_mm)
         return (float(feeds.cut_um_s),) * (len(self.offset.passes) if self.offset else 0)
 
@@ -144,7 +148,7 @@ class DryRun:
     def whole_contours(self) -> tuple[Contour, ...]:
         """The contours that the run came to the end of."""
         ended = self.ended
-        return tuple(one for one in self.contours if ended is None or one.last <= ended.row)
+        return tuple(contour for contour in self.contours if ended is None or contour.last <= ended.row)
 
     @property
     def cut(self) -> Trace:
@@ -160,3 +164,43 @@ class DryRun:
     def block_names(self) -> BlockNames:
         """What people call its blocks."""
         return self.toolpath.source.names
+
+
+class Assumptions(NamedTuple):
+    """What was taken for granted in a run.
+
+    Attributes
+    ----------
+    machine
+        The machine.
+    by_default
+        Whether nobody named one.
+    program
+        What the text of the program leaves open.
+    values
+        Keys of its values that nobody has measured, as its file says.
+    compared
+        Whether the cut was held against a drawing.
+    wire_bows
+        Whether the wire bows back; else it runs straight.
+    """
+
+    machine: Machine
+    by_default: bool
+    program: tuple[Assumption, ...]
+    values: tuple[str, ...]
+    compared: bool
+    wire_bows: bool
+
+
+def assumptions_of(run: DryRun) -> Assumptions:
+    """What was taken for granted in a run."""
+    scenario = run.scenario
+    return Assumptions(
+        machine=scenario.machine,
+        by_default=scenario.machine_by_default,
+        program=run.program.reading.assumptions,
+        values=scenario.machine.assumed,
+        compared=run.comparison is not None,
+        wire_bows=scenario.wire_lag_um > 0.0,
+    )

@@ -20,24 +20,31 @@ def verdict(findings: Iterable[Finding]) -> str:
 def expectation_findings(missed: Iterable[Missed]) -> list[Finding]:
     """Finding 3B490 for each expectation that is not met."""
     return [
-        Finding("3B490", {"path": one.expected.path, "found": _shown(one.found), "wanted": _wanted(one.expected)})
-        for one in missed
+        Finding(
+            "3B490",
+            {
+                "path": each_missed.expected.path,
+                "found": _as_expected(each_missed.found),
+                "wanted": _wanted(each_missed.expected),
+            },
+        )
+        for each_missed in missed
     ]
 
 
 def _wanted(expectation: Expectation) -> str:
     """A value as the report has it; a range as its ends, one of them left out where it is open."""
     if not expectation.is_range:
-        return _shown(expectation.value)
+        return _as_expected(expectation.value)
     ends = wanted(expectation)
     return TO.join(f"{ends[key]:g}" if key in ends else "" for key in ("min", "max"))
 
 
-def _shown(value: Any) -> str:
+def _as_expected(value: Any) -> str:
     """A value as ``[expect]`` would have it; of tables in a list, the codes or the first values; empty for nothing."""
     if value is None:
         return ""
     if isinstance(value, list):
-        value = [next(iter(one.values()), None) if isinstance(one, Mapping) else one for one in value]
+        value = [next(iter(each.values()), None) if isinstance(each, Mapping) else each for each in value]
     text = f"{value:g}" if isinstance(value, float) else json.dumps(value, ensure_ascii=False, default=str)
     return text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}…"

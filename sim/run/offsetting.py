@@ -7,7 +7,7 @@ import numpy as np
 
 from controller.offset.compensate import compensate
 from controller.offset.passes import PassedPath, PassedRound, first_without_way_back, in_passes
-from controller.offset.path import OffsetPath, offset_toolpath
+from controller.offset.rows import OffsetPath, offset_toolpath
 from controller.offset.sections import Side, rounds_of
 from controller.offset.shifted import closed_contour
 from parser.findings.errors import ProgramError, SettingsError
@@ -15,8 +15,8 @@ from parser.findings.facts import telling
 from parser.findings.findings import Finding, file_order
 from parser.program import Program
 from parser.shape.passes import find_passes
-from sim.check.beside import Beside, Distances, Offsetting, PassBeside, beside_round
-from sim.check.compensation.asked import WithoutValue, compensation_of, is_known
+from sim.check.beside import Distances, Offsetting, PassBeside, PassOverRound, beside_round
+from sim.check.compensation.words import WithoutValue, compensation_of, is_known
 from sim.check.engine import run_checks
 from sim.check.offset import gouge_findings, loop_findings, no_way_back, uncut_findings
 from sim.check.path_checks import Demands
@@ -35,16 +35,16 @@ def offsetting(program: Program, offset: Offset) -> Offsetting:
         finding = no_way_back(program, stuck)
         raise ProgramError(finding, excerpt=program.excerpt(finding.line))
     passed = in_passes(drawn, rounds, offset.back)
-    of = np.array([one.number for one in passed.rounds], dtype=np.int64)
-    by_um = np.array([one.by_um for one in offset.passes])
+    of = np.array([round_.number for round_ in passed.rounds], dtype=np.int64)
+    by_um = np.array([pass_.by_um for pass_ in offset.passes])
     side = np.where(offset.back, -offset.side, offset.side)
     path = compensate(passed.curves, passed.sections, by_um[of], side[of])
-    parts = [_beside(passed, path, one, offset) for one in passed.rounds]
-    left_um = np.concatenate([np.zeros(0), *(one.left_um for one in parts)])
-    met = tuple(gouge for one in parts for gouge in one.gouges)
+    parts = [_pass_over_round(passed, path, round_, offset) for round_ in passed.rounds]
+    left_um = np.concatenate([np.zeros(0), *(part.left_um for part in parts)])
+    met = tuple(gouge for part in parts for gouge in part.gouges)
     closed = {
-        one.round.section: beside.loops
-        for one, beside in zip(passed.rounds, parts, strict=True)
+        round_.round.section: beside.loops
+        for round_, beside in zip(passed.rounds, parts, strict=True)
         if beside.loops is not None
     }
     found = [
@@ -58,7 +58,7 @@ def offsetting(program: Program, offset: Offset) -> Offsetting:
         program=run,
         path=path,
         side=offset.side,
-        passes=tuple(PassBeside(one.by_um, back) for one, back in zip(offset.passes, offset.back, strict=True)),
+        passes=tuple(PassBeside(pass_.by_um, back) for pass_, back in zip(offset.passes, offset.back, strict=True)),
         edge_passes=find_passes(run.toolpath),
         left_um=left_um,
         gouges=met,
@@ -96,11 +96,13 @@ def as_run(program: Program, offset: Offset | None) -> Program:
     return program if checked.compensation is None else checked.compensation.program
 
 
-def _beside(passed: PassedPath, path: OffsetPath, one: PassedRound, offset: Offset) -> Beside:
+def _pass_over_round(passed: PassedPath, path: OffsetPath, passed_round: PassedRound, offset: Offset) -> PassOverRound:
     """What a pass over one round does to the contour; how many loops that allows is asked at the least offset."""
-    section = one.round.section
+    section = passed_round.round.section
     contour = passed.curves.picked(slice(section.first, section.last + 1))
-    side = Side(-offset.side if offset.back[one.number] else offset.side)
-    run = Distances(offset.passes[one.number].by_um, offset.by_um, side)
-    counted = section.closed and one.number == offset.nearest
-    return beside_round(closed_contour(contour) if section.closed else contour, path, one.round, run, counted=counted)
+    side = Side(-offset.side if offset.back[passed_round.number] else offset.side)
+    run = Distances(offset.passes[passed_round.number].by_um, offset.by_um, side)
+    counted = section.closed and passed_round.number == offset.nearest
+    return beside_round(
+        closed_contour(contour) if section.closed else contour, path, passed_round.round, run, counted=counted
+    )

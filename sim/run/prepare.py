@@ -18,8 +18,7 @@ from sim.check.engine import Checked, run_checks
 from sim.check.passes import asked_pass_findings
 from sim.check.path_checks import Demands
 from sim.check.result import CheckState, Coverage
-from sim.check.too_large import refusal, too_many_steps
-from sim.check.travel import travel_findings
+from sim.check.travel import refusal, too_many_steps, travel_findings
 from sim.run.offsetting import offsetting, refuse_twice, refuse_unknown
 from sim.setup.quiz import refuse_unanswerable
 from sim.setup.scenario import Scenario
@@ -70,7 +69,7 @@ def prepare(program: Program, scenario: Scenario) -> Prepared:
         raise refusal(program, beyond)
     travel = travel_findings(offset.program, steps, scenario.machine.table, scenario.start_um)
     coverage = _looked_at(checked.coverage, (Check.CORNERS, Check.TRAVEL))
-    by_pass = np.array([scenario.pass_feed_um_s(one) for one in scenario.offset.passes])
+    by_pass = np.array([scenario.pass_feed_um_s(pass_) for pass_ in scenario.offset.passes])
     feeds = feeds._replace(cut_um_s=by_pass[offset.pass_of_row])
     added = (*offset.findings, *_between_passes(offset, scenario), *travel)
     named = program.toolpath.source.names.named(in_codes(program.reading, added))
@@ -92,8 +91,10 @@ def _as_run(checked: Checked) -> Checked:
     """The checks, with an error where the machine would go another way than a run of the path here."""
     return checked._replace(
         findings=tuple(
-            one._replace(graver=Severity.ERROR) if isinstance(one.fact, NotSimulated) and one.fact.otherwise else one
-            for one in checked.findings
+            finding._replace(graver=Severity.ERROR)
+            if isinstance(finding.fact, NotSimulated) and finding.fact.otherwise
+            else finding
+            for finding in checked.findings
         )
     )
 

@@ -26,7 +26,7 @@ class RegisterTable(ValueKind):
         """Names and values in mm."""
         return tuple(_register(name, value, f"{where}: {key}") for name, value in section(table, key, where).items())
 
-    def kept(self, value: Any) -> Registers:
+    def inside(self, value: Any) -> Registers:
         """In µm, by their names."""
         return merged([tuple((name, from_mm(by_mm)) for name, by_mm in value)])
 

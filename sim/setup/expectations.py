@@ -88,7 +88,7 @@ def _look_up(report: Any, path: str) -> Any:
         if isinstance(here, list) and _PLACE.fullmatch(key):
             here = here[int(key)] if int(key) < len(here) else None
         elif isinstance(here, list):
-            here = [_entry(one, key) for one in here]
+            here = [_entry(each, key) for each in here]
         else:
             here = _entry(here, key)
     return here

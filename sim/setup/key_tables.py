@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from parser.findings.catalogue import Language, Said
+from parser.findings.catalogue import Bilingual, Language
 from sim.setup import scenario
-from sim.setup.key_words import said, words, words_of
+from sim.setup.key_words import setting_text, words, words_of
 from sim.setup.machine import machine
 from sim.setup.quiz import QUIZ
 from sim.setup.toml.keys import Key, Section
@@ -21,11 +21,11 @@ _TABLE = re.compile(r"(<!-- keys: ([\w ]+); .*? -->\n).*?(\n<!-- end of keys -->
 class KeyRow(NamedTuple):
     """Row of a key, in Markdown."""
 
-    key: Said
-    type: Said
-    bounds: Said
-    default: Said
-    meaning: Said
+    key: Bilingual
+    type: Bilingual
+    bounds: Bilingual
+    default: Bilingual
+    meaning: Bilingual
 
 
 def renewed(document: str, language: Language) -> str:
@@ -47,8 +47,8 @@ def _scenario_rows() -> Iterator[KeyRow]:
     """Rows of the keys; sections that are lists, or have no keys of their own, begin with a row that says so."""
     for section in scenario.SECTIONS:
         if section.name in _words("sections"):
-            texts = {of: said(text) for of, text in _words("sections")[section.name].items()}
-            yield KeyRow(said(f"`{section.header}`"), **texts)
+            texts = {of: setting_text(text) for of, text in _words("sections")[section.name].items()}
+            yield KeyRow(setting_text(f"`{section.header}`"), **texts)
         if section is not QUIZ:
             yield from (_row(section, key) for key in section.keys)
 
@@ -68,31 +68,31 @@ def _is_needed(section: Section, key: Key) -> bool:
 
 
 def _row(section: Section, key: Key) -> KeyRow:
-    told, kind = words_of(section, key), _words("kinds")[key.kind.name]
+    told_words, kind = words_of(section, key), _words("kinds")[key.kind.name]
     unit = key.kind.unit if isinstance(key.kind, Number) else ""
     return KeyRow(
-        key=said(f"`{f'{section.header} {key.name}'.strip()}`"),
-        type=said(unit or kind["type"]),
-        bounds=told.bounds if any(told.bounds) else _bounds(key, said(kind["bounds"])),
-        default=told.default if any(told.default) else _default(key.default, key.is_required),
-        meaning=told.meaning,
+        key=setting_text(f"`{f'{section.header} {key.name}'.strip()}`"),
+        type=setting_text(unit or kind["type"]),
+        bounds=told_words.bounds if any(told_words.bounds) else _bounds(key, setting_text(kind["bounds"])),
+        default=told_words.default if any(told_words.default) else _default(key.default, key.is_required),
+        meaning=told_words.meaning,
     )
 
 
-def _bounds(key: Key, template: Said) -> Said:
+def _bounds(key: Key, template: Bilingual) -> Bilingual:
     low, high = key.kind.bound or (0.0, 0.0)
     listed = ", ".join(f"`{word}`" for word in key.kind.words) if isinstance(key.kind, OneOf) else ""
-    return Said(*(of.format(low=_number(low), high=_number(high), words=listed) for of in template))
+    return Bilingual(*(of.format(low=_number(low), high=_number(high), words=listed) for of in template))
 
 
-def _default(value: Any, is_required: bool) -> Said:
+def _default(value: Any, is_required: bool) -> Bilingual:
     if is_required or value is None:
         return _head("none")
     if isinstance(value, bool):
         return _head("true" if value else "false")
     if isinstance(value, float) and math.isinf(value):
         return _head("unlimited")
-    return said(f"`{value}`" if isinstance(value, str) else _number(value))
+    return setting_text(f"`{value}`" if isinstance(value, str) else _number(value))
 
 
 def _number(value: float) -> str:
@@ -101,8 +101,8 @@ def _number(value: float) -> str:
     return (text if abs(value) >= 1e4 else text.replace(",", "")).replace("-", "−")
 
 
-def _head(of: str) -> Said:
-    return said(_words("document")[of])
+def _head(of: str) -> Bilingual:
+    return setting_text(_words("document")[of])
 
 
 def _words(of: str) -> Mapping[str, Any]:

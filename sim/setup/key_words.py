@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from sim.setup.toml.keys import Key, Section
 
 _WORDS = Path(__file__).with_name("settings.toml")
@@ -25,32 +25,32 @@ class KeyWords(NamedTuple):
         What the document says in place of those of the key; nothing where it says those.
     """
 
-    name: Said
-    meaning: Said
-    bounds: Said = Said("", "")
-    default: Said = Said("", "")
+    name: Bilingual
+    meaning: Bilingual
+    bounds: Bilingual = Bilingual("", "")
+    default: Bilingual = Bilingual("", "")
 
 
 def words_of(section: Section, key: Key) -> KeyWords:
     """Words of a key. KeyError where there are none."""
     found = dict(words()["keys"][section.name][key.name])
-    name = Said(found.pop("en"), found.pop("zh"))
-    return KeyWords(name, **{of: said(text) for of, text in found.items()})
+    name = Bilingual(found.pop("en"), found.pop("zh"))
+    return KeyWords(name, **{of: setting_text(text) for of, text in found.items()})
 
 
-def said(text: str | Mapping[str, str]) -> Said:
+def setting_text(text: str | Mapping[str, str]) -> Bilingual:
     """A text of ``settings.toml``, which stands there once where it is the same in both languages."""
-    return Said(text, text) if isinstance(text, str) else Said(**text)
+    return Bilingual(text, text) if isinstance(text, str) else Bilingual(**text)
 
 
-def title_of(section: Section) -> Said:
+def title_of(section: Section) -> Bilingual:
     """Title of a section. KeyError where there is none."""
-    return Said(**words()["titles"][section.name])
+    return Bilingual(**words()["titles"][section.name])
 
 
-def value_word(value: str) -> Said:
+def value_word(value: str) -> Bilingual:
     """A value that is one of a few words. KeyError where there is none."""
-    return Said(**words()["values"][value])
+    return Bilingual(**words()["values"][value])
 
 
 @cache

@@ -100,8 +100,8 @@ def _refuse_tangled(corners: Floats, where: str) -> None:
         raise SettingsError("outline-closed-twice", where=where)
     for side, point in np.argwhere(_distances_um(corners) < APART_UM).tolist():
         raise SettingsError("outline-touches-itself", where=where, point=point + 1, side=side + 1, apart_um=APART_UM)
-    for one, other in np.argwhere(_crossings(corners)).tolist():
-        raise SettingsError("outline-crosses-itself", where=where, one=one + 1, other=other + 1)
+    for this, other in np.argwhere(_crossings(corners)).tolist():
+        raise SettingsError("outline-crosses-itself", where=where, one=this + 1, other=other + 1)
 
 
 def _distances_um(corners: Floats) -> Floats:

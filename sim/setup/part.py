@@ -74,17 +74,17 @@ class Offset(NamedTuple):
     @property
     def by_um(self) -> float:
         """Least distance from the contour: of the pass that makes the edge."""
-        return min(one.by_um for one in self.passes)
+        return min(pass_.by_um for pass_ in self.passes)
 
     @property
     def nearest(self) -> int:
         """The first pass at the least distance, from 0."""
-        return [one.by_um for one in self.passes].index(self.by_um)
+        return [pass_.by_um for pass_ in self.passes].index(self.by_um)
 
     @property
     def back(self) -> tuple[bool, ...]:
         """Whether each pass runs against the program."""
-        turns = [one.direction == "back" for one in self.passes]
+        turns = [pass_.direction == "back" for pass_ in self.passes]
         return tuple(accumulate(turns, operator.ne))
 
     @property
@@ -130,7 +130,7 @@ class _SideWord(OneOf):
             raise SettingsError("no-side", where=where, key=key, sides=" or ".join(SIDES), found=name)
         return name
 
-    def kept(self, value: Any) -> Side:
+    def inside(self, value: Any) -> Side:
         """The side."""
         return SIDES[value]
 
@@ -196,12 +196,12 @@ def read_offset(scenario: Mapping[str, Any], where: str) -> Offset | None:
 
 
 def _pass(table: Mapping[str, Any], at: int, where: str) -> OffsetPass:
-    one = OffsetPass(**PASS.read(table, where))
-    if at == 1 and one.direction == "back":
+    offset_pass = OffsetPass(**PASS.read(table, where))
+    if at == 1 and offset_pass.direction == "back":
         raise SettingsError("first-pass-runs-back", where=where)
-    if one.feed_um_s is not None and one.area_rate_mm2_min is not None:
+    if offset_pass.feed_um_s is not None and offset_pass.area_rate_mm2_min is not None:
         raise SettingsError("feed-and-area-rate", where=where)
-    return one
+    return offset_pass
 
 
 def read_drawing_target(scenario: Mapping[str, Any], where: str, folder: Path) -> DrawingTarget | None:

@@ -24,8 +24,7 @@ from sim.setup.making import (
 )
 from sim.setup.part import GAP_UM, OFFSET_MM, PASSES, TOLERANCE_UM, DrawingTarget
 from sim.setup.toml.keys import Key, Section
-from sim.setup.toml.kinds import MM_AS_UM, FileName, Name, Number, OneOf, Text, Truth, Whole
-from sim.setup.toml.lists import Lengths, Places, Wholes
+from sim.setup.toml.kinds import MM_AS_UM, FileName, Lengths, Name, Number, OneOf, Places, Text, Truth, Whole, Wholes
 from sim.setup.toml.reader import PLACE_MM, Bound, number, tables
 
 FIT_UM = Bound(0.1, 1000.0)
@@ -149,8 +148,8 @@ def _refuse_odd_passes(passes_um: tuple[float, ...], where: str) -> None:
     if not passes_um:
         return
     number(len(passes_um), PASSES, _named(where, "name-passes"))
-    for one in passes_um:
-        number(mm(one), OR_NONE_MM, _named(where, "name-pass-offset"))
+    for value in passes_um:
+        number(mm(value), OR_NONE_MM, _named(where, "name-pass-offset"))
     if any(later > before for before, later in pairwise(passes_um)):
         raise SettingsError("pass-offset-rises", where=where)
     if len(passes_um) > 1 and not min(passes_um):

@@ -5,7 +5,7 @@ from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from parser.findings.errors import SettingsError
 from parser.findings.messages import Message
 from parser.text.encoding import printable
@@ -27,10 +27,10 @@ ANSWERS = Bound(2, 6)
 class WrittenQuestion(NamedTuple):
     """A question written out: what is asked, the answers, which of them is right, from 0, and why."""
 
-    ask: Said
-    answers: tuple[Said, ...]
+    ask: Bilingual
+    answers: tuple[Bilingual, ...]
     right: int
-    why: Said
+    why: Bilingual
 
 
 class Question(NamedTuple):
@@ -67,7 +67,7 @@ class _Answers(ValueKind):
             raise SettingsError("same-text-twice", where=where, key=key)
         return value
 
-    def kept(self, value: Any) -> list[str]:
+    def inside(self, value: Any) -> list[str]:
         """Without control characters."""
         return [printable(answer) for answer in value]
 
@@ -126,10 +126,10 @@ def _written(table: Mapping[str, Any], where: str) -> WrittenQuestion:
     ask, why = _ASK.read(table, where), _WHY.read(table, where)
     right = Whole(Bound(1, len(answers))).checked(table, _RIGHT.name, where)
     return WrittenQuestion(
-        ask=Said(ask, _ASK_ZH.read(table, where) or ask),
-        answers=tuple(Said(*pair) for pair in zip(answers, chinese, strict=True)),
+        ask=Bilingual(ask, _ASK_ZH.read(table, where) or ask),
+        answers=tuple(Bilingual(*pair) for pair in zip(answers, chinese, strict=True)),
         right=int(right) - 1,
-        why=Said(why, _WHY_ZH.read(table, where) or why),
+        why=Bilingual(why, _WHY_ZH.read(table, where) or why),
     )
 
 

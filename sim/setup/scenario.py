@@ -145,11 +145,11 @@ class Scenario:
         """Passes that its file tells one by one: none where ``[offset]`` says all of it."""
         return () if self.offset is None or self.offset.is_plain else self.offset.passes
 
-    def pass_feed_um_s(self, one: OffsetPass) -> float:
+    def pass_feed_um_s(self, offset_pass: OffsetPass) -> float:
         """Feed of a pass as the controller runs it, µm/s."""
-        if one.feed_um_s is not None:
-            return self.machine.held_um_s(one.feed_um_s)
-        return self.machine.cut_um_s(self.thickness_mm, one.area_rate_mm2_min or self.machine.area_rate_mm2_min)
+        if offset_pass.feed_um_s is not None:
+            return self.machine.held_um_s(offset_pass.feed_um_s)
+        return self.machine.cut_um_s(self.thickness_mm, offset_pass.area_rate_mm2_min or self.machine.area_rate_mm2_min)
 
     @property
     def start_um(self) -> tuple[float, float]:

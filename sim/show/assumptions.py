@@ -1,27 +1,26 @@
 """What a run took for granted, in words, for terminal and page."""
 
-from parser.findings.catalogue import Said
-from sim.run.assumptions import assumptions_of
-from sim.run.dryrun import DryRun
+from parser.findings.catalogue import Bilingual
+from sim.run.dryrun import DryRun, assumptions_of
 from sim.setup.key_words import words_of
 from sim.setup.machine.machine import SECTIONS
-from sim.show.words import said
+from sim.show.words import bilingual
 from sim.show.words.phrases import as_read, listed, machine_name
 
 
-def taken_for_granted(run: DryRun) -> list[Said]:
+def taken_for_granted(run: DryRun) -> list[Bilingual]:
     """A sentence for each: how the program was read, the machine, and what nobody has measured or looked at."""
     found = assumptions_of(run)
-    told = [said("assumptions.program", parts=as_read(found.program))] if found.program else []
+    told = [bilingual("assumptions.program", parts=as_read(found.program))] if found.program else []
     key = "by-default" if found.by_default else "chosen"
-    told.append(said(f"assumptions.{key}", machine=machine_name(found.machine)))
+    told.append(bilingual(f"assumptions.{key}", machine=machine_name(found.machine)))
     if found.values:
         names = {key.name: words_of(section, key).name for section in SECTIONS for key in section.keys}
         told.append(
-            said("assumptions.values", count=len(found.values), values=listed(names[key] for key in found.values))
+            bilingual("assumptions.values", count=len(found.values), values=listed(names[key] for key in found.values))
         )
     if not found.compared:
-        told.append(said("assumptions.no-drawing"))
+        told.append(bilingual("assumptions.no-drawing"))
     if not found.wire_bows:
-        told.append(said("assumptions.straight"))
+        told.append(bilingual("assumptions.straight"))
     return told

@@ -5,9 +5,8 @@ from typing import NamedTuple
 from parser.told.step_words import Axis
 from parser.units import mm
 from sim.run.ballbar.circle import Ballbar
-from sim.run.ballbar.figures import Figures
+from sim.run.ballbar.figures import NAMES, Figures, Sense
 from sim.run.ballbar.parts import DeviationParts
-from sim.run.ballbar.turn import NAMES, Sense
 from sim.show.words.phrases import machine_name
 from sim.show.words.words import Words
 from sim.table.record.losses import Loss

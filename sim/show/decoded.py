@@ -6,10 +6,10 @@ from typing import Final, NamedTuple
 from controller.decode.blocks import Decoded, Way
 from controller.decode.document import plain
 from parser.dialect.decoding import UNREAD, DecodedBlock, DecodeStep
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from parser.toolpath import Point
 from parser.units import mm, mm_text
-from sim.show.words import said
+from sim.show.words import bilingual
 from sim.show.words.phrases import same
 
 _CIRCLED_ONE: Final = 0x2460
@@ -20,8 +20,8 @@ _SIDE_FIELD: Final = "G0.D7D6"
 class Named(NamedTuple):
     """A text, and what it is about."""
 
-    name: Said
-    text: Said
+    name: Bilingual
+    text: Bilingual
 
 
 def order_text(order: int) -> str:
@@ -29,25 +29,25 @@ def order_text(order: int) -> str:
     return chr(_CIRCLED_ONE + order - 1) if order <= _CIRCLED else f"({order})"
 
 
-def word_text(step: DecodeStep) -> Said:
+def word_text(step: DecodeStep) -> Bilingual:
     """The word of a step as written, or what stands for it."""
-    return same(step.word) if step.word else said("decode.line-end")
+    return same(step.word) if step.word else bilingual("decode.line-end")
 
 
-def value_text(step: DecodeStep) -> Said:
+def value_text(step: DecodeStep) -> Bilingual:
     """What the field of a step becomes."""
     if step.value is None:
-        return said(f"decode.{_why_without(step)}")
+        return bilingual(f"decode.{_why_without(step)}")
     value = plain(step.value)
     if step.field == "buf_state":
-        return said("decode.ready")
+        return bilingual("decode.ready")
     if step.field == "block_num" and value is not None:
-        return said("decode.number", number=value, bcd=f"0x{value:02d}")
+        return bilingual("decode.number", number=value, bcd=f"0x{value:02d}")
     if step.field == _SIDE_FIELD:
         return same(f"{int(step.value):02b}")
     if step.field == "G1":
-        return said("decode.no-bit", value=value)
-    return said("decode.um", um=value) if step.field.startswith("COOR") or "=" in step.word else same(value)
+        return bilingual("decode.no-bit", value=value)
+    return bilingual("decode.um", um=value) if step.field.startswith("COOR") or "=" in step.word else same(value)
 
 
 def _why_without(step: DecodeStep) -> str:
@@ -62,9 +62,9 @@ def buffer_text(block: DecodedBlock) -> str:
     return "  ".join(_fields(block))
 
 
-def way_texts(one: Decoded) -> tuple[Named, ...]:
+def way_texts(decoded: Decoded) -> tuple[Named, ...]:
     """What is in force in a block, where its contour ends, where its end lies moved aside, and how it is joined."""
-    return tuple(Named(said(f"decode.{name}"), text) for name, text in _way_texts(one))
+    return tuple(Named(bilingual(f"decode.{name}"), text) for name, text in _way_texts(decoded))
 
 
 def _fields(block: DecodedBlock) -> Iterator[str]:
@@ -86,31 +86,34 @@ def _fields(block: DecodedBlock) -> Iterator[str]:
             yield f"{name.upper()}={plain(value)}"
 
 
-def _way_texts(one: Decoded) -> Iterator[tuple[str, Said]]:
-    force, way = one.block.in_force, one.way
+def _way_texts(decoded: Decoded) -> Iterator[tuple[str, Bilingual]]:
+    force, way = decoded.block.in_force, decoded.way
     if force is None:
-        yield "force", said("decode.never")
+        yield "force", bilingual("decode.never")
         return
     feed = [] if force.f is None else [f"F{plain(force.f)}"]
     yield "force", same(" ".join(filter(None, [force.motion, force.distance, force.side, force.register, *feed])))
     if way is None:
         return
-    runs = said("decode.runs", runs=way.runs) if way.runs > 1 else same("")
+    runs = bilingual("decode.runs", runs=way.runs) if way.runs > 1 else same("")
     yield "contour", _joined(_contour(way), runs)
     if way.left_um is not None and way.right_um is not None:
         ends = {"left": _place(way.left_um, 4), "right": _place(way.right_um, 4)}
-        yield "aside", said("decode.ends", **ends, register=force.register, offset=f"{mm(force.offset_um or 0.0):g}")
+        yield (
+            "aside",
+            bilingual("decode.ends", **ends, register=force.register, offset=f"{mm(force.offset_um or 0.0):g}"),
+        )
     elif force.side != "G40":
-        yield "aside", said("decode.unknown", register=force.register or "D0")
+        yield "aside", bilingual("decode.unknown", register=force.register or "D0")
     if way.wire_center_um is not None:
-        yield "path", said("decode.on-path", place=_place(way.wire_center_um, 4))
+        yield "path", bilingual("decode.on-path", place=_place(way.wire_center_um, 4))
     if way.joint != "none":
-        yield "joint", said(f"decode.joint-{way.joint}", line=way.before_line)
+        yield "joint", bilingual(f"decode.joint-{way.joint}", line=way.before_line)
 
 
-def _contour(way: Way) -> Said:
+def _contour(way: Way) -> Bilingual:
     ends = {"start": _place(way.start_um), "end": _place(way.end_um)}
-    return said(f"decode.way-{way.kind}", **ends, length=f"{mm(way.length_um):.4f}")
+    return bilingual(f"decode.way-{way.kind}", **ends, length=f"{mm(way.length_um):.4f}")
 
 
 def _place(place: Point, digits: int = 3) -> str:
@@ -119,5 +122,5 @@ def _place(place: Point, digits: int = 3) -> str:
     return f"({x}, {y})".replace("-", "−")
 
 
-def _joined(one: Said, other: Said) -> Said:
-    return Said(one.en + other.en, one.zh + other.zh)
+def _joined(this: Bilingual, other: Bilingual) -> Bilingual:
+    return Bilingual(this.en + other.en, this.zh + other.zh)

@@ -13,8 +13,7 @@ from sim.setup.machine.table_model import TableModel
 from sim.table.physics.bodies import Bodies
 from sim.table.physics.drive import drives_of
 from sim.table.record.history import History, history_of
-from sim.table.record.losses import Loss, Slip, SlipTally, in_order, trip_loss
-from sim.table.record.peaks import Peak, peaks_of
+from sim.table.record.losses import Loss, Peak, Slip, SlipTally, in_order, peaks_of, trip_loss
 from sim.table.solve.reference import InBodies
 from sim.table.solve.run import AxisRun, Engine, axis_of
 from sim.table.solve.tick import followed

@@ -19,11 +19,9 @@ from sim.base.progress import Progress, silent
 from sim.setup.machine.machine import Machine
 from sim.table.follow import Following, Setup
 from sim.table.record.history import History
-from sim.table.record.losses import Loss
-from sim.table.record.peaks import Peak
+from sim.table.record.losses import Loss, Peak
 from sim.table.trace import Trace, origin_um
-from sim.table.when.rhythm import rhythm
-from sim.table.when.ticks import Ticks, choose_ticks
+from sim.table.when.ticks import Ticks, choose_ticks, rhythm
 
 
 class Motion(NamedTuple):

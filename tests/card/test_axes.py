@@ -6,8 +6,7 @@ import pytest
 
 from controller import GECard
 from controller.card.core.codes import AxisSts, Code
-from controller.card.core.settings import CardSettings, Switches
-from controller.card.core.wiring import Wiring
+from controller.card.core.settings import CardSettings, Switches, Wiring
 
 MACHINE = (Switches(-2000.0, 3000.0, (-600.0, -500.0), 1000.0), Switches())
 IDLE = 0x2001

@@ -6,9 +6,9 @@ import numpy as np
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from controller.card.engine.edges import heads_beyond, rises_through
 from controller.card.engine.entries import Pace, arc, line
-from controller.card.engine.rows import path_of_segments
+from controller.card.engine.events import heads_beyond, rises_through
+from controller.card.engine.making import path_of_segments
 
 PACE = Pace(1.0, 1.0)
 STEP_UM = 0.05

@@ -250,13 +250,13 @@ def test_a_stretch_cut_at_the_border_of_blocks_keeps_every_step():
     first = make_stretch(blocks, start, speeds, card)
     now = 1 / 3
     at = [(int(p.x_um[-1]), int(p.y_um[-1])) for p in first.interpolator.pulses(now)][-1]
-    blocks, start = first.left(now), Start(now, ORIGIN, (*at, 0, 0), first.speed(now))
+    blocks, start = first.unfinished(now), Start(now, ORIGIN, (*at, 0, 0), first.speed(now))
     ends = make_stretch(blocks, start, speeds, card).ends_s
     total = steps_left(blocks)
     for now in [float(time) for end in ends for time in (np.nextafter(end, 0.0), end, np.nextafter(end, np.inf))]:
         cut = make_stretch(blocks, start, speeds, card)
         made = sum(len(pulses.t_s) for pulses in cut.interpolator.pulses(now))
-        left = cut.left(now)
+        left = cut.unfinished(now)
         assert steps_left(left) == total - made
         assert not left or left[0].done >= 0
 

@@ -19,8 +19,8 @@ from sound_shapes import SHAPES, Shape, run_round
 from controller.offset.alarms import AlarmKind
 from controller.offset.block_ends import JointKind, joint_kinds
 from controller.offset.compensate import compensate
-from controller.offset.path import Made, OffsetPath
 from controller.offset.programmed import Compensated, compensated
+from controller.offset.rows import OffsetPath, RowOrigin
 from controller.offset.sections import OffsetSection, Side
 from parser.geometry.along import places_at
 from parser.geometry.curves import CurveKind, Curves
@@ -57,7 +57,7 @@ def test_a_block_with_another_offset_begins_at_the_old_and_ends_at_the_new() -> 
         (AlarmKind.OFFSET_CHANGED, 4, False),
         (AlarmKind.NO_CANCEL, 4, False),
     ]
-    assert made.path.made.tolist() == [Made.LEAD, *[Made.SHIFTED] * 4]
+    assert made.path.made.tolist() == [RowOrigin.LEAD, *[RowOrigin.SHIFTED] * 4]
 
 
 def test_a_change_stops_a_controller_that_takes_none() -> None:
@@ -80,7 +80,7 @@ def test_an_arc_with_another_offset_begins_at_its_own() -> None:
     path = drawn_mm((-5, 0), [To(0, 0), To(10, 0), To(15, 5, 10, 5, 1)]).path()
     made = compensated(told(path, 1, [1000.0, 1000.0, 500.0]))
     assert ends_mm(made) == [(0, 1), (10, 1), (10, 0.5), (14.5, 5)]
-    assert made.path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.BRIDGE, Made.SHIFTED]
+    assert made.path.made.tolist() == [RowOrigin.LEAD, RowOrigin.SHIFTED, RowOrigin.BRIDGE, RowOrigin.SHIFTED]
     assert made.path.source_row.tolist() == [0, 1, 1, 2]
 
 
@@ -106,7 +106,7 @@ def test_a_pass_back_on_the_other_side_stays_on_one_side_of_the_contour() -> Non
         *[(0, 0.2), (9.8, 0.2), (9.8, 10.2), (20, 10.2)],
         *[(9.8, 10.2), (9.8, 0.2), (0, 0.2), (-5, 0)],
     ]
-    assert Made.BRIDGE not in made.path.made
+    assert RowOrigin.BRIDGE not in made.path.made
 
 
 @pytest.mark.parametrize("by_um", [200.0, 1e-7])
@@ -114,7 +114,7 @@ def test_a_pass_back_along_an_arc_leaves_no_gap(by_um: float) -> None:
     moves = [To(0, 0), To(3, 1, 0.3, 4.1, 1), To(0, 0, 0.3, 4.1, -1), To(-5, 0)]
     path = compensated(told(drawn_mm((-5, 0), moves).path(), [1, 1, -1, 0], by_um)).path
     assert np.array_equal(path.curves.start_um[1:], path.curves.end_um[:-1])
-    assert path.curves.length_um[path.made == Made.BRIDGE].sum() == 0.0
+    assert path.curves.length_um[path.made == RowOrigin.BRIDGE].sum() == 0.0
 
 
 # Jumps
@@ -131,7 +131,7 @@ def test_a_jump_is_compensated_as_any_block() -> None:
 def test_nothing_is_inserted_beside_a_jump(rules: CompensationRules) -> None:
     path = Pen(-5000, 0).to(0, 0).to(10_000, 0).jump(0, -10_000).to(10_000, -10_500).path()
     made = compensated(told(path, 1, 1000.0, rules))
-    assert Made.BRIDGE not in made.path.made
+    assert RowOrigin.BRIDGE not in made.path.made
     assert ends_mm(made)[1] == (10, 1)
     assert made.path.curves.kind[2] == CurveKind.JUMP
 
@@ -149,7 +149,7 @@ def test_jumps_set_up_and_cancel_as_jumps() -> None:
     made = compensated(told(path, [1, 1, 0], 1000.0))
     assert ends_mm(made) == [(0, 1), (10, 1), (10, -5)]
     assert made.path.curves.kind.tolist() == [CurveKind.JUMP, CurveKind.LINE, CurveKind.JUMP]
-    assert made.path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.LEAD]
+    assert made.path.made.tolist() == [RowOrigin.LEAD, RowOrigin.SHIFTED, RowOrigin.LEAD]
 
 
 # Stretches
@@ -159,7 +159,7 @@ def test_a_program_without_a_side_stays_as_it_is() -> None:
     path = line((0, 0), (10, 0), (10, 10))
     made = compensated(told(path, 0, 0.0))
     assert np.array_equal(made.path.curves.end_um, path.end_um)
-    assert made.path.made.tolist() == [Made.AS_IT_IS] * 2
+    assert made.path.made.tolist() == [RowOrigin.AS_IT_IS] * 2
     assert (made.alarms, made.stretches) == ((), ())
 
 
@@ -182,7 +182,12 @@ def test_a_plain_outline_stays_as_it_is_beside_its_compensated_twin() -> None:
     made = compensated(told(path, [0] * 6 + [1] * 5 + [0], [0.0] * 6 + [100.0] * 5 + [0.0]))
     beside = [(-0.1, 0), (-0.1, 10.1), (10.1, 10.1), (10.1, -0.1), (0, -0.1), (-5, 0)]
     assert ends_mm(made) == [*outline, *beside]
-    assert made.path.made.tolist() == [*[Made.AS_IT_IS] * 6, Made.LEAD, *[Made.SHIFTED] * 4, Made.LEAD]
+    assert made.path.made.tolist() == [
+        *[RowOrigin.AS_IT_IS] * 6,
+        RowOrigin.LEAD,
+        *[RowOrigin.SHIFTED] * 4,
+        RowOrigin.LEAD,
+    ]
     assert alarms(made) == []
 
 
@@ -268,7 +273,7 @@ def around(contour: list[To], side: int) -> Toolpath:
 
 
 def without_leads(path: OffsetPath) -> Curves:
-    return path.curves.picked(path.made != Made.LEAD)
+    return path.curves.picked(path.made != RowOrigin.LEAD)
 
 
 @pytest.mark.parametrize(
@@ -374,7 +379,7 @@ def test_one_stretch_is_what_an_offset_of_the_user_makes() -> None:
         made = compensated(told(path, side, offset, LENGTHEN)).path
         wanted = compensate(path, [OffsetSection(1, len(path) - 1, closed=False)], offset, side)
         # That one leads out by itself, and takes the first block for a lead without offset.
-        assert wanted.made[-1] == Made.LEAD
+        assert wanted.made[-1] == RowOrigin.LEAD
         for name in ("start_um", "end_um", "center_um", "radius_um", "sweep_rad", "length_um", "kind"):
             one, other = getattr(made.curves, name), getattr(wanted.curves, name)[:-1]
             assert np.array_equal(one, other, equal_nan=True), (seed, name)
@@ -393,7 +398,7 @@ def test_what_is_told_of_a_corner_is_what_the_path_does(rules: CompensationRules
             continue
         kinds = joint_kinds(path, path.compensation)
         wanted = [row for row, kind in enumerate(kinds) if kind == JointKind.INSERTED]
-        bridged = 1 + np.unique(made.source_row[made.made == Made.BRIDGE])
+        bridged = 1 + np.unique(made.source_row[made.made == RowOrigin.BRIDGE])
         assert wanted == bridged.tolist(), seed
         inserted += len(wanted)
     assert inserted > 2
@@ -440,7 +445,7 @@ def test_any_program_has_a_path_of_one_piece(toolpath: Toolpath) -> None:
     told_of = toolpath.compensation
     assert told_of is not None
     without = np.flatnonzero(told_of.side == 0)
-    own = (path.made == Made.AS_IT_IS) | (path.made == Made.LEAD)
+    own = (path.made == RowOrigin.AS_IT_IS) | (path.made == RowOrigin.LEAD)
     # Wherever a row has no side, the wire is where the program says at its end.
     last = np.searchsorted(path.source_row, without, side="right") - 1
     there = np.isin(without, path.source_row)

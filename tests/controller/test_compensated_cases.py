@@ -11,8 +11,8 @@ from compensating import LINUXCNC, TEXTBOOK, To, drawn_mm, moves_mm, told
 from paths import Pen
 
 from controller.offset.alarms import AlarmKind
-from controller.offset.path import Made
 from controller.offset.programmed import Compensated, compensated
+from controller.offset.rows import RowOrigin
 from parser.told.compensation import CompensationRules
 
 LEFT, RIGHT = 1, -1
@@ -227,7 +227,7 @@ def test_a_cancel_goes_straight_to_its_end(rules: CompensationRules) -> None:
     path = drawn_mm((-5, 0), [To(0, 0), To(10, 0), To(10, -5)]).path()
     made = compensated(told(path, [1, 1, 0], 1000.0, rules))
     assert_goes(made, [To(0, 1), To(10, 1), To(10, -5)])
-    assert made.path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.LEAD]
+    assert made.path.made.tolist() == [RowOrigin.LEAD, RowOrigin.SHIFTED, RowOrigin.LEAD]
     assert made.alarms == ()
 
 

@@ -17,7 +17,7 @@ from sound_shapes import SHAPES, Shape, run_round
 
 from controller.offset.compensate import compensate
 from controller.offset.passes import PassedPath, in_passes
-from controller.offset.path import Made, OffsetPath, offset_toolpath
+from controller.offset.rows import OffsetPath, RowOrigin, offset_toolpath
 from controller.offset.sections import OffsetSection, Side
 from controller.stepping.words import interpolate
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints, curves_between, joined
@@ -58,7 +58,7 @@ def whole(curves: Curves, closed: bool = True) -> list[OffsetSection]:
 
 def contour_of(path: OffsetPath) -> Curves:
     """The path without its leads."""
-    return path.curves.picked(path.made != Made.LEAD)
+    return path.curves.picked(path.made != RowOrigin.LEAD)
 
 
 def assert_sound(path: OffsetPath) -> None:
@@ -104,11 +104,11 @@ def test_paths_are_whole_and_arcs_exact(seed: int) -> None:
         assert_sound(path)
         assert_arcs_fit(path.curves, 1e-5)
         arc, row = path.curves.is_arc, path.source_row
-        moved = arc & (path.made == Made.SHIFTED)
+        moved = arc & (path.made == RowOrigin.SHIFTED)
         assert np.array_equal(path.curves.center_um[moved], toolpath.center_um[row[moved]])
         wanted = toolpath.radius_um - offset * side * np.sign(toolpath.sweep_rad)
         assert np.array_equal(path.curves.radius_um[moved], wanted[row[moved]])
-        round_corner = arc & (path.made == Made.BRIDGE)
+        round_corner = arc & (path.made == RowOrigin.BRIDGE)
         assert (path.curves.radius_um[round_corner] == offset).all()
         corners = path.curves.center_um[round_corner]
         ends = toolpath.end_um[row[round_corner]]
@@ -117,7 +117,7 @@ def test_paths_are_whole_and_arcs_exact(seed: int) -> None:
         assert np.allclose(corners, ends, rtol=0.0, atol=SAME_UM)
         every = np.union1d(row, path.vanished)
         assert np.array_equal(every, np.arange(len(toolpath)))
-        assert not set(path.vanished.tolist()) & set(row[path.made == Made.SHIFTED].tolist())
+        assert not set(path.vanished.tolist()) & set(row[path.made == RowOrigin.SHIFTED].tolist())
 
 
 def test_back_by_the_same_offset_is_the_contour_again() -> None:
@@ -131,9 +131,9 @@ def test_back_by_the_same_offset_is_the_contour_again() -> None:
         there = contour_of(path)
         back = compensate(there, whole(there), offset, Side(-side))
         # Sharp corners on the inner side are on the outer side on the way back, and get an arc.
-        if Made.BRIDGE in back.made:
+        if RowOrigin.BRIDGE in back.made:
             continue
-        bridges = np.flatnonzero(path.made[path.made != Made.LEAD] == Made.BRIDGE)
+        bridges = np.flatnonzero(path.made[path.made != RowOrigin.LEAD] == RowOrigin.BRIDGE)
         assert back.vanished.tolist() == bridges.tolist(), (seed, shape.name)
         assert same_curves(contour, contour_of(back)), (seed, shape.name)
         compared += 1
@@ -197,8 +197,8 @@ def corner(turn_deg: float) -> Curves:
 @pytest.mark.parametrize("turn_deg", [-30.0, -89.0, -90.0])
 def test_outer_corners_up_to_a_right_angle_are_lengthened(turn_deg: float) -> None:
     path = compensate(corner(turn_deg), whole(corner(turn_deg), closed=False), 100.0, Side.LEFT)
-    moved = path.curves.picked(path.made == Made.SHIFTED)
-    assert Made.BRIDGE not in path.made
+    moved = path.curves.picked(path.made == RowOrigin.SHIFTED)
+    assert RowOrigin.BRIDGE not in path.made
     assert moved.end_um[0] == pytest.approx([1000 - 100 * math.tan(math.radians(turn_deg / 2)), 100.0], abs=SAME_UM)
 
 
@@ -206,7 +206,13 @@ def test_outer_corners_up_to_a_right_angle_are_lengthened(turn_deg: float) -> No
 def test_sharper_outer_corners_are_bridged_by_an_arc(turn_deg: float) -> None:
     curves = corner(turn_deg)
     path = compensate(curves, whole(curves, closed=False), 100.0, Side.LEFT)
-    assert path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.BRIDGE, Made.SHIFTED, Made.LEAD]
+    assert path.made.tolist() == [
+        RowOrigin.LEAD,
+        RowOrigin.SHIFTED,
+        RowOrigin.BRIDGE,
+        RowOrigin.SHIFTED,
+        RowOrigin.LEAD,
+    ]
     bridge = path.curves.picked(slice(2, 3))
     assert np.array_equal(bridge.center_um, curves.end_um[:1])
     assert bridge.radius_um.tolist() == [100.0]
@@ -217,8 +223,8 @@ def test_sharper_outer_corners_are_bridged_by_an_arc(turn_deg: float) -> None:
 @pytest.mark.parametrize("turn_deg", [30.0, 90.0, 150.0])
 def test_inner_corners_are_shortened(turn_deg: float) -> None:
     path = compensate(corner(turn_deg), whole(corner(turn_deg), closed=False), 100.0, Side.LEFT)
-    moved = path.curves.picked(path.made == Made.SHIFTED)
-    assert Made.BRIDGE not in path.made
+    moved = path.curves.picked(path.made == RowOrigin.SHIFTED)
+    assert RowOrigin.BRIDGE not in path.made
     assert moved.end_um[0] == pytest.approx([1000 - 100 * math.tan(math.radians(turn_deg / 2)), 100.0], abs=SAME_UM)
 
 
@@ -227,8 +233,8 @@ def test_a_side_of_an_arc_is_lengthened_along_its_circle() -> None:
     turned = Pen(0, 0).to(1000, 0).arc(1300, -1000, -1.0).path()  # 17° to the right into the arc
     for curves in (arc, turned):
         path = compensate(curves, whole(curves, closed=False), 100.0, Side.LEFT)
-        moved = path.curves.picked(path.made == Made.SHIFTED)
-        assert Made.BRIDGE not in path.made
+        moved = path.curves.picked(path.made == RowOrigin.SHIFTED)
+        assert RowOrigin.BRIDGE not in path.made
         assert moved.end_um[0, 1] == pytest.approx(100.0, abs=SAME_UM)
         assert math.dist(moved.end_um[0], moved.center_um[1]) == pytest.approx(moved.radius_um[1], abs=SAME_UM)
 
@@ -246,8 +252,8 @@ def test_offset_zero_is_the_toolpath() -> None:
 def test_a_line_leads_to_the_offset_path_and_back() -> None:
     toolpath = Pen(0, -500).to(0, 0).to(1000, 0).to(1000, 1000).to(0, 1000).to(0, 0).to(-700, 0).jump(9, 9).path()
     path = compensate(toolpath, [OffsetSection(1, 4, True)], 100.0, Side.RIGHT)
-    shifted = [Made.SHIFTED] * 4
-    assert path.made.tolist() == [Made.LEAD, *shifted, Made.LEAD, Made.AS_IT_IS]
+    shifted = [RowOrigin.SHIFTED] * 4
+    assert path.made.tolist() == [RowOrigin.LEAD, *shifted, RowOrigin.LEAD, RowOrigin.AS_IT_IS]
     assert path.curves.start_um[0].tolist() == [0, -500]
     assert path.curves.start_um[[1, 5]] == pytest.approx(np.array([[-100, -100], [-100, -100]]), abs=SAME_UM)
     assert path.curves.end_um[5].tolist() == [-700, 0]
@@ -265,8 +271,8 @@ def test_without_a_row_that_leads_one_is_inserted() -> None:
         pen.to(5000 + x, y)
     toolpath = pen.path()
     path = compensate(toolpath, [OffsetSection(0, 3, True), OffsetSection(5, 8, True)], 100.0, Side.LEFT)
-    one = [Made.LEAD, *[Made.SHIFTED] * 4, Made.LEAD]
-    assert path.made.tolist() == [*one, Made.AS_IT_IS, *one]
+    one = [RowOrigin.LEAD, *[RowOrigin.SHIFTED] * 4, RowOrigin.LEAD]
+    assert path.made.tolist() == [*one, RowOrigin.AS_IT_IS, *one]
     assert path.source_row.tolist() == [0, 0, 1, 2, 3, 3, 4, 5, 5, 6, 7, 8, 8]
     for lead, out in ((0, 5), (7, 12)):
         assert path.curves.start_um[lead].tolist() == path.curves.end_um[out].tolist()
@@ -277,7 +283,14 @@ def test_without_a_row_that_leads_one_is_inserted() -> None:
 def test_sections_side_by_side_lead_out_and_in_between_them() -> None:
     toolpath = Pen().to(1000, 0).to(2000, 0).to(3000, 0).path()
     path = compensate(toolpath, [OffsetSection(0, 0, False), OffsetSection(1, 2, False)], 100.0, Side.LEFT)
-    assert path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.LEAD, Made.LEAD, *[Made.SHIFTED] * 2, Made.LEAD]
+    assert path.made.tolist() == [
+        RowOrigin.LEAD,
+        RowOrigin.SHIFTED,
+        RowOrigin.LEAD,
+        RowOrigin.LEAD,
+        *[RowOrigin.SHIFTED] * 2,
+        RowOrigin.LEAD,
+    ]
     assert path.curves.end_um[2].tolist() == [1000.0, 0.0]
     assert_sound(path)
 
@@ -285,7 +298,7 @@ def test_sections_side_by_side_lead_out_and_in_between_them() -> None:
 def test_an_arc_that_leads_becomes_a_line() -> None:
     toolpath = Pen(0, 1000).arc(0, 500, math.pi).to(1000, 0).arc(1000, 500, math.pi / 2).path()
     path = compensate(toolpath, [OffsetSection(1, 1, False)], 100.0, Side.LEFT)
-    assert path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.LEAD]
+    assert path.made.tolist() == [RowOrigin.LEAD, RowOrigin.SHIFTED, RowOrigin.LEAD]
     assert path.curves.kind.tolist() == [CurveKind.LINE] * 3
     assert path.curves.start_um[1] == pytest.approx([0.0, 100.0], abs=SAME_UM)
     assert path.curves.end_um[1] == pytest.approx([1000.0, 100.0], abs=SAME_UM)
@@ -294,7 +307,7 @@ def test_an_arc_that_leads_becomes_a_line() -> None:
 def test_a_bridge_where_a_contour_closes_is_cut_last() -> None:
     toolpath = Pen(-500, 0).to(0, 0).to(1000, 400).to(1000, -400).to(0, 0).to(-500, 0).path()
     path = compensate(toolpath, [OffsetSection(1, 3, True)], 100.0, Side.LEFT)
-    made = [Made.LEAD, *[Made.SHIFTED, Made.BRIDGE] * 3, Made.LEAD]
+    made = [RowOrigin.LEAD, *[RowOrigin.SHIFTED, RowOrigin.BRIDGE] * 3, RowOrigin.LEAD]
     assert path.made.tolist() == made
     assert np.array_equal(path.curves.end_um[0], path.curves.end_um[6])
     assert path.source_row.tolist() == [0, 1, 1, 2, 2, 3, 3, 4]
@@ -303,7 +316,7 @@ def test_a_bridge_where_a_contour_closes_is_cut_last() -> None:
 def test_without_sections_nothing_changes() -> None:
     toolpath = Pen().to(10, 0).arc(10, 10, 1.0).path()
     path = compensate(toolpath, [], 100.0, Side.LEFT)
-    assert path.made.tolist() == [Made.AS_IT_IS] * 2
+    assert path.made.tolist() == [RowOrigin.AS_IT_IS] * 2
     assert np.array_equal(path.curves.end_um, toolpath.end_um)
 
 
@@ -338,7 +351,7 @@ def test_a_circle_keeps_its_sweep(missing_um: float, side: Side) -> None:
     sweep = 2.0 * math.pi - missing_um / 5000.0
     circle = Pen(5000, 0).arc(0, 0, sweep).path()
     path = compensate(circle, whole(circle), 100.0, side)
-    ring = path.curves.picked(path.made == Made.SHIFTED)
+    ring = path.curves.picked(path.made == RowOrigin.SHIFTED)
     assert ring.radius_um.tolist() == [5000.0 - 100.0 * side]
     assert ring.sweep_rad == pytest.approx([sweep], abs=1e-12)
     assert_sound(path)
@@ -352,7 +365,7 @@ def test_a_fillet_smaller_than_the_offset_vanishes(radius: float) -> None:
     toolpath = Pen().to(1000 - radius, 0).arc(1000 - radius, radius, math.pi / 2).to(1000, 1000).path()
     path = compensate(toolpath, whole(toolpath, closed=False), 100.0, Side.LEFT)
     assert path.vanished.tolist() == [1]
-    assert path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.SHIFTED, Made.LEAD]
+    assert path.made.tolist() == [RowOrigin.LEAD, RowOrigin.SHIFTED, RowOrigin.SHIFTED, RowOrigin.LEAD]
     assert path.curves.end_um[1] == pytest.approx([900.0, 100.0], abs=SAME_UM)
 
 
@@ -367,7 +380,7 @@ def test_a_small_arc_that_no_longer_reaches_its_line_vanishes() -> None:
     toolpath = Pen().to(1000, 0).arc(900, 60, 2.0).to(0, 500).path()
     path = compensate(toolpath, whole(toolpath, closed=False), 100.0, Side.LEFT)
     assert path.vanished.tolist() == [1]
-    assert Made.BRIDGE not in path.made
+    assert RowOrigin.BRIDGE not in path.made
 
 
 def test_a_large_arc_stays_where_a_spike_before_it_vanishes() -> None:
@@ -391,7 +404,7 @@ def test_an_open_section_begins_and_ends_with_the_blocks_that_are_left() -> None
     sides = polyline([(0, 0), (10, 0), (10, 1000), (0, 1000)])
     path = compensate(sides, whole(sides, closed=False), 100.0, Side.LEFT)
     assert path.vanished.tolist() == [0, 2]
-    assert path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.LEAD]
+    assert path.made.tolist() == [RowOrigin.LEAD, RowOrigin.SHIFTED, RowOrigin.LEAD]
     assert path.curves.start_um[1:] == pytest.approx(np.array([[-90, 0], [-90, 1000]]), abs=SAME_UM)
 
 
@@ -399,7 +412,13 @@ def test_a_slot_too_narrow_is_bridged_by_a_line() -> None:
     slot = polyline([(0, 0), (1000, 0), (1000, 150), (0, 150)])
     path = compensate(slot, whole(slot, closed=False), 100.0, Side.LEFT)
     assert path.vanished.tolist() == [1]
-    assert path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.BRIDGE, Made.SHIFTED, Made.LEAD]
+    assert path.made.tolist() == [
+        RowOrigin.LEAD,
+        RowOrigin.SHIFTED,
+        RowOrigin.BRIDGE,
+        RowOrigin.SHIFTED,
+        RowOrigin.LEAD,
+    ]
     assert path.curves.kind[2] == CurveKind.LINE
     assert_sound(path)
 
@@ -419,7 +438,13 @@ def test_sides_on_one_line_with_nothing_left_between_them_are_bridged_along_it()
         notch = polyline([(0, 0), (1000, 0), (1050, -10), (1100, off), (2000, 0)])
         path = compensate(notch, whole(notch, closed=False), 1000.0, Side.LEFT)
         assert path.vanished.tolist() == [1, 2]
-        assert path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.BRIDGE, Made.SHIFTED, Made.LEAD]
+        assert path.made.tolist() == [
+            RowOrigin.LEAD,
+            RowOrigin.SHIFTED,
+            RowOrigin.BRIDGE,
+            RowOrigin.SHIFTED,
+            RowOrigin.LEAD,
+        ]
         assert path.curves.end_um[1:3] == pytest.approx(np.array([[1000, 1000], [1100, 1000]]), abs=SAME_UM)
 
 
@@ -441,7 +466,7 @@ def test_a_tight_bend_of_chords_leaves_its_sides_crossing(chords: int) -> None:
     x = np.linspace(-300.0, 300.0, chords + 1)
     bend = polyline(np.stack([x, x * x / 100.0], axis=1))
     path = compensate(bend, whole(bend, closed=False), 100.0, Side.LEFT)
-    assert Made.BRIDGE not in path.made
+    assert RowOrigin.BRIDGE not in path.made
     assert len(path.vanished) > 2
     run = shapely.LineString(np.append(path.curves.start_um[1:], path.curves.end_um[-1:], axis=0)[:-1])
     drawing = shapely.LineString(np.append(bend.start_um, bend.end_um[-1:], axis=0))
@@ -479,7 +504,7 @@ def test_nearly_tangent_curves_meet_near_their_ends() -> None:
                 center = 1000 - radius * math.sin(off_rad), radius * math.cos(off_rad)
                 curves = pen.arc(*center, 0.5).path()
                 path = compensate(curves, whole(curves, closed=False), 100.0, side)
-                assert path.made.tolist() == [Made.LEAD, Made.SHIFTED, Made.SHIFTED, Made.LEAD]
+                assert path.made.tolist() == [RowOrigin.LEAD, RowOrigin.SHIFTED, RowOrigin.SHIFTED, RowOrigin.LEAD]
                 joint = path.curves.end_um[1]
                 assert joint == pytest.approx([1000.0, 100.0 * side], abs=0.02)
 
@@ -514,8 +539,8 @@ def test_whatever_is_drawn_gives_a_path(
     assert np.array_equal(path.curves.start_um[0], toolpath.start_um[0])
     assert np.array_equal(path.curves.end_um[-1], toolpath.end_um[-1])
     assert np.array_equal(np.union1d(path.source_row, path.vanished), np.arange(len(toolpath)))
-    if closed and path.made.tolist().count(Made.SHIFTED) > 1:
-        around = np.isin(path.made, (Made.SHIFTED, Made.BRIDGE))
+    if closed and path.made.tolist().count(RowOrigin.SHIFTED) > 1:
+        around = np.isin(path.made, (RowOrigin.SHIFTED, RowOrigin.BRIDGE))
         run = path.curves.picked(around)
         assert np.array_equal(run.start_um[0], run.end_um[-1])
 
@@ -589,7 +614,7 @@ def test_rows_bear_the_source_of_their_blocks() -> None:
     assert set(made.words.radius_um.tolist()) == {-1}
 
 
-def rows_of(path: OffsetPath, made: Made) -> Ints:
+def rows_of(path: OffsetPath, made: RowOrigin) -> Ints:
     return np.flatnonzero(path.made == made)
 
 
@@ -610,7 +635,7 @@ def test_two_contours_do_not_touch_each_other() -> None:
     alone = compensate(one, whole(one), offset, Side.RIGHT)
     early = path.source_row < len(one)
     assert same_curves(alone.curves, path.curves.picked(early))
-    assert len(rows_of(path, Made.AS_IT_IS)) == 1
+    assert len(rows_of(path, RowOrigin.AS_IT_IS)) == 1
 
 
 def test_arcs_that_nearly_are_one_circle_are_joined_where_they_end() -> None:

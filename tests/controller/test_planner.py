@@ -11,8 +11,7 @@ from lawful import assert_inverse, assert_plan_is_lawful
 from plain_planner import plain_border_speeds, plain_duration
 from random_motion import random_rows
 
-from controller.motion.lookahead import reachable
-from controller.motion.planner import RowLimits, border_speeds_sq, plan_rows
+from controller.motion.planner import RowLimits, border_speeds_sq, plan_rows, reachable
 from parser.geometry.curves import Floats
 
 

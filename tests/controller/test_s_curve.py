@@ -8,10 +8,9 @@ import pytest
 from lawful import assert_inverse, assert_plan_is_lawful
 from random_motion import random_rows
 
-from controller.motion.phases import Phases, times_of_lengths
 from controller.motion.plan import plan_of
 from controller.motion.planner import RowLimits, merged, plan_rows
-from controller.motion.s_curve import Stretches, border_speeds, ramp_lengths, s_curves
+from controller.motion.s_curve import Phases, Stretches, border_speeds, ramp_lengths, s_curves, times_of_lengths
 from parser.geometry.curves import Floats
 
 MM = 1e-3

@@ -11,8 +11,8 @@ from plain import PlainBlock, plain_steps
 from strategies import arcs, blocks, lines, program_text, programs
 
 from controller.stepping.chunks import chunk_of
-from controller.stepping.quadrants import ceil_sqrt
 from controller.stepping.steps import Steps
+from controller.stepping.strokes import ceil_sqrt
 from controller.stepping.words import interpolate
 from parser.program import parse_program, read_program
 

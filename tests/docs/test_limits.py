@@ -10,10 +10,10 @@ from parser.drawing.plane import flat, splined
 from parser.files import reading
 from parser.threeb import reader
 from sim.base.workers import cluster
-from sim.check import too_large
+from sim.check import travel
 from sim.check.blame import settle
 from sim.check.shape import crossings
-from sim.jobs import folders
+from sim.jobs import shop
 from sim.measure.compare import nearest, rings
 from sim.setup.toml import reader as toml
 
@@ -23,7 +23,7 @@ VALUES = {
     "blocks of a program": reader.MOST_BLOCKS,
     "a number of a block, µm": units.MAX_WORD_UM,
     "a start point or a printed end, µm from 0": units.MAX_PLACE_UM,
-    "steps of 1 µm": too_large.MAX_STEPS,
+    "steps of 1 µm": travel.MAX_STEPS,
     "pairs of pieces of blocks compared for crossings": crossings.MOST_PAIRS,
     "blocks of a program in which one wrong word is looked for": settle.MOST_BLOCKS,
     "entities in the file": document.MOST_ENTITIES,
@@ -37,7 +37,7 @@ VALUES = {
     "pairs of places and curves looked at for one comparison": nearest.MOST_HELD,
     "characters of a file": toml.MOST_CHARACTERS,
     "parts of a key with dots": toml.MOST_PARTS,
-    "characters of one name in the way to a program's folder": folders.MOST_CHARACTERS,
+    "characters of one name in the way to a program's folder": shop.MOST_CHARACTERS,
     "wait for a scheduler, or for its first worker, s": cluster.MOST_WAIT_S,
 }
 

@@ -13,7 +13,7 @@ from report_pages import PART
 from parser.program import parse_program
 from sim.check.settings import CheckSettings
 from sim.show.drill_page import answers_page, drill_page
-from sim.teach.drill.drills import Asked, drills_of
+from sim.teach.drill.drills import DrillRequest, drills_of
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page
@@ -124,7 +124,7 @@ def test_on_paper_stand_all_tasks_and_no_answer(open_page: OpenPage) -> None:
 def test_nothing_of_a_program_is_obeyed_by_the_page(open_page: OpenPage) -> None:
     text = PART.replace("//lead-in", "//</code><script>document.title='no'</script>\u202e\x1b[31m")
     sound = parse_program(text, "<img src=x>.3b")
-    drills = drills_of(sound, CheckSettings(), Asked(1, 2))
+    drills = drills_of(sound, CheckSettings(), DrillRequest(1, 2))
     for html in (drill_page(sound, drills, 1, ["drill-01.3b", "drill-02.3b"]), answers_page(sound, drills, 1)):
         assert "\u202e" not in html
         assert "\x1b" not in html

@@ -6,7 +6,7 @@ from index_pages import SQUARE, entry, shop_page
 from page_checks import complaints
 
 from sim.jobs.index import Row, build_index
-from sim.show.index_page import Beside, index_page
+from sim.show.index_page import BesideTheIndex, index_page
 
 
 @pytest.mark.parametrize(("lang", "dark"), [("en", True), ("zh", False)])
@@ -45,7 +45,7 @@ def test_links_lead_to_the_files_of_each_program(open_page: OpenPage) -> None:
 
 def test_the_replay_stands_below_the_name_also_where_a_program_has_no_title(open_page: OpenPage) -> None:
     alone = entry(0)._replace(row=Row("pass", "part-0000.3b", time_s=60.0, max_um=0.5, picture=SQUARE))
-    shown = open_page(index_page(build_index([alone]), [Beside(SQUARE, alone.row.message)])).page
+    shown = open_page(index_page(build_index([alone]), [BesideTheIndex(SQUARE, alone.row.message)])).page
     assert shown.locator("tbody .title").count() == 0
     name, replay = (shown.locator(f"tbody a.{each}").bounding_box() for each in ("file", "replay"))
     assert name is not None

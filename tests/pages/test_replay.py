@@ -17,7 +17,7 @@ from long_replays import long_page
 from replayed import canvas, drawn, exports, recording_of
 from runs import plain_scenario, scenario_recording
 
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from parser.program import parse_program
 from sim.base.progress import silent
 from sim.run.recording import recorded
@@ -40,10 +40,14 @@ N8: DD
 """
 """A half round of 2 mm, cut from inside; block 6 bears the label of the next quadrant, which is a finding."""
 STEPS = 8001  # with the stray one of block 6
-WHY = Said("because", "因为")
+WHY = Bilingual("because", "因为")
 QUIZ = (
     Question(2, "quadrant", "test"),
-    Question(4, WrittenQuestion(Said("Ready?", "好了吗？"), (Said("Yes", "好了"), Said("No", "没有")), 0, WHY), "test"),
+    Question(
+        4,
+        WrittenQuestion(Bilingual("Ready?", "好了吗？"), (Bilingual("Yes", "好了"), Bilingual("No", "没有")), 0, WHY),
+        "test",
+    ),
 )
 ZIGZAG = "B100000B97000B100000GXL1 B97000B100000B100000GYL2 B100000B97000B100000GXL3 B97000B100000B100000GYL4"
 

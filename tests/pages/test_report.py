@@ -12,7 +12,7 @@ from page_checks import complaints
 from places import ROOT
 from report_pages import HOSTILE, HOSTILE_TITLE, PART, Made, hostile, made, staircase
 
-from sim.show.html.bundle import joined
+from sim.show.html.environment import joined
 from sim.show.report_page.tables import reached
 
 if TYPE_CHECKING:

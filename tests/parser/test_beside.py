@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from paths import Pen
 
-from parser.shape.beside import Beside, Stretches, neighbours, run_beside
+from parser.shape.beside import RunBeside, Stretches, neighbours, run_beside
 
 SAMPLES = 16  # of a stretch: here one each 20 µm of 320, from 10 µm on
 
 
-def beside(pen: Pen, split: int) -> Beside:
+def beside(pen: Pen, split: int) -> RunBeside:
     """How the rows behind a jump, the row `split`, have those before it beside them, as one pair of stretches."""
     path = pen.path()
     stretches = Stretches(np.array([0, split + 1]), np.array([split - 1, len(path) - 1]))

@@ -8,10 +8,20 @@ from typing import get_args
 
 import pytest
 
-from parser.findings.catalogue import LANGUAGES, CataloguePage, Language, Texts, example, instant, page, texts
+from parser.findings.catalogue import (
+    LANGUAGES,
+    CataloguePage,
+    Language,
+    Remark,
+    Texts,
+    example,
+    instant,
+    page,
+    remark_text,
+    texts,
+)
 from parser.findings.codes import CODES, Severity
 from parser.findings.findings import Finding, Value, counted
-from parser.findings.remarks import Remark, remark_text
 from parser.text.encoding import no_program
 
 PAGES = resources.files("parser.findings") / "pages"

@@ -23,9 +23,8 @@ from parser.drawing.dxf import blocks
 from parser.drawing.loops.ends import Ends, joints
 from parser.drawing.model import Drawing, DrawnLoop, running
 from parser.drawing.read import read_drawing
-from parser.findings.catalogue import Language
+from parser.findings.catalogue import Language, remark_text
 from parser.findings.errors import DrawingError, DrycutError, FileUnreadableError
-from parser.findings.remarks import remark_text
 from parser.geometry.curves import CurveKind, Curves
 
 EXACT_UM = 1e-6

@@ -14,8 +14,8 @@ from parser.drawing.dxf.forms import Spline
 from parser.drawing.plane import flat
 from parser.drawing.plane.splined import places_at
 from parser.drawing.read import read_drawing
+from parser.findings.catalogue import remark_text
 from parser.findings.errors import DrawingError
-from parser.findings.remarks import remark_text
 
 CORNERS = ((0, 0), (10, 0), (10, 10), (0, 10))
 

@@ -5,8 +5,7 @@ import re
 
 import pytest
 
-from parser.text.encoding import printable
-from parser.text.harmless import escaped, harmless
+from parser.text.encoding import escaped, harmless, printable
 
 # docs.github.com, "Workflow commands".
 NAMES = ["error", "warning", "notice", "debug", "group", "endgroup", "add-mask", "set-output", "save-state", "echo"]

@@ -33,6 +33,6 @@ def test_a_field_that_a_block_has_not_cannot_be_edited() -> None:
 
 
 def test_people_see_which_field_is_meant() -> None:
-    assert MENDER.told((MENDER.counted_on(Axis.X), MENDER.counting(4000))) == "GX J 4000"
-    assert MENDER.told((Mend(Field.X, "1"),)) == "X 1"
-    assert MENDER.told((Mend(Field.SENSE, "L1"),)) == "L1"
+    assert MENDER.mends_text((MENDER.counted_on(Axis.X), MENDER.counting(4000))) == "GX J 4000"
+    assert MENDER.mends_text((Mend(Field.X, "1"),)) == "X 1"
+    assert MENDER.mends_text((Mend(Field.SENSE, "L1"),)) == "L1"

@@ -6,8 +6,7 @@ from paths import Pen
 
 from parser.program import parse_program
 from parser.shape.contours import contour_rows
-from parser.shape.open_edges import open_sections, sections_elsewhere
-from parser.shape.turns import find_turns
+from parser.shape.open_edges import find_turns, open_sections, sections_elsewhere
 
 THERE, BACK = (1, 1, False), (3, 3, False)
 

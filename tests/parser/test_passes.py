@@ -10,8 +10,7 @@ from rough_and_trim import RoughAndTrim, rough_and_trim
 from sound import sound_program
 
 from parser.program import load_program
-from parser.shape.passes import Pass, find_passes
-from parser.shape.row_shifts import row_shifts_um
+from parser.shape.passes import Pass, find_passes, row_shifts_um
 
 ROUNDED_UM = 4.0  # places in whole µm, radii that follow them
 WAVE_UM = 10.0  # of many small arcs in a row, whose ends drift

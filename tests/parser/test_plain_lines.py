@@ -9,8 +9,7 @@ from cam_programs import sound_program
 from parser.dialect.choices import Marks
 from parser.text.lines import LineIndex
 from parser.threeb import reader
-from parser.threeb.columns import RawBlocks
-from parser.threeb.plain_lines import plain_lines
+from parser.threeb.columns import RawBlocks, plain_lines
 from parser.threeb.reader import Records, read_records
 
 NO_LINES = plain_lines(LineIndex("(").codes)

@@ -13,9 +13,8 @@ from parser.shape.beside import Stretches, run_beside
 from parser.shape.closing import corners_at
 from parser.shape.contours import contour_rows, find_contours, runs
 from parser.shape.loops import find_loops
-from parser.shape.open_edges import Section, is_slot
-from parser.shape.returns import latest_return
-from parser.shape.turns import find_turns
+from parser.shape.open_edges import Section, find_turns, is_slot
+from parser.shape.several_loops import latest_return
 from parser.text.source import Field, Source
 from parser.toolpath import Toolpath
 

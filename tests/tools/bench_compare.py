@@ -10,9 +10,8 @@ from parser.geometry.curves import Curves, Floats, curves_between
 from parser.geometry.distance import distance_to_curves
 from sim.measure.compare.compare import compare
 from sim.measure.compare.nearest import indexed, nearest
-from sim.measure.compare.placement import Placement, placed
-from sim.measure.compare.result import Asked
-from sim.measure.compare.spread import spread
+from sim.measure.compare.result import FitRequest
+from sim.measure.compare.starts import Placement, placed, spread
 
 
 class Compared(NamedTuple):
@@ -40,7 +39,7 @@ def compared(n: int) -> Compared:
     drawn = wavy(n)
     edge = placed(drawn, Placement(0.7, (1000.0, 2000.0), mirror=False))
     began = time.perf_counter()
-    found = compare(edge_from([edge]), drawing_from([drawn]), Asked(5.0))
+    found = compare(edge_from([edge]), drawing_from([drawn]), FitRequest(5.0))
     whole = time.perf_counter() - began
     if not found.passes:
         raise ValueError(f"a drawing laid on itself lies {found.max_um} µm off")

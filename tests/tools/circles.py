@@ -3,7 +3,7 @@
 import numpy as np
 
 from sim.run.ballbar.circle import Measured, measure
-from sim.run.ballbar.turn import SENSES, MeasuredTurn, Sense
+from sim.run.ballbar.figures import SENSES, MeasuredTurn, Sense
 
 SAMPLES = 6000
 

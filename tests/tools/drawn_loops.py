@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.drawing.loops.chain import chain
-from parser.drawing.loops.flat import without_flat
+from parser.drawing.loops.chain import chain, without_flat
 from parser.drawing.loops.once import drawn_once
 from parser.drawing.model import DEFAULT_GAP_UM, Drawing, Entity, LeftOut
 from parser.geometry.curves import Curves, curves_between, joined

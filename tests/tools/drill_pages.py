@@ -7,7 +7,7 @@ from report_pages import PART
 from parser.program import Program, parse_program
 from sim.check.settings import CheckSettings
 from sim.show.drill_page import answers_page, drill_page
-from sim.teach.drill.drills import Asked, Drill, drills_of
+from sim.teach.drill.drills import Drill, DrillRequest, drills_of
 
 
 @cache
@@ -17,7 +17,7 @@ def part() -> Program:
 
 @cache
 def drills_of_part(count: int = 4) -> tuple[Drill, ...]:
-    return drills_of(part(), CheckSettings(), Asked(5, count))
+    return drills_of(part(), CheckSettings(), DrillRequest(5, count))
 
 
 @cache

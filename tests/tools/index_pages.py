@@ -1,10 +1,10 @@
 """The page of a shop of made-up programs."""
 
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from parser.findings.codes import Severity
 from parser.findings.findings import Count
 from sim.jobs.index import Entry, Row, build_index
-from sim.show.index_page import Beside, index_page
+from sim.show.index_page import BesideTheIndex, index_page
 
 THIN = Count("3B405", Severity.WARNING, 1)
 SQUARE = "M20,20l50,0 0,40 -50,0 0,-40"
@@ -14,7 +14,7 @@ def entry(number: int) -> Entry:
     """Programs in turn: two that pass, one that fails, one that cannot be run."""
     file = f"shop/{number // 100:02}/part-{number:04}.3b"
     if number % 4 == 3:
-        message = Said(f"no block in part {number}", f"第 {number} 个文件没有程序段")
+        message = Bilingual(f"no block in part {number}", f"第 {number} 个文件没有程序段")
         found = (Count("3B100", Severity.ERROR, 1),)
         return Entry(file, None, Row("refused", f"part-{number:04}.3b", message, found), from_cache=False)
     row = Row("pass", f"Part {number}", time_s=60.0 + number, max_um=number % 7 + 0.5, picture=SQUARE)
@@ -25,4 +25,4 @@ def entry(number: int) -> Entry:
 
 def shop_page(count: int) -> str:
     entries = [entry(number) for number in range(count)]
-    return index_page(build_index(entries), [Beside(one.row.picture, one.row.message) for one in entries])
+    return index_page(build_index(entries), [BesideTheIndex(one.row.picture, one.row.message) for one in entries])

@@ -28,7 +28,7 @@ from plain import SIGNS, PlainBlock, plain_end
 from runs import plain_scenario
 from sound_cam import plain_sweep
 
-from sim.make.cam.maker import Made, NotMade, made, unproved
+from sim.make.cam.maker import MadeProgram, NotMade, made_program, unproved
 from sim.make.convert.wanted import Wanted
 from sim.setup.making import Making
 
@@ -216,7 +216,7 @@ def _along(block: PlainBlock, by: tuple[float, float]) -> Points:
     return arc((-x / 1e3, -y / 1e3), radius / 1e3, low, low + turn * plain_sweep(block, by)) * 1e3
 
 
-def judged(done: Made, truth: Truth, offset_um: float) -> Verdict:
+def judged(done: MadeProgram, truth: Truth, offset_um: float) -> Verdict:
     """The written path held against the truth."""
     figures = decoded(done.data.decode(), np.asarray(done.draft.curves.start_um[0]))
     if len(figures) != len(truth.contours):
@@ -263,7 +263,7 @@ def verdict(number: int, folder: Path, *, is_proved: bool = False) -> Verdict:
     truth = random_drawing(rng, path)
     offset = rng.choice((0.0, 100.0, 100.0, 137.0))
     making = Making(passes_um=(offset,), corners="round", direction=rng.choice(("one-side", "ccw", "cw")))
-    done = (made if is_proved else unproved)(path, making, Wanted("3b"), plain_scenario())
+    done = (made_program if is_proved else unproved)(path, making, Wanted("3b"), plain_scenario())
     if isinstance(done, NotMade):
         return Verdict(f"refused as {done.refusal.why}")
     if done.proof is not None and done.proof.verdict != "pass":

@@ -14,9 +14,9 @@ from parser.geometry.curves import Curves
 from parser.program import load_program
 from sim.make.cam.maker import planned
 from sim.make.cam.model import CutPlan, FigureCut
-from sim.make.cam.path.drafted import draft_of_plan
-from sim.make.cam.proof.proof import Given, proved
-from sim.make.cam.proof.result import Proof
+from sim.make.cam.path.kept import draft_of_plan
+from sim.make.cam.proof.proof import ToProve, proved
+from sim.make.cam.proof.target import Proof
 from sim.make.convert.proof import proof as held_against
 from sim.make.convert.wanted import Wanted, read_with, written
 from sim.setup.making import Making
@@ -55,7 +55,7 @@ def proof_of(
     program = load_program(mend(text.text).encode(), f"made.{wanted.language}", read_with(draft, wanted))
     held = held_against(draft, text, program.toolpath)
     drawing = read_drawing(path, plan.making.layer, plan.making.gap_um)
-    return proved(Given(program, plan, drawing, held, wanted.bound_um), scenario or plain_scenario())
+    return proved(ToProve(program, plan, drawing, held, wanted.bound_um), scenario or plain_scenario())
 
 
 def with_cut(plan: CutPlan, number: int, change: Callable[[FigureCut], FigureCut]) -> CutPlan:

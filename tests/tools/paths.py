@@ -10,7 +10,7 @@ from parser.geometry.curves import CurveKind, Curves
 from parser.text.source import Source
 from parser.told.step_words import StepWords
 from parser.toolpath import Toolpath
-from parser.words.arcs import arc_ends
+from parser.words.moves import arc_ends
 
 
 class Pen:

@@ -12,7 +12,7 @@ from runs import plain_scenario
 from parser.program import parse_program
 from sim.base.progress import silent
 from sim.run.recording import Recording, recorded
-from sim.show.html.bundle import joined
+from sim.show.html.environment import joined
 from sim.show.replay.document import replay_document
 
 if TYPE_CHECKING:

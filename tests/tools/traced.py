@@ -9,7 +9,7 @@ from paths import Pen
 from parser.geometry.curves import Floats
 from parser.shape.contours import Contour, find_contours
 from parser.toolpath import Toolpath
-from sim.cut.kerf.region import Kerf, kerf_of
+from sim.cut.kerf.swept import Kerf, kerf_of
 from sim.cut.pieces.pieces import Material, Pieces, pieces_of
 from sim.setup.obstacles import Outline
 from sim.table.trace import Trace

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from controller.card.core.settings import CardSettings
-from controller.card.log.settings_text import settings_of
+from controller.card.log.writer import settings_of
 from parser.files.reading import read_text
 from parser.findings.errors import SettingsError
 
@@ -24,7 +24,7 @@ _SIMULATED: Final = "simulated"
 _FASTEST: Final = 1e6
 
 
-class Asked(NamedTuple):
+class CardEnvironment(NamedTuple):
     """Settings of the card; how fast its clock is, None where it is simulated; file of the log, None for none."""
 
     settings: CardSettings
@@ -32,7 +32,7 @@ class Asked(NamedTuple):
     log: Path | None
 
 
-def asked(environment: Mapping[str, str]) -> Asked:
+def card_environment(environment: Mapping[str, str]) -> CardEnvironment:
     """What a program's environment asks for; empty texts ask for nothing.
 
     SettingsError where it is none, FileUnreadableError where the file of the card cannot be read.
@@ -42,7 +42,7 @@ def asked(environment: Mapping[str, str]) -> Asked:
     told = call_s | _table(environment.get(CARD, "")) | _call_s(environment.get(CALL_S, ""))
     log = environment.get(LOG, "")
     try:
-        return Asked(settings_of(told), times, Path(log) if log else None)
+        return CardEnvironment(settings_of(told), times, Path(log) if log else None)
     except ValueError as error:
         raise SettingsError("in-file", file=environment.get(CARD) or CALL_S, message=str(error)) from None
 

@@ -19,9 +19,9 @@ def header() -> str:
 
 
 def _declarations() -> Iterator[str]:
-    for group, functions in groupby(prototypes(), key=lambda one: one.group):
+    for group, functions in groupby(prototypes(), key=lambda prototype: prototype.group):
         yield f"\n/* {group} */\n"
-        yield from (f"{one.declared};\n" for one in functions)
+        yield from (f"{function.declared};\n" for function in functions)
 
 
 def source(places: Mapping[str, str | list[str]]) -> str:
@@ -37,16 +37,16 @@ def _built_in(name: str, value: str | list[str]) -> str:
 
 
 def _functions() -> Iterator[str]:
-    for index, one in enumerate(prototypes()):
-        given = [parameter.name for parameter in one.parameters if not parameter.is_out]
-        filled = [parameter.name for parameter in one.parameters if parameter.is_out]
+    for index, prototype in enumerate(prototypes()):
+        given = [parameter.name for parameter in prototype.parameters if not parameter.is_out]
+        filled = [parameter.name for parameter in prototype.parameters if parameter.is_out]
         arguments = "".join(f", {name}" for name in (*given, *filled))
-        yield f'DRYCUT {one.declared} {{ return drycut_call({index}, "{one.form}"{arguments}); }}\n'
+        yield f'DRYCUT {prototype.declared} {{ return drycut_call({index}, "{prototype.form}"{arguments}); }}\n'
 
 
 def digest() -> str:
     """Of all that the library is made of, so that a library meets the Python that it was made for."""
-    made_of = (_text("ges.c"), _text("ges.h"), *(one.declared for one in prototypes()))
+    made_of = (_text("ges.c"), _text("ges.h"), *(prototype.declared for prototype in prototypes()))
     return hashlib.sha256("\n".join(made_of).encode()).hexdigest()[:16]
 
 

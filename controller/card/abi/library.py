@@ -7,11 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TextIO
 
-from controller.card.abi.asked import Asked
+from controller.card.abi.asked import CardEnvironment
 from controller.card.abi.clocks import Clock, SimulatedClock, WallClock
 from controller.card.abi.table import Prototype, prototypes
-from controller.card.abi.tasks import Tasks
-from controller.card.abi.turns import Passed, Turns
+from controller.card.abi.turns import Passed, Tasks, Turns
 from controller.card.ge import GECard
 from controller.card.log.writer import CardLog
 from parser.findings.errors import FileUnreadableError
@@ -33,7 +32,7 @@ class Library:
         As `Turns` has them.
     """
 
-    def __init__(self, wanted: Asked, tasks: Tasks, passed: Passed) -> None:
+    def __init__(self, wanted: CardEnvironment, tasks: Tasks, passed: Passed) -> None:
         self._stream = _opened(wanted.log) if wanted.log else None
         self._log = CardLog(self._stream, wanted.settings) if self._stream else None
         self.card = GECard(wanted.settings, on_call=self._log)
@@ -50,11 +49,11 @@ class Library:
         They raise nothing: one that cannot be answered gives None.
         """
         others = (self._sleep, self._milliseconds, self._end)
-        return (*(self._guarded(one.name, self._of_card(one)) for one in prototypes()), *others)
+        return (*(self._guarded(prototype.name, self._of_card(prototype)) for prototype in prototypes()), *others)
 
-    def _of_card(self, one: Prototype) -> Callable[..., Any]:
-        function: Callable[..., Any] = getattr(self.card, one.name)
-        takes_hook = any(parameter.letter == "K" for parameter in one.parameters)
+    def _of_card(self, prototype: Prototype) -> Callable[..., Any]:
+        function: Callable[..., Any] = getattr(self.card, prototype.name)
+        takes_hook = any(parameter.letter == "K" for parameter in prototype.parameters)
         return (lambda place: function(_hook(place))) if takes_hook else function
 
     def _guarded(self, name: str, function: Callable[..., Any]) -> Callable[..., Any]:

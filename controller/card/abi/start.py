@@ -4,9 +4,9 @@ import os
 from collections.abc import Callable
 from typing import Any
 
-from controller.card.abi.asked import asked
+from controller.card.abi.asked import card_environment
 from controller.card.abi.c_text import digest
-from controller.card.abi.tasks import Tasks, all_tasks
+from controller.card.abi.turns import Tasks, all_tasks
 from parser.findings.errors import SettingsError
 
 
@@ -25,7 +25,7 @@ def start(made_for: str, passed: memoryview) -> tuple[Callable[..., Any], ...]:
     """
     if made_for != digest():
         raise SettingsError("libges-of-another-drycut")
-    wanted = asked(os.environ)
+    wanted = card_environment(os.environ)
     before = all_tasks()
     from controller.card.abi.library import Library  # noqa: PLC0415 - loads all else, and that begins threads
 

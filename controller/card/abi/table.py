@@ -69,13 +69,13 @@ class Prototype(NamedTuple):
     @property
     def form(self) -> str:
         """Letters of the parameters that are given, then ``>`` and of those that are filled."""
-        given = "".join(one.letter for one in self.parameters if not one.is_out)
-        return f"{given}>{''.join(one.letter for one in self.parameters if one.is_out)}"
+        given = "".join(parameter.letter for parameter in self.parameters if not parameter.is_out)
+        return f"{given}>{''.join(parameter.letter for parameter in self.parameters if parameter.is_out)}"
 
     @property
     def declared(self) -> str:
         """As a C declaration, without its semicolon."""
-        return f"int {self.name}({', '.join(one.declared for one in self.parameters) or 'void'})"
+        return f"int {self.name}({', '.join(parameter.declared for parameter in self.parameters) or 'void'})"
 
 
 @cache

@@ -76,19 +76,19 @@ class HostLookAheadCalls(OpenCalls):
     @gt(zeros=(0.0, 0))
     def GT_CalVel(self) -> tuple[float, int]:
         """End speed of the oldest block, and its number; refused with 1 where none is left."""
-        end, number, _ = self._told()
+        end, number, _ = self._oldest()
         return end, number
 
     @gt(zeros=(0.0, 0, 0.0))
     def GT_CalVelEx(self) -> tuple[float, int, float]:
         """As `GT_CalVel`, and the highest speed in the block."""
-        return self._told()
+        return self._oldest()
 
-    def _told(self) -> tuple[float, int, float]:
+    def _oldest(self) -> tuple[float, int, float]:
         host = self._host()
         if not host.blocks:
             raise Refused(Code.COMMAND)
-        told = host.told()
+        told = host.take_oldest()
         return told.end_um_s / UM_S_PER_PULSE_MS, told.block.number, told.feed_um_s / UM_S_PER_PULSE_MS
 
 

@@ -1,22 +1,41 @@
 """The look-ahead mode of the library: path calls go through the look-ahead into the list (grade C, as all of it).
 
 For the meaning of the numbers see `host_lookahead`; coordinates are in units of `con` pulses from the axis' zero.
+
+Path calls through the look-ahead. `F` is the feed of the block in pulse/ms; after a block with `dccFlag` it rests.
+
+Where as many blocks are kept as there may be, the oldest goes to the list first, and the call is refused with 1 if the
+list has no room for it. `CodeNum` comes back in the message of a call that is refused (grade C).
 """
 
 from typing import Any
 
 from controller.card.calls.host_lookahead import HostLookAheadCalls, rules_of
 from controller.card.calls.path_base import PathBase, with_length
-from controller.card.core.call import Double, Function, Short, UShort, gt
+from controller.card.calls.status import BITS
+from controller.card.core.call import Double, Function, Long, Short, UShort, gt
 from controller.card.core.codes import LIST_FULL, Code, Refused
 from controller.card.core.units import UM_S_PER_PULSE_MS
-from controller.card.engine.entries import Output, Pace, Place, Segment, Wait, four, line
-from controller.card.engine.shapes import arc_about, arc_by_radius, check_size, checked_line
+from controller.card.engine.entries import (
+    XY,
+    YZ,
+    ZX,
+    Output,
+    Pace,
+    Place,
+    Segment,
+    Wait,
+    arc_about,
+    arc_by_radius,
+    check_size,
+    checked_line,
+    four,
+    line,
+)
 from controller.card.engine.speeds import checked
 from controller.card.lookahead.data import TLookAheadMsg
 from controller.card.lookahead.host import HostBlock
-from controller.card.lookahead.list import ListLookAhead
-from controller.card.lookahead.mode import Mode, Off, On, blocks_kept, ruled, switched_off, switched_on
+from controller.card.lookahead.list import ListLookAhead, Mode, Off, On, blocks_kept, ruled, switched_off, switched_on
 
 _MOST_TOLD = 0x7FFF
 _NO_CEILING = 1e9
@@ -100,28 +119,28 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
             kept.clear(self._engine.list.begun)
         return kept
 
-    def _let_all_go(self, kept: ListLookAhead) -> TLookAheadMsg:
-        self._engine.check_room(kept.entries)
-        self._push_kept(kept)
+    def _let_all_go(self, list_look_ahead: ListLookAhead) -> TLookAheadMsg:
+        self._engine.check_room(list_look_ahead.entries)
+        self._push_kept(list_look_ahead)
         return TLookAheadMsg()
 
-    def _push_kept(self, kept: ListLookAhead) -> None:
-        while len(kept):
-            self._let_go(kept)
+    def _push_kept(self, list_look_ahead: ListLookAhead) -> None:
+        while len(list_look_ahead):
+            self._let_go(list_look_ahead)
 
-    def _let_go(self, kept: ListLookAhead) -> None:
-        for entry in kept.oldest(max(1, self._engine.list.number)):
+    def _let_go(self, list_look_ahead: ListLookAhead) -> None:
+        for entry in list_look_ahead.oldest(max(1, self._engine.list.number)):
             self._engine.push(entry)
 
-    def _kept_end(self, kept: ListLookAhead) -> Place:
-        return kept.end() or self._engine.list_end()
+    def _kept_end(self, list_look_ahead: ListLookAhead) -> Place:
+        return list_look_ahead.end() or self._engine.list_end()
 
-    def _add_to(self, kept: ListLookAhead, segment: Segment, rests: int, number: int) -> TLookAheadMsg:
+    def _add_to(self, list_look_ahead: ListLookAhead, segment: Segment, rests: int, number: int) -> TLookAheadMsg:
         self._check_axes(with_length(segment))
-        if kept.is_full or kept.entries >= self.settings.capacity:
-            self._engine.check_room(kept.oldest_entries)
-            self._let_go(kept)
-        kept.add(HostBlock(self._of_this_call(segment), number, bool(rests)))
+        if list_look_ahead.is_full or list_look_ahead.entries >= self.settings.capacity:
+            self._engine.check_room(list_look_ahead.oldest_entries)
+            self._let_go(list_look_ahead)
+        list_look_ahead.add(HostBlock(self._of_this_call(segment), number, bool(rests)))
         return TLookAheadMsg()
 
     def _push_behind(self, entry: Output | Wait) -> None:
@@ -134,26 +153,28 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
         self._engine.check_room()
         self._engine.push(entry)
 
-    def _kept_place(self, kept: ListLookAhead, start: Place, values: tuple[float, ...]) -> Place:
+    def _kept_place(self, list_look_ahead: ListLookAhead, start: Place, values: tuple[float, ...]) -> Place:
         """Place of coordinates X, Y, …; the other axes stay.
 
         Refused with 1 where the card lacks an axis, with 3 where it is too far.
         """
         if len(values) > self.settings.axes:
             raise Refused(Code.COMMAND)
-        given = (self._kept_at(kept, axis, value) for axis, value in enumerate(values))
+        given = (self._kept_at(list_look_ahead, axis, value) for axis, value in enumerate(values))
         place = four((*given, *start[len(values) :]))
         check_size(*place)
         return place
 
-    def _kept_at(self, kept: ListLookAhead, axis: int, value: float) -> float:
-        return value * kept.rules.pulses_per_unit + self._state.axes[axis].zero
+    def _kept_at(self, list_look_ahead: ListLookAhead, axis: int, value: float) -> float:
+        return value * list_look_ahead.rules.pulses_per_unit + self._state.axes[axis].zero
 
-    def _kept_in_plane(self, kept: ListLookAhead, plane: tuple[int, int], u: float, v: float) -> tuple[float, float]:
+    def _kept_in_plane(
+        self, list_look_ahead: ListLookAhead, plane: tuple[int, int], u: float, v: float
+    ) -> tuple[float, float]:
         """Refused with 1 where the card lacks an axis."""
         if max(plane) >= self.settings.axes:
             raise Refused(Code.COMMAND)
-        return self._kept_at(kept, plane[0], u), self._kept_at(kept, plane[1], v)
+        return self._kept_at(list_look_ahead, plane[0], u), self._kept_at(list_look_ahead, plane[1], v)
 
     def _kept_move(self, vel: float, *values: float) -> None:
         kept, entries = self._lookahead(), self._engine.list
@@ -190,3 +211,98 @@ class LookAheadModeCalls(HostLookAheadCalls, PathBase):
         radius = arc[2] * kept.rules.pulses_per_unit
         segment = arc_by_radius(0, pace, self._kept_end(kept), plane, end, radius, int(arc[3]))
         return self._add_to(kept, segment, rests, number)
+
+
+class LookAheadCalls(LookAheadModeCalls):
+    """Moves, lines, arcs, outputs and waits; as the functions without ``Ex`` where nothing else is said."""
+
+    @gt()
+    def GT_MvXYEx(self, x: Double, y: Double, vel: Double) -> None:
+        """Positioning move, mostly the first entry of the list; blocks that are kept go before it."""
+        self._kept_move(vel, x, y)
+
+    @gt()
+    def GT_MvXYZEx(self, x: Double, y: Double, z: Double, vel: Double) -> None:
+        """As `GT_MvXYEx`."""
+        self._kept_move(vel, x, y, z)
+
+    @gt(zeros=(TLookAheadMsg(),))
+    def GT_LnXYG0Ex(self, x: Double, y: Double, F: Double, dccFlag: Short, CodeNum: Long) -> TLookAheadMsg:
+        """Line at rapid speed `F`."""
+        return self._kept_line((x, y), F, dccFlag, CodeNum, rapid=True)
+
+    @gt(zeros=(TLookAheadMsg(),))
+    def GT_LnXYZG0Ex(self, x: Double, y: Double, z: Double, F: Double, dccFlag: Short, CodeNum: Long) -> TLookAheadMsg:
+        """Line at rapid speed `F`."""
+        return self._kept_line((x, y, z), F, dccFlag, CodeNum, rapid=True)
+
+    @gt(zeros=(TLookAheadMsg(),))
+    def GT_LnXYEx(self, x: Double, y: Double, F: Double, dccFlag: Short, CodeNum: Long) -> TLookAheadMsg:
+        """Line."""
+        return self._kept_line((x, y), F, dccFlag, CodeNum, rapid=False)
+
+    @gt(zeros=(TLookAheadMsg(),))
+    def GT_LnXYZEx(self, x: Double, y: Double, z: Double, F: Double, dccFlag: Short, CodeNum: Long) -> TLookAheadMsg:
+        """Line."""
+        return self._kept_line((x, y, z), F, dccFlag, CodeNum, rapid=False)
+
+    @gt(zeros=(TLookAheadMsg(),))
+    def GT_ArcXYPEx(
+        self, x_end: Double, y_end: Double, r: Double, direction: Short, F: Double, dccFlag: Short, CodeNum: Long
+    ) -> TLookAheadMsg:
+        """Arc by end and radius."""
+        return self._kept_arc_p(XY, (x_end, y_end, r, direction), F, dccFlag, CodeNum)
+
+    @gt(zeros=(TLookAheadMsg(),))
+    def GT_ArcYZPEx(
+        self, y_end: Double, z_end: Double, r: Double, direction: Short, F: Double, dccFlag: Short, CodeNum: Long
+    ) -> TLookAheadMsg:
+        """Arc by end and radius."""
+        return self._kept_arc_p(YZ, (y_end, z_end, r, direction), F, dccFlag, CodeNum)
+
+    @gt(zeros=(TLookAheadMsg(),))
+    def GT_ArcZXPEx(
+        self, z_end: Double, x_end: Double, r: Double, direction: Short, F: Double, dccFlag: Short, CodeNum: Long
+    ) -> TLookAheadMsg:
+        """Arc by end and radius."""
+        return self._kept_arc_p(ZX, (z_end, x_end, r, direction), F, dccFlag, CodeNum)
+
+    @gt(zeros=(TLookAheadMsg(),))
+    def GT_ArcXYEx(
+        self, x_center: Double, y_center: Double, angle: Double, F: Double, dccFlag: Short, CodeNum: Long
+    ) -> TLookAheadMsg:
+        """Arc by centre and angle."""
+        return self._kept_arc(XY, (x_center, y_center, angle), F, dccFlag, CodeNum)
+
+    @gt(zeros=(TLookAheadMsg(),))
+    def GT_ArcYZEx(
+        self, y_center: Double, z_center: Double, angle: Double, F: Double, dccFlag: Short, CodeNum: Long
+    ) -> TLookAheadMsg:
+        """Arc by centre and angle."""
+        return self._kept_arc(YZ, (y_center, z_center, angle), F, dccFlag, CodeNum)
+
+    @gt(zeros=(TLookAheadMsg(),))
+    def GT_ArcZXEx(
+        self, z_center: Double, x_center: Double, angle: Double, F: Double, dccFlag: Short, CodeNum: Long
+    ) -> TLookAheadMsg:
+        """Arc by centre and angle."""
+        return self._kept_arc(ZX, (z_center, x_center, angle), F, dccFlag, CodeNum)
+
+    @gt()
+    def GT_BufIOEx(self, status: UShort) -> None:
+        """All outputs, behind the block before."""
+        self._push_behind(Output(0xFFFF, status))
+
+    @gt()
+    def GT_BufIOBitEx(self, io_bit: UShort, bit_status: Short) -> None:
+        """One output, behind the block before."""
+        if io_bit >= BITS or bit_status not in (0, 1):
+            raise Refused(Code.PARAMETER)
+        self._push_behind(Output(1 << io_bit, bit_status << io_bit))
+
+    @gt()
+    def GT_DelayEx(self, time: Long) -> None:
+        """Wait, ms, behind the block before, which ends at rest."""
+        if time < 0:
+            raise Refused(Code.PARAMETER)
+        self._push_behind(Wait(time / 1000.0))

@@ -9,8 +9,7 @@ from controller.card.calls.path_base import PathBase
 from controller.card.core.call import Double, Long, Short, gt
 from controller.card.core.codes import Code, Refused
 from controller.card.core.units import UM_S2_PER_PULSE_MS2, UM_S_PER_PULSE_MS
-from controller.card.engine.entries import Pace, line
-from controller.card.engine.shapes import XY, YZ, ZX
+from controller.card.engine.entries import XY, YZ, ZX, Pace, line
 from controller.card.engine.speeds import in_pulses
 
 

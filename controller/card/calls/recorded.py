@@ -5,7 +5,7 @@ from types import MappingProxyType
 from typing import Any
 
 from controller.card.calls.base import CardBase
-from controller.card.calls.recording import record
+from controller.card.calls.special import record
 from controller.card.core.call import Double, UShort, gt
 from controller.card.core.codes import Code, Refused
 

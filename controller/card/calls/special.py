@@ -1,8 +1,28 @@
-"""Functions of tools that are only recorded: laser, cut-follow, spindle."""
+"""Functions of tools that are only recorded: laser, cut-follow, spindle.
+
+Functions that are taken, kept and answered with 0, and do nothing else.
+"""
+
+import functools
+from collections.abc import Callable
+from inspect import signature
+from typing import Any
 
 from controller.card.calls.base import CardBase
-from controller.card.calls.recording import record
-from controller.card.core.call import Double, Long, Short, ULong, UShort, gt
+from controller.card.core.call import ADDRESSED, Double, Long, Short, ULong, UShort, gt
+
+
+def record(body: Callable[..., None]) -> Callable[..., Any]:
+    """Decorator of a function without a body: its last good call is kept in `CardState.recorded` by its name."""
+    of_axis = next(iter([*signature(body).parameters][1:]), "") in ADDRESSED
+
+    @functools.wraps(body)
+    def keep(self: Any, *given: Any) -> None:
+        if of_axis:
+            self._axis(given[0])
+        self._state.recorded[body.__name__] = given
+
+    return gt()(keep)
 
 
 class SpecialCalls(CardBase):

@@ -88,7 +88,7 @@ class Sequencer:
             return
         stretch = state.stretch
         self._motion.hand_out(now)
-        left = stretch.left(now)
+        left = stretch.unfinished(now)
         if not left:
             self._events.grows_s = math.inf  # all is run, but for the last servo period
             return
@@ -186,7 +186,7 @@ class Sequencer:
     def _break(self, state: Braking) -> None:
         """A stop has come to rest: keep the place and what is left; the list keeps its own."""
         stretch, now = state.stretch, self._motion.now_s
-        left = stretch.left(now)
+        left = stretch.unfinished(now)
         place = stretch.place(now) if left else stretch.row_end(now)
         self._cut(state, left)
         self._motion.break_place = place

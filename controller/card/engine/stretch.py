@@ -147,7 +147,7 @@ class Stretch:
             return math.inf
         return self.start.clock_s + float(self.plan.time_at(np.array([along_um]))[0])
 
-    def left(self, now_s: float) -> list[Entry]:
+    def unfinished(self, now_s: float) -> list[Entry]:
         """Entries not finished, the first row as far as it is left. Pulses due by now have to be handed out."""
         done, made = self.done(now_s), 0
         if isinstance(self.interpolator, PointByPoint) and self.steps is not None:

@@ -8,8 +8,7 @@ from typing import Any, NamedTuple
 
 from controller.card.calls.base import Logged
 from controller.card.core.settings import CardSettings
-from controller.card.log.settings_text import settings_from
-from controller.card.log.writer import FORMAT
+from controller.card.log.writer import FORMAT, settings_from
 from parser.findings.errors import DrycutError
 
 _CALL = re.compile(r"(\S+) +([0-9a-f]{4,8}) ([A-Za-z]\w*)\((.*)\) = (.*)")

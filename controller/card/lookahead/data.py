@@ -5,8 +5,7 @@ from typing import Any, NamedTuple
 from controller.card.core.call import Char, Double, Long, Reader, Short, read_arguments
 from controller.card.core.codes import Code, Refused
 from controller.card.core.units import UM_S_PER_PULSE_MS
-from controller.card.engine.entries import Pace, Place, Segment, four
-from controller.card.engine.shapes import XY, YZ, ZX, arc_by_radius, arc_to, checked_line
+from controller.card.engine.entries import XY, YZ, ZX, Pace, Place, Segment, arc_by_radius, arc_to, checked_line, four
 from controller.card.engine.speeds import checked
 
 _PLANES = {17: XY, 18: ZX, 19: YZ}

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.card.engine.entries import ORIGIN, Segment
-from controller.card.engine.rows import path_of_segments
+from controller.card.engine.making import path_of_segments
 from controller.motion.junctions import CornerTime, junction_speeds
 from controller.motion.planner import RowLimits, border_speeds_sq
 
@@ -49,7 +49,7 @@ class HostBlock(NamedTuple):
     rests: bool
 
 
-class Told(NamedTuple):
+class OldestBlock(NamedTuple):
     """The oldest block with its end speed and the highest speed in it, µm/s."""
 
     block: HostBlock
@@ -65,7 +65,7 @@ class HostLookAhead:
         self.blocks: deque[HostBlock] = deque()
         self.end = ORIGIN
         self._from_um_s = 0.0
-        self._known: deque[Told] = deque()
+        self._known: deque[OldestBlock] = deque()
 
     @property
     def is_full(self) -> bool:
@@ -83,7 +83,7 @@ class HostLookAhead:
         if self.blocks:
             self.add(self.blocks.pop()._replace(rests=True))
 
-    def told(self) -> Told:
+    def take_oldest(self) -> OldestBlock:
         """The oldest block, which is kept no longer. IndexError where there is none."""
         if not self._known:
             self._known.extend(told_of(list(self.blocks), self.rules, self._from_um_s))
@@ -93,7 +93,7 @@ class HostLookAhead:
         return known
 
 
-def told_of(blocks: list[HostBlock], rules: HostRules, from_um_s: float) -> list[Told]:
+def told_of(blocks: list[HostBlock], rules: HostRules, from_um_s: float) -> list[OldestBlock]:
     """All blocks with their speeds, if nothing comes behind them."""
     if not blocks:
         return []
@@ -107,4 +107,4 @@ def told_of(blocks: list[HostBlock], rules: HostRules, from_um_s: float) -> list
     border[1:][[block.rests for block in blocks]] = 0.0
     limits = RowLimits(path.length_um, feed, along, border, np.zeros_like(border))
     ends = np.sqrt(border_speeds_sq(limits, from_um_s))[1:]
-    return [Told(*entry) for entry in zip(blocks, ends.tolist(), feed.tolist(), strict=True)]
+    return [OldestBlock(*entry) for entry in zip(blocks, ends.tolist(), feed.tolist(), strict=True)]

@@ -74,7 +74,9 @@ def reader_of(entity: DXFEntity) -> Callable[[DXFEntity], ReadEntity] | None:
 
 
 def _line(entity: DXFEntity) -> ReadEntity:
-    return ReadEntity(line_forms(np.array([tuple(_given(entity, "start", 10)), tuple(_given(entity, "end", 11))])))
+    return ReadEntity(
+        line_forms(np.array([tuple(_number_of(entity, "start", 10)), tuple(_number_of(entity, "end", 11))]))
+    )
 
 
 def _circle(entity: DXFEntity) -> ReadEntity:
@@ -82,18 +84,18 @@ def _circle(entity: DXFEntity) -> ReadEntity:
 
 
 def _arc(entity: DXFEntity) -> ReadEntity:
-    begin, end = (math.radians(_given(entity, *of)) for of in (("start_angle", 50), ("end_angle", 51)))
+    begin, end = (math.radians(_number_of(entity, *of)) for of in (("start_angle", 50), ("end_angle", 51)))
     return ReadEntity(circle_form(*_center_radius(entity), begin, end), _own(entity))
 
 
 def _center_radius(entity: DXFEntity) -> tuple[Floats, float]:
-    return _place(_given(entity, "center", 10)), abs(_given(entity, "radius", 40))
+    return _place(_number_of(entity, "center", 10)), abs(_number_of(entity, "radius", 40))
 
 
 def _ellipse(entity: DXFEntity) -> ReadEntity:
-    major, normal = Vec3(_given(entity, "major_axis", 11)), Vec3(entity.dxf.extrusion).normalize()
-    minor = normal.cross(major) * _given(entity, "ratio", 40)
-    place = _place(_given(entity, "center", 10))
+    major, normal = Vec3(_number_of(entity, "major_axis", 11)), Vec3(entity.dxf.extrusion).normalize()
+    minor = normal.cross(major) * _number_of(entity, "ratio", 40)
+    place = _place(_number_of(entity, "center", 10))
     return ReadEntity(ellipse_form(place, _place(major), _place(minor), entity.dxf.start_param, entity.dxf.end_param))
 
 
@@ -121,7 +123,7 @@ def _spline(entity: DXFEntity) -> ReadEntity:
     return ReadEntity(spline_of(entity))
 
 
-def _given(entity: DXFEntity, name: str, code: int) -> Any:
+def _number_of(entity: DXFEntity, name: str, code: int) -> Any:
     """A number or a place of an entity. WrongNumbersError without it: the library takes a radius of none for 1."""
     given = entity.dxf.get(name)
     if given is None:

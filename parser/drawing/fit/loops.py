@@ -31,16 +31,16 @@ def loops_with_arcs(drawing: Drawing, tolerance_um: float) -> FittedLoops:
     """
     is_drawn = np.array([entity.kind in _DRAWN_AS_LINES for entity in drawing.entities])[drawing.entity]
     fitted = [_fitted(drawing, loop, is_drawn, tolerance_um) for loop in drawing.loops]
-    number = [len(one.of) for one in fitted]
+    number = [len(each.of) for each in fitted]
     first = np.cumsum(number) - number
     return FittedLoops(
-        joined([drawing.curves.picked(slice(0)), *(one.curves for one in fitted)]),
-        np.concatenate([drawing.entity[:0], *(one.of for one in fitted)]),
+        joined([drawing.curves.picked(slice(0)), *(each.curves for each in fitted)]),
+        np.concatenate([drawing.entity[:0], *(each.of for each in fitted)]),
         tuple(
-            _running_ahead(loop, int(at), len(one.of))
-            for loop, one, at in zip(drawing.loops, fitted, first, strict=True)
+            _running_ahead(loop, int(at), len(each.of))
+            for loop, each, at in zip(drawing.loops, fitted, first, strict=True)
         ),
-        max((one.max_um for one in fitted), default=0.0),
+        max((each.max_um for each in fitted), default=0.0),
     )
 
 

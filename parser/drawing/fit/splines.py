@@ -17,15 +17,15 @@ def arcs_of_splines(splines: Sequence[Spline], tolerance_um: float) -> tuple[Fit
 
     Behind them the splines that have none, as their numbers make no curve, or one that needs arcs without number.
     """
-    origins = np.array([one.control[:, :2].mean(axis=0) for one in splines]).reshape(-1, 2)
+    origins = np.array([spline.control[:, :2].mean(axis=0) for spline in splines]).reshape(-1, 2)
     spans: dict[int, Spans] = {}
-    for row, one in enumerate(splines):
+    for row, spline in enumerate(splines):
         try:
-            spans[row] = spans_of(one, origins[row])
+            spans[row] = spans_of(spline, origins[row])
         except ValueError:
             continue
     parts = [
-        _of_degree({row: one for row, one in spans.items() if splines[row].degree == degree}, origins, tolerance_um)
+        _of_degree({row: span for row, span in spans.items() if splines[row].degree == degree}, origins, tolerance_um)
         for degree in sorted({splines[row].degree for row in spans})
     ]
     return several(parts, np.array([row for row in range(len(splines)) if row not in spans], dtype=np.int64))

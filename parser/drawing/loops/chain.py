@@ -1,18 +1,23 @@
 """Curves to loops: first the curves that an entity runs through in one go, then end to end from entity to entity.
 
 Chains that pass a place twice, parted there: two loops that touch are two, no figure eight.
+
+Closed loops that are no contour of any wire: dots, and lines there and back.
 """
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from parser.drawing.loops.ends import Ends, joints, near
-from parser.drawing.loops.labels import merged, place_labels
-from parser.drawing.loops.strings import Strings, strings_of
+from parser.drawing.loops.once import merged, place_labels
+from parser.drawing.loops.overlaps import Strings, strings_of
 from parser.drawing.model import BESIDE_UM, SAME_WITHIN_UM, DrawnLoop, running
-from parser.geometry.curves import Bools, Curves, Floats, Ints
+from parser.geometry.along import places
+from parser.geometry.curves import Bools, Curves, Floats, Ints, extents
 from parser.geometry.directions import directions
 
 
@@ -53,9 +58,9 @@ def parted(curves: Curves, run: Run, branch_um: Floats, gap_um: float) -> Run:
     if not twice:
         return run
     parts: list[_Part] = []
-    for one, (low, high) in enumerate(zip(first.tolist(), past.tolist(), strict=True)):
-        whole = _Part(np.arange(low, high), bool(run.closed[one]))
-        parts += _parts(curves, run, whole, [*start[low:high].tolist(), int(end[one])]) if one in twice else [whole]
+    for index, (low, high) in enumerate(zip(first.tolist(), past.tolist(), strict=True)):
+        whole = _Part(np.arange(low, high), bool(run.closed[index]))
+        parts += _parts(curves, run, whole, [*start[low:high].tolist(), int(end[index])]) if index in twice else [whole]
     parts.sort(key=lambda part: int(run.row[part.at].min()))
     return _joined(run, parts)
 
@@ -216,3 +221,70 @@ def _leftmost(start: Floats, of: Ints) -> Ints:
     order = np.lexsort([start[:, 1], start[:, 0], of])
     leftmost: Ints = order[np.flatnonzero(np.diff(of[order], prepend=-1))]
     return leftmost
+
+
+WhyFlat = Literal["dot", "no-width"]
+DOT_UM: Final = 10.0
+"""What is no larger is left of drawing, and no contour of any wire."""
+_SHARES: Final = np.linspace(0.0, 1.0, 9)[:-1]  # of each curve, at which a loop is looked on how far it lies off a line
+
+
+class Flat(NamedTuple):
+    """A loop that is no contour: its first row, why, ``dot`` or ``no-width``, and where it begins, µm."""
+
+    row: int
+    why: WhyFlat
+    place_um: tuple[float, float]
+
+
+class Contours(NamedTuple):
+    """Curves (n,), the number of the entity of each, loops of them, and the loops that are none of these."""
+
+    curves: Curves
+    entity: Ints
+    loops: tuple[DrawnLoop, ...]
+    flat: tuple[Flat, ...]
+
+
+def without_flat(curves: Curves, entity: Ints, loops: Sequence[DrawnLoop]) -> Contours:
+    """Curves (n,) and their loops without closed loops of no width; these stay where a drawing has nothing else."""
+    why = dict(flat_loops(curves, loops))
+    if not 0 < len(why) < len(loops):
+        return Contours(curves, entity, tuple(loops), ())
+    starts = [(int(loop.row[0]), curves.start_um[loop.row[0]].tolist()) for loop in loops]
+    flat = tuple(Flat(starts[at][0], why[at], (starts[at][1][0], starts[at][1][1])) for at in why)
+    left = [loop for at, loop in enumerate(loops) if at not in why]
+    rows = np.sort(np.concatenate([loop.row for loop in left]))
+    renumbered = tuple(replace(loop, row=np.searchsorted(rows, loop.row)) for loop in left)
+    return Contours(curves.picked(rows), entity[rows], renumbered, flat)
+
+
+def flat_loops(curves: Curves, loops: Sequence[DrawnLoop]) -> list[tuple[int, WhyFlat]]:
+    """Numbers of closed loops that are no larger than 10 µm, ``dot``, or lie within 1 µm of a line, ``no-width``."""
+    closed = [at for at, loop in enumerate(loops) if loop.closed]
+    if not closed:
+        return []
+    number = np.array([len(loops[at].row) for at in closed])
+    first = np.cumsum(number) - number
+    row = np.concatenate([loops[at].row for at in closed])
+    backwards = np.concatenate([loops[at].backwards for at in closed])
+    run = Run(row, backwards, np.repeat(np.arange(len(closed)), number), np.ones(len(closed), dtype=np.bool_))
+    ran = running(curves, row, backwards)
+    low, high = extents(ran)
+    size = (np.maximum.reduceat(high, first) - np.minimum.reduceat(low, first)).max(axis=1)
+    slender = np.abs(signed_areas(curves, run)) <= BESIDE_UM * (np.add.reduceat(ran.length_um, first) + size)
+    found: list[tuple[int, WhyFlat]] = []
+    for each in np.flatnonzero((size <= DOT_UM) | slender).tolist():
+        if size[each] <= DOT_UM:
+            found.append((closed[each], "dot"))
+        elif _is_straight(ran.picked(slice(first[each], first[each] + number[each]))):
+            found.append((closed[each], "no-width"))
+    return found
+
+
+def _is_straight(ring: Curves) -> bool:
+    """Whether a loop lies along a line; one that encloses nothing may be a figure eight."""
+    row = np.repeat(np.arange(len(ring)), len(_SHARES))
+    place = places(ring, row, np.tile(_SHARES, len(ring)))
+    _, _, ways = np.linalg.svd(place - place.mean(axis=0), full_matrices=False)
+    return bool(np.ptp(place @ ways[1]) <= BESIDE_UM)

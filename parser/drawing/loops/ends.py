@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from parser.geometry.cells import cell_keys
+from parser.geometry.boxes import cell_keys
 from parser.geometry.curves import Floats, Ints
 
 _NEIGHBOURS = ((0, 0), (1, 0), (-1, 1), (0, 1), (1, 1))  # half of the cells round one; the other half look back
@@ -69,9 +69,9 @@ def _matched(pair: Ints) -> Ints:
     """Pairs whose two ends no earlier pair has; one after the other, as each depends on those before it."""
     taken: set[int] = set()
     kept = []
-    for number, (one, other) in enumerate(pair.tolist()):
-        if one not in taken and other not in taken:
-            taken.update((one, other))
+    for number, (this, other) in enumerate(pair.tolist()):
+        if this not in taken and other not in taken:
+            taken.update((this, other))
             kept.append(number)
     return pair[kept]
 
@@ -87,11 +87,11 @@ def near(place: Floats, within_um: float) -> tuple[Ints, Ints]:
     for right, up in _NEIGHBOURS:
         wanted = cell_keys(*(cell[order] + (right, up)).T)
         low, number = np.searchsorted(key[order], wanted), _count(key[order], wanted)
-        one = np.repeat(np.arange(len(order)), number)
-        other = low[one] + np.arange(len(one)) - (np.cumsum(number) - number)[one]
+        each = np.repeat(np.arange(len(order)), number)
+        other = low[each] + np.arange(len(each)) - (np.cumsum(number) - number)[each]
         if (right, up) == (0, 0):
-            one, other = one[one < other], other[one < other]
-        pairs.append(np.column_stack([order[one], order[other]]))
+            each, other = each[each < other], other[each < other]
+        pairs.append(np.column_stack([order[each], order[other]]))
     return np.concatenate(pairs), np.flatnonzero(crowded)
 
 

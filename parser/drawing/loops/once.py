@@ -1,18 +1,49 @@
 """Curves of a drawing, each drawn once: the border type is `DrawnOnce`.
 
 Curves that a drawing holds twice, one upon the other.
+
+Numbers for places: those that are one place share one.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from parser.drawing.loops.labels import labels
-from parser.drawing.loops.overlaps import Covered, covered
-from parser.drawing.loops.strings import strings_of
+from parser.drawing.loops.overlaps import Covered, covered, strings_of
 from parser.drawing.model import SAME_WITHIN_UM
 from parser.geometry.along import places, places_at
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
+
+
+def labels(values: Floats) -> Ints:
+    """A number for each value, in the same shape; values that follow each other within `SAME_WITHIN_UM` share one."""
+    order = np.argsort(values, axis=None)
+    step = np.diff(values.ravel()[order], prepend=-np.inf) > SAME_WITHIN_UM
+    label = np.empty(values.size, dtype=np.int64)
+    label[order] = np.cumsum(step)
+    return label.reshape(values.shape)
+
+
+def place_labels(place_um: Floats) -> Ints:
+    """A number (k,) from 0 for each of the places (k, 2)."""
+    key = labels(place_um[:, 0]) * (len(place_um) + 1) + labels(place_um[:, 1])
+    label: Ints = np.unique(key, return_inverse=True)[1]
+    return label
+
+
+def merged(label: Ints, pair: Ints) -> Ints:
+    """The labels (k,), from 0, where those of the pairs (p, 2) of labels are made one, and what these pair with too."""
+    to = np.arange(int(label.max(initial=-1)) + 1)
+    while True:
+        low = np.minimum(to[pair[:, 0]], to[pair[:, 1]])
+        if (to[pair] == low[:, None]).all():
+            joined: Ints = to[label]
+            return joined
+        for side in (0, 1):
+            np.minimum.at(to, to[pair[:, side]], low)
+            np.minimum.at(to, pair[:, side], low)
+        to = to[to]
+
 
 _MIX = np.random.default_rng(20260101).integers(-(1 << 62), 1 << 62, 7)  # odds and ends that mix the parts of a key
 
@@ -93,7 +124,7 @@ class DrawnOnce(NamedTuple):
     again: tuple[Again, ...]
 
 
-class _Kept(NamedTuple):
+class _Stretches(NamedTuple):
     """Stretches (k,) of rows that are kept, from a length along the row to another, µm."""
 
     row: Ints
@@ -114,15 +145,15 @@ def drawn_once(curves: Curves, entity: Ints) -> DrawnOnce:
     middle = 0.5 * curves.length_um[gone]
     told = [(entity[gone], np.ones(len(gone), dtype=np.bool_), places_at(curves, gone, middle))]
     if over is None or not len(over.row):
-        return DrawnOnce(once, entity[rest], _told(told))
-    kept = _kept(once, over)
+        return DrawnOnce(once, entity[rest], _drawn_again(told))
+    kept = _uncovered(once, over)
     rows, first = np.unique(over.row, return_index=True)
     place = places_at(once, rows, 0.5 * (over.first_um + over.last_um)[first])
     told.append((entity[rest][rows], ~np.isin(rows, kept.row), place))
-    return DrawnOnce(_cut(once, kept), entity[rest][kept.row], _told(told))
+    return DrawnOnce(_cut(once, kept), entity[rest][kept.row], _drawn_again(told))
 
 
-def _kept(curves: Curves, over: Covered) -> _Kept:
+def _uncovered(curves: Curves, over: Covered) -> _Stretches:
     """All rows that are not covered, and what is left of those that are, in the order of the rows."""
     order = np.lexsort([over.first_um, over.row])
     row, first, last = over.row[order], over.first_um[order], over.last_um[order]
@@ -139,7 +170,7 @@ def _kept(curves: Curves, over: Covered) -> _Kept:
     low = np.concatenate([np.zeros(len(whole)), low[long]])
     high = np.concatenate([curves.length_um[whole], high[long]])
     order = np.lexsort([low, rows])
-    return _Kept(rows[order], low[order], high[order])
+    return _Stretches(rows[order], low[order], high[order])
 
 
 def _running_max(values: Floats, group: Ints) -> Floats:
@@ -149,21 +180,21 @@ def _running_max(values: Floats, group: Ints) -> Floats:
     return highest
 
 
-def _cut(curves: Curves, kept: _Kept) -> Curves:
+def _cut(curves: Curves, stretches: _Stretches) -> Curves:
     """The stretches as curves; whole rows as they are."""
-    ran = curves.picked(kept.row)
-    from_start, to_end = kept.first_um == 0.0, kept.last_um == ran.length_um
+    ran = curves.picked(stretches.row)
+    from_start, to_end = stretches.first_um == 0.0, stretches.last_um == ran.length_um
     part = np.flatnonzero(~(from_start & to_end))
-    row, of = kept.row[part], ran.picked(part)
-    start = np.where(from_start[part, None], of.start_um, places_at(curves, row, kept.first_um[part]))
-    end = np.where(to_end[part, None], of.end_um, places_at(curves, row, kept.last_um[part]))
-    share = (kept.last_um - kept.first_um)[part] / of.length_um
+    row, of = stretches.row[part], ran.picked(part)
+    start = np.where(from_start[part, None], of.start_um, places_at(curves, row, stretches.first_um[part]))
+    end = np.where(to_end[part, None], of.end_um, places_at(curves, row, stretches.last_um[part]))
+    share = (stretches.last_um - stretches.first_um)[part] / of.length_um
     cut = curves_between(start, end, of.center_um, of.sweep_rad * share)
     whole = np.flatnonzero(from_start & to_end)
     return joined([ran.picked(whole), cut]).picked(np.argsort(np.concatenate([whole, part])))
 
 
-def _told(told: list[tuple[Ints, Bools, Floats]]) -> tuple[Again, ...]:
+def _drawn_again(told: list[tuple[Ints, Bools, Floats]]) -> tuple[Again, ...]:
     """What was drawn again, once for each entity and for whole curves and parts of them."""
     entity, whole, place = (np.concatenate(column) for column in zip(*told, strict=True))
     key, first, number = np.unique(2 * entity + ~whole, return_index=True, return_counts=True)

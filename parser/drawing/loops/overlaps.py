@@ -1,13 +1,38 @@
-"""Curves that run over others for a part of their way, or beside them so near that they are the same."""
+"""Curves that run over others for a part of their way, or beside them so near that they are the same.
+
+Strings: curves that an entity runs through in one go, each from the end of the one before it.
+"""
 
 from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.drawing.loops.strings import Strings, strings_of
 from parser.drawing.model import BESIDE_UM, SAME_WITHIN_UM
 from parser.geometry.broad_phase_pairs import near_pairs
 from parser.geometry.curves import Bools, Curves, Floats, Ints
+
+
+class Strings(NamedTuple):
+    """First and last rows (s,) of the strings, and whether each closes upon itself."""
+
+    first: Ints
+    last: Ints
+    closed: Bools
+
+    @property
+    def of_row(self) -> Ints:
+        """(n,) string of each row."""
+        return np.repeat(np.arange(len(self.first)), self.last - self.first + 1)
+
+
+def strings_of(curves: Curves, entity: Ints) -> Strings:
+    """Strings of curves (n,) by their entities (n,), numbers that do not decrease."""
+    apart = np.hypot(*(curves.start_um[1:] - curves.end_um[:-1]).T) > SAME_WITHIN_UM
+    cut = np.flatnonzero(apart | (np.diff(entity) != 0)) + 1
+    first, last = np.append(0, cut), np.append(cut, len(curves)) - 1
+    gap = np.hypot(*(curves.start_um[first] - curves.end_um[last]).T)
+    return Strings(first, last, gap <= SAME_WITHIN_UM)
+
 
 _MOST_PAIRS: Final = 20_000_000  # of pieces of curves near each other that are looked at: some seconds
 _OPEN: Final = 0.01  # of a string that another one covers all round, what lies beside it at its corners at most
@@ -51,8 +76,8 @@ def _alike(curves: Curves, strings: Strings, row: Ints, by: Ints) -> Bools:
     """Whether the strings of pairs of rows (k,) are as long as each other, as those are that run beside each other."""
     length = np.add.reduceat(curves.length_um, strings.first)
     rows = strings.last - strings.first + 1
-    one, other = strings.of_row[row], strings.of_row[by]
-    alike: Bools = np.abs(length[one] - length[other]) <= 2.0 * np.pi * BESIDE_UM * (rows[one] + rows[other])
+    this, other = strings.of_row[row], strings.of_row[by]
+    alike: Bools = np.abs(length[this] - length[other]) <= 2.0 * np.pi * BESIDE_UM * (rows[this] + rows[other])
     return alike
 
 

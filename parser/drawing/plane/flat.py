@@ -58,15 +58,15 @@ def flat_forms(forms: Floats, maps: Floats, which: Ints, tolerance_um: float, fi
     arc = np.isfinite(forms).all(axis=1) & ((rho <= FARTHEST_UM) | (_is_round(forms) & _bends_near(forms, rho)))
     near = is_near(forms[:, START]) & is_near(forms[:, END]) & (line | arc)
     upright = near & ~line & (thin <= SAME_WITHIN_UM)
-    kept = np.flatnonzero(near & ~upright)
-    forms, line, rho = forms[kept], line[kept], rho[kept]
+    kept_rows = np.flatnonzero(near & ~upright)
+    forms, line, rho = forms[kept_rows], line[kept_rows], rho[kept_rows]
     exact = line | _is_round(forms)
     if fit_um is None:
         made = _chords(forms[~exact], rho[~exact], tolerance_um)
     else:
         made, refused = arcs_of_ellipses(forms[~exact], fit_um)
         refuse_many(MOST_CURVES + 1 if len(refused) else len(made.curves))
-    form = np.concatenate([kept[exact], kept[~exact][made.of]])
+    form = np.concatenate([kept_rows[exact], kept_rows[~exact][made.of]])
     order = np.argsort(form, kind="stable")
     return Flat(
         joined([_exact(forms[exact]), made.curves]).picked(order),
@@ -108,8 +108,8 @@ def _axes(major: Floats, minor: Floats) -> tuple[Floats, Floats]:
 
 
 def _squares(major: Floats, minor: Floats) -> tuple[Floats, Floats]:
-    one, other = (major[:, :2] ** 2).sum(axis=1), (minor[:, :2] ** 2).sum(axis=1)
-    return 0.5 * (one + other), 0.5 * (one - other)
+    this, other = (major[:, :2] ** 2).sum(axis=1), (minor[:, :2] ** 2).sum(axis=1)
+    return 0.5 * (this + other), 0.5 * (this - other)
 
 
 def _cross(major: Floats, minor: Floats) -> Floats:

@@ -136,7 +136,7 @@ def flat_splines(splines: Sequence[Spline], tolerance_um: float, fit_um: float |
 
     Raises DrawingError, without the name of the file, where they become too many.
     """
-    near = np.array([bool(is_near(one.control).all()) for one in splines], dtype=np.bool_)
+    near = np.array([bool(is_near(spline.control).all()) for spline in splines], dtype=np.bool_)
     rows = np.flatnonzero(near)
     if fit_um is None:
         made, refused = _lines(splines, rows, tolerance_um)
@@ -146,7 +146,7 @@ def flat_splines(splines: Sequence[Spline], tolerance_um: float, fit_um: float |
     refuse_many(len(made.curves))
     unreadable = ~near
     unreadable[refused] = True
-    slanted = sum(_is_slanted(one) for one, bad in zip(splines, unreadable.tolist(), strict=True) if not bad)
+    slanted = sum(_is_slanted(spline) for spline, bad in zip(splines, unreadable.tolist(), strict=True) if not bad)
     return FlatSplines(made.curves, made.of, unreadable, slanted, made.max_um)
 
 

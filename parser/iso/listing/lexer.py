@@ -42,10 +42,10 @@ def read_listing(text: str) -> Listing:
         words,
         blocks,
         ByLetter(words.letter),
-        tuple(one._replace(block=block) for block, line in numbered for one in line.assignments),
-        tuple(one._replace(block=block) for block, line in numbered for one in line.statements),
+        tuple(assignment._replace(block=block) for block, line in numbered for assignment in line.assignments),
+        tuple(statement._replace(block=block) for block, line in numbered for statement in line.statements),
         bare.remarks,
-        tuple(sorted([*opened, *(one for _, one in unread)])),
+        tuple(sorted([*opened, *(each for _, each in unread)])),
         bare.tape_end,
         tuple(sorted([*_findings(lines, bare, unread, opened, titles), *_small_letters(lines, words)], key=file_order)),
     )
@@ -127,16 +127,19 @@ def _findings(
     titles: list[tuple[int, int]],
 ) -> list[Finding]:
     """ISO1xx of the text itself, but for small letters."""
-    found = [lines.finding(code, one.span, text=_shown(lines.text[slice(*one.span)])) for code, one in unread]
-    found += [lines.finding("ISO105", one.span, text=_shown(lines.text[slice(*one.span)])) for one in opened]
+    found = [lines.finding(code, each.span, text=_excerpt(lines.text[slice(*each.span)])) for code, each in unread]
+    found += [
+        lines.finding("ISO105", each_unread.span, text=_excerpt(lines.text[slice(*each_unread.span)]))
+        for each_unread in opened
+    ]
     hidden = [span for span in hidden_blocks(lines.text, bare.remarks) if span[0] < bare.tape_end]
     return [*found, *_at_first(lines, "ISO106", hidden), *_at_first(lines, "ISO107", titles)]
 
 
 def _at_first(lines: LineIndex, code: str, spans: list[tuple[int, int]]) -> list[Finding]:
     """Finding at the first of some spans, where there are any."""
-    shown = [_shown(lines.text[slice(*span)]) for span in spans[:1]]
-    return [lines.finding(code, spans[0], text=text, more=len(spans) - 1) for text in shown]
+    shown_spans = [_excerpt(lines.text[slice(*span)]) for span in spans[:1]]
+    return [lines.finding(code, spans[0], text=text, more=len(spans) - 1) for text in shown_spans]
 
 
 def _small_letters(lines: LineIndex, words: Words) -> list[Finding]:
@@ -151,5 +154,5 @@ def _small_letters(lines: LineIndex, words: Words) -> list[Finding]:
     return [lines.finding("ISO104", span, int(words.block[word]) + 1, **values)._replace(edits=edits)]
 
 
-def _shown(text: str) -> str:
+def _excerpt(text: str) -> str:
     return text if len(text) <= _LONGEST_SHOWN else text[:_LONGEST_SHOWN] + "…"

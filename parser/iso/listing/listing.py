@@ -191,8 +191,8 @@ class Listing(NamedTuple):
         words, blocks = self.words, self.blocks
         alone: Bools = (np.diff(blocks.word) == 1) & ~blocks.is_damaged
         alone[alone] = words.letter[blocks.word[:-1][alone]] == ord("N")
-        alone[[one.block for one in self.assignments]] = False
-        alone[[one.block for one in self.statements]] = False
+        alone[[assignment.block for assignment in self.assignments]] = False
+        alone[[statement.block for statement in self.statements]] = False
         return alone
 
     def of_any(self, letters: str) -> Ints:

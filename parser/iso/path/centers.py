@@ -6,8 +6,7 @@ import numpy as np
 
 from parser.geometry.curves import Bools, Floats
 from parser.iso.path.arc_checks import GRAVE_UM
-from parser.iso.path.modes import Modes
-from parser.iso.path.places import Coordinates, Places
+from parser.iso.path.places import Coordinates, Modes, Places
 from parser.iso.path.rows import Rows
 
 _MOST, _HALF = 0.9, 0.5

@@ -8,8 +8,7 @@ import numpy as np
 from parser.findings.findings import Edit, Finding, Value
 from parser.geometry.curves import Ints
 from parser.iso.listing.listing import Listing
-from parser.iso.path.flow import Flow, idle
-from parser.iso.path.given import Given
+from parser.iso.path.flow import Flow, GivenColumns, idle
 from parser.iso.path.places import SET_PLACE, Places, bare_place
 from parser.text.source import Span
 
@@ -17,7 +16,7 @@ _INK = re.compile(r"[^\s%\x00-\x1f][^\r\n]*")
 _MOTION_LETTERS = [ord(letter) for letter in "XYIJR"]
 
 
-def order_findings(given: Given, run: Flow, side: Ints, place: Places, at: Ints) -> Iterator[Finding]:
+def order_findings(given: GivenColumns, run: Flow, side: Ints, place: Places, at: Ints) -> Iterator[Finding]:
     """All that is wrong with the order of blocks; `side` (e,) of the running blocks, `at` (n,) those that move."""
     yield from _without_end(given.listing, run)
     yield from _crowded_ends(given)
@@ -43,7 +42,7 @@ def _without_end(listing: Listing, run: Flow) -> Iterator[Finding]:
     yield listing.lines.finding("ISO109", span)._replace(edits=edits)
 
 
-def _crowded_ends(given: Given) -> Iterator[Finding]:
+def _crowded_ends(given: GivenColumns) -> Iterator[Finding]:
     """ISO208: one finding a block, at the word that is too many."""
     words = given.listing.words
     stops, ends = given.m_words("stop", "end"), given.m_words("end")
@@ -65,7 +64,7 @@ def _calls(listing: Listing, run: Flow) -> Iterator[Finding]:
         yield _at(listing, "ISO400", fault.block, what=fault.why)
 
 
-def _never_run(given: Given, run: Flow) -> Iterator[Finding]:
+def _never_run(given: GivenColumns, run: Flow) -> Iterator[Finding]:
     """ISO401 at subprograms that nothing calls, ISO108 at other blocks that nothing reaches: once a stretch.
 
     A subprogram with the label of one that runs is a label that is used twice (ISO121), and nothing besides.
@@ -90,14 +89,14 @@ def _behind_tape(listing: Listing) -> Iterator[Finding]:
         yield _of_span(listing, "ISO108", text.span())
 
 
-def _named_places(given: Given, run: Flow, place: Places) -> Iterator[Finding]:
+def _named_places(given: GivenColumns, run: Flow, place: Places) -> Iterator[Finding]:
     """ISO303: a G92 that names another place than the wire is at, with no stop to thread it there."""
     for at in _first_runs(run, np.flatnonzero(place.is_rebased)).tolist():
         by_x, by_y = (place.shift_um[at - 1] - place.shift_um[at]).tolist()
         yield _at(given.listing, "ISO303", int(run.block[at]), x=by_x, y=by_y)
 
 
-def _bare_places(given: Given, run: Flow) -> Iterator[Finding]:
+def _bare_places(given: GivenColumns, run: Flow) -> Iterator[Finding]:
     """ISO113: a G92 that names no place, with the place that it was taken for as its mend, written as others are."""
     words = given.listing.words
     written = words.decimals[np.isin(words.letter, _MOTION_LETTERS)]
@@ -113,7 +112,7 @@ def _bare_places(given: Given, run: Flow) -> Iterator[Finding]:
         )
 
 
-def _while_compensated(given: Given, run: Flow, side: Ints, at: Ints) -> Iterator[Finding]:
+def _while_compensated(given: GivenColumns, run: Flow, side: Ints, at: Ints) -> Iterator[Finding]:
     """ISO511: coordinates named anew while the wire is beside the contour."""
     names = (given.g(SET_PLACE) | (given.group("system") >= 0))[run.block]
     moved = np.zeros(len(side), dtype=np.bool_)
@@ -122,8 +121,8 @@ def _while_compensated(given: Given, run: Flow, side: Ints, at: Ints) -> Iterato
     since = np.maximum.accumulate(np.where(was_on, -1, np.arange(len(side))))
     total = np.concatenate([[0], np.cumsum(moved)])
     is_beside = was_on & (side != 0) & (total[:-1] > total[np.maximum(since, 0)])
-    for one in _first_runs(run, np.flatnonzero(names & is_beside)).tolist():
-        yield _at(given.listing, "ISO511", int(run.block[one]))
+    for each_run in _first_runs(run, np.flatnonzero(names & is_beside)).tolist():
+        yield _at(given.listing, "ISO511", int(run.block[each_run]))
 
 
 def _first_runs(run: Flow, at: Ints) -> Ints:

@@ -1,1 +1,1 @@
-"""Which family a listing was written for, in which scale and modes, and why: `Told`, its assumptions."""
+"""Which family a listing was written for, in which scale and modes, and why: `ToldProfile`, its assumptions."""

@@ -18,7 +18,7 @@ _LONG = 1000.0  # an integer of four digits
 _EXACT = 1e-6
 
 
-class Seen:
+class MarksSeen:
     """What stands in a listing, asked for by the marks of families."""
 
     def __init__(self, listing: Listing) -> None:
@@ -83,13 +83,16 @@ class Seen:
     def sums_registers(self) -> bool:
         """Whether a register is set to a sum with another one."""
         return any(
-            len(one.terms) > 1 and any(isinstance(term, str) for term in one.terms) for one in self.listing.assignments
+            len(assignment.terms) > 1 and any(isinstance(term, str) for term in assignment.terms)
+            for assignment in self.listing.assignments
         )
 
     @property
     def greatest_setting(self) -> float:
         """The greatest number with a point that a register is set to; 0 where there is none."""
-        terms = [term for one in self.listing.assignments for term in one.terms if not isinstance(term, str)]
+        terms = [
+            term for assignment in self.listing.assignments for term in assignment.terms if not isinstance(term, str)
+        ]
         return max((abs(number) for number, decimals in terms if decimals >= 0), default=0.0)
 
     @cached_property
@@ -101,8 +104,9 @@ class Seen:
     def states(self, form: Form, start: str) -> bool:
         """Whether a line of a form begins with some letters."""
         return any(
-            one.form is form and self.listing.text[one.span[0] : one.span[1]].lstrip().upper().startswith(start)
-            for one in self.listing.statements
+            statement.form is form
+            and self.listing.text[statement.span[0] : statement.span[1]].lstrip().upper().startswith(start)
+            for statement in self.listing.statements
         )
 
 
@@ -111,7 +115,7 @@ class Mark(NamedTuple):
 
     dialect: str
     why: str
-    is_seen: Callable[[Seen], bool]
+    is_seen: Callable[[MarksSeen], bool]
 
 
 MARKS = (
@@ -134,7 +138,7 @@ MARKS = (
 """Marks in the order in which they decide."""
 
 
-def mark_of(seen: Seen) -> Mark | None:
+def mark_of(seen: MarksSeen) -> Mark | None:
     """The first mark that is seen; None where there is none."""
     return next((mark for mark in MARKS if mark.is_seen(seen)), None)
 

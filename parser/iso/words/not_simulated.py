@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.dialect.reader import PATH_IS_ALL, Beside
+from parser.dialect.reader import PATH_IS_ALL, BesideThePath
 from parser.findings.facts import NotSimulated
 from parser.findings.findings import Finding
 from parser.geometry.curves import Ints
@@ -22,10 +22,10 @@ class AskedBeside(NamedTuple):
     """Findings ISO204, ISO402 and ISO600; and what they are about."""
 
     findings: tuple[Finding, ...]
-    beside: Beside
+    beside: BesideThePath
 
 
-class _Told(NamedTuple):
+class _Reason(NamedTuple):
     """Findings of one kind, and the words that they are about, as people name them."""
 
     findings: list[Finding]
@@ -39,33 +39,33 @@ def not_simulated(listing: Listing, profile: Profile) -> AskedBeside:
         "reason-macros": _macros(listing),
         "reason-taper": _taper(listing, profile),
     }
-    told = {reason: one for reason, one in found.items() if one.findings}
+    told = {reason: each for reason, each in found.items() if each.findings}
     if not told:
         return AskedBeside((), PATH_IS_ALL)
     first = next(iter(told))
-    words = [word for one in told.values() for word in one.words]
+    words = [word for each in told.values() for word in each.words]
     named = tuple(words[:_MOST_NAMED]) + ("…",) * (len(words) > _MOST_NAMED)
     findings = tuple(
         finding.with_fact(NotSimulated(otherwise=reason != "reason-taper"))
-        for reason, one in told.items()
-        for finding in one.findings
+        for reason, each in told.items()
+        for finding in each.findings
     )
-    return AskedBeside(findings, Beside(first if len(told) == 1 else "reason-other-paths", named))
+    return AskedBeside(findings, BesideThePath(first if len(told) == 1 else "reason-other-paths", named))
 
 
-def _macros(listing: Listing) -> _Told:
+def _macros(listing: Listing) -> _Reason:
     """ISO402 at the first line of them."""
-    lines = [one for one in listing.statements if one.form is Form.MACRO]
-    texts = [_text(listing, one) for one in lines]
-    first = [listing.lines.finding("ISO402", one.span, 0, text=texts[0], more=len(lines) - 1) for one in lines[:1]]
-    return _Told(first, list(dict.fromkeys(texts)))
+    lines = [statement for statement in listing.statements if statement.form is Form.MACRO]
+    texts = [_text(listing, line) for line in lines]
+    first = [listing.lines.finding("ISO402", line.span, 0, text=texts[0], more=len(lines) - 1) for line in lines[:1]]
+    return _Reason(first, list(dict.fromkeys(texts)))
 
 
-def _text(listing: Listing, one: Statement) -> str:
-    return listing.lines.text[slice(*one.span)].strip()
+def _text(listing: Listing, statement: Statement) -> str:
+    return listing.lines.text[slice(*statement.span)].strip()
 
 
-def _other_paths(listing: Listing, profile: Profile) -> _Told:
+def _other_paths(listing: Listing, profile: Profile) -> _Reason:
     """ISO204 at the first word of each kind."""
     g, m = effects(listing, "G", profile.g), effects(listing, "M", profile.m)
     value = listing.words.value
@@ -77,7 +77,7 @@ def _other_paths(listing: Listing, profile: Profile) -> _Told:
     findings = [
         listing.at_word("ISO204", first, word=listing.written(first), more=count - 1) for first, count in firsts
     ]
-    return _Told(findings, [listing.written(first) for first, _ in firsts])
+    return _Reason(findings, [listing.written(first) for first, _ in firsts])
 
 
 def _first_of_each(number: list[float], word: Ints) -> list[tuple[int, int]]:
@@ -86,16 +86,16 @@ def _first_of_each(number: list[float], word: Ints) -> list[tuple[int, int]]:
     return sorted(zip(word[first].tolist(), count.tolist(), strict=True))
 
 
-def _taper(listing: Listing, profile: Profile) -> _Told:
+def _taper(listing: Listing, profile: Profile) -> _Reason:
     """ISO600 at the first word or contour by which the wire leans."""
-    planes = [one for one in listing.statements if one.form is Form.TWO_PLANES]
+    planes = [statement for statement in listing.statements if statement.form is Form.TWO_PLANES]
     leaning = _leaning_words(listing, profile)
     more = len(planes) + len(leaning) - 1
     names = [*_letters(listing, leaning), *([":"] if planes else [])]
     if len(leaning):
         first = int(leaning[0])
-        return _Told([listing.at_word("ISO600", first, word=listing.written(first), more=more)], names)
-    return _Told([listing.lines.finding("ISO600", one.span, 0, word=":", more=more) for one in planes[:1]], names)
+        return _Reason([listing.at_word("ISO600", first, word=listing.written(first), more=more)], names)
+    return _Reason([listing.lines.finding("ISO600", plane.span, 0, word=":", more=more) for plane in planes[:1]], names)
 
 
 def _letters(listing: Listing, word: Ints) -> Iterator[str]:

@@ -96,8 +96,8 @@ def _unknown(listing: Listing, g: Effects, m: Effects) -> Iterator[Finding]:
     """ISO203; numbers with parts are told by ISO205."""
     for of in (g, m):
         word = of.word[of.effect < 0]
-        for one in word[_is_whole(listing.words.value[word])].tolist():
-            yield listing.at_word("ISO203", one, word=listing.written(one))
+        for each in word[_is_whole(listing.words.value[word])].tolist():
+            yield listing.at_word("ISO203", each, word=listing.written(each))
 
 
 def _parts_of_numbers(listing: Listing, profile: Profile) -> Iterator[Finding]:
@@ -133,9 +133,9 @@ def _out_of_range(listing: Listing, profile: Profile) -> Iterator[Finding]:
 def _repeated_m(listing: Listing, profile: Profile, m: Effects) -> Iterator[Finding]:
     """ISO209: at the later word."""
     number = listing.words.value[m.word]
-    told = np.flatnonzero(~np.isin(number, profile.meant_twice))
-    _, kind = np.unique(number[told], return_inverse=True)
-    for later, _ in _repeats(listing, m.word[told], kind):
+    told_rows = np.flatnonzero(~np.isin(number, profile.meant_twice))
+    _, kind = np.unique(number[told_rows], return_inverse=True)
+    for later, _ in _repeats(listing, m.word[told_rows], kind):
         yield listing.at_word("ISO209", later, word=listing.written(later))
 
 
@@ -146,7 +146,7 @@ def _repeats(listing: Listing, word: Ints, kind: Ints) -> Iterator[tuple[int, in
     block = listing.words.block[word]
     order = np.lexsort((word, kind, block)) if _has_repeats(block, kind) else word[:0]
     same = np.flatnonzero((np.diff(block[order]) == 0) & (np.diff(kind[order]) == 0)) + 1
-    for at in sorted(same.tolist(), key=lambda one: int(word[order[one]])):
+    for at in sorted(same.tolist(), key=lambda each: int(word[order[each]])):
         yield int(word[order[at]]), int(word[order[at - 1]])
 
 

@@ -53,8 +53,8 @@ class _Mender:
     def edit(self, toolpath: Toolpath, row: int, mend: Mend) -> Edit:
         return edits.edit(toolpath, row, mend)
 
-    def told(self, mends: tuple[Mend, ...]) -> str:
-        return edits.told(mends)
+    def mends_text(self, mends: tuple[Mend, ...]) -> str:
+        return edits.mends_text(mends)
 
 
 MENDER: Mender = _Mender()

@@ -81,6 +81,6 @@ def edit(toolpath: Toolpath, row: int, mend: Mend) -> Edit:
     return Edit(low, high, mend.text)
 
 
-def told(mends: tuple[Mend, ...]) -> str:
+def mends_text(mends: tuple[Mend, ...]) -> str:
     """Mends of one block for people, such as ``GX J 4000``."""
     return " ".join(_LETTERS.get(mend.field, "") + mend.text for mend in mends)

@@ -7,7 +7,7 @@ import numpy as np
 from parser.geometry.curves import Floats, Ints
 from parser.told.step_words import Axis, StepWords
 from parser.units import MAX_WORD_UM
-from parser.words.arcs import ArcEnds, arc_ends
+from parser.words.moves import ArcEnds, arc_ends
 
 X, Y, COUNT = range(3)
 """Numbers of a block that are solved for."""

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from parser.dialect.mender import Suspect
 from parser.geometry.curves import Floats, Ints
 from parser.shape.closing import closure_tolerance_um
-from parser.threeb.mend.joints import Rings, joint_points
 from parser.threeb.mend.likelihood import alike, familiar, obedience, sizes
 from parser.threeb.mend.mends import (
     FIELDS,
@@ -27,6 +26,7 @@ from parser.threeb.mend.mends import (
     word_table,
     words_of,
 )
+from parser.threeb.mend.printed import Rings, joint_points
 from parser.toolpath import Toolpath
 from parser.words.moves import Moves
 
@@ -54,7 +54,7 @@ class _Ring(NamedTuple):
     is_led: bool = False
 
 
-class _Asked(NamedTuple):
+class _RingRows(NamedTuple):
     """Rows (n,) that may be at fault, each with what its ring is: a row stands once for each ring."""
 
     row: Ints
@@ -64,9 +64,9 @@ class _Asked(NamedTuple):
     points: Ints
     is_led: NDArray[np.bool_]
 
-    def take(self, at: Ints) -> "_Asked":
+    def take(self, at: Ints) -> "_RingRows":
         """Those at the indices `at`, in which one may stand several times."""
-        return _Asked(self.row[at], self.begin[at], self.end[at], self.gap_um[at], self.points[at], self.is_led[at])
+        return _RingRows(self.row[at], self.begin[at], self.end[at], self.gap_um[at], self.points[at], self.is_led[at])
 
 
 class _Ranked(NamedTuple):
@@ -88,7 +88,7 @@ def suspects(toolpath: Toolpath, first_row: int, past_row: int) -> tuple[Suspect
     rows = np.arange(first_row, past_row)
     tolerance = min(closure_tolerance_um(int(toolpath.is_arc[rows].sum())), _MOST_OFF_UM)
     all_sizes = np.sort(sizes(moves_of(word_table(toolpath, rows))))
-    asked = _asked(_rings(toolpath, first_row, past_row, tolerance))
+    asked = _ring_rows(_rings(toolpath, first_row, past_row, tolerance))
     parts = np.array_split(np.arange(len(asked.row)), len(asked.row) // _ROWS_AT_ONCE + 1)
     best = [_ranked(toolpath, asked.take(part), all_sizes, tolerance) for part in parts]
     return _named(toolpath, _leading(best))
@@ -116,10 +116,10 @@ def _rings(toolpath: Toolpath, first: int, past: int, tolerance_um: float) -> li
     return [own, after_lead]
 
 
-def _asked(rings: list[_Ring]) -> _Asked:
+def _ring_rows(rings: list[_Ring]) -> _RingRows:
     """The rows of all rings, one ring's behind the other's."""
     of = np.repeat(np.arange(len(rings)), [len(ring.rows) for ring in rings])
-    each = _Asked(
+    each = _RingRows(
         row=np.arange(len(rings)),
         begin=np.array([ring.begin for ring in rings]),
         end=np.array([ring.end for ring in rings]),
@@ -130,14 +130,14 @@ def _asked(rings: list[_Ring]) -> _Asked:
     return each.take(of)._replace(row=np.concatenate([ring.rows for ring in rings]))
 
 
-def _ranked(toolpath: Toolpath, asked: _Asked, all_um: Floats, tolerance_um: float) -> _Ranked:
+def _ranked(toolpath: Toolpath, rows: _RingRows, all_um: Floats, tolerance_um: float) -> _Ranked:
     """Mends of some rows, with their points: those of the block mended less those of the block written."""
-    word = word_table(toolpath, asked.row)
+    word = word_table(toolpath, rows.row)
     was = moves_of(word)
-    made = mends(word, was.by_um, asked.gap_um, tolerance_um)
-    of = asked.take(made.row)
+    made = mends(word, was.by_um, rows.gap_um, tolerance_um)
+    of = rows.take(made.row)
     before, after = word[made.row], made.word
-    both = Moves(*(np.concatenate(pair) for pair in zip(moves_of(after), _taken(was, made.row), strict=True)))
+    both = Moves(*(np.concatenate(pair) for pair in zip(moves_of(after), _moves_of(was, made.row), strict=True)))
     now, old = (Moves(*(column[half] for column in both)) for half in _halves(len(of.row)))
     rings = Rings(np.tile(of.begin, 2), np.tile(of.end, 2), np.tile(of.is_led, 2))
     points = obedience(words_of(np.concatenate([after, before])), both)
@@ -155,7 +155,7 @@ def _ranked(toolpath: Toolpath, asked: _Asked, all_um: Floats, tolerance_um: flo
     return _Ranked(of.row, made.field, made.word, ranked, np.hypot(off[:, 0], off[:, 1]))
 
 
-def _taken(moves: Moves, at: Ints) -> Moves:
+def _moves_of(moves: Moves, at: Ints) -> Moves:
     return Moves(*(column[at] for column in moves))
 
 

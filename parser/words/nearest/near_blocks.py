@@ -14,8 +14,8 @@ import numpy as np
 
 from parser.geometry.curves import Floats
 from parser.told.step_words import Axis
+from parser.words.chained import OneBlock, Place, line_of, to_bisector, told_arc_of
 from parser.words.nearest.looked_at import LookedAt
-from parser.words.one_arc import OneBlock, Place, line_of, to_bisector, told_arc_of
 from parser.words.telling import MOST_SHIFT
 
 
@@ -207,15 +207,15 @@ def _miss(path: LookedAt, row: int, counted_um: Floats, beside_um: Floats) -> Fl
 def _cost_of_end(path: LookedAt, row: int, aim: Aim, miss: Floats) -> Floats:
     """(k,) what it costs that candidates miss their end by (k, 2)."""
     if aim.is_known:
-        return _held(np.hypot(miss[:, 0], miss[:, 1]))
+        return _bounded(np.hypot(miss[:, 0], miss[:, 1]))
     aside = np.maximum(np.abs(miss @ path.across[row]), np.abs(miss @ path.across_next[row]))
     cost: Floats = _END * aside + _SLIDE * np.hypot(miss[:, 0], miss[:, 1])
     for axis, whole in aim.pins:
-        cost = np.maximum(cost, _held(np.abs(_from_whole(aim.end[axis] - whole + miss[:, axis]))))
+        cost = np.maximum(cost, _bounded(np.abs(_from_whole(aim.end[axis] - whole + miss[:, axis]))))
     return cost
 
 
-def _held(far: Floats) -> Floats:
+def _bounded(far: Floats) -> Floats:
     return far + _HELD * np.maximum(far - _FREE_UM, 0.0)
 
 

@@ -15,10 +15,9 @@ import numpy as np
 
 from parser.geometry.curves import Bools, Curves
 from parser.told.step_words import StepWords
-from parser.words.chained import Chained
+from parser.words.chained import Chained, OneBlock, Place
 from parser.words.nearest.looked_at import LookedAt, looked_at
 from parser.words.nearest.near_blocks import Aim, arc_to, line_to
-from parser.words.one_arc import OneBlock, Place
 
 _ATTEMPTS, _TAIL = 24, 40
 """How often the rows before a place are told until they meet it, and how many rows of them."""
@@ -36,14 +35,14 @@ class _Begun(NamedTuple):
     stepped: Place
 
 
-class _Seen(NamedTuple):
+class _Visited(NamedTuple):
     """Where a path was: ends by the numbers of their places, and centres of arcs by those of both their ends."""
 
     ends: MutableMapping[int, Place]
     centers: MutableMapping[tuple[int, int], Place]
 
 
-class _Told(NamedTuple):
+class _Chain(NamedTuple):
     """Blocks of some rows, and where they end.
 
     `missed`: by how much they miss places where the path was before, or lie aside of it to meet them, at most; by what
@@ -56,7 +55,7 @@ class _Told(NamedTuple):
     missed: float
     aside: float
     stepped: Place
-    seen: _Seen
+    seen: _Visited
 
 
 def nearest_words(curves: Curves, is_placed: Bools) -> Chained:
@@ -69,7 +68,7 @@ def nearest_words(curves: Curves, is_placed: Bools) -> Chained:
     path = looked_at(curves, is_placed)
     x, y = curves.start_um[0].tolist()
     ends: list[Place] = [(x, y)]
-    seen = _Seen({path.again.first: ends[0]}, {})
+    seen = _Visited({path.again.first: ends[0]}, {})
     blocks: list[OneBlock] = []
     stepped: Place = (0.0, 0.0)
     for first, past in pairwise(_stretches(path)):
@@ -89,22 +88,24 @@ def _stretches(path: LookedAt) -> list[int]:
     return sorted({0, *closing, *tails, len(path.end)})
 
 
-def _closing(path: LookedAt, rows: range, begin: _Begun, seen: _Seen) -> _Told:
+def _closing(path: LookedAt, rows: range, begin: _Begun, seen: _Visited) -> _Chain:
     """Some rows told so that they come near enough to where the path was before, or as near as may be.
 
     And so that none of them lies far aside, where that is to be had as well.
     """
-    best = _told(path, rows, begin, seen, 0)
+    best = _chained(path, rows, begin, seen, 0)
     for attempt in range(1, _ATTEMPTS if len(rows) <= _TAIL else 1):
         if max(best.missed, best.aside) <= 1.0:
             break
-        best = min(best, _told(path, rows, begin, seen, attempt), key=lambda one: (max(one.missed, 1.0), one.aside))
+        best = min(
+            best, _chained(path, rows, begin, seen, attempt), key=lambda each: (max(each.missed, 1.0), each.aside)
+        )
     return best
 
 
-def _told(path: LookedAt, rows: range, begin: _Begun, seen: _Seen, attempt: int) -> _Told:
+def _chained(path: LookedAt, rows: range, begin: _Begun, seen: _Visited, attempt: int) -> _Chain:
     """Some rows told one from the end of the other."""
-    new = _Seen({}, {})
+    new = _Visited({}, {})
     known, centers = ChainMap(new.ends, seen.ends), ChainMap(new.centers, seen.centers)
     blocks: list[OneBlock] = []
     ends: list[Place] = []
@@ -130,10 +131,10 @@ def _told(path: LookedAt, rows: range, begin: _Begun, seen: _Seen, attempt: int)
             new.centers[before, place] = center
         blocks.append(block)
         ends.append(at)
-    return _Told(blocks, ends, missed, aside, off, new)
+    return _Chain(blocks, ends, missed, aside, off, new)
 
 
 def _words(told: list[OneBlock]) -> StepWords:
     none, n = np.int64(0), len(told)
-    columns = {name: np.array([getattr(one, name) for one in told], dtype=np.int64) for name in _COLUMNS}
+    columns = {name: np.array([getattr(one_block, name) for one_block in told], dtype=np.int64) for name in _COLUMNS}
     return StepWords(**columns, radius_um=np.full(n, none - 1), curve=np.full(n, none))

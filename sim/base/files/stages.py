@@ -1,19 +1,101 @@
-"""Stages: hidden folders in which files are made, beside where they are to stand; what dead runs left is cleared."""
+"""Stages: hidden folders in which files are made, beside where they are to stand; what dead runs left is cleared.
+
+Output files of a run: made aside and put in their folder as one set, or not at all.
+
+Locks on folders, which the system ends with the process that holds them, however that ends.
+"""
 
 import os
 import re
 import secrets
 import shutil
+import stat
+import sys
 import tempfile
-from collections.abc import Iterator
+import time
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 
 from parser.findings.errors import FileUnreadableError
-from parser.findings.messages import system_message
-from sim.base.files.locks import alone_in, drop_lock, take_lock
-from sim.base.files.swap import finish
+from parser.findings.messages import Message, system_message
+from sim.base.files.swap import finish, swap
+
+MOST_WAIT_S = 30.0
+"""A swap takes milliseconds; who holds a folder for longer has been stopped."""
+_PAUSE_S = 0.002
+
+if sys.platform == "win32":
+    import msvcrt
+
+    def _locked(folder: Path) -> int:
+        """Windows opens no folder: a file in it stands for it, which goes when it is closed."""
+        try:
+            file = os.open(folder / ".drycut-lock", os.O_RDWR | os.O_CREAT | os.O_TEMPORARY)
+        except PermissionError as error:  # another process is just closing it
+            raise BlockingIOError(*error.args) from None
+        try:
+            msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
+        except OSError as error:
+            os.close(file)
+            raise BlockingIOError(*error.args) from None
+        return file
+
+else:
+    import fcntl
+
+    def _locked(folder: Path) -> int:
+        file = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            os.close(file)
+            raise
+        return file
+
+
+def take_lock(folder: Path) -> int:
+    """Lock a folder; what `drop_lock` takes.
+
+    BlockingIOError where another process has locked it, or this one has; another OSError where the folder is not there,
+    or its file system knows no locks.
+    """
+    return _locked(folder)
+
+
+def drop_lock(lock: int | None) -> None:
+    """Unlock what `take_lock` locked; nothing where there is no lock."""
+    if lock is not None:
+        os.close(lock)
+
+
+@contextmanager
+def alone_in(folder: Path) -> Iterator[None]:
+    """Wait until no other run changes files of a folder, and keep others waiting as long as the context lasts.
+
+    Where the file system knows no locks, nobody waits. FileUnreadableError where another run holds the folder for
+    longer than `MOST_WAIT_S`.
+    """
+    lock = _waited_for(folder)
+    try:
+        yield
+    finally:
+        drop_lock(lock)
+
+
+def _waited_for(folder: Path) -> int | None:
+    end_s = time.monotonic() + MOST_WAIT_S
+    while True:
+        try:
+            return take_lock(folder)
+        except BlockingIOError:
+            if time.monotonic() > end_s:
+                raise FileUnreadableError("folder-locked", folder=folder, seconds=MOST_WAIT_S) from None
+        except OSError:
+            return None
+        time.sleep(_PAUSE_S)
+
 
 _NAME = re.compile(r"\.drycut-[0-9a-f]{16}")
 
@@ -107,3 +189,73 @@ def clear_once(folder: Path) -> None:
 def _is_of_another(stage: Path) -> bool:
     """Whether a stage is another user's, who is the one to clear it: what it asks for is not done in our name."""
     return hasattr(os, "geteuid") and stage.lstat().st_uid != os.geteuid()
+
+
+@contextmanager
+def staged(target: Path, names: Sequence[str]) -> Iterator[Path]:
+    """Empty folder whose files `names` are put in `target` at the end of a block that raised nothing.
+
+    They come as one set: at every moment, and after a kill at any moment, the names in `target` show the files that
+    were there before, or the new ones, never some of each (docs/report.md says how, and what Windows lacks). What the
+    block did not make is not there afterwards either: no file of an earlier run stands beside those of this. Where the
+    block raises, or one of the names cannot be replaced, all is as it was, and folders made for it are gone. What runs
+    that were killed have left in `target` is cleared away. FileUnreadableError where the target is no folder or cannot
+    be written.
+    """
+    try:
+        made = _make_folders(target)
+        with _removed_on_error(made), stage_in(target) as stage:
+            with alone_in(target):
+                clear(target)
+            _refuse_other_than_files(target, names)
+            yield stage
+            with alone_in(target):
+                clear(target)
+                _refuse_other_than_files(target, names)
+                try:
+                    swap(stage, target, names)
+                finally:
+                    close(stage, target)
+    except FileUnreadableError:
+        raise
+    except OSError as error:
+        raise FileUnreadableError("cannot-be-written", file=_named(error, target), why=system_message(error)) from None
+
+
+def _named(error: OSError, target: Path) -> Path:
+    """The file of the target folder that an error is about, or that folder."""
+    named = (Path(name) for name in (error.filename, error.filename2) if isinstance(name, str | Path))
+    return next((path for path in named if path.parent == target), target)
+
+
+def _refuse_other_than_files(target: Path, names: Sequence[str]) -> None:
+    """FileUnreadableError where a folder, a device or a pipe has the name of a file that is to be written."""
+    for path in (target / name for name in names):
+        try:
+            mode = path.stat().st_mode
+        except OSError:  # nothing is there, or a link that leads nowhere
+            continue
+        if not stat.S_ISREG(mode):
+            kind = Message("a-folder" if stat.S_ISDIR(mode) else "no-plain-file")
+            raise FileUnreadableError("is-no-file-to-replace", path=path, kind=kind)
+
+
+def _make_folders(target: Path) -> list[Path]:
+    """Make a folder with its parents; those that were missing, innermost first."""
+    if target.exists() and not target.is_dir():
+        raise FileUnreadableError("is-a-file-not-a-folder", path=target)
+    missing = [folder for folder in (target, *target.parents) if not folder.exists()]
+    with _removed_on_error(missing):
+        target.mkdir(parents=True, exist_ok=True)
+    return missing
+
+
+@contextmanager
+def _removed_on_error(folders: list[Path]) -> Iterator[None]:
+    try:
+        yield
+    except BaseException:
+        for folder in folders:
+            with suppress(OSError):
+                folder.rmdir()
+        raise

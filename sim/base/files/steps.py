@@ -33,7 +33,7 @@ class StepFiles:
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         """Close the files; their heads now tell how many entries there are."""
-        with suppress(FileUnreadableError) if error else nullcontext(), self._told(), ExitStack() as closing:
+        with suppress(FileUnreadableError) if error else nullcontext(), self._by_known_folder(), ExitStack() as closing:
             for file in self._files.values():
                 closing.callback(file.close)
             if error is None:
@@ -47,7 +47,7 @@ class StepFiles:
 
     def open(self, origin_um: tuple[int, int]) -> None:
         """Make the files, and write the start; FileUnreadableError where they cannot be written."""
-        with self._told():
+        with self._by_known_folder():
             self._begin(origin_um)
 
     def _begin(self, origin_um: tuple[int, int]) -> None:
@@ -58,7 +58,7 @@ class StepFiles:
 
     def take(self, pulses: Pulses) -> None:
         """Append pulses; FileUnreadableError where they cannot be written."""
-        with self._told():
+        with self._by_known_folder():
             self._append(step_x_um=pulses.x_um, step_y_um=pulses.y_um, step_block=pulses.row + 1)
             self._files["step_t_s"].write(pulses.t_s.tobytes())
 
@@ -67,7 +67,7 @@ class StepFiles:
             self._files[name].write(column.astype("<i4").tobytes())
 
     @contextmanager
-    def _told(self) -> Iterator[None]:
+    def _by_known_folder(self) -> Iterator[None]:
         """Tell people of the folder that they know, in which that of the files is hidden."""
         try:
             yield

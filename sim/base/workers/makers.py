@@ -29,9 +29,9 @@ def made_by() -> Maker:
     return (*versions(), ("system", f"{platform.system()} {platform.machine()}"))
 
 
-def refuse_other_makers(asked: Maker) -> None:
+def refuse_other_makers(maker: Maker) -> None:
     """ClusterError where this worker would make other bytes than the one who asks."""
-    theirs = dict(asked)
+    theirs = dict(maker)
     for name, here in made_by():
         if here != theirs.get(name):
             raise ClusterError("worker-differs", machine=platform.node(), name=name, here=here, theirs=theirs.get(name))

@@ -1,4 +1,7 @@
-"""Workers of this machine: a process a core."""
+"""Workers of this machine: a process a core.
+
+What a pool of workers is: where jobs are done, how many may be handed over at once, and how a death is told.
+"""
 
 import multiprocessing
 import os
@@ -6,11 +9,36 @@ import signal
 import sys
 import threading
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Executor, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from types import FrameType
-from typing import Final
+from typing import Final, Protocol
+
+
+class Pool(Protocol):
+    """Workers that do jobs.
+
+    Attributes
+    ----------
+    died
+        Errors of a future whose worker died. Of the jobs that were under way then nobody knows which one killed it.
+    is_here
+        Whether the workers run on this machine: then they see its files, and are made of the same.
+    """
+
+    died: tuple[type[BaseException], ...]
+    is_here: bool
+
+    def ahead(self) -> int:
+        """How many jobs may be under way at once, so that no worker waits and few results are held."""
+
+    def open(self, *, alone: bool = False) -> AbstractContextManager[Executor]:
+        """The workers, for as long as the context lasts; with `alone` one of them, or as good as one.
+
+        Where the context ends by an error, what is under way is dropped.
+        """
+
 
 _MOST: Final = 61 if sys.platform == "win32" else 1_000_000  # what Windows can wait for (concurrent.futures)
 _AHEAD_EACH: Final = 2  # one that it does, and one that waits for it

@@ -10,7 +10,7 @@ from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from itertools import islice
 from typing import Any, Final, NamedTuple, TypeVar
 
-from sim.base.workers.pool import Pool
+from sim.base.workers.processes import Pool
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")

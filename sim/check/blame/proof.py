@@ -15,8 +15,7 @@ from parser.program import Program
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import Contour
 from parser.text.source import Field
-from sim.check.blame.settle import WrongWord
-from sim.check.blame.trial import Again
+from sim.check.blame.settle import Again, WrongWord
 from sim.check.closures import OpenContour, Suspected, suspect_finding
 from sim.check.count_axes import WrongAxis
 from sim.check.geometry import ReversedArc
@@ -88,7 +87,7 @@ class _Trials:
         self._again, self._elsewhere = again, elsewhere
         inside = [finding for finding in findings if self.holds(finding)]
         self.loose = {id(finding) for finding in inside if self._is_loose(finding)}
-        self.advised = {id(one): _advised(program, one) for one in inside if id(one) not in self.loose}
+        self.advised = {id(each): _advised(program, each) for each in inside if id(each) not in self.loose}
 
     def holds(self, finding: Finding) -> bool:
         """Whether a finding is about the contour."""
@@ -130,7 +129,7 @@ class _Trials:
     def is_silent(self, *changes: Change) -> bool:
         """Whether nothing is left to find in the contour with some changes, and no more in the others."""
         toolpath = self.program.toolpath
-        edits = [self.mender.edit(toolpath, one.block - 1, mend) for one in changes for mend in one.mends]
+        edits = [self.mender.edit(toolpath, change.block - 1, mend) for change in changes for mend in change.mends]
         found = self._again(edited(self.program.text, edits))
         return not any(self.holds(finding) for finding in found) and len(found) <= self._elsewhere
 
@@ -146,7 +145,11 @@ class _Trials:
         fields = {(change.block, *(mend.field for mend in change.mends)): change for change in advised}
         # Of numbers that close a contour as well, the advised one was found by its joints too.
         changes = [Change(slip.row + 1, (slip.mend,)) for slip in slips]
-        numbers = {one: fields.get((one.block, one.mends[0].field), one) for one in changes if one.is_number}
+        numbers = {
+            each_change: fields.get((each_change.block, each_change.mends[0].field), each_change)
+            for each_change in changes
+            if each_change.is_number
+        }
         silent = self._silent([numbers.get(change, change) for change in changes])
         if not silent:
             silent = self._silent([*advised, *self._other_labels()])
@@ -175,7 +178,7 @@ def _advised(program: Program, finding: Finding) -> tuple[Change, ...]:
     block = finding.block
     match finding.fact:
         case Suspected() as suspected:
-            return tuple(Change(block, (one.mend,)) for one in suspected.suspects)
+            return tuple(Change(block, (suspect.mend,)) for suspect in suspected.suspects)
         case ReversedArc(word):
             return (Change(block, (Mend(Field.SENSE, word),)),)
         case WrongLabel(ruled):
@@ -236,7 +239,7 @@ def _stays(trials: _Trials, finding: Finding, named: list[Change]) -> bool:
 
 def _suspected(trials: _Trials, finding: Finding, fact: Suspected, confirmed: tuple[Change, ...]) -> Iterator[Finding]:
     """The suspects that are proved; none where others are."""
-    suspects = tuple(one for one in fact.suspects if Change(finding.block, (one.mend,)) in confirmed)
+    suspects = tuple(suspect for suspect in fact.suspects if Change(finding.block, (suspect.mend,)) in confirmed)
     if suspects == fact.suspects:
         yield finding
     elif suspects:
@@ -249,7 +252,7 @@ def _only(trials: _Trials, block: int, changes: list[Change]) -> Finding:
     toolpath, row, field = trials.program.toolpath, block - 1, changes[0].mends[0].field
     span = toolpath.source.field(row, field)
     written = "".join(trials.program.text[slice(*span)].split()) if span else ""
-    others = " / ".join(trials.mender.told(change.mends) for change in changes[1:])
+    others = " / ".join(trials.mender.mends_text(change.mends) for change in changes[1:])
     values: dict[str, Value] = {"first": trials.contour.first, "last": trials.contour.last, "written": written}
     values |= {"field": field.term, "other": changes[0].mends[0].text, "others": others}
     return at_block(toolpath, trials.program.lines, "3B322", row, field, **values)

@@ -1,20 +1,76 @@
-"""What the findings say when the words that explain them are known."""
+"""What the findings say when the words that explain them are known.
 
-from collections.abc import Iterable, Iterator
+Trials: each word of a case is written into the program, and what is then left to find speaks against it.
+"""
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from parser.dialect.at_block import at_block
-from parser.dialect.mender import Mend
+from parser.dialect.mender import Mend, Mender
+from parser.findings.codes import Severity
 from parser.findings.facts import DoubtfulEnd, PrintedElsewhere, WrongLabel, telling
-from parser.findings.findings import Finding, file_order
+from parser.findings.findings import Finding, edited, file_order
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.text.source import Field
 from sim.check.blame.cases import Case, Proof, Word, cases_of, words_of
-from sim.check.blame.trial import Again, Verdict, told_of, tried
 from sim.check.closures import OpenContour, Suspected, suspect_finding
 from sim.check.count_axes import WrongAxis
 from sim.check.geometry import ReversedArc
+
+Again = Callable[[str], tuple[Finding, ...]]
+"""Findings of a text, checked as the program was."""
+Told = tuple[str, int]
+"""A code and a block."""
+
+
+class Verdict(NamedTuple):
+    """The words of a case with which least is left to find, and what goes away with any of them."""
+
+    case: Case
+    words: tuple[Word, ...]
+    explains: frozenset[Told]
+
+
+def tried(
+    program: Program, mender: Mender, findings: tuple[Finding, ...], cases: Sequence[Case], again: Again
+) -> list[Verdict]:
+    """A verdict for each case. In each trial one word of every case is written, so that there are as few as can be."""
+    left: list[list[Counter[Told]]] = [[] for _ in cases]
+    for trial in range(max(len(case.words) for case in cases)):
+        written = [case.words[trial if trial < len(case.words) else 0] for case in cases]
+        edits = [mender.edit(program.toolpath, word.block - 1, word.mend) for word in written]
+        found = again(edited(program.text, edits))
+        for case, of in zip(cases, left, strict=True):
+            if trial < len(case.words):
+                of.append(_about(case, found))
+    return [_verdict(case, _about(case, findings), of) for case, of in zip(cases, left, strict=True)]
+
+
+def told_of(finding: Finding) -> Told:
+    """What a finding says, and of which block: by this it is known again in another trial."""
+    return finding.code, finding.block
+
+
+def _verdict(case: Case, before: Counter[Told], left: list[Counter[Told]]) -> Verdict:
+    weight = [of.total() for of in left]
+    best = [at for at, n in enumerate(weight) if n == min(weight)]
+    explained = set(before).difference(*(left[at] for at in best))
+    return Verdict(case, tuple(case.words[at] for at in best), frozenset(explained))
+
+
+def _about(case: Case, findings: tuple[Finding, ...]) -> Counter[Told]:
+    """Errors, warnings and suspects in the blocks of a case."""
+    suspects = {id(finding) for finding, _ in telling(findings, Suspected)}
+    return Counter(
+        told_of(finding)
+        for finding in findings
+        if case.holds(finding) and (finding.severity is not Severity.NOTE or id(finding) in suspects)
+    )
+
 
 MOST_BLOCKS = 20_000
 """Blocks of a program that is checked again with other words; a longer one keeps all that its checks suspect."""
@@ -81,7 +137,7 @@ def _by_print(program: Program, findings: list[Finding], verdict: Verdict) -> It
     """A wrong word in place of all that it explains; the open contour stays, which is what comes of it."""
     block = verdict.case.at
     suspected = [word for finding, fact in telling(findings, Suspected) for word in words_of(finding.block, fact)]
-    word = _one(verdict.words, suspected)
+    word = _only_word(verdict.words, suspected)
     for finding in findings:
         is_explained = told_of(finding) in verdict.explains
         if word is None:
@@ -101,7 +157,7 @@ def _is_side(finding: Finding, block: int) -> bool:
     return abs(finding.block - block) == 1 and isinstance(finding.fact, ReversedArc)
 
 
-def _one(words: tuple[Word, ...], suspected: Iterable[Word]) -> Word | None:
+def _only_word(words: tuple[Word, ...], suspected: Iterable[Word]) -> Word | None:
     """The only word, or the only one with which the contour closes as well as the printed end asks for."""
     if len(words) > 1:
         words = tuple(word for word in suspected if word in words)
@@ -143,14 +199,14 @@ def _by_closure(program: Program, findings: list[Finding], verdict: Verdict) -> 
 
 def _by_label(findings: list[Finding], verdict: Verdict) -> Iterator[Finding]:
     """The ruled label alone, or the sense alone; where others will do as well, the label with all of them."""
-    block, kept = verdict.case.at, [word.mend.text for word in verdict.words]
+    block, kept_words = verdict.case.at, [word.mend.text for word in verdict.words]
     for finding in findings:
         fact = finding.fact
         if finding.block == block and isinstance(fact, WrongLabel):
-            if fact.ruled in kept:
-                yield _or(finding, fact, *kept)
+            if fact.ruled in kept_words:
+                yield _or(finding, fact, *kept_words)
         elif finding.block == block and isinstance(fact, ReversedArc) and told_of(finding) in verdict.explains:
-            if fact.word in kept:
+            if fact.word in kept_words:
                 yield finding
         else:
             yield finding

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.offset.passes import PassedPath, PassedRound
-from controller.offset.path import OffsetPath, offset_toolpath
 from controller.offset.programmed import compensated
+from controller.offset.rows import OffsetPath, offset_toolpath
 from controller.offset.sections import Side
 from parser.findings.findings import file_order
 from parser.geometry.curves import Bools, Floats, Ints
@@ -20,21 +20,28 @@ from parser.shape.passes import Pass, Passes, with_edges
 from parser.told.compensation import Compensation
 from parser.toolpath import Toolpath
 from sim.check.beside import Offsetting, PassBeside
-from sim.check.compensation.contours import contour_findings
-from sim.check.compensation.held import Held, held
+from sim.check.compensation.contours import CompensatedStretch, compensated_stretches, contour_findings
 from sim.check.compensation.rounds import CompensatedRound, compensated_rounds, moved_um
 from sim.check.compensation.words import word_findings
 
 
 def drawn_passes(runs: Sequence[CompensatedRound], rows: int) -> Passes:
     """Passes in the `rows` of the program's own toolpath, which all of them run along the same places."""
-    bounds = np.array([one.round.section[:2] for one in runs], dtype=np.int64).reshape(-1, 2)
-    return _passes([one._replace(by_um=0.0) for one in runs], bounds, rows)
+    bounds = np.array([compensated_round.round.section[:2] for compensated_round in runs], dtype=np.int64).reshape(
+        -1, 2
+    )
+    return _passes([compensated_round._replace(by_um=0.0) for compensated_round in runs], bounds, rows)
 
 
 def path_passes(runs: Sequence[CompensatedRound], path: OffsetPath) -> Passes:
     """Passes in the rows of the compensated path."""
-    bounds = np.array([(one.round.section.first, one.round.section.last + 1) for one in runs], dtype=np.int64)
+    bounds = np.array(
+        [
+            (compensated_round.round.section.first, compensated_round.round.section.last + 1)
+            for compensated_round in runs
+        ],
+        dtype=np.int64,
+    )
     first, past = np.searchsorted(path.source_row, bounds.reshape(-1, 2)).T
     return _passes(runs, np.stack([first, past - 1], axis=1), len(path.source_row))
 
@@ -45,10 +52,10 @@ def passes_beside(runs: Sequence[CompensatedRound], left_um: Floats) -> tuple[Pa
     Where no contour is run along, one pass at the least of the offsets `left_um` (n,) of the blocks.
     """
     found: dict[int, PassBeside] = {}
-    for one in runs:
-        number = one.along.number
-        known = found.setdefault(number, PassBeside(one.by_um, one.along.is_back))
-        found[number] = known._replace(by_um=min(known.by_um, one.by_um))
+    for compensated_round in runs:
+        number = compensated_round.along.number
+        known = found.setdefault(number, PassBeside(compensated_round.by_um, compensated_round.along.is_back))
+        found[number] = known._replace(by_um=min(known.by_um, compensated_round.by_um))
     if not found:
         by_um = np.abs(left_um[left_um != 0.0])
         return (PassBeside(float(by_um.min()) if len(by_um) else 0.0, is_back=False),)
@@ -59,24 +66,37 @@ def _passes(runs: Sequence[CompensatedRound], bounds: Ints, rows: int) -> Passes
     """Passes in the rows between `bounds` (k, 2), both included; a pass without a row is none."""
     waste: dict[int, float] = {}
     last: dict[tuple[int, bool], float] = {}
-    for one in runs:
-        waste.setdefault(one.along.edge, float(np.sign(_aside_um(one))))
-        last[one.along.edge, one.along.is_tab] = _aside_um(one)
+    for compensated_round in runs:
+        waste.setdefault(compensated_round.along.edge, float(np.sign(_aside_um(compensated_round))))
+        last[compensated_round.along.edge, compensated_round.along.is_tab] = _aside_um(compensated_round)
     of_row = np.full(rows, -1, dtype=np.int64)
     passes: list[Pass] = []
-    for one, (low, high) in zip(runs, bounds.tolist(), strict=True):
-        edge, number, is_back, is_tab = one.along
+    for compensated_round, (low, high) in zip(runs, bounds.tolist(), strict=True):
+        edge, number, is_back, is_tab = compensated_round.along
         if low <= high:
             of_row[low : high + 1] = len(passes)
-            shift_um = (_aside_um(one) - last[edge, is_tab]) * waste[edge]
-            closed = one.round.section.closed
-            passes.append(Pass(edge, number, low, high, is_back, closed, is_tab, shift_um, -one.side, one.by_um))
+            shift_um = (_aside_um(compensated_round) - last[edge, is_tab]) * waste[edge]
+            closed = compensated_round.round.section.closed
+            passes.append(
+                Pass(
+                    edge,
+                    number,
+                    low,
+                    high,
+                    is_back,
+                    closed,
+                    is_tab,
+                    shift_um,
+                    -compensated_round.side,
+                    compensated_round.by_um,
+                )
+            )
     return Passes(with_edges(passes), of_row)
 
 
-def _aside_um(one: CompensatedRound) -> float:
+def _aside_um(compensated_round: CompensatedRound) -> float:
     """How far to the left of the first pass over its edge the wire runs, along that."""
-    return one.by_um * one.side * (-1 if one.along.is_back else 1)
+    return compensated_round.by_um * compensated_round.side * (-1 if compensated_round.along.is_back else 1)
 
 
 class OwnCompensation(NamedTuple):
@@ -86,19 +106,19 @@ class OwnCompensation(NamedTuple):
     drawn_passes: Passes
 
 
-def own_compensation(program: Program, told: Compensation, is_judged: Bools) -> OwnCompensation:
-    """What the compensation of a program, as `told`, makes of it.
+def own_compensation(program: Program, compensation: Compensation, is_judged: Bools) -> OwnCompensation:
+    """What the compensation of a program, as `compensation`, makes of it.
 
     Stretches whose offset is not known run on the contour. `is_judged` (n,) is False on blocks of contours that are not
     whole: no findings come of their shape.
     """
     drawn = program.toolpath
     made = compensated(drawn)
-    stretches = held(drawn, made.path, compensated_rounds(drawn, moved_um(told)))
-    runs = [one.run for one in stretches]
-    judged = [one for one in stretches if is_judged[slice(*one.run.round[:2])].all()]
+    stretches = compensated_stretches(drawn, made.path, compensated_rounds(drawn, moved_um(compensation)))
+    runs = [stretch.run for stretch in stretches]
+    judged = [stretch for stretch in stretches if is_judged[slice(*stretch.run.round[:2])].all()]
     found = [
-        *word_findings(program, told, made.alarms, [run.wedge for run in runs]),
+        *word_findings(program, compensation, made.alarms, [run.wedge for run in runs]),
         *contour_findings(program, made.path, judged, made.alarms),
     ]
     passes = drawn_passes(runs, len(drawn))
@@ -107,12 +127,12 @@ def own_compensation(program: Program, told: Compensation, is_judged: Bools) -> 
         passed=passed,
         program=replace(program, toolpath=offset_toolpath(passed, made.path)),
         path=made.path,
-        side=Side(int(told.side[np.flatnonzero(told.side)[0]])),
-        passes=passes_beside(runs, moved_um(told)),
+        side=Side(int(compensation.side[np.flatnonzero(compensation.side)[0]])),
+        passes=passes_beside(runs, moved_um(compensation)),
         edge_passes=path_passes(runs, made.path),
         left_um=_left_um(made.path, stretches),
-        gouges=tuple(gouge for one in stretches for gouge in one.beside.gouges),
-        loops=tuple(one.beside.loops for one in stretches if one.beside.loops is not None),
+        gouges=tuple(gouge for stretch in stretches for gouge in stretch.beside.gouges),
+        loops=tuple(stretch.beside.loops for stretch in stretches if stretch.beside.loops is not None),
         findings=tuple(sorted(found, key=file_order)),
     )
     return OwnCompensation(offset, passes)
@@ -120,16 +140,20 @@ def own_compensation(program: Program, told: Compensation, is_judged: Bools) -> 
 
 def _as_written(drawn: Toolpath, runs: Sequence[CompensatedRound], passes: Passes) -> PassedPath:
     """The toolpath as passes that the program writes out itself."""
-    number = np.array([*(one.number - 1 for one in passes.passes), -1], dtype=np.int64)[passes.of_row]
-    rounds = tuple(PassedRound(one.round, one.along.number - 1) for one in runs)
+    number = np.array([*(pass_.number - 1 for pass_ in passes.passes), -1], dtype=np.int64)[passes.of_row]
+    rounds = tuple(
+        PassedRound(compensated_round.round, compensated_round.along.number - 1) for compensated_round in runs
+    )
     forward = np.zeros(len(drawn), dtype=np.bool_)
     return PassedPath(drawn, drawn.picked(slice(None)), np.arange(len(drawn)), number, forward, rounds, drawn.stops)
 
 
-def _left_um(path: OffsetPath, stretches: Sequence[Held]) -> Floats:
+def _left_um(path: OffsetPath, stretches: Sequence[CompensatedStretch]) -> Floats:
     """(v,) what stays at each row that vanished; 0 at those that lead to a contour or away from it."""
     left_um = np.zeros(len(path.vanished))
-    for one in stretches:
-        section = one.run.round.section
-        left_um[slice(*np.searchsorted(path.vanished, (section.first, section.last + 1)))] = one.beside.left_um
+    for compensated_stretch in stretches:
+        section = compensated_stretch.run.round.section
+        left_um[slice(*np.searchsorted(path.vanished, (section.first, section.last + 1)))] = (
+            compensated_stretch.beside.left_um
+        )
     return left_um

@@ -7,9 +7,8 @@ import numpy as np
 
 from parser.geometry.along import along_um, headings_along, places
 from parser.geometry.broad_phase_places import nearest_um
-from parser.geometry.curves import Bools, Curves, Floats
+from parser.geometry.curves import Bools, Curves, Floats, extents
 from parser.geometry.distance import distance_to_curves
-from parser.geometry.extents import extents
 from parser.shape.closing import CLOSED_WITHIN_UM
 
 _ON_UM = CLOSED_WITHIN_UM  # whole µm, and arcs that were drawn anew for a later pass
@@ -57,15 +56,15 @@ def edges_of_contours(contours: Sequence[Curves]) -> tuple[Along, ...]:
     first: list[int] = []  # contour of each edge
     counts: list[int] = []
     found = []
-    for at, one in enumerate(ones):
-        near = np.flatnonzero(_meets(boxes[:, :, : len(first)], one.box_um)).tolist()
-        of, is_tab = next(_matches(one, {edge: ones[first[edge]] for edge in near}), (len(first), False))
+    for at, each_one in enumerate(ones):
+        near = np.flatnonzero(_meets(boxes[:, :, : len(first)], each_one.box_um)).tolist()
+        of, is_tab = next(_matches(each_one, {edge: ones[first[edge]] for edge in near}), (len(first), False))
         if of == len(first):
-            boxes[:, :, of] = one.box_um
+            boxes[:, :, of] = each_one.box_um
             first.append(at)
             counts.append(0)
         counts[of] += 1
-        is_back = counts[of] > 1 and _is_back(one, ones[first[of]], is_tab)
+        is_back = counts[of] > 1 and _is_back(each_one, ones[first[of]], is_tab)
         found.append(Along(of, counts[of], is_back, is_tab))
     return tuple(found)
 
@@ -85,13 +84,13 @@ def _edge(curves: Curves) -> _Edge:
     return _Edge(curves, box, float(curves.length_um.sum()), gap_um <= CLOSED_WITHIN_UM)
 
 
-def _matches(one: _Edge, edges: Mapping[int, _Edge]) -> Iterator[tuple[int, bool]]:
+def _matches(each_edge: _Edge, edges: Mapping[int, _Edge]) -> Iterator[tuple[int, bool]]:
     """Of some edges, by their numbers, those that a contour runs along, or whose tab it cuts."""
     for number, other in edges.items():
-        shorter, longer = sorted((one, other), key=lambda edge: edge.length_um)
+        shorter, longer = sorted((each_edge, other), key=lambda edge: edge.length_um)
         if shorter.length_um >= _MOST * longer.length_um and _share_on(shorter.curves, longer.curves) >= _MOST:
             yield number, False
-        elif _is_tab(one, other):
+        elif _is_tab(each_edge, other):
             yield number, True
 
 
@@ -102,24 +101,24 @@ def _share_on(curves: Curves, other: Curves) -> float:
     return float(curves.length_um[on].sum() / max(float(curves.length_um.sum()), 1e-9))
 
 
-def _is_tab(one: _Edge, other: _Edge) -> bool:
+def _is_tab(this: _Edge, other: _Edge) -> bool:
     """Whether a contour goes from one end of an open one to the other, at most a little way along it."""
-    if other.is_closed or one.is_closed or one.length_um > _MOST * other.length_um:
+    if other.is_closed or this.is_closed or this.length_um > _MOST * other.length_um:
         return False
     ends = np.stack([other.curves.start_um[0], other.curves.end_um[-1]])
-    return bool((nearest_um(one.curves, ends, _ON_UM) <= _ON_UM).all())
+    return bool((nearest_um(this.curves, ends, _ON_UM) <= _ON_UM).all())
 
 
-def _is_back(one: _Edge, first: _Edge, is_tab: bool) -> bool:
+def _is_back(edge: _Edge, first: _Edge, is_tab: bool) -> bool:
     """Whether a contour runs against the first one along its edge, or its tab from the start of that one to its end."""
     if is_tab:
-        from_end = np.hypot(*(one.curves.start_um[0] - first.curves.end_um[-1]))
-        return bool(np.hypot(*(one.curves.start_um[0] - first.curves.start_um[0])) < from_end)
-    row = np.array([int(np.argmax(one.curves.length_um))])
-    place = places(one.curves, row, np.array([0.5]))
+        from_end = np.hypot(*(edge.curves.start_um[0] - first.curves.end_um[-1]))
+        return bool(np.hypot(*(edge.curves.start_um[0] - first.curves.start_um[0])) < from_end)
+    row = np.array([int(np.argmax(edge.curves.length_um))])
+    place = places(edge.curves, row, np.array([0.5]))
     rows = np.arange(len(first.curves))
     off, _ = distance_to_curves(first.curves, rows, *np.broadcast_to(place, (len(rows), 2)).T)
     near = np.array([int(np.argmin(off))])
     way = headings_along(first.curves, near, along_um(first.curves, near, place))
-    own = headings_along(one.curves, row, 0.5 * one.curves.length_um[row])
+    own = headings_along(edge.curves, row, 0.5 * edge.curves.length_um[row])
     return float((way * own).sum()) < 0.0

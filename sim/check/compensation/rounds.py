@@ -65,9 +65,9 @@ class CompensatedRound(NamedTuple):
         return Distances(self.by_um, self.kerf_um, self.side)
 
 
-def moved_um(told: Compensation) -> Floats:
+def moved_um(compensation: Compensation) -> Floats:
     """(n,) how far to the left each block is moved; 0 along a stretch of which an offset is not known."""
-    moved: Floats = np.where(known_sides(told) == 0, 0.0, told.left_um)
+    moved: Floats = np.where(known_sides(compensation) == 0, 0.0, compensation.left_um)
     return moved
 
 
@@ -80,24 +80,26 @@ def compensated_rounds(toolpath: Toolpath, left_um: Floats) -> tuple[Compensated
     stretches = _stretches(left_um, toolpath.is_jump)
     is_jump = np.concatenate([[False], toolpath.is_jump, [False]])  # of the block before each
     of_row = np.full(len(toolpath), -1, dtype=np.int64)
-    for number, one in enumerate(stretches):
-        of_row[one.begin : one.past] = number
+    for number, stretch in enumerate(stretches):
+        of_row[stretch.begin : stretch.past] = number
     loops = find_loops(toolpath, of_row, np.arange(len(stretches)))
     loop_of = {of: number for number, of in enumerate(loops.contour.tolist())}
     with_loop = {stretches[of].together for of in loop_of}
     found = []
-    for number, one in enumerate(stretches):
+    for number, stretch in enumerate(stretches):
         at, part_side = loop_of.get(number), 0
-        section = OffsetSection(one.begin + int(one.is_led_in), one.past - 1, closed=False)
+        section = OffsetSection(stretch.begin + int(stretch.is_led_in), stretch.past - 1, closed=False)
         if at is not None:
             section = OffsetSection(int(loops.first[at]), int(loops.last[at]), closed=True)
             part_side = int(loops.part_side[at])
-        if section.first <= section.last and (at is not None or one.together not in with_loop):
-            led_out = one.past < len(toolpath) and left_um[one.past] == 0.0 and not toolpath.is_jump[one.past]
-            side, by_um = Side(int(np.sign(left_um[one.begin]))), abs(float(left_um[one.begin]))
-            begin = one.begin if section.closed else section.first
-            wedge = one.begin if section.first == one.begin and one.is_led_in else -1
-            whole = Round(begin, one.past + bool(led_out), section)
+        if section.first <= section.last and (at is not None or stretch.together not in with_loop):
+            led_out = (
+                stretch.past < len(toolpath) and left_um[stretch.past] == 0.0 and not toolpath.is_jump[stretch.past]
+            )
+            side, by_um = Side(int(np.sign(left_um[stretch.begin]))), abs(float(left_um[stretch.begin]))
+            begin = stretch.begin if section.closed else section.first
+            wedge = stretch.begin if section.first == stretch.begin and stretch.is_led_in else -1
+            whole = Round(begin, stretch.past + bool(led_out), section)
             at_jump = is_jump[[section.first, section.last + 2]].any()
             found.append(CompensatedRound(whole, side, by_um, part_side, wedge, bool(at_jump)))
     return _by_edge(toolpath, found)
@@ -163,12 +165,12 @@ def parts_of(curves: Curves, row: Ints, first_um: Floats, last_um: Floats) -> Cu
 
 def _by_edge(toolpath: Toolpath, rounds: list[CompensatedRound]) -> tuple[CompensatedRound, ...]:
     """The stretches, each with its edge and what those along it come to."""
-    along = edges_of_contours([contour_of(toolpath, one.round.section) for one in rounds])
+    along = edges_of_contours([contour_of(toolpath, compensated_round.round.section) for compensated_round in rounds])
     nearest: dict[tuple[int, bool], int] = {}
     for at in sorted(range(len(rounds)), key=lambda at: rounds[at].by_um):
         nearest.setdefault((along[at].edge, along[at].is_tab), at)
     found = []
-    for at, one in enumerate(rounds):
+    for at, compensated_round in enumerate(rounds):
         first = nearest[along[at].edge, along[at].is_tab]
-        found.append(one._replace(along=along[at], kerf_um=rounds[first].by_um, is_nearest=first == at))
+        found.append(compensated_round._replace(along=along[at], kerf_um=rounds[first].by_um, is_nearest=first == at))
     return tuple(found)

@@ -65,8 +65,8 @@ class SettingsSearch:
         file = self.placed(file)
         content = content_of(file)
         if content is None:
-            raise SettingsError("no-tool-drycut", file=self._told(file))
-        return read_settings(content, file, self._told(file))
+            raise SettingsError("no-tool-drycut", file=self._name_of(file))
+        return read_settings(content, file, self._name_of(file))
 
     def _nearest(self, folder: Path) -> SettingsFile:
         for here in self._ladder(folder):
@@ -74,7 +74,7 @@ class SettingsSearch:
             if found:
                 self._refuse_of_others(found.file, folder)
                 if found.file not in self._read:
-                    self._read[found.file] = read_settings(found.content, found.file, self._told(found.file))
+                    self._read[found.file] = read_settings(found.content, found.file, self._name_of(found.file))
                 return self._read[found.file]
         return NO_SETTINGS
 
@@ -116,7 +116,7 @@ class SettingsSearch:
                     return _Found(file, content)
         return None
 
-    def _told(self, file: Path) -> str:
+    def _name_of(self, file: Path) -> str:
         """A settings file as it is named to people: from the working folder where it lies below that."""
         return str(file.relative_to(self.working) if file.is_relative_to(self.working) else file)
 
@@ -132,7 +132,7 @@ class SettingsSearch:
             trusted.add(folder.stat().st_uid)
         owners = {file.stat().st_uid, file.lstat().st_uid}
         if owners - trusted:
-            raise SettingsError("settings-of-another-user", file=self._told(file), owner=min(owners - trusted))
+            raise SettingsError("settings-of-another-user", file=self._name_of(file), owner=min(owners - trusted))
 
 
 def _stands(file: Path) -> bool:

@@ -36,7 +36,9 @@ def tight_corners(toolpath: Toolpath, contour_of_row: Ints, passes: Passes, offs
     if not len(row):
         return row
     of = passes.of_row[row]
-    side = np.array([one.part_side if one.number == 1 else 0 for one in passes.passes] + [0])[of]  # on leads the last
+    side = np.array([pass_.part_side if pass_.number == 1 else 0 for pass_ in passes.passes] + [0])[
+        of
+    ]  # on leads the last
     center_side = np.sign(toolpath.sweep_rad[row])
     wrong_side = -side if is_drawing else side
     tight: Ints = row[(side != 0) & (center_side == wrong_side)]

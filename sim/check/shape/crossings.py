@@ -163,8 +163,8 @@ def _is_corner_loop(toolpath: Toolpath, meets: Meets) -> Bools:
 
 def _leads_to_passes(contour_of_row: Ints, passes: Passes) -> Bools:
     """(n,) True on leads and steps of the contours that trim an edge."""
-    trimmed = {one.edge for one in passes.passes if one.number > 1}
-    first = [one.first for one in passes.passes if one.edge in trimmed]
+    trimmed = {pass_.edge for pass_ in passes.passes if pass_.number > 1}
+    first = [pass_.first for pass_ in passes.passes if pass_.edge in trimmed]
     is_lead: Bools = (passes.of_row < 0) & np.isin(contour_of_row, contour_of_row[first])
     return is_lead
 

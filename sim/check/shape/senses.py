@@ -163,26 +163,26 @@ def _suspects(toolpath: Toolpath, chain: _Chain, ways: Directions) -> Ints:
     return chain.row[suspect]
 
 
-def _joints(toolpath: Toolpath, one: Ints, other: Ints, ways: Directions) -> _Joints:
+def _joints(toolpath: Toolpath, this: Ints, other: Ints, ways: Directions) -> _Joints:
     """Joints from the rows `one` (m,) to the rows `other` (m,)."""
-    arriving, leaving = ways.arriving.take(one, axis=0), ways.leaving.take(other, axis=0)
+    arriving, leaving = ways.arriving.take(this, axis=0), ways.leaving.take(other, axis=0)
     forward = arriving[:, 0] * leaving[:, 0] + arriving[:, 1] * leaving[:, 1]
-    break_rad = np.zeros(len(one))
+    break_rad = np.zeros(len(this))
     wide = np.flatnonzero(forward < _LEAST_FORWARD)
     cross = arriving[wide, 0] * leaving[wide, 1] - arriving[wide, 1] * leaving[wide, 0]
     break_rad[wide] = np.arctan2(np.abs(cross), forward[wide])
-    is_cusp, retraces = np.zeros(len(one), dtype=np.bool_), np.zeros(len(one), dtype=np.bool_)
+    is_cusp, retraces = np.zeros(len(this), dtype=np.bool_), np.zeros(len(this), dtype=np.bool_)
     back = np.flatnonzero(break_rad >= _LEAST_CUSP_RAD)
-    one, other = one[back], other[back]
-    is_cusp[back] = break_rad[back] >= _CUSP_RAD - _tilt_rad(toolpath, one, other)
-    off = toolpath.center_um[one] - toolpath.center_um[other]
-    larger = np.abs(toolpath.radius_um[one] - toolpath.radius_um[other])
+    this, other = this[back], other[back]
+    is_cusp[back] = break_rad[back] >= _CUSP_RAD - _tilt_rad(toolpath, this, other)
+    off = toolpath.center_um[this] - toolpath.center_um[other]
+    larger = np.abs(toolpath.radius_um[this] - toolpath.radius_um[other])
     same_circle = (np.hypot(off[:, 0], off[:, 1]) <= _SAME_CIRCLE_UM) & (larger <= _SAME_CIRCLE_UM)
-    retraces[back] = same_circle | (~toolpath.is_arc[one] & ~toolpath.is_arc[other])
+    retraces[back] = same_circle | (~toolpath.is_arc[this] & ~toolpath.is_arc[other])
     return _Joints(break_rad, is_cusp, retraces)
 
 
-def _tilt_rad(toolpath: Toolpath, one: Ints, other: Ints) -> Floats:
+def _tilt_rad(toolpath: Toolpath, this: Ints, other: Ints) -> Floats:
     """Tilt of joints (m,) by rounding. A circle's tangent is as uncertain as its centre; a line's as its ends."""
-    scale = (np.fmin(toolpath.radius_um[row], toolpath.length_um[row]) for row in (one, other))
+    scale = (np.fmin(toolpath.radius_um[row], toolpath.length_um[row]) for row in (this, other))
     return _ROUNDING_UM / np.minimum(*scale)

@@ -9,8 +9,7 @@ from pathlib import Path
 from parser.files.reading import read_text
 from parser.findings.codes import CODES
 from parser.findings.errors import SettingsError
-from sim.check.fingerprint import fingerprints
-from sim.check.result import CheckResult
+from sim.check.result import CheckResult, fingerprints
 
 SCHEMA = "drycut.baseline/1"
 _Known = Mapping[str, str]

@@ -1,20 +1,25 @@
 """Directives: remarks in a program that silence codes, ``// drycut: ignore 3B204`` (docs/check.md).
 
 Where remarks stand, the reader of the dialect knows; what they say to drycut stands here.
+
+Findings sifted: those that are shown, and how many are not, by what silences them.
 """
 
 import re
 import unicodedata
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from parser.findings.codes import CODES
-from parser.findings.findings import Finding
+from parser.findings.findings import Finding, file_order
 from parser.program import Program
 from parser.text.source import Span
-from sim.check.result import CheckState
+from sim.check.result import CheckResult, CheckState, Silenced, fingerprints
+from sim.check.settings import CheckSettings
 
 _WHOLE_FILE = 0
 """In place of a line; a finding that means the whole program has no line either."""
@@ -30,7 +35,7 @@ _BEGINNINGS = frozenset(code[:length] for code in CODES for length in range(2, l
 _LONGEST_SHOWN = 40
 
 
-class Asked(NamedTuple):
+class Directive(NamedTuple):
     """A code, or its beginning, that a remark asks to silence: on a line from 1, in the whole file, or nowhere."""
 
     silenced: str
@@ -61,17 +66,19 @@ def heed(program: Program, findings: Sequence[Finding], states: Iterable[CheckSt
     directives = list(_directives(program))
     if not directives:
         return Heeded()
-    asked = [one for one in directives if isinstance(one, Asked)]
-    wanted = {(one.line, one.silenced) for one in asked}
+    asked = [directive for directive in directives if isinstance(directive, Directive)]
+    wanted = {(each.line, each.silenced) for each in asked}
     hits = [[place for place in _places(finding) if place in wanted] for finding in findings]
     used = {place for hit in hits for place in hit}
     unfinished = {state.name for state in states if state.state != "complete"}
-    idle = (one for one in asked if (one.line, one.silenced) not in used and not _checks_of(one.silenced) & unfinished)
+    idle = (
+        each for each in asked if (each.line, each.silenced) not in used and not _checks_of(each.silenced) & unfinished
+    )
     return Heeded(
         frozenset(at for at, hit in enumerate(hits) if hit),
         (
-            *(one for one in directives if isinstance(one, Finding)),
-            *(program.lines.finding("3B114", one.span, silenced=one.silenced) for one in idle),
+            *(directive for directive in directives if isinstance(directive, Finding)),
+            *(program.lines.finding("3B114", each.span, silenced=each.silenced) for each in idle),
         ),
     )
 
@@ -87,7 +94,7 @@ def _checks_of(beginning: str) -> set[str]:
     return {str(of.check) for code, of in CODES.items() if of.check and code.startswith(beginning)}
 
 
-def _directives(program: Program) -> Iterator[Asked | Finding]:
+def _directives(program: Program) -> Iterator[Directive | Finding]:
     """What each directive asks for, and a finding for each that cannot be read, in their order."""
     text, remarks = program.lines.text, program.reading.remarks
     if not len(remarks):
@@ -103,7 +110,7 @@ def _directives(program: Program) -> Iterator[Asked | Finding]:
             yield from _read(program, (begin.end(), past), *(below or [_NO_LINE]))
 
 
-def _read(program: Program, span: Span, line: int) -> Iterator[Asked | Finding]:
+def _read(program: Program, span: Span, line: int) -> Iterator[Directive | Finding]:
     """What one directive asks for; it stands at `span`, and counts for a line or the whole file."""
     text = program.lines.text
     kind = _KIND.match(text, *span)
@@ -115,10 +122,61 @@ def _read(program: Program, span: Span, line: int) -> Iterator[Asked | Finding]:
         if code[0].upper() not in _BEGINNINGS:
             yield _unreadable(program, code.span(), "directive-unknown-code")
         else:
-            yield Asked(code[0].upper(), _WHOLE_FILE if kind[1].lower() == "ignore-file" else line, code.span())
+            yield Directive(code[0].upper(), _WHOLE_FILE if kind[1].lower() == "ignore-file" else line, code.span())
 
 
 def _unreadable(program: Program, span: Span, what: str) -> Finding:
     said = program.text[slice(*span)].strip()
     shown = said if len(said) <= _LONGEST_SHOWN else said[:_LONGEST_SHOWN] + "…"
     return program.lines.finding("3B113", span, what=what, text=shown)
+
+
+class Sifted(NamedTuple):
+    """Findings that are shown, in file order, and how many are not."""
+
+    shown: tuple[Finding, ...]
+    silenced: Silenced
+
+
+def sifted(
+    program: Program, findings: tuple[Finding, ...], states: Iterable[CheckState], settings: CheckSettings
+) -> Sifted:
+    """All findings of a program but those that its settings and remarks silence; with notes on the remarks.
+
+    `states` are those of the checks. What settings silence counts as theirs, whether a remark does it too or not.
+    """
+    heeded = heed(program, findings, states)
+    if not heeded.silenced and not heeded.told:
+        return chosen(findings, settings)
+    remarked = [finding for at, finding in enumerate(findings) if at in heeded.silenced]
+    others = [finding for at, finding in enumerate(findings) if at not in heeded.silenced]
+    shown, silenced = chosen(sorted([*others, *heeded.told], key=file_order), settings)
+    by_remarks, by_settings = chosen(remarked, settings)
+    options, settings_ = silenced.options + by_settings.options, silenced.settings + by_settings.settings
+    return Sifted(shown, Silenced(options, settings_, remarks=len(by_remarks)))
+
+
+def chosen(findings: Iterable[Finding], settings: CheckSettings) -> Sifted:
+    """Those findings that the settings show."""
+    shown_findings: list[Finding] = []
+    counts = Counter[str]()
+    for finding in findings:
+        by = settings.silencer(finding.code)
+        if by:
+            counts[by] += 1
+        else:
+            shown_findings.append(finding)
+    return Sifted(tuple(shown_findings), Silenced(options=counts["options"], settings=counts["settings"]))
+
+
+def without_known(result: CheckResult, known: frozenset[str]) -> CheckResult:
+    """A result without the findings whose fingerprints are known, which then count as silenced.
+
+    A file that is no program keeps all of them.
+    """
+    if not known or result.unreadable:
+        return result
+    marks = fingerprints(result)
+    shown = tuple(finding for finding, mark in zip(result.findings, marks, strict=True) if mark not in known)
+    count = len(result.findings) - len(shown)
+    return replace(result, findings=shown, silenced=result.silenced._replace(baseline=count))

@@ -9,7 +9,7 @@ from parser.text.encoding import printable
 from sim.check.batch import Job
 from sim.check.result import CheckResult
 from sim.check.silence.baseline import Baseline, baseline_text, findings_of
-from sim.check.silence.sift import without_known
+from sim.check.silence.directives import without_known
 from sim.show.words import Words
 
 
@@ -25,7 +25,7 @@ class Ledger(ABC):
         """What there is to say at the end, for people; FileUnreadableError where something cannot be written."""
 
 
-class Held(Ledger):
+class AgainstBaseline(Ledger):
     """Results held against a baseline: known findings that do not occur any more are counted."""
 
     def __init__(self) -> None:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from sim.check.batch import Job
     from sim.check.result import CheckResult
     from sim.cli.check.baselines import Ledger
-    from sim.cli.check.jobs import Asked
+    from sim.cli.check.jobs import CheckOptions
     from sim.cli.check.outputs import Output
     from sim.show.findings.options import Options
 
@@ -54,12 +54,12 @@ def check(  # noqa: PLR0913 - click hands over each option by its name
     drycut check part.3b --fix
     drycut check die.iso --dialect robofil --offset D0=0.11mm
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
-    from sim.cli.check.jobs import Asked
+    from sim.cli.check.jobs import CheckOptions
     from sim.cli.check.outputs import outputs_of
     from sim.show.findings.options import Options
 
     _refuse_contradictions(files, formats, asked, {"--fix": fix, "--diff": diff, "--watch": watch})
-    options, style = Asked(**asked), Options(spoken(), quiet=quiet, statistics=statistics)
+    options, style = CheckOptions(**asked), Options(spoken(), quiet=quiet, statistics=statistics)
     outputs = outputs_of(formats, output_file, options.write_baseline)
     work = _Work(files, options, outputs, style, Spread(jobs, scheduler))
     if watch:
@@ -79,7 +79,7 @@ class _Work(NamedTuple):
     """What a check is asked for: names, options that settings give way to, where results go and how, who does it."""
 
     names: Sequence[str]
-    options: "Asked"
+    options: "CheckOptions"
     outputs: Sequence["Output"]
     style: "Options"
     spread: Spread
@@ -90,10 +90,10 @@ def _exit(code: int, *, is_zero: bool) -> click.exceptions.Exit:
     return click.exceptions.Exit(0 if is_zero and code == 1 else code)
 
 
-def _ledger(options: "Asked") -> "Ledger":
-    from sim.cli.check.baselines import Held, Written
+def _ledger(options: "CheckOptions") -> "Ledger":
+    from sim.cli.check.baselines import AgainstBaseline, Written
 
-    return Written(options.write_baseline) if options.write_baseline else Held()
+    return Written(options.write_baseline) if options.write_baseline else AgainstBaseline()
 
 
 def _refuse_contradictions(
@@ -141,7 +141,7 @@ def _check(work: _Work, jobs: Sequence["Job"]) -> int:
     outcome, ledger, language = _Outcome(), _ledger(work.options), work.style.language
     write(outcome.watched(ledger.watched(jobs, _results(jobs, work.spread))), work.outputs, work.style)
     printer.write(ledger.closed(language), err=True)
-    return outcome.told(language)
+    return outcome.exit_code(language)
 
 
 def _results(jobs: Sequence["Job"], spread: Spread) -> Iterator["CheckResult"]:
@@ -176,7 +176,7 @@ class _Outcome:
                 self._code = max(self._code, 1)
             yield result
 
-    def told(self, language: "Language") -> int:
+    def exit_code(self, language: "Language") -> int:
         """The exit code; at which files drycut itself failed is told."""
         if not self._faults:
             return self._code

@@ -12,8 +12,7 @@ from parser.findings.messages import Message
 from parser.units import mm
 from sim.check.batch import Job
 from sim.check.files import find_files
-from sim.check.settings.patterns import PathPattern, pattern_list
-from sim.check.settings.read import NO_SETTINGS, SettingsFile, code_list, severity
+from sim.check.settings.read import NO_SETTINGS, PathPattern, SettingsFile, code_list, pattern_list, severity
 from sim.check.settings.search import SettingsSearch
 from sim.setup.toml.reader import number
 from sim.setup.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
 STDIN = "-"
 
 
-class Asked(NamedTuple):
+class CheckOptions(NamedTuple):
     """Options of the command line that take the place of settings; None where one is left out. Lengths in µm.
 
     `config` takes the place of the settings files that stand near the programs, and so does `no_config`. Where a
@@ -49,23 +48,23 @@ class Asked(NamedTuple):
     write_baseline: Path | None
 
 
-def jobs_of(names: Sequence[str], asked: Asked) -> list[Job]:
+def jobs_of(names: Sequence[str], options: CheckOptions) -> list[Job]:
     """A job for each file that the names lead to.
 
     Raises FileUnreadableError for a name that leads to none, SettingsError for settings that cannot be.
     """
-    if asked.config and asked.no_config:
+    if options.config and options.no_config:
         raise click.UsageError(Message("config-and-no-config"))
-    if asked.baseline and asked.write_baseline:
+    if options.baseline and options.write_baseline:
         raise click.UsageError(Message("baseline-and-write-baseline"))
-    making = _Making(asked)
+    making = _Making(options)
     return [making.job(name) for name in find_files(names, making.is_excluded)]
 
 
 class _Making:
     """Makes jobs; settings files and baselines are read once."""
 
-    def __init__(self, asked: Asked) -> None:
+    def __init__(self, asked: CheckOptions) -> None:
         self._asked = asked
         self._options = _settings(asked)
         self._search = SettingsSearch()
@@ -109,26 +108,26 @@ class _Making:
         return self._baselines[path]
 
 
-def _settings(asked: Asked) -> dict[str, Any]:
+def _settings(options: CheckOptions) -> dict[str, Any]:
     """Settings that the command line gives, in place of those of the files."""
     given: dict[str, Any] = {}
-    if asked.select is not None:
-        given["select"] = code_list(asked.select.split(","), "--select")
-    if asked.ignore is not None:
-        given["ignore"] = code_list(asked.ignore.split(","), "--ignore")
-    if asked.fail_on is not None:
-        given["fail_on"] = severity(asked.fail_on, "--fail-on")
-    if asked.machine is not None:
+    if options.select is not None:
+        given["select"] = code_list(options.select.split(","), "--select")
+    if options.ignore is not None:
+        given["ignore"] = code_list(options.ignore.split(","), "--ignore")
+    if options.fail_on is not None:
+        given["fail_on"] = severity(options.fail_on, "--fail-on")
+    if options.machine is not None:
         from sim.setup.machine.machine import load_machine
 
-        given["machine"] = load_machine(asked.machine)
-    if asked.wire_diameter is not None:
-        number(mm(asked.wire_diameter), WIRE_DIAMETER_MM, "--wire-diameter in mm")
-        given["wire_diameter_um"] = asked.wire_diameter
-    if asked.gap is not None:
-        number(mm(asked.gap), SPARK_GAP_MM, "--gap in mm")
-        given["spark_gap_um"] = asked.gap
-    if asked.may_stay_open:
+        given["machine"] = load_machine(options.machine)
+    if options.wire_diameter is not None:
+        number(mm(options.wire_diameter), WIRE_DIAMETER_MM, "--wire-diameter in mm")
+        given["wire_diameter_um"] = options.wire_diameter
+    if options.gap is not None:
+        number(mm(options.gap), SPARK_GAP_MM, "--gap in mm")
+        given["spark_gap_um"] = options.gap
+    if options.may_stay_open:
         given["may_stay_open"] = True
-    read_with = {"dialect": asked.dialect, "unit": asked.unit, "registers": merged([asked.offset])}
+    read_with = {"dialect": options.dialect, "unit": options.unit, "registers": merged([options.offset])}
     return {**given, **{field: value for field, value in read_with.items() if value}}

@@ -89,12 +89,14 @@ def fix_file(path: Path, name: str, settings: CheckSettings, known: frozenset[st
     return mend
 
 
-def left(mend: Mended, language: Language, width: int) -> str:
+def unmended_text(mend: Mended, language: Language, width: int) -> str:
     """What was not mended, as there is more than one way to do it; for people, the mends in lines of `width` cells."""
-    return "".join(f"{line}\n" for unmended in mend.unmended for line in _left(mend.program, unmended, language, width))
+    return "".join(
+        f"{line}\n" for unmended in mend.unmended for line in _unmended_lines(mend.program, unmended, language, width)
+    )
 
 
-def _left(program: Program, unmended: Unmended, language: Language, width: int) -> list[str]:
+def _unmended_lines(program: Program, unmended: Unmended, language: Language, width: int) -> list[str]:
     say, finding, names = Words(language), unmended.finding, program.toolpath.source.names
     where = place(printable(program.name), finding.line, finding.column)
     choices = (say("findings.choice", block=names(choice.block), text=choice.text) for choice in unmended.choices)
@@ -120,7 +122,7 @@ def fix_files(jobs: Sequence[Job], language: Language) -> bool:
             all_written = False
         else:
             if mend:
-                write(mend.diff + left(mend, language, width_of(outlet(err=True))), err=True)
+                write(mend.diff + unmended_text(mend, language, width_of(outlet(err=True))), err=True)
     return all_written
 
 
@@ -146,7 +148,7 @@ def _show(job: Job, put: _Put, language: Language) -> int:
         return 2
     if mend.changed:
         put(mend)
-    write(left(mend, language, width_of(outlet(err=True))), err=True)
+    write(unmended_text(mend, language, width_of(outlet(err=True))), err=True)
     return int(mend.changed)
 
 

@@ -16,7 +16,7 @@ import click
 from parser.findings.messages import Message
 from sim.show.findings import FORMATS, render
 from sim.show.terminal import printer
-from sim.show.terminal.printer import coloured, made
+from sim.show.terminal.printer import coloured, printed_text
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of
 
@@ -84,17 +84,17 @@ def write(results: Iterable["CheckResult"], outputs: Sequence[Output], options: 
         if not others:
             _write_one(first, results, files, options)
             return
-        with tempfile.TemporaryFile(prefix="drycut-") as kept:
-            coming = _keeping(results, kept)
+        with tempfile.TemporaryFile(prefix="drycut-") as temporary_file:
+            coming = _keeping(results, temporary_file)
             _write_one(first, coming, files, options)
             for output in others:
-                _write_one(output, _kept(kept), files, options)
+                _write_one(output, _laid_aside(temporary_file), files, options)
 
 
 def _write_one(output: Output, results: Iterable["CheckResult"], files: Files, options: "Options") -> None:
     form = FORMATS[output.form].form
     if output.file:
-        files[output.file].writelines(made(text, form) for text in render(output.form, results, options))
+        files[output.file].writelines(printed_text(text, form) for text in render(output.form, results, options))
         return
     stream = outlet()
     style = options._replace(colour=coloured(stream), width=width_of(stream))
@@ -123,7 +123,7 @@ def _keeping(results: Iterable["CheckResult"], file: IO[bytes]) -> Iterator["Che
         yield result
 
 
-def _kept(file: IO[bytes]) -> Iterator["CheckResult"]:
+def _laid_aside(file: IO[bytes]) -> Iterator["CheckResult"]:
     """The results that were laid aside, from the first on."""
     end = file.seek(0, os.SEEK_END)
     file.seek(0)

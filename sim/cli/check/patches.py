@@ -36,7 +36,7 @@ def for_people(name: str, before: str, after: str) -> str:
     Empty where they are the same.
     """
     lines: list[str] = []
-    for head, rows in _hunks(_shown(before), _shown(after)):
+    for head, rows in _hunks(_shown_lines(before), _shown_lines(after)):
         lines += (head, *(sign + line for sign, line in rows))
     heads = (f"--- {printable(name)}", f"+++ {printable(name)}") if lines else ()
     return "".join(f"{line}\n" for line in (*heads, *lines))
@@ -55,7 +55,7 @@ def for_tools(name: str, before: bytes, after: bytes) -> bytes:
     return b"".join(heads + parts)
 
 
-def _shown(text: str) -> list[str]:
+def _shown_lines(text: str) -> list[str]:
     lines = [printable(line) for line in LINE_END.split(text)]
     return lines if lines[-1] else lines[:-1]
 

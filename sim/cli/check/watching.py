@@ -24,7 +24,7 @@ _RESTS_A_LOOK = 100.0
 """A look at all files may take a hundredth of the time: 5,000 files take some 20 ms, and so a rest of 2 s."""
 
 
-class _Seen(NamedTuple):
+class _FileState(NamedTuple):
     """What tells that a file was written, or another put in its place: time, size, and number of the file."""
 
     modified_ns: int
@@ -57,7 +57,7 @@ def rest_s(look_s: float) -> float:
     return min(max(_LEAST_REST_S, _RESTS_A_LOOK * look_s), _MOST_REST_S)
 
 
-def _settled_change(names: Sequence[str], before: dict[str, _Seen]) -> dict[str, _Seen]:
+def _settled_change(names: Sequence[str], before: dict[str, _FileState]) -> dict[str, _FileState]:
     """What is seen as soon as it is not as before, and the same at two looks: a file half written changes again."""
     last, look_s = before, 0.0
     while True:
@@ -70,9 +70,9 @@ def _settled_change(names: Sequence[str], before: dict[str, _Seen]) -> dict[str,
         last = now
 
 
-def _look(names: Sequence[str]) -> dict[str, _Seen]:
+def _look(names: Sequence[str]) -> dict[str, _FileState]:
     """The files that the names lead to, and settings that may count for them; none that cannot be looked at."""
-    seen: dict[str, _Seen] = {}
+    seen: dict[str, _FileState] = {}
     programs = {path for name in names for path in _paths(name)}
     folders = {os.path.dirname(path) for path in programs}  # noqa: PTH120 - as below
     for path in (*programs, *{file for folder in folders for file in _settings_above(folder)}):
@@ -80,7 +80,7 @@ def _look(names: Sequence[str]) -> dict[str, _Seen]:
             found = os.stat(path)  # noqa: PTH116 - no Path for each of thousands of files, several times a second
         except OSError:
             continue
-        seen[path] = _Seen(found.st_mtime_ns, found.st_size, found.st_ino)
+        seen[path] = _FileState(found.st_mtime_ns, found.st_size, found.st_ino)
     return seen
 
 

@@ -4,20 +4,60 @@ What a command does is the text of its name, ``run`` or ``card-run``; that with 
 tells its exit codes. An option has the text of its flag without dashes, ``thickness``, or one with the command before
 it, ``run-thickness``, where it means something of its own there. Examples need no words: they are the last paragraph of
 a command's docstring.
+
+The help of a command in lines of a terminal: wide characters take two cells, and Chinese has no blanks to break at.
+
+click counts characters, and breaks lines at blanks alone.
 """
 
 import copy
 import inspect
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from typing import Final
 
 import click
 
 from parser.findings.messages import Message
-from sim.cli.spoken.formatter import Formatter
+from parser.text.excerpt import cells
 from sim.cli.spoken.tongue import OPTION, speak_as_asked, words
+from sim.show.terminal.wrap import wrapped
 from sim.show.words.words import texts
+
+_MOST_LEFT = 30  # cells of the left column; a longer name stands on a line of its own
+
+
+class Formatter(click.HelpFormatter):
+    """Writes usage, paragraphs and lists of two columns."""
+
+    def write_usage(self, prog: str, args: str = "", prefix: str | None = None) -> None:
+        """How the command is called."""
+        head = words()("commands.usage") if prefix is None else prefix
+        self._lines(wrapped(args, self.width, head=f"{head}{prog} "))
+
+    def write_heading(self, heading: str) -> None:
+        """A heading, with a colon."""
+        self._lines([f"{heading}{words()('commands.colon')}"])
+
+    def write_text(self, text: str) -> None:
+        """A paragraph, or a line that is kept."""
+        indent = " " * self.current_indent
+        self._lines(wrapped(text, self.width, head=indent, indent=indent))
+
+    def write_dl(self, rows: Iterable[tuple[str, str]], col_max: int = _MOST_LEFT, col_spacing: int = 2) -> None:
+        """A list of two columns; what is behind a long name begins on the next line."""
+        shown_rows, indent = list(rows), " " * self.current_indent
+        left = min(max((cells(name) for name, _ in shown_rows), default=0), col_max) + col_spacing
+        for name, told in shown_rows:
+            head = indent + name + " " * (left - cells(name))
+            if cells(name) > left - col_spacing:
+                self._lines([indent + name])
+                head = indent + " " * left
+            self._lines(wrapped(told, self.width, head=head))
+
+    def _lines(self, lines: Sequence[str]) -> None:
+        self.write("".join(f"{line}\n" for line in lines))
+
 
 _KEEPS_LINES: Final = "\b"
 """Before a paragraph whose lines click keeps."""
@@ -48,14 +88,14 @@ class Spoken(click.Command):
 
     def _misused(self, ctx: click.Context, name: str) -> Message:
         """What is wrong with an option: it lacks its value, or is a flag and has one."""
-        options = (one for one in self.get_params(ctx) if isinstance(one, click.Option))
+        options = (param for param in self.get_params(ctx) if isinstance(param, click.Option))
         flags = {flag for option in options if option.is_flag for flag in (*option.opts, *option.secondary_opts)}
         return Message("option-with-value" if name in flags else "option-without-value", option=name)
 
     def get_params(self, ctx: click.Context) -> list[click.Parameter]:
         """Its own, ``--lang``, and the help."""
         *own, help_option = super().get_params(ctx)
-        return [*own, *([] if any(one.name == "lang" for one in own) else [_lang()]), help_option]
+        return [*own, *([] if any(each.name == "lang" for each in own) else [_lang()]), help_option]
 
     def get_short_help_str(self, limit: int = 0) -> str:
         """What the command does."""
@@ -78,7 +118,7 @@ class Spoken(click.Command):
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Its options."""
-        rows = [row for one in self.get_params(ctx) if (row := _row(self, one, ctx)) is not None]
+        rows = [row for param in self.get_params(ctx) if (row := _row(self, param, ctx)) is not None]
         with formatter.section(words()("commands.options")):
             formatter.write_dl(rows)
 
@@ -128,7 +168,7 @@ def _row(command: click.Command, option: click.Parameter, ctx: click.Context) ->
     if not isinstance(option, click.Option) or option.hidden:
         return None
     told = copy.copy(option)
-    told.help = _told(_key(command), max(option.opts, key=len).lstrip("-"))
+    told.help = _option_text(_key(command), max(option.opts, key=len).lstrip("-"))
     record = told.get_help_record(ctx)
     if record is None:
         return None
@@ -138,7 +178,7 @@ def _row(command: click.Command, option: click.Parameter, ctx: click.Context) ->
     return flags, meaning
 
 
-def _told(key: str, name: str) -> str:
+def _option_text(key: str, name: str) -> str:
     own = f"{key}-{name}"
     return words()(f"options.{own if own in texts('options') else name}")
 

@@ -107,7 +107,9 @@ def _reaches(curves: Curves, stations: _Stations, ways: tuple[WireWay, ...], off
     reaches = np.full((2, len(stations.row)), -np.inf)
     if not ways:
         return reaches
-    row, place = (np.concatenate(column) for column in zip(*((one.row, one.place_um) for one in ways), strict=True))
+    row, place = (
+        np.concatenate(column) for column in zip(*((wire_way.row, wire_way.place_um) for wire_way in ways), strict=True)
+    )
     nearest = np.rint(_along_um(curves, row, place) / stations.spacing_um[row]).astype(np.int64)
     low, past = stations.first[row], stations.first[row] + stations.number[row]
     # A block with more than the fewest stations has them more than half the usual spacing apart: no disc meets more.

@@ -84,11 +84,11 @@ def _farthest(border: Floats, low: int, high: int) -> tuple[int, float]:
 
 
 @compiled("void(f8[:,::1], f8, b1[::1])")
-def _thin(border: Floats, within: float, kept: Bools) -> None:
+def _thin(border: Floats, within: float, is_kept: Bools) -> None:
     """Mark the corners (k, 2) of a ring that are kept, so that no other lies farther off than `within`."""
     past = border.shape[0]
-    kept[:] = False
-    kept[0] = True
+    is_kept[:] = False
+    is_kept[0] = True
     stack = np.empty((past + 1, 2), dtype=np.int64)
     stack[0, 0], stack[0, 1] = 0, past
     number = 1
@@ -97,7 +97,7 @@ def _thin(border: Floats, within: float, kept: Bools) -> None:
         low, high = stack[number, 0], stack[number, 1]
         at, off = _farthest(border, low, high)
         if off > within * within:
-            kept[at] = True
+            is_kept[at] = True
             stack[number, 0], stack[number, 1] = low, at
             stack[number + 1, 0], stack[number + 1, 1] = at, high
             number += 2

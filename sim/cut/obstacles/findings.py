@@ -10,8 +10,7 @@ from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.contours import Contour
 from parser.units import mm
-from sim.cut.obstacles.bodies import BodyShapes, grown, sides, swept
-from sim.cut.obstacles.touches import Touch, Way, touches, way_of
+from sim.cut.obstacles.bodies import BodyShapes, Touch, Way, grown, sides, swept, touches, way_of
 from sim.setup.obstacles import Outline
 from sim.setup.scenario import Scenario
 from sim.table.trace import Trace
@@ -30,8 +29,8 @@ def obstacle_findings(program: Program, trace: Trace, contours: Sequence[Contour
     if not scenario.clamps and scenario.work_um is None:
         return []
     wire = way_of(trace.wire_um, trace.row)
-    cut = wire.kept(~program.toolpath.is_jump[trace.row[wire.ends[:, 1]]])
-    return [*_touched(program, trace, cut, scenario), *_left(program, trace, cut, contours, scenario)]
+    cut = wire.picked(~program.toolpath.is_jump[trace.row[wire.ends[:, 1]]])
+    return [*_touched(program, trace, cut, scenario), *_findings_of(program, trace, cut, contours, scenario)]
 
 
 def missed_work_findings(program: Program, trace: Trace, scenario: Scenario) -> list[Finding]:
@@ -39,7 +38,7 @@ def missed_work_findings(program: Program, trace: Trace, scenario: Scenario) -> 
     if scenario.work_um is None:
         return []
     wire = way_of(trace.wire_um, trace.row)
-    cut = wire.kept(~program.toolpath.is_jump[trace.row[wire.ends[:, 1]]])
+    cut = wire.picked(~program.toolpath.is_jump[trace.row[wire.ends[:, 1]]])
     if not len(cut.ends) or any(touches(cut, grown(scenario.work_um, scenario.wire.reach_um))):
         return []
     begin = Touch(int(cut.ends[0, 0]) + 1, 0.0)
@@ -61,7 +60,7 @@ def _touched(program: Program, trace: Trace, cut: Way, scenario: Scenario) -> It
                 break
 
 
-def _left(
+def _findings_of(
     program: Program, trace: Trace, cut: Way, contours: Sequence[Contour], scenario: Scenario
 ) -> Iterator[Finding]:
     if scenario.work_um is not None:
@@ -95,7 +94,7 @@ def leavings(outline_um: Outline, trace: Trace, cut: Way, contours: Sequence[Con
 
 def _of_contour(cut: Way, trace: Trace, contour: Contour) -> Way:
     row = trace.row[cut.ends[:, 1]]
-    return cut.kept((row >= contour.first - 1) & (row <= contour.last - 1))
+    return cut.picked((row >= contour.first - 1) & (row <= contour.last - 1))
 
 
 def _first_out(way: Way, trace: Trace, contour: Contour, work: BodyShapes, edges: BodyShapes) -> Iterator[Touch]:

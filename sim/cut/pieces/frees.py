@@ -71,11 +71,11 @@ class FreeQuestion(NamedTuple):
         """Whether the box holds all of the stock, so that the answer is final."""
         return bool(self.border_um.is_empty)
 
-    def left(self, part_um: Region, kerf_um: Region) -> shapely.Polygon:
+    def part_left(self, part_um: Region, kerf_um: Region) -> shapely.Polygon:
         """What a kerf leaves of a part round the point of the piece; empty where it has taken that."""
         parts = np.array(parted(part_um, kerf_um), dtype=np.object_)
-        held: list[shapely.Polygon] = parts[shapely.contains(parts, self.piece)].tolist()
-        return held[0] if held else shapely.Polygon()
+        held_polygons: list[shapely.Polygon] = parts[shapely.contains(parts, self.piece)].tolist()
+        return held_polygons[0] if held_polygons else shapely.Polygon()
 
     def is_free(self, part: shapely.Polygon) -> bool:
         """Whether such a part is closed in."""
@@ -103,17 +103,17 @@ def closing_of(
     question: FreeQuestion, swept: tuple[Swept, ...], contours: list[int], offset_um: float
 ) -> Closing | None:
     """The first moment at which the kerfs of some contours, in the order they are cut, answer the question with yes."""
-    part = question.left(question.stock_um, shapely.Polygon())
+    part = question.part_left(question.stock_um, shapely.Polygon())
     for contour in contours:
-        after = _left(question, part, swept[contour].near(0, len(swept[contour].first), question.box))
+        after = _part_round(question, part, swept[contour].near(0, len(swept[contour].first), question.box))
         if question.is_free(after):
             return _within(question, part, swept[contour], offset_um, FreeMoment(contour, -1, after))
         part = after
     return None
 
 
-def _left(question: FreeQuestion, part: shapely.Polygon, kerfs: list[Region]) -> shapely.Polygon:
-    return question.left(part, union_all(kerfs)) if kerfs else part
+def _part_round(question: FreeQuestion, part: shapely.Polygon, kerfs: list[Region]) -> shapely.Polygon:
+    return question.part_left(part, union_all(kerfs)) if kerfs else part
 
 
 def _within(
@@ -123,7 +123,7 @@ def _within(
     low, high, piece = 0, len(swept.first), whole.piece_um
     while high - low > 1:
         middle = low + (1 << ((high - low - 1).bit_length() - 1))  # as the tree of the regions is halved
-        after = _left(question, hung, swept.near(low, middle, question.box))
+        after = _part_round(question, hung, swept.near(low, middle, question.box))
         if question.is_free(after):
             high, piece = middle, after
         else:
@@ -135,7 +135,7 @@ def _within(
     while high - low > 1:
         at = (low + high) // 2
         star = stars(way.place_um[first : at + 1], np.zeros(1, dtype=np.int64), about, offset_um)
-        after = question.left(before, star[0])
+        after = question.part_left(before, star[0])
         if question.is_free(after):
             high, piece = at, after
         else:
@@ -164,7 +164,7 @@ def _inside(piece_um: shapely.Polygon, way: WireWay, offset_um: float) -> tuple[
 def _again(place_um: Floats, along_um: Floats, offset_um: float) -> NDArray[np.bool_]:
     """Whether the way was at each of the places (m, 2) before: more than an offset earlier by its length (m,)."""
     points = np.asarray(shapely.points(place_um))
-    one, other = shapely.STRtree(points).query(points, predicate="dwithin", distance=_SPARED * offset_um)
+    this, other = shapely.STRtree(points).query(points, predicate="dwithin", distance=_SPARED * offset_um)
     again = np.zeros(len(points), dtype=np.bool_)
-    again[one[along_um[one] - along_um[other] > offset_um]] = True
+    again[this[along_um[this] - along_um[other] > offset_um]] = True
     return again

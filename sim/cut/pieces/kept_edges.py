@@ -2,18 +2,63 @@
 
 They come from the region that the wire left. A pass whose edge another pass cut away has none there, and what stays of
 it beside a tab has one. Of several on the same way it is the last.
+
+What is kept of the work: the parts with their holes, and the openings that slugs leave in the frame.
 """
 
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import Literal, NamedTuple
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from parser.geometry.curves import Bools, Floats, Ints
-from sim.cut.kerf.makers import rows_that_made
-from sim.cut.kerf.region import Kerf
-from sim.cut.pieces.kept_shapes import KeptShape
+from sim.cut.kerf.swept import Kerf
+from sim.cut.kerf.ways import rows_that_made
+from sim.cut.pieces.pieces import Pieces
+
+
+class KeptShape(NamedTuple):
+    """A filled outline, and the index of the piece that it is, is in, or fell out of it: of several slugs the largest.
+
+    A part itself still has its holes; each of them is a shape of its own besides.
+    """
+
+    what: Literal["part", "hole", "opening"]
+    piece: int
+    outline_um: shapely.Polygon
+
+
+def kept_shapes(pieces: Pieces) -> tuple[KeptShape, ...]:
+    """Shapes in the order of their pieces, each once; a slug out of a part left one of its holes."""
+    shapes = [*_parts(pieces), *_openings(pieces)]
+    return tuple(sorted(shapes, key=lambda shape: shape.piece))
+
+
+def _parts(pieces: Pieces) -> Iterator[KeptShape]:
+    for index, piece in enumerate(pieces.freed):
+        if piece.kind == "part":
+            yield KeptShape("part", index, piece.outline_um)
+            yield from (KeptShape("hole", index, shapely.Polygon(ring)) for ring in piece.outline_um.interiors)
+
+
+def _openings(pieces: Pieces) -> Iterator[KeptShape]:
+    """Openings of the frame that slugs fell out of; round a part the frame is waste, and so is a scrap beside it."""
+    openings, freed = pieces.frame.openings_um, pieces.freed
+    slugs = [index for index, piece in enumerate(freed) if piece.kind == "slug" and not piece.is_scrap]
+    inside = np.array([freed[index].outline_um.representative_point() for index in slugs], dtype=np.object_)
+    parts = [shapely.Polygon(piece.outline_um.exterior) for piece in freed if piece.kind == "part"]
+    _, in_part = shapely.STRtree(inside).query(np.array(parts, dtype=np.object_), predicate="contains")
+    at, found = shapely.STRtree(inside).query(np.array(openings, dtype=np.object_), predicate="contains")
+    within = ~np.isin(found, in_part)
+    largest: dict[int, int] = {}
+    for index, slug in sorted(zip(at[within].tolist(), found[within].tolist(), strict=True)):
+        piece, other = slugs[slug], largest.get(index)
+        if other is None or freed[piece].area_mm2 > freed[other].area_mm2:
+            largest[index] = piece
+    yield from (KeptShape("opening", piece, openings[index]) for index, piece in largest.items())
+
 
 _ON_UM = 0.2  # a region is exact to 0.1 µm, and so is the edge of a block
 _NONE = -1
@@ -64,9 +109,9 @@ def kept_edges(kerf: Kerf, shapes: tuple[KeptShape, ...]) -> KeptEdges:
     out = side[:, None] * edges.left[station]
     reach = np.where(side > 0, edges.left_um[station], edges.right_um[station])
     cut, ideal = edges.place_um[station] + reach[:, None] * out, edges.place_um[station] + offset_um * out
-    shape = _rings_at([one.outline_um.exterior for one in shapes], cut)
+    shape = _rings_at([kept_shape.outline_um.exterior for kept_shape in shapes], cut)
     kept = KeptEdges(station, edges.row[station], side, shape, cut, ideal).picked(shape != _NONE)
-    made = rows_that_made((one.way for one in kerf.swept), kept.cut_um, offset_um)
+    made = rows_that_made((each.way for each in kerf.swept), kept.cut_um, offset_um)
     kept = kept.picked(made == kept.row)
     return kept.picked(np.lexsort((kept.station, -kept.side, kept.row)))
 
@@ -91,8 +136,8 @@ def _rings_at(rings: list[shapely.LinearRing], place_um: Floats) -> Ints:
     # The places are in the tree and the strings query it: shapely prepares what queries.
     tree = shapely.STRtree(list(shapely.points(place_um)))  # type: ignore[arg-type]
     string, ring = _strings(rings)
-    one, at = tree.query(string, predicate="dwithin", distance=_ON_UM)
-    found[at] = ring[one]
+    each, at = tree.query(string, predicate="dwithin", distance=_ON_UM)
+    found[at] = ring[each]
     return found
 
 

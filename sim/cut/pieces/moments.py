@@ -45,7 +45,7 @@ class Cutting(NamedTuple):
     offset_um: float
 
 
-class _Asked(NamedTuple):
+class _BoxedPart(NamedTuple):
     """A part in a box, and when the kerf closes round it in there."""
 
     part: int
@@ -62,51 +62,53 @@ def moments_of(cutting: Cutting) -> list[FreeMoment | None]:
     """When each of the parts comes free; None where the contours with a share in its outer edge do not free it."""
     shapely.prepare(cutting.frame_um)
     tree, held = shapely.STRtree(cutting.parts_um), shapely.point_on_surface(cutting.frame_um)
-    asked = {one.part: one for part in range(len(cutting.parts_um)) if (one := _first_asked(cutting, part, held))}
+    asked_range = {
+        each.part: each for part in range(len(cutting.parts_um)) if (each := _first_asked(cutting, part, held))
+    }
     alone = _alone(cutting)
     freed_with: dict[int, int] = {}
     # Those that close last come first: what they may have hung on is settled then.
-    todo = [_in_turn(one) for one in asked.values()]
+    todo = [_in_turn(each) for each in asked_range.values()]
     heapq.heapify(todo)
     while todo:
         part = heapq.heappop(todo)[-1]
-        other = part if part in alone else _came_free_with(cutting, tree, asked, freed_with, part)
+        other = part if part in alone else _came_free_with(cutting, tree, asked_range, freed_with, part)
         if other is not None:
             freed_with[part] = other
-        elif (again := _asked_again(cutting, part, asked[part].question)) is not None:
-            asked[part] = again
+        elif (again := _asked_again(cutting, part, asked_range[part].question)) is not None:
+            asked_range[part] = again
             heapq.heappush(todo, _in_turn(again))
-    moments = {part: asked[_last(freed_with, part)].closing.moment for part in freed_with}
+    moments = {part: asked_range[_last(freed_with, part)].closing.moment for part in freed_with}
     return [moments.get(part) for part in range(len(cutting.parts_um))]
 
 
-def _in_turn(one: _Asked) -> tuple[int, int, int]:
-    contour, at = one.when
-    return -contour, -at, one.part
+def _in_turn(boxed_part: _BoxedPart) -> tuple[int, int, int]:
+    contour, at = boxed_part.when
+    return -contour, -at, boxed_part.part
 
 
 def _came_free_with(
-    cutting: Cutting, tree: shapely.STRtree, asked: dict[int, _Asked], freed_with: dict[int, int], part: int
+    cutting: Cutting, tree: shapely.STRtree, asked: dict[int, _BoxedPart], freed_with: dict[int, int], part: int
 ) -> int | None:
     """The part that a part came free with, itself where that was when the kerf closed round it; None is not known."""
-    one = asked[part]
-    hung = one.closing.hung_um
-    if one.question.is_whole or cutting.frame_um.intersects(hung):
+    each = asked[part]
+    hung = each.closing.hung_um
+    if each.question.is_whole or cutting.frame_um.intersects(hung):
         return part
     for beside in tree.query(hung, predicate="intersects").tolist():
         if beside not in asked or cutting.contours[beside] != cutting.contours[part]:
             continue
         other = _last(freed_with, beside)
-        if asked[other].when != one.when:
-            return part if asked[other].when > one.when else other
+        if asked[other].when != each.when:
+            return part if asked[other].when > each.when else other
     return None
 
 
 def _alone(cutting: Cutting) -> set[int]:
     """Parts that lie alone in a hole of the frame, or of a part that other contours cut; no others lie in them."""
     rings = [(ring, [-1]) for ring in cutting.frame_um.interiors]
-    told = zip(cutting.parts_um, cutting.contours, strict=True)
-    rings += [(ring, contours) for part, contours in told for ring in part.interiors]
+    told_parts = zip(cutting.parts_um, cutting.contours, strict=True)
+    rings += [(ring, contours) for part, contours in told_parts for ring in part.interiors]
     if not rings:
         return set()
     inner = shapely.STRtree(shapely.point_on_surface(cutting.parts_um))
@@ -123,23 +125,23 @@ def _last(freed_with: dict[int, int], part: int) -> int:
     return part
 
 
-def _first_asked(cutting: Cutting, part: int, held: shapely.Point) -> _Asked | None:
+def _first_asked(cutting: Cutting, part: int, point: shapely.Point) -> _BoxedPart | None:
     outline = cutting.parts_um[part]
     box = _grown(outline.bounds, _BESIDE * cutting.offset_um)
-    question = question_of(cutting.stock_um, box, outline.representative_point(), held)
-    return _asked(cutting, part, question)
+    question = question_of(cutting.stock_um, box, outline.representative_point(), point)
+    return _boxed_part(cutting, part, question)
 
 
-def _asked_again(cutting: Cutting, part: int, before: FreeQuestion) -> _Asked | None:
+def _asked_again(cutting: Cutting, part: int, before: FreeQuestion) -> _BoxedPart | None:
     low_x, low_y, high_x, high_y = before.box
     box = _grown(before.box, max(high_x - low_x, high_y - low_y))
-    return _asked(cutting, part, question_of(cutting.stock_um, box, before.piece, before.frame))
+    return _boxed_part(cutting, part, question_of(cutting.stock_um, box, before.piece, before.frame))
 
 
-def _asked(cutting: Cutting, part: int, question: FreeQuestion) -> _Asked | None:
+def _boxed_part(cutting: Cutting, part: int, question: FreeQuestion) -> _BoxedPart | None:
     closing = closing_of(question, cutting.swept, cutting.contours[part], cutting.offset_um)
     if closing is not None:
-        return _Asked(part, question, closing)
+        return _BoxedPart(part, question, closing)
     return None if question.is_whole else _asked_again(cutting, part, question)
 
 

@@ -7,11 +7,10 @@ import numpy as np
 import shapely
 
 from parser.toolpath import Point
-from sim.cut.kerf.region import Kerf
+from sim.cut.kerf.swept import Kerf
 from sim.cut.kerf.ways import WireWay, behind
-from sim.cut.pieces.bridges import Bridge, bridge_of, held_after, older_place
 from sim.cut.pieces.frees import FreeMoment, cut_on_um, parted
-from sim.cut.pieces.kinds import Kind, Loose, kinds_of
+from sim.cut.pieces.kinds import Bridge, Kind, Loose, bridge_of, held_after, kinds_of, older_place
 from sim.cut.pieces.moments import Cutting, moments_of
 from sim.setup.obstacles import Outline
 
@@ -108,7 +107,7 @@ def pieces_of(kerf: Kerf, work_um: Outline | None, material: Material, pauses: S
     frame = _frame(parts, stock)
     others = [part for part in parts if part is not frame]
     whole = [part for part in others if part.area * 1e-6 >= _CRUMB_MM2]
-    kerfs = shapely.STRtree([one.region_um for one in kerf.swept])
+    kerfs = shapely.STRtree([each.region_um for each in kerf.swept])
     rounds = [_round(kerfs, part) for part in whole]
     moments = moments_of(Cutting(stock, frame, whole, rounds, kerf.swept, kerf.offset_um))
     told = zip(whole, rounds, moments, strict=True)
@@ -156,7 +155,7 @@ class _Cuts(NamedTuple):
 
 def _loose(kerf: Kerf, stock: shapely.Polygon, part: shapely.Polygon, contours: list[int], moment: FreeMoment) -> Loose:
     """A part as it comes free."""
-    ways = [one.way for one in kerf.swept]
+    ways = [each.way for each in kerf.swept]
     earlier = [index for index in contours if index < moment.contour]
     older = older_place(ways, earlier, moment.contour, moment.at, kerf.offset_um)
     return Loose(part, stock, contours, moment, older)
@@ -166,13 +165,13 @@ def _piece(cuts: _Cuts, loose: Loose, kind: Kind) -> Piece:
     is_slug = kind != "part"
     kerf, part, older = cuts.kerf, loose.outline_um, loose.older
     contour, at = loose.moment.contour, loose.moment.at
-    ways = [one.way for one in kerf.swept]
+    ways = [each.way for each in kerf.swept]
     lead_um = float(ways[contour].along_um[older.at]) if is_slug and older and older.contour == contour else 0.0
     area = part.area * 1e-6
     after = cut_on_um(loose.moment.piece_um, _ways_after(cuts, loose, is_slug=is_slug), kerf.offset_um)
     freed = _freed(ways[contour], loose.moment)
-    beside = [ways[index] for index in loose.contours if index <= contour]
-    held = held_after(loose.moment.piece_um.exterior, beside, freed.block - 1, cuts.pauses, kerf.offset_um)
+    beside_contours = [ways[index] for index in loose.contours if index <= contour]
+    held = held_after(loose.moment.piece_um.exterior, beside_contours, freed.block - 1, cuts.pauses, kerf.offset_um)
     return Piece(
         kind="slug" if is_slug else "part",
         is_scrap=kind == "scrap",

@@ -99,12 +99,12 @@ class Room(NamedTuple):
         x, y = walls.inside_um[rings].T
         area = walls.area_um2[rings]
         within = shapely.contains_xy(self.outline_um, x, y) & (area < self.outline_um.area)
-        kept: Bools = (walls.until_s[rings] > self.t_s) & ~within
+        is_kept: Bools = (walls.until_s[rings] > self.t_s) & ~within
         if self.opening is not None:
             opening = walls.rings.geometries[self.opening]
             inside = shapely.contains_xy(opening, x, y) & (area < walls.area_um2[self.opening])
-            kept &= inside | (rings == self.opening)
-        return kept
+            is_kept &= inside | (rings == self.opening)
+        return is_kept
 
 
 def walls_of(pieces: Pieces) -> Walls:

@@ -1,8 +1,15 @@
-"""What is asked of the text of a program, as its writers take it."""
+"""What is asked of the text of a program, as its writers take it.
 
+The program that a scenario asks for, made of its drawing.
+"""
+
+from parser.findings.errors import SettingsError
 from parser.write.iso_choices import IsoChoices, iso_choices
+from sim.base.progress import Progress, silent
+from sim.make.cam.maker import MadeProgram, NotMade, unproved
 from sim.make.convert.wanted import Wanted
 from sim.setup.making import Language, Making, ToMake, Writing
+from sim.setup.part import DrawingTarget
 from sim.setup.scenario import Scenario
 
 _USUAL_DIALECT = "fast-wire"
@@ -38,3 +45,21 @@ def _offset_um(making: Making, scenario: Scenario) -> float | None:
 def _iso(writing: Writing, scenario: Scenario) -> IsoChoices:
     unit = scenario.unit or None
     return iso_choices(scenario.dialect or _USUAL_DIALECT, unit, writing.decimals)  # type: ignore[arg-type]  # checked
+
+
+def program_of(scenario: Scenario, to_make: ToMake, progress: Progress = silent) -> MadeProgram | NotMade:
+    """The program of a scenario's drawing, without a proof: the run that it is made for is one.
+
+    Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where it cannot be written as
+    it is asked for.
+    """
+    drawing = drawing_to_cut(scenario)
+    wanted = wanted_of(to_make, to_make.language, scenario)
+    return unproved(drawing.file, to_make.making, wanted, scenario, progress)
+
+
+def drawing_to_cut(scenario: Scenario) -> DrawingTarget:
+    """The drawing of a scenario. SettingsError where it has none."""
+    if scenario.drawing is None:
+        raise SettingsError("scenario-without-drawing", title=scenario.title)
+    return scenario.drawing

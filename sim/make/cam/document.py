@@ -1,20 +1,76 @@
-"""A made program as data, schema ``drycut.program/1`` (docs/program.md)."""
+"""A made program as data, schema ``drycut.program/1`` (docs/program.md).
+
+What each figure of a made program comes to: blocks, length and time, and the time of each of its passes.
+"""
 
 import json
-from typing import Any, Final, Protocol
+from typing import Any, Final, NamedTuple, Protocol
 
 import numpy as np
 
 from parser import __version__
 from parser.drawing.model import Entity, FitFigures, LeftOut
-from parser.findings.catalogue import Language, texts
+from parser.findings.catalogue import Language, Remark, remark_text, texts
 from parser.findings.findings import Finding
-from parser.findings.remarks import Remark, remark_text
-from sim.make.cam.maker import Made, NotMade
+from parser.shape.contours import runs
+from parser.toolpath import Toolpath
+from sim.make.cam.maker import MadeProgram, NotMade
 from sim.make.cam.model import CutPlan, FigureCut, PassCut, Refusal
-from sim.make.cam.proof.result import Fault, Proof
-from sim.make.cam.sums import FigureSum, figure_sums
+from sim.make.cam.proof.target import Fault, Proof
+from sim.run.dryrun import DryRun
 from sim.setup.wire import Wire
+
+
+class FigureSum(NamedTuple):
+    """What a figure comes to, all its passes with their leads.
+
+    Attributes
+    ----------
+    first_block, blocks, length_um
+        Of the program as written; 0 where it has not as many contours as there are figures.
+    time_s
+        What it takes on the machine of the proof; None where nothing ran.
+    pass_s
+        Of each pass, the cut-off behind them, without leads; empty where nothing ran, or the run has other passes.
+    """
+
+    first_block: int = 0
+    blocks: int = 0
+    length_um: float = 0.0
+    time_s: float | None = None
+    pass_s: tuple[float, ...] = ()
+
+
+def figure_sums(made: MadeProgram) -> tuple[FigureSum, ...]:
+    """One for each cut of the plan, in running order: jumps part them, in the text and in what ran."""
+    toolpath, run = made.program.toolpath, made.proof and made.proof.run
+    number = len(made.plan.cuts)
+    written, ran = _rows(toolpath, number), _rows(run.toolpath, number) if run is not None else []
+    sums = [_written(toolpath, *rows) for rows in written] or [FigureSum()] * number
+    if run is None or not ran:
+        return tuple(sums)
+    passes = [len(cut.passes) + len(cut.cut_off) for cut in made.plan.cuts]
+    return tuple(_timed(sum_, run, rows, many) for sum_, rows, many in zip(sums, ran, passes, strict=True))
+
+
+def _rows(toolpath: Toolpath, number: int) -> list[list[int]]:
+    """The first row of each figure and one past its last; none where the path has not as many contours."""
+    found: list[list[int]] = runs(toolpath).tolist()
+    return found if len(found) == number else []
+
+
+def _written(toolpath: Toolpath, first: int, past: int) -> FigureSum:
+    return FigureSum(int(toolpath.source.block[first]), past - first, float(np.sum(toolpath.length_um[first:past])))
+
+
+def _timed(figure_sum: FigureSum, run: DryRun, rows: list[int], passes: int) -> FigureSum:
+    first, past = rows
+    time_s = run.block_time_s
+    found = [each for each in run.passes.passes if first <= each.first < past]
+    pass_s = [float(np.sum(time_s[each.first : each.last + 1])) for each in found]
+    told = tuple(pass_s) if len(pass_s) == passes else ()
+    return figure_sum._replace(time_s=float(np.sum(time_s[first:past])), pass_s=told)
+
 
 SCHEMA: Final = "drycut.program/1"
 _DIGITS: Final = 6
@@ -31,13 +87,13 @@ class Say(Protocol):
         """Text of a key; KeyError where there is none."""
 
 
-def document(made: Made | NotMade, say: Say) -> dict[str, Any]:
+def document(made: MadeProgram | NotMade, say: Say) -> dict[str, Any]:
     """What was made, or why nothing was, as plain lists, dicts, numbers and None; the order of keys is fixed.
 
     `say` has the texts of names in a language.
     """
     plan = made.plan
-    done = made if isinstance(made, Made) else None
+    done = made if isinstance(made, MadeProgram) else None
     proof = None if done is None else done.proof
     run = None if proof is None else proof.run
     return {
@@ -47,16 +103,16 @@ def document(made: Made | NotMade, say: Say) -> dict[str, Any]:
         "drawing": None if plan is None else _drawing(plan),
         "fit": None if plan is None or plan.drawing.fit is None else _fit(plan.drawing.fit, plan.making.tolerance_um),
         "figures": [] if done is None else [*map(_figure, done.plan.cuts, figure_sums(done))],
-        "left_out": [] if plan is None else [_left_out(one, say) for one in plan.left_out],
+        "left_out": [] if plan is None else [_left_out(each, say) for each in plan.left_out],
         "length_um": None if done is None else _rounded(float(done.program.toolpath.length_um.sum())),
         "time_s": None if run is None else _rounded(run.ran_s),
         "proof": None if proof is None else _proof(proof, say),
-        "notes": [] if plan is None else [_note(one, say) for one in (*plan.drawing.notes, *plan.notes)],
+        "notes": [] if plan is None else [_note(note, say) for note in (*plan.drawing.notes, *plan.notes)],
         "refusal": _refusal(made.refusal, say) if isinstance(made, NotMade) else None,
     }
 
 
-def document_text(made: Made | NotMade, say: Say) -> str:
+def document_text(made: MadeProgram | NotMade, say: Say) -> str:
     """The document as JSON; the same drawing gives the same bytes."""
     return json.dumps(document(made, say), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
 
@@ -88,18 +144,18 @@ def _figure(cut: FigureCut, of: FigureSum) -> dict[str, Any]:
         "side": cut.side.name.lower(),
         "direction": _direction(is_ccw=cut.is_ccw),
         "passes": [
-            _pass(cut, one, time_s, is_cut_off=at >= len(cut.passes))
-            for at, (one, time_s) in enumerate(zip(passes, times, strict=True))
+            _pass(cut, pass_, time_s, is_cut_off=at >= len(cut.passes))
+            for at, (pass_, time_s) in enumerate(zip(passes, times, strict=True))
         ],
     }
 
 
-def _pass(cut: FigureCut, one: PassCut, time_s: float | None, *, is_cut_off: bool) -> dict[str, Any]:
+def _pass(cut: FigureCut, pass_cut: PassCut, time_s: float | None, *, is_cut_off: bool) -> dict[str, Any]:
     return {
-        "offset_um": _rounded(one.by_um),
-        "direction": _direction(is_ccw=cut.is_ccw != one.is_back),
+        "offset_um": _rounded(pass_cut.by_um),
+        "direction": _direction(is_ccw=cut.is_ccw != pass_cut.is_back),
         "cut_off": is_cut_off,
-        "length_um": _rounded(float(one.along.length_um.sum())),
+        "length_um": _rounded(float(pass_cut.along.length_um.sum())),
         "time_s": None if time_s is None else _rounded(time_s),
     }
 
@@ -108,14 +164,14 @@ def _direction(*, is_ccw: bool) -> str:
     return "ccw" if is_ccw else "cw"
 
 
-def _left_out(one: LeftOut, say: Say) -> dict[str, Any]:
+def _left_out(left_out: LeftOut, say: Say) -> dict[str, Any]:
     return {
-        "entity": _entity(one.entity),
-        "why": one.why,
-        "text": say(f"program.left-out-{one.why}"),
-        "detail": None if one.detail is None else remark_text(one.detail, say.language),
-        "gap_um": None if one.gap_um is None else _rounded(one.gap_um),
-        "place_um": None if one.place_um is None else _place(one.place_um),
+        "entity": _entity(left_out.entity),
+        "why": left_out.why,
+        "text": say(f"program.left-out-{left_out.why}"),
+        "detail": None if left_out.detail is None else remark_text(left_out.detail, say.language),
+        "gap_um": None if left_out.gap_um is None else _rounded(left_out.gap_um),
+        "place_um": None if left_out.place_um is None else _place(left_out.place_um),
     }
 
 
@@ -134,9 +190,12 @@ def _proof(proof: Proof, say: Say) -> dict[str, Any]:
         "start_mm": None
         if proof.run is None or proof.run.scenario.start_mm is None
         else _place(proof.run.scenario.start_mm),
-        "findings": [*(_fault(one, say) for one in proof.faults), *(_finding(one, say) for one in proof.findings)],
-        "unproved": [say(f"program.unproved-{one.name}", **one.values) for one in proof.unproved],
-        "notes": [say(f"program.proof-{one.name}", **one.values) for one in proof.notes],
+        "findings": [
+            *(_fault(fault, say) for fault in proof.faults),
+            *(_finding(finding, say) for finding in proof.findings),
+        ],
+        "unproved": [say(f"program.unproved-{each.name}", **each.values) for each in proof.unproved],
+        "notes": [say(f"program.proof-{note.name}", **note.values) for note in proof.notes],
     }
 
 

@@ -1,8 +1,11 @@
-"""A drawing to a proved program: `made`, the one way in.
+"""A drawing to a proved program: `made_program`, the one way in.
 
 How near arcs are fitted to what is drawn, so that the written path keeps its tolerance with few of them.
+
+A made program with remarks in its header: what speaks against one that is written all the same.
 """
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -10,30 +13,28 @@ import numpy as np
 
 from parser.drawing.model import DEFAULT_FLATTEN_UM, Drawing
 from parser.drawing.read import read_drawing
+from parser.findings.catalogue import Remark
 from parser.findings.errors import SettingsError
-from parser.findings.remarks import Remark
 from parser.program import Program, load_program
+from parser.text.encoding import printable
 from parser.write.draft import Draft
 from sim.base.progress import Progress, silent
 from sim.make.cam.model import CannotCutError, CutPlan, Refusal
 from sim.make.cam.order.order import in_order
 from sim.make.cam.order.sides import with_sides
+from sim.make.cam.parts.contacts import walls
 from sim.make.cam.parts.parts import parts_of
-from sim.make.cam.parts.walls import walls
-from sim.make.cam.passes.around import offsets_of
-from sim.make.cam.passes.passes import figure_cut
-from sim.make.cam.path.drafted import draft_of_plan
-from sim.make.cam.path.kept import added_draft, kept_draft
+from sim.make.cam.passes.passes import figure_cut, offsets_of
+from sim.make.cam.path.kept import added_draft, draft_of_plan, kept_draft
 from sim.make.cam.proof.as_run import least_um
-from sim.make.cam.proof.proof import Given, proved
-from sim.make.cam.proof.result import Proof
-from sim.make.cam.proof.target import target_of
+from sim.make.cam.proof.proof import ToProve, proved
+from sim.make.cam.proof.target import Proof, target_of
 from sim.make.cam.threads.threads import thread_notes, threads_of
 from sim.make.convert.proof import Proof as Written
 from sim.make.convert.proof import proof as held_against
 from sim.make.convert.wanted import Wanted, begun, encoded, read_with, written
 from sim.measure.compare.compared_program import compare_program
-from sim.measure.compare.result import Asked
+from sim.measure.compare.result import FitRequest
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 
@@ -56,7 +57,7 @@ def fits_um(tolerance_um: float, curves: int) -> tuple[float, ...]:
     steps = min(_MOST_STEPS, _MOST_CURVES // max(curves, 1) - 1)
     surely_um = max(tolerance_um - _ROUNDING_UM, _LEAST_SHARE * tolerance_um)
     nearer = (round(tolerance_um * (1.0 - _STEP * step), 6) for step in range(1, steps + 1))
-    return (tolerance_um, *(one for one in nearer if one > surely_um), surely_um)
+    return (tolerance_um, *(each for each in nearer if each > surely_um), surely_um)
 
 
 def path_off_um(program: Program, plan: CutPlan, drawn: Drawing, reach_um: float) -> float | None:
@@ -69,8 +70,8 @@ def path_off_um(program: Program, plan: CutPlan, drawn: Drawing, reach_um: float
     if target is None or len(edge_um) != 1:
         return None
     try:
-        asked = Asked(plan.making.tolerance_um, fitted=False)
-        found = compare_program(program.toolpath, edge_um.pop(), target.drawing, asked)
+        fit_request = FitRequest(plan.making.tolerance_um, fitted=False)
+        found = compare_program(program.toolpath, edge_um.pop(), target.drawing, fit_request)
     except SettingsError:
         return None
     return max(found.max_um - target.gap_um, 0.0) if np.isfinite(found.max_um) else None
@@ -80,7 +81,7 @@ _SURELY_ALONE = 2  # fits: of a large drawing no more is looked at than the one 
 _FLATTEN_SHARE = 0.01  # of the tolerance: how far the lines of the drawing as it is drawn lie off its curves
 
 
-class Made(NamedTuple):
+class MadeProgram(NamedTuple):
     """A program that was made of a drawing.
 
     Attributes
@@ -138,12 +139,12 @@ def planned(
     threads = threads_of(drawing, figures, making, max(widest_um))
     notes += thread_notes(figures, threads, making)
     order = in_order(figures, threads, making)
-    cuts = tuple(figure_cut(figures[one], threads[one], passes_um, making) for one in order)
+    cuts = tuple(figure_cut(figures[each], threads[each], passes_um, making) for each in order)
     return CutPlan(drawing, making, passes_um, cuts, parts.left_out, notes)
 
 
-class _Asked(NamedTuple):
-    """What `made` is asked for."""
+class _MakeRequest(NamedTuple):
+    """What `made_program` is asked for."""
 
     path: Path
     making: Making
@@ -152,7 +153,9 @@ class _Asked(NamedTuple):
     progress: Progress
 
 
-def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress = silent) -> Made | NotMade:
+def made_program(
+    path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress = silent
+) -> MadeProgram | NotMade:
     """A program of a drawing, proved on the machine of a scenario.
 
     Raises FileUnreadableError and DrawingError where there is no drawing, SettingsError where the dialect cannot say
@@ -163,20 +166,20 @@ def made(path: Path, making: Making, wanted: Wanted, scenario: Scenario, progres
         return done
     done = _with_drawn(done, path)
     assert done.drawn is not None  # noqa: S101 - read before
-    given = Given(done.program, done.plan, done.drawn, done.written, wanted.bound_um)
+    given = ToProve(done.program, done.plan, done.drawn, done.written, wanted.bound_um)
     return done._replace(proof=proved(given, scenario, progress))
 
 
 def unproved(
     path: Path, making: Making, wanted: Wanted, scenario: Scenario, progress: Progress = silent
-) -> Made | NotMade:
-    """A program as `made` gives it, before anything is run.
+) -> MadeProgram | NotMade:
+    """A program as `made_program` gives it, before anything is run.
 
     Arcs are fitted within the tolerance. Where whole µm move the written path past it, they are fitted anew, nearer.
     """
-    asked = _Asked(path, making, wanted, scenario, progress)
+    make_request = _MakeRequest(path, making, wanted, scenario, progress)
     try:
-        done = _fitted(asked, making.tolerance_um)
+        done = _fitted(make_request, making.tolerance_um)
         fit = done.plan.drawing.fit
         fits = fits_um(making.tolerance_um, 0 if fit is None else fit.arcs + fit.lines)
         for fit_um in fits[1:]:
@@ -184,17 +187,17 @@ def unproved(
                 break
             if len(fits) > _SURELY_ALONE:
                 done = _with_drawn(done, path)
-                if not _is_rounded_off(done, asked):
+                if not _is_rounded_off(done, make_request):
                     break
-            done = _fitted(asked, fit_um)._replace(drawn=done.drawn)
+            done = _fitted(make_request, fit_um)._replace(drawn=done.drawn)
     except CannotCutError as error:
         return NotMade(error.refusal)
     return done
 
 
-def _fitted(asked: _Asked, fit_um: float) -> Made:
+def _fitted(request: _MakeRequest, fit_um: float) -> MadeProgram:
     """A program whose arcs are fitted within `fit_um`. CannotCutError where there is none, or its language has none."""
-    path, making, wanted, scenario, progress = asked
+    path, making, wanted, scenario, progress = request
     plan = planned(path, making, scenario, progress, fit_um)
     progress("write", 0, 1)
     plan = plan._replace(notes=(*plan.notes, *_own_codes(wanted)))
@@ -203,29 +206,29 @@ def _fitted(asked: _Asked, fit_um: float) -> Made:
     text = written(draft, wanted)
     told = text.text.encode(wanted.encoding, "replace")
     program = load_program(told, f"{path.stem}.{wanted.language}", read_with(draft, wanted))
-    return Made(encoded(text.text, wanted), program, plan, draft, held_against(draft, text, program.toolpath))
+    return MadeProgram(encoded(text.text, wanted), program, plan, draft, held_against(draft, text, program.toolpath))
 
 
-def _is_surely_within(done: Made) -> bool:
+def _is_surely_within(done: MadeProgram) -> bool:
     """Whether the fit and rounding together keep the tolerance; no fit, no other fit."""
     fit = done.plan.drawing.fit
     return fit is None or fit.max_um <= 0.0 or fit.max_um + done.written.off_um <= done.plan.making.tolerance_um
 
 
-def _is_rounded_off(done: Made, asked: _Asked) -> bool:
+def _is_rounded_off(done: MadeProgram, request: _MakeRequest) -> bool:
     """Whether the written path lies past the tolerance, by no more than rounding explains."""
     assert done.drawn is not None  # noqa: S101 - read before
-    off_um = path_off_um(done.program, done.plan, done.drawn, asked.scenario.wire.reach_um)
-    return off_um is not None and 0.0 < off_um - asked.making.tolerance_um <= asked.wanted.bound_um
+    off_um = path_off_um(done.program, done.plan, done.drawn, request.scenario.wire.reach_um)
+    return off_um is not None and 0.0 < off_um - request.making.tolerance_um <= request.wanted.bound_um
 
 
 def _own_codes(wanted: Wanted) -> tuple[Remark, ...]:
     """What is to be said of words for the end and a pause that other readers do not know."""
-    codes = [one for one in (wanted.end_code, wanted.pause_code) if one is not None]
+    codes = [each for each in (wanted.end_code, wanted.pause_code) if each is not None]
     return (Remark("own-codes", {"codes": ", ".join(codes)}),) if codes else ()
 
 
-def _with_drawn(done: Made, path: Path) -> Made:
+def _with_drawn(done: MadeProgram, path: Path) -> MadeProgram:
     """With the drawing as it is drawn, read again where arcs were fitted to it."""
     if done.drawn is not None:
         return done
@@ -247,3 +250,27 @@ def _drafted(plan: CutPlan, wanted: Wanted) -> Draft:
     if wanted.iso is None:
         return added_draft(plan, on_contour)
     return kept_draft(plan, on_contour, wanted.iso.profile.rules)
+
+
+_LONGEST = 120
+"""Characters of a remark: what a controller shows in a line (assumed)."""
+
+
+def remarked(done: MadeProgram, texts: Sequence[str], wanted: Wanted) -> MadeProgram:
+    """The same program with remark lines behind its first line, one for each text; the same blocks are read back.
+
+    Letters that the encoding of the program does not have become question marks.
+    """
+    lines = [_remark(text, is_iso=wanted.iso is not None) for text in texts]
+    first, newline, rest = done.program.text.partition(wanted.newline)
+    text = newline.join([first, *lines, rest])
+    told = text.encode(wanted.encoding, "replace")
+    program = load_program(told, done.program.name, read_with(done.draft, wanted))
+    return done._replace(data=encoded(text, wanted), program=program)
+
+
+def _remark(text: str, *, is_iso: bool) -> str:
+    """One line: what could end a remark, or begin a header or a word to drycut in it, is taken out."""
+    plain = printable(" ".join(text.split())).replace("µ", "u").replace("=", " ").replace(";", ",")
+    plain = f"not proved: {plain}"[:_LONGEST]
+    return "(" + plain.replace("(", "[").replace(")", "]") + ")" if is_iso else f"// {plain}"

@@ -4,7 +4,7 @@ from typing import Literal, NamedTuple
 
 from controller.offset.sections import Side
 from parser.drawing.model import Drawing, LeftOut
-from parser.findings.remarks import Remark
+from parser.findings.catalogue import Remark
 from parser.geometry.curves import Curves, Ints
 from parser.toolpath import Point
 from sim.setup.making import LeadIn, Making

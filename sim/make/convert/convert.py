@@ -1,6 +1,8 @@
 """A program checked, written in another language, read back, checked again and held against what it was written of.
 
 Contours that the path of a wire leaves open, and its kerf closes.
+
+What a conversion loses, or writes otherwise, told before anybody misses it.
 """
 
 from collections.abc import Sequence
@@ -13,19 +15,87 @@ from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
 from parser.findings.facts import NotSimulated, telling
 from parser.findings.findings import Finding
+from parser.geometry.curves import CurveKind
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program, load_program
 from parser.told.compensation import Compensation
+from parser.told.step_words import StepWords
 from parser.toolpath import Toolpath
 from parser.units import mm
-from parser.write.draft import Draft, Written
-from parser.write.losses import Loss, some
+from parser.write.draft import OF_THE_FAMILY, Draft, Written
+from parser.write.losses import CarriedOver, Loss, lost_words, some
 from sim.check.closures import OpenContour
 from sim.check.engine import Checked, run_checks
 from sim.check.path_checks import Demands
-from sim.make.convert.losses import losses
 from sim.make.convert.proof import Proof, proof
 from sim.make.convert.wanted import Wanted, carried_events, draft_for, read_with, written
+
+
+def losses(program: Program, path: Toolpath, draft: Draft, made: Written, wanted: Wanted) -> tuple[Loss, ...]:
+    """What the written text does not have of a program, in the order in which it is told.
+
+    `path` is what was drafted of it, as programmed or as the controller runs it.
+    """
+    words = program.toolpath.words
+    if words is not None:
+        of_text = _lost_fields(program, words, wanted)
+    else:
+        of_text = lost_words(program.text, _carried(program, path, wanted)) if program.decoder is not None else ()
+    found = (*of_text, *_lost_offsets(program.toolpath, wanted), *_changed_rows(path, draft, made, wanted))
+    return tuple(loss for loss in found if loss.number)
+
+
+def _carried(program: Program, path: Toolpath, wanted: Wanted) -> CarriedOver:
+    """What of the words of an ISO program beside its path is written."""
+    if wanted.pmac is not None and wanted.pmac.blocks is not None:
+        return CarriedOver(letters="FZ", dwells=True)
+    events = carried_events(program, path, wanted)
+    if events is None:
+        return CarriedOver()
+    is_own = not all(event.is_common for event in events)
+    return CarriedOver(letters=OF_THE_FAMILY if is_own else "", dwells=True, optional_stops=True)
+
+
+def _lost_fields(program: Program, words: StepWords, wanted: Wanted) -> tuple[Loss, ...]:
+    """What stands in 3B and 4B beside their blocks, and what their words say otherwise than they would be told."""
+    longer = np.maximum(words.x_um, words.y_um)
+    reduced = (words.turn == 0) & (longer != words.count_um) & (program.toolpath.kind != CurveKind.JUMP)
+    header = any(bool(value) for value in program.header.values())
+    prints = not bool(np.isnan(program.toolpath.printed_end_um).all())
+    return (
+        Loss("header", "", int(header and wanted.form != "detailed")),
+        Loss("remarks", "", len(program.reading.remarks)),
+        Loss("prints", "", int(prints and wanted.form != "detailed")),
+        Loss("reduced", "", int(reduced.sum()) if wanted.iso is not None else 0),
+        Loss("radii", "", int((words.radius_um > 0).sum()) if wanted.language != "4b" else 0),
+    )
+
+
+def _lost_offsets(toolpath: Toolpath, wanted: Wanted) -> tuple[Loss, ...]:
+    told = toolpath.compensation
+    if told is None or not told.side.any():
+        return ()
+    names = [name for name, side in zip(told.register, told.side.tolist(), strict=True) if side]
+    if wanted.keeps and wanted.iso is not None:
+        return ()
+    return (Loss("offsets-left" if wanted.keeps else "offsets-worked-in", some(filter(None, names)), len(set(names))),)
+
+
+def _changed_rows(path: Toolpath, draft: Draft, made: Written, wanted: Wanted) -> tuple[Loss, ...]:
+    """Rows that became no block, more than one, or one of another kind."""
+    blocks = np.bincount(made.row, minlength=len(draft))
+    is_jump = draft.curves.kind == CurveKind.JUMP
+    first = max(len(path) - len(draft), 0)
+    ran = is_jump[max(len(draft) - len(path), 0) :]
+    rapids = is_jump & ~draft.is_placed & (blocks > 0) & (not wanted.has_rapids and draft.words is None)
+    return (
+        Loss("first-rapids", "", first),
+        Loss("rapids-back", "", int((path.is_jump[first:] & ~ran).sum())),
+        Loss("rapids", "", int(rapids.sum())),
+        Loss("nothing", "", int((blocks == 0).sum())),
+        Loss("split", "", int((blocks > 1).sum())),
+    )
+
 
 _LAST_BLOCKS = 2
 """Blocks before its end beside which a path always runs."""
@@ -122,10 +192,10 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     checked = run_checks(program, Demands(may_stay_open=True))
     if _errors(checked):
         return Refused("source", program, _errors(checked))
-    beside = ", ".join(program.reading.not_simulated.words)
-    if beside:
+    beside_text = ", ".join(program.reading.not_simulated.words)
+    if beside_text:
         said = tuple(finding for finding, _ in telling(checked.findings, NotSimulated))
-        return Refused("not-simulated", program, said, (("words", beside),))
+        return Refused("not-simulated", program, said, (("words", beside_text),))
     if not checked.coverage.is_complete:
         return Refused("incomplete", program)
     several = _several_offsets(program.toolpath, wanted)
@@ -136,7 +206,9 @@ def converted(program: Program, wanted: Wanted) -> Converted | Refused:
     draft = draft_for(path, wanted, carried_events(program, path, wanted) or (), is_offset=is_offset)
     if not len(draft):
         return Refused("nothing", program)
-    return _word_for_word_or_not(program, path, draft, wanted, is_open=any(one.is_open for one in checked.contours))
+    return _word_for_word_or_not(
+        program, path, draft, wanted, is_open=any(contour.is_open for contour in checked.contours)
+    )
 
 
 def _word_for_word_or_not(
@@ -162,7 +234,7 @@ def _several_offsets(toolpath: Toolpath, wanted: Wanted) -> str:
     if told is None or wanted.language != "4b" or not wanted.keeps:
         return ""
     left = np.unique(told.left_um[told.side != 0])
-    return some(f"{mm(one):+.3f} mm" for one in left.tolist()) if len(left) > 1 else ""
+    return some(f"{mm(each):+.3f} mm" for each in left.tolist()) if len(left) > 1 else ""
 
 
 def _proved(program: Program, path: Toolpath, draft: Draft, wanted: Wanted, *, is_open: bool) -> Converted | Refused:

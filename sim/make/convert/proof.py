@@ -8,8 +8,7 @@ import numpy as np
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints
 from parser.told.compensation import Compensation
 from parser.toolpath import Toolpath
-from parser.write.draft import Draft, Written
-from parser.write.events import Event, events_of
+from parser.write.draft import Draft, Event, Written, events_of
 
 _SHARES = (0.25, 0.5, 0.75)
 _OFFSET_UM = 0.1
@@ -67,10 +66,10 @@ def _off_um(draft: Draft, row: Ints, read: Toolpath) -> float:
     off = np.hypot(*(ends - curves.end_um).T)
     if draft.is_meant:
         following = curves.picked(np.minimum(np.arange(len(curves)) + 1, len(curves) - 1))
-        aside = np.maximum(_beside(curves, ends), _beside(following, ends))
+        aside = np.maximum(_distances(curves, ends), _distances(following, ends))
         off = np.where(off <= _SLIDES_UM, aside, off)
     source = curves.picked(row)
-    beside = [_beside(source, _at(read, share) + shift) for share in _SHARES]
+    beside = [_distances(source, _at(read, share) + shift) for share in _SHARES]
     return float(np.max(np.concatenate([off, *beside])))
 
 
@@ -81,7 +80,7 @@ def _at(path: Curves, share: float) -> Floats:
     return np.where(path.is_arc[:, None], round_, path.start_um + share * (path.end_um - path.start_um))
 
 
-def _beside(curves: Curves, place: Floats) -> Floats:
+def _distances(curves: Curves, place: Floats) -> Floats:
     """(m,) how far places lie from the circles and the lines of curves."""
     by = curves.end_um - curves.start_um
     length = np.hypot(by[:, 0], by[:, 1])

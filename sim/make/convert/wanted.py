@@ -10,13 +10,10 @@ from parser.dialect.choices import STANDARD_CHOICES, Choices
 from parser.program import Program
 from parser.toolpath import Toolpath
 from parser.write.curve_marks import curve_marks
-from parser.write.draft import Draft, Written, draft_of
-from parser.write.events import Event, events_of
-from parser.write.iso import written_iso
+from parser.write.draft import Draft, Event, Written, draft_of, events_of, with_rapid_to_start, without_rapids
+from parser.write.iso import registers_of, written_iso
 from parser.write.iso_choices import IsoChoices, iso_choices
 from parser.write.pmac import PmacChoices, blocks_of_text, ramp_of, written_pmac
-from parser.write.rapids import with_rapid_to_start, without_rapids
-from parser.write.sides import registers_of
 from parser.write.threeb import Form, ThreeBChoices, with_codes, written_3b
 
 Language = Literal["3b", "4b", "iso", "pmac"]

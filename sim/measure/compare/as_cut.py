@@ -19,9 +19,9 @@ from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
 from parser.toolpath import Toolpath
 from sim.cut.kerf.last_beside import NOBODY
-from sim.cut.kerf.makers import rows_that_made
-from sim.cut.kerf.region import Kerf
-from sim.cut.pieces.kept_shapes import kept_shapes
+from sim.cut.kerf.swept import Kerf
+from sim.cut.kerf.ways import rows_that_made
+from sim.cut.pieces.kept_edges import kept_shapes
 from sim.cut.pieces.pieces import Pieces
 from sim.measure.compare.edge import Edge
 from sim.measure.compare.nearest import indexed, nearest
@@ -52,13 +52,13 @@ def _farthest(corner_um: Floats, from_: int, within_um: float) -> int:
 
 
 @compiled("i8(f8[:,::1], f8, i8[::1])")
-def _stay(corner_um: Floats, within_um: float, kept: Ints) -> int:
+def _stay(corner_um: Floats, within_um: float, kept_rows: Ints) -> int:
     """Fill in which corners stay, and give how many."""
     number, from_, last = 0, 0, len(corner_um) - 1
     while from_ < last:
-        kept[number], number = from_, number + 1
+        kept_rows[number], number = from_, number + 1
         from_ = _farthest(corner_um, from_, within_um)
-    kept[number] = last
+    kept_rows[number] = last
     return number + 1
 
 
@@ -84,7 +84,7 @@ def edge_as_cut(toolpath: Toolpath, kerf: Kerf, pieces: Pieces) -> Edge | None:
     if not rings:
         return None
     curves = [_sides(ring) for ring, _ in rings]
-    number = [len(one) for one in curves]
+    number = [len(curve) for curve in curves]
     edge = joined(curves)
     return Edge(
         curves=edge,
@@ -116,7 +116,7 @@ def _blocks(toolpath: Toolpath, edge: Curves, kerf: Kerf) -> Ints:
     Of what no wire made, as the edge of the work, it is the one that ran nearest; jumps cut nothing.
     """
     middle = places(edge, np.arange(len(edge)), np.full(len(edge), 0.5))
-    row = rows_that_made([one.way for one in kerf.swept], middle, kerf.offset_um)
+    row = rows_that_made([each.way for each in kerf.swept], middle, kerf.offset_um)
     nobody = np.flatnonzero(row == NOBODY)
     cut = np.flatnonzero(~toolpath.is_jump)
     row[nobody] = cut[nearest(indexed(toolpath.picked(cut)), middle[nobody]).row]

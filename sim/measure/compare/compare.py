@@ -11,22 +11,20 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.drawing.model import Drawing, running
+from parser.findings.catalogue import Remark
 from parser.findings.errors import DrawingError
-from parser.findings.remarks import Remark
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import headings, headings_at
-from parser.geometry.feet import feet
+from parser.geometry.distance import feet
 from parser.text.encoding import printable
 from parser.toolpath import Point
 from sim.measure.compare.consensus import settled
+from sim.measure.compare.descent import Fit, fit
 from sim.measure.compare.directed import Directed, directed
 from sim.measure.compare.edge import Edge
-from sim.measure.compare.fit import Fit, fit
 from sim.measure.compare.nearest import Index, indexed, nearest
-from sim.measure.compare.placement import IN_PLACE, Placement, placed, scaled, turning
-from sim.measure.compare.result import Asked, Comparison
-from sim.measure.compare.spread import spread
-from sim.measure.compare.starts import CurveGroup, groups
+from sim.measure.compare.result import Comparison, FitRequest
+from sim.measure.compare.starts import IN_PLACE, CurveGroup, Placement, groups, placed, scaled, spread, turning
 from sim.measure.compare.unreachable import Reachable, Unreachable, as_drawn, reachable
 
 _PLACES = 400  # of a drawn loop
@@ -133,39 +131,39 @@ def _known(ratio: float) -> UnitSlip | None:
 _MOST_LAYERS = 8  # named one by one
 
 
-def compare(edge: Edge, drawing: Drawing, asked: Asked) -> Comparison:
+def compare(edge: Edge, drawing: Drawing, request: FitRequest) -> Comparison:
     """The edge against the drawing, one curve or more each.
 
     The wire leaves fillets in sharp inside corners. Where these are told apart, the edge is held against the drawing
     with the fillets; where they fail, against the drawing as it is. Raises DrawingError where that is too much work.
     """
     try:
-        return _compare(edge, drawing, asked)
+        return _compare(edge, drawing, request)
     except DrawingError as error:
         raise DrawingError("in-file", file=printable(drawing.name), message=error.message) from None
 
 
-def _compare(edge: Edge, drawing: Drawing, asked: Asked) -> Comparison:
+def _compare(edge: Edge, drawing: Drawing, request: FitRequest) -> Comparison:
     whole = as_drawn(drawing)
     index, of_edge = indexed(whole.curves), indexed(edge.curves)
-    as_it_is = fit(edge.curves, edge.loop, index, whole.loop) if asked.fitted else None
+    as_it_is = fit(edge.curves, edge.loop, index, whole.loop) if request.fitted else None
     placement = as_it_is.placement if as_it_is else IN_PLACE
     rolled = reachable(drawing, part_sides(edge, of_edge, drawing, placement), edge.reach_um)
-    target = rolled if asked.sharp_corners == "tell" else whole
+    target = rolled if request.sharp_corners == "tell" else whole
     if as_it_is:
-        placement = settled(edge, target, placement, asked.tolerance_um)
+        placement = settled(edge, target, placement, request.tolerance_um)
     laid = placed(target.curves, placement)
     there, back = directed(edge.curves, indexed(laid)), directed(laid, of_edge)
     slip = unit_slip(edge.curves, edge.loop, index, whole.loop, as_it_is)
-    gouges = tuple(gouge for gouge in edge.gouges if gouge.depth_um > asked.tolerance_um)
-    names = [slip.remark] if slip else _posed(placement, edge.curves, asked.tolerance_um)
+    gouges = tuple(gouge for gouge in edge.gouges if gouge.depth_um > request.tolerance_um)
+    names = [slip.remark] if slip else _posed(placement, edge.curves, request.tolerance_um)
     names += [Remark("lead-in-part", {"block": gouge.block, "depth": gouge.depth_um}) for gouge in gouges]
     return Comparison(
         edge=edge,
         drawing=drawing,
         target=target,
         laid=laid,
-        asked=asked,
+        asked=request,
         placement=placement,
         scale=slip.scale if slip else 1.0,
         edge_to_drawing=there,

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.drawing.model import Drawing
+from parser.findings.catalogue import Remark
 from parser.findings.errors import SettingsError
-from parser.findings.remarks import Remark
 from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.toolpath import Toolpath
 from parser.units import mm
@@ -20,11 +20,10 @@ from sim.measure.compare.compare import compare
 from sim.measure.compare.consensus import shifted_onto
 from sim.measure.compare.directed import directed
 from sim.measure.compare.nearest import Index, indexed
-from sim.measure.compare.placement import placed
 from sim.measure.compare.program_edge import ProgramEdges, edge_at, program_edges, with_gouges
-from sim.measure.compare.result import Asked, Comparison
+from sim.measure.compare.result import Comparison, FitRequest
 from sim.measure.compare.rings import PathEdge
-from sim.measure.compare.spread import centroid, spread
+from sim.measure.compare.starts import centroid, placed, spread
 
 _FAR_BETTER = 0.25  # of the deviations: what another edge of the same path must come to, to be named
 _MOST = 50  # contours that are looked at; more that fail have a fault in common
@@ -106,7 +105,7 @@ def _starts(found: Comparison, edge: Curves) -> Iterator[Floats]:
             yield centroid(spread(found.laid.picked(rows), _PLACES)) - middle
 
 
-def compare_program(toolpath: Toolpath, offset_um: float, drawing: Drawing, asked: Asked) -> Comparison:
+def compare_program(toolpath: Toolpath, offset_um: float, drawing: Drawing, request: FitRequest) -> Comparison:
     """The edge of a program whose wire cuts `offset_um` past its path, against a drawing.
 
     SettingsError where no contour closes, where there are more than are compared (`rings_of`), where the offset leaves
@@ -122,7 +121,7 @@ def compare_program(toolpath: Toolpath, offset_um: float, drawing: Drawing, aske
     tried = [(with_gouges(of, edge), sides) for edge, sides in tried if len(edge.curves)]
     if not tried:
         raise SettingsError("offset-leaves-no-edge", offset_mm=mm(offset_um))
-    results = [(compare(edge, drawing, asked), sides) for edge, sides in tried]
+    results = [(compare(edge, drawing, request), sides) for edge, sides in tried]
     best, sides = min(results, key=lambda result: result[0].edge_to_drawing.rms_um)
     if len(of.sides) > 1:
         best = replace(best, notes=(*best.notes, Remark("side-tried")))

@@ -13,10 +13,8 @@ from parser.geometry.curves import Bools, Curves, Floats, Ints
 from sim.measure.compare.descent import Fitted, descended, last_stage, motion_of, placement_of, places_of, step
 from sim.measure.compare.edge import Edge
 from sim.measure.compare.nearest import Index, indexed, nearest
-from sim.measure.compare.placement import Placement
-from sim.measure.compare.placement import turning as turn_matrix
-from sim.measure.compare.spread import Spread, centroid
-from sim.measure.compare.starts import RigidMotion
+from sim.measure.compare.starts import Placement, RigidMotion, Spread, centroid
+from sim.measure.compare.starts import turning as turn_matrix
 from sim.measure.compare.unreachable import Reachable
 
 _ROUNDS = 40

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.findings.remarks import Remark
+from parser.findings.catalogue import Remark
 from parser.geometry.curves import Curves, Ints
 from parser.toolpath import Point
 

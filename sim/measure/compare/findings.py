@@ -7,9 +7,9 @@ import numpy as np
 
 from parser.dialect.at_block import at_block
 from parser.drawing.model import Drawing
+from parser.findings.catalogue import Remark
 from parser.findings.errors import SettingsError
 from parser.findings.findings import Finding
-from parser.findings.remarks import Remark
 from parser.program import Program
 from parser.text.encoding import printable
 from parser.units import mm
@@ -17,7 +17,7 @@ from sim.cut.remains import Remains
 from sim.measure.compare.as_cut import edge_as_cut
 from sim.measure.compare.compare import compare
 from sim.measure.compare.compared_program import compare_program
-from sim.measure.compare.result import Asked, Comparison, WorstPlace
+from sim.measure.compare.result import Comparison, FitRequest, WorstPlace
 from sim.measure.compare.tables import by_block, by_entity, corner_places
 from sim.setup.part import DrawingTarget
 
@@ -35,12 +35,12 @@ def compare_cut(program: Program, remains: Remains, drawing: Drawing, target: Dr
     edge = edge_as_cut(program.toolpath, remains.kerf, remains.pieces)
     if edge is None:
         return None
-    asked = Asked(target.tolerance_um, target.fit, target.sharp_corners)
-    found = compare(edge, drawing, asked)
+    fit_request = FitRequest(target.tolerance_um, target.fit, target.sharp_corners)
+    found = compare(edge, drawing, fit_request)
     if found.passes:
         return found
     try:
-        exact = compare_program(program.toolpath, remains.kerf.offset_um, drawing, asked)
+        exact = compare_program(program.toolpath, remains.kerf.offset_um, drawing, fit_request)
     except SettingsError:  # no edge of its own
         return found
     known = {named.name for named in found.names}

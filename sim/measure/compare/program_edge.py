@@ -1,6 +1,8 @@
 """The cut edge of a program: the innermost edge that its passes leave beside each loop, on the side of the part.
 
 The edge that several passes over it leave: of all their kerfs, whatever each of them leaves, or does not reach.
+
+Lead-ins and lead-outs that cut into the part: how deep their kerf reaches past the edge.
 """
 
 from collections.abc import Iterator, Sequence
@@ -13,18 +15,88 @@ from shapely.geometry.polygon import orient
 
 from controller.offset.reach import reach
 from controller.offset.sections import Side
-from parser.findings.remarks import Remark
-from parser.geometry.along import places
-from parser.geometry.curves import Floats, Ints, curves_between, joined
+from parser.findings.catalogue import Remark
+from parser.geometry.along import deepest, places
+from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.directions import headings_at
-from parser.geometry.feet import feet
-from parser.toolpath import Toolpath
+from parser.geometry.distance import feet
+from parser.toolpath import Point, Toolpath
 from sim.cut.kerf.nominal import nominal_region
 from sim.cut.regions import cut_by_blocks, union_all
-from sim.measure.compare.edge import Edge
-from sim.measure.compare.leads import gouges, of_parts
-from sim.measure.compare.nearest import indexed, nearest
+from sim.measure.compare.edge import Edge, LeadGouge
+from sim.measure.compare.nearest import Index, indexed, nearest
 from sim.measure.compare.rings import PathEdge, PathLoop, PathPass, Rings, orientation, polygon, rings_of
+
+_LEAST_UM = 1.0  # shallower, it is the rounding of the program's ends
+_RIGHT_TO_UM = 0.5
+
+
+class _Part(NamedTuple):
+    """The edge with its loops as polygons, and of each whether the part lies inside, and where it is known."""
+
+    nearest: Index
+    loop: Ints
+    shapes: shapely.STRtree
+    inside: Ints
+    known: Ints
+
+
+def gouges(edge: Edge, leads: Curves, block: Ints, offset_um: float) -> tuple[LeadGouge, ...]:
+    """Gouges of leads (m,) made by blocks (m,), each deepest place right to 0.5 µm, by block.
+
+    The kerf reaches the offset past the wire's centre. So a wire that stands d inside of the part has cut as deep as
+    the offset plus d; one that stands d outside, as the offset less d.
+    """
+    if not len(leads) or not len(edge.curves):
+        return ()
+    part = _part(edge)
+    depth_um, place_um = deepest(leads, lambda _, place: _depth(part, place, offset_um), _LEAST_UM, _RIGHT_TO_UM)
+    found = [
+        LeadGouge(int(block[at]), Point(*place_um[at].tolist()), float(depth_um[at]))
+        for at in np.flatnonzero(depth_um > _LEAST_UM).tolist()
+    ]
+    return tuple(sorted(found))
+
+
+def of_parts(edge: Edge) -> Bools:
+    """(k,) whether each loop of an edge is round a part, or round an opening of one; else it is one of the frame."""
+    loops = _loops(edge)
+    within = _within(edge, loops)
+    shapes = shapely.STRtree([polygon(loops[at]) for at in np.flatnonzero(within).tolist()])
+    begins = shapely.points([loop.start_um[0] for loop in loops])
+    found = within.copy()
+    found[shapes.query(begins, predicate="within")[0]] = True
+    return found
+
+
+def _within(edge: Edge, loops: list[Curves]) -> Bools:
+    """(k,) whether the part lies within each loop."""
+    sides = edge.part_side[np.searchsorted(edge.loop, np.arange(len(loops)))]
+    within: Bools = sides == np.array([orientation(loop) for loop in loops])
+    return within
+
+
+def _loops(edge: Edge) -> list[Curves]:
+    return [edge.curves.picked(edge.loop == of) for of in range(int(edge.loop.max()) + 1)]
+
+
+def _part(edge: Edge) -> _Part:
+    loops = _loops(edge)
+    shapes = shapely.STRtree([polygon(loop) for loop in loops])
+    known = edge.part_side[np.searchsorted(edge.loop, np.arange(len(loops)))] != 0
+    return _Part(indexed(edge.curves), edge.loop, shapes, _within(edge, loops).astype(np.int64), known.astype(np.int64))
+
+
+def _depth(part: _Part, place_um: Floats, offset_um: float) -> Floats:
+    """How deep (m,) µm a wire at places (m, 2) cuts into the part, negative by how far it stays off."""
+    near = nearest(part.nearest, place_um)
+    loop = part.loop[near.row]
+    place, within = part.shapes.query(shapely.points(place_um), predicate="within")
+    inside = np.zeros(len(place_um), dtype=np.int64)
+    inside[place[within == loop[place]]] = 1
+    into = np.where(inside == part.inside[loop], near.distance_um, -near.distance_um)
+    return np.where(part.known[loop] == 1, offset_um + into, -np.inf)
+
 
 _SLIT_UM = 0.005  # half of what rounding may leave open between shapes of a kerf that abut
 _SIMPLER_UM = 0.01
@@ -38,13 +110,18 @@ def left_by_passes(passes: Sequence[PathPass], part_side: int, offset_um: float)
     Each side of them belongs to the pass that cut nearest, of equal ones to the last. Arcs are polylines, right to
     0.02 µm. RegionError where the kerfs could not be joined.
     """
-    with cut_by_blocks(*(int(end(one.block)) for end, one in ((np.min, passes[0]), (np.max, passes[-1])))):
-        kerf = union_all([nominal_region(one.curves, np.ones(len(one.curves), np.bool_), offset_um) for one in passes])
+    with cut_by_blocks(*(int(end(each.block)) for end, each in ((np.min, passes[0]), (np.max, passes[-1])))):
+        kerf = union_all(
+            [
+                nominal_region(path_pass.curves, np.ones(len(path_pass.curves), np.bool_), offset_um)
+                for path_pass in passes
+            ]
+        )
     kerf = kerf.buffer(_SLIT_UM, join_style="mitre").buffer(-_SLIT_UM, join_style="mitre")
     latest = list(reversed(passes))
-    cut = joined([one.curves for one in latest])
-    block = np.concatenate([one.block for one in latest])
-    side = part_side * np.repeat([one.sense for one in latest], [len(one.curves) for one in latest])
+    cut = joined([each.curves for each in latest])
+    block = np.concatenate([each.block for each in latest])
+    side = part_side * np.repeat([each.sense for each in latest], [len(each.curves) for each in latest])
     index, loops = indexed(cut), []
     for corner, of_part in _outlines(kerf):
         none = np.full((len(corner) - 1, 2), np.nan)
@@ -115,9 +192,9 @@ def edge_at(of: ProgramEdges, sides: Ints, offset_um: float) -> Edge:
         made = _moved(ring, side, offset_um)
         if not made:
             span = dict(zip(("first", "last"), ring.last_blocks, strict=True))
-            beside = Remark("no-edge-beside", {**span, "offset": offset_um})
+            remark = Remark("no-edge-beside", {**span, "offset": offset_um})
             # Several passes leave none where they leave a gap, such as a tab that is never cut.
-            notes.append(Remark("no-loop", span) if len(ring.passes) > 1 else beside)
+            notes.append(Remark("no-loop", span) if len(ring.passes) > 1 else remark)
         loops += made
     notes += [Remark("no-loop", {"first": first, "last": last}) for first, last in of.rings.open_blocks]
     if not loops:

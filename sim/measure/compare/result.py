@@ -4,17 +4,17 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from parser.drawing.model import Drawing
-from parser.findings.remarks import Remark
+from parser.findings.catalogue import Remark
 from parser.geometry.curves import Curves, Floats
 from parser.toolpath import Point
 from sim.measure.compare.directed import Directed
 from sim.measure.compare.edge import Edge, LeadGouge
-from sim.measure.compare.placement import Placement
+from sim.measure.compare.starts import Placement
 from sim.measure.compare.unreachable import Reachable, Unreachable
 from sim.setup.part import SharpCorners
 
 
-class Asked(NamedTuple):
+class FitRequest(NamedTuple):
     """How an edge is to be held against a drawing.
 
     Attributes
@@ -68,7 +68,7 @@ class Comparison:
     drawing: Drawing
     target: Reachable
     laid: Curves
-    asked: Asked
+    asked: FitRequest
     placement: Placement
     scale: float
     edge_to_drawing: Directed

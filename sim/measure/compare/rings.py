@@ -10,7 +10,7 @@ from parser.drawing.model import running
 from parser.findings.errors import SettingsError
 from parser.geometry.along import outline
 from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
-from parser.geometry.feet import feet
+from parser.geometry.distance import feet
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import contour_rows
 from parser.shape.passes import Pass, Passes, find_passes
@@ -61,7 +61,7 @@ class PathEdge(NamedTuple):
     @property
     def block(self) -> Ints:
         """Blocks of all passes."""
-        return np.concatenate([one.block for one in self.passes])
+        return np.concatenate([pass_.block for pass_ in self.passes])
 
     @property
     def last_blocks(self) -> tuple[int, int]:
@@ -97,8 +97,8 @@ def rings_of(toolpath: Toolpath) -> Rings:
         if not _is_ring(passes):
             open_blocks.append((int(block[passes[0].first]), int(block[passes[0].last])))
             continue
-        made, rests = zip(*(_path(toolpath, one) for one in passes), strict=True)
-        contours = contour[[one.first for one in passes]]
+        made, rests = zip(*(_path(toolpath, pass_) for pass_ in passes), strict=True)
+        contours = contour[[pass_.first for pass_ in passes]]
         rings.append(PathEdge(made, _way_round(passes, made), _part_side(passes), np.unique(contours)))
         leads += rests
         within += [np.full(len(rest.block), of) for rest, of in zip(rests, contours.tolist(), strict=True)]
@@ -117,8 +117,8 @@ def rings_of(toolpath: Toolpath) -> Rings:
 def _by_edge(found: Passes) -> list[list[Pass]]:
     """The passes over each edge."""
     edges: dict[int, list[Pass]] = {}
-    for one in found.passes:
-        edges.setdefault(one.edge, []).append(one)
+    for pass_ in found.passes:
+        edges.setdefault(pass_.edge, []).append(pass_)
     return list(edges.values())
 
 
@@ -134,41 +134,41 @@ def _refuse_too_many(edges: Sequence[Sequence[Pass]]) -> None:
         raise SettingsError("too-many-passes", found=sum(rings), most=MOST_PASSES)
 
 
-def _path(toolpath: Toolpath, one: Pass) -> tuple[PathPass, PathPass]:
+def _path(toolpath: Toolpath, pass_: Pass) -> tuple[PathPass, PathPass]:
     """The path of a pass, one turn of it where it closes, and what is cut behind that turn."""
-    row = np.arange(one.first, one.last + 1)
-    block, sense = toolpath.source.block[row], -1 if one.is_back else 1
-    if not one.is_closed:
+    row = np.arange(pass_.first, pass_.last + 1)
+    block, sense = toolpath.source.block[row], -1 if pass_.is_back else 1
+    if not pass_.is_closed:
         return PathPass(toolpath.picked(row), block, sense), PathPass(toolpath.picked(row[:0]), block[:0], sense)
-    alone = one.first == one.last
-    to_start, rest = _parted(toolpath.picked(row[-1:]), toolpath.start_um[one.first], alone=alone)
+    alone = pass_.first == pass_.last
+    to_start, rest = _parted(toolpath.picked(row[-1:]), toolpath.start_um[pass_.first], alone=alone)
     ring = PathPass(joined([toolpath.picked(row[:-1]), to_start]), block, sense)
     return ring, PathPass(rest, block[len(row) - len(rest) :], sense)
 
 
 def _part_side(passes: Sequence[Pass]) -> int:
     """Side of the part along the first pass over an edge, told by the first pass that has one."""
-    told = (-one.part_side if one.is_back else one.part_side for one in passes)
-    return next((side for side in told if side), 0)
+    told_passes = (-pass_.part_side if pass_.is_back else pass_.part_side for pass_ in passes)
+    return next((side for side in told_passes if side), 0)
 
 
 def _way_round(passes: Sequence[Pass], made: Sequence[PathPass]) -> PathPass:
     """The last pass all along the edge, and the last one over the tab behind it, run as the first pass."""
     last = [
-        max((at for at, one in enumerate(passes) if one.is_tab == is_tab), default=None) for is_tab in (False, True)
+        max((at for at, pass_ in enumerate(passes) if pass_.is_tab == is_tab), default=None) for is_tab in (False, True)
     ]
     ahead = [_ahead(made[at]) for at in last if at is not None]
     if len(ahead) == 1:
         return ahead[0]
-    return PathPass(joined([one.curves for one in ahead]), np.concatenate([one.block for one in ahead]), 1)
+    return PathPass(joined([each.curves for each in ahead]), np.concatenate([each.block for each in ahead]), 1)
 
 
-def _ahead(one: PathPass) -> PathPass:
+def _ahead(path_pass: PathPass) -> PathPass:
     """A pass, turned round where it runs against the first one."""
-    if one.sense > 0:
-        return one
-    back = np.arange(len(one.curves))[::-1]
-    return PathPass(running(one.curves, back, np.ones(len(back), dtype=np.bool_)), one.block[::-1], 1)
+    if path_pass.sense > 0:
+        return path_pass
+    back = np.arange(len(path_pass.curves))[::-1]
+    return PathPass(running(path_pass.curves, back, np.ones(len(back), dtype=np.bool_)), path_pass.block[::-1], 1)
 
 
 def polygon(curves: Curves) -> shapely.Polygon:

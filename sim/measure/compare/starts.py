@@ -2,17 +2,112 @@
 
 Every shape is told by the moments Σ w r² exp(i k φ) of its places about its centre; the turn at which those of both
 agree best is the peak of a sum over k. A part that looks the same after a turn has several peaks.
+
+Where the drawing lies in the program's coordinates.
+
+Places spread over curves, each with the length that it stands for.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from parser.geometry.along import places
 from parser.geometry.curves import Curves, Floats, Ints
-from sim.measure.compare.placement import turning
-from sim.measure.compare.spread import centroid, spread
+
+_WIDEST_RAD = np.radians(10.0)
+_GAUSS = 0.5 / np.sqrt(3.0)  # of a stretch, from its middle: two places that integrate cubics exactly
+
+
+class Spread(NamedTuple):
+    """Places (m, 2), the rows (m,) that they lie on and their weights (m,), lengths in µm."""
+
+    place_um: Floats
+    row: Ints
+    weight_um: Floats
+
+
+def spread(curves: Curves, number: int, most: int | None = None) -> Spread:
+    """At least `number` places, at least two on each curve; where these are more than `most`, every so many of them."""
+    length = float(curves.length_um.sum())
+    by_length = np.ceil(curves.length_um * (0.5 * number / length)) if length else 0.0
+    stretches = np.maximum(np.maximum(by_length, np.ceil(np.abs(curves.sweep_rad) / _WIDEST_RAD)), 1.0)
+    rows = np.repeat(np.arange(len(curves)), stretches.astype(np.int64))
+    every = max(2 * len(rows) // number, 1) if most is not None and 2 * len(rows) > most else 1
+    # First of the two places on all stretches, then the second ones.
+    second, stretch = np.divmod(np.arange(0, 2 * len(rows), every), len(rows))
+    row = rows[stretch]
+    at = stretch - (np.cumsum(stretches) - stretches)[row]
+    fraction = (at + 0.5 + (2.0 * second - 1.0) * _GAUSS) / stretches[row]
+    return Spread(places(curves, row, fraction), row, 0.5 * (curves.length_um / stretches)[row])
+
+
+def centroid(of: Spread) -> Floats:
+    """Centre of gravity (2,) of the curves as wires."""
+    weight = of.weight_um / of.weight_um.sum()
+    middle: Floats = weight @ of.place_um
+    return middle
+
+
+class Placement(NamedTuple):
+    """A place x of the drawing lies at turned(mirrored(x)) + shift in the program's coordinates.
+
+    Attributes
+    ----------
+    turn_rad
+        Counter-clockwise about (0, 0), after the mirror.
+    shift_um
+        (x, y) after the turn.
+    mirror
+        Whether x → −x comes first.
+    """
+
+    turn_rad: float
+    shift_um: tuple[float, float]
+    mirror: bool
+
+
+IN_PLACE = Placement(0.0, (0.0, 0.0), mirror=False)
+
+
+def placed(curves: Curves, placement: Placement) -> Curves:
+    """The curves moved, in their order; arcs stay arcs of their radii."""
+    matrix, shift = turning(placement.turn_rad, mirror=placement.mirror), np.array(placement.shift_um)
+    side = -1.0 if placement.mirror else 1.0
+    start = curves.start_angle_rad * side + (np.pi if placement.mirror else 0.0) + placement.turn_rad
+    return Curves(
+        kind=curves.kind,
+        start_um=curves.start_um @ matrix.T + shift,
+        end_um=curves.end_um @ matrix.T + shift,
+        center_um=curves.center_um @ matrix.T + shift,
+        radius_um=curves.radius_um,
+        start_angle_rad=start,
+        sweep_rad=curves.sweep_rad * side,
+        length_um=curves.length_um,
+    )
+
+
+def turning(turn_rad: float, *, mirror: bool = False) -> Floats:
+    """Matrix (2, 2) of a turn, behind x → −x where mirrored."""
+    cos, sin = np.cos(turn_rad), np.sin(turn_rad)
+    matrix = np.array([[cos, -sin], [sin, cos]])
+    return matrix @ np.diag([-1.0, 1.0]) if mirror else matrix
+
+
+def scaled(curves: Curves, factor: float) -> Curves:
+    """The curves `factor` times as large about (0, 0)."""
+    return replace(
+        curves.picked(slice(None)),
+        start_um=curves.start_um * factor,
+        end_um=curves.end_um * factor,
+        center_um=curves.center_um * factor,
+        radius_um=curves.radius_um * factor,
+        length_um=curves.length_um * factor,
+    )
+
 
 _HARMONICS = np.arange(1, 49)
 _TURNS = np.arange(720) * (2.0 * np.pi / 720)
@@ -64,8 +159,8 @@ def groups(curves: Curves, loop: Ints) -> list[CurveGroup]:
 
 def starts(edge: list[CurveGroup], drawing: list[CurveGroup]) -> Iterator[RigidMotion]:
     """Rigid motions of the edge onto the drawing to begin from, of their groups."""
-    for one, other in [(edge[0], drawing[0]), *_pairs(edge[1:], drawing[1:])]:
-        a, b = spread(one.curves, _PLACES), spread(other.curves, _PLACES)
+    for this, other in [(edge[0], drawing[0]), *_pairs(edge[1:], drawing[1:])]:
+        a, b = spread(this.curves, _PLACES), spread(other.curves, _PLACES)
         from_, to = centroid(a), centroid(b)
         moments = _moments(a.place_um - from_, a.weight_um), _moments(b.place_um - to, b.weight_um)
         for mirror in (False, True):
@@ -79,10 +174,10 @@ def starts(edge: list[CurveGroup], drawing: list[CurveGroup]) -> Iterator[RigidM
 def _pairs(edge: list[CurveGroup], drawing: list[CurveGroup]) -> list[tuple[CurveGroup, CurveGroup]]:
     """The longest loop of the edge with those of the drawing that are about as long."""
     pairs = [
-        (one, other)
-        for one in edge[:1]
+        (curve_group, other)
+        for curve_group in edge[:1]
         for other in drawing
-        if abs(one.length_um - other.length_um) <= _ALIKE * one.length_um
+        if abs(curve_group.length_um - other.length_um) <= _ALIKE * curve_group.length_um
     ]
     return pairs[:_MOST_PAIRS]
 

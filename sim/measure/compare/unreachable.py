@@ -104,7 +104,9 @@ def reachable(drawing: Drawing, part_side: Ints, reach_um: float) -> Reachable:
         parts.append(rolled)
         entities.append(drawing.entity[loop.row[row]])
         loops.append(np.full(len(rolled), number))
-        told += [_told(fillet, reach_um, ring, int(drawing.entity[loop.row[fillet.first]])) for fillet in fillets]
+        told += [
+            _unreachable(fillet, reach_um, ring, int(drawing.entity[loop.row[fillet.first]])) for fillet in fillets
+        ]
     if not parts:
         return whole
     return Reachable(
@@ -123,8 +125,8 @@ def loop_of_row(drawing: Drawing) -> Ints:
     return loop
 
 
-def _told(fillet: _Fillet, reach_um: float, ring: Curves, entity: int) -> Unreachable:
-    left = _left(ring, fillet)
+def _unreachable(fillet: _Fillet, reach_um: float, ring: Curves, entity: int) -> Unreachable:
+    left = _left_out_places(ring, fillet)
     away = np.hypot(*(left - fillet.center_um).T)
     ahead, back = _sides(ring, fillet)
     turned = float(np.arccos(np.clip(ahead @ back, -1.0, 1.0)))
@@ -165,7 +167,7 @@ def _is_corner(ring: Curves, fillet: _Fillet, reach_um: float, back_rad: float) 
     In a corner both sides run on from the fillet, the wire's centre sees all that it leaves, which steps back by no
     more than `back_rad`, and what it leaves is not much deeper than between two straight sides.
     """
-    out = _left(ring, fillet) - fillet.center_um
+    out = _left_out_places(ring, fillet) - fillet.center_um
     away = np.hypot(out[:, 0], out[:, 1])
     turns = np.diff(np.unwrap(np.arctan2(out[:, 1], out[:, 0])))
     sees_all = bool((turns >= -back_rad).all() or (turns <= back_rad).all())
@@ -184,7 +186,7 @@ def _sides(ring: Curves, fillet: _Fillet) -> Floats:
     return headings_along(ring, np.array(row), np.array(along))
 
 
-def _left(ring: Curves, fillet: _Fillet) -> Floats:
+def _left_out_places(ring: Curves, fillet: _Fillet) -> Floats:
     """Places (m, 2) along the loop where the fillet leaves it out: on each row its ends and three between."""
     row = (fillet.first + np.arange((fillet.last - fillet.first) % len(ring) + 1)) % len(ring)
     begin, end = np.zeros(len(row)), ring.length_um[row].copy()

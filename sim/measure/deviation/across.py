@@ -18,7 +18,7 @@ import numpy as np
 
 from controller.compiled.loops import compiled
 from parser.geometry.curves import Floats, Ints
-from parser.geometry.feet import feet
+from parser.geometry.distance import feet
 from parser.toolpath import Toolpath
 from sim.measure.curve_rows import away_from, curve_rows, side_of
 from sim.measure.deviation.deviation import Deviation, Where

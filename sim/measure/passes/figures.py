@@ -52,13 +52,13 @@ def figures_of_passes(
     stocks = stocks_of(toolpath, passes.passes, way, reach_um)
     return tuple(
         PassFigures(
-            of=one,
-            length_um=float(toolpath.length_um[one.first : one.last + 1].sum()),
-            time_s=float(block_time_s[one.first : one.last + 1].sum()),
+            of=pass_,
+            length_um=float(toolpath.length_um[pass_.first : pass_.last + 1].sum()),
+            time_s=float(block_time_s[pass_.first : pass_.last + 1].sum()),
             stock=stock,
-            worst=_worst(way.on(one)),
+            worst=_worst(way.on(pass_)),
         )
-        for one, stock in zip(passes.passes, stocks, strict=True)
+        for pass_, stock in zip(passes.passes, stocks, strict=True)
     )
 
 

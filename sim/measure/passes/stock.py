@@ -23,8 +23,7 @@ from parser.geometry.along import along_um
 from parser.geometry.broad_phase_places import near_places
 from parser.geometry.curves import Curves, Floats, Ints
 from parser.geometry.directions import headings_at, to_left
-from parser.geometry.distance import distance_to_curves
-from parser.geometry.feet import feet
+from parser.geometry.distance import distance_to_curves, feet
 from parser.shape.passes import Pass
 from parser.toolpath import Toolpath
 
@@ -65,14 +64,14 @@ class WireTaken(NamedTuple):
     off_um: Floats
     t_s: Floats
 
-    def on(self, one: Pass) -> "WireTaken":
+    def on(self, pass_: Pass) -> "WireTaken":
         """The part of the way on a pass."""
-        part = slice(*np.searchsorted(self.row, (one.first, one.last + 1)).tolist())
+        part = slice(*np.searchsorted(self.row, (pass_.first, pass_.last + 1)).tolist())
         return WireTaken(self.row[part], self.place_um[part], self.along_um[part], self.off_um[part], self.t_s[part])
 
-    def bounds_um(self, one: Pass) -> tuple[float, float]:
+    def bounds_um(self, pass_: Pass) -> tuple[float, float]:
         """The planned length of the path where the wire was first and last on a pass that it came to."""
-        along = self.on(one).along_um
+        along = self.on(pass_).along_um
         return float(along[0]), float(along[-1])
 
 
@@ -92,7 +91,7 @@ class _Stations(NamedTuple):
     heading: Floats
 
 
-class _Beside(NamedTuple):
+class _EarlierWires(NamedTuple):
     """How far p earlier wires are ahead of each station (p, k) and to the left of it; NaN where one is far off."""
 
     ahead_um: Floats
@@ -107,32 +106,32 @@ def stocks_of(toolpath: Toolpath, passes: Iterable[Pass], way: WireTaken, reach_
     cut = _Cut(toolpath, toolpath.before_um, way, reach_um)
     over: dict[int, deque[Pass]] = {}
     found = []
-    for one in passes:
-        before = over.setdefault(one.edge, deque(maxlen=_MOST_BEFORE))
-        found.append(_stock(cut, one, before))
-        before.append(one)
+    for pass_ in passes:
+        before = over.setdefault(pass_.edge, deque(maxlen=_MOST_BEFORE))
+        found.append(_stock(cut, pass_, before))
+        before.append(pass_)
     return found
 
 
-def _stock(cut: _Cut, one: Pass, before: Sequence[Pass]) -> Stock | None:
-    taken = cut.way.on(one)
+def _stock(cut: _Cut, pass_: Pass, before: Sequence[Pass]) -> Stock | None:
+    taken = cut.way.on(pass_)
     if not len(taken.row):
         return None
     at = np.flatnonzero(np.diff(np.floor(taken.along_um / _SPACING_UM), prepend=-1.0) > 0.0)
     stations = _Stations(taken.place_um[at], headings_at(cut.toolpath, taken.row[at], taken.place_um[at]))
-    beside = _beside(cut, before, stations)
-    sides = (one.part_side,) if one.part_side else (-1, 1)
+    beside = _earlier_wires(cut, before, stations)
+    sides = (pass_.part_side,) if pass_.part_side else (-1, 1)
     reached = np.max([_beyond(beside, side, cut.reach_um) for side in sides], axis=0)
     thick = np.fmin.reduce([np.full(len(at), 2.0 * cut.reach_um), *reached])
     return Stock(float(thick.min()), float(thick.max()), float(thick.mean()))
 
 
-def _beside(cut: _Cut, before: Sequence[Pass], stations: _Stations) -> _Beside:
+def _earlier_wires(cut: _Cut, before: Sequence[Pass], stations: _Stations) -> _EarlierWires:
     """Where the wires of other passes were that came nearest to each station, as far as their kerfs may meet."""
     place, others = stations.place_um, [other for other in before if len(cut.way.on(other).row)]
     ahead, left = np.full((2, len(others), len(place)), np.nan)
     if not others:
-        return _Beside(ahead, left)
+        return _EarlierWires(ahead, left)
     row = np.concatenate([np.arange(other.first, other.last + 1) for other in others])
     of = np.repeat(np.arange(len(others)), [other.last - other.first + 1 for other in others])
     station, at = _nearest(cut.toolpath.picked(row), of, place, 2.0 * cut.reach_um)
@@ -140,7 +139,7 @@ def _beside(cut: _Cut, before: Sequence[Pass], stations: _Stations) -> _Beside:
     heading = stations.heading[station]
     ahead[of[at], station] = (by * heading).sum(axis=1)
     left[of[at], station] = (by * to_left(heading)).sum(axis=1)
-    return _Beside(ahead, left)
+    return _EarlierWires(ahead, left)
 
 
 def _nearest(curves: Curves, of: Ints, place: Floats, within_um: float) -> tuple[Ints, Ints]:
@@ -168,9 +167,9 @@ def _wire(cut: _Cut, row: Ints, bounds_um: Floats, place: Floats) -> Floats:
     return foot + moved[:, None] * to_left(headings_at(cut.toolpath, row, foot)) - place
 
 
-def _beyond(beside: _Beside, side: int, reach_um: float) -> Floats:
+def _beyond(earlier_wires: _EarlierWires, side: int, reach_um: float) -> Floats:
     """How far the kerf reaches beyond earlier ones on a side (p, k), at most its width; NaN where they do not meet."""
-    chord = reach_um**2 - beside.ahead_um**2
+    chord = reach_um**2 - earlier_wires.ahead_um**2
     half = np.sqrt(np.where(chord >= 0.0, chord, np.nan))
-    thick: Floats = np.clip(reach_um - (side * beside.left_um + half), 0.0, 2.0 * reach_um)
+    thick: Floats = np.clip(reach_um - (side * earlier_wires.left_um + half), 0.0, 2.0 * reach_um)
     return thick

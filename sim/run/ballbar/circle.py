@@ -12,13 +12,12 @@ from parser.geometry.curves import Floats
 from parser.program import parse_program
 from parser.units import from_mm, mm
 from sim.base.progress import Progress
-from sim.run.ballbar.figures import Figures, circularity, figures_of
+from sim.run.ballbar.figures import NAMES, SENSES, Figures, MeasuredTurn, Sense, circularity, figures_of
 from sim.run.ballbar.parts import DeviationParts, parts_of
-from sim.run.ballbar.turn import NAMES, SENSES, MeasuredTurn, Sense
 from sim.setup.machine.machine import Machine
 from sim.setup.toml.reader import Bound, number
 from sim.table.motion import Motion, TableRun, driven, motion_of
-from sim.table.physics.turning import motors_um
+from sim.table.physics.rating import motors_um
 from sim.table.record.losses import Loss
 
 FEED_MM_MIN: Final = Bound(0.1, 100_000.0)
@@ -138,10 +137,10 @@ def _run(test: CircleTest, sense: Sense, progress: Progress) -> _Run:
     step_time_s = motion.table.model.motor.step_time_s
     window = _Window(start_s - step_time_s, end_s, motion.drive.origin_um)  # steps that begin before are still made
 
-    def told(stage: str, done: int, total: int) -> None:
+    def progress_of_sense(stage: str, done: int, total: int) -> None:
         progress(f"{stage}-{NAMES[sense]}", done, total)
 
-    table = TableRun(motion, told)
+    table = TableRun(motion, progress_of_sense)
     for pulses in table.followed(driven(motion)):
         window.take(pulses)
     trace, losses, *_ = table.moved
@@ -182,8 +181,8 @@ class _Window:
 
 def _stepped_um(pulses: Pulses, since_s: float) -> Floats:
     """Places (n, 2) from a time on after which some time passes: of two axes that step at once, after both steps."""
-    kept = (pulses.t_s >= since_s) & (np.diff(pulses.t_s, append=np.inf) > 0.0)
-    return np.stack([pulses.x_um[kept], pulses.y_um[kept]], axis=1).astype(np.float64)
+    is_kept = (pulses.t_s >= since_s) & (np.diff(pulses.t_s, append=np.inf) > 0.0)
+    return np.stack([pulses.x_um[is_kept], pulses.y_um[is_kept]], axis=1).astype(np.float64)
 
 
 def _motion(test: CircleTest, sense: Sense) -> Motion:

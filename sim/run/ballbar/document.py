@@ -5,9 +5,8 @@ from typing import Any, Final
 
 from parser import __version__
 from sim.run.ballbar.circle import Ballbar
-from sim.run.ballbar.figures import Direction, Figures
+from sim.run.ballbar.figures import NAMES, Direction, Figures, Sense
 from sim.run.ballbar.parts import DeviationParts, Reversal
-from sim.run.ballbar.turn import NAMES, Sense
 from sim.table.record.losses import Loss
 
 SCHEMA: Final = "drycut.ballbar/1"

@@ -26,7 +26,7 @@ import numpy as np
 
 from parser.geometry.curves import Bools, Floats
 from parser.told.step_words import Axis
-from sim.run.ballbar.turn import GRID_RAD, SENSES, MeasuredTurn, Sense
+from sim.run.ballbar.figures import GRID_RAD, SENSES, MeasuredTurn, Sense
 
 BEFORE_RAD: Final = np.radians(5.0)
 AFTER_RAD: Final = np.radians(20.0)

@@ -1,26 +1,146 @@
-"""The whole report of a run, as data and as text."""
+"""The whole report of a run, as data and as text.
+
+Entries of the report on each pass over an edge.
+
+Entries of the report on where the wire is threaded, and taken out again.
+
+Entries of the report on each block.
+"""
 
 import json
 from typing import Any
+
+import numpy as np
 
 from parser import __version__
 from parser.dialect.reader import HeaderValue
 from parser.findings.catalogue import texts
 from parser.findings.findings import Finding
-from parser.geometry.curves import Floats
+from parser.geometry.curves import CurveKind, Floats
 from parser.shape.contours import Contour
-from sim.base.rounded import column, rounded
+from parser.told.step_words import Axis
+from parser.toolpath import Toolpath
+from sim.base.rounded import DEG_DIGITS, column, moment, points, rounded, rows
 from sim.check.result import Coverage
 from sim.measure.compare.result import Comparison
-from sim.run.assumptions import assumptions_of
-from sim.run.dryrun import DryRun
+from sim.measure.passes.figures import PassFigures
+from sim.measure.passes.stock import Stock
+from sim.measure.threadings import Threading, threadings
+from sim.run.dryrun import DryRun, assumptions_of
 from sim.run.findings import verdict
-from sim.run.report.blocks import block_entries
 from sim.run.report.drawing import comparison_document
 from sim.run.report.figures import deviation_entries, ended_entry, limit_entry, loss_entry, offset_entry
-from sim.run.report.passes import pass_entries, thread_entries
 from sim.run.report.remains import remains_entry
 from sim.setup.scenario import Scenario
+
+_CURVES = (None, "convex", "concave")
+
+
+def block_entries(run: DryRun) -> list[dict[str, Any]]:
+    """All of ``blocks[]``."""
+    toolpath = run.toolpath
+    columns = {
+        "block": list(range(1, len(toolpath) + 1)),
+        "line": toolpath.source.line.tolist(),
+        "label": [label or None for label in toolpath.source.label],
+        "text": [toolpath.source.text[low:high] for low, high in toolpath.source.span.tolist()],
+        "kind": [CurveKind(kind).name.lower() for kind in toolpath.kind.tolist()],
+        **_words(toolpath),
+        "exact": rows(_exact(toolpath)),
+        "stepped": rows(_stepped(run)),
+        "table": rows({"max_deviation_um": column(run.deviations.table.by_row_um)}),
+        "printed_end_um": points(toolpath.printed_end_um),
+    }
+    return rows(columns)
+
+
+def _words(toolpath: Toolpath) -> dict[str, list[Any]]:
+    """What the blocks say of steps; None where the dialect has no words for that."""
+    words = toolpath.words
+    if words is None:
+        return dict.fromkeys(("count_um", "radius_um", "curve", "count_axis"), [None] * len(toolpath))
+    return {
+        "count_um": words.count_um.tolist(),
+        "radius_um": [None if radius < 0 else radius for radius in words.radius_um.tolist()],
+        "curve": [_CURVES[curve] for curve in words.curve.tolist()],
+        "count_axis": [Axis(axis).name for axis in words.count_axis.tolist()],
+    }
+
+
+def _exact(toolpath: Toolpath) -> dict[str, list[Any]]:
+    arc = toolpath.is_arc
+    degrees = np.where(arc, np.degrees(toolpath.sweep_rad), np.nan)
+    return {
+        "start_um": points(toolpath.start_um),
+        "end_um": points(toolpath.end_um),
+        "center_um": points(toolpath.center_um),
+        "radius_um": column(toolpath.radius_um),
+        "sweep_deg": column(degrees, DEG_DIGITS),
+        "start_angle_deg": column(np.degrees(toolpath.start_angle_rad), DEG_DIGITS),
+        "end_angle_deg": column(np.degrees(toolpath.end_angle_rad), DEG_DIGITS),
+        "is_major": toolpath.is_major.tolist(),
+        "length_um": column(toolpath.length_um),
+    }
+
+
+def _stepped(run: DryRun) -> dict[str, list[Any]]:
+    return {
+        "end_um": run.stepped.corner_um[1:].tolist(),
+        "steps": run.stepped.count.tolist(),
+        "max_deviation_um": column(run.deviations.steps.by_row_um),
+        "interpolation_um": column(run.deviations.interpolation.by_row_um),
+    }
+
+
+def thread_entries(run: DryRun) -> list[dict[str, Any]]:
+    """All of ``thread_points[]``; times are None where the run ended before."""
+    return [_thread(threading, run) for threading in threadings(run.toolpath, run.border_s)]
+
+
+def _thread(threading: Threading, run: DryRun) -> dict[str, Any]:
+    begins, ends = threading.at_s <= run.ran_s, run.ended is None or threading.last < run.ended.row
+    return {
+        "blocks": [threading.first + 1, threading.last + 1],
+        "at_um": [rounded(along) for along in threading.at_um],
+        "at_s": moment(threading.at_s, run.ran_s) if begins else None,
+        "out_um": [rounded(along) for along in threading.out_um],
+        "out_s": moment(threading.out_s, run.ran_s) if ends else None,
+        "left_um": rounded(threading.left_um),
+        "right_um": rounded(threading.right_um),
+        "down_um": rounded(threading.down_um),
+        "up_um": rounded(threading.up_um),
+    }
+
+
+def pass_entries(run: DryRun) -> list[dict[str, Any]]:
+    """All of ``passes[]``."""
+    return [_pass(figures, run.scenario.wire.reach_um) for figures in run.pass_figures]
+
+
+def _pass(figures: PassFigures, reach_um: float) -> dict[str, Any]:
+    each, worst = figures.of, figures.worst
+    return {
+        "contour": each.edge + 1,
+        "number": each.number,
+        "blocks": [each.first + 1, each.last + 1],
+        "offset_um": rounded(each.offset_um(reach_um)),
+        "direction": "back" if each.is_back else "forward",
+        "cuts_tab": each.is_tab,
+        "length_um": rounded(figures.length_um),
+        "time_s": rounded(figures.time_s),
+        "stock_um": _stock(figures.stock),
+        "deviation": {
+            "max_um": 0.0 if worst is None else rounded(worst.deviation_um),
+            "where_um": None if worst is None else [rounded(along) for along in worst.place_um],
+        },
+    }
+
+
+def _stock(stock: Stock | None) -> dict[str, float] | None:
+    if stock is None:
+        return None
+    return {"least": rounded(stock.least_um), "most": rounded(stock.most_um), "mean": rounded(stock.mean_um)}
+
 
 SCHEMA = "drycut.report/1"
 
@@ -96,7 +216,7 @@ def _machine(scenario: Scenario) -> dict[str, Any]:
 def _assumptions(run: DryRun) -> dict[str, Any]:
     found = assumptions_of(run)
     return {
-        "program": [one.entry("en") for one in found.program],
+        "program": [each.entry("en") for each in found.program],
         "machine_by_default": found.by_default,
         "machine_values": list(found.values),
         "drawing_compared": found.compared,
@@ -136,7 +256,7 @@ def finding_entry(finding: Finding) -> dict[str, Any]:
 def _header_value(value: HeaderValue) -> Any:
     """What a header says of one thing; None where it does not say it."""
     if isinstance(value, tuple):
-        return [rounded(one) for one in value]
+        return [rounded(each) for each in value]
     return rounded(value) if isinstance(value, float) else value or None
 
 

@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from parser import __version__
-from parser.findings.remarks import Remark, remark_text
+from parser.findings.catalogue import Remark, remark_text
 from parser.units import from_mm
 from sim.measure.compare.result import Comparison, CornerPlace, WorstPlace
 from sim.measure.compare.tables import by_block, by_entity, corner_places, worst_places

@@ -5,17 +5,15 @@ from typing import Any
 
 import numpy as np
 
-from controller.offset.path import Made
+from controller.offset.rows import RowOrigin
 from parser.geometry.curves import CurveKind, Ints
 from sim.base.rounded import DEG_DIGITS, column, moment, points, rounded, rows
 from sim.check.beside import Offsetting
-from sim.measure.deviation.causes import Part
+from sim.measure.deviation.causes import Deviations, Part
 from sim.measure.deviation.deviation import Deviation, Where
-from sim.measure.deviation.measured import Deviations
 from sim.run.dryrun import DryRun
 from sim.run.ending import Ending
-from sim.table.record.losses import Loss
-from sim.table.record.peaks import Peak
+from sim.table.record.losses import Loss, Peak
 
 
 def deviation_entries(deviations: Deviations, ran_s: float) -> dict[str, Any]:
@@ -86,11 +84,11 @@ def offset_entry(run: DryRun) -> dict[str, Any] | None:
         "side": made.side.name.lower(),
         "passes": [
             {
-                "by_um": rounded(one.by_um),
-                "direction": "back" if one.is_back else "forward",
+                "by_um": rounded(pass_.by_um),
+                "direction": "back" if pass_.is_back else "forward",
                 "feed_um_s": rounded(feed_um_s),
             }
-            for one, feed_um_s in zip(made.passes, run.pass_feed_um_s, strict=True)
+            for pass_, feed_um_s in zip(made.passes, run.pass_feed_um_s, strict=True)
         ],
         "blocks": _blocks(made, of_row),
         "vanished": [
@@ -124,7 +122,7 @@ def _blocks(made: Offsetting, of_row: Ints) -> list[dict[str, Any]]:
             "source_block": of_row.tolist(),
             "pass": [number + 1 or None for number in made.pass_of_row.tolist()],
             "kind": [CurveKind(kind).name.lower() for kind in curves.kind.tolist()],
-            "made": [Made(how).name.lower().replace("_", "-") for how in made.path.made.tolist()],
+            "made": [RowOrigin(how).name.lower().replace("_", "-") for how in made.path.made.tolist()],
             "start_um": points(curves.start_um),
             "end_um": points(curves.end_um),
             "center_um": points(curves.center_um),

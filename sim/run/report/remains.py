@@ -10,7 +10,7 @@ import shapely
 from parser.toolpath import Point
 from sim.base.rounded import column, known, moment, points, rounded, rows
 from sim.cut.kerf.edges import Range
-from sim.cut.kerf.region import Kerf
+from sim.cut.kerf.swept import Kerf
 from sim.cut.pieces.pieces import Frame, Piece
 from sim.cut.play.freedom import Play
 from sim.cut.remains import Remains

@@ -18,8 +18,7 @@ from lsprotocol.types import (
 from parser.findings.catalogue import texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Edit, Finding
-from sim.serve.editor.opened import Text
-from sim.serve.editor.places import Places
+from sim.serve.editor.places import Places, Text
 from sim.show.words import Words
 
 SOURCE: Final = "drycut"
@@ -40,14 +39,14 @@ def diagnostics_of(text: Text) -> list[Diagnostic]:
     return found
 
 
-def actions_of(text: Text, asked: Range, kinds: Sequence[str]) -> list[CodeAction]:
+def actions_of(text: Text, asked_range: Range, kinds: Sequence[str]) -> list[CodeAction]:
     """Mends of the findings that a range touches; and of all that is certain, where such an action is asked for.
 
     `kinds` are the kinds that are asked for; empty for all.
     """
     actions = []
     if _wanted(CodeActionKind.QuickFix, kinds):
-        actions += list(_quick_fixes(text, asked))
+        actions += list(_quick_fixes(text, asked_range))
     if _wanted(CodeActionKind.SourceFixAll, kinds) and text.mends:
         title = Words(text.language)("editor.mend-all")
         actions.append(CodeAction(title, kind=CodeActionKind.SourceFixAll, edit=_edit(text, text.mends)))
@@ -73,9 +72,9 @@ def _range(finding: Finding, places: Places) -> Range:
     return places.line_range(min(max(finding.line, 1), places.count))
 
 
-def _quick_fixes(text: Text, asked: Range) -> Iterator[CodeAction]:
+def _quick_fixes(text: Text, asked_range: Range) -> Iterator[CodeAction]:
     for finding in text.opened.result.findings:
-        if not finding.edits or not _touch(_range(finding, text.places), asked):
+        if not finding.edits or not _touch(_range(finding, text.places), asked_range):
             continue
         said = texts(finding, text.language)
         yield CodeAction(
@@ -101,5 +100,5 @@ def _wanted(kind: CodeActionKind, kinds: Sequence[str]) -> bool:
     return not kinds or any(kind.value == asked or kind.value.startswith(f"{asked}.") for asked in kinds)
 
 
-def _touch(one: Range, other: Range) -> bool:
-    return not (one.end < other.start or other.end < one.start)
+def _touch(this: Range, other: Range) -> bool:
+    return not (this.end < other.start or other.end < this.start)

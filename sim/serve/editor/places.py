@@ -1,11 +1,20 @@
-"""Places in a text as an editor counts them: lines from 0, and units of its encoding in a line."""
+"""Places in a text as an editor counts them: lines from 0, and units of its encoding in a line.
 
+A text as an editor has it open.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Final
 
 from lsprotocol.types import Position, PositionEncodingKind, Range
 
+from parser.findings.catalogue import Language
+from parser.findings.findings import Edit
 from parser.text.lines import LineIndex
 from parser.text.source import Span
+from sim.check.batch import AsTyped
+from sim.check.mended import mended_text
 
 _BEYOND_16: Final = "\uffff"
 
@@ -66,3 +75,25 @@ class Places:
         if self._encoding == PositionEncodingKind.Utf8:
             return len(text.encode("utf-8", "surrogatepass"))
         return len(text) + sum(letter > _BEYOND_16 for letter in text)
+
+
+@dataclass(frozen=True, eq=False)
+class Text:
+    """A text as an editor has it: what was made of it, its places, and the language for people.
+
+    `version` is the editor's number of this state of the text; None where it gives none, or its edits bear none.
+    """
+
+    uri: str
+    version: int | None
+    opened: AsTyped
+    places: Places
+    language: Language
+
+    @cached_property
+    def mends(self) -> tuple[Edit, ...]:
+        """The edits of ``drycut check --fix``, worked out once; none where nothing is certain."""
+        program = self.opened.program
+        if program is None or not any(finding.edits for finding in self.opened.result.findings):
+            return ()  # editors ask at every move of the caret
+        return mended_text(program, self.opened.settings).edits

@@ -11,12 +11,10 @@ from pygls.uris import to_fs_path
 
 from parser import __version__
 from parser.findings.catalogue import Language
-from sim.check.as_typed import as_typed
+from sim.check.batch import as_typed
 from sim.serve.editor.diagnostics import actions_of, diagnostics_of
-from sim.serve.editor.layout import layout_of
-from sim.serve.editor.opened import Text
-from sim.serve.editor.places import Places
-from sim.serve.editor.shown import hover_of, outline_of
+from sim.serve.editor.places import Places, Text
+from sim.serve.editor.shown import hover_of, layout_of, outline_of
 
 NAME: Final = "drycut"
 _PAUSE_S: Final = 0.03
@@ -64,10 +62,10 @@ class _Texts:
         return self._asked or ("zh" if self._locale.lower().startswith("zh") else "en")
 
 
-def language_server(asked: Language | None) -> LanguageServer:
+def language_server(language: Language | None) -> LanguageServer:
     """The server; its texts are in the language that is asked for, None for that of the editor."""
     server = LanguageServer(NAME, __version__, text_document_sync_kind=types.TextDocumentSyncKind.Full)
-    texts = _Texts(server, asked)
+    texts = _Texts(server, language)
     _answer_changes(server, texts)
     _answer_questions(server, texts)
     return server

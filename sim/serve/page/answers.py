@@ -8,19 +8,19 @@ import numpy as np
 
 from controller.motion.limits import Feeds
 from controller.stepping.words import interpolate
-from parser.findings.catalogue import LANGUAGES, Said, texts
+from parser.findings.catalogue import LANGUAGES, Bilingual, texts
 from parser.findings.findings import Finding
 from parser.program import Program, usual_name
 from parser.shape.contours import find_contours
 from parser.text.encoding import decode_text, encode_text, printable
 from parser.text.lines import LINE_END
 from sim.base.rounded import rounded
-from sim.check.as_typed import as_typed
+from sim.check.batch import as_typed
 from sim.check.result import CheckResult
 from sim.setup.machine.machine import load_machine
 from sim.setup.scenario import DEFAULT_MACHINE, DEFAULT_THICKNESS_MM
 from sim.show.replay.curve_columns import exact_columns
-from sim.show.words import said
+from sim.show.words import bilingual
 from sim.show.words.phrases import lasting
 
 
@@ -168,11 +168,11 @@ def size_of(result: CheckResult) -> dict[str, Any] | None:
     }
 
 
-def _about(cut_um: float, length_um: float) -> Said:
+def _about(cut_um: float, length_um: float) -> Bilingual:
     """How long the feeds of the default machine take, without accelerations and stops: a run tells it exactly."""
     feeds = _usual_feeds()
     time_s = cut_um / float(feeds.cut_um_s) + (length_um - cut_um) / feeds.jump_um_s
-    return said("open.time", time=lasting(time_s), machine=DEFAULT_MACHINE, thickness=f"{DEFAULT_THICKNESS_MM:g}")
+    return bilingual("open.time", time=lasting(time_s), machine=DEFAULT_MACHINE, thickness=f"{DEFAULT_THICKNESS_MM:g}")
 
 
 @cache

@@ -1,9 +1,14 @@
-"""The requests of the page, answered."""
+"""The requests of the page, answered.
+
+Which lines of a text are others than in an earlier one.
+"""
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from difflib import SequenceMatcher
+from itertools import takewhile
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
@@ -16,13 +21,53 @@ from parser.text.encoding import printable
 from sim.serve.page.answers import ReadFile, answer, file_of, read_file
 from sim.serve.page.drawings import Drawings, is_drawing
 from sim.serve.page.life import Life
-from sim.serve.page.lines import changed_lines
 from sim.serve.page.programs import Programs
-from sim.serve.page.request import MISSING, NOTHING, BadRequestError, Work, guarded, name_of, told
 from sim.serve.page.row import row_or_why
-from sim.serve.page.run_requests import Drawn, Running
+from sim.serve.page.run_requests import MISSING, NOTHING, BadRequestError, Drawn, Running, Work, guarded, name_of, told
 from sim.serve.page.runs import Runs
 from sim.show.open_page.page import open_page
+
+_MOST_COMPARED: Final = 2000
+"""Lines between the first and the last change that are told apart; of more all count as changed."""
+_MOST_PLACES: Final = 100
+_MOST_LINES: Final = 40
+"""Of one place, that are told."""
+
+
+def changed_lines(before: str, after: str) -> dict[str, Any]:
+    """The places where the lines of two texts differ, from the top; ``more`` are those beyond the first hundred.
+
+    A place has ``line``, from 1, where it stands in the text after, what stood there and what stands there, and how
+    many ``lines`` each of the two has: of long ones the first forty are told.
+    """
+    was, now = before.split("\n"), after.split("\n")
+    places = [_place(was[a:b], now[c:d], c) for a, b, c, d in _changes(was, now)]
+    return {"places": places[:_MOST_PLACES], "more": max(len(places) - _MOST_PLACES, 0)}
+
+
+def _changes(was: Sequence[str], now: Sequence[str]) -> list[tuple[int, int, int, int]]:
+    """First and past row before, first and past row after, of each change."""
+    head = _same(was, now)
+    tail = _same(was[head:][::-1], now[head:][::-1])
+    inner, other = was[head : len(was) - tail], now[head : len(now) - tail]
+    if max(len(inner), len(other)) > _MOST_COMPARED:  # the library takes a time that grows with their square
+        return [(head, len(was) - tail, head, len(now) - tail)]
+    found = SequenceMatcher(None, inner, other).get_opcodes()
+    return [(head + a, head + b, head + c, head + d) for kind, a, b, c, d in found if kind != "equal"]
+
+
+def _same(this: Sequence[str], other: Sequence[str]) -> int:
+    """How many lines are the same at the begin."""
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(this, other, strict=False)))
+
+
+def _place(was: Sequence[str], now: Sequence[str], row: int) -> dict[str, Any]:
+    return {
+        "line": row + 1,
+        "before": "\n".join(was[:_MOST_LINES]),
+        "after": "\n".join(now[:_MOST_LINES]),
+        "lines": [len(was), len(now)],
+    }
 
 
 def app_of(programs: Programs, drawings: Drawings, life: Life, runs: Runs) -> Starlette:
@@ -50,14 +95,14 @@ class _Files:
 
     async def page(self, _: Request) -> Response:
         """The page."""
-        self._life.seen()
+        self._life.note_page()
         text, policy = open_page()
         return HTMLResponse(text, headers={"content-security-policy": policy})
 
     async def first(self, _: Request) -> Response:
         """The program or drawing that is open at the start."""
         opened = self._programs.opened
-        read = self._taken(opened.name, opened.data, "0" if opened.file else "")
+        read = self._answer(opened.name, opened.data, "0" if opened.file else "")
         if opened.why is None:
             return JSONResponse(read)
         why = {language: printable(text) for language, text in opened.why._asdict().items()}
@@ -75,7 +120,7 @@ class _Files:
 
     async def rows(self, request: Request) -> Response:
         """What is known of the programs of the folder, behind those that the page knows."""
-        self._life.seen()
+        self._life.note_page()
         asked = await told(request, "known", "list")
         if not all(number.isdecimal() for number in asked.values()):
             raise BadRequestError
@@ -93,9 +138,9 @@ class _Files:
 
     async def read(self, request: Request) -> Response:
         """The text of a file that came to the page, or the number that it has as a drawing."""
-        return JSONResponse(self._taken(request.query_params.get("name", ""), await request.body()))
+        return JSONResponse(self._answer(request.query_params.get("name", ""), await request.body()))
 
-    def _taken(self, name: str, data: bytes, number: str = "") -> dict[str, Any]:
+    def _answer(self, name: str, data: bytes, number: str = "") -> dict[str, Any]:
         if is_drawing(name, data):
             return {**_read(name, b""), "drawing": self._drawings.keep(name, data)}
         return _read(name, data, number)
@@ -108,7 +153,7 @@ class _Files:
 
     async def alive(self, _: Request) -> Response:
         """The page is still open."""
-        self._life.seen()
+        self._life.note_page()
         return Response(status_code=NOTHING)
 
     async def close(self, _: Request) -> Response:

@@ -13,26 +13,24 @@ import numpy as np
 
 from parser.drawing.model import Drawing, running
 from parser.drawing.read import read_drawing
-from parser.findings.catalogue import LANGUAGES, Language, Said
+from parser.findings.catalogue import LANGUAGES, Bilingual, Language, remark_text
 from parser.findings.errors import DrycutError, SettingsError
 from parser.findings.messages import Message
-from parser.findings.remarks import remark_text
 from parser.geometry.curves import CurveKind, Curves
 from parser.program import load_program, moving
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from parser.units import from_mm
 from sim.make.cam.asked import wanted_of
-from sim.make.cam.maker import Made, made
-from sim.make.cam.remarked import remarked
+from sim.make.cam.maker import MadeProgram, made_program, remarked
 from sim.measure.compare.compared_program import compare_program
-from sim.measure.compare.placement import IN_PLACE, Placement, placed
-from sim.measure.compare.result import Asked as Compared
+from sim.measure.compare.result import FitRequest
+from sim.measure.compare.starts import IN_PLACE, Placement, placed
 from sim.run.offsetting import as_run
 from sim.run.recording import stages_of
 from sim.serve.page.answers import read_file
+from sim.serve.page.child import PageRequest, do, telling
 from sim.serve.page.form import number_of, offsets_um, scenario_of
-from sim.serve.page.telling import Asked, do, telling
 from sim.setup.making import LANGUAGES as PROGRAM_LANGUAGES
 from sim.setup.making import Making, ToMake
 from sim.setup.part import DrawingTarget
@@ -48,62 +46,64 @@ _WIDE: Final = 100_000
 """Cells of a line that is not to be broken."""
 
 
-def _look(asked: Asked) -> dict[str, Any]:
+def _look(request: PageRequest) -> dict[str, Any]:
     """Read the drawing, and lay it beneath the program of the page as a run with it would."""
-    target = DrawingTarget(Path(asked["drawing_file"]))
+    target = DrawingTarget(Path(request["drawing_file"]))
     drawing = read_drawing(target.file, gap_um=target.gap_um)
-    placement, notes = _placement(asked, drawing, target) if asked["text"].strip() else (IN_PLACE, [])
-    told = [*(Said(*(remark_text(note, language) for language in LANGUAGES)) for note in drawing.notes), *notes]
-    return _kept(asked, {"unit": drawing.unit, "curves": _columns(drawing, placement), "told": _both(told)})
+    placement, notes = _placement(request, drawing, target) if request["text"].strip() else (IN_PLACE, [])
+    told = [*(Bilingual(*(remark_text(note, language) for language in LANGUAGES)) for note in drawing.notes), *notes]
+    return _written_answer(request, {"unit": drawing.unit, "curves": _columns(drawing, placement), "told": _both(told)})
 
 
-def _make(asked: Asked) -> dict[str, Any]:
+def _make(request: PageRequest) -> dict[str, Any]:
     """Make a program of the drawing, and prove it by a run."""
-    drawing, written = Path(asked["drawing_file"]), asked["language"]
+    drawing, written = Path(request["drawing_file"]), request["language"]
     if written not in PROGRAM_LANGUAGES:
         raise SettingsError("no-program-language", languages=", ".join(PROGRAM_LANGUAGES), found=written[:40])
     file = drawing.with_suffix(f".{written}")
-    to_make = ToMake()._replace(file=file, making=_making(asked))
-    scenario = scenario_of({**asked, "offset_mm": "", "drawing_file": ""}, file)
+    to_make = ToMake()._replace(file=file, making=_making(request))
+    scenario = scenario_of({**request, "offset_mm": "", "drawing_file": ""}, file)
     progress = telling(["drawing", "figures", "write", *stages_of(scenario), "comparison"])
     wanted = wanted_of(to_make, to_make.language, scenario)
-    done = made(drawing, to_make.making, wanted, scenario, progress)
-    if not isinstance(done, Made):
-        return _kept(asked, {"program": None, "told": _both([why_refused(done.refusal)]), "is_proved": False})
-    told = [Said(*both) for both in zip(*(_told(done, language) for language in LANGUAGES), strict=True)]
+    done = made_program(drawing, to_make.making, wanted, scenario, progress)
+    if not isinstance(done, MadeProgram):
+        return _written_answer(
+            request, {"program": None, "told": _both([why_refused(done.refusal)]), "is_proved": False}
+        )
+    told = [Bilingual(*both) for both in zip(*(_summary(done, language) for language in LANGUAGES), strict=True)]
     data = done.data if done.is_proved else remarked(done, [*against(done, "en")], wanted).data
     program = {"name": printable(file.name), **read_file(data)._asdict(), "number": ""}
-    return _kept(asked, {"program": program, "told": _both(told), "is_proved": done.is_proved})
+    return _written_answer(request, {"program": program, "told": _both(told), "is_proved": done.is_proved})
 
 
-def _making(asked: Asked) -> Making:
+def _making(request: PageRequest) -> Making:
     """How it is to be made. SettingsError for numbers out of their bounds."""
-    passes, tab = offsets_um(asked, OR_NONE_MM), asked["tab_mm"]
+    passes, tab = offsets_um(request, OR_NONE_MM), request["tab_mm"]
     making = Making(passes_um=passes, tab_um=from_mm(number_of(tab, OVERCUT_MM, Message("name-tab"))) if tab else 0.0)
     refuse_odd(making, "the program")
     return making
 
 
-def _told(done: Made, language: Language) -> list[str]:
+def _summary(done: MadeProgram, language: Language) -> list[str]:
     """What there is to say of a program: whether it is proved, what speaks against it, what was chosen and left out."""
     proved = [Words(language)(f"program.verdict-{done.proof.verdict}")] if done.proof else []
     return [*proved, *against(done, language), *told_lines(done.plan, language, _WIDE)]
 
 
-def _placement(asked: Asked, drawing: Drawing, target: DrawingTarget) -> tuple[Placement, list[Said]]:
+def _placement(request: PageRequest, drawing: Drawing, target: DrawingTarget) -> tuple[Placement, list[Bilingual]]:
     """Where the drawing lies beneath the program; as it is, with the reason, where its edge cannot be told."""
     try:
-        scenario = scenario_of({**asked, "drawing_file": ""}, target.file.with_suffix(""))
-        path = _path(asked, scenario)
-        how = Compared(target.tolerance_um, target.fit, target.sharp_corners)
+        scenario = scenario_of({**request, "drawing_file": ""}, target.file.with_suffix(""))
+        path = _path(request, scenario)
+        how = FitRequest(target.tolerance_um, target.fit, target.sharp_corners)
         return compare_program(path, scenario.wire.reach_um, drawing, how).placement, []
     except DrycutError as error:
         return IN_PLACE, [error.in_both()]
 
 
-def _path(asked: Asked, scenario: Scenario) -> Toolpath:
+def _path(request: PageRequest, scenario: Scenario) -> Toolpath:
     """The path of the page's program, as the controller makes it."""
-    program = moving(load_program(asked["text"].encode("utf-8", "replace"), asked["name"], scenario.choices))
+    program = moving(load_program(request["text"].encode("utf-8", "replace"), request["name"], scenario.choices))
     return as_run(program, scenario.offset).toolpath
 
 
@@ -143,13 +143,13 @@ def _jump(before: Curves, behind: Curves) -> Curves:
     )
 
 
-def _both(told: list[Said]) -> list[dict[str, str]]:
-    return [{"en": printable(one.en), "zh": printable(one.zh)} for one in told]
+def _both(told: list[Bilingual]) -> list[dict[str, str]]:
+    return [{"en": printable(bilingual.en), "zh": printable(bilingual.zh)} for bilingual in told]
 
 
-def _kept(asked: Asked, found: Mapping[str, Any]) -> dict[str, Any]:
+def _written_answer(request: PageRequest, found: Mapping[str, Any]) -> dict[str, Any]:
     """Nothing: what was found goes into the file that was asked for."""
-    Path(asked["result_file"]).write_text(json.dumps(found), encoding="utf-8")
+    Path(request["result_file"]).write_text(json.dumps(found), encoding="utf-8")
     return {}
 
 

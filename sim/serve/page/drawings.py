@@ -1,4 +1,7 @@
-"""The drawings that came to the page, by number, and what is found in them: their files go with the server."""
+"""The drawings that came to the page, by number, and what is found in them: their files go with the server.
+
+Names of files that come from a page.
+"""
 
 import asyncio
 import json
@@ -8,7 +11,15 @@ from typing import Any, Final
 
 from parser.text.encoding import printable
 from sim.serve.page.child import Child, begun
-from sim.serve.page.file_names import safe_name
+
+_UNSAFE: Final = re.compile(r"[^\w.-]")
+_LONGEST: Final = 60
+
+
+def safe_name(name: str) -> str:
+    """A name for a file that nothing in it makes a way to another one, nor an option."""
+    return _UNSAFE.sub("_", Path(name).name)[-_LONGEST:].lstrip(".-") or "program"
+
 
 LOOK_KEYS: Final = ("name", "text", "machine", "thickness_mm", "wire_mm", "offset_mm", "side")
 """What the page says where a drawing is to be laid beneath its program."""

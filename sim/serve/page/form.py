@@ -7,7 +7,7 @@ from parser.findings.errors import SettingsError
 from parser.findings.messages import Message
 from parser.text.encoding import narrow
 from parser.units import from_mm
-from sim.serve.page.telling import Asked
+from sim.serve.page.child import PageRequest
 from sim.setup.machine.machine import load_machine, machine_names
 from sim.setup.part import OFFSET_MM, PASSES, SIDES, DrawingTarget, Offset, OffsetPass
 from sim.setup.scenario import THICKNESS_MM, Scenario, load_scenario
@@ -15,31 +15,31 @@ from sim.setup.toml.reader import Bound, number
 from sim.setup.wire import WIRE_DIAMETER_MM
 
 
-def scenario_of(asked: Asked, file: Path) -> Scenario:
+def scenario_of(request: PageRequest, file: Path) -> Scenario:
     """The scenario of a file with the values of the page; empty texts leave the usual ones.
 
     SettingsError for a value out of its bounds, or one that is no number.
     """
     scenario = load_scenario(file)
-    if asked["machine"]:
-        if asked["machine"] not in machine_names():  # a page names no file of the disk
-            raise SettingsError("machine-not-shipped-on-page", name=asked["machine"][:40])
-        scenario = replace(scenario, machine=load_machine(asked["machine"]), machine_by_default=False)
-    if asked["thickness_mm"]:
+    if request["machine"]:
+        if request["machine"] not in machine_names():  # a page names no file of the disk
+            raise SettingsError("machine-not-shipped-on-page", name=request["machine"][:40])
+        scenario = replace(scenario, machine=load_machine(request["machine"]), machine_by_default=False)
+    if request["thickness_mm"]:
         scenario = replace(
-            scenario, thickness_mm=number_of(asked["thickness_mm"], THICKNESS_MM, Message("name-thickness"))
+            scenario, thickness_mm=number_of(request["thickness_mm"], THICKNESS_MM, Message("name-thickness"))
         )
-    if asked["wire_mm"]:
-        wire_um = from_mm(number_of(asked["wire_mm"], WIRE_DIAMETER_MM, Message("name-wire")))
+    if request["wire_mm"]:
+        wire_um = from_mm(number_of(request["wire_mm"], WIRE_DIAMETER_MM, Message("name-wire")))
         scenario = replace(scenario, wire=replace(scenario.wire, diameter_um=wire_um))
-    if asked["drawing_file"]:
-        scenario = replace(scenario, drawing=DrawingTarget(Path(asked["drawing_file"])))
-    return replace(scenario, offset=_offset(asked), kerf=True)
+    if request["drawing_file"]:
+        scenario = replace(scenario, drawing=DrawingTarget(Path(request["drawing_file"])))
+    return replace(scenario, offset=_offset(request), kerf=True)
 
 
-def offsets_um(asked: Asked, bound: Bound) -> tuple[float, ...]:
+def offsets_um(request: PageRequest, bound: Bound) -> tuple[float, ...]:
     """The offsets of the passes; none where nothing is said. SettingsError where one is out of its bounds."""
-    words = narrow(asked["offset_mm"]).replace(",", " ").split()  # digits and commas of a Chinese keyboard, too
+    words = narrow(request["offset_mm"]).replace(",", " ").split()  # digits and commas of a Chinese keyboard, too
     if words:
         number(len(words), PASSES, Message("name-passes"))
     return tuple(from_mm(number_of(word, bound, Message("name-offset"))) for word in words)
@@ -54,9 +54,9 @@ def number_of(text: str, bound: Bound, name: str) -> float:
     return number(value, bound, name)
 
 
-def _offset(asked: Asked) -> Offset | None:
+def _offset(request: PageRequest) -> Offset | None:
     """The offset that the controller is to add, a pass for each number; none where it is left out, or 0 alone."""
-    if asked["offset_mm"].strip() in {"", "0"}:
+    if request["offset_mm"].strip() in {"", "0"}:
         return None
-    passes = tuple(OffsetPass(by_um) for by_um in offsets_um(asked, OFFSET_MM))
-    return Offset(passes, SIDES["left" if asked["side"] == "left" else "right"])
+    passes = tuple(OffsetPass(by_um) for by_um in offsets_um(request, OFFSET_MM))
+    return Offset(passes, SIDES["left" if request["side"] == "left" else "right"])

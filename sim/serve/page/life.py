@@ -18,7 +18,7 @@ class Life:
         self._until = now() + FIRST_S
         self._is_ended = False
 
-    def seen(self) -> None:
+    def note_page(self) -> None:
         """The page was heard of."""
         self._until = self._now() + 2.0 * AWAY_S
 

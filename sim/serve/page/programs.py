@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from parser.files.reading import read_bytes
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from parser.findings.errors import FileUnreadableError
 from parser.text.encoding import printable
 from sim.check.files import find_files
@@ -27,7 +27,7 @@ class Opened(NamedTuple):
     file: Path | None = None
     data: bytes = b""
     folder: Path | None = None
-    why: Said | None = None
+    why: Bilingual | None = None
 
     @property
     def name(self) -> str:

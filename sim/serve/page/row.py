@@ -5,13 +5,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from parser.findings.catalogue import LANGUAGES, Said, page, texts
+from parser.findings.catalogue import LANGUAGES, Bilingual, page, texts
 from parser.findings.errors import DrycutError, ProgramError
 from parser.findings.findings import Finding, counted
 from parser.text.encoding import printable
-from sim.check.as_typed import as_typed
+from sim.check.batch import as_typed
 from sim.serve.page.answers import read_file, size_of
-from sim.show.index_page.thumbnail import thumbnail
+from sim.show.index_page.page import thumbnail
 from sim.show.words.phrases import same
 
 
@@ -44,16 +44,16 @@ def row_or_why(name: str, file: Path | None, data: bytes) -> dict[str, Any]:
         return _row(name, "fault", message=same(traceback.format_exc().strip().splitlines()[-1]))
 
 
-def refused(name: str, why: Said) -> dict[str, Any]:
+def refused(name: str, why: Bilingual) -> dict[str, Any]:
     """The row of a file that cannot be read."""
     return _row(name, "refused", message=why)
 
 
-def _message(finding: Finding) -> Said:
-    return Said(*(texts(finding, language).message for language in LANGUAGES))
+def _message(finding: Finding) -> Bilingual:
+    return Bilingual(*(texts(finding, language).message for language in LANGUAGES))
 
 
-def _row(name: str, verdict: str, findings: Sequence[Finding] = (), message: Said | None = None) -> dict[str, Any]:
+def _row(name: str, verdict: str, findings: Sequence[Finding] = (), message: Bilingual | None = None) -> dict[str, Any]:
     counts = counted(findings)
     shown = printable(name)
     return {

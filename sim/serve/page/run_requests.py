@@ -1,16 +1,103 @@
-"""What the page asks of runs and drawings, and the files that they gave."""
+"""What the page asks of runs and drawings, and the files that they gave.
 
-from typing import Final
+Requests of the page: the texts that one carries, and the answer to one that the page does not send.
 
-from starlette.requests import Request
+Files as one zip, made while it is sent: however large they are, a piece of them is held at a time.
+"""
+
+import io
+import json
+from collections.abc import Awaitable, Callable, Iterable, Iterator
+from pathlib import Path
+from typing import Final, TypeAlias
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, JSONResponse, Response, StreamingResponse
 
 from sim.serve.page.drawings import LOOK_KEYS, MAKE_KEYS, Drawings
 from sim.serve.page.life import Life
 from sim.serve.page.programs import Programs
-from sim.serve.page.request import MISSING, told
 from sim.serve.page.runs import KEYS, MORE_KEYS, Runs
-from sim.serve.page.zipped import zipped
+
+_PIECE: Final = 1 << 18
+
+
+def zipped(files: Iterable[Path]) -> Iterator[bytes]:
+    """The bytes of a zip of files, each under its own name; without their times, so that the same give the same.
+
+    OSError where one cannot be read.
+    """
+    made = _Sink()
+    with ZipFile(made, "w") as archive:
+        for file in files:
+            entered = ZipInfo(file.name)
+            entered.compress_type = ZIP_DEFLATED
+            with file.open("rb") as data, archive.open(entered, "w", force_zip64=True) as entry:
+                while piece := data.read(_PIECE):
+                    entry.write(piece)
+                    yield made.drained()
+    yield made.drained()
+
+
+class _Sink(io.RawIOBase):
+    """Takes what is written, once, and cannot go back."""
+
+    def __init__(self) -> None:
+        self._held = bytearray()
+
+    def writable(self) -> bool:
+        return True
+
+    def write(self, data: object) -> int:
+        piece = bytes(memoryview(data))  # type: ignore[arg-type]  # whatever has bytes
+        self._held += piece
+        return len(piece)
+
+    def drained(self) -> bytes:
+        """What came since the last time."""
+        held_bytes, self._held = bytes(self._held), bytearray()
+        return held_bytes
+
+
+Work: TypeAlias = Callable[[Request], Awaitable[Response]]
+"""What answers a request."""
+BAD: Final = 400
+MISSING: Final = 404
+NOTHING: Final = 204
+
+
+class BadRequestError(Exception):
+    """A request that the page does not send."""
+
+
+async def told(request: Request, *names: str) -> dict[str, str]:
+    """The texts of a request by their names. BadRequestError where one is missing."""
+    try:
+        texts = json.loads(await request.body())
+    except (ValueError, RecursionError) as error:
+        raise BadRequestError from error
+    if not isinstance(texts, dict) or not all(isinstance(texts.get(name), str) for name in names):
+        raise BadRequestError
+    return {name: texts[name] for name in names}
+
+
+def name_of(work: Work) -> str:
+    """Of a request: that of the method that answers it."""
+    return str(getattr(work, "__name__", ""))
+
+
+def guarded(work: Work) -> Work:
+    """The same, with an answer to requests that the page does not send."""
+
+    async def answered(request: Request) -> Response:
+        try:
+            return await work(request)
+        except (BadRequestError, ClientDisconnect):
+            return Response(status_code=BAD)
+
+    return answered
+
 
 _OF_FILES: Final = (
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; "
@@ -84,7 +171,7 @@ class Running:
 
     async def progress(self, _: Request) -> Response:
         """How far it is."""
-        self._life.seen()
+        self._life.note_page()
         return JSONResponse(self._runs.state)
 
     async def cancel(self, _: Request) -> Response:

@@ -15,14 +15,14 @@ from parser.findings.errors import SettingsError
 from parser.findings.messages import Message
 from parser.program import Program, load_program, moving
 from sim.base.progress import Progress
-from sim.check.as_typed import settings_near
+from sim.check.batch import settings_near
 from sim.check.settings import CheckSettings
 from sim.jobs.drills_into import drills_into
 from sim.jobs.run_into import run_into, stages_of_files
 from sim.run.findings import verdict
 from sim.run.recording import Recording, recorded, stages_of
+from sim.serve.page.child import PageRequest, do, telling
 from sim.serve.page.form import number_of, scenario_of
-from sim.serve.page.telling import Asked, do, telling
 from sim.setup.scenario import Scenario
 from sim.setup.toml.reader import Bound
 from sim.show.draw.sheet import SIZES_PX
@@ -40,49 +40,49 @@ _FILM_S: Final = Bound(0.5, 600.0)
 _SETS: Final = Bound(1.0, float(drill_set.MOST_SETS))
 
 
-def _run(asked: Asked) -> dict[str, Any]:
+def _run(request: PageRequest) -> dict[str, Any]:
     """Run, with the files of every run."""
-    scenario = scenario_of(asked, Path(asked["file"]))
+    scenario = scenario_of(request, Path(request["file"]))
     progress = telling(stages_of_files(scenario, trace=False))
-    run = run_into(asked["folder"], _program(asked, scenario), scenario, progress)
+    run = run_into(request["folder"], _program(request, scenario), scenario, progress)
     return {"verdict": verdict(run.findings), "machine": machine_name(scenario.machine)._asdict()}
 
 
-def _film(asked: Asked) -> dict[str, Any]:
+def _film(request: PageRequest) -> dict[str, Any]:
     """Make a film of the run."""
-    if f".{asked['form']}" not in FORMATS:  # nor does a page say in which folder
-        raise SettingsError("no-film-format", formats=", ".join(FORMATS), found=asked["form"][:40])
-    file = Path(asked["folder"]) / f"film.{asked['form']}"
-    seconds = number_of(asked["seconds"], _FILM_S, Message("name-film-length"))
-    look = Look(*_FILM_PX, "light", _language(asked))
+    if f".{request['form']}" not in FORMATS:  # nor does a page say in which folder
+        raise SettingsError("no-film-format", formats=", ".join(FORMATS), found=request["form"][:40])
+    file = Path(request["folder"]) / f"film.{request['form']}"
+    seconds = number_of(request["seconds"], _FILM_S, Message("name-film-length"))
+    look = Look(*_FILM_PX, "light", _language(request))
     format_of(file, seconds, _FILM_FPS, look)  # what cannot be is told before the run
-    with _again(asked, "film") as (recording, progress):
+    with _again(request, "film") as (recording, progress):
         write_film(file, recording, seconds, _FILM_FPS, look, progress)
     return {}
 
 
-def _pictures(asked: Asked) -> dict[str, Any]:
+def _pictures(request: PageRequest) -> dict[str, Any]:
     """Draw all pictures of the run."""
-    files = PictureFiles(Path(asked["folder"]), {name: f"{name}.png" for name in PICTURES})
-    with _again(asked, "pictures") as (recording, progress):
+    files = PictureFiles(Path(request["folder"]), {name: f"{name}.png" for name in PICTURES})
+    with _again(request, "pictures") as (recording, progress):
         progress("pictures", 0, 1)
-        write_pictures(subject_of(recording), files, SIZES_PX["screen"], "light", _language(asked))
+        write_pictures(subject_of(recording), files, SIZES_PX["screen"], "light", _language(request))
     return {}
 
 
-def _drills(asked: Asked) -> dict[str, Any]:
+def _drills(request: PageRequest) -> dict[str, Any]:
     """Make the fault drills of a set of the program that ran."""
-    number = int(number_of(asked["set"], _SETS, Message("name-set")))
+    number = int(number_of(request["set"], _SETS, Message("name-set")))
     progress = telling(["drills"])
     progress("drills", 0, 1)
-    program = _program(asked, scenario_of(asked, Path(asked["file"])))
-    wanted = drill_set.Asked(number)
+    program = _program(request, scenario_of(request, Path(request["file"])))
+    wanted = drill_set.DrillRequest(number)
     drills = drill_set.drills_of(program, CheckSettings.reading(program.choices), wanted)
-    drills_into(Path(asked["folder"]), program, drills, number)
+    drills_into(Path(request["folder"]), program, drills, number)
     return {}
 
 
-_JOBS: Final[Mapping[str, Callable[[Asked], dict[str, Any]]]] = {
+_JOBS: Final[Mapping[str, Callable[[PageRequest], dict[str, Any]]]] = {
     "run": _run,
     "film": _film,
     "pictures": _pictures,
@@ -91,23 +91,23 @@ _JOBS: Final[Mapping[str, Callable[[Asked], dict[str, Any]]]] = {
 
 
 @contextmanager
-def _again(asked: Asked, last: str) -> Iterator[tuple[Recording, Progress]]:
+def _again(request: PageRequest, last: str) -> Iterator[tuple[Recording, Progress]]:
     """The run once more with all its steps, and who is told of the stages: its own and the last one."""
-    scenario = scenario_of(asked, Path(asked["file"]))
+    scenario = scenario_of(request, Path(request["file"]))
     progress = telling([*stages_of(scenario), last])
-    with recorded(_program(asked, scenario), scenario, progress) as recording:
+    with recorded(_program(request, scenario), scenario, progress) as recording:
         yield recording, progress
 
 
-def _program(asked: Asked, scenario: Scenario) -> Program:
+def _program(request: PageRequest, scenario: Scenario) -> Program:
     """The program, read with the settings near the file that it comes from, as its check on the page is."""
-    file, near = Path(asked["file"]), asked["near_file"]
+    file, near = Path(request["file"]), request["near_file"]
     choices = settings_near(file.name, Path(near))[0].choices if near else scenario.choices
     return moving(load_program(read_bytes(file), file.name, choices))
 
 
-def _language(asked: Asked) -> Language:
-    return "zh" if asked["language"] == "zh" else "en"
+def _language(request: PageRequest) -> Language:
+    return "zh" if request["language"] == "zh" else "en"
 
 
 if __name__ == "__main__":

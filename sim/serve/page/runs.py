@@ -13,7 +13,7 @@ from typing import Any, Final
 
 from parser.text.encoding import printable
 from sim.serve.page.child import Child, begun
-from sim.serve.page.file_names import safe_name
+from sim.serve.page.drawings import safe_name
 
 KEYS: Final = ("machine", "thickness_mm", "wire_mm", "offset_mm", "side")
 """What the page may say of a run, as texts; empty ones leave what is usual."""

@@ -9,7 +9,7 @@ from typing import Final
 
 from parser.findings.errors import SettingsError
 from sim.base.files import staged
-from sim.show.words.words import said
+from sim.show.words.words import bilingual
 
 OPTION: Final = "--from-icon"
 """Of `drycut open`, with which both of them start it."""
@@ -44,7 +44,7 @@ def write_shortcut(folder: Path, platform: str = sys.platform) -> list[Path]:
 
 def desktop_entry(python: Path, icon: Path) -> str:
     """A desktop entry that starts drycut with a Python (https://specifications.freedesktop.org/desktop-entry-spec)."""
-    comment = said("open.shortcut")
+    comment = bilingual("open.shortcut")
     command = " ".join(_argument(part) for part in (str(python), *_START))
     keys = {
         "Type": "Application",

@@ -69,7 +69,7 @@ class Machine(NamedTuple):
 def machine_names() -> tuple[str, ...]:
     """Names of the machines that are shipped, in order."""
     shipped = resources.files("sim.setup.machine")
-    return tuple(sorted(one.name.removesuffix(".toml") for one in shipped.iterdir() if one.name.endswith(".toml")))
+    return tuple(sorted(each.name.removesuffix(".toml") for each in shipped.iterdir() if each.name.endswith(".toml")))
 
 
 def load_machine(name: str, beside: Path | None = None) -> Machine:

@@ -3,10 +3,13 @@
 A section of a file stands in one `Section`, beside the class that it fills. A key that is added to it is read, written,
 shown in the settings of ``report.html`` and listed in ``docs/scenarios.md``; its texts stand in
 ``sim/setup/settings.toml``.
+
+Settings as TOML text.
 """
 
+import json
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal, NamedTuple
 
@@ -50,8 +53,8 @@ class Key:
     def read(self, table: Mapping[str, Any], where: str) -> Any:
         """Value inside: that of the file or the default. SettingsError names file and key."""
         if self.name in table or self.is_required:
-            return self.kind.kept(self.kind.checked(table, self.name, where))
-        return None if self.default is None else self.kind.kept(self.default)
+            return self.kind.inside(self.kind.checked(table, self.name, where))
+        return None if self.default is None else self.kind.inside(self.default)
 
     def written(self, owner: object) -> Any:
         """Value in the file that makes this owner; None where it says nothing, as of a limit that there is not."""
@@ -150,3 +153,34 @@ def _paired(value: Any) -> Any:
         return value
     inner = {step: _paired(entry) for step, entry in value.items()}
     return (inner["0"], inner["1"]) if inner.keys() == {"0", "1"} else inner
+
+
+def toml_text(sections: Sequence[WrittenSection]) -> str:
+    """TOML of sections, the top of the file first; those that hold nothing are left out."""
+    return "\n".join(_section(written.section.header, written.values) for written in sections if written.values)
+
+
+def toml_value(value: Any) -> str:
+    """A text, number, truth, list or inline table."""
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float) and not math.isfinite(value):
+        return "nan" if math.isnan(value) else "inf" if value > 0 else "-inf"
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{_key(key)} = {toml_value(entry)}" for key, entry in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(toml_value, value)) + "]"
+    return str(value) if isinstance(value, int | float) else toml_value(str(value))
+
+
+def _section(header: str, values: Mapping[str, Any]) -> str:
+    lines = [f"{_key(key)} = {toml_value(value)}\n" for key, value in values.items()]
+    return "".join([f"{header}\n" if header else "", *lines])
+
+
+def _key(key: str) -> str:
+    """A key as it stands, or in quotes where it holds anything but letters, digits, ``_`` and ``-``."""
+    bare = key.isascii() and key.replace("_", "a").replace("-", "a").isalnum()
+    return key if bare else toml_value(key)

@@ -1,4 +1,7 @@
-"""Kinds of settings: how a value is read from a file, kept inside, and written again."""
+"""Kinds of settings: how a value is read from a file, kept inside, and written again.
+
+Kinds of settings that are lists: of lengths, of places, of whole numbers.
+"""
 
 import math
 from abc import ABC, abstractmethod
@@ -9,6 +12,7 @@ from typing import Any, NamedTuple
 
 from parser.findings.errors import SettingsError
 from parser.text.encoding import printable
+from parser.toolpath import Point
 from parser.units import from_mm, mm
 from sim.setup.toml.reader import PLACE_MM, Bound, number, pair, text, truth
 
@@ -19,7 +23,7 @@ DIGITS = 9
 class Scale(NamedTuple):
     """Change of units: from those of a file to those inside, and back."""
 
-    kept: Callable[[float], float]
+    inside: Callable[[float], float]
     written: Callable[[float], float]
 
 
@@ -49,7 +53,7 @@ class ValueKind(ABC):
     def checked(self, table: Mapping[str, Any], key: str, where: str) -> Any:
         """Value of a key as it stands in the file. SettingsError where it is missing or none of this kind."""
 
-    def kept(self, value: Any) -> Any:
+    def inside(self, value: Any) -> Any:
         """The value as it is kept inside."""
         return value
 
@@ -71,7 +75,7 @@ class Text(ValueKind):
 class Name(Text):
     """A text that is shown to people."""
 
-    def kept(self, value: Any) -> str:
+    def inside(self, value: Any) -> str:
         """Without control characters."""
         return printable(value)
 
@@ -86,7 +90,7 @@ class FileName(Text):
             raise SettingsError("no-file-name", where=where, key=key, found=path)
         return path
 
-    def kept(self, value: Any) -> Path:
+    def inside(self, value: Any) -> Path:
         """The path as it was given."""
         return Path(value)
 
@@ -142,9 +146,9 @@ class Number(ValueKind):
             raise SettingsError("key-missing", where=where, key=key)
         return number(table[key], self.bound, f"{where}: {key}")
 
-    def kept(self, value: Any) -> float:
+    def inside(self, value: Any) -> float:
         """In the unit inside."""
-        return self.scale.kept(value)
+        return self.scale.inside(value)
 
     def written(self, value: Any) -> float:
         """In the unit of the file."""
@@ -162,7 +166,7 @@ class Whole(Number):
             raise SettingsError("key-not-whole", where=where, key=key, found=table[key])
         return super().checked(table, key, where)
 
-    def kept(self, value: Any) -> int:
+    def inside(self, value: Any) -> int:
         """A count."""
         return int(value)
 
@@ -191,3 +195,79 @@ class TablePlace(ValueKind):
     def written(self, value: Any) -> list[float]:
         """A list of two."""
         return list(value)
+
+
+MOST = 10_000
+"""Entries of a list: more than any drawing has figures that somebody names one by one."""
+
+
+@dataclass(frozen=True)
+class _List(ValueKind):
+    """A list whose entries are checked one by one; nothing is written where there are none."""
+
+    bound: Bound
+
+    def checked(self, table: Mapping[str, Any], key: str, where: str) -> tuple[Any, ...]:
+        """The entries."""
+        value = table[key]
+        if not isinstance(value, list) or len(value) > MOST:
+            raise SettingsError("list-too-long", where=where, key=key, most=MOST)
+        return tuple(self._entry(each, f"{where}: {key}: entry {at}") for at, each in enumerate(value, start=1))
+
+    def _entry(self, value: Any, where: str) -> Any:
+        return number(value, self.bound, where)
+
+
+class Lengths(_List):
+    """Lengths in mm."""
+
+    name = "lengths"
+    unit = "mm"
+
+    def inside(self, value: Any) -> tuple[float, ...]:
+        """In µm."""
+        return tuple(from_mm(each) for each in value)
+
+    def written(self, value: Any) -> list[float] | None:
+        """In mm."""
+        return [in_mm(each) for each in value] or None
+
+
+class Places(_List):
+    """Places [x, y] in mm."""
+
+    name = "places"
+    unit = "mm"
+
+    def _entry(self, value: Any, where: str) -> tuple[float, float]:
+        if not isinstance(value, list) or len(value) != 2:
+            raise SettingsError("no-point", where=where, found=value)
+        x, y = (number(each, self.bound, where) for each in value)
+        return x, y
+
+    def inside(self, value: Any) -> tuple[Point, ...]:
+        """In µm."""
+        return tuple(Point(from_mm(x), from_mm(y)) for x, y in value)
+
+    def written(self, value: Any) -> list[list[float]] | None:
+        """In mm."""
+        return [[in_mm(place.x), in_mm(place.y)] for place in value] or None
+
+
+class Wholes(_List):
+    """Whole numbers."""
+
+    name = "wholes"
+
+    def _entry(self, value: Any, where: str) -> int:
+        if isinstance(value, float):
+            raise SettingsError("not-whole", where=where, found=value)
+        return int(number(value, self.bound, where))
+
+    def inside(self, value: Any) -> tuple[int, ...]:
+        """As they are."""
+        return tuple(value)
+
+    def written(self, value: Any) -> list[int] | None:
+        """A list of them."""
+        return list(value) or None

@@ -114,7 +114,7 @@ def number(value: object, bound: Bound, where: str) -> float:
     if isinstance(value, int) and abs(value) > 1e300:
         value = math.inf if value > 0 else -math.inf
     if not bound.low <= value <= bound.high:  # also refuses NaN
-        found, low, high = (in_digits(one) for one in (value, *bound))
+        found, low, high = (in_digits(each) for each in (value, *bound))
         raise SettingsError("out-of-bounds", where=where, found=found, low=low, high=high)
     return float(value)
 

@@ -136,7 +136,7 @@ def unit_of(width_px: int) -> float:
     return max(width_px / style.BASE_WIDTH, style.LEAST_UNIT)
 
 
-def page_for(bounds_um: Floats, width_px: int, beside: Margins = BESIDE_PLOT, inside: Margins = IN_PLOT) -> Page:
+def page_for(bounds_um: Floats, width_px: int, margins: Margins = BESIDE_PLOT, inside: Margins = IN_PLOT) -> Page:
     """Lay out a page so that a part fills its plot.
 
     Parameters
@@ -157,18 +157,18 @@ def page_for(bounds_um: Floats, width_px: int, beside: Margins = BESIDE_PLOT, in
         raise ValueError(f"a picture is at least {style.LEAST_THUMBNAIL} px wide, not {width_px}")
     unit = unit_of(width_px)
     wide_um, tall_um = np.maximum(bounds_um[1] - bounds_um[0], 1e-9).tolist()
-    room = _room(width_px, width_px, beside, inside)
+    room = _room(width_px, width_px, margins, inside)
     other_px = width_px - (room.bottom - room.top)
     height_px = _height_px(width_px, other_px + (room.right - room.left) * tall_um / wide_um)
-    room = _room(width_px, height_px, beside, inside)
-    plot = beside.within(Box(0.0, 0.0, width_px, height_px), unit)
+    room = _room(width_px, height_px, margins, inside)
+    plot = margins.within(Box(0.0, 0.0, width_px, height_px), unit)
     return Page(width_px, height_px, unit, plot, fitted(bounds_um, room))
 
 
-def _room(width_px: int, height_px: int, beside: Margins, inside: Margins) -> Box:
+def _room(width_px: int, height_px: int, margins: Margins, inside: Margins) -> Box:
     """Where the part may lie on a page."""
     unit = unit_of(width_px)
-    return inside.within(beside.within(Box(0.0, 0.0, width_px, height_px), unit), unit)
+    return inside.within(margins.within(Box(0.0, 0.0, width_px, height_px), unit), unit)
 
 
 def _height_px(width_px: int, wanted_px: float) -> int:

@@ -2,11 +2,17 @@
 
 The palette follows Okabe and Ito, which the colour-blind can tell apart; still every mark differs by its shape too, so
 that a grey print says the same.
+
+The tone of each pass over an edge, and what a legend says of it: the first has that of the kerf, trims their own.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from enum import StrEnum
-from typing import Final, Literal
+from typing import Final, Literal, NamedTuple
+
+from parser.findings.catalogue import Bilingual
+from parser.shape.passes import Pass
+from sim.show.words import bilingual
 
 Colour = tuple[int, int, int]
 """Red, green and blue, 0 to 255."""
@@ -162,3 +168,37 @@ def hexadecimal(colour: Colour) -> str:
     """A colour as pages write it, such as ``#76c2ee``."""
     red, green, blue = colour
     return f"#{red:02x}{green:02x}{blue:02x}"
+
+
+TONES: Final = (Paint.KERF, Paint.TRIM_1, Paint.TRIM_2, Paint.TRIM_3, Paint.TRIM_4)
+"""A rough cut and four trims; the passes after them have the last tone too."""
+
+
+class Tone(NamedTuple):
+    """A tone, and the passes that have it."""
+
+    paint: Paint
+    name: Bilingual
+
+
+def tone_number(number: int) -> int:
+    """The first of the passes, by their numbers from 1, that have the tone of a pass."""
+    return min(number, len(TONES))
+
+
+def paint_of_pass(number: int) -> Paint:
+    """Tone of a pass, by its number from 1."""
+    return TONES[tone_number(number) - 1]
+
+
+def tones_of(passes: Iterable[Pass]) -> list[Tone]:
+    """Tones of some passes, each once."""
+    numbers = {pass_.number for pass_ in passes}
+    later = max(numbers, default=0) > len(TONES)
+    return [
+        Tone(
+            paint_of_pass(number),
+            bilingual("phrases.passes-from" if later and number == len(TONES) else "phrases.one-pass", number=number),
+        )
+        for number in sorted(set(map(tone_number, numbers)))
+    ]

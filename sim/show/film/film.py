@@ -9,10 +9,9 @@ from sim.base.files import staged
 from sim.base.progress import Progress
 from sim.run.course import course_of
 from sim.run.recording import Recording
-from sim.show.film.clock import FilmClock
-from sim.show.film.plate import Pixels
+from sim.show.film.scene import Pixels
 from sim.show.film.screen import Look, Screen
-from sim.show.film.writers import FORMATS, MOST_HELD_PX, Format, Frames, encoder
+from sim.show.film.writers import FORMATS, MOST_HELD_PX, FilmClock, Format, Frames, encoder
 
 FORMAT_NAMES: Final = ", ".join(FORMATS)
 
@@ -54,14 +53,14 @@ def write_film(  # noqa: PLR0913, PLR0917 - a file, what it shows, and how
     clock = FilmClock(seconds, fps, course.duration_s)
     screen = Screen(course, look)
 
-    def shown(t_s: float) -> Pixels:
+    def frame_at(t_s: float) -> Pixels:
         return screen.frame(t_s, screen.whole, clock.speed)
 
-    def made() -> Iterator[Pixels]:
+    def frames() -> Iterator[Pixels]:
         for number, t_s in enumerate(clock.times_s.tolist()):
             progress("film", number, clock.frames)
-            yield shown(t_s)
+            yield frame_at(t_s)
 
     with staged(path.parent, [path.name]) as stage:
-        samples = tuple(shown(share * course.duration_s) for share in (1.0, 0.5, 0.0))
-        chosen.write(stage / path.name, Frames(made(), samples), clock)
+        samples = tuple(frame_at(share * course.duration_s) for share in (1.0, 0.5, 0.0))
+        chosen.write(stage / path.name, Frames(frames(), samples), clock)

@@ -12,8 +12,8 @@ from sim.setup.scenario import Scenario
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import cut_runs, flatten
-from sim.show.draw.furniture import draw_axes, draw_frame
 from sim.show.draw.layout import Box, Page, View
+from sim.show.draw.legend import draw_axes, draw_frame
 from sim.show.draw.paints import Paint
 from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.cut.marks import draw_start
@@ -122,7 +122,11 @@ def _near_outlines(whole: shapely.Polygon, view: View, plot: Box) -> list[shapel
     margin = 2.0 / view.px_per_um
     part = shapely.clip_by_rect(whole, *(low - margin).tolist(), *(high + margin).tolist())
     simple = shapely.simplify(part, CHORD_PX / view.px_per_um)
-    return [one for one in shapely.get_parts(simple) if isinstance(one, shapely.Polygon) and not one.is_empty]
+    return [
+        each_part
+        for each_part in shapely.get_parts(simple)
+        if isinstance(each_part, shapely.Polygon) and not each_part.is_empty
+    ]
 
 
 def _within(line: Floats, box: Box) -> Floats:

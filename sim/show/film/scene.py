@@ -1,25 +1,116 @@
 """The plot of a run in one view, at any moment: the kerf in the tone of the pass that went over it last.
 
 Which pass went over each pixel of the plot last: worked out once for a view, as the map of the cut is.
+
+Where things stand on a frame: title, plot, read-outs and the strip of the run.
+
+A drawing surface whose pixels are had quickly, and that may begin with a part of a frame.
 """
 
 from collections.abc import Sequence
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 from parser.geometry.curves import Ints
 from sim.run.course import Course, Moment
 from sim.show.draw import style
 from sim.show.draw.layout import Box, Page, View
-from sim.show.draw.paints import Paint, Theme
+from sim.show.draw.paints import TONES, Paint, Theme, tone_number
+from sim.show.draw.raster import Raster
 from sim.show.draw.silent_pygame import pygame
-from sim.show.draw.tones import TONES, tone_number
 from sim.show.film.cut_map import FULL, NEVER, CutMap, Discs, Levels, Span, discs_of
 from sim.show.film.ground import Fate, PieceDrawn, draw_behind, draw_ground, draw_path
-from sim.show.film.layout import AXIS, Layout
-from sim.show.film.plate import Pixels, Plate
+
+_RED_LAST = 0xFF0000
+
+Pixels = NDArray[np.uint8]
+"""(h, w, 3) red, green and blue."""
+
+
+class Plate(Raster):
+    """A page that is drawn on again and again."""
+
+    def clear(self) -> None:
+        """Make the page empty again."""
+        self.box(Box(0.0, 0.0, self.width_px, self.height_px), Paint.PAGE, Paint.PAGE, 0.0)
+
+    def lay(self, pixels: Pixels) -> None:
+        """Cover the page with pixels (h, w, 3) of its size."""
+        below = pygame.image.frombuffer(np.ascontiguousarray(pixels).data, (self.width_px, self.height_px), "RGB")
+        self._surface.blit(pygame.transform.scale_by(below, self._scale), (0, 0))
+
+    def pixels(self) -> Pixels:
+        """The page as pixels, in an array of their own."""
+        # The surface's own bytes: pygame would turn each pixel round to hand them over as RGB.
+        order = "BGR" if self._surface.get_masks()[0] == _RED_LAST else "RGB"
+        data, size, pitch = self._surface.get_buffer().raw, self._surface.get_size(), self._surface.get_pitch()
+        return np.array(Image.frombuffer("RGB", size, data, "raw", order, pitch, 1).reduce(self._scale))
+
+
+def plate_over(pixels: Pixels, theme: Theme) -> Plate:
+    """A page that begins with pixels (h, w, 3)."""
+    tall, wide = pixels.shape[:2]
+    plate = Plate(wide, tall, theme)
+    plate.lay(pixels)
+    return plate
+
+
+WIDE: Final = 1.15
+"""Width over height from which on the read-outs stand beside the plot, else below it."""
+PANEL: Final = 400.0
+PANEL_ROWS: Final = 6.5  # of the read-outs below a plot
+HEAD: Final = 66.0
+STRIP: Final = 74.0
+AXIS: Final = 44.0
+SHAPE: Final = (1600.0, 900.0)
+"""Sizes of `sim.show.draw.style` are those of a frame like this."""
+
+
+class Layout(NamedTuple):
+    """Boxes of a frame, px, with the factor on all sizes; `beside` where the read-outs stand beside the plot."""
+
+    width_px: int
+    height_px: int
+    unit: float
+    head: Box
+    plot: Box
+    panel: Box
+    strip: Box
+    beside: bool
+
+
+def layout_for(width_px: int, height_px: int) -> Layout:
+    """Layout of a frame, px."""
+    beside = width_px >= WIDE * height_px
+    wide, tall = SHAPE if beside else (0.6 * SHAPE[0], 0.6 * SHAPE[0])
+    unit = max(min(width_px / wide, height_px / tall), style.LEAST_UNIT)
+    edge, head, strip = style.EDGE * unit, HEAD * unit, STRIP * unit
+    bottom = height_px - strip
+    left = style.LEFT * unit
+    if beside:
+        panel = Box(width_px - edge - PANEL * unit, head, width_px - edge, bottom)
+        plot = Box(left, head, panel.left - edge, bottom - AXIS * unit)
+    else:
+        panel = Box(edge, bottom - PANEL_ROWS * style.LEGEND_ROW * unit, width_px - edge, bottom)
+        plot = Box(left, head, width_px - edge, panel.top - AXIS * unit)
+    return Layout(
+        width_px,
+        height_px,
+        unit,
+        head=_whole(Box(edge, 0.0, width_px - edge, head)),
+        plot=_whole(plot),
+        panel=_whole(panel),
+        strip=_whole(Box(edge, bottom, width_px - edge, height_px)),
+        beside=beside,
+    )
+
+
+def _whole(box: Box) -> Box:
+    """The box with its sides on whole pixels."""
+    return Box(*(float(round(side)) for side in box))
 
 
 class PassMap:
@@ -31,7 +122,7 @@ class PassMap:
     def __init__(self, discs: Discs, tone: Ints, plot: Box) -> None:
         self._discs, self._plot = discs, plot
         later = sorted(set(tone.tolist()) - {1})
-        self._first = [(one, self._drawn(np.flatnonzero(tone == one))) for one in later]
+        self._first = [(each, self._drawn(np.flatnonzero(tone == each))) for each in later]
 
     def tones(self, front: int, span: Span) -> Ints:
         """Tone (h, w) of each pixel of a span once so many discs are cut."""
@@ -114,7 +205,7 @@ class Scene:
         self._front, self._tip = front, NOTHING
         if moment.cuts and self._radius <= TIP_MOST_PX:
             self._tip, levels = self._map.tip(self.view.to_px(moment.wire_um))
-            number = moment.running.one.number if moment.running else 1
+            number = moment.running.pass_.number if moment.running else 1
             tones = np.where(levels > 0, tone_number(number), self._passes.tones(front, self._tip))
             self._mix(self._tip, np.maximum(self._map.levels(front, self._tip), levels), tones)
         return self._image

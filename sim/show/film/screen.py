@@ -3,6 +3,8 @@
 What the marks of a frame mean, below its read-outs.
 
 The read-outs as pixels: a line is drawn anew only when its text has changed.
+
+What moves on the plot: the wire where it is, and the place that the steps have asked for.
 """
 
 from collections.abc import Sequence
@@ -16,20 +18,44 @@ from sim.run.course import Course, Moment
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import bounds_um
-from sim.show.draw.furniture import elide
 from sim.show.draw.layout import Box, View, fitted
-from sim.show.draw.legend import Entry, LegendSizes, across, draw_legend, in_columns, middle, stroke
-from sim.show.draw.paints import THEMES, Paint, Theme, ThemeName
-from sim.show.draw.tones import TONES
+from sim.show.draw.legend import Entry, LegendSizes, across, draw_legend, elide, in_columns, middle, stroke
+from sim.show.draw.paints import THEMES, TONES, Paint, Theme, ThemeName
 from sim.show.film.ground import PieceDrawn, outlines_um
-from sim.show.film.layout import Layout, layout_for
-from sim.show.film.marks import draw_commanded, draw_wire, reach
-from sim.show.film.plate import Pixels, Plate, plate_over
-from sim.show.film.readout import Line, read_out
-from sim.show.film.scene import Scene, fate
-from sim.show.film.strip import bar_of, draw_strip, x_px
+from sim.show.film.readout import Line, bar_of, draw_strip, read_out, x_px
+from sim.show.film.scene import Layout, Pixels, Plate, Scene, fate, layout_for, plate_over
 from sim.show.pictures.cut.outlines import Bodies
 from sim.show.words import Words
+
+THE_WIRE: Final = Paint.JUMP
+"""The colour of the wire, which the page has too (`--wire` of replay.css)."""
+WIRE: Final = 5.0
+"""Least radius of the wire's mark, so that it can be seen."""
+RING_MOST: Final = 130.0
+"""The outline of a wire with a larger radius is not drawn."""
+ARM: Final = (9.0, 19.0)
+"""The arms of the cross begin and end so far from the commanded place: the wire's mark fits between them."""
+
+
+def reach(radius: float, unit: float) -> float:
+    """How far the marks reach from their places, px, about a wire of that radius, px."""
+    ring = radius if radius <= RING_MOST * unit else 0.0
+    return max(ring, ARM[1] * unit) + style.MARK_WIDTH * unit
+
+
+def draw_wire(canvas: Canvas, center: Floats, radius: float, unit: float) -> None:
+    """Mark the wire at a place (2,) px, with its true outline, `radius` px, where that shows."""
+    canvas.disc(center, WIRE * unit, THE_WIRE)
+    if WIRE * unit < radius <= RING_MOST * unit:
+        canvas.ring(center, radius, THE_WIRE, style.JUMP_WIDTH * unit)
+
+
+def draw_commanded(canvas: Canvas, center: Floats, unit: float) -> None:
+    """Mark the commanded place (2,) px with a cross that is open in its middle."""
+    for along in ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)):
+        arm = center + np.outer(ARM, along) * unit
+        canvas.polyline(arm, Paint.INK, style.JUMP_WIDTH * unit)
+
 
 ROW: Final = 41.0
 FIRST_CJK: Final = 0x2E80

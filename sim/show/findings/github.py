@@ -61,8 +61,8 @@ def _command(level: str, properties: Mapping[str, str], text: str) -> str:
 
 def _data(text: str) -> str:
     # As actions/toolkit does it (packages/core/src/command.ts), the percent sign first; printable() lets no CR through.
-    shown = "\n".join(map(printable, text.split("\n")))
-    return shown.replace("%", "%25").replace("\n", "%0A")
+    shown_text = "\n".join(map(printable, text.split("\n")))
+    return shown_text.replace("%", "%25").replace("\n", "%0A")
 
 
 def _property(text: str) -> str:

@@ -11,8 +11,7 @@ from typing import Any
 
 from parser.findings.catalogue import Language
 from parser.findings.codes import Severity
-from sim.check.fingerprint import fingerprints
-from sim.check.result import CheckResult
+from sim.check.result import CheckResult, fingerprints
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import joined, posix, tidy
 from sim.show.findings.wording import reason

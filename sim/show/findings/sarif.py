@@ -16,8 +16,7 @@ from parser import __version__
 from parser.findings.catalogue import Language, page, term
 from parser.findings.codes import CODES, Check
 from parser.findings.findings import Edit, Finding
-from sim.check.fingerprint import fingerprints
-from sim.check.result import CheckResult
+from sim.check.result import CheckResult, fingerprints
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import clean, joined, spot, tidy
 from sim.show.findings.wording import reason, silenced, with_hint
@@ -92,7 +91,12 @@ def _notices(result: CheckResult, index: int, language: Language) -> Iterator[di
     ]
     hidden = silenced(result.silenced, (result.settings_file,), language)
     for name, level, text in [*texts, *([(_HIDDEN, "note", hidden)] if hidden else [])]:
-        yield {"descriptor": {"id": name}, "level": level, "message": {"text": _said(text)}, "locations": where}
+        yield {
+            "descriptor": {"id": name},
+            "level": level,
+            "message": {"text": _plain_message(text)},
+            "locations": where,
+        }
 
 
 def _artifact(result: CheckResult) -> dict[str, Any]:
@@ -115,11 +119,13 @@ def _driver(language: Language) -> dict[str, Any]:
         "semanticVersion": __version__,
         "language": language,
         "rules": [_rule(code, language) for code in _RULES],
-        "notifications": [{"id": id_, "shortDescription": {"text": _said(text)}} for id_, text in notices.items()],
+        "notifications": [
+            {"id": id_, "shortDescription": {"text": _plain_message(text)}} for id_, text in notices.items()
+        ],
     }
 
 
-def _said(text: str) -> str:
+def _plain_message(text: str) -> str:
     """A plain text message: braces doubled (§3.11.5), and nothing in it taken for a link (§3.11.6)."""
     return _literal(text).replace("](", "] (")
 
@@ -135,9 +141,9 @@ def _rule(code: str, language: Language) -> dict[str, Any]:
     return {
         "id": code,
         "name": _identifier(code),
-        "shortDescription": {"text": _said(of.title)},
-        "fullDescription": {"text": _said(" ".join(first.split()))},
-        "help": {"text": _said(markdown), "markdown": _literal(markdown)},
+        "shortDescription": {"text": _plain_message(of.title)},
+        "fullDescription": {"text": _plain_message(" ".join(first.split()))},
+        "help": {"text": _plain_message(markdown), "markdown": _literal(markdown)},
         "defaultConfiguration": {"level": CODES[code].severity.value},
     }
 
@@ -153,7 +159,7 @@ def _results(result: CheckResult, index: int, language: Language) -> Iterator[di
     """The results (§3.27) of one file, which is the artifact of this index."""
     where = _location(result.name, index)
     for finding, known in zip(result.findings, fingerprints(result), strict=True):
-        message = _said(with_hint(finding, language))
+        message = _plain_message(with_hint(finding, language))
         entry = {
             "ruleId": finding.code,
             "ruleIndex": _RULE_INDEX[finding.code],

@@ -71,14 +71,14 @@ def packed(values: Sequence[Any]) -> Sequence[Any] | dict[str, Any]:
     """
     if len(values) < LONG:
         return values
-    numbers = None if any(isinstance(one, str | bool | list | dict | tuple) for one in values) else _numbers(values)
+    numbers = None if any(isinstance(value, str | bool | list | dict | tuple) for value in values) else _numbers(values)
     return numbers or _column(len(values), json=_text(json.dumps(values, ensure_ascii=False).encode()))
 
 
 def _numbers(values: Sequence[float | None]) -> dict[str, Any] | None:
     """Numbers as changes from one to the next, a gap as no change; None where they have too many digits."""
-    lacks = np.array([one is None for one in values])
-    known = np.array([0.0 if one is None else one for one in values], dtype=np.float64)
+    lacks = np.array([value is None for value in values])
+    known = np.array([0.0 if value is None else value for value in values], dtype=np.float64)
     found = _whole(known)
     if found is None:
         return None

@@ -13,7 +13,7 @@ from sim.show.draw.paints import THEMES, ThemeName
 from sim.show.draw.raster import Raster
 from sim.show.draw.sheet import Sheet, drawing, pixels
 from sim.show.draw.svg import Svg
-from sim.show.pictures.shown import Shown, label
+from sim.show.pictures.shown import Drawable, label
 
 DPI = 300
 """At which the named sizes are paper sizes."""
@@ -27,7 +27,7 @@ class PictureFiles(NamedTuple):
 
 
 def write_pictures(
-    shown: Shown, asked: PictureFiles, width_px: int, theme: ThemeName, language: Language
+    drawable: Drawable, picture_files: PictureFiles, width_px: int, theme: ThemeName, language: Language
 ) -> list[Path]:
     """Draw pictures and write them; the files written.
 
@@ -35,30 +35,30 @@ def write_pictures(
     folder cannot be written; nothing is written then, and no older file taken away.
     """
     drawn: list[str] = []
-    with staged(asked.folder, list(asked.files.values())) as stage:
-        for name, file in asked.files.items():
-            made = (max(width_px, shown.least_px(name)), THEMES[theme], language)
+    with staged(picture_files.folder, list(picture_files.files.values())) as stage:
+        for name, file in picture_files.files.items():
+            made = (max(width_px, drawable.least_px(name)), THEMES[theme], language)
             if file.lower().endswith(".svg"):
-                written = _write_svg(stage / file, name, shown, drawing(*made), width_px)
+                written = _write_svg(stage / file, name, drawable, drawing(*made), width_px)
             else:
-                written = _write_pixels(stage / file, name, shown, pixels(*made), width_px)
+                written = _write_pixels(stage / file, name, drawable, pixels(*made), width_px)
             drawn += [file] * written
         if not drawn:
-            raise SettingsError("nothing-to-draw", pictures=", ".join(asked.files))
-    return [asked.folder / file for file in drawn]
+            raise SettingsError("nothing-to-draw", pictures=", ".join(picture_files.files))
+    return [picture_files.folder / file for file in drawn]
 
 
-def _write_svg(file: Path, name: str, shown: Shown, sheet: Sheet[Svg], width_px: int) -> bool:
+def _write_svg(file: Path, name: str, drawable: Drawable, sheet: Sheet[Svg], width_px: int) -> bool:
     """Write a picture as SVG that is shown `width_px` wide; False where there is none."""
-    svg = shown.draw(name, sheet)
+    svg = drawable.draw(name, sheet)
     if svg is not None:
-        file.write_text(svg.document(label(name, shown.title, sheet.language), width_px), encoding="utf-8")
+        file.write_text(svg.document(label(name, drawable.title, sheet.language), width_px), encoding="utf-8")
     return svg is not None
 
 
-def _write_pixels(file: Path, name: str, shown: Shown, sheet: Sheet[Raster], width_px: int) -> bool:
+def _write_pixels(file: Path, name: str, drawable: Drawable, sheet: Sheet[Raster], width_px: int) -> bool:
     """Write a picture as PNG, made smaller to `width_px` where it is wider; False where there is none."""
-    raster = shown.draw(name, sheet)
+    raster = drawable.draw(name, sheet)
     if raster is not None:
         image = ImageOps.contain(raster.image(), (width_px, raster.height_px), Image.Resampling.LANCZOS)
         image.save(file, format="png", dpi=(DPI, DPI))

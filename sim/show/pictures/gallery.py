@@ -21,7 +21,7 @@ from sim.show.pictures.path import PATH
 
 
 class Subject(NamedTuple):
-    """What pictures show (`sim.show.pictures.shown.Shown`).
+    """What pictures show (`sim.show.pictures.shown.Drawable`).
 
     It is a recorded run, how far its samples lie from the ideal path, and what pictures of its cut have in common.
     """
@@ -113,4 +113,6 @@ PICTURES: Final[Mapping[str, Picture]] = {
     "worst": Picture(_worst),
     "motion": Picture(_of_run(draw_motion)),
 }
+
+
 """By the names that ``drycut draw --picture`` takes, in the order of the report; all but ``path`` need a run."""

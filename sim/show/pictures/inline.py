@@ -13,7 +13,10 @@ from sim.show.pictures.shown import label
 
 WIDTH_PX = 1600
 
+
 _LINE: Final = re.compile(r"<path [^>]{1000,}/>")
+
+
 """What is long enough to be shared."""
 
 
@@ -36,8 +39,8 @@ def inline_pictures(subject: Subject, progress: Progress) -> list[Inline]:
 
 def _inline(name: str, subject: Subject) -> Inline:
     """A picture in both languages; in none where the run has nothing to show there."""
-    drawn = {one: subject.draw(name, drawing(WIDTH_PX, language=one)) for one in LANGUAGES}
-    svg = {one: svg.fragment(label(name, subject.title, one)) for one, svg in drawn.items() if svg is not None}
+    drawn = {language: subject.draw(name, drawing(WIDTH_PX, language=language)) for language in LANGUAGES}
+    svg = {key: svg.fragment(label(name, subject.title, key)) for key, svg in drawn.items() if svg is not None}
     return Inline(name, _sharing(name, svg) if svg else svg)
 
 

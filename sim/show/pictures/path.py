@@ -7,11 +7,13 @@ from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.cut.of_path import Programmed, draw_path
 
 PATH: Final = "path"
+
+
 """Its name, as ``drycut draw --picture`` takes it."""
 
 
 class PathAlone(NamedTuple):
-    """A program of which nothing but `PATH` is to be drawn; see `sim.show.pictures.shown.Shown`."""
+    """A program of which nothing but `PATH` is to be drawn; see `sim.show.pictures.shown.Drawable`."""
 
     programmed: Programmed
 

@@ -7,7 +7,7 @@ from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.words import Words
 
 
-class Shown(Protocol):
+class Drawable(Protocol):
     """What pictures are drawn of."""
 
     @property

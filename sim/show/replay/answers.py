@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from parser.geometry.curves import Floats
 from parser.words.labels import label
 from sim.setup.quiz import About, WrittenQuestion
 from sim.show.replay.asked_block import AskedBlock, in_mm, plain, signed, way
-from sim.show.words import said
+from sim.show.words import bilingual
 from sim.show.words.phrases import same
 
 _WRONG = 3
@@ -34,7 +34,7 @@ def _quadrant(block: AskedBlock) -> WrittenQuestion | None:
     if not block.is_arc and block.motion != _ruled_digit(block):
         return None  # what is written is not what the rule says, and the rule is what is asked about
     from_x, from_y = (plain(um) for um in _from_center(block, block.start_um))
-    why = said(
+    why = bilingual(
         f"quiz.quadrant_{block.kind}_why", label=right, turn=_turn(block), from_x=from_x, from_y=from_y, **_moves(block)
     )
     return _among(
@@ -55,7 +55,7 @@ def _count_axis(block: AskedBlock) -> WrittenQuestion:
     return _among(["GX", "GY"], f"G{block.axis}", _ask("quiz.count_axis", block), _why_axis(block))
 
 
-def _why_axis(block: AskedBlock) -> Said:
+def _why_axis(block: AskedBlock) -> Bilingual:
     """Why the block counts on its axis by the rule of docs/3b.md §1, or that it does not keep to it."""
     wide, high = block.extent_um
     to_x, to_y = _from_center(block, block.end_um)
@@ -63,7 +63,7 @@ def _why_axis(block: AskedBlock) -> Said:
     key = key if rule == block.axis else "written"
     near = "Y" if rule == "X" else "X"
     values = {"wide": wide, "high": high, "to_x": plain(to_x), "to_y": plain(to_y), "near": near, "axis": block.axis}
-    return said(f"quiz.count_axis_{key}_why", **values)
+    return bilingual(f"quiz.count_axis_{key}_why", **values)
 
 
 def _axis_of_line(block: AskedBlock) -> tuple[str, str]:
@@ -83,8 +83,8 @@ def _axis_of_arc(to_x: int, to_y: int, written: str) -> tuple[str, str]:
 def _turning(block: AskedBlock) -> WrittenQuestion:
     clockwise, counter_clockwise = block.senses
     words = {"clockwise": clockwise, "counter_clockwise": counter_clockwise}
-    answers = [said("quiz.turn_answer", turn=said(f"quiz.{key}"), word=word) for key, word in words.items()]
-    why = said("quiz.turn_why", written=block.sense, **words)
+    answers = [bilingual("quiz.turn_answer", turn=bilingual(f"quiz.{key}"), word=word) for key, word in words.items()]
+    why = bilingual("quiz.turn_why", written=block.sense, **words)
     return WrittenQuestion(_ask("quiz.turn", block), tuple(answers), int(block.turn > 0), why)
 
 
@@ -92,15 +92,15 @@ def _count_length(block: AskedBlock) -> WrittenQuestion:
     axis = "XY".index(block.axis)
     others = (block.steps, abs(block.by_um[axis]), block.length_um, abs(block.by_um[1 - axis]), block.count_um * 2)
     wrong = [round(float(other)) for other in others if other >= 1]
-    ask = said("quiz.count_length", block=block.name, axis=block.axis)
-    why = said(f"quiz.count_length_{block.kind}_why", count=block.count_um, axis=block.axis)
+    ask = bilingual("quiz.count_length", block=block.name, axis=block.axis)
+    why = bilingual(f"quiz.count_length_{block.kind}_why", count=block.count_um, axis=block.axis)
     answers = sorted({block.count_um, *_some(wrong, block.count_um)})
     return _among([str(answer) for answer in answers], str(block.count_um), ask, why)
 
 
 def _next_step(block: AskedBlock) -> WrittenQuestion:
     right = way(block.first_step)
-    why = said(f"quiz.next_step_{block.kind}_why", way=right, label=label(block.turn, block.motion))
+    why = bilingual(f"quiz.next_step_{block.kind}_why", way=right, label=label(block.turn, block.motion))
     return _among(["+X", "−X", "+Y", "−Y"], right, _ask("quiz.next_step", block), why)
 
 
@@ -113,7 +113,7 @@ def _end(block: AskedBlock) -> WrittenQuestion | None:
     start_x, start_y = (in_mm(place) for place in block.start_um.tolist())
     values = {"start_x": start_x, "start_y": start_y, "center_x": center_x, "center_y": center_y}
     kind = block.kind if block.is_worded else "line"  # the text on arcs tells how far one counts
-    why = said(
+    why = bilingual(
         f"quiz.end_{kind}_why",
         turn=_turn(block),
         count=block.count_um,
@@ -133,9 +133,9 @@ def _other_ends(block: AskedBlock) -> list[Floats]:
     return [other for other in others if np.hypot(*(other - block.end_um)) >= _APART_UM]
 
 
-def _place(place_um: Floats) -> Said:
+def _place(place_um: Floats) -> Bilingual:
     x, y = (in_mm(place) for place in place_um.tolist())
-    return said("quiz.end_place", x=x, y=y)
+    return bilingual("quiz.end_place", x=x, y=y)
 
 
 def _some(wrong: Iterable[Any], right: object) -> list[Any]:
@@ -143,17 +143,17 @@ def _some(wrong: Iterable[Any], right: object) -> list[Any]:
     return [answer for answer in dict.fromkeys(wrong) if answer != right][:_WRONG]
 
 
-def _among(answers: list[str], right: str, ask: Said, why: Said) -> WrittenQuestion:
+def _among(answers: list[str], right: str, ask: Bilingual, why: Bilingual) -> WrittenQuestion:
     """A question whose answers need no words, in their order."""
     return WrittenQuestion(ask, tuple(same(answer) for answer in answers), answers.index(right), why)
 
 
-def _ask(key: str, block: AskedBlock) -> Said:
-    return said(key, block=block.name)
+def _ask(key: str, block: AskedBlock) -> Bilingual:
+    return bilingual(key, block=block.name)
 
 
-def _turn(block: AskedBlock) -> Said:
-    return said("quiz.counter_clockwise" if block.turn > 0 else "quiz.clockwise")
+def _turn(block: AskedBlock) -> Bilingual:
+    return bilingual("quiz.counter_clockwise" if block.turn > 0 else "quiz.clockwise")
 
 
 def _moves(block: AskedBlock) -> dict[str, str]:

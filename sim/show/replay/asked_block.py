@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.stepping.quadrants import walk_arcs
+from controller.stepping.strokes import walk_arcs
 from parser.geometry.curves import Floats
 from parser.told.step_words import Axis, StepWords
 from parser.units import mm
@@ -74,8 +74,8 @@ class AskedBlock(NamedTuple):
         if not self.is_arc:
             return self.quadrant
         x, y = np.rint(self.start_um - self.center_um).astype(np.int64)
-        one = np.ones(1, dtype=np.int64)
-        (quarter,) = walk_arcs(x * one, y * one, one, one, self.turn * one).quarter.tolist()
+        each = np.ones(1, dtype=np.int64)
+        (quarter,) = walk_arcs(x * each, y * each, each, each, self.turn * each).quarter.tolist()
         return int(quarter) + 1 if self.turn > 0 else 4 - int(quarter)
 
 

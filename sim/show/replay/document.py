@@ -29,7 +29,7 @@ from sim.run.outlines import simpler
 from sim.run.recording import Recording
 from sim.setup.obstacles import Outline
 from sim.show.decoded import buffer_text, order_text, value_text, way_texts, word_text
-from sim.show.draw.tones import tones_of
+from sim.show.draw.paints import tones_of
 from sim.show.html.environment import rendered
 from sim.show.html.packed import packed
 from sim.show.keys import OF_PAGE, actions_of
@@ -152,17 +152,17 @@ def decoding(run: DryRun) -> dict[str, Any] | None:
     if program.decoder is None or len(program.toolpath) > _MOST:
         return None
     contour = program.toolpath if run.offset is None else run.offset.passed.drawn
-    moving = [one for one in decoded(program, contour) if one.way is not None]
-    of_first = {one.block.span[0]: index for index, one in enumerate(moving)}
+    moving = [each for each in decoded(program, contour) if each.way is not None]
+    of_first = {each.block.span[0]: index for index, each in enumerate(moving)}
     return {
         "of_row": [of_first.get(first, -1) for first in program.toolpath.source.span[:, 0].tolist()],
-        "blocks": [_entry(program.text, one) for one in moving],
+        "blocks": [_entry(program.text, each) for each in moving],
     }
 
 
-def _entry(text: str, one: Decoded) -> dict[str, Any]:
+def _entry(text: str, each_decoded: Decoded) -> dict[str, Any]:
     return {
-        "text": printable(text[slice(*one.block.span)]),
+        "text": printable(text[slice(*each_decoded.block.span)]),
         "steps": [
             {
                 "order": order_text(step.order),
@@ -170,10 +170,10 @@ def _entry(text: str, one: Decoded) -> dict[str, Any]:
                 "field": step.field,
                 "value": value_text(step)._asdict(),
             }
-            for step in one.block.steps
+            for step in each_decoded.block.steps
         ],
-        "buffer": buffer_text(one.block),
-        "ways": [{"name": named.name._asdict(), "text": named.text._asdict()} for named in way_texts(one)],
+        "buffer": buffer_text(each_decoded.block),
+        "ways": [{"name": named.name._asdict(), "text": named.text._asdict()} for named in way_texts(each_decoded)],
     }
 
 
@@ -184,7 +184,7 @@ _ASSETS = Path(__file__).with_name("assets")
 
 def replay_page(recording: Recording) -> str:
     """HTML of ``replay.html`` for a recorded run."""
-    tones = tones_of(one for one, _ in passes_of(recording.run))
+    tones = tones_of(each for each, _ in passes_of(recording.run))
     document, machine = _handed_over(replay_document(recording)), machine_name(recording.run.scenario.machine)
     values = {"document": document, "machine": machine, "tones": tones}
     return rendered(_ASSETS, "replay.html.j2", **values, keys=OF_PAGE, actions=actions_of(OF_PAGE))
@@ -220,13 +220,13 @@ def replay_document(recording: Recording) -> dict[str, Any]:
         "blocks": block_columns(run),
         "decoding": decoding(run),
         "plan": plan_columns(run.plan),
-        "stops": [stop_entry(one.what) for one in course.stops],
+        "stops": [stop_entry(stop.what) for stop in course.stops],
         "contours": contour_entries(run.whole_contours),
         "passes": pass_entries(course.passes),
-        "findings": [finding_entry(one) for one in course.findings],
-        "losses": [loss_entry(one.what) for one in course.losses],
+        "findings": [finding_entry(finding) for finding in course.findings],
+        "losses": [loss_entry(loss.what) for loss in course.losses],
         "ended": None if run.ended is None else ending_entry(run.ended),
-        "pieces": [piece_entry(one) for one in course.pieces],
+        "pieces": [piece_entry(piece) for piece in course.pieces],
         "quiz": quiz_of(run, course.steps),
         "tape": tape(course.steps, origin_um(run.toolpath), course.trace, course.across.row),
     }

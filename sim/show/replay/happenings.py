@@ -12,7 +12,7 @@ from parser.units import from_mm
 from sim.base.rounded import rounded
 from sim.run.course import Happening, PassOf
 from sim.run.ending import Ending
-from sim.show.draw.tones import paint_of_pass
+from sim.show.draw.paints import paint_of_pass
 from sim.show.words.phrases import named_pass
 from sim.table.record.losses import Loss
 
@@ -70,13 +70,13 @@ def pass_entries(passes: Iterable[PassOf]) -> list[dict[str, Any]]:
     """Passes by the rows of their first and last blocks, with the paint of their tone, and their names."""
     return [
         {
-            "first_row": one.first,
-            "last_row": one.last,
-            "number": one.number,
-            "paint": str(paint_of_pass(one.number)),
-            "name": named_pass(one, among)._asdict(),
+            "first_row": each.first,
+            "last_row": each.last,
+            "number": each.number,
+            "paint": str(paint_of_pass(each.number)),
+            "name": named_pass(each, among)._asdict(),
         }
-        for one, among in passes
+        for each, among in passes
     ]
 
 

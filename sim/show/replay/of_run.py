@@ -5,16 +5,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.findings.catalogue import LANGUAGES, Said, texts
+from parser.findings.catalogue import LANGUAGES, Bilingual, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, edited
 from parser.program import Program, parse_program
 from sim.check.batch import check_program
-from sim.check.blame.trial import told_of
+from sim.check.blame.settle import told_of
 from sim.check.settings import CheckSettings
 from sim.run.dryrun import DryRun
 from sim.setup.quiz import WrittenQuestion
-from sim.show.words import said
+from sim.show.words import bilingual
 from sim.show.words.phrases import same
 
 _MOST_FAULTS = 8
@@ -41,8 +41,8 @@ def questions_of(run: DryRun) -> Iterator[OfRun]:
     if run.offset is not None:
         sides = ("left", "right")
         right = sides.index(run.offset.side.name.lower())
-        answers = tuple(said(f"quiz.side_{side}") for side in sides)
-        yield OfRun(first, "side", WrittenQuestion(said("quiz.side"), answers, right, said("quiz.side_why")))
+        answers = tuple(bilingual(f"quiz.side_{side}") for side in sides)
+        yield OfRun(first, "side", WrittenQuestion(bilingual("quiz.side"), answers, right, bilingual("quiz.side_why")))
     yield from _faults(run)
 
 
@@ -53,8 +53,8 @@ def _offset(run: DryRun) -> WrittenQuestion:
     lengths = [f"{um:g} µm" for um in sorted({round(um, 3) for um in (wire.reach_um, *others)})]
     right = lengths.index(f"{round(wire.reach_um, 3):g} µm")
     told = {"radius": f"{wire.diameter_um / 2.0:g}", "gap": f"{wire.spark_gap_um:g}", "reach": lengths[right]}
-    ask = said("quiz.offset", diameter=f"{wire.diameter_um:g}", gap=told["gap"])
-    return WrittenQuestion(ask, tuple(map(same, lengths)), right, said("quiz.offset_why", **told))
+    ask = bilingual("quiz.offset", diameter=f"{wire.diameter_um:g}", gap=told["gap"])
+    return WrittenQuestion(ask, tuple(map(same, lengths)), right, bilingual("quiz.offset_why", **told))
 
 
 def _faults(run: DryRun) -> Iterator[OfRun]:
@@ -98,8 +98,8 @@ def _fault(run: DryRun, finding: Finding, faulty: set[int]) -> OfRun | None:
     blocks = sorted([finding.block, *near[: _ANSWERS - 1]])
     if not len(rows) or len(blocks) < 2:
         return None
-    title = Said(*(texts(finding, language).title for language in LANGUAGES))
-    why = said("quiz.fault_why", block=finding.block_name, code=finding.code, title=title)
+    title = Bilingual(*(texts(finding, language).title for language in LANGUAGES))
+    why = bilingual("quiz.fault_why", block=finding.block_name, code=finding.code, title=title)
     first = int(np.flatnonzero(source.block == blocks[0])[0])
     answers = tuple(same(names.other.get(block, str(block))) for block in blocks)
-    return OfRun(first, "fault", WrittenQuestion(said("quiz.fault"), answers, blocks.index(finding.block), why))
+    return OfRun(first, "fault", WrittenQuestion(bilingual("quiz.fault"), answers, blocks.index(finding.block), why))

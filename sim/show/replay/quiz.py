@@ -76,7 +76,7 @@ def _hidden(run: DryRun, row: int, about: str | None) -> list[tuple[int, int]]:
         return [(past - first, (line_end if line_end >= 0 else len(source.text)) - first)]
     fields = source.fields_of(source.block_text(row))
     wanted = next((of for kind, of in _HIDDEN.items() if kind == about), ())
-    return sorted(fields[one] for one in wanted if one in fields)
+    return sorted(fields[each] for each in wanted if each in fields)
 
 
 def answered(run: DryRun, steps: Pulses, words: StepWords, row: int, about: About) -> WrittenQuestion | None:
@@ -116,7 +116,7 @@ def _pool(run: DryRun, steps: Pulses, words: StepWords) -> list[dict[str, Any]]:
     rows = cut[np.unique(np.linspace(0, len(cut) - 1, min(len(cut), _MOST_BLOCKS)).astype(np.int64))].tolist()
     of_blocks = ((row, about, answered(run, steps, words, row, about)) for row in rows for about in _kinds(run))
     entries = [entry_of(run, row, written, about) for row, about, written in of_blocks if written is not None]
-    entries += [entry_of(run, one.row, one.written, one.about) for one in questions_of(run)]
+    entries += [entry_of(run, question.row, question.written, question.about) for question in questions_of(run)]
     return sorted(entries, key=lambda entry: int(entry["row"]))
 
 

@@ -77,11 +77,11 @@ def _pack(part: Pulses, ticks: Ints, before: _Before, moves: Packer, times: Pack
     way = (3 * (dx + 1) + dy + 1).astype(np.uint8)
     took = np.diff(ticks, prepend=before.ticks)
     more, latest = np.empty_like(took), before.took.copy()
-    for one in range(_WAYS):
-        of = np.flatnonzero(way == one)
+    for each in range(_WAYS):
+        of = np.flatnonzero(way == each)
         if len(of):
-            more[of] = np.diff(took[of], prepend=latest[one])
-            latest[one] = took[of[-1]]
+            more[of] = np.diff(took[of], prepend=latest[each])
+            latest[each] = took[of[-1]]
     moves.bytes(way)
     times.numbers(more)
     return _Before(int(part.x_um[-1]), int(part.y_um[-1]), int(ticks[-1]), latest)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from parser.text.block_names import BlockNames
+from parser.text.source import BlockNames
 from sim.show.report_page.tables import (
     Column,
     ReportTable,
@@ -16,7 +16,7 @@ from sim.show.report_page.tables import (
     worded,
     yes_or_no,
 )
-from sim.show.words import said
+from sim.show.words import bilingual
 
 
 def piece_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable:
@@ -26,8 +26,8 @@ def piece_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable
         (
             counted("number", list(range(1, len(entries) + 1))),
             worded("kind", column_of(entries, "kind")),
-            Column(said("report.area"), column_of(entries, "area_mm2"), unit="mm²", digits=3),
-            Column(said("report.mass"), column_of(entries, "mass_g"), unit="g", digits=3),
+            Column(bilingual("report.area"), column_of(entries, "area_mm2"), unit="mm²", digits=3),
+            Column(bilingual("report.mass"), column_of(entries, "mass_g"), unit="g", digits=3),
             called("freed-block", column_of(entries, "freed.block"), names.at),
             timed("freed-after", column_of(entries, "freed.t_s")),
             called("held-after", column_of(entries, "held_after_block"), names.at),
@@ -95,7 +95,7 @@ def corner_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTabl
         "corners",
         (
             micrometres("left-at-least", column_of(entries, "depth_um"), digits=3),
-            Column(said("report.angle"), column_of(entries, "angle_deg"), unit="°", digits=1),
+            Column(bilingual("report.angle"), column_of(entries, "angle_deg"), unit="°", digits=1),
             millimetres("at-x", column_of(entries, "where_um.0")),
             millimetres("at-y", column_of(entries, "where_um.1")),
             called("block", column_of(entries, "block"), names),

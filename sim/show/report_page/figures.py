@@ -4,14 +4,14 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
-from parser.findings.catalogue import LANGUAGES, Said, length, texts
+from parser.findings.catalogue import LANGUAGES, Bilingual, length, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.units import mm, mm_text
 from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
 from sim.show.report_page.tables import reached
-from sim.show.words import said
+from sim.show.words import bilingual
 from sim.show.words.phrases import catalogued, lasting, listed, machine_name, numbered, same
 
 _NONE = same("")
@@ -34,15 +34,15 @@ class Figure(NamedTuple):
         What else there is to say.
     """
 
-    name: Said
+    name: Bilingual
     entry: str
     value: float
-    shown: Said
+    shown: Bilingual
     unit: str = ""
-    beside: Said = _NONE
+    beside: Bilingual = _NONE
 
 
-def why(run: DryRun) -> list[Said]:
+def why(run: DryRun) -> list[Bilingual]:
     """Sentences on the verdict, the first of them why it is so."""
     return [_first(run), *_ended(run), *_incomplete(run)]
 
@@ -67,69 +67,73 @@ def time_figures(report: Mapping[str, Any]) -> list[Figure]:
     total = report["time_s"]["total"]
     parts = {"cutting-time": total - jumping, "jump-time": jumping}
     return [
-        *(Figure(said(f"report.{name}"), "", round(time_s, 6), lasting(time_s)) for name, time_s in parts.items()),
-        Figure(said("report.total-time"), "time_s.total", total, lasting(total)),
+        *(Figure(bilingual(f"report.{name}"), "", round(time_s, 6), lasting(time_s)) for name, time_s in parts.items()),
+        Figure(bilingual("report.total-time"), "time_s.total", total, lasting(total)),
     ]
 
 
-def _first(run: DryRun) -> Said:
+def _first(run: DryRun) -> Bilingual:
     if not run.findings:
-        return said("report.nothing-found")
+        return bilingual("report.nothing-found")
     if verdict(run.findings) == "pass":
-        return said("report.no-error", counts=_counts(run.findings))
+        return bilingual("report.no-error", counts=_counts(run.findings))
     first = next(finding for finding in run.findings if finding.severity is Severity.ERROR)
-    title = Said(*(texts(first, language).title for language in LANGUAGES))
+    title = Bilingual(*(texts(first, language).title for language in LANGUAGES))
     key = "report.why-failed-in" if first.block else "report.why-failed"
-    return said(key, counts=_counts(run.findings), code=first.code, title=title, block=first.block_name)
+    return bilingual(key, counts=_counts(run.findings), code=first.code, title=title, block=first.block_name)
 
 
-def _counts(findings: tuple[Finding, ...]) -> Said:
+def _counts(findings: tuple[Finding, ...]) -> Bilingual:
     number = Counter(finding.severity for finding in findings)
     return numbered({severity: number[severity] for severity in Severity})
 
 
-def _ended(run: DryRun) -> list[Said]:
+def _ended(run: DryRun) -> list[Bilingual]:
     ended = run.ended
     if ended is None:
         return []
     told = {"axis": ended.axis.name, "block": run.block_names.of_row(ended.row), "time": lasting(ended.t_s)}
-    return [said(f"report.ended-{ended.cause}", **told)]
+    return [bilingual(f"report.ended-{ended.cause}", **told)]
 
 
-def _incomplete(run: DryRun) -> list[Said]:
+def _incomplete(run: DryRun) -> list[Bilingual]:
     names = [check.name for check in run.coverage.checks if check.state == "incomplete"]
-    return [said("report.incomplete", checks=listed(map(catalogued, names)))] if names else []
+    return [bilingual("report.incomplete", checks=listed(map(catalogued, names)))] if names else []
 
 
 def _figure(name: str, report: Mapping[str, Any], entry: str, digits: int = 0, per: float = 1.0) -> Figure:
     value = reached(report, entry)
-    return Figure(said(f"report.{name}"), entry, value, same(f"{value / per:,.{digits}f}"))
+    return Figure(bilingual(f"report.{name}"), entry, value, same(f"{value / per:,.{digits}f}"))
 
 
 def _size(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     total = report["time_s"]["total"]
     machine, thickness_mm = machine_name(run.scenario.machine), report["work"]["thickness_mm"]
-    work = said("report.in-work", thickness=f"{thickness_mm:g}", machine=machine)
+    work = bilingual("report.in-work", thickness=f"{thickness_mm:g}", machine=machine)
     if run.feeds is None:
-        yield Figure(said("report.card-time"), "time_s.total", total, lasting(total), beside=said("report.card-speeds"))
+        yield Figure(
+            bilingual("report.card-time"), "time_s.total", total, lasting(total), beside=bilingual("report.card-speeds")
+        )
     else:
-        yield Figure(said("report.time"), "time_s.total", total, lasting(total), beside=work)
+        yield Figure(bilingual("report.time"), "time_s.total", total, lasting(total), beside=work)
     jumps, arcs = int(run.toolpath.is_jump.sum()), int(run.toolpath.is_arc.sum())
     kinds = numbered({"line": len(run.toolpath) - arcs - jumps, "arc": arcs, "jump": jumps})
     yield _figure("blocks", report, "summary.blocks")._replace(beside=kinds)
     length = _figure("path-length", report, "summary.length_um", 3, 1000.0)
-    yield length._replace(unit="mm", beside=said("report.jumps-included") if jumps else _NONE)
+    yield length._replace(unit="mm", beside=bilingual("report.jumps-included") if jumps else _NONE)
 
 
 def _steps(report: Mapping[str, Any]) -> Figure:
-    return _figure("steps", report, "summary.steps")._replace(beside=said(f"report.{report['interpolator']['name']}"))
+    return _figure("steps", report, "summary.steps")._replace(
+        beside=bilingual(f"report.{report['interpolator']['name']}")
+    )
 
 
 def _worst(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     where = report["deviation"]["wire"]["where"]
     if where is not None:
         block = run.block_names.at(where["block"])
-        place = said("report.at-place", block=block, x=mm_text(where["x_um"]), y=mm_text(where["y_um"]))
+        place = bilingual("report.at-place", block=block, x=mm_text(where["x_um"]), y=mm_text(where["y_um"]))
         figure = _figure("worst-deviation", report, "deviation.wire.max_um", 2)
         yield figure._replace(unit="µm", beside=place)
 
@@ -145,7 +149,7 @@ def _closure(run: DryRun, report: Mapping[str, Any]) -> Iterator[Figure]:
     if len(run.whole_contours) > 1:
         first, last = (run.block_names.at(contour[key]) for key in ("first_block", "last_block"))
         told |= {"n": len(run.whole_contours), "first": first, "last": last}
-    beside = said("report.closure-worst" if len(run.whole_contours) > 1 else "report.closure-exact", **told)
+    beside = bilingual("report.closure-worst" if len(run.whole_contours) > 1 else "report.closure-exact", **told)
     stepped, unit = length(contour["closure_stepped_um"]).split(" ")
     figure = _figure("closure", report, f"contours.{at}.closure_stepped_um")
     yield figure._replace(shown=same(stepped), unit=unit, beside=beside)
@@ -155,17 +159,17 @@ def _pieces(report: Mapping[str, Any]) -> Iterator[Figure]:
     if report["remains"] is not None:
         kinds = [piece["kind"] for piece in report["remains"]["pieces"]]
         beside = numbered({kind: kinds.count(kind) for kind in ("part", "slug")})
-        yield Figure(said("report.pieces"), "", len(kinds), same(len(kinds)), beside=beside)
+        yield Figure(bilingual("report.pieces"), "", len(kinds), same(len(kinds)), beside=beside)
 
 
 def _drawing(report: Mapping[str, Any]) -> Iterator[Figure]:
     if report["drawing"] is not None:
-        allowed = said("report.allowed", tolerance=f"{report['drawing']['tolerance_um']:g}")
+        allowed = bilingual("report.allowed", tolerance=f"{report['drawing']['tolerance_um']:g}")
         yield _figure("off-drawing", report, "drawing.max_um", 2)._replace(unit="µm", beside=allowed)
 
 
 def _offset(report: Mapping[str, Any]) -> Iterator[Figure]:
     if report["offset"] is not None:
-        side = said(f"report.side-{report['offset']['side']}")
-        by = ", ".join(f"{mm(one['by_um']):.3f}" for one in report["offset"]["passes"])
+        side = bilingual(f"report.side-{report['offset']['side']}")
+        by = ", ".join(f"{mm(each['by_um']):.3f}" for each in report["offset"]["passes"])
         yield _figure("offset-added", report, "offset.by_um")._replace(shown=same(by), unit="mm", beside=side)

@@ -9,13 +9,13 @@ from typing import Final, NamedTuple
 
 from markupsafe import Markup, escape
 
-from parser.findings.catalogue import LANGUAGES, Said, page, texts
+from parser.findings.catalogue import LANGUAGES, Bilingual, page, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding
 from parser.program import Program
 from parser.text.excerpt import caret_lines
 from sim.run.dryrun import DryRun
-from sim.show.words import said
+from sim.show.words import bilingual
 
 MOST: Final = 200
 """Findings that the page shows; report.json has them all."""
@@ -29,7 +29,7 @@ _JOINT = re.compile(r"(?<=[^\x00-\x7f])\n(?=[^\x00-\x7f])")
 _BOLD = re.compile(r"\*\*(.+?)\*\*", re.DOTALL)
 
 
-class Shown(NamedTuple):
+class ShownFinding(NamedTuple):
     """A finding as the page shows it.
 
     Attributes
@@ -51,12 +51,12 @@ class Shown(NamedTuple):
     address: str
     code: str
     severity: str
-    word: Said
-    title: Said
+    word: Bilingual
+    title: Bilingual
     line: int
     column: int
     block: str
-    texts: tuple[tuple[str, Said], ...]
+    texts: tuple[tuple[str, Bilingual], ...]
     source: tuple[str, str] | None
 
 
@@ -64,21 +64,21 @@ class Explained(NamedTuple):
     """The page of a code: why it is a fault, and how to mend it."""
 
     code: str
-    title: Said
+    title: Bilingual
     why: tuple[Markup, Markup]
     mend: tuple[Markup, Markup]
 
 
-def shown_findings(run: DryRun) -> list[Shown]:
+def shown_findings(run: DryRun) -> list[ShownFinding]:
     """The findings that the page shows, in file order."""
-    return [_shown(run.program, finding, address(at)) for at, finding in enumerate(run.findings[:MOST])]
+    return [_shown_finding(run.program, finding, address(at)) for at, finding in enumerate(run.findings[:MOST])]
 
 
-def gravest_findings(run: DryRun, most: int) -> list[Shown]:
+def gravest_findings(run: DryRun, most: int) -> list[ShownFinding]:
     """The gravest findings of all, those that the page has no room for too: errors first, then in file order."""
     severities = list(Severity)
     order = sorted(range(len(run.findings)), key=lambda at: severities.index(run.findings[at].severity))
-    return [_shown(run.program, run.findings[at], address(at)) for at in order[:most]]
+    return [_shown_finding(run.program, run.findings[at], address(at)) for at in order[:most]]
 
 
 def address(at: int) -> str:
@@ -91,18 +91,18 @@ def explained(findings: Iterable[Finding]) -> list[Explained]:
     return [_explained(code) for code in sorted({finding.code for finding in findings})]
 
 
-def _shown(program: Program, finding: Finding, address: str) -> Shown:
+def _shown_finding(program: Program, finding: Finding, address: str) -> ShownFinding:
     english, chinese = (texts(finding, language)._asdict() for language in LANGUAGES)
-    return Shown(
+    return ShownFinding(
         address=address,
         code=finding.code,
         severity=str(finding.severity),
-        word=said(f"findings.{finding.severity}"),
-        title=Said(english["title"], chinese["title"]),
+        word=bilingual(f"findings.{finding.severity}"),
+        title=Bilingual(english["title"], chinese["title"]),
         line=finding.line,
         column=finding.column,
         block=finding.block_name,
-        texts=tuple((part, Said(english[part], chinese[part])) for part in PARTS if english[part]),
+        texts=tuple((part, Bilingual(english[part], chinese[part])) for part in PARTS if english[part]),
         source=_source(program, finding),
     )
 
@@ -119,7 +119,7 @@ def _explained(code: str) -> Explained:
     pages = page(code, "en"), page(code, "zh")
     return Explained(
         code,
-        Said(pages[0].title, pages[1].title),
+        Bilingual(pages[0].title, pages[1].title),
         (prose(pages[0].why), prose(pages[1].why)),
         (prose(pages[0].mend), prose(pages[1].mend)),
     )

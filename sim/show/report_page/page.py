@@ -1,24 +1,31 @@
 """The whole page of a run.
 
 What it takes to run the same again: versions, the program's check sum, and the files beside it.
+
+All settings of a run for people: by section, with names and units.
 """
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from markupsafe import Markup
 
+from parser.findings.catalogue import Bilingual
+from parser.program import Program
 from parser.text.encoding import encode_text
 from sim.base.workers.makers import Maker, versions
 from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
 from sim.run.recording import NO_PIECES
-from sim.setup.expectations import Expectation, wanted
+from sim.setup.expectations import EXPECT, Expectation, wanted
+from sim.setup.key_words import title_of, value_word, words_of
 from sim.setup.machine.machine import Machine, machine_sections
-from sim.setup.scenario import MACHINE_FILE, scenario_sections
-from sim.setup.toml.writer import toml_text, toml_value
+from sim.setup.quiz import QUIZ
+from sim.setup.scenario import MACHINE_FILE, Scenario, scenario_sections
+from sim.setup.toml.keys import Key, Section, WrittenSection, toml_text, toml_value
+from sim.setup.toml.kinds import OneOf
 from sim.show.assumptions import taken_for_granted
 from sim.show.draw.paints import DARK, Theme, hexadecimal
 from sim.show.html.environment import rendered
@@ -36,11 +43,91 @@ from sim.show.report_page.results import (
     loss_table,
     pass_table,
 )
-from sim.show.report_page.settings import setting_groups
 from sim.show.report_page.sheet import MOST_THREADS, sheet_of, thread_table
 from sim.show.report_page.tables import Column, ReportTable, yes_or_no
-from sim.show.words import said
-from sim.show.words.phrases import machine_name
+from sim.show.words import bilingual
+from sim.show.words.phrases import machine_name, same
+
+
+class Setting(NamedTuple):
+    """One setting: its name and its key, its value and unit."""
+
+    name: Bilingual
+    key: str
+    value: Bilingual
+    unit: str
+
+
+class SettingGroup(NamedTuple):
+    """Settings of one section."""
+
+    title: Bilingual
+    settings: tuple[Setting, ...]
+
+
+def setting_groups(scenario: Scenario, program: Program) -> list[SettingGroup]:
+    """Settings of program, machine, wire, work and what was asked of them.
+
+    Expectations have a table of their own, and the quiz is the replay's.
+    """
+    whole, *parts = scenario_sections(scenario)
+    named, *of_machine = machine_sections(scenario.machine)
+    settings = {setting.key: setting for setting in (*_settings(whole), *_settings(named))}
+    del settings["machine"], settings["name"]  # shown by its own sections, and beside the time
+    settings.pop("program", None)  # shown by its name alone
+    read = (
+        settings.pop("title"),
+        settings.pop("provenance"),
+        _program(whole.section, program),
+        _found("encoding", program.encoding),
+        _found("dialect", program.reading.dialect),
+    )
+    return [
+        SettingGroup(bilingual("report.section-program"), read),
+        *_groups(part for part in parts if part.section not in (QUIZ, EXPECT)),
+        SettingGroup(bilingual("report.section-run"), tuple(settings.values())),
+        *_groups(of_machine),
+    ]
+
+
+def _program(top: Section, program: Program) -> Setting:
+    """The name of the program, whichever section tells of its file."""
+    key = next(key for key in top.keys if key.name == "program")
+    return Setting(words_of(top, key).name, key.name, same(program.name), key.kind.unit)
+
+
+def _found(key: str, value: str) -> Setting:
+    """What was found out about the program, beside what was set."""
+    return Setting(bilingual(f"report.{key}"), key, same(value), "")
+
+
+def _groups(sections: Iterable[WrittenSection]) -> list[SettingGroup]:
+    return [SettingGroup(title_of(part.section), _settings(part)) for part in sections if part.values]
+
+
+def _settings(written: WrittenSection) -> tuple[Setting, ...]:
+    return tuple(_setting(written.section, key, written.values[key.name]) for key in written.keys)
+
+
+def _setting(section: Section, key: Key, value: Any) -> Setting:
+    shown = value_word(value) if isinstance(key.kind, OneOf) else _value(value)
+    return Setting(words_of(section, key).name, key.name, shown, key.kind.unit)
+
+
+def _value(value: Any) -> Bilingual:
+    if isinstance(value, bool):
+        return bilingual("report.yes" if value else "report.no")
+    if isinstance(value, Mapping):
+        return same(", ".join(f"{name} = {number:.10g}" for name, number in value.items()))
+    if isinstance(value, list) and isinstance(value[0], str):
+        return same(", ".join(value))
+    if isinstance(value, list):
+        return same("; ".join(", ".join(f"{number:.10g}" for number in pair) for pair in _pairs(value)))
+    return same(f"{value:.10g}" if isinstance(value, float) else value)
+
+
+def _pairs(value: list[Any]) -> list[list[float]]:
+    return value if isinstance(value[0], list) else [value]
 
 
 class Reproduction(NamedTuple):
@@ -105,7 +192,10 @@ def report_page(
     """
     findings = shown_findings(run)
     tables = [table for table in _tables(run, report) if table.rows]
-    shown = {one.name: {language: Markup(svg) for language, svg in one.svg.items()} for one in pictures}  # noqa: S704 - escaped by `sim.show.draw.svg`
+    shown_pictures = {
+        picture.name: {language: Markup(svg) for language, svg in picture.svg.items()}  # noqa: S704 - escaped by svg.py
+        for picture in pictures
+    }
     return rendered(
         _ASSETS,
         "report.html.j2",
@@ -113,7 +203,7 @@ def report_page(
         program=run.program.name,
         inline=inline,
         verdict=report["verdict"],
-        verdict_word=said(f"report.{report['verdict']}"),
+        verdict_word=bilingual(f"report.{report['verdict']}"),
         why=why(run),
         granted=taken_for_granted(run),
         figures=key_figures(run, report),
@@ -121,8 +211,8 @@ def report_page(
         findings=findings,
         unshown=len(run.findings) - len(findings),
         explained=explained(run.findings),
-        pictures=list(shown.items()),
-        cut=shown.get("cut"),
+        pictures=list(shown_pictures.items()),
+        cut=shown_pictures.get("cut"),
         sheet=sheet_of(run, report, pieces),
         tables={table.name: table for table in tables},
         tables_data=[table.data() for table in tables],
@@ -156,13 +246,13 @@ def _tables(run: DryRun, report: Mapping[str, Any]) -> list[ReportTable]:
 def _expectation_table(run: DryRun) -> ReportTable:
     """What the scenario expects, and whether the run meets it: those that it does not are findings."""
     expected: tuple[Expectation, ...] = run.scenario.expect
-    missed = {one.expected.path for one in run.missed}
+    missed = {each.expected.path for each in run.missed}
     return ReportTable(
         "expectations",
         (
-            Column(said("report.path"), [one.path for one in expected], "code"),
-            Column(said("report.wanted"), [toml_value(wanted(one)) for one in expected], "code"),
-            yes_or_no("met", [one.path not in missed for one in expected]),
+            Column(bilingual("report.path"), [each.path for each in expected], "code"),
+            Column(bilingual("report.wanted"), [toml_value(wanted(each)) for each in expected], "code"),
+            yes_or_no("met", [each.path not in missed for each in expected]),
         ),
     )
 

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import Any
 
-from parser.findings.catalogue import LANGUAGES, Said
+from parser.findings.catalogue import LANGUAGES, Bilingual
 from parser.shape.contours import Contour
-from parser.text.block_names import BlockNames
+from parser.text.source import BlockNames
 from sim.run.dryrun import DryRun
 from sim.show.report_page.findings import address
 from sim.show.report_page.tables import (
@@ -20,7 +20,7 @@ from sim.show.report_page.tables import (
     timed,
     worded,
 )
-from sim.show.words import said
+from sim.show.words import bilingual
 from sim.show.words.phrases import catalogued
 
 CodeLink = tuple[str, str]
@@ -41,7 +41,7 @@ def block_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
         (
             called("block", of("block"), run.block_names.at),
             counted("line", of("line")),
-            Column(said("report.text"), of("text"), "code"),
+            Column(bilingual("report.text"), of("text"), "code"),
             worded("kind", of("kind"), "kind"),
             *_counted_by(of("count_um"), of("count_axis")),
             millimetres("from-x", of("exact.start_um.0")),
@@ -54,7 +54,7 @@ def block_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
             timed("seconds", report["time_s"]["by_block"]),
             micrometres("step-deviation", of("stepped.max_deviation_um")),
             micrometres("table-off", of("table.max_deviation_um")),
-            Column(said("report.codes"), _codes(run), "codes"),
+            Column(bilingual("report.codes"), _codes(run), "codes"),
         ),
     )
 
@@ -63,8 +63,8 @@ def _counted_by(count_um: list[Any], axis: list[Any]) -> tuple[Column, ...]:
     """J and G of each block; none for a program without words, which has nothing to show there."""
     if not any(axis):
         return ()
-    words = [one and f"G{one}" for one in axis]
-    return counted("count-length", count_um), Column(said("report.count-axis"), words, "code")
+    words = [axi and f"G{axi}" for axi in axis]
+    return counted("count-length", count_um), Column(bilingual("report.count-axis"), words, "code")
 
 
 def _codes(run: DryRun) -> list[list[CodeLink]]:
@@ -159,10 +159,10 @@ def limit_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
         (
             worded("quantity", column_of(entries, "quantity")),
             named("axis", column_of(entries, "axis")),
-            Column(said("report.value"), column_of(entries, "value"), digits=2),
-            Column(said("report.limit"), column_of(entries, "limit"), digits=2),
+            Column(bilingual("report.value"), column_of(entries, "value"), digits=2),
+            Column(bilingual("report.limit"), column_of(entries, "limit"), digits=2),
             named("unit", [{"force": "N", "speed": "µm/s", "lag": "µm"}[entry["quantity"]] for entry in entries]),
-            Column(said("report.share"), column_of(entries, "share"), unit="%", per=0.01, digits=1),
+            Column(bilingual("report.share"), column_of(entries, "share"), unit="%", per=0.01, digits=1),
             *_met(run.block_names, entries),
         ),
     )
@@ -180,20 +180,22 @@ def loss_table(run: DryRun, report: Mapping[str, Any]) -> ReportTable:
 def check_table(run: DryRun) -> ReportTable:
     """How far each check came."""
     checks = run.coverage.checks
-    reasons = {check.reason: Said(*map(check.because, LANGUAGES)) for check in checks}
+    reasons = {check.reason: Bilingual(*map(check.because, LANGUAGES)) for check in checks}
     return ReportTable(
         "checks",
         (
             _terms("check", [check.name for check in checks]),
             worded("state", [check.state.replace(" ", "-") for check in checks]),
-            Column(said("report.reason"), [check.reason for check in checks], "word", words=reasons),
+            Column(bilingual("report.reason"), [check.reason for check in checks], "word", words=reasons),
         ),
     )
 
 
 def _terms(head: str, keys: list[str]) -> Column:
     """Terms of the catalogue; nothing for an empty key."""
-    return Column(said(f"report.{head}"), keys, "word", words={key: catalogued(key) for key in dict.fromkeys(keys)})
+    return Column(
+        bilingual(f"report.{head}"), keys, "word", words={key: catalogued(key) for key in dict.fromkeys(keys)}
+    )
 
 
 def _met(names: BlockNames, entries: list[Any], where: str = "") -> tuple[Column, ...]:

@@ -3,16 +3,16 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
-from parser.findings.catalogue import Said
-from parser.text.block_names import BlockNames
+from parser.findings.catalogue import Bilingual
+from parser.text.source import BlockNames
 from parser.units import mm, mm_text
 from sim.cut.pieces.pieces import Piece, Pieces
 from sim.run.dryrun import DryRun
 from sim.run.recording import NO_PIECES
 from sim.setup.part import DEFAULT_DENSITY_G_CM3
-from sim.show.report_page.findings import Shown, gravest_findings
+from sim.show.report_page.findings import ShownFinding, gravest_findings
 from sim.show.report_page.tables import Column, ReportTable, called, column_of, counted, millimetres, timed
-from sim.show.words import said
+from sim.show.words import bilingual
 from sim.show.words.phrases import lasting, listed, machine_name, numbered, same
 
 MOST_THREADS: Final = 12
@@ -23,8 +23,8 @@ _MOST_FINDINGS: Final = 4
 class Fact(NamedTuple):
     """What something is called, and what it is."""
 
-    name: Said
-    value: Said
+    name: Bilingual
+    value: Bilingual
 
 
 class Thread(NamedTuple):
@@ -33,11 +33,11 @@ class Thread(NamedTuple):
     blocks: str
     x: str
     y: str
-    after: Said
+    after: Bilingual
     reach: tuple[str, ...]
     out_x: str
     out_y: str
-    out_after: Said
+    out_after: Bilingual
 
 
 class Sheet(NamedTuple):
@@ -56,7 +56,7 @@ class Sheet(NamedTuple):
     facts: Sequence[Fact]
     threads: Sequence[Thread]
     threads_more: int
-    findings: Sequence[Shown]
+    findings: Sequence[ShownFinding]
     findings_more: int
 
 
@@ -90,65 +90,67 @@ def thread_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTabl
 
 
 def _reach(side: str, entries: list[dict[str, Any]]) -> Column:
-    head = said(f"sheet.head-{side}")
+    head = bilingual(f"sheet.head-{side}")
     return Column(head, column_of(entries, f"{side}_um"), unit="mm", per=1000.0, digits=3)
 
 
 def _facts(run: DryRun, report: Mapping[str, Any], pieces: Pieces) -> Iterator[Fact]:
     wire, work = report["wire"], report["work"]
     sizes = {"diameter": f"{mm(wire['diameter_um']):g}", "gap": f"{wire['spark_gap_um']:g}"}
-    yield Fact(said("sheet.machine"), machine_name(run.scenario.machine))
-    yield Fact(said("sheet.work"), _work(work["thickness_mm"], work["density_g_cm3"]))
-    yield Fact(said("sheet.wire"), said("sheet.wire-is", kerf=f"{mm(wire['kerf_um']):g}", **sizes))
-    yield Fact(said("sheet.offset"), _offset(report))
-    yield Fact(said("sheet.passes"), _passes(report))
-    yield Fact(said("sheet.length"), said("sheet.length-is", length=f"{mm(run.ran_um):,.3f}"))
-    yield Fact(said("sheet.time"), _time(run))
-    yield Fact(said("sheet.pieces"), _pieces(pieces))
+    yield Fact(bilingual("sheet.machine"), machine_name(run.scenario.machine))
+    yield Fact(bilingual("sheet.work"), _work(work["thickness_mm"], work["density_g_cm3"]))
+    yield Fact(bilingual("sheet.wire"), bilingual("sheet.wire-is", kerf=f"{mm(wire['kerf_um']):g}", **sizes))
+    yield Fact(bilingual("sheet.offset"), _offset(report))
+    yield Fact(bilingual("sheet.passes"), _passes(report))
+    yield Fact(bilingual("sheet.length"), bilingual("sheet.length-is", length=f"{mm(run.ran_um):,.3f}"))
+    yield Fact(bilingual("sheet.time"), _time(run))
+    yield Fact(bilingual("sheet.pieces"), _pieces(pieces))
 
 
-def _work(thickness_mm: float, density_g_cm3: float) -> Said:
+def _work(thickness_mm: float, density_g_cm3: float) -> Bilingual:
     key = "sheet.work-as-steel" if density_g_cm3 == DEFAULT_DENSITY_G_CM3 else "sheet.work-is"
-    return said(key, thickness=f"{thickness_mm:g}", density=f"{density_g_cm3:g}")
+    return bilingual(key, thickness=f"{thickness_mm:g}", density=f"{density_g_cm3:g}")
 
 
-def _offset(report: Mapping[str, Any]) -> Said:
+def _offset(report: Mapping[str, Any]) -> Bilingual:
     offset = report["offset"]
     if offset is None:
         within_um = report["program"]["header"].get("offset_um")
-        return said("sheet.offset-within", by=mm_text(within_um)) if within_um else said("sheet.offset-none")
-    by = ", ".join(f"{mm(one['by_um']):.3f}" for one in offset["passes"])
-    return said(f"sheet.offset-{offset['side']}", by=by)
+        return bilingual("sheet.offset-within", by=mm_text(within_um)) if within_um else bilingual("sheet.offset-none")
+    by = ", ".join(f"{mm(each['by_um']):.3f}" for each in offset["passes"])
+    return bilingual(f"sheet.offset-{offset['side']}", by=by)
 
 
-def _passes(report: Mapping[str, Any]) -> Said:
+def _passes(report: Mapping[str, Any]) -> Bilingual:
     """How many over the contour with the most; their distances too where the program has them within its path."""
     found = report["passes"]
-    most = max(found, key=lambda one: one["number"], default=None)
+    most = max(found, key=lambda each: each["number"], default=None)
     if most is None or most["number"] == 1 or report["offset"] is not None:
         return same(1 if most is None else most["number"])
-    by = ", ".join(mm_text(one["offset_um"]) for one in found if one["contour"] == most["contour"])
-    return said("sheet.passes-by", n=most["number"], by=by)
+    by = ", ".join(mm_text(each["offset_um"]) for each in found if each["contour"] == most["contour"])
+    return bilingual("sheet.passes-by", n=most["number"], by=by)
 
 
-def _time(run: DryRun) -> Said:
+def _time(run: DryRun) -> Bilingual:
     jumping_s = float(run.block_time_s[run.toolpath.is_jump].sum())
     if not jumping_s:
         return lasting(run.ran_s)
-    return said("sheet.time-is", total=lasting(run.ran_s), cutting=lasting(run.ran_s - jumping_s))
+    return bilingual("sheet.time-is", total=lasting(run.ran_s), cutting=lasting(run.ran_s - jumping_s))
 
 
-def _pieces(pieces: Pieces) -> Said:
+def _pieces(pieces: Pieces) -> Bilingual:
     if pieces == NO_PIECES:
-        return said("sheet.pieces-unknown")
+        return bilingual("sheet.pieces-unknown")
     if not pieces.freed:
-        return said("sheet.pieces-none")
-    by_kind = {kind: [one for one in pieces.freed if one.kind == kind] for kind in ("part", "slug")}
+        return bilingual("sheet.pieces-none")
+    by_kind = {kind: [each for each in pieces.freed if each.kind == kind] for kind in ("part", "slug")}
     return listed(_weighed(kind, found) for kind, found in by_kind.items() if found)
 
 
-def _weighed(kind: str, pieces: Sequence[Piece]) -> Said:
-    return said("sheet.pieces-of", count=numbered({kind: len(pieces)}), mass=_mass(sum(one.mass_g for one in pieces)))
+def _weighed(kind: str, pieces: Sequence[Piece]) -> Bilingual:
+    return bilingual(
+        "sheet.pieces-of", count=numbered({kind: len(pieces)}), mass=_mass(sum(piece.mass_g for piece in pieces))
+    )
 
 
 def _mass(mass_g: float) -> str:
@@ -163,5 +165,5 @@ def _thread(entry: Mapping[str, Any], names: BlockNames) -> Thread:
     return Thread(blocks, x, y, _after(entry["at_s"]), reach, out_x, out_y, _after(entry["out_s"]))
 
 
-def _after(time_s: float | None) -> Said:
-    return said("sheet.not-reached") if time_s is None else lasting(time_s)
+def _after(time_s: float | None) -> Bilingual:
+    return bilingual("sheet.not-reached") if time_s is None else lasting(time_s)

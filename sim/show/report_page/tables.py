@@ -3,10 +3,10 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Final, Literal, NamedTuple
 
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from parser.units import UM_PER_MM
 from sim.show.html.packed import packed
-from sim.show.words import said
+from sim.show.words import bilingual
 
 _LONG_S: Final = 600.0
 
@@ -30,13 +30,13 @@ class Column(NamedTuple):
         What the keys of a column of words say.
     """
 
-    head: Said
+    head: Bilingual
     values: Sequence[Any]
     kind: Kind = "number"
     unit: str = ""
     per: float = 1.0
     digits: int = 0
-    words: Mapping[str, Said] = {}
+    words: Mapping[str, Bilingual] = {}
 
 
 class ReportTable(NamedTuple):
@@ -46,9 +46,9 @@ class ReportTable(NamedTuple):
     columns: tuple[Column, ...]
 
     @property
-    def title(self) -> Said:
+    def title(self) -> Bilingual:
         """Its heading."""
-        return said(f"report.table-{self.name}")
+        return bilingual(f"report.table-{self.name}")
 
     @property
     def rows(self) -> int:
@@ -62,14 +62,14 @@ class ReportTable(NamedTuple):
 
 def counted(head: str, values: Sequence[Any]) -> Column:
     """Whole numbers."""
-    return Column(said(f"report.{head}"), values)
+    return Column(bilingual(f"report.{head}"), values)
 
 
 def called(head: str, values: Iterable[int | None], name: Callable[[int], str]) -> Column:
     """Blocks by what `name` calls them; where they have numbers alone, as whole numbers."""
     names = [None if value is None else name(value) for value in values]
-    if all(one is None or one.isdecimal() for one in names):
-        return counted(head, [one and int(one) for one in names])
+    if all(each_name is None or each_name.isdecimal() for each_name in names):
+        return counted(head, [each_name and int(each_name) for each_name in names])
     return named(head, names)
 
 
@@ -77,36 +77,38 @@ def micrometres(head: str, values: Sequence[Any], digits: int = 2) -> Column:
     """Lengths in µm, shown in mm to the µm where any is as long as one."""
     if max((abs(value) for value in values if value is not None), default=0.0) >= UM_PER_MM:
         return millimetres(head, values)
-    return Column(said(f"report.{head}"), values, unit="µm", digits=digits)
+    return Column(bilingual(f"report.{head}"), values, unit="µm", digits=digits)
 
 
 def millimetres(head: str, values: Sequence[Any]) -> Column:
     """Lengths in µm, shown in mm to the µm."""
-    return Column(said(f"report.{head}"), values, unit="mm", per=1000.0, digits=3)
+    return Column(bilingual(f"report.{head}"), values, unit="mm", per=1000.0, digits=3)
 
 
 def timed(head: str, values: Sequence[Any]) -> Column:
     """Times in s, shown in min where any is as long as ten of them."""
     long = max((value for value in values if value is not None), default=0.0) >= _LONG_S
     unit, per = ("min", 60.0) if long else ("s", 1.0)
-    return Column(said(f"report.{head}"), values, unit=unit, per=per, digits=2)
+    return Column(bilingual(f"report.{head}"), values, unit=unit, per=per, digits=2)
 
 
 def worded(head: str, values: Sequence[str], prefix: str = "is") -> Column:
     """Words of the page, by their keys without the prefix."""
-    words = {key: said(f"report.{prefix}-{key}") for key in dict.fromkeys(values)}
-    return Column(said(f"report.{head}"), values, "word", words=words)
+    words = {key: bilingual(f"report.{prefix}-{key}") for key in dict.fromkeys(values)}
+    return Column(bilingual(f"report.{head}"), values, "word", words=words)
 
 
 def yes_or_no(head: str, values: Iterable[bool]) -> Column:
     """Whether something is so."""
     answers = ["yes" if value else "no" for value in values]
-    return Column(said(f"report.{head}"), answers, "word", words={key: said(f"report.{key}") for key in ("yes", "no")})
+    return Column(
+        bilingual(f"report.{head}"), answers, "word", words={key: bilingual(f"report.{key}") for key in ("yes", "no")}
+    )
 
 
 def named(head: str, values: Sequence[str | None]) -> Column:
     """Texts as people write them."""
-    return Column(said(f"report.{head}"), values, "text")
+    return Column(bilingual(f"report.{head}"), values, "text")
 
 
 def column_of(entries: Iterable[Mapping[str, Any]], path: str) -> list[Any]:

@@ -2,7 +2,7 @@
 
 from parser.findings.catalogue import Language
 from sim.run.ballbar.circle import Ballbar
-from sim.run.ballbar.turn import NAMES
+from sim.run.ballbar.figures import NAMES
 from sim.show.circular_test import Row, figure_rows, loss_text, part_rows, setup_rows, um
 from sim.show.terminal.layout import paragraph, show, table
 from sim.show.words.words import Words
@@ -11,12 +11,12 @@ from sim.show.words.words import Words
 def print_ballbar(ballbar: Ballbar, tolerance_um: float | None, language: Language) -> None:
     """Print what was run, its figures and parts, what was lost, and the verdict to stdout."""
     tell = Words(language)
-    shown = table(tell("ballbar.title-table"))
+    shown_table = table(tell("ballbar.title-table"))
     for group in _groups(ballbar, tell):
         for row in group:
-            shown.add_row(row.name, row.value)
-        shown.add_section()
-    show(shown)
+            shown_table.add_row(row.name, row.value)
+        shown_table.add_section()
+    show(shown_table)
     for loss in ballbar.losses:
         paragraph(tell("ballbar.loss", loss=loss_text(*loss, tell)), "red")
     no_turn = _no_turn(ballbar, tell)

@@ -20,16 +20,16 @@ def print_batch(index: Mapping[str, Any], output: Path, language: Language) -> N
     bad = [program for program in index["programs"] if program["verdict"] != "pass"]
     for program in bad[:_MOST]:
         verdict = tell(f"batch.verdict-{program['verdict']}")
-        told = tell("batch.bad", file=program["file"], verdict=verdict, why=_why(program))
-        for line in wrapped(told, indent="    "):
+        told_text = tell("batch.bad", file=program["file"], verdict=verdict, why=_why(program))
+        for line in wrapped(told_text, indent="    "):
             say(styled(line, COLOURS["fail"]))
     if len(bad) > _MOST:
         say(tell("batch.more", n=f"{len(bad) - _MOST:,}"))
     counts = index["counts"]
-    told = tell("phrases.comma").join(
+    told_text = tell("phrases.comma").join(
         tell(f"batch.count-{name}", n=f"{counts[name]:,}") for name in _COUNTED if counts[name]
     )
-    say(tell("batch.one" if counts["programs"] == 1 else "batch.some", n=f"{counts['programs']:,}", counts=told))
+    say(tell("batch.one" if counts["programs"] == 1 else "batch.some", n=f"{counts['programs']:,}", counts=told_text))
     say(tell("batch.written", output=output))
 
 

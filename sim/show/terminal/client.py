@@ -7,8 +7,8 @@ from controller.card.log.lines import LONGEST_S
 from parser.findings.catalogue import Language
 from parser.text.encoding import printable
 from parser.units import mm
-from sim.clients.result import ClientRun
-from sim.clients.said import Asked
+from sim.clients.run import ClientRun
+from sim.clients.said import Questions
 from sim.clients.started import Ended
 from sim.show.terminal.colours import painted, styled
 from sim.show.terminal.finding import finding_lines
@@ -25,10 +25,10 @@ _DAY_S = 86_400.0
 def print_client(done: ClientRun, title: str, longest_s: float, language: Language) -> None:
     """Print what came of a program."""
     words = Words(language)
-    shown = table(printable(title))
+    shown_table = table(printable(title))
     for row in _rows(done, words):
-        shown.add_row(*row)
-    show(shown)
+        shown_table.add_row(*row)
+    show(shown_table)
     findings = done.run.findings if done.run else done.read.program.findings
     for finding in findings[:_MOST_FINDINGS]:
         excerpt = done.read.program.excerpt(finding.line) if finding.column else None
@@ -38,7 +38,7 @@ def print_client(done: ClientRun, title: str, longest_s: float, language: Langua
         paragraph(words("client.more", more=f"{len(findings) - _MOST_FINDINGS:,}"))
     say(styled(_ended(done.ended, printable(title), longest_s, words), "bold"))
     last = done.read.session.events[-1]
-    if done.ended.is_stopped and isinstance(last, Asked):
+    if done.ended.is_stopped and isinstance(last, Questions):
         paragraph(words("client.asking", what=", ".join(last.calls), count=f"{last.count:,}"))
 
 

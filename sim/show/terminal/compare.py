@@ -3,9 +3,8 @@
 import numpy as np
 from rich.table import Table
 
-from parser.findings.catalogue import Language
-from parser.findings.remarks import remark_text
-from parser.text.block_names import BlockNames
+from parser.findings.catalogue import Language, remark_text
+from parser.text.source import BlockNames
 from parser.units import mm, mm_text
 from sim.measure.compare.result import Comparison, WorstPlace
 from sim.measure.compare.tables import by_block, by_entity, corner_places, worst_places
@@ -79,10 +78,10 @@ def _heads(tell: Words, *names: str) -> tuple[str, ...]:
 
 def _worst(of: Comparison, names: BlockNames, tell: Words) -> Table:
     heads = _heads(tell, "deviation", "side", "at", "block", "entity", "from")
-    shown = table(tell("compare.worst"), heads, right=(0, 3))
+    shown_table = table(tell("compare.worst"), heads, right=(0, 3))
     for place in worst_places(of):
         has_side = place.side in _SIDES and place.deviation_um >= _SHOWN_UM
-        shown.add_row(
+        shown_table.add_row(
             _um(place.deviation_um),
             tell(f"compare.side-{_SIDES[place.side]}") if has_side else "",
             _xy(*place.where_um),
@@ -90,7 +89,7 @@ def _worst(of: Comparison, names: BlockNames, tell: Words) -> Table:
             _entity(of, place.entity),
             tell(f"compare.from-{place.measured_from}"),
         )
-    return shown
+    return shown_table
 
 
 def _corners(of: Comparison, names: BlockNames, tell: Words) -> Table:
@@ -100,16 +99,16 @@ def _corners(of: Comparison, names: BlockNames, tell: Words) -> Table:
     title = tell(f"compare.corners-{counted}", number=f"{len(corners):,}")
     if len(corners) > _MOST_CORNERS:
         title = tell("compare.corners-deepest", title=title, most=_MOST_CORNERS)
-    shown = table(title, _heads(tell, "left", "angle", "at", "block", "entity"), right=(0, 1, 3))
+    shown_table = table(title, _heads(tell, "left", "angle", "at", "block", "entity"), right=(0, 1, 3))
     for corner in corners[:_MOST_CORNERS]:
-        shown.add_row(
+        shown_table.add_row(
             _um(corner.depth_um),
             f"{np.degrees(corner.angle_rad):.1f}°",
             _xy(*corner.where_um),
             names(corner.block),
             _entity(of, corner.entity),
         )
-    return shown
+    return shown_table
 
 
 def _entity(of: Comparison, number: int) -> str:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from parser.findings.catalogue import Language, Said
+from parser.findings.catalogue import Bilingual, Language
 from parser.findings.codes import Severity
 from parser.geometry.curves import CurveKind
 from parser.program import Program
@@ -20,7 +20,7 @@ from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped
 from sim.show.words import Words
 from sim.show.words.phrases import as_read, listed, numbered, same
-from sim.show.words.words import said
+from sim.show.words.words import bilingual
 
 _INDENT = "    "
 
@@ -58,17 +58,17 @@ def refused_lines(refused: Refused, name: str, language: Language, width: int) -
         excerpt = refused.program.excerpt(finding.line) if finding.line else None
         for line in finding_lines(printable(refused.program.name), finding, excerpt, language, width):
             yield painted(line, finding.severity)
-    values = {key: said(value) if value.startswith("convert.") else same(value) for key, value in refused.values}
-    why = said(f"convert.refused-{refused.why}", **values)
+    values = {key: bilingual(value) if value.startswith("convert.") else same(value) for key, value in refused.values}
+    why = bilingual(f"convert.refused-{refused.why}", **values)
     text = Words(language)("convert.not-written", name=printable(name), why=why)
     yield from (styled(line, "red") for line in wrapped(text, width, "", _INDENT))
 
 
-def _lost(loss: Loss) -> Said:
-    return said(f"convert.lost-{loss.what}", of=printable(loss.of), number=f"{loss.number:,}")
+def _lost(loss: Loss) -> Bilingual:
+    return bilingual(f"convert.lost-{loss.what}", of=printable(loss.of), number=f"{loss.number:,}")
 
 
-def _rows(toolpath: Toolpath) -> Said:
+def _rows(toolpath: Toolpath) -> Bilingual:
     names = {"line": CurveKind.LINE, "arc": CurveKind.ARC, "jump": CurveKind.JUMP}
     return numbered({name: int(np.count_nonzero(toolpath.kind == kind)) for name, kind in names.items()})
 

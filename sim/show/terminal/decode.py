@@ -29,15 +29,15 @@ def print_decoded(program: Program, blocks: Sequence[Decoded], language: Languag
     for taken in assumptions:
         what, why = catalogued(taken.what), catalogued(taken.why)
         paragraph(words("decode.assumed", what=what, taken=taken.taken, why=why))
-    for number, one in enumerate(blocks):
+    for number, decoded in enumerate(blocks):
         if number or assumptions:
             say("")
-        head = f"{words('decode.line', line=one.block.line)}: "
-        for line in wrapped(printable(program.text[slice(*one.block.span)]), width_of(outlet()), head):
+        head = f"{words('decode.line', line=decoded.block.line)}: "
+        for line in wrapped(printable(program.text[slice(*decoded.block.span)]), width_of(outlet()), head):
             say(styled(line, "bold"))
-        _print_table([_step_row(step, language) for step in one.block.steps])
-        named = [(getattr(name, language), getattr(text, language)) for name, text in way_texts(one)]
-        _print_table([(words("decode.buffer"), buffer_text(one.block)), *named])
+        _print_table([_step_row(step, language) for step in decoded.block.steps])
+        named = [(getattr(name, language), getattr(text, language)) for name, text in way_texts(decoded)]
+        _print_table([(words("decode.buffer"), buffer_text(decoded.block)), *named])
 
 
 def _step_row(step: DecodeStep, language: Language) -> tuple[str, ...]:
@@ -54,11 +54,11 @@ def _print_table(rows: Sequence[tuple[str, ...]]) -> None:
         for line in wrapped(too_long, width, _INDENT, _INDENT * 2) if too_long else ():
             say(line)
         shown = ["" if too_long else heads[0], *heads[1:]]
-        filled = (one + " " * (room - cells(one)) for one, room in zip(shown, wide, strict=True))
-        for line in wrapped(text, width, _INDENT + "".join(one + _GAP for one in filled)):
+        filled = (each + " " * (room - cells(each)) for each, room in zip(shown, wide, strict=True))
+        for line in wrapped(text, width, _INDENT + "".join(each + _GAP for each in filled)):
             say(line)
 
 
 def _room(column: Sequence[str]) -> int:
     """Cells of a column: of the widest text in it that is not too long for one."""
-    return max((cells(one) for one in column if cells(one) <= _WIDEST), default=0)
+    return max((cells(each) for each in column if cells(each) <= _WIDEST), default=0)

@@ -32,7 +32,7 @@ def table(title: str, heads: tuple[str, ...] = ("", ""), right: tuple[int, ...] 
     return made
 
 
-def show(shown: Table) -> None:
+def show(shown_table: Table) -> None:
     """Print a table to stdout."""
     stream = outlet()
     console = Console(
@@ -45,7 +45,7 @@ def show(shown: Table) -> None:
         highlight=False,
         legacy_windows=False,
     )
-    for line in console.render_lines(shown, pad=False):
+    for line in console.render_lines(shown_table, pad=False):
         say("".join(map(_part, line)).rstrip())
 
 

@@ -26,14 +26,14 @@ _CODE = re.compile(r"(`[^`]+`)")
 _SIGNS = re.compile(r"\*\*")
 
 
-class Shown(NamedTuple):
+class ShownLine(NamedTuple):
     """A line, and whether it is a heading."""
 
     text: str
     is_heading: bool = False
 
 
-def shown(markdown: str, width: int = WIDTH) -> Iterator[Shown]:
+def shown_lines(markdown: str, width: int = WIDTH) -> Iterator[ShownLine]:
     """The lines of a text, of at most `width` cells but for those of fenced text, which stay as they are."""
     before = ""
     for at, text in enumerate(_FENCED.split(_COMMENT.sub("", markdown))):  # every second one is fenced
@@ -41,7 +41,7 @@ def shown(markdown: str, width: int = WIDTH) -> Iterator[Shown]:
         for block in blocks:
             kind = "fence" if at % 2 else _kind(block[0])
             if before and before != "heading" and not before == kind == "item":
-                yield Shown("")
+                yield ShownLine("")
             yield from _lines(kind, block, width)
             before = kind
 
@@ -91,17 +91,17 @@ def _kind(line: str) -> str:
     return "item" if _ITEM.match(line) else "text"
 
 
-def _lines(kind: str, block: Sequence[str], width: int) -> Iterator[Shown]:
+def _lines(kind: str, block: Sequence[str], width: int) -> Iterator[ShownLine]:
     if kind == "fence":
         set_in = _SET_IN[: max(0, width - max(map(cells, block), default=0))]
-        yield from (Shown((set_in + printable(line)).rstrip()) for line in block)
+        yield from (ShownLine((set_in + printable(line)).rstrip()) for line in block)
     elif kind == "table":
-        yield from map(Shown, _table(block, width))
+        yield from map(ShownLine, _table(block, width))
     else:
         item = _ITEM.match(block[0]) if kind == "item" else None
         head = item[0] if item else ""
         text = "\n".join(block)[len(head) :].lstrip("#")
-        yield from (Shown(line, kind == "heading") for line in wrapped(plain(text), width, head))
+        yield from (ShownLine(line, kind == "heading") for line in wrapped(plain(text), width, head))
 
 
 def _table(rows: Sequence[str], width: int) -> Iterator[str]:
@@ -126,9 +126,9 @@ def _widths(columns: Sequence[Sequence[str]], room: int) -> list[int]:
     words = [max(cells(word) for text in column for word in text.split(" ")) for column in columns]
     for least in (words, [1] * len(words)):
         most = max(whole)
-        while most > 1 and sum(map(min, whole, (max(most, one) for one in least))) > room:
+        while most > 1 and sum(map(min, whole, (max(most, each) for each in least))) > room:
             most -= 1
-        widths = [min(one, max(most, word)) for one, word in zip(whole, least, strict=True)]
+        widths = [min(each, max(most, word)) for each, word in zip(whole, least, strict=True)]
         if sum(widths) <= room:
             break
     return widths

@@ -1,6 +1,6 @@
 """The one printer: every line that a command prints passes here, to stdout or to stderr, and is made harmless.
 
-`parser.text.harmless` has the rule. Text for people is shown without what is harmful in it; formats for machines keep
+`parser.text.encoding` has the rule. Text for people is shown without what is harmful in it; formats for machines keep
 their data, in escapes of their own. Our own colours go to terminals. What libraries print passes `Cleaned`.
 """
 
@@ -11,7 +11,7 @@ from typing import Final, Literal, TextIO
 
 import click
 
-from parser.text.harmless import escaped, harmless
+from parser.text.encoding import escaped, harmless
 from sim.show.terminal.colours import spans
 from sim.show.terminal.streams import outlet
 
@@ -26,12 +26,12 @@ _OWN_COMMAND: Final = re.compile(r"(::(?:error|warning|notice) [^:]*::)(.*)")
 
 def say(line: str, *, err: bool = False) -> None:
     """Print one line for people; a line feed in it is a character like others that are no text."""
-    _print(_shown(line, colour=coloured(outlet(err=err))), err=err)
+    _print(_shown_line(line, colour=coloured(outlet(err=err))), err=err)
 
 
 def write(text: str, form: Form = "text", *, err: bool = False) -> None:
     """Print whole lines."""
-    _print(made(text, form, colour=coloured(outlet(err=err))), err=err, ends=False)
+    _print(printed_text(text, form, colour=coloured(outlet(err=err))), err=err, ends=False)
 
 
 def clear() -> None:
@@ -51,10 +51,10 @@ def write_exactly(data: bytes, text: str) -> bool:
     return True
 
 
-def made(text: str, form: Form, *, colour: bool = False) -> str:
+def printed_text(text: str, form: Form, *, colour: bool = False) -> str:
     """Lines as they are printed, for a file that may be shown or logged later; with our own colours where asked for."""
     if form == "text":
-        return "\n".join(_shown(line, colour=colour) for line in text.split("\n"))
+        return "\n".join(_shown_line(line, colour=colour) for line in text.split("\n"))
     return _FORMS[form](text)
 
 
@@ -70,7 +70,7 @@ def moves_cursor(stream: TextIO) -> bool:
     return stream.isatty() and os.environ.get("TERM", "") not in {"dumb", "unknown"}
 
 
-def _shown(line: str, *, colour: bool) -> str:
+def _shown_line(line: str, *, colour: bool) -> str:
     """A line for people, with our own colours or without."""
     parts = spans(line)
     text = harmless("".join(part.text for part in parts))

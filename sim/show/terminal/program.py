@@ -5,13 +5,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from parser.drawing.model import LeftOut
-from parser.findings.catalogue import LANGUAGES, Language, Said
-from parser.findings.remarks import Remark, remark_text
+from parser.findings.catalogue import LANGUAGES, Bilingual, Language, Remark, remark_text
 from parser.text.encoding import printable
 from parser.units import mm
-from sim.make.cam.maker import Made, NotMade
+from sim.make.cam.document import FigureSum, figure_sums
+from sim.make.cam.maker import MadeProgram, NotMade
 from sim.make.cam.model import CutPlan, FigureCut
-from sim.make.cam.sums import FigureSum, figure_sums
 from sim.show.refusals import place_text, places_said, why_refused
 from sim.show.terminal.colours import styled
 from sim.show.terminal.layout import show, table
@@ -19,7 +18,7 @@ from sim.show.terminal.printer import say
 from sim.show.terminal.proof import proof_lines
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of, wrapped
-from sim.show.words import Words, said
+from sim.show.words import Words, bilingual
 from sim.show.words.phrases import listed, numbered, same
 
 _INDENT = "    "
@@ -42,7 +41,7 @@ _LEFT_OUT = {
 _HEADS = ("number", "kind", "wire", "blocks", "length", "time", "thread")
 
 
-def print_made(done: Made, name: Path, where: str, picture: Path | None, language: Language) -> None:
+def print_made(done: MadeProgram, name: Path, where: str, picture: Path | None, language: Language) -> None:
     """Print figures, what was left out and taken for granted, and the proof of a program to stdout.
 
     `where` says what became of it: ``written``, ``forced``, ``held-back``, ``previewed``. `picture` was drawn of it.
@@ -51,10 +50,12 @@ def print_made(done: Made, name: Path, where: str, picture: Path | None, languag
     sums = figure_sums(done)
     passes = set(map(_passes, done.plan.cuts))
     names = (*_HEADS, "passes") if len(passes) > 1 else _HEADS
-    shown = table(printable(name.name), tuple(words(f"program.head-{one}") for one in names), right=(0, 3, 4, 5))
+    shown_table = table(
+        printable(name.name), tuple(words(f"program.head-{each_name}") for each_name in names), right=(0, 3, 4, 5)
+    )
     for cut, of in list(zip(done.plan.cuts, sums, strict=False))[:_MOST_FIGURES]:
-        shown.add_row(*_row(cut, of, words)[: len(names)])
-    show(shown)
+        shown_table.add_row(*_row(cut, of, words)[: len(names)])
+    show(shown_table)
     for line in (*_total(done.plan, sums, words, width), *told_lines(done.plan, language, width)):
         say(line)
     if done.proof is not None:
@@ -77,7 +78,7 @@ def told_lines(plan: CutPlan, language: Language, width: int) -> Iterator[str]:
     """The fit, what was left out, and what was chosen or taken for granted, in lines of `width` cells."""
     words = Words(language)
     texts = [*_same_passes(plan, words), *_fit(plan, words), *_left_out(plan.left_out, words), *_chosen(plan, words)]
-    details = [one.detail for one in plan.left_out]
+    details = [each.detail for each in plan.left_out]
     notes = (note for note in plan.drawing.notes if note not in details)
     notes = (note for note in (*notes, *plan.notes) if note.name not in _LEFT_OUT or not plan.left_out)
     texts += [words("program.note", what=_note(note, words)) for note in notes]
@@ -107,7 +108,7 @@ def _row(cut: FigureCut, of: FigureSum, words: Words) -> tuple[str, ...]:
 
 
 def _passes(cut: FigureCut) -> str:
-    return ", ".join(f"{mm(one.by_um):g}" for one in cut.passes)
+    return ", ".join(f"{mm(pass_.by_um):g}" for pass_ in cut.passes)
 
 
 def _hours(time_s: float) -> str:
@@ -120,8 +121,10 @@ def _total(plan: CutPlan, sums: tuple[FigureSum, ...], words: Words, width: int)
     more = len(plan.cuts) - _MOST_FIGURES
     if more > 0:
         yield words("program.more-figures", more=f"{more:,}")
-    length = mm(sum(one.length_um for one in sums))
-    counted = getattr(numbered({"figure": len(sums), "block": sum(one.blocks for one in sums)}), words.language)
+    length = mm(sum(figure_sum.length_um for figure_sum in sums))
+    counted = getattr(
+        numbered({"figure": len(sums), "block": sum(figure_sum.blocks for figure_sum in sums)}), words.language
+    )
     text = words("program.total", counted=counted, length=f"{length:,.3f}")
     yield from wrapped(text, width, "", _INDENT)
 
@@ -151,34 +154,34 @@ def _fit(plan: CutPlan, words: Words) -> Iterator[str]:
 def _left_out(left_out: tuple[LeftOut, ...], words: Words) -> Iterator[str]:
     """A line for each reason, with the kinds of entities and the first places."""
     by_reason: dict[str, list[LeftOut]] = defaultdict(list)
-    for one in left_out:
-        by_reason[one.why].append(one)
+    for each_left_out in left_out:
+        by_reason[each_left_out.why].append(each_left_out)
     for ones in by_reason.values():
         kinds: dict[str, int] = defaultdict(int)
-        for one in ones:
-            kinds[one.entity.kind] += 1
+        for each_one in ones:
+            kinds[each_one.entity.kind] += 1
         counted = listed(same(f"{number:,} {printable(kind)}") for kind, number in kinds.items())
-        places = tuple(one.place_um for one in ones if one.place_um is not None)
-        text = said("program.left-out", what=counted, why=_why(ones))
+        places = tuple(each_one.place_um for each_one in ones if each_one.place_um is not None)
+        text = bilingual("program.left-out", what=counted, why=_why(ones))
         yield getattr(_with_places(text, places), words.language)
 
 
-def _why(ones: Sequence[LeftOut]) -> Said:
+def _why(ones: Sequence[LeftOut]) -> Bilingual:
     """Why entities are in no figure, with what is wrong with the first few, or how near the nearest is to closing."""
-    why = said(f"program.left-out-{ones[0].why}")
-    wrong = [one.detail for one in ones if one.detail is not None][:_MOST_DETAILS]
-    gaps_um = [one.gap_um for one in ones if one.gap_um is not None]
+    why = bilingual(f"program.left-out-{ones[0].why}")
+    wrong = [left_out.detail for left_out in ones if left_out.detail is not None][:_MOST_DETAILS]
+    gaps_um = [left_out.gap_um for left_out in ones if left_out.gap_um is not None]
     if wrong:
-        detail = listed(Said(*(remark_text(one, language) for language in LANGUAGES)) for one in wrong)
+        detail = listed(Bilingual(*(remark_text(each, language) for language in LANGUAGES)) for each in wrong)
     elif gaps_um:
-        detail = said("program.left-out-gap", gap=f"{mm(min(gaps_um)):.3g}")
+        detail = bilingual("program.left-out-gap", gap=f"{mm(min(gaps_um)):.3g}")
     else:
         return why
-    return said("program.left-out-detail", why=why, detail=detail)
+    return bilingual("program.left-out-detail", why=why, detail=detail)
 
 
-def _with_places(text: Said, places_um: tuple[tuple[float, float], ...]) -> Said:
-    return said("program.at", what=text, places=places_said(places_um)) if places_um else text
+def _with_places(text: Bilingual, places_um: tuple[tuple[float, float], ...]) -> Bilingual:
+    return bilingual("program.at", what=text, places=places_said(places_um)) if places_um else text
 
 
 def _chosen(plan: CutPlan, words: Words) -> Iterator[str]:

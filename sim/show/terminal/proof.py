@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from parser.findings.catalogue import Language, texts
 from parser.findings.codes import Severity
 from parser.findings.facts import ReadAs
-from sim.make.cam.maker import Made
-from sim.make.cam.proof.result import Proof
+from sim.make.cam.maker import MadeProgram
+from sim.make.cam.proof.target import Proof
 from sim.show.terminal.colours import COLOURS, painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped
@@ -17,12 +17,16 @@ _INDENT = "    "
 _MOST_FINDINGS = 20
 
 
-def proof_lines(done: Made, name: str, language: Language, width: int) -> Iterator[str]:
+def proof_lines(done: MadeProgram, name: str, language: Language, width: int) -> Iterator[str]:
     """What the proof of a program shows, in lines of `width` cells."""
     proof, words = done.proof, Words(language)
     if proof is None:
         return
-    found = [one for one in proof.findings if not isinstance(one.fact, ReadAs) and one.severity is not Severity.NOTE]
+    found = [
+        each_finding
+        for each_finding in proof.findings
+        if not isinstance(each_finding.fact, ReadAs) and each_finding.severity is not Severity.NOTE
+    ]
     for finding in found[:_MOST_FINDINGS]:
         excerpt = done.program.excerpt(finding.line) if finding.column else None
         for line in finding_lines(name, finding, excerpt, language, width):
@@ -46,7 +50,7 @@ def proof_lines(done: Made, name: str, language: Language, width: int) -> Iterat
     yield styled(words(f"program.verdict-{proof.verdict}"), f"bold {COLOURS[proof.verdict]}")
 
 
-def _is_early(done: Made) -> bool:
+def _is_early(done: MadeProgram) -> bool:
     """Whether a part comes free before the last of its passes, and a tab would hold it."""
     run = done.proof and done.proof.run
     if not run or run.remains is None or done.plan.making.tab_um:
@@ -66,7 +70,7 @@ def said_of_proof(proof: Proof, words: Words) -> Iterator[str]:
         yield words("program.note", what=words(f"program.proof-{note.name}", **note.values))
 
 
-def against(done: Made, language: Language) -> Iterator[str]:
+def against(done: MadeProgram, language: Language) -> Iterator[str]:
     """What speaks against a program, a text for each: findings, faults, and what could not be proved."""
     proof, words = done.proof, Words(language)
     if proof is None:

@@ -16,7 +16,7 @@ from typing import Final, Self, TextIO, cast
 
 from parser.findings.errors import DrycutError
 from parser.findings.messages import system_message
-from parser.text.harmless import harmless
+from parser.text.encoding import harmless
 
 _PLAIN: Final = {"µ": "u", "×": "x", "–": "-", "−": "-", "·": "-", "…": "...", "≤": "<=", "≥": ">=", "²": "2"}
 _STANDARD: Final = (0, 1, 2)

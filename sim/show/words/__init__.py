@@ -1,5 +1,5 @@
-"""Words for people in English and Chinese: `said` gives a text in both, `Words` in one; the texts are TOML files."""
+"""Words for people in English and Chinese: `bilingual` gives a text in both, `Words` in one; they are TOML files."""
 
-from sim.show.words.words import Words, said
+from sim.show.words.words import Words, bilingual
 
-__all__ = ["Words", "said"]
+__all__ = ["Words", "bilingual"]

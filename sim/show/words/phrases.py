@@ -5,10 +5,10 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from parser.dialect.reader import Assumption
-from parser.findings.catalogue import LANGUAGES, Said, term
+from parser.findings.catalogue import LANGUAGES, Bilingual, term
 from parser.shape.passes import Pass
 from sim.base.units import clock
-from sim.show.words.words import said
+from sim.show.words.words import bilingual
 
 if TYPE_CHECKING:
     from sim.setup.machine.machine import Machine
@@ -16,65 +16,67 @@ if TYPE_CHECKING:
 _UNITS_OF_TIME = {" h": "phrases.hours", " min": "phrases.minutes", " s": "phrases.seconds"}
 
 
-def same(text: object) -> Said:
+def same(text: object) -> Bilingual:
     """A text that is the same in both: a name, a number."""
-    return Said(str(text), str(text))
+    return Bilingual(str(text), str(text))
 
 
-def listed(texts: Iterable[Said]) -> Said:
+def listed(texts: Iterable[Bilingual]) -> Bilingual:
     """Texts one after the other."""
-    parts, comma = list(texts), said("phrases.comma")
-    return Said(comma.en.join(part.en for part in parts), comma.zh.join(part.zh for part in parts))
+    parts, comma = list(texts), bilingual("phrases.comma")
+    return Bilingual(comma.en.join(part.en for part in parts), comma.zh.join(part.zh for part in parts))
 
 
-def catalogued(key: str) -> Said:
+def catalogued(key: str) -> Bilingual:
     """A term of the catalogue, such as the name of a check; nothing for an empty key."""
-    return Said(*(term(key, language) for language in LANGUAGES)) if key else same("")
+    return Bilingual(*(term(key, language) for language in LANGUAGES)) if key else same("")
 
 
-def as_read(assumptions: Iterable[Assumption]) -> Said:
+def as_read(assumptions: Iterable[Assumption]) -> Bilingual:
     """What the text of a program leaves open, and was taken; those with one reason together.
 
     ``dialect fast-wire (it ends with M02), unit 1 = 0.001 mm, I J from the start (the dialect begins so)``.
     """
     return listed(
-        said("phrases.for-a-reason", taken=listed(map(_taken, group)), why=catalogued(why))
-        for why, group in groupby(assumptions, key=lambda one: one.why)
+        bilingual("phrases.for-a-reason", taken=listed(map(_taken_text, group)), why=catalogued(why))
+        for why, group in groupby(assumptions, key=lambda assumption: assumption.why)
     )
 
 
-def _taken(one: Assumption) -> Said:
+def _taken_text(assumption: Assumption) -> Bilingual:
     """What was taken, by its term of the catalogue where it is a word and no figure."""
-    words = catalogued(f"{one.what.removeprefix('assumed-')}-{one.taken}")
+    words = catalogued(f"{assumption.what.removeprefix('assumed-')}-{assumption.taken}")
     is_term = not words.en.startswith("`")
-    return said("phrases.taken", what=catalogued(one.what), taken=words if is_term else one.taken)
+    return bilingual("phrases.taken", what=catalogued(assumption.what), taken=words if is_term else assumption.taken)
 
 
-def numbered(number: Mapping[str, int]) -> Said:
+def numbered(number: Mapping[str, int]) -> Bilingual:
     """How many there are of each, such as ``2 errors, 1 note``; without those of which there is none."""
-    return listed(said(f"phrases.{'one' if n == 1 else 'some'}-{key}", n=f"{n:,}") for key, n in number.items() if n)
+    return listed(
+        bilingual(f"phrases.{'one' if n == 1 else 'some'}-{key}", n=f"{n:,}") for key, n in number.items() if n
+    )
 
 
-def lasting(seconds: float) -> Said:
+def lasting(seconds: float) -> Bilingual:
     """A duration, such as ``2 h 27 min``."""
     english = chinese = clock(seconds)
     for unit, key in _UNITS_OF_TIME.items():
-        chinese = chinese.replace(unit, said(key).zh)
-    return Said(english, chinese)
+        chinese = chinese.replace(unit, bilingual(key).zh)
+    return Bilingual(english, chinese)
 
 
-def counted_pass(one: Pass, among: int) -> Said:
+def counted_pass(pass_: Pass, among: int) -> Bilingual:
     """Which pass among so many over its edge, and which way it runs beside the first, such as ``2 of 3, back``."""
-    way = said("phrases.back" if one.is_back else "phrases.forward")
-    key = "phrases.counted-tab" if one.is_tab else "phrases.counted-pass"
-    return said(key, number=one.number, among=among, way=way)
+    way = bilingual("phrases.back" if pass_.is_back else "phrases.forward")
+    key = "phrases.counted-tab" if pass_.is_tab else "phrases.counted-pass"
+    return bilingual(key, number=pass_.number, among=among, way=way)
 
 
-def machine_name(machine: "Machine") -> Said:
+def machine_name(machine: "Machine") -> Bilingual:
     """Name of a machine, in Chinese where its file has one."""
-    return Said(machine.name, machine.name_zh or machine.name)
+    return Bilingual(machine.name, machine.name_zh or machine.name)
 
 
-def named_pass(one: Pass, among: int) -> Said:
+def named_pass(pass_: Pass, among: int) -> Bilingual:
     """The same as a name of its own, such as ``pass 2 of 3, back``."""
-    return said("phrases.pass", counted=counted_pass(one, among))
+    return bilingual("phrases.pass", counted=counted_pass(pass_, among))

@@ -7,9 +7,12 @@ asked for.
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
-from parser.findings.catalogue import LANGUAGES, Language, Said, in_language
+from parser.findings.catalogue import LANGUAGES, Bilingual, Language, in_language
+
+if TYPE_CHECKING:
+    pass
 
 FOLDER: Final = Path(__file__).parent
 
@@ -30,17 +33,17 @@ class Words(NamedTuple):
         return filled
 
 
-def said(key: str, /, **values: object) -> Said:
+def bilingual(key: str, /, **values: object) -> Bilingual:
     """Text of a key in both languages, as `Words` gives it in one."""
-    return Said(*(Words(language)(key, **values) for language in LANGUAGES))
+    return Bilingual(*(Words(language)(key, **values) for language in LANGUAGES))
 
 
 @cache
-def texts(file: str) -> Mapping[str, Said]:
+def texts(file: str) -> Mapping[str, Bilingual]:
     """Templates of a file by their names. KeyError where there is no such file."""
     import tomllib  # noqa: PLC0415 - a check without findings needs no text
 
     path = FOLDER / f"{file}.toml"
     if not path.is_file():
         raise KeyError(file)
-    return {name: Said(**text) for name, text in tomllib.loads(path.read_text(encoding="utf-8")).items()}
+    return {name: Bilingual(**text) for name, text in tomllib.loads(path.read_text(encoding="utf-8")).items()}

@@ -54,7 +54,7 @@ def _widened(bins: Bins, at: int, value: float, length_s: float) -> None:
 
 
 @compiled("(Bins, i8, f8, Values)", Bins, Values)
-def _taken(bins: Bins, number: int, length_s: float, values: Values) -> None:
+def _add(bins: Bins, number: int, length_s: float, values: Values) -> None:
     """Take values into a bin."""
     at = number * VALUES
     _widened(bins, at, values.velocity, length_s)
@@ -71,8 +71,8 @@ def binned(bins: Bins, number: int, since_s: float, until_s: float, values: Valu
     while number < last and border_s[number + 1] <= since_s:
         number += 1
     while number < last and border_s[number + 1] < until_s:
-        _taken(bins, number, border_s[number + 1] - since_s, values)
+        _add(bins, number, border_s[number + 1] - since_s, values)
         number += 1
         since_s = border_s[number]
-    _taken(bins, number, min(until_s, border_s[last + 1]) - since_s, values)
+    _add(bins, number, min(until_s, border_s[last + 1]) - since_s, values)
     return number

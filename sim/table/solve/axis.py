@@ -4,9 +4,8 @@ from typing import NamedTuple
 
 from parser.geometry.curves import Floats
 from sim.table.physics.drive import Drive
-from sim.table.physics.rating import Rating, Strength
+from sim.table.physics.rating import Rating, Strength, Train, Turn
 from sim.table.physics.state import Slide
-from sim.table.physics.turning import Train, Turn
 
 
 class Axis(NamedTuple):
@@ -43,7 +42,7 @@ class Axis(NamedTuple):
     shakes_s: Floats
 
 
-class Asked(NamedTuple):
+class AxisDemand(NamedTuple):
     """What an axis is asked for.
 
     Attributes

@@ -9,18 +9,16 @@ import numpy as np
 from parser.geometry.curves import Floats
 from sim.setup.machine.table_model import TableModel
 from sim.table.physics.drive import drives_of
-from sim.table.physics.rating import RATE_WINDOW_S, Rating, rated, strength_of
+from sim.table.physics.rating import RATE_WINDOW_S, Rating, Train, Turn, rated, strength_of
 from sim.table.physics.state import resting
-from sim.table.physics.turning import Train, Turn
 from sim.table.record.bins import VALUES, Bins
-from sim.table.record.gather import PEAKS, Record
-from sim.table.record.history import borders_s
+from sim.table.record.history import PEAKS, Record, borders_s
 from sim.table.record.losses import Slip
-from sim.table.solve.axis import Asked, Axis, Noted, State
+from sim.table.solve.axis import Axis, AxisDemand, Noted, State
 from sim.table.solve.tick import due_s, followed, recorded, waited
 from sim.table.when.ticks import Ticks
 
-Engine = Callable[[Axis, Asked, State, Record], State]
+Engine = Callable[[Axis, AxisDemand, State, Record], State]
 """What goes through the ticks of an axis."""
 
 _SLIPS = 1024
@@ -87,9 +85,9 @@ class AxisRun:
 
     def follow(self, until_s: float, braked_s: float) -> Iterator[Slip]:
         """Follow the pulses up to a time, and brake from another on; yields the slips of the motor."""
-        asked, record = Asked(self._train, braked_s, until_s), self.record
-        while due_s(asked, self._state) < until_s and self._state.tripped_s >= braked_s:
-            state = self._engine(self.axis, asked, self._state, record)
+        axis_demand, record = AxisDemand(self._train, braked_s, until_s), self.record
+        while due_s(axis_demand, self._state) < until_s and self._state.tripped_s >= braked_s:
+            state = self._engine(self.axis, axis_demand, self._state, record)
             slips = state.noted.slip
             self._state = state._replace(noted=state.noted._replace(slip=0))
             columns = (column[:slips].tolist() for column in (record.slip_s, record.slip_um, record.slip_at_um))
@@ -98,8 +96,8 @@ class AxisRun:
     def rest(self, until_s: float, braked_s: float) -> None:
         """Rest until a time, once all pulses have been followed."""
         if self._state.slide.t_s < until_s:
-            asked = Asked(self._train, braked_s, until_s)
-            self._state = recorded(self.axis, asked, self._state, waited(self._state, until_s), self.record)
+            axis_demand = AxisDemand(self._train, braked_s, until_s)
+            self._state = recorded(self.axis, axis_demand, self._state, waited(self._state, until_s), self.record)
 
     def copy(self) -> "AxisRun":
         """The same, to go on from here by itself later on.

@@ -5,12 +5,11 @@ from typing import NamedTuple
 
 from controller.compiled.loops import compiled
 from sim.table.physics.drive import Kick, Kicked, kicked
-from sim.table.physics.rating import Rating, rated
+from sim.table.physics.rating import Rating, Turn, rated, turned
 from sim.table.physics.state import Slide
-from sim.table.physics.turning import Turn, turned
 from sim.table.record.bins import Values, binned
-from sim.table.record.gather import Limits, Record, peaked, sampled
-from sim.table.solve.axis import Asked, Axis, Noted, State
+from sim.table.record.history import Limits, Record, peaked, sampled
+from sim.table.solve.axis import Axis, AxisDemand, Noted, State
 
 STILL_UM = 1e-6
 """Without friction a slide counts as resting where its ringing is smaller than this: way, and v / ω."""
@@ -34,8 +33,8 @@ class Passed(NamedTuple):
     velocity: float
 
 
-@compiled("(Axis, Asked, State)", Axis, Asked, State)
-def ahead_of(axis: Axis, asked: Asked, state: State) -> Ahead:
+@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State)
+def ahead_of(axis: Axis, demand: AxisDemand, state: State) -> Ahead:
     """What a tick asks of a drive.
 
     The kick goes from the middle of the tick before it to the middle of its own. A slide that has rested is kicked by
@@ -49,8 +48,8 @@ def ahead_of(axis: Axis, asked: Asked, state: State) -> Ahead:
         tick_s = axis.shaken_tick_s
     rating = state.rating
     if slide.t_s >= rating.until_s:
-        rating = rated(axis.strength, asked.train, rating, slide.t_s)
-    turn = turned(asked.train, axis.step_time_s, state.turn, slide.t_s + tick_s / 2.0)
+        rating = rated(axis.strength, demand.train, rating, slide.t_s)
+    turn = turned(demand.train, axis.step_time_s, state.turn, slide.t_s + tick_s / 2.0)
     length_s = (slide.tick_s + tick_s) / 2.0
     motor_um = (state.turn.place_um + turn.place_um) / 2.0 - slide.lost_um
     at_um = slide.at_um + slide.velocity * (tick_s - slide.tick_s) / 4.0
@@ -59,10 +58,10 @@ def ahead_of(axis: Axis, asked: Asked, state: State) -> Ahead:
     return Ahead(tick_s, shake, kick, turn, rating)
 
 
-@compiled("(Axis, Asked, Slide, Ahead)", Axis, Asked, Slide, Ahead)
-def driven(axis: Axis, asked: Asked, slide: Slide, ahead: Ahead) -> Kicked:
+@compiled("(Axis, AxisDemand, Slide, Ahead)", Axis, AxisDemand, Slide, Ahead)
+def driven(axis: Axis, demand: AxisDemand, slide: Slide, ahead: Ahead) -> Kicked:
     """What a drive does in a tick: once a servo has tripped, nothing drives, and both axes brake."""
-    if slide.t_s < asked.braked_s:
+    if slide.t_s < demand.braked_s:
         return kicked(axis.drive, ahead.kick)
     braking = ahead.kick.length_s * (axis.drive.damper + axis.drive.viscous)
     return Kicked(slide.velocity / (1.0 + braking), 0.0)
@@ -94,37 +93,37 @@ def stands(axis: Axis, ahead: Ahead, passed: Passed) -> bool:
     return still and drive.friction == 0.0 and abs(passed.force) < STILL_UM * drive.spring
 
 
-@compiled("(Axis, Asked, State, Ahead, Passed)", Axis, Asked, State, Ahead, Passed)
-def after(axis: Axis, asked: Asked, state: State, ahead: Ahead, passed: Passed) -> State:
+@compiled("(Axis, AxisDemand, State, Ahead, Passed)", Axis, AxisDemand, State, Ahead, Passed)
+def after(axis: Axis, demand: AxisDemand, state: State, ahead: Ahead, passed: Passed) -> State:
     """An axis after a tick."""
     slide, noted, lag_um = state.slide, state.noted, ahead.kick.lag_um
-    t_s, braked = slide.t_s + ahead.tick_s, slide.t_s >= asked.braked_s
+    t_s, braked = slide.t_s + ahead.tick_s, slide.t_s >= demand.braked_s
     slip_um = 0.0 if braked else slip_of(ahead, axis.strength.period_um)
     rests = slip_um == 0.0 and stands(axis, ahead, passed)
     velocity = 0.0 if rests else passed.velocity
     tripped_s = t_s if abs(lag_um) > axis.trip_um and not braked else math.inf
     commanded = noted.commanded
-    while asked.train.t_s[commanded] <= t_s:
+    while demand.train.t_s[commanded] <= t_s:
         commanded += 1
     now = Slide(t_s, passed.at_um, velocity, ahead.tick_s, slide.lost_um + slip_um, lag_um, passed.force, rests)
     noted = Noted(noted.sample, noted.bin, noted.slip, ahead.shake, commanded, noted.ticks + 1)
     return State(now, ahead.turn, ahead.rating, noted, min(tripped_s, state.tripped_s))
 
 
-@compiled("(Axis, Asked, State, State, Record)", Axis, Asked, State, Record)
-def recorded(axis: Axis, asked: Asked, before: State, now: State, record: Record) -> State:
+@compiled("(Axis, AxisDemand, State, State, Record)", Axis, AxisDemand, State, Record)
+def recorded(axis: Axis, demand: AxisDemand, before: State, now: State, record: Record) -> State:
     """Record what an axis did from one state to the next; the next one, with how far the record is."""
     since, slide, noted = before.slide, now.slide, before.noted
     length_s, slip_um = slide.t_s - since.t_s, slide.lost_um - since.lost_um
     velocity = slide.velocity
     sample = sampled(record, noted.sample, since, velocity, slide.t_s)
     number, slip = noted.bin, noted.slip
-    if since.t_s < asked.braked_s:
-        error_um = asked.train.place_um[now.noted.commanded] - slide.at_um
+    if since.t_s < demand.braked_s:
+        error_um = demand.train.place_um[now.noted.commanded] - slide.at_um
         # Where ticks become shorter, the kick is longer than the tick that it begins.
         acceleration = (velocity - since.velocity) / max(length_s, (since.tick_s + length_s) / 2.0)
         values = Values(velocity, acceleration, slide.lag_um, error_um, slide.force)
-        number = binned(record.bins, number, since.t_s, min(slide.t_s, asked.braked_s), values)
+        number = binned(record.bins, number, since.t_s, min(slide.t_s, demand.braked_s), values)
         limits = Limits(now.rating.limit, axis.speed_limit_um_s, min(now.rating.pull_out_um, axis.trip_um))
         peaked(record, values, limits, slide)
     if slip_um != 0.0:
@@ -134,13 +133,13 @@ def recorded(axis: Axis, asked: Asked, before: State, now: State, record: Record
     return State(slide, now.turn, now.rating, noted, now.tripped_s)
 
 
-@compiled("f8(Asked, State)", Asked, State)
-def due_s(asked: Asked, state: State) -> float:
+@compiled("f8(AxisDemand, State)", AxisDemand, State)
+def due_s(demand: AxisDemand, state: State) -> float:
     """When an axis has something to do: at its next pulse where it rests."""
     slide = state.slide
     if not slide.rests:
         return slide.t_s
-    return math.inf if slide.t_s >= asked.braked_s else max(slide.t_s, asked.train.t_s[state.turn.begun])
+    return math.inf if slide.t_s >= demand.braked_s else max(slide.t_s, demand.train.t_s[state.turn.begun])
 
 
 @compiled("(State, f8)", State)
@@ -152,26 +151,26 @@ def waited(state: State, until_s: float) -> State:
     return State(rested, still, state.rating, state.noted, state.tripped_s)
 
 
-@compiled("(Axis, Asked, State)", Axis, Asked, State)
-def ticked(axis: Axis, asked: Asked, state: State) -> State:
+@compiled("(Axis, AxisDemand, State)", Axis, AxisDemand, State)
+def ticked(axis: Axis, demand: AxisDemand, state: State) -> State:
     """An axis after a tick; its slide goes no farther than the stops of the travel, which take its velocity."""
-    slide, ahead = state.slide, ahead_of(axis, asked, state)
-    now = driven(axis, asked, slide, ahead)
+    slide, ahead = state.slide, ahead_of(axis, demand, state)
+    now = driven(axis, demand, slide, ahead)
     at_um = slide.at_um + now.velocity * ahead.tick_s
     if axis.low_um <= at_um <= axis.high_um:
-        return after(axis, asked, state, ahead, Passed(now.force, at_um, now.velocity))
+        return after(axis, demand, state, ahead, Passed(now.force, at_um, now.velocity))
     stop_um = min(max(at_um, axis.low_um), axis.high_um)
     velocity = (stop_um - slide.at_um) / ahead.tick_s
-    return after(axis, asked, state, ahead, Passed(now.force, stop_um, velocity))
+    return after(axis, demand, state, ahead, Passed(now.force, stop_um, velocity))
 
 
-@compiled("(Axis, Asked, State, Record)", Axis, Asked, State, Record)
-def followed(axis: Axis, asked: Asked, state: State, record: Record) -> State:
+@compiled("(Axis, AxisDemand, State, Record)", Axis, AxisDemand, State, Record)
+def followed(axis: Axis, demand: AxisDemand, state: State, record: Record) -> State:
     """An axis once it has followed its pulses as far as they lead, its record has no room for slips, or it trips."""
-    while due_s(asked, state) < asked.until_s and state.noted.slip < len(record.slip_s):
-        if state.tripped_s < asked.braked_s:
+    while due_s(demand, state) < demand.until_s and state.noted.slip < len(record.slip_s):
+        if state.tripped_s < demand.braked_s:
             break
-        until_s = due_s(asked, state)
-        now = waited(state, until_s) if until_s > state.slide.t_s else ticked(axis, asked, state)
-        state = recorded(axis, asked, state, now, record)
+        until_s = due_s(demand, state)
+        now = waited(state, until_s) if until_s > state.slide.t_s else ticked(axis, demand, state)
+        state = recorded(axis, demand, state, now, record)
     return state

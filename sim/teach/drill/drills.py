@@ -1,20 +1,120 @@
-"""A set of drills of one program: faults of as many kinds and levels as there are, each of which does something."""
+"""A set of drills of one program: faults of as many kinds and levels as there are, each of which does something.
+
+What a fault does to the path, and what gives it away.
+"""
 
 from collections import Counter
 from collections.abc import Iterator
 from random import Random
-from typing import Final, NamedTuple
+from typing import Final, Literal, NamedTuple, get_args
 
-from parser.findings.codes import Severity
+import numpy as np
+
+from parser.findings.codes import CODES, Check, Severity
 from parser.findings.errors import ProgramError, SettingsError
 from parser.findings.findings import Finding
+from parser.geometry.along import places
+from parser.geometry.curves import Floats, Ints
+from parser.geometry.distance import distance_to_curves
 from parser.program import Program, parse_program
+from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.toolpath import Toolpath
 from sim.check.batch import check_program
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.teach.drill.kinds import KINDS, Group
-from sim.teach.drill.proof import LEVELS, Departure, Level, departure, level_of
 from sim.teach.drill.sound import Slip, Sound
+
+Level = Literal["words", "picture", "sums"]
+"""What gives a fault away: the words of its block by themselves, the picture of the path, or sums alone."""
+LEVELS: Final[tuple[Level, ...]] = get_args(Level)
+SEEN_FROM: Final = 0.02
+"""Share of the part's extent from which on people see in a picture that the path leaves it (assumed)."""
+_OF_WORDS: Final = (Check.GRAMMAR, Check.ORDER, Check.BLOCKS)
+_FRACTIONS: Final = np.linspace(0.0, 1.0, 17)
+
+
+class Departure(NamedTuple):
+    """How a path differs from the one without the fault.
+
+    Attributes
+    ----------
+    most_um
+        The furthest that a place of it lies from where it should.
+    is_cut_otherwise
+        Whether it cuts what was a jump, or jumps what was cut.
+    """
+
+    most_um: float
+    is_cut_otherwise: bool
+
+    @property
+    def is_there(self) -> bool:
+        """Whether it is more than a path may lie open."""
+        return self.is_cut_otherwise or self.most_um > CLOSED_WITHIN_UM
+
+
+def departure(sound: Toolpath, damaged: Toolpath) -> Departure:
+    """How a damaged path differs from the sound one, at 17 places a block.
+
+    Paths of as many blocks are held against each other block by block, others cut by cut, whichever is nearest.
+    """
+    if len(sound) == len(damaged):
+        rows = np.arange(len(sound))
+        off = _places(sound, rows) - _places(damaged, rows)
+        return Departure(float(np.hypot(*off.T).max()), bool((sound.is_jump != damaged.is_jump).any()))
+    most = max(_furthest(sound, damaged), _furthest(damaged, sound))
+    return Departure(most, is_cut_otherwise=False)
+
+
+def level_of(sound: Program, damaged: Program, lines: frozenset[int]) -> Level | None:
+    """What gives a fault in these lines away; None where it does nothing."""
+    told_findings = {_finding_key(sound, found) for found in sound.findings}
+    new = [
+        found for found in damaged.findings if _is_of_words(found) and _finding_key(damaged, found) not in told_findings
+    ]
+    at_place = [found for found in new if found.line in lines]
+    if any(map(_stops_it, at_place)):
+        return "words"
+    by = departure(sound.toolpath, damaged.toolpath)
+    if not by.is_there:
+        return None
+    if at_place:
+        return "words"
+    extent = float(np.ptp(np.concatenate([sound.toolpath.start_um, sound.toolpath.end_um]), axis=0).max())
+    return "picture" if by.is_cut_otherwise or by.most_um >= SEEN_FROM * extent else "sums"
+
+
+def _stops_it(found: Finding) -> bool:
+    """Whether the machine cannot go on here, or not as the program says, wherever the path leads."""
+    return found.severity is Severity.ERROR or CODES[found.code].check is Check.ORDER
+
+
+def _finding_key(program: Program, found: Finding) -> tuple[str, str]:
+    """A finding by its code and the text of its line, whatever the line's number."""
+    return found.code, program.excerpt(found.line) if found.line else ""
+
+
+def _is_of_words(found: Finding) -> bool:
+    return CODES[found.code].check in _OF_WORDS
+
+
+def _places(path: Toolpath, rows: Ints) -> Floats:
+    """Places (n × 17, 2) along the blocks of the rows (n,), µm."""
+    return places(path, np.repeat(rows, len(_FRACTIONS)), np.tile(_FRACTIONS, len(rows)))
+
+
+def _furthest(path: Toolpath, other: Toolpath) -> float:
+    """The furthest that the cuts of a path go from those of the other, µm; infinite where one of them cuts nothing."""
+    cuts, others = np.flatnonzero(~path.is_jump), np.flatnonzero(~other.is_jump)
+    if not len(cuts) or not len(others):
+        return np.inf
+    at = _places(path, cuts)
+    nearest = np.full(len(at), np.inf)
+    for row in others.tolist():  # at most as many as a drill may have blocks
+        nearest = np.minimum(nearest, distance_to_curves(other, np.full(len(at), row), at[:, 0], at[:, 1])[0])
+    return float(nearest.max())
+
 
 MOST_BLOCKS: Final = 500
 """Blocks of a program that people can look through."""
@@ -22,7 +122,7 @@ MOST_SETS: Final = 9999
 _TRIES: Final = 8  # for each drill that is wanted
 
 
-class Asked(NamedTuple):
+class DrillRequest(NamedTuple):
     """Which drills are wanted.
 
     Attributes
@@ -70,7 +170,7 @@ class Drill(NamedTuple):
     findings: tuple[Finding, ...]
 
 
-def drills_of(program: Program, settings: CheckSettings, asked: Asked) -> tuple[Drill, ...]:
+def drills_of(program: Program, settings: CheckSettings, request: DrillRequest) -> tuple[Drill, ...]:
     """Drills of a sound program, from easy to hard; fewer than asked where there are no more.
 
     Each is proved: its text cannot be obeyed as it stands, or its path leaves the sound one by more than a path may lie
@@ -80,20 +180,20 @@ def drills_of(program: Program, settings: CheckSettings, asked: Asked) -> tuple[
     _refuse_long(program)
     before = check_program(program, settings)
     _refuse_unsound(program, before)
-    chance = Random(asked.number)  # noqa: S311 - the same for all who are told the number
+    chance = Random(request.number)  # noqa: S311 - the same for all who are told the number
     found: list[_Fault] = []
     seen: set[str] = set()
-    for fault in _faults(Sound(program), chance, asked):
-        if fault.slip.text not in seen and asked.level in {None, fault.level}:
+    for fault in _faults(Sound(program), chance, request):
+        if fault.slip.text not in seen and request.level in {None, fault.level}:
             seen.add(fault.slip.text)
             found.append(fault)
-            if _is_enough(found, asked):
+            if _is_enough(found, request):
                 break
     if not found:
         raise SettingsError("nothing-to-damage", name=program.name)
-    told = Counter(_told(program, before.findings))
-    drills = [_drill(program, fault, settings, told) for fault in _chosen(found, asked.drills)]
-    return tuple(sorted(drills, key=lambda one: (LEVELS.index(one.level), -one.by.most_um)))
+    counter = Counter(_told_findings(program, before.findings))
+    drills = [_drill(program, fault, settings, counter) for fault in _chosen(found, request.drills)]
+    return tuple(sorted(drills, key=lambda drill: (LEVELS.index(drill.level), -drill.by.most_um)))
 
 
 def _refuse_long(program: Program) -> None:
@@ -109,10 +209,10 @@ def _refuse_unsound(program: Program, result: CheckResult) -> None:
         raise SettingsError("drills-of-unsound", name=name, codes=codes)
 
 
-def _is_enough(found: list["_Fault"], asked: Asked) -> bool:
+def _is_enough(found: list["_Fault"], request: DrillRequest) -> bool:
     """Whether each level that is asked for has as many faults to choose from as there may be drills."""
     counts = Counter(fault.level for fault in found)
-    return all(counts[level] >= asked.drills for level in LEVELS if asked.level in {None, level})
+    return all(counts[level] >= request.drills for level in LEVELS if request.level in {None, level})
 
 
 class _Fault(NamedTuple):
@@ -122,9 +222,9 @@ class _Fault(NamedTuple):
     program: Program
 
 
-def _faults(sound: Sound, chance: Random, asked: Asked) -> Iterator[_Fault]:
+def _faults(sound: Sound, chance: Random, request: DrillRequest) -> Iterator[_Fault]:
     """Faults of all kinds in turn, those left out that do nothing, or after which nothing can be read."""
-    for _ in range(_TRIES * max(1, asked.drills // 8)):
+    for _ in range(_TRIES * max(1, request.drills // 8)):
         for kind in chance.sample(sorted(KINDS), len(KINDS)):
             slip = KINDS[kind].make(chance, sound)
             fault = slip and slip.text != sound.text and _proved(sound.program, kind, slip)
@@ -153,11 +253,11 @@ def _chosen(found: list[_Fault], count: int) -> Iterator[_Fault]:
     for _ in range(min(count, len(left))):
         best = min(
             left,
-            key=lambda one: (
-                levels[one.level],
-                groups[KINDS[one.kind].group],
-                kinds[one.kind],
-                places[min(one.slip.lines)],
+            key=lambda each: (
+                levels[each.level],
+                groups[KINDS[each.kind].group],
+                kinds[each.kind],
+                places[min(each.slip.lines)],
             ),
         )
         left.remove(best)
@@ -173,7 +273,7 @@ def _drill(sound: Program, fault: _Fault, settings: CheckSettings, before: Count
     result = check_program(fault.program, settings)
     told = before.copy()
     findings = []
-    for found, key in zip(result.findings, _told(fault.program, result.findings), strict=True):
+    for found, key in zip(result.findings, _told_findings(fault.program, result.findings), strict=True):
         if told[key] <= 0:
             findings.append(found)
         told[key] -= 1
@@ -190,7 +290,7 @@ def _drill(sound: Program, fault: _Fault, settings: CheckSettings, before: Count
     )
 
 
-def _told(program: Program, findings: tuple[Finding, ...]) -> list[tuple[str, str]]:
+def _told_findings(program: Program, findings: tuple[Finding, ...]) -> list[tuple[str, str]]:
     return [(found.code, program.excerpt(found.line) if found.line else "") for found in findings]
 
 

@@ -51,7 +51,7 @@ class Sound:
         """Rows of two cuts in lines that follow one another."""
         cuts = [row for row in self.alone if not self.path.is_jump[row]]
         pairs = pairwise(cuts)
-        return [(one, other) for one, other in pairs if self.line(other) == self.line(one) + 1]
+        return [(this, other) for this, other in pairs if self.line(other) == self.line(this) + 1]
 
     @property
     def _lines(self) -> Ints:

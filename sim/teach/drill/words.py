@@ -67,7 +67,7 @@ def quadrant() -> Maker:
     def change(chance: Random, word: str, sound: Sound) -> str | None:
         if sound.path.words is None:
             return None
-        return word[:-1] + chance.choice([one for one in _QUADRANTS if one != word[-1]])
+        return word[:-1] + chance.choice([each_quadrant for each_quadrant in _QUADRANTS if each_quadrant != word[-1]])
 
     return _in_field(Field.SENSE, change)
 
@@ -77,9 +77,9 @@ def turned() -> Maker:
 
     def change(_: Random, word: str, sound: Sound) -> str | None:
         spelling = sound.program.reading.spelling
-        for one, other in _arcs(spelling), _arcs(spelling)[::-1]:
-            if _bare(word).startswith(_bare(one)):
-                return other + _bare(word)[len(_bare(one)) :]
+        for this, other in _arcs(spelling), _arcs(spelling)[::-1]:
+            if _bare(word).startswith(_bare(this)):
+                return other + _bare(word)[len(_bare(this)) :]
         return None
 
     return _in_field(Field.SENSE, change)
@@ -133,7 +133,7 @@ def _in_text(signs: str, put: str) -> Maker:
         row = chance.choice(sound.rows)
         first = int(sound.path.source.span[row, 0])
         text = sound.path.source.block_text(row)
-        places = [first + at for at, one in enumerate(text) if one.upper() in signs]
+        places = [first + at for at, each in enumerate(text) if each.upper() in signs]
         if not places:
             return None
         at = chance.choice(places)
@@ -144,11 +144,11 @@ def _in_text(signs: str, put: str) -> Maker:
 
 def _with_digit(chance: Random, word: str, how: str) -> str | None:
     """A word with one digit ``changed``, ``lost`` or ``doubled``; None where none would be left."""
-    places = [at for at, one in enumerate(word) if one.isdigit()]
+    places = [at for at, each in enumerate(word) if each.isdigit()]
     if len(places) < (2 if how == "lost" else 1):
         return None
     at = chance.choice(places)
-    other = chance.choice([one for one in "0123456789" if one != word[at]])
+    other = chance.choice([each for each in "0123456789" if each != word[at]])
     put = {"changed": other, "lost": "", "doubled": word[at] * 2}[how]
     return f"{word[:at]}{put}{word[at + 1 :]}"
 

@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from controller.card.abi import tasks
-from controller.card.abi.tasks import Tasks
-from controller.card.abi.turns import Turns
+from controller.card.abi import turns
+from controller.card.abi.turns import Tasks, Turns
 
 HIGHEST = int(Path("/proc/sys/kernel/pid_max").read_text("ascii"))
 
@@ -46,8 +45,8 @@ def told_by(looks: list[dict[int, tuple[bytes, bytes]]], monkeypatch: pytest.Mon
         now.update(next(at))
         return set(now)
 
-    monkeypatch.setattr(tasks, "all_tasks", listed)
-    monkeypatch.setattr(tasks, "_task", lambda thread: tasks.Task(now[thread][0], 0, now[thread][1]))
+    monkeypatch.setattr(turns, "all_tasks", listed)
+    monkeypatch.setattr(turns, "_task", lambda thread: turns.Task(now[thread][0], 0, now[thread][1]))
     return Tasks()
 
 
@@ -69,9 +68,9 @@ def test_threads_rest_where_two_looks_agree(
 
 def test_a_thread_that_runs_on_without_the_card_is_waited_for_no_longer(monkeypatch: pytest.MonkeyPatch) -> None:
     kernel = Tasks()
-    monkeypatch.setattr(tasks, "all_tasks", lambda: {1})
-    ticks = iter([0, *range(tasks.PATIENCE_TICKS - 1, 100)])
-    monkeypatch.setattr(tasks, "_task", lambda _: tasks.Task(b"R", next(ticks), b"1"))
+    monkeypatch.setattr(turns, "all_tasks", lambda: {1})
+    ticks = iter([0, *range(turns.PATIENCE_TICKS - 1, 100)])
+    monkeypatch.setattr(turns, "_task", lambda _: turns.Task(b"R", next(ticks), b"1"))
     assert kernel.at_work([])
     assert kernel.at_work([])
     assert not kernel.at_work([])

@@ -8,9 +8,9 @@ import ezdxf
 import numpy as np
 import pytest
 
-from parser.drawing.dxf.subclasses import with_marks
+from parser.drawing.dxf.document import with_marks
 from parser.drawing.read import read_drawing
-from parser.findings.remarks import remark_text
+from parser.findings.catalogue import remark_text
 
 _HEAD, _TAIL = "0\nSECTION\n2\nENTITIES\n", "0\nENDSEC\n0\nEOF\n"
 _LINE = "0\nLINE\n8\n0\n10\n0.0\n20\n50.0\n11\n9.0\n21\n50.0\n"

@@ -11,8 +11,8 @@ from ezdxf.layouts import Modelspace
 
 from parser.drawing.model import Drawing, LeftOut
 from parser.drawing.read import read_drawing
+from parser.findings.catalogue import remark_text
 from parser.findings.errors import DrawingError
-from parser.findings.remarks import remark_text
 from sim.show.words.words import texts
 
 

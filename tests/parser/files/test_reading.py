@@ -18,7 +18,7 @@ from parser.findings.errors import DrycutError, FileUnreadableError, SettingsErr
 ROOT = Path(__file__).parents[3]
 SHIPPED = {
     *("parser/findings/catalogue.py", "sim/show/words/words.py", "sim/setup/key_words.py", "sim/setup/key_tables.py"),
-    *("sim/show/html/bundle.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/documents.py"),
+    *("sim/show/html/environment.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/documents.py"),
     *("parser/iso/profiles/profile.py", "parser/write/iso_choices.py", "parser/drawing/dxf/linetypes.py"),
     "controller/compiled/loops.py",  # its own modules
     "sim/serve/page/shortcut.py",  # its icon
@@ -27,10 +27,13 @@ SHIPPED = {
 """Modules that read files which drycut brings along, or its own documents."""
 OWN = {
     *("sim/base/files/swap.py", "sim/base/files/replaced.py", "sim/base/files/steps.py", "sim/run/recording.py"),
-    *("sim/jobs/kept.py", "sim/jobs/one.py", "sim/jobs/trace_file.py"),
+    *("sim/jobs/batch.py", "sim/jobs/task.py", "sim/jobs/trace_file.py"),
     "sim/show/terminal/streams.py",  # reopens closed streams on nothing
     *("sim/cli/lsp.py", "sim/serve/page/child.py"),  # hand a protocol, or a process of ours, its streams
-    *("sim/serve/page/drawings.py", "sim/serve/page/zipped.py"),  # what a process of ours found, and the files of a run
+    *(
+        "sim/serve/page/drawings.py",
+        "sim/serve/page/run_requests.py",
+    ),  # what a process of ours found, and the files of a run
 }
 """Modules that read what drycut wrote, or look whether a file is still what the door read."""
 SQUARE = b"B9B0B9GXL1\nB0B9B9GYL2\nB9B0B9GXL3\nB0B9B9GYL4\nDD\n"

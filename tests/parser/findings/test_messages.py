@@ -11,7 +11,7 @@ from string import Formatter
 import pytest
 from places import ROOT
 
-from parser.findings.catalogue import Said, message_templates, term
+from parser.findings.catalogue import Bilingual, message_templates, term
 from parser.findings.errors import DrawingError, FileUnreadableError, SettingsError
 from parser.findings.messages import Message, in_both, system_message
 
@@ -110,13 +110,13 @@ def test_a_message_within_another_is_in_the_language_of_the_whole() -> None:
     outer = Message("unknown-key", where="a.toml", key="prat", hint=inner)
     assert outer == outer.en == "a.toml: unknown key 'prat'; did you mean part?"
     assert outer.zh == "a.toml：没有键 'prat'；是不是 part？"
-    assert in_both(outer) == Said(outer.en, outer.zh)
+    assert in_both(outer) == Bilingual(outer.en, outer.zh)
     changed = outer.with_values(lambda value: "b.toml" if value == "a.toml" else value)
     assert changed.zh == "b.toml：没有键 'prat'；是不是 part？"
 
 
 def test_what_is_no_message_is_the_same_in_both() -> None:
-    assert in_both("a sentence of some library") == Said(*["a sentence of some library"] * 2)
+    assert in_both("a sentence of some library") == Bilingual(*["a sentence of some library"] * 2)
 
 
 @pytest.mark.parametrize("error", [SettingsError, DrawingError, FileUnreadableError])
@@ -138,7 +138,7 @@ def test_the_words_of_the_system_are_in_both_languages() -> None:
     assert in_both(found).zh == "没有权限"
     assert in_both(system_message(ValueError("embedded null byte"))).zh == "名字中有空字符"
     odd = os.strerror(errno.EDOM)
-    assert in_both(system_message(OSError(errno.EDOM, odd))) == Said(odd, odd)
+    assert in_both(system_message(OSError(errno.EDOM, odd))) == Bilingual(odd, odd)
 
 
 def test_why_a_file_cannot_be_read_is_a_term_in_both() -> None:

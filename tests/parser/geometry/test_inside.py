@@ -5,8 +5,7 @@ import pytest
 import shapely
 from drawings_dxf import points_on
 
-from parser.geometry.curves import Curves, curves_between
-from parser.geometry.inside import is_inside
+from parser.geometry.curves import Curves, curves_between, is_inside
 
 OFF_UM = 2.0
 """Places nearer to the contour than this are not asked about: the polygon's chords lie less than 1 µm off its arcs."""

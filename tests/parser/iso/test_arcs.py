@@ -7,7 +7,7 @@ import pytest
 
 from parser.findings.codes import Severity
 from parser.geometry.curves import CurveKind
-from parser.iso.path.arcs import ROUNDING, arcs_about
+from parser.iso.path.rows import ROUNDING, arcs_about
 from tests.tools.iso_reading import findings, path, read
 
 HEAD = "G92 X0 Y0\nG90\n"

@@ -10,7 +10,7 @@ from parser.findings.findings import Finding, edited
 from parser.iso.listing.lexer import read_listing
 from parser.iso.listing.listing import Listing
 from parser.iso.profiles.profile import profile
-from parser.iso.words.text_checks import checked
+from parser.iso.words.numbering import checked
 from parser.program import parse_program
 
 COMMON = profile("common")

@@ -10,10 +10,9 @@ from parser.geometry.curves import CurveKind, curves_between
 from parser.program import dialects, parse_program
 from parser.told.compensation import Compensation, CompensationRules
 from parser.toolpath import Stop, Toolpath
-from parser.write.draft import Draft, draft_of
+from parser.write.draft import Draft, draft_of, without_rapids
 from parser.write.iso import written_iso
 from parser.write.iso_choices import IsoChoices, iso_choices
-from parser.write.rapids import without_rapids
 from parser.write.threeb import Form, ThreeBChoices, written_3b
 
 FORMS: tuple[Form, ...] = ("compact", "aligned", "detailed")

@@ -7,7 +7,7 @@ from checking import WRONG_AXIS
 from mutants import mutant
 
 from sim.check.batch import Job, check_file
-from sim.check.fingerprint import fingerprints
+from sim.check.result import fingerprints
 from sim.check.settings import CheckSettings
 
 AXIS_LABEL = "B9900B0B9900GXL4\n"  # 3B203

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from parser.findings.errors import SettingsError
-from sim.check.settings.patterns import PathPattern, pattern_list
+from sim.check.settings.read import PathPattern, pattern_list
 
 ROOT = Path("/shop/programs")
 

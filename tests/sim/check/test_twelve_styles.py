@@ -19,7 +19,7 @@ from sim.cut.pieces.pieces import pieces_of
 from sim.measure.compare.as_cut import edge_as_cut
 from sim.measure.compare.compare import compare
 from sim.measure.compare.compared_program import compare_program
-from sim.measure.compare.result import Asked
+from sim.measure.compare.result import FitRequest
 
 WIRE = CheckSettings(wire_diameter_um=180.0, spark_gap_um=10.0)
 MEANT = {"offsets_that_rise": {"3B312"}}
@@ -43,12 +43,12 @@ def off_drawing_um(program: Written) -> tuple[float, float]:
     """How far the edges lie off the drawing at most: that of the exact path, and that as cut."""
     (reach_um,) = {edge.reach_um for edge in program.edges}
     path, drawing = path_of(program), drawing_of(*(edge.drawn for edge in program.edges))
-    exact = compare_program(path, reach_um, drawing, Asked(ROUNDED_UM))
+    exact = compare_program(path, reach_um, drawing, FitRequest(ROUNDED_UM))
     kerf = kerf_along(path, offset_um=reach_um)
     edge = edge_as_cut(path, kerf, pieces_of(kerf, None, STEEL))
     assert edge is not None
     deepest = max((gouge.depth_um for gouge in exact.gouges), default=0.0)
-    return max(exact.max_um, deepest), compare(edge, drawing, Asked(ROUNDED_UM)).max_um
+    return max(exact.max_um, deepest), compare(edge, drawing, FitRequest(ROUNDED_UM)).max_um
 
 
 def is_compared(program: Written) -> bool:

@@ -24,7 +24,7 @@ from sim.base.progress import silent
 from sim.cli.ballbar import ballbar as command
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test
 from sim.run.ballbar.document import document
-from sim.run.ballbar.turn import SENSES, MeasuredTurn
+from sim.run.ballbar.figures import SENSES, MeasuredTurn
 from sim.setup.machine.machine import load_machine
 from sim.show.draw.dial import RING_SIZES, RINGS, ring_for
 from sim.show.draw.paints import LIGHT, Paint

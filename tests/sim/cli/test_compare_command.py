@@ -18,10 +18,10 @@ from places import ROOT
 from sound_shapes import SHAPES, Shape, filleted, placed, reverse
 
 from parser.drawing.read import read_drawing
-from parser.findings.remarks import remark_text
+from parser.findings.catalogue import remark_text
 from sim.cli.compare import compare as command
 from sim.measure.compare.compared_program import compare_program
-from sim.measure.compare.result import Asked, Comparison
+from sim.measure.compare.result import Comparison, FitRequest
 from sim.measure.compare.tables import by_entity
 from sim.run.report.drawing import comparison_document
 from sim.setup.part import SharpCorners
@@ -45,7 +45,7 @@ def compared(
     sharp: SharpCorners = "tell",
 ) -> Comparison:
     drawing = read_drawing(write_dxf(tmp_path / "part.dxf", shapes))
-    return compare_program(toolpath(text), offset, drawing, Asked(tolerance, sharp_corners=sharp))
+    return compare_program(toolpath(text), offset, drawing, FitRequest(tolerance, sharp_corners=sharp))
 
 
 def names(found: Comparison) -> list[str]:

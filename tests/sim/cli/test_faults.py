@@ -12,7 +12,6 @@ from checking import SOUND, WRONG_AXIS
 from command import run_inside
 
 import sim.check.batch
-import sim.check.parallel
 from parser.program import Program
 from parser.text.excerpt import cells
 from sim.cli.faults import EXIT

@@ -11,9 +11,11 @@ from sim.base.workers.processes import Processes
 from sim.check.batch import check_file
 from sim.check.parallel import check_files
 from sim.check.result import CheckResult, Silenced
-from sim.cli.check.jobs import Asked, jobs_of
+from sim.cli.check.jobs import CheckOptions, jobs_of
 
-NOTHING = Asked(*[None] * 6, False, None, None, (), (), None, no_config=False, baseline=None, write_baseline=None)
+NOTHING = CheckOptions(
+    *[None] * 6, False, None, None, (), (), None, no_config=False, baseline=None, write_baseline=None
+)
 
 
 def check(*arguments: object, cwd: Path, **environment: str) -> tuple[object, str, str]:

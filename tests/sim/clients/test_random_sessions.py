@@ -11,7 +11,7 @@ from controller import GECard
 from controller.card.core.settings import CardSettings, Switches
 from controller.card.log.writer import CardLog
 from controller.stepping.pulses import Pulses
-from sim.cli.card_client import Asked, scenario_of
+from sim.cli.card_client import ClientOptions, scenario_of
 from sim.clients.run import Read, read_again, run_client
 from sim.clients.said import session_of
 
@@ -96,7 +96,7 @@ def test_the_axes_end_where_they_did(seed: int) -> None:
 def test_a_run_makes_the_pulses_of_the_card_and_its_table_follows(seed: int) -> None:
     found, places, count = random_session(seed)
     sink = Sink()
-    scenario = scenario_of(Asked(("client",), Path("out"), None, None, None, 1.0, None))
+    scenario = scenario_of(ClientOptions(("client",), Path("out"), None, None, None, 1.0, None))
     run = run_client(found, scenario, sink=sink)
     assert (sink.steps, sink.last) == (count, tuple(places[0][:2]))
     assert len(run.stepped) == count

@@ -10,8 +10,8 @@ from traced import STEEL, F, kerf_along, square
 
 from parser.toolpath import Point, Toolpath
 from sim.cut.kerf.last_beside import NOBODY, last_beside
-from sim.cut.kerf.makers import rows_that_made
-from sim.cut.kerf.region import Kerf
+from sim.cut.kerf.swept import Kerf
+from sim.cut.kerf.ways import rows_that_made
 from sim.cut.pieces.pieces import pieces_of
 
 

@@ -9,9 +9,9 @@ from paths import Pen
 from traced import STEEL, F, kerf_along, pieces_along, trace_of
 
 from parser.toolpath import Toolpath
-from sim.cut.kerf.makers import rows_that_made
 from sim.cut.kerf.nominal import nominal_region
 from sim.cut.kerf.stars import SIMPLER_UM, rays, stars
+from sim.cut.kerf.ways import rows_that_made
 from sim.cut.pieces import moments
 from sim.cut.pieces.pieces import pieces_of
 from sim.cut.play import freedom

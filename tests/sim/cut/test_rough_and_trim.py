@@ -10,7 +10,7 @@ from rough_and_trim import REACH_UM, Figure, RoughAndTrim, left_polygon, rough_a
 from traced import STEEL, contours_of, trace_of
 
 from parser.program import parse_program
-from sim.cut.kerf.region import kerf_of
+from sim.cut.kerf.swept import kerf_of
 from sim.cut.pieces.pieces import Pieces, pieces_of
 from sim.cut.sizes.sizes import Sizes, sizes_of
 

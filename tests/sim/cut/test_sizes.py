@@ -11,7 +11,7 @@ from runs import scenario_run
 from traced import STEEL, F, exactly, kerf_along, square, trace_of
 
 from parser.toolpath import Toolpath
-from sim.cut.kerf.region import kerf_of
+from sim.cut.kerf.swept import kerf_of
 from sim.cut.pieces.pieces import pieces_of
 from sim.cut.sizes.sizes import Sizes, fitted_circles, sizes_of
 

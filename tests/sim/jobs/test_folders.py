@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from sim.jobs.folders import folder_names
+from sim.jobs.shop import folder_names
 
 TAKEN = frozenset({"report.html", "index.html"})
 FORBIDDEN = re.compile(

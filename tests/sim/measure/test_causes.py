@@ -17,9 +17,8 @@ from parser.program import read_program
 from parser.toolpath import Toolpath
 from sim.base.progress import silent
 from sim.measure.deviation.across import across_um, summed
-from sim.measure.deviation.causes import NOTHING, Stage, added, cut_off
+from sim.measure.deviation.causes import NOTHING, Deviations, Stage, added, cut_off
 from sim.measure.deviation.deviation import DeviationMeter
-from sim.measure.deviation.measured import Deviations
 from sim.run.dryrun import DryRun
 from sim.run.running import dry_run
 from sim.setup.machine.controller_model import read_controller

@@ -15,14 +15,13 @@ from sound_shapes import SHAPES, Shape, placed
 
 from parser.geometry.along import places
 from parser.geometry.curves import Curves, curves_between
-from parser.geometry.distance import distance_to_curves
-from parser.geometry.feet import feet
+from parser.geometry.distance import distance_to_curves, feet
 from sim.measure.compare.compare import compare
 from sim.measure.compare.directed import directed
 from sim.measure.compare.nearest import indexed, nearest
-from sim.measure.compare.placement import Placement
-from sim.measure.compare.placement import placed as laid
-from sim.measure.compare.result import Asked
+from sim.measure.compare.result import FitRequest
+from sim.measure.compare.starts import Placement
+from sim.measure.compare.starts import placed as laid
 from sim.measure.compare.tables import by_block, by_entity, worst_places
 
 L_SHAPE = polygon((0, 0), (30_000, 0), (30_000, 8000), (12_000, 8000), (12_000, 40_000), (0, 40_000))
@@ -132,11 +131,11 @@ def test_directions_agree_with_shapely_on_polygons() -> None:
 
 def test_one_side_moved_by_7_um_is_7_um_off() -> None:
     moved = polygon((0, 0), (30_007, 0), (30_007, 8000), (12_000, 8000), (12_000, 40_000), (0, 40_000))
-    found = compare(edge_of(moved), drawing_of(L_SHAPE), Asked(5.0, fitted=False))
+    found = compare(edge_of(moved), drawing_of(L_SHAPE), FitRequest(5.0, fitted=False))
     assert found.edge_max_um == pytest.approx(7.0, abs=1e-9)
     assert found.drawing_to_edge.max_um.max() == pytest.approx(7.0, abs=1e-9)
     assert not found.passes
-    assert compare(edge_of(moved), drawing_of(L_SHAPE), Asked(7.001, fitted=False)).passes
+    assert compare(edge_of(moved), drawing_of(L_SHAPE), FitRequest(7.001, fitted=False)).passes
     blocks = {place.block: place for place in by_block(found)}
     assert blocks[2].deviation_um == pytest.approx(7.0)
     assert (blocks[2].entity, blocks[2].side) == (1, 1)  # counter-clockwise, the part on the left: 7 µm left on it
@@ -149,12 +148,12 @@ def test_one_side_moved_by_7_um_is_7_um_off() -> None:
 def test_too_small_a_part_is_gouged() -> None:
     small = curves(square(9_990.0, 5.0, 5.0))
     for edge, sides in ((edge_from([small]), {-1}), (edge_from([flipped(small)], part_side=-1), {-1})):
-        found = compare(edge, drawing_of(square(10_000.0)), Asked(1.0, fitted=False))
+        found = compare(edge, drawing_of(square(10_000.0)), FitRequest(1.0, fitted=False))
         assert {place.side for place in by_block(found)} == sides
         assert {place.side for place in by_entity(found)} == sides
-    as_hole = compare(edge_from([small], part_side=-1), drawing_of(square(10_000.0)), Asked(1.0, fitted=False))
+    as_hole = compare(edge_from([small], part_side=-1), drawing_of(square(10_000.0)), FitRequest(1.0, fitted=False))
     assert {place.side for place in by_block(as_hole)} == {1}
-    unknown = compare(edge_from([small], part_side=0), drawing_of(square(10_000.0)), Asked(1.0, fitted=False))
+    unknown = compare(edge_from([small], part_side=0), drawing_of(square(10_000.0)), FitRequest(1.0, fitted=False))
     assert {place.side for place in by_block(unknown)} == {0}
 
 
@@ -163,7 +162,7 @@ def test_too_small_a_part_is_gouged() -> None:
 def test_turn_shift_and_mirror_are_found(turn: float, mirror: bool) -> None:
     placement = Placement(turn, (123_456.7, -9876.5), mirror)
     edge = laid(curves(L_SHAPE), placement)
-    found = compare(edge_from([edge]), drawing_of(L_SHAPE), Asked(5.0))
+    found = compare(edge_from([edge]), drawing_of(L_SHAPE), FitRequest(5.0))
     assert found.placement.turn_rad == pytest.approx(turn, abs=1e-9)
     assert found.placement.shift_um == pytest.approx(placement.shift_um, abs=1e-4)
     assert found.placement.mirror is mirror
@@ -176,7 +175,7 @@ def test_turn_shift_and_mirror_are_found(turn: float, mirror: bool) -> None:
 def test_any_shape_is_laid_on_itself(seed: int, turn: float, mirror: bool) -> None:
     of = curves(random_shape(seed))
     edge = laid(of, Placement(turn, (5e4, -3e4), mirror))
-    assert compare(edge_from([edge]), drawing_from([of]), Asked(5.0)).max_um < 1e-3
+    assert compare(edge_from([edge]), drawing_from([of]), FitRequest(5.0)).max_um < 1e-3
 
 
 @pytest.mark.parametrize(
@@ -184,7 +183,7 @@ def test_any_shape_is_laid_on_itself(seed: int, turn: float, mirror: bool) -> No
 )
 def test_a_symmetric_part_is_neither_turned_nor_mirrored(shape: Shape) -> None:
     edge = laid(curves(shape), Placement(0.0, (777.0, -55.0), mirror=True))
-    found = compare(edge_from([edge]), drawing_of(shape), Asked(5.0))
+    found = compare(edge_from([edge]), drawing_of(shape), FitRequest(5.0))
     assert found.placement.turn_rad == pytest.approx(0.0, abs=1e-9)
     assert not found.placement.mirror
     assert found.names == ()
@@ -196,7 +195,9 @@ def test_a_part_of_many_equal_corners_is_not_turned_by_its_rounding(corners: int
     """Each of its turns fits a little better or worse than the next."""
     at = np.exp(2j * np.pi * np.arange(corners) / corners) * 20_000.0
     whole = polygon(*((round(corner.real), round(corner.imag)) for corner in at))
-    found = compare(edge_of(whole), drawing_of(polygon(*((corner.real, corner.imag) for corner in at))), Asked(5.0))
+    found = compare(
+        edge_of(whole), drawing_of(polygon(*((corner.real, corner.imag) for corner in at))), FitRequest(5.0)
+    )
     assert found.names == ()
     assert abs(found.placement.turn_rad) < 1e-4
     assert found.max_um < 1.0
@@ -205,7 +206,7 @@ def test_a_part_of_many_equal_corners_is_not_turned_by_its_rounding(corners: int
 def test_a_hole_that_is_not_drawn_does_not_draw_the_rest_off_its_place() -> None:
     """The rest lies on the drawing as before, and the hole is as far off as its farthest place is from any curve."""
     hole = circle(2000.0, 6000.0, 30_000.0)
-    found = compare(edge_of(L_SHAPE, hole), drawing_of(L_SHAPE), Asked(5.0))
+    found = compare(edge_of(L_SHAPE, hole), drawing_of(L_SHAPE), FitRequest(5.0))
     outline = len(curves_of(L_SHAPE.start, L_SHAPE.moves))
     assert found.edge_to_drawing.max_um[:outline].max() < 1e-3
     assert found.edge_to_drawing.max_um[outline:].max() > 1000.0
@@ -216,7 +217,7 @@ def test_a_hole_that_is_not_drawn_does_not_draw_the_rest_off_its_place() -> None
 def test_a_hole_drawn_elsewhere_is_found_where_it_is_cut() -> None:
     """5 mm beside its place a hole of R 2 mm is off by those 5 mm at most, and nothing else is."""
     cut, drawn = circle(2000.0, 6000.0, 30_000.0), circle(2000.0, 6000.0, 25_000.0)
-    found = compare(edge_of(L_SHAPE, cut), drawing_of(L_SHAPE, drawn), Asked(5.0))
+    found = compare(edge_of(L_SHAPE, cut), drawing_of(L_SHAPE, drawn), FitRequest(5.0))
     outline = len(curves_of(L_SHAPE.start, L_SHAPE.moves))
     assert found.edge_to_drawing.max_um[:outline].max() < 1e-3
     assert 2000.0 < found.edge_to_drawing.max_um[outline:].max() <= 5000.0
@@ -225,7 +226,7 @@ def test_a_hole_drawn_elsewhere_is_found_where_it_is_cut() -> None:
 
 def test_a_hole_that_nobody_cut_is_a_deviation_of_the_drawing_alone() -> None:
     hole = circle(2000.0, 6000.0, 30_000.0)
-    found = compare(edge_of(L_SHAPE), drawing_of(L_SHAPE, hole), Asked(5.0))
+    found = compare(edge_of(L_SHAPE), drawing_of(L_SHAPE, hole), FitRequest(5.0))
     assert found.edge_max_um < 1e-6
     assert found.drawing_to_edge.max_um.max() == pytest.approx(6000.0, abs=0.01)
     assert not found.passes
@@ -236,18 +237,20 @@ def test_a_hole_that_nobody_cut_is_a_deviation_of_the_drawing_alone() -> None:
 def test_a_slip_of_units_is_named_and_not_fitted_away(scale: float) -> None:
     small = [(x * scale, y * scale) for x, y in ((0, 0), (30_000, 0), (30_000, 8000), (9000, 25_000))]
     found = compare(
-        edge_of(polygon(*small)), drawing_of(polygon((0, 0), (30_000, 0), (30_000, 8000), (9000, 25_000))), Asked(5.0)
+        edge_of(polygon(*small)),
+        drawing_of(polygon((0, 0), (30_000, 0), (30_000, 8000), (9000, 25_000))),
+        FitRequest(5.0),
     )
     assert [named.name for named in found.names] == ["unit-slip"]
     assert found.scale == pytest.approx(scale)
     assert found.max_um > 1000.0
     assert not found.passes
-    assert not replace(found, asked=Asked(1e9)).passes  # however large the tolerance is
+    assert not replace(found, asked=FitRequest(1e9)).passes  # however large the tolerance is
 
 
 @pytest.mark.parametrize("scale", [1.05, 2.0, 25.0])
 def test_any_other_scale_is_a_deviation(scale: float) -> None:
-    found = compare(edge_of(square(10_000.0 * scale)), drawing_of(square(10_000.0)), Asked(5.0))
+    found = compare(edge_of(square(10_000.0 * scale)), drawing_of(square(10_000.0)), FitRequest(5.0))
     assert found.scale == 1.0
     assert found.names == ()
     # Laid centre on centre, a square differs by half of the difference of their sides, at corners √2 of it.
@@ -260,9 +263,9 @@ def test_order_of_entities_and_direction_of_the_edge_change_nothing(seed: int) -
     of = curves(random_shape(seed))
     by = np.random.default_rng(seed).normal(0.0, 3.0, 2)
     edge = laid(of, Placement(0.0005, (float(by[0]), float(by[1])), mirror=False))
-    plain = compare(edge_from([edge]), drawing_from([of]), Asked(5.0, fitted=False))
+    plain = compare(edge_from([edge]), drawing_from([of]), FitRequest(5.0, fitted=False))
     order = np.random.default_rng(seed).permutation(len(of))
-    other = compare(edge_from([flipped(edge)], part_side=-1), drawing_from([of], order), Asked(5.0, fitted=False))
+    other = compare(edge_from([flipped(edge)], part_side=-1), drawing_from([of], order), FitRequest(5.0, fitted=False))
     assert other.edge_max_um == pytest.approx(plain.edge_max_um, abs=0.01)
     assert other.drawing_to_edge.max_um.max() == pytest.approx(plain.drawing_to_edge.max_um.max(), abs=0.01)
     assert other.edge_to_drawing.rms_um == pytest.approx(plain.edge_to_drawing.rms_um, rel=1e-3)
@@ -270,7 +273,7 @@ def test_order_of_entities_and_direction_of_the_edge_change_nothing(seed: int) -
 
 def test_worst_places_are_apart_and_in_order() -> None:
     bent = polygon((0, 0), (15_000, 4), (30_000, 0), (30_000, 8000), (12_000, 8000), (12_000, 40_000), (0, 40_009))
-    found = worst_places(compare(edge_of(bent), drawing_of(L_SHAPE), Asked(5.0, fitted=False)))
+    found = worst_places(compare(edge_of(bent), drawing_of(L_SHAPE), FitRequest(5.0, fitted=False)))
     sizes = [place.deviation_um for place in found]
     assert sizes == sorted(sizes, reverse=True)
     assert sizes[0] == pytest.approx(9.0, abs=0.01)

@@ -15,7 +15,7 @@ from parser.toolpath import Point
 from sim.base.progress import silent
 from sim.measure.compare.as_cut import edge_as_cut
 from sim.measure.compare.compared_program import compare_program
-from sim.measure.compare.result import Asked
+from sim.measure.compare.result import FitRequest
 from sim.run.dryrun import DryRun
 from sim.run.running import dry_run
 from sim.setup.part import DrawingTarget
@@ -56,7 +56,7 @@ def test_the_edge_as_cut_agrees_with_the_exact_one(tmp_path: Path) -> None:
     """Table and steps of the shipped machine are off by at most the deviation of the run, at a corner on both sides."""
     target = DrawingTarget(square(tmp_path / "part.dxf"), fit=False)
     run = run_held(LED_SQUARE, target, machine=machine())
-    exact = compare_program(run.toolpath, 100.0, run.comparison.drawing, Asked(5.0, fitted=False))
+    exact = compare_program(run.toolpath, 100.0, run.comparison.drawing, FitRequest(5.0, fitted=False))
     assert exact.max_um < 1e-6
     assert 0.5 < run.comparison.max_um <= math.sqrt(2.0) * run.deviations.wire.max_um + 0.1
 

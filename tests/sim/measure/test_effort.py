@@ -12,7 +12,7 @@ from parser.geometry.curves import Curves, curves_between
 from sim.measure.compare import nearest as near
 from sim.measure.compare.directed import directed
 from sim.measure.compare.nearest import indexed, nearest
-from sim.measure.compare.placement import Placement, placed
+from sim.measure.compare.starts import Placement, placed
 
 
 def test_a_crowd_at_one_distance_is_counted_and_what_lies_apart_is_not() -> None:

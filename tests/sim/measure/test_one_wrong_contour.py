@@ -8,11 +8,11 @@ from compare_cases import circle, drawing_of, path_beside, square, together, too
 from drawings import Place
 from sound_shapes import Shape
 
-from parser.findings.remarks import remark_text
+from parser.findings.catalogue import remark_text
 from parser.program import parse_program
 from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.findings import drawing_findings
-from sim.measure.compare.result import Asked, Comparison
+from sim.measure.compare.result import Comparison, FitRequest
 
 R = 4000.0
 CENTERS = ((10_000.0, 10_000.0), (50_000.0, 10_000.0), (50_000.0, 50_000.0), (10_000.0, 50_000.0))
@@ -28,7 +28,7 @@ def holes(changed: Mapping[int, tuple[Shape, Place]]) -> list[tuple[Shape, Place
 
 
 def held(cut: list[tuple[Shape, Place]], *drawn: Shape) -> Comparison:
-    return compare_program(toolpath(together(*cut)), 100.0, drawing_of(*drawn), Asked(5.0))
+    return compare_program(toolpath(together(*cut)), 100.0, drawing_of(*drawn), FitRequest(5.0))
 
 
 def drawn_holes() -> list[Shape]:

@@ -25,10 +25,10 @@ from sim.measure.compare.as_cut import edge_as_cut
 from sim.measure.compare.compare import compare
 from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.program_edge import edge_at, program_edges
-from sim.measure.compare.result import Asked, Comparison
+from sim.measure.compare.result import Comparison, FitRequest
 from sim.measure.compare.rings import polygon
 
-ASKED = Asked(6.0)
+ASKED = FitRequest(6.0)
 """A CAM that rounds ends of arcs drifts by some µm over many of them."""
 SIDE = 4000.0
 _INSIDE_UM = {"offset-missing": 100.0, "wrong-side": 200.0}
@@ -145,7 +145,7 @@ def test_what_a_pass_leaves_beside_a_trim_that_misses_it_counts() -> None:
         for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)):
             pen.to(x * half, y * half + up)
     corners = [(x * SIDE, y * SIDE) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    found = compare_program(pen.path(), REACH_UM, drawing_of(closed(*corners)), Asked(5.0, fitted=False))
+    found = compare_program(pen.path(), REACH_UM, drawing_of(closed(*corners)), FitRequest(5.0, fitted=False))
     of, off = found.edge.curves, found.edge_to_drawing.max_um
     level = np.abs(of.start_um[:, 1] - of.end_um[:, 1]) < 0.01  # µm, as near as the nominal kerf's edge is
     top, bottom = level & (of.start_um[:, 1] > 0.0), level & (of.start_um[:, 1] < 0.0)

@@ -13,7 +13,7 @@ from rough_and_trim import outline
 from sound_shapes import SHAPES, Shape, placed
 
 from sim.measure.compare.compared_program import compare_program
-from sim.measure.compare.result import Asked
+from sim.measure.compare.result import FitRequest
 from sim.measure.compare.rings import polygon as filled
 from sim.measure.compare.tables import by_entity, corner_places
 from sim.measure.compare.unreachable import reachable
@@ -94,14 +94,14 @@ def test_a_slot_that_is_too_narrow_is_no_corner() -> None:
         (side, 0.0),
         (side, side),
     ]
-    found = compare_program(toolpath(die(square(side))), F, drawing_of(notched), Asked(5.0))
+    found = compare_program(toolpath(die(square(side))), F, drawing_of(notched), FitRequest(5.0))
     assert found.max_um == pytest.approx(math.hypot(500.0, 0.0), abs=1.0)
     assert not found.passes
 
 
 @pytest.mark.parametrize(("make", "corners"), [(punch, 1), (die, 5)])
 def test_a_right_program_passes_and_its_corners_are_told(make: object, corners: int) -> None:
-    found = compare_program(toolpath(make(SHARP)), F, drawing_of(SHARP), Asked(0.01))
+    found = compare_program(toolpath(make(SHARP)), F, drawing_of(SHARP), FitRequest(0.01))
     assert found.passes
     assert found.max_um < 1e-6
     places = corner_places(found)
@@ -116,7 +116,7 @@ def test_a_wire_that_leaves_more_than_it_must_fails() -> None:
     moves = [Line((30_000, 0)), Line((30_000, 19_500)), Arc((29_500, 20_000), (29_500, 19_500), 1), Line((0, 20_000))]
     blunt = Shape("one fillet", (0.0, 0.0), [*moves, Line((0.0, 0.0))], 500.0)
     sharp = polygon((0, 0), (30_000, 0), (30_000, 20_000), (0, 20_000))
-    found = compare_program(toolpath(die(blunt)), F, drawing_of(sharp), Asked(5.0))
+    found = compare_program(toolpath(die(blunt)), F, drawing_of(sharp), FitRequest(5.0))
     # A fit moves it by a little of what is left.
     assert found.max_um == pytest.approx((math.sqrt(2.0) - 1.0) * 400.0, abs=3.0)
     assert not found.passes

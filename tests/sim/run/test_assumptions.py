@@ -9,7 +9,7 @@ from runs import run_text, scenario_run
 
 from parser.findings.errors import SettingsError
 from parser.program import read_program
-from sim.run.assumptions import assumptions_of
+from sim.run.dryrun import assumptions_of
 from sim.run.report import build_report
 from sim.run.running import dry_run
 from sim.setup.machine.machine import load_machine

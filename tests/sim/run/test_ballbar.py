@@ -12,8 +12,7 @@ from parser.told.step_words import Axis
 from sim.base.progress import silent
 from sim.base.units import parse_speed
 from sim.run.ballbar.circle import circle_test, measure, run_test
-from sim.run.ballbar.figures import circularity, figures_of, least_squares_circle
-from sim.run.ballbar.turn import SENSES, MeasuredTurn
+from sim.run.ballbar.figures import SENSES, MeasuredTurn, circularity, figures_of, least_squares_circle
 from sim.setup.machine.machine import load_machine
 
 EXACT_UM = 0.002

@@ -8,7 +8,7 @@ from compensated_iso import DIE, around, die, head, program
 from report_schema import complaints
 from runs import codes, lawful, plain_scenario, scenario_run
 
-from controller.offset.path import Made
+from controller.offset.rows import RowOrigin
 from controller.offset.sections import Side
 from parser.dialect.choices import Choices
 from parser.findings.catalogue import texts
@@ -21,7 +21,7 @@ from sim.run.offsetting import as_run
 from sim.run.report import build_report
 from sim.run.running import dry_run
 from sim.setup.part import Offset, OffsetPass
-from sim.show.terminal.cut_rows import pass_rows
+from sim.show.terminal.run import pass_rows
 from sim.show.words import Words
 
 ASKED = Offset((OffsetPass(100.0),), Side.LEFT)
@@ -69,7 +69,7 @@ def test_a_path_without_a_cancel_ends_at_the_offset_without_a_lead() -> None:
     ran = run(program(head("H1=100"), around(DIE)[:-1]))
     assert ran.toolpath.end_um[-1].tolist() == pytest.approx([4900.0, 0.0])
     assert ran.offset is not None
-    assert ran.offset.path.made[-1] == Made.SHIFTED
+    assert ran.offset.path.made[-1] == RowOrigin.SHIFTED
     assert "ISO506" not in codes(ran)
 
 
@@ -144,7 +144,7 @@ def test_a_chamfer_of_a_sharp_corner_is_a_bridge_of_the_program_s_rules() -> Non
     wedge = [(5000, 0), (5000, 3000), (15000, 0), (5000, -3000), (5000, 0)]
     ran = run(program(head("H1=100"), around(wedge)))
     assert ran.offset is not None
-    assert (ran.offset.path.made == Made.BRIDGE).any()
+    assert (ran.offset.path.made == RowOrigin.BRIDGE).any()
     assert [code for code in codes(ran) if code != "ISO112"] == []
 
 

@@ -9,7 +9,7 @@ from places import SCENARIOS
 from report_schema import complaints
 from runs import codes, run_text, scenario_run
 
-from controller.offset.path import Made
+from controller.offset.rows import RowOrigin
 from controller.offset.sections import OffsetSection, Side, rounds_of
 from parser.program import parse_program
 from parser.toolpath import Toolpath
@@ -81,7 +81,7 @@ def test_a_square_grows_on_its_outer_side_and_shrinks_on_its_inner_one() -> None
         corners = made.path.curves.start_um[1:-1]
         assert corners.min(axis=0).tolist() == [-half, low]
         assert corners.max(axis=0).tolist() == [half, high]
-        assert made.path.made.tolist() == [Made.LEAD, *[Made.SHIFTED] * 5, Made.LEAD]
+        assert made.path.made.tolist() == [RowOrigin.LEAD, *[RowOrigin.SHIFTED] * 5, RowOrigin.LEAD]
         assert (len(made.path.vanished), made.loops) == (0, (1,))
 
 

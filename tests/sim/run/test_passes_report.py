@@ -53,7 +53,7 @@ def test_a_moment_names_the_pass_that_runs_and_none_on_leads() -> None:
     for row in range(len(course.run.toolpath)):
         moment = course.at((course.border_s[row] + course.border_s[row + 1]) / 2.0)
         expected = [one.number for one in trimmed().passes if one.first <= row <= one.last]
-        assert ([moment.running.one.number] if moment.running else []) == expected
+        assert ([moment.running.pass_.number] if moment.running else []) == expected
         assert moment.running is None or moment.running.among == 4
 
 

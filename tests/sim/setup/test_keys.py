@@ -21,12 +21,11 @@ from sim.setup.machine import table_model
 from sim.setup.machine.machine import load_machine, machine_sections
 from sim.setup.quiz import QUIZ, Said
 from sim.setup.scenario import Scenario, load_scenario, scenario_sections
-from sim.setup.toml.keys import Key, Section
+from sim.setup.toml.keys import Key, Section, toml_text
 from sim.setup.toml.kinds import MM_AS_UM, Number, OneOf
 from sim.setup.toml.reader import Bound
-from sim.setup.toml.writer import toml_text
 from sim.setup.wire import Wire
-from sim.show.report_page.settings import Setting, setting_groups
+from sim.show.report_page.page import Setting, setting_groups
 
 SECTIONS = (*scenarios.SECTIONS, *machines.SECTIONS)
 NOT_ENGLISH = re.compile(r"[\u2e80-\uffef]")

@@ -10,7 +10,7 @@ from sim.cli.overrides import Overrides, overridden
 from sim.cli.scenario_options import Lengths
 from sim.setup.part import DrawingTarget, Offset, OffsetPass
 from sim.setup.scenario import MACHINE_FILE, load_scenario, scenario_sections
-from sim.setup.toml.writer import toml_text
+from sim.setup.toml.keys import toml_text
 
 LED = "[offset]\nside = 'left'\n[[pass]]\nby_mm = 0.18\n"
 """The first pass of some."""

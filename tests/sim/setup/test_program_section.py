@@ -8,7 +8,7 @@ from parser.findings.errors import SettingsError
 from parser.toolpath import Point
 from sim.setup.making import LayerWish, Making, Writing
 from sim.setup.scenario import load_scenario, scenario_sections
-from sim.setup.toml.writer import toml_text
+from sim.setup.toml.keys import toml_text
 
 ALL = """title = "Made"
 [drawing]

@@ -12,7 +12,7 @@ from runs import plain_scenario
 from parser.findings.catalogue import LANGUAGES, Example, Language, example
 from parser.findings.codes import CODES
 from parser.program import parse_program
-from parser.text.block_names import BlockNames
+from parser.text.source import BlockNames
 from sim.base.progress import silent
 from sim.check.batch import Job, check_file
 from sim.check.settings import CheckSettings

@@ -32,13 +32,11 @@ from sim.show.draw.sheet import drawing, pixels
 from sim.show.pictures.deviation import inset
 from sim.show.pictures.deviation.along import draw_along
 from sim.show.pictures.deviation.histogram import bins_of, draw_histogram, path_of_each, shares
-from sim.show.pictures.deviation.inset import STEPS, inset_of
-from sim.show.pictures.deviation.inset_drawing import draw_inset
-from sim.show.pictures.deviation.places import APART_UM, worst_of, worst_places
+from sim.show.pictures.deviation.inset import STEPS, draw_inset, inset_of
 from sim.show.pictures.deviation.polar import circles_of, draw_polar
 from sim.show.pictures.deviation.samples import Samples, samples_of
 from sim.show.pictures.deviation.whiskers import APART, draw_whiskers
-from sim.show.pictures.deviation.worst import draw_worst
+from sim.show.pictures.deviation.worst import APART_UM, draw_worst, worst_of, worst_places
 from sim.table.trace import Trace
 
 SQUARE = "B900 B0 B900 GX L1 B0 B700 B700 GY L2 B900 B0 B900 GX L3 B0 B700 B700 GY L4 DD"

@@ -12,13 +12,13 @@ from parser.findings.codes import CODES
 from parser.text.excerpt import cells
 from sim.show.findings.pages import page_text
 from sim.show.terminal.documents import cited, document, documents, files, section, title
-from sim.show.terminal.markdown import plain, shown
+from sim.show.terminal.markdown import plain, shown_lines
 
 RAW = re.compile(r"`|\*\*\w|\w\*\*|^#|\]\(|\.md\b|<!--|^\|", re.MULTILINE)
 
 
 def explained(code: str, language: Language, width: int = 80) -> list[str]:
-    return [line.text for line in shown(cited(page_text(code, language)), width)]
+    return [line.text for line in shown_lines(cited(page_text(code, language)), width)]
 
 
 def told(*arguments: str) -> str:
@@ -49,7 +49,7 @@ def test_a_page_loses_nothing_but_the_signs(language: Language) -> None:
 
 
 def test_a_page_has_headings_and_its_example_set_in() -> None:
-    lines = list(shown(cited(page_text("3B401", "en"))))
+    lines = list(shown_lines(cited(page_text("3B401", "en"))))
     heads = [text for text, is_heading in lines if is_heading]
     assert heads == [
         "3B401: out of travel (error)",
@@ -135,7 +135,7 @@ def test_the_list_fits() -> None:
 def test_lists_tables_and_chinese_keep_their_form() -> None:
     lists = "# A\none `b|c`\ntwo\n\n* x\n  y\n* z\n\n"
     text = lists + "| a | b |\n|---|---|\n| `1 \\| 2` | three four |\n\n中文，\n2 字\n字"
-    assert [line.text for line in shown(text, 14)] == [
+    assert [line.text for line in shown_lines(text, 14)] == [
         "A",
         "one b|c two",
         "",

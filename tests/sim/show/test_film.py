@@ -17,14 +17,12 @@ from sim.run.recording import recorded
 from sim.run.report import build_report
 from sim.show.draw.layout import Box, View, centred
 from sim.show.draw.paints import LIGHT, Paint
-from sim.show.film.clock import FilmClock
 from sim.show.film.cut_map import FULL, CutMap, Discs, Span, discs_of
 from sim.show.film.ground import near_runs, outlines_um
-from sim.show.film.layout import layout_for
-from sim.show.film.marks import THE_WIRE, WIRE
-from sim.show.film.readout import read_out, told
-from sim.show.film.screen import Look, Screen
-from sim.show.film.strip import bar_of
+from sim.show.film.readout import bar_of, last_event, read_out
+from sim.show.film.scene import layout_for
+from sim.show.film.screen import THE_WIRE, WIRE, Look, Screen
+from sim.show.film.writers import FilmClock
 from sim.show.keys import OF_PAGE
 from sim.show.words import Words
 from sim.show.words.words import texts
@@ -234,17 +232,17 @@ def test_read_outs_tell_block_place_and_times(course: Course) -> None:
 def test_what_happens_is_told_when_it_does(course: Course) -> None:
     say = Words("en")
     (piece,) = course.pieces
-    assert told(course, piece.t_s + 0.01, 0.1, say).value == "a slug comes free"
+    assert last_event(course, piece.t_s + 0.01, 0.1, say).value == "a slug comes free"
     pause_s = float(course.border_s[7])
-    assert told(course, pause_s + 0.01, 0.001, say).value == ""
-    assert told(course, pause_s + 0.001, 0.001, say).value == "paused (D) behind block 7"
-    assert told(course, course.duration_s, SPEED, say).value == "end of the program"
+    assert last_event(course, pause_s + 0.01, 0.001, say).value == ""
+    assert last_event(course, pause_s + 0.001, 0.001, say).value == "paused (D) behind block 7"
+    assert last_event(course, course.duration_s, SPEED, say).value == "end of the program"
 
 
 def test_of_what_falls_together_the_finding_is_told() -> None:
     course = course_of(scenario_recording("drops-early"))
     (piece,) = course.pieces
-    assert told(course, piece.t_s + 1e-6, 1.0, Words("en")).value.startswith("3B406")
+    assert last_event(course, piece.t_s + 1e-6, 1.0, Words("en")).value.startswith("3B406")
 
 
 def test_a_trip_ends_the_run_and_says_so(tripped: Course) -> None:
@@ -252,8 +250,8 @@ def test_a_trip_ends_the_run_and_says_so(tripped: Course) -> None:
     assert trip is not None
     assert tripped.duration_s == trip.t_s < tripped.run.plan.duration_s
     assert tripped.steps.t_s[-1] <= trip.t_s
-    assert told(tripped, tripped.duration_s, 1.0, Words("en")).value == "the X servo tripped: the run ends here"
-    assert "X 轴" in told(tripped, tripped.duration_s, 1.0, Words("zh")).value
+    assert last_event(tripped, tripped.duration_s, 1.0, Words("en")).value == "the X servo tripped: the run ends here"
+    assert "X 轴" in last_event(tripped, tripped.duration_s, 1.0, Words("zh")).value
 
 
 @pytest.mark.parametrize("name", ["wire-lag-corner", "wire-lag-arc", "backlash", "friction", "servo-trip"])

@@ -26,7 +26,7 @@ from sim.check.settings import CheckSettings
 from sim.show.findings import FORMATS, render
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import spot
-from sim.show.terminal.printer import made
+from sim.show.terminal.printer import printed_text
 
 SCHEMAS = {
     "json": ROOT / "docs" / "check.schema.json",
@@ -202,7 +202,7 @@ def test_text_in_chinese() -> None:
 
 def test_colours_come_only_when_asked_for() -> None:
     plain = written("text", kind())
-    coloured = made(written("text", kind(), colour=True), "text", colour=True)
+    coloured = printed_text(written("text", kind(), colour=True), "text", colour=True)
     assert "\x1b" not in plain
     assert "\x1b[1;31merror[3B204]\x1b[0m" in coloured
     import click

@@ -7,7 +7,7 @@ from places import ROOT
 
 from parser.findings.catalogue import LANGUAGES
 from sim.show.pictures.gallery import PICTURES
-from sim.show.pictures.plan.shown import PLAN
+from sim.show.pictures.plan.picture import PLAN
 from sim.show.words.words import Words, texts
 
 COUNTS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]

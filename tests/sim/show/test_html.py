@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from jinja2 import UndefinedError
 
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from sim.show.draw.paints import DARK, LIGHT, Paint
 from sim.show.html.environment import rendered, script_json, theme_css
 
@@ -36,7 +36,7 @@ def test_a_page_escapes_values_in_texts_attributes_and_data(tmp_path):
         {% block title %}{{ said }}{% endblock %}
         {% block body %}{{ words.both(text) }}<button {{ words.label(text) }}></button>
         <script type="application/json">{{ said | script_json }}</script>{% endblock %}"""
-    page = _page(tmp_path, body, said=EVIL + "\"'", text=Said(EVIL, EVIL + "\"'"))
+    page = _page(tmp_path, body, said=EVIL + "\"'", text=Bilingual(EVIL, EVIL + "\"'"))
     assert "alert(1)" in page
     assert "<script>alert" not in page
     assert "</script><!--" not in page

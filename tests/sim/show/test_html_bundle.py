@@ -8,7 +8,7 @@ import pytest
 from browser import OpenPage
 from places import ROOT
 
-from sim.show.html.bundle import joined
+from sim.show.html.environment import joined
 
 ASSETS = ROOT / "sim" / "show"
 Written = Callable[..., Path]

@@ -9,14 +9,14 @@ import pytest
 from page_types import types_of, unlike
 from runs import plain_scenario
 
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from parser.findings.codes import Severity
 from parser.findings.findings import Count
 from parser.program import Program, parse_program
 from sim.jobs.index import Entry, Row, build_index, index_text
 from sim.show import index_page as room
-from sim.show.index_page import Beside, index_page
-from sim.show.index_page.thumbnail import HEIGHT, WIDTH, thumbnail
+from sim.show.index_page import BesideTheIndex, index_page
+from sim.show.index_page.page import HEIGHT, WIDTH, thumbnail
 
 FAILS = (Count("3B301", Severity.ERROR, 2), Count("3B405", Severity.WARNING, 1))
 
@@ -32,7 +32,7 @@ ROWS = [
         max_um=0.5,
         picture="M1,1l0,2",
     ),
-    Row("refused", HOSTILE, Said("no program", "没有程序"), findings=(Count("3B100", Severity.ERROR, 1),)),
+    Row("refused", HOSTILE, Bilingual("no program", "没有程序"), findings=(Count("3B100", Severity.ERROR, 1),)),
 ]
 ENTRIES = [
     Entry("shop/a.3b", "a.3b", ROWS[0], from_cache=True),
@@ -42,7 +42,7 @@ ENTRIES = [
 
 
 def page_of(entries: list[Entry]) -> str:
-    return index_page(build_index(entries), [Beside(entry.row.picture, entry.row.message) for entry in entries])
+    return index_page(build_index(entries), [BesideTheIndex(entry.row.picture, entry.row.message) for entry in entries])
 
 
 def data_of(page: str) -> dict:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from places import ROOT
 
 from sim.show.html import packed as packed_module
-from sim.show.html.bundle import joined
+from sim.show.html.environment import joined
 from sim.show.html.packed import LONG, packed
 
 if TYPE_CHECKING:

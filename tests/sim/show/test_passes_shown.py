@@ -17,9 +17,8 @@ from parser.shape.passes import Pass
 from sim.run.course import course_of
 from sim.run.recording import Recording
 from sim.run.report import build_report
-from sim.show.draw.paints import LIGHT, Paint
+from sim.show.draw.paints import LIGHT, Paint, paint_of_pass, tones_of
 from sim.show.draw.sheet import pixels
-from sim.show.draw.tones import paint_of_pass, tones_of
 from sim.show.film.readout import read_out
 from sim.show.film.screen import Look, Screen
 from sim.show.pictures.cut.of_run import draw_cut_of_run
@@ -91,7 +90,7 @@ def test_in_the_picture_a_pass_covers_only_what_no_earlier_one_took() -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_film_names_the_pass_that_runs(language: str) -> None:
     say, course, once = Words(language), course_of(trimmed_run()), course_of(untrimmed_run())
-    name, of = say("film.pass"), course.passes[1].one
+    name, of = say("film.pass"), course.passes[1].pass_
     for row, value in ((of.first, {"en": "2 of 4, back", "zh": "第 2 刀（共 4 刀），反向"}[language]), (0, "–")):
         moment = course.at((course.border_s[row] + course.border_s[row + 1]) / 2.0)
         (line,) = (one for one in read_out(course, moment, 1.0, say) if one.name == name)
@@ -101,7 +100,7 @@ def test_the_film_names_the_pass_that_runs(language: str) -> None:
 
 def test_the_kerf_of_a_film_takes_the_tone_of_the_pass_that_went_over_it_last() -> None:
     course = course_of(trimmed_run())
-    path, trim = course.run.toolpath, course.passes[1].one
+    path, trim = course.run.toolpath, course.passes[1].pass_
     screen = Screen(course, Look(960, 540, "light", "en"))
     row = np.arange(trim.first, trim.last + 1)
     half = np.full(len(row), 0.5)

@@ -19,7 +19,7 @@ from strategies import blocks, program_text
 from controller.offset.sections import Side
 from controller.stepping.pulses import Pulses
 from controller.stepping.words import words_of
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from parser.findings.errors import SettingsError
 from parser.program import parse_program, read_program
 from sim.measure.deviation.meters import BlockSteps
@@ -62,7 +62,10 @@ def test_a_quiz_is_read(tmp_path: Path) -> None:
     assert other[:2] == (
         7,
         WrittenQuestion(
-            Said("Why?", "为什么？"), (Said("So", "是"), Said("Not\ufffd so", "否")), 1, Said("Because", "Because")
+            Bilingual("Why?", "为什么？"),
+            (Bilingual("So", "是"), Bilingual("Not\ufffd so", "否")),
+            1,
+            Bilingual("Because", "Because"),
         ),
     )
     assert other.where == f"{tmp_path / 'scenario.toml'}: [[quiz]] 2"
@@ -259,7 +262,7 @@ def test_wrong_ends_are_no_place_where_steps_might_end() -> None:
     assert written_out("end", block) is None
     far = written_out("end", block._replace(end_um=np.array([9.0, 300.0])))
     assert far is not None
-    assert Said("X −0.009 mm, Y 0.300 mm", "X −0.009 mm，Y 0.300 mm") not in far.answers
+    assert Bilingual("X −0.009 mm, Y 0.300 mm", "X −0.009 mm，Y 0.300 mm") not in far.answers
     assert len(far.answers) == 4
 
 
@@ -282,7 +285,7 @@ def test_a_block_without_a_step_is_not_asked_about() -> None:
 
 
 def test_questions_stand_in_the_order_they_are_asked() -> None:
-    free = WrittenQuestion(Said("a", "b"), (Said("c", "d"), Said("e", "f")), 1, Said("g", "h"))
+    free = WrittenQuestion(Bilingual("a", "b"), (Bilingual("c", "d"), Bilingual("e", "f")), 1, Bilingual("g", "h"))
     entries = asked(
         "B0B30B30GYL2 B30B0B60GYNR1 DD", [Question(2, free, "f"), Question(1, "end", "f"), Question(2, "turn", "f")]
     )

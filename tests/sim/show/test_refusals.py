@@ -6,7 +6,7 @@ from typing import get_args
 import pytest
 from places import ROOT
 
-from parser.drawing.loops.flat import WhyFlat
+from parser.drawing.loops.chain import WhyFlat
 from parser.toolpath import Point
 from sim.make.cam.model import Refusal
 from sim.show.refusals import places_said, why_refused

@@ -17,7 +17,7 @@ from places import ROOT, SCENARIOS
 from report_pages import PART, SMALL, Made, Outline, hostile, made
 from runs import run_folder, run_text, scenario_run
 
-from parser.findings.catalogue import Said
+from parser.findings.catalogue import Bilingual
 from parser.program import load_program, read_program
 from sim.run.report import build_report, report_text
 from sim.setup.expectations import EXPECT, read_expectation
@@ -25,12 +25,11 @@ from sim.setup.machine.machine import machine_sections
 from sim.setup.part import SIDES, Offset, OffsetPass
 from sim.setup.quiz import QUIZ
 from sim.setup.scenario import MACHINE_FILE, Scenario, load_scenario, scenario_sections
-from sim.setup.toml.writer import toml_text, toml_value
+from sim.setup.toml.keys import toml_text, toml_value
 from sim.show.report_page.figures import why
 from sim.show.report_page.findings import MOST, prose
-from sim.show.report_page.page import reproduction
+from sim.show.report_page.page import reproduction, setting_groups
 from sim.show.report_page.results import block_table
-from sim.show.report_page.settings import setting_groups
 from sim.show.report_page.tables import micrometres, reached
 from sim.show.words.phrases import lasting
 
@@ -178,7 +177,7 @@ def test_findings_stand_with_their_line_and_carets_as_on_the_command_line() -> N
     ],
 )
 def test_the_verdict_is_told_in_a_sentence(text: str, en: str, zh: str) -> None:
-    assert why(run_text(text, may_stay_open=True))[0] == Said(en, zh)
+    assert why(run_text(text, may_stay_open=True))[0] == Bilingual(en, zh)
 
 
 def test_a_tripped_drive_is_told_with_the_verdict() -> None:
@@ -196,8 +195,8 @@ def test_the_end_of_the_travel_is_told_with_the_verdict() -> None:
 
 
 def test_durations_are_told_in_both_languages() -> None:
-    assert lasting(8820.0) == Said("2 h 27 min", "2 小时 27 分")
-    assert lasting(12.4) == Said("12.4 s", "12.4 秒")
+    assert lasting(8820.0) == Bilingual("2 h 27 min", "2 小时 27 分")
+    assert lasting(12.4) == Bilingual("12.4 s", "12.4 秒")
 
 
 def test_expectations_are_shown_with_those_that_are_missed() -> None:
@@ -364,11 +363,14 @@ def test_every_setting_has_a_name_and_its_unit(full: Scenario) -> None:
     assert (shown["drive_stiffness_n_um"].unit, shown["viscous_x_n_s_mm"].unit) == ("N/µm", "N s/mm")
     assert (shown["pressure_n_mm"].unit, shown["tension_n"].unit, shown["density_g_cm3"].unit) == ("N/mm", "N", "g/cm³")
     assert shown["force_at_rate"].value.en == "500.1, 13000; 4000, 2500.7"
-    assert shown["kind"].value == Said("servo", "伺服电机")
+    assert shown["kind"].value == Bilingual("servo", "伺服电机")
     sections = [*scenario_sections(full), *machine_sections(full.machine)]
     keys = {key for section, values in sections if section not in (EXPECT, QUIZ) for key in values}
     assert keys - {"machine"} == shown.keys() - {"encoding"}
-    assert (shown["unit"].value, shown["registers_mm"].value.en) == (Said("inches", "英寸"), "D0 = 0.1, H12 = -0.02")
+    assert (shown["unit"].value, shown["registers_mm"].value.en) == (
+        Bilingual("inches", "英寸"),
+        "D0 = 0.1, H12 = -0.02",
+    )
 
 
 def test_a_folder_made_from_the_page_writes_the_same_report(tmp_path: Path) -> None:

@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from places import ROOT
 
-from parser.findings.catalogue import LANGUAGES, Said
-from sim.run.ballbar.turn import NAMES, SENSES
-from sim.show.html.bundle import joined
-from sim.show.words import Words, said
+from parser.findings.catalogue import LANGUAGES, Bilingual
+from sim.run.ballbar.figures import NAMES, SENSES
+from sim.show.html.environment import joined
+from sim.show.words import Words, bilingual
 from sim.show.words.words import FOLDER, texts
 
 PACKAGES = ("parser", "controller", "sim")
@@ -216,8 +216,8 @@ def test_a_sentence_is_told_from_other_texts(source: str, found: list[str]) -> N
 
 
 def test_a_text_is_filled_in_each_language_with_its_own() -> None:
-    turning = said("quiz.turn_answer", turn=said("quiz.clockwise"), word="SR")
-    assert turning == Said("clockwise (SR)", "顺时针（SR）")
+    turning = bilingual("quiz.turn_answer", turn=bilingual("quiz.clockwise"), word="SR")
+    assert turning == Bilingual("clockwise (SR)", "顺时针（SR）")
     assert tuple(Words(language)("quiz.turn_answer", turn="{x}", word="SR") for language in LANGUAGES) == (
         "{x} (SR)",
         "{x}（SR）",
@@ -227,7 +227,7 @@ def test_a_text_is_filled_in_each_language_with_its_own() -> None:
 @pytest.mark.parametrize("key", ["cut.none", "none.cut", "cut", "../cut.kerf", ""])
 def test_an_unknown_key_is_a_key_error(key: str) -> None:
     with pytest.raises(KeyError):
-        said(key)
+        bilingual(key)
 
 
 @pytest.mark.parametrize("form", ["text", "concise", "json", "sarif", "junit", "github", "gitlab"])

@@ -13,12 +13,11 @@ from fuzzing.promises import of_document, unclean
 from fuzzing.target import Input, Judged
 from parser.drawing.model import Drawing
 from parser.drawing.read import read_drawing
-from parser.findings.catalogue import LANGUAGES
+from parser.findings.catalogue import LANGUAGES, remark_text
 from parser.findings.errors import DrycutError
-from parser.findings.remarks import remark_text
 from parser.program import Program, read_program
 from sim.measure.compare.compared_program import compare_program
-from sim.measure.compare.result import Asked
+from sim.measure.compare.result import FitRequest
 from sim.run.report.drawing import document_text
 
 _LAYERS = (None, None, None, "CUT", "0", "nowhere", "\x1b[2J")
@@ -43,7 +42,7 @@ def judge_compared(data: Input, number: int, folder: Path) -> Judged:
     found = _read(data, number, folder)
     if isinstance(found, str):
         return Judged(found, [], "refused")
-    asked = Asked(5.0, number % 2 == 0, "fail" if number % 3 else "tell")
+    asked = FitRequest(5.0, number % 2 == 0, "fail" if number % 3 else "tell")
     try:
         done = compare_program(_program().toolpath, 100.0, found, asked)
     except DrycutError as error:

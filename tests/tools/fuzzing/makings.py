@@ -15,7 +15,7 @@ from parser.findings.codes import Severity
 from parser.findings.errors import DrycutError
 from sim.check.batch import Job, check_file
 from sim.check.settings import CheckSettings
-from sim.make.cam.maker import Made, NotMade, unproved
+from sim.make.cam.maker import MadeProgram, NotMade, unproved
 from sim.make.convert.wanted import Wanted
 from sim.setup.making import Making
 from sim.setup.scenario import Scenario
@@ -52,7 +52,7 @@ def judge(data: Input, number: int, folder: Path) -> Judged:
     return Judged("\n".join([*lines, done.data.decode()]), [*broken, *_of_made(done, wanted)], "made")
 
 
-def _lines(done: Made | NotMade) -> list[str]:
+def _lines(done: MadeProgram | NotMade) -> list[str]:
     """What is said of it in every language."""
     if isinstance(done, NotMade):
         return [
@@ -61,7 +61,7 @@ def _lines(done: Made | NotMade) -> list[str]:
     return [line for language in LANGUAGES for line in told_lines(done.plan, language, _COLUMNS)]
 
 
-def _of_made(done: Made, wanted: Wanted) -> Iterator[str]:
+def _of_made(done: MadeProgram, wanted: Wanted) -> Iterator[str]:
     """The text is what was planned, and a check has nothing to say against it."""
     if done.written.differs:
         yield f"another path than was planned: {done.written.differs}"

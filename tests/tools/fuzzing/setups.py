@@ -25,7 +25,7 @@ from sim.setup.expectations import missed
 from sim.setup.machine import machine as machines
 from sim.setup.machine.machine import load_machine, machine_sections
 from sim.setup.scenario import MACHINE_FILE, SECTIONS, Scenario, load_scenario, scenario_sections
-from sim.setup.toml.writer import toml_text
+from sim.setup.toml.keys import toml_text
 
 _SETTINGS = (
     'machine = "dk7740"\nstart_mm = [120.0, 200.0]\nfail_on = "warning"\nignore = ["3B102"]\nend_marks = ["E"]\n'

@@ -6,10 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.drawing.fit.curves.longest import Arcs, Runs
+from parser.drawing.fit.curves.longest import Arcs, Chords, Runs, chords_between
 from parser.drawing.fit.curves.pieces import halves
 from parser.drawing.fit.curves.strings import Strings, places_on, where_at
-from parser.drawing.fit.curves.through import Chords, chords_between
 from parser.geometry.curves import Bools, Floats, Ints
 
 _MOST_ROUNDS = 12
@@ -123,10 +122,10 @@ def _off_arc(control: Floats, frame: _Frame) -> tuple[Floats, Floats]:
     return np.maximum(off[:, 0], off[:, -1]), np.where(ahead, off.max(axis=1), np.inf)
 
 
-def _times(one: Floats, other: Floats) -> Floats:
+def _times(this: Floats, other: Floats) -> Floats:
     """Bernstein coefficients (n, p + q + 1) of products of polynomials given by (n, p + 1) and (n, q + 1)."""
-    outer = (one[:, :, None] * other[:, None, :]).reshape(len(one), one.shape[1] * other.shape[1])
-    product: Floats = outer @ _product(one.shape[1] - 1, other.shape[1] - 1)
+    outer = (this[:, :, None] * other[:, None, :]).reshape(len(this), this.shape[1] * other.shape[1])
+    product: Floats = outer @ _product(this.shape[1] - 1, other.shape[1] - 1)
     return product
 
 

@@ -173,9 +173,9 @@ def _curvature(strings: Strings, piece: Ints, share: Floats) -> Floats:
         value = value * share[:, None] + factors[piece]
     w, w1, w2 = (part[:, 2:] for part in (value, slope, second))
     place = value[:, :2] / w
-    one = (slope[:, :2] - w1 * place) / w
-    two = (second[:, :2] - 2.0 * w1 * one - w2 * place) / w
-    bend: Floats = (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]) / np.hypot(one[:, 0], one[:, 1]) ** 3
+    each = (slope[:, :2] - w1 * place) / w
+    two = (second[:, :2] - 2.0 * w1 * each - w2 * place) / w
+    bend: Floats = (each[:, 0] * two[:, 1] - each[:, 1] * two[:, 0]) / np.hypot(each[:, 0], each[:, 1]) ** 3
     return bend
 
 

@@ -72,10 +72,14 @@ def pieces_of_spans(spans: Sequence[Spans]) -> Pieces:
 
     Control point j of a piece is the blossom of the ends of its span, the second taken j times (Ramshaw 1989).
     """
-    control, knot = (np.concatenate([getattr(one, name) for one in spans]) for name in ("control", "knot"))
+    control, knot = (
+        np.concatenate([getattr(each_spans, name) for each_spans in spans]) for name in ("control", "knot")
+    )
     degree = control.shape[1] - 1
     blossoms = [_blossom(control, knot, taken) for taken in range(degree + 1)]
-    return Pieces(np.stack(blossoms, axis=1), np.repeat(np.arange(len(spans)), [len(one.control) for one in spans]))
+    return Pieces(
+        np.stack(blossoms, axis=1), np.repeat(np.arange(len(spans)), [len(each_spans.control) for each_spans in spans])
+    )
 
 
 def _blossom(control: Floats, knot: Floats, taken: int) -> Floats:

@@ -117,6 +117,6 @@ def _directions(control: Floats) -> tuple[Floats, Floats]:
     return leg[rows, seen.argmax(axis=1)], leg[rows, leg.shape[1] - 1 - seen[:, ::-1].argmax(axis=1)]
 
 
-def _between(one: Floats, other: Floats) -> Floats:
-    angle: Floats = np.abs(np.arctan2(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0], (one * other).sum(axis=1)))
+def _between(this: Floats, other: Floats) -> Floats:
+    angle: Floats = np.abs(np.arctan2(this[:, 0] * other[:, 1] - this[:, 1] * other[:, 0], (this * other).sum(axis=1)))
     return angle

@@ -251,7 +251,7 @@ def _ring(strokes: Strokes, within_um: float) -> tuple[Strokes, list[_Piece]]:
         tried.append((begin, _pieces(vertices[begin : begin + number + 1], 0, within_um)))
         if not 2 < len(tried[0][1]) <= _MOST_COMPARED or len(tried[-1][1]) < len(tried[0][1]):
             break
-    begin, pieces = min(tried, key=lambda one: (len(one[1]), max(piece.off_um for piece in one[1])))
+    begin, pieces = min(tried, key=lambda each: (len(each[1]), max(piece.off_um for piece in each[1])))
     return strokes.rolled(begin), pieces
 
 
@@ -361,9 +361,9 @@ def _two(vertices: Floats, first: _Piece, past: int, within_um: float) -> tuple[
     begin, last = first.begin, min(first.past, past - FEWEST_LINES)
     for middle in sorted({(begin + past) // 2, (begin + 2 * past) // 3, (begin + 4 * past) // 5, last}):
         if begin + FEWEST_LINES <= middle <= last:
-            one, other = _piece(vertices, begin, middle, within_um), _piece(vertices, middle, past, within_um)
-            if one and other:
-                return one, other
+            this, other = _piece(vertices, begin, middle, within_um), _piece(vertices, middle, past, within_um)
+            if this and other:
+                return this, other
     return None
 
 

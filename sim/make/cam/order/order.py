@@ -5,6 +5,8 @@ Nearest places, as compiled loops over places in order of X: those of each, and 
 What must be cut before what: figures by how deep they lie, and by the ranks of their layers.
 
 The shortest way through places that could be found, without a way back.
+
+Which figure lies directly around each one.
 """
 
 import math
@@ -13,11 +15,50 @@ from collections.abc import Sequence
 import numpy as np
 
 from controller.compiled.loops import compiled
-from parser.geometry.curves import Floats, Ints
+from parser.geometry.along import places
+from parser.geometry.curves import Floats, Ints, extents, is_inside
 from sim.make.cam.model import CannotCutError, Figure, Refusal, Thread
-from sim.make.cam.order.nested import around
 from sim.make.cam.order.shorter import shortened
 from sim.setup.making import Making
+
+_PLACES = 8  # of a contour that say within which others it lies; some of them may lie on one that touches it
+
+
+def around(figures: Sequence[Figure]) -> tuple[int, ...]:
+    """Index of the figure directly around each one, −1 where there is none: of a hole the outline of its part."""
+    outlines = {figure.part: at for at, figure in enumerate(figures) if figure.kind == "outline"}
+    found = [outlines.get(figure.part, -1) if figure.kind == "hole" else -1 for figure in figures]
+    islands = np.array(
+        [at for at, each_figure in enumerate(figures) if each_figure.kind == "outline" and each_figure.depth],
+        dtype=np.int64,
+    )
+    if len(islands):
+        spread = np.stack([_spread(figures[at]) for at in islands.tolist()])
+        depth = np.array([figures[at].depth for at in islands.tolist()])
+        for at, figure in enumerate(figures):
+            if figure.kind == "hole":
+                which = np.flatnonzero(depth == figure.depth + 1)
+                for island in islands[which[_lie_within(figure, spread[which])]].tolist():
+                    found[island] = at
+    return tuple(found)
+
+
+def _spread(figure: Figure) -> Floats:
+    """Places (`_PLACES`, 2) along a contour."""
+    length = np.linspace(0.0, 1.0, _PLACES, endpoint=False) * figure.contour.length_um.sum()
+    before = figure.contour.before_um
+    row = np.clip(np.searchsorted(before, length, side="right") - 1, 0, len(figure.contour) - 1)
+    return places(figure.contour, row, (length - before[row]) / figure.contour.length_um[row])
+
+
+def _lie_within(figure: Figure, spread_um: Floats) -> list[bool]:
+    """Whether contours with places (k, m, 2) lie within a figure: those that lie in its box are looked at."""
+    low, high = (edge(ends, axis=0) for edge, ends in zip((np.min, np.max), extents(figure.contour), strict=True))
+    within = [False] * len(spread_um)
+    in_box = ((spread_um >= low) & (spread_um <= high)).all(axis=2).mean(axis=1) > 0.5
+    for at in np.flatnonzero(in_box).tolist():
+        within[at] = bool(is_inside(figure.contour, spread_um[at]).mean() > 0.5)
+    return within
 
 
 @compiled("i8[:,::1](f8[:,::1], i8)")
@@ -119,11 +160,11 @@ def levels(figures: Sequence[Figure], around: Sequence[int], making: Making) -> 
     """
     ranks = {wish.layer.casefold(): wish.rank for wish in making.layers if wish.rank is not None}
     rank = [float(ranks.get(figure.layer.casefold(), math.inf)) for figure in figures]
-    for at in sorted(range(len(figures)), key=lambda one: -figures[one].depth):
+    for at in sorted(range(len(figures)), key=lambda each: -figures[each].depth):
         if around[at] >= 0:
             rank[around[at]] = max(rank[around[at]], rank[at])
     keys = [(rank[at], -figure.depth) for at, figure in enumerate(figures)]
-    return tuple(np.array([at for at, key in enumerate(keys) if key == one]) for one in sorted(set(keys)))
+    return tuple(np.array([at for at, key in enumerate(keys) if key == each_key]) for each_key in sorted(set(keys)))
 
 
 def in_order(figures: Sequence[Figure], threads: Sequence[Thread], making: Making) -> tuple[int, ...]:
@@ -134,7 +175,7 @@ def in_order(figures: Sequence[Figure], threads: Sequence[Thread], making: Makin
     """
     outer = around(figures)
     if making.order:
-        return _asked(figures, outer, making.order)
+        return _wished_order(figures, outer, making.order)
     place = np.array([thread.place_um for thread in threads], dtype=np.float64).reshape(-1, 2)
     order: list[int] = []
     for level in levels(figures, outer, making):
@@ -147,7 +188,7 @@ def in_order(figures: Sequence[Figure], threads: Sequence[Thread], making: Makin
     return tuple(order)
 
 
-def _asked(figures: Sequence[Figure], outer: Sequence[int], wanted: tuple[int, ...]) -> tuple[int, ...]:
+def _wished_order(figures: Sequence[Figure], outer: Sequence[int], wanted: tuple[int, ...]) -> tuple[int, ...]:
     """The order of the numbers that are asked for."""
     index = {figure.number: at for at, figure in enumerate(figures)}
     if sorted(wanted) != sorted(index):

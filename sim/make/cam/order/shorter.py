@@ -65,40 +65,40 @@ def shortened(place_um: Floats, near: Ints, order: Ints, bound: int) -> Ints:
 
 
 @compiled("f8(Walk, i8, i8)", Walk)
-def _apart(walk: Walk, one: int, other: int) -> float:
+def _apart(walk: Walk, this: int, other: int) -> float:
     """Distance µm of two places; none from the head, and a bond between that and the place that is bound to it."""
     head = len(walk.x)
-    if head in (one, other):
-        return -_BOUND_UM if walk.bound in (one, other) else 0.0
-    return float(np.hypot(walk.x[one] - walk.x[other], walk.y[one] - walk.y[other]))
+    if head in (this, other):
+        return -_BOUND_UM if walk.bound in (this, other) else 0.0
+    return float(np.hypot(walk.x[this] - walk.x[other], walk.y[this] - walk.y[other]))
 
 
 @compiled("void(Walk, i8, i8)", Walk)
 def _run_back(walk: Walk, low: int, high: int) -> None:
     """Run the places from one position to another backwards."""
     while low < high:
-        one, other = walk.way[low], walk.way[high]
-        walk.way[low], walk.way[high] = other, one
-        walk.at[other], walk.at[one] = low, high
+        this, other = walk.way[low], walk.way[high]
+        walk.way[low], walk.way[high] = other, this
+        walk.at[other], walk.at[this] = low, high
         low, high = low + 1, high - 1
 
 
 @compiled("b1(Walk, i8, i8, i8)", Walk)
-def _turned(walk: Walk, near: int, one: int, step: int) -> bool:
+def _turned(walk: Walk, near: int, number: int, step: int) -> bool:
     """Run a part of the way backwards, if that is shorter, so that `one` comes to stand beside one of those near it."""
     past = len(walk.way)
-    beside = walk.way[(walk.at[one] + step) % past]
-    old = _apart(walk, one, beside)
-    for k in range(one * near, one * near + near):
+    beside = walk.way[(walk.at[number] + step) % past]
+    old = _apart(walk, number, beside)
+    for k in range(number * near, number * near + near):
         other = walk.near[k]
-        new = _apart(walk, one, other)
+        new = _apart(walk, number, other)
         if new >= old:
             return False
         behind = walk.way[(walk.at[other] + step) % past]
         if old + _apart(walk, other, behind) - new - _apart(walk, beside, behind) > _GAIN_UM:
-            low, high = min(walk.at[one], walk.at[other]), max(walk.at[one], walk.at[other])
+            low, high = min(walk.at[number], walk.at[other]), max(walk.at[number], walk.at[other])
             _run_back(walk, low + (step > 0), high - (step < 0))
-            for end in (one, beside, other, behind):
+            for end in (number, beside, other, behind):
                 walk.is_open[end] = 1
             return True
     return False
@@ -121,21 +121,21 @@ def _put(walk: Walk, low: int, high: int, behind: int, is_back: bool) -> None:
 
 
 @compiled("b1(Walk, i8, i8, i8)", Walk)
-def _moved(walk: Walk, near: int, one: int, number: int) -> bool:
+def _moved(walk: Walk, near: int, each_number: int, number: int) -> bool:
     """Move places, if that is shorter, so that `one` comes to stand beside one of those near it.
 
     They are as many as `number` from `one` on, back from it where that is negative.
     """
     past, step = len(walk.way), 1 if number > 0 else -1
-    last = walk.at[one] + number - step
+    last = walk.at[each_number] + number - step
     if not 1 <= last < past:
         return False
-    low, high = min(walk.at[one], last), max(walk.at[one], last)
-    end, before, behind = walk.way[last], walk.way[(walk.at[one] - step) % past], walk.way[(last + step) % past]
-    saved = _apart(walk, before, one) + _apart(walk, end, behind) - _apart(walk, before, behind)
-    for k in range(2 * one * near, 2 * (one * near + near)):
+    low, high = min(walk.at[each_number], last), max(walk.at[each_number], last)
+    end, before, behind = walk.way[last], walk.way[(walk.at[each_number] - step) % past], walk.way[(last + step) % past]
+    saved = _apart(walk, before, each_number) + _apart(walk, end, behind) - _apart(walk, before, behind)
+    for k in range(2 * each_number * near, 2 * (each_number * near + near)):
         other, side = walk.near[k // 2], 1 - 2 * (k % 2)
-        new, to = _apart(walk, one, other), (walk.at[other] + side) % past
+        new, to = _apart(walk, each_number, other), (walk.at[other] + side) % past
         if new >= saved:
             return False
         beyond = walk.way[to]
@@ -143,7 +143,7 @@ def _moved(walk: Walk, near: int, one: int, number: int) -> bool:
         if gain > _GAIN_UM and not low <= walk.at[other] <= high and not low <= to <= high:
             # `one` comes first where the other stands before it.
             _put(walk, low, high, walk.at[other] if side > 0 else walk.at[other] - 1, side != step)
-            for touched in (one, end, before, behind, other, beyond):
+            for touched in (each_number, end, before, behind, other, beyond):
                 walk.is_open[touched] = 1
             return True
     return False
@@ -155,12 +155,12 @@ def _shorten(walk: Walk, near: int, looks: int) -> None:
     is_changed = True
     while is_changed and looks > 0:
         is_changed = False
-        for one in range(len(walk.x)):
-            if not walk.is_open[one]:
+        for each in range(len(walk.x)):
+            if not walk.is_open[each]:
                 continue
             looks -= 1
-            done = _turned(walk, near, one, 1) or _turned(walk, near, one, -1)
+            done = _turned(walk, near, each, 1) or _turned(walk, near, each, -1)
             for number in range(1, LONGEST_MOVED + 1):
-                done = done or _moved(walk, near, one, number) or _moved(walk, near, one, -number)
-            walk.is_open[one] = 1 if done else 0
+                done = done or _moved(walk, near, each, number) or _moved(walk, near, each, -number)
+            walk.is_open[each] = 1 if done else 0
             is_changed = is_changed or done

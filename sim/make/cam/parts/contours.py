@@ -34,7 +34,7 @@ class Contours(NamedTuple):
     loop: Ints
     entity: Ints
 
-    def one(self, number: int) -> Curves:
+    def contour(self, number: int) -> Curves:
         """The curves of one contour."""
         return self.curves.picked(self.rows(number))
 
@@ -104,8 +104,8 @@ def _joints(ran: Curves, row: Ints, after: Ints, gap: Floats) -> Floats:
     short = np.minimum(ran.length_um[row], ran.length_um[after])
     near = off[each, nearest] <= np.minimum(_FAR * gap, _SHORTER * short)
     joint = np.where(near[:, None], place[each, nearest], middle)
-    for one, at in ((after, start), (row, end)):
-        stiff = _is_stiff(ran, one, gap) & ~near
+    for side, at in ((after, start), (row, end)):
+        stiff = _is_stiff(ran, side, gap) & ~near
         joint[stiff] = at[stiff]
     return joint
 
@@ -134,13 +134,13 @@ def _bent(ran: Curves, arc: Ints, start: Floats, end: Floats) -> tuple[Floats, F
     return center, np.where(few & ~on, sweep, np.sign(sweep) * turned)
 
 
-def _through(one: Floats, other: Floats, third: Floats) -> Floats:
+def _through(this: Floats, other: Floats, third: Floats) -> Floats:
     """Centres (k, 2) of the circles through three places (k, 2) each; NaN where they lie on a line."""
-    b, c = other - one, third - one
+    b, c = other - this, third - this
     double = 2.0 * (b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0])
     double[double == 0.0] = np.nan
     bb, cc = (b**2).sum(axis=1), (c**2).sum(axis=1)
     x = (c[:, 1] * bb - b[:, 1] * cc) / double
     y = (b[:, 0] * cc - c[:, 0] * bb) / double
-    through: Floats = one + np.stack([x, y], axis=1)
+    through: Floats = this + np.stack([x, y], axis=1)
     return through

@@ -5,7 +5,7 @@ from typing import Final, NamedTuple
 import numpy as np
 import shapely
 
-from parser.drawing.loops.flat import DOT_UM
+from parser.drawing.loops.chain import DOT_UM
 from parser.drawing.model import SAME_WITHIN_UM, Drawing, DrawnLoop, Entity, LeftOut, running
 from parser.geometry.broad_phase_places import near_places
 from parser.geometry.curves import Bools, Curves, Floats, Ints, joined
@@ -100,7 +100,7 @@ def _refuse_dividing(
 ) -> None:
     within = max(gap_um, SAME_WITHIN_UM)
     ran = [running(drawing.curves, loop.row, loop.backwards) for loop in loops]
-    chain = np.repeat(np.arange(len(loops)), [len(one) for one in ran])
+    chain = np.repeat(np.arange(len(loops)), [len(each) for each in ran])
     lines = joined([*ran, *([] if contours is None else [contours])])
     chain = np.append(chain, np.full(len(lines) - len(chain), -1))
     end = chains.end_um.reshape(-1, 2)

@@ -5,11 +5,10 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from parser.drawing.loops.flat import flat_loops
+from parser.drawing.loops.chain import flat_loops
 from parser.drawing.model import BESIDE_UM, Drawing, DrawnLoop, Entity, LeftOut
 from parser.geometry.broad_phase_places import nearest_um
-from parser.geometry.curves import Bools, Floats, Ints
-from parser.geometry.extents import extents
+from parser.geometry.curves import Bools, Floats, Ints, extents
 from parser.toolpath import Point
 from sim.make.cam.model import CannotCutError, Figure, Parts, Refusal
 from sim.make.cam.parts.contacts import Contacts, contacts, crossed, overlaps, self_contacts, spread
@@ -49,7 +48,7 @@ def parts_of(drawing: Drawing, making: Making) -> Parts:
     left = left_open(drawing, loose, None if drawn is None else drawn.curves, making.gap_um)
     if drawn is None:
         starts = [drawing.curves.start_um[closed[at].row[0]].tolist() for at, _ in flat]
-        places = [*starts, *(one.place_um for one in left if one.place_um)]
+        places = [*starts, *(each.place_um for each in left if each.place_um)]
         raise CannotCutError(Refusal("no-contour", tuple(Point(*place) for place in places)))
     found = _found(closed, drawn)
     _refuse_itself(drawing, found)
@@ -71,7 +70,7 @@ def _is_on(entity: Entity, layer: str | None) -> bool:
 
 def _left_of(drawing: Drawing, thread_layer: str | None) -> Iterator[LeftOut]:
     """What its reader left out; dots on the layer of thread points are meant as such."""
-    return (one for one in drawing.left_out if one.why != "dot" or not _is_on(one.entity, thread_layer))
+    return (each for each in drawing.left_out if each.why != "dot" or not _is_on(each.entity, thread_layer))
 
 
 def _found(loops: list[DrawnLoop], contours: Contours) -> _Found:
@@ -90,14 +89,14 @@ def _found(loops: list[DrawnLoop], contours: Contours) -> _Found:
     )
 
 
-def _kept(found: _Found, keep: Bools) -> _Found:
+def _picked_loops(found: _Found, keep: Bools) -> _Found:
     """Those loops that are kept, numbered anew."""
     at = np.flatnonzero(keep)
     contours = found.contours
     row = np.flatnonzero(keep[contours.loop])
     number = np.cumsum(keep) - 1
     left = Contours(contours.curves.picked(row), number[contours.loop[row]], contours.entity[row])
-    loops = [found.loops[one] for one in at.tolist()]
+    loops = [found.loops[each] for each in at.tolist()]
     return _Found(loops, left, found.area_um2[at], found.low_um[at], found.high_um[at])
 
 
@@ -109,15 +108,15 @@ def _left_out(drawing: Drawing, found: _Found, which: Ints, why: str) -> tuple[L
 
 
 def _start(found: _Found, at: int) -> tuple[float, float]:
-    x, y = found.contours.one(at).start_um[0].tolist()
+    x, y = found.contours.contour(at).start_um[0].tolist()
     return x, y
 
 
 def _refuse_itself(drawing: Drawing, found: _Found) -> None:
     itself, over = self_contacts(found.contours), overlaps(found.contours)
-    is_own = over.one == over.other
+    is_own = over.this == over.other
     for places, why in ((itself, "crosses-itself"), (over.take(is_own), "crosses-itself"), (over, "shared-edge")):
-        if len(places.one):
+        if len(places.this):
             raise CannotCutError(_refusal(drawing, found, places, why))
 
 
@@ -127,26 +126,28 @@ def _once(drawing: Drawing, found: _Found, within_um: float) -> tuple[_Found, tu
     low = found.low_um[order, 0]
     past = np.searchsorted(low, low + within_um, side="right")
     number = past - np.arange(len(low)) - 1
-    one = np.repeat(np.arange(len(low)), number)
-    other = one + 1 + np.arange(len(one)) - (np.cumsum(number) - number)[one]
-    one, other = order[one], order[other]
-    off = np.maximum(np.abs(found.low_um[one] - found.low_um[other]), np.abs(found.high_um[one] - found.high_um[other]))
+    each = np.repeat(np.arange(len(low)), number)
+    other = each + 1 + np.arange(len(each)) - (np.cumsum(number) - number)[each]
+    each, other = order[each], order[other]
+    off = np.maximum(
+        np.abs(found.low_um[each] - found.low_um[other]), np.abs(found.high_um[each] - found.high_um[other])
+    )
     keep = np.ones(len(found.loops), dtype=np.bool_)
     for at in np.flatnonzero(off.max(axis=1) <= within_um).tolist():
-        first, again = int(one[at]), int(other[at])
-        rings = [found.contours.one(number) for number in (first, again)]
+        first, again = int(each[at]), int(other[at])
+        rings = [found.contours.contour(number) for number in (first, again)]
         if keep[first] and all(
             (nearest_um(ring, spread(mate), within_um) <= within_um).all() for ring, mate in (rings, rings[::-1])
         ):
             keep[again] = False
-    return _kept(found, keep), _left_out(drawing, found, np.flatnonzero(~keep), "drawn-twice")
+    return _picked_loops(found, keep), _left_out(drawing, found, np.flatnonzero(~keep), "drawn-twice")
 
 
 def _touching(drawing: Drawing, found: _Found, within_um: float) -> Contacts:
     """Where contours touch. CannotCutError where they cross."""
     touching = contacts(found.contours)
     crossing = crossed(found.contours, touching, within_um)
-    if len(crossing.one):
+    if len(crossing.this):
         raise CannotCutError(_refusal(drawing, found, crossing, "crossing"))
     return touching
 
@@ -155,7 +156,7 @@ def _refusal(drawing: Drawing, found: _Found, contact: Contacts, why: str) -> Re
     places = np.unique(np.round(contact.place_um, 3), axis=0)[:_MOST_PLACES]
     names = [
         named(drawing.entities[int(drawing.entity[found.loops[int(numbers[0])].row[0]])])
-        for numbers in (contact.one, contact.other)
+        for numbers in (contact.this, contact.other)
     ]
     values = tuple(zip(("entity", "other"), names, strict=True))
     return Refusal(why, tuple(Point(x, y) for x, y in places.tolist()), values)
@@ -166,12 +167,12 @@ def _places(found: _Found, touching: Contacts) -> Floats:
     contours = found.contours
     first = np.searchsorted(contours.loop, np.arange(len(found.loops)))
     place = contours.curves.start_um[first].copy()
-    both = np.append(touching.one, touching.other), np.append(touching.other, touching.one)
+    both = np.append(touching.this, touching.other), np.append(touching.other, touching.this)
     pairs = np.unique(np.stack(both, axis=1), axis=0)
     for at in np.unique(pairs[:, 0]).tolist():
         mates = pairs[slice(*np.searchsorted(pairs[:, 0], (at, at + 1)).tolist()), 1]
-        on = spread(contours.one(at))
-        clear = [nearest_um(contours.one(mate), on, _CLEAR_UM) for mate in mates.tolist()]
+        on = spread(contours.contour(at))
+        clear = [nearest_um(contours.contour(mate), on, _CLEAR_UM) for mate in mates.tolist()]
         place[at] = on[np.argmax(np.min(clear, axis=0))]
     return place
 
@@ -189,7 +190,7 @@ def _figures(drawing: Drawing, found: _Found, nested: Nesting) -> tuple[Figure, 
             kind="hole" if is_hole[at] else "outline",
             part=int(part[number - 1]),
             depth=int(nested.depth[at]),
-            contour=found.contours.one(at),
+            contour=found.contours.contour(at),
             entity=found.contours.entity[found.contours.rows(at)],
             layer=drawing.entities[int(drawing.entity[found.loops[at].row[0]])].layer,
             runs_inside=bool(is_hole[at]),

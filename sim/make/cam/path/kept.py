@@ -1,4 +1,7 @@
-"""A plan to a draft whose offsets the controller adds: the contours of the drawing; ISO says so by G41 and G42."""
+"""A plan to a draft whose offsets the controller adds: the contours of the drawing; ISO says so by G41 and G42.
+
+A plan to a draft: figure after figure, with a jump and a pause between, and a pause before a tab.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -6,13 +9,46 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parser.geometry.curves import Curves
+from parser.geometry.curves import CurveKind, Curves, curves_between, joined
 from parser.geometry.directions import directions
 from parser.told.compensation import Compensation, CompensationRules
-from parser.toolpath import Point
+from parser.toolpath import Point, Stop
 from parser.write.draft import Draft
 from sim.make.cam.model import CannotCutError, CutPlan, FigureCut, PassCut, Refusal
-from sim.make.cam.path.drafted import draft_of_cuts
+
+
+def draft_of_plan(plan: CutPlan) -> Draft:
+    """The draft of a plan, its offsets worked into the path."""
+    return draft_of_cuts(plan.cuts)
+
+
+def draft_of_cuts(cuts: Sequence[FigureCut]) -> Draft:
+    """The draft of figures that are cut one behind the other."""
+    parts: list[Curves] = []
+    stops: list[Stop] = []
+    rows = 0
+    for at, cut in enumerate(cuts):
+        if at:
+            jump = _jump(cuts[at - 1], cut)
+            stops.append(Stop("pause", rows, 0))
+            parts.append(jump)
+            rows += len(jump)
+        for pass_ in (*cut.passes, *cut.cut_off):
+            if cut.cut_off and pass_ is cut.cut_off[0]:
+                stops.append(Stop("pause", rows, 0))
+            parts += [pass_.into, pass_.along, pass_.out]
+            rows += len(pass_.into) + len(pass_.along) + len(pass_.out)
+    stops.append(Stop("end", rows, 0))
+    nowhere = np.full((rows, 2), np.nan)
+    return Draft(joined(parts), tuple(stops), np.zeros(rows, dtype=np.bool_), nowhere, is_meant=True)
+
+
+def _jump(before: FigureCut, behind: FigureCut) -> Curves:
+    start, end = (np.array([each.thread.place_um]) for each in (before, behind))
+    line = curves_between(start, end, np.full((1, 2), np.nan), np.zeros(1))
+    line.kind[:] = CurveKind.JUMP
+    return line
+
 
 _TANGENT_RAD = np.radians(0.5)
 """At f = 0.1 mm the neighbours then miss each other by 0.9 µm; `drycut check` tells larger turns (3B214)."""
@@ -36,11 +72,11 @@ def kept_draft(plan: CutPlan, on_contour: Sequence[FigureCut], rules: Compensati
     _refuse_misfits(plan, on_contour)
     draft = draft_of_cuts(on_contour)
     sided = list(_sided(plan, on_contour))
-    rows = [one.rows for one in sided]
+    rows = [each.rows for each in sided]
     compensation = Compensation(
-        side=np.repeat(np.array([one.side for one in sided], dtype=np.int64), rows),
-        by_um=np.repeat(np.array([one.by_um for one in sided], dtype=np.float64), rows),
-        register=tuple(one.register for one in sided for _ in range(one.rows)),
+        side=np.repeat(np.array([each.side for each in sided], dtype=np.int64), rows),
+        by_um=np.repeat(np.array([each.by_um for each in sided], dtype=np.float64), rows),
+        register=tuple(each.register for each in sided for _ in range(each.rows)),
         rules=rules,
     )
     return replace(draft, compensation=compensation)
@@ -53,11 +89,11 @@ def added_draft(plan: CutPlan, on_contour: Sequence[FigureCut]) -> Draft:
     CannotCutError where the plan needs more.
     """
     _refuse_misfits(plan, on_contour)
-    if len({one.by_um for cut in plan.cuts for one in cut.passes}) > 1 or len({cut.side for cut in plan.cuts}) > 1:
+    if len({pass_.by_um for cut in plan.cuts for pass_ in cut.passes}) > 1 or len({cut.side for cut in plan.cuts}) > 1:
         raise CannotCutError(Refusal("kept-several"))
     for cut in on_contour:
-        for one in cut.passes:
-            _refuse_corners(cut, one.along)
+        for pass_ in cut.passes:
+            _refuse_corners(cut, pass_.along)
     return draft_of_cuts(on_contour)
 
 
@@ -78,10 +114,10 @@ def _sided(plan: CutPlan, on_contour: Sequence[FigureCut]) -> Iterator[_Sided]:
     for at, (cut, bare) in enumerate(zip(plan.cuts, on_contour, strict=True)):
         if at:
             yield _Sided(1, 0, 0.0, "")
-        for one, way in zip(cut.passes, bare.passes, strict=True):
-            side = -int(cut.side) if one.is_back else int(cut.side)
-            register = registers.setdefault(one.by_um, f"D{len(registers) + 1}")
-            yield _Sided(len(way.into) + len(way.along), side, one.by_um, register)
+        for pass_, way in zip(cut.passes, bare.passes, strict=True):
+            side = -int(cut.side) if pass_.is_back else int(cut.side)
+            register = registers.setdefault(pass_.by_um, f"D{len(registers) + 1}")
+            yield _Sided(len(way.into) + len(way.along), side, pass_.by_um, register)
             yield _Sided(len(way.out), 0, 0.0, "")
 
 
@@ -90,10 +126,10 @@ def _refuse_misfits(plan: CutPlan, on_contour: Sequence[FigureCut]) -> None:
     if plan.making.tab_um or plan.making.overcut_um:
         raise CannotCutError(Refusal("kept-tab"))
     for cut in on_contour:
-        if not all(_is_led(one) for one in cut.passes):
+        if not all(_is_led(pass_) for pass_ in cut.passes):
             raise CannotCutError(Refusal("kept-lead", (cut.thread.place_um,), (("figure", str(cut.figure.number)),)))
 
 
-def _is_led(one: PassCut) -> bool:
+def _is_led(pass_cut: PassCut) -> bool:
     """Whether a line comes first, and a line last: no controller sets compensation up on an arc, or ends it on one."""
-    return bool(len(one.into) and len(one.out) and not one.into.is_arc[0] and not one.out.is_arc[0])
+    return bool(len(pass_cut.into) and len(pass_cut.out) and not pass_cut.into.is_arc[0] and not pass_cut.out.is_arc[0])

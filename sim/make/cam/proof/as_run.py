@@ -3,8 +3,8 @@
 from dataclasses import replace
 from typing import NamedTuple
 
+from parser.findings.catalogue import Remark
 from parser.findings.errors import SettingsError
-from parser.findings.remarks import Remark
 from parser.toolpath import Toolpath
 from parser.units import mm
 from sim.check.travel import middle_mm
@@ -52,7 +52,9 @@ class AsRun(NamedTuple):
 
 def least_um(figure: Figure, making: Making, reach_um: float) -> float:
     """The least offset that is asked for a figure: that of the pass that makes its edge."""
-    wishes = [one.passes_um for one in making.layers if one.layer.lower() == figure.layer.lower() and one.passes_um]
+    wishes = [
+        layer.passes_um for layer in making.layers if layer.layer.lower() == figure.layer.lower() and layer.passes_um
+    ]
     return min((wishes[0] if wishes else making.passes_um) or (reach_um,))
 
 
@@ -67,7 +69,7 @@ def as_run(scenario: Scenario, plan: CutPlan, toolpath: Toolpath) -> AsRun:
     wire = _wire(scenario.wire, least)
     if wire is None:
         return AsRun(replace(asked, kerf=False), edge_um, (), (Remark("no-wire", {"offset": least}),))
-    notes = _told(scenario.wire, wire)
+    notes = _run_remarks(scenario.wire, wire)
     if plan.is_added:
         side = plan.cuts[0].side
         asked = replace(asked, offset=Offset((OffsetPass(least),), side))
@@ -76,18 +78,18 @@ def as_run(scenario: Scenario, plan: CutPlan, toolpath: Toolpath) -> AsRun:
     return how if how.is_one_edge else how._replace(unproved=(Remark("edges-differ"),))
 
 
-def _by_controller(asked: Scenario, plan: CutPlan, edge_um: tuple[float, ...]) -> AsRun:
+def _by_controller(scenario: Scenario, plan: CutPlan, edge_um: tuple[float, ...]) -> AsRun:
     """A program on the contour itself: the controller adds the offset of the wire, to one side of all contours.
 
     It needs a lead-in to come to that side. Without one, or with figures to both sides, the path alone is run.
     """
     sides = {cut.side for cut in plan.cuts}
     if len(sides) != 1 or any(edge_um) or any(cut.thread.by == "contour" for cut in plan.cuts):
-        return AsRun(replace(asked, kerf=False), edge_um, (Remark("contour"),))
-    reach_um = asked.wire.reach_um
+        return AsRun(replace(scenario, kerf=False), edge_um, (Remark("contour"),))
+    reach_um = scenario.wire.reach_um
     offset = Offset((OffsetPass(reach_um),), next(iter(sides)))
     note = Remark("added", {"offset": reach_um, "side": offset.side.name.lower()})
-    return AsRun(replace(asked, offset=offset), edge_um, (note,))
+    return AsRun(replace(scenario, offset=offset), edge_um, (note,))
 
 
 def _wire(wire: Wire, reach_um: float) -> Wire | None:
@@ -103,7 +105,7 @@ def _wire(wire: Wire, reach_um: float) -> Wire | None:
         return None
 
 
-def _told(usual: Wire, wire: Wire) -> tuple[Remark, ...]:
+def _run_remarks(usual: Wire, wire: Wire) -> tuple[Remark, ...]:
     if wire is usual:
         return ()
     return (Remark("wire", {"diameter": wire.diameter_um, "gap": wire.spark_gap_um, "offset": wire.reach_um}),)

@@ -1,20 +1,114 @@
-"""What a program is held against: the contours of its drawing that are to be cut, as they are drawn, unfitted."""
+"""What a program is held against: the contours of its drawing that are to be cut, as they are drawn, unfitted.
 
-from collections.abc import Sequence
+What a proof says: `Proof`, with the faults that it found by itself beside the findings of check and run.
+"""
+
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from types import MappingProxyType
+from typing import Literal, NamedTuple
 
 import numpy as np
 import shapely
 
 from parser.drawing.model import SAME_WITHIN_UM, Drawing, DrawnLoop, Entity, running
-from parser.geometry.curves import Curves, Floats, Ints, curves_between, joined
-from parser.geometry.extents import extents
+from parser.findings.catalogue import Remark
+from parser.findings.codes import Severity
+from parser.findings.facts import TightCorner
+from parser.findings.findings import Finding, Value
+from parser.geometry.curves import Curves, Floats, Ints, curves_between, extents, joined
 from parser.toolpath import Point
 from parser.units import mm
 from sim.make.cam.model import CutPlan
-from sim.make.cam.proof.result import Fault
+from sim.measure.compare.result import Comparison
 from sim.measure.compare.rings import polygon
+from sim.run.dryrun import DryRun
+from sim.setup.wire import Wire
+
+Verdict = Literal["pass", "fail", "incomplete"]
+
+
+class Fault(NamedTuple):
+    """What a proof found wrong by itself.
+
+    Attributes
+    ----------
+    name
+        Of its text for people, ``program.fault-…``.
+    values
+        What fills the text; lengths in µm, those that end on ``_mm`` in mm.
+    place_um
+        Where it is seen; None where it has no one place.
+    figure
+        Number of the figure that it is of; 0 where it is of none.
+    block
+        Number of the block that it is of; 0 where it is of none.
+    """
+
+    name: str
+    values: Mapping[str, Value] = MappingProxyType({})
+    place_um: Point | None = None
+    figure: int = 0
+    block: int = 0
+
+
+class Proof(NamedTuple):
+    """What reading, checking and running a written program shows, beside its drawing.
+
+    Attributes
+    ----------
+    run
+        The run; None where the program could not be run at all.
+    written_um
+        How far the written path lies off that which was planned.
+    path
+        The edge beside the written path and the contours of the drawing that are to be cut; None where there is none.
+    comparison
+        The edge as cut beside the same contours; None where there is none.
+    findings
+        Of the check, the run and the comparison of the edge as cut.
+    faults
+        What the proof found wrong besides.
+    unproved
+        What could not be proved, and why: names of texts ``program.unproved-…``.
+    notes
+        What was assumed: names of texts ``program.proof-…``.
+    wire
+        What the program was run with.
+    """
+
+    run: DryRun | None
+    written_um: float
+    path: Comparison | None
+    comparison: Comparison | None
+    findings: tuple[Finding, ...]
+    faults: tuple[Fault, ...]
+    unproved: tuple[Remark, ...]
+    notes: tuple[Remark, ...]
+    wire: Wire
+
+    @property
+    def counting(self) -> tuple[Finding, ...]:
+        """The findings that speak against the program: a made one has no warning either.
+
+        But for corners that a wire cannot cut as the path has them, where the edge was held against the drawing.
+        """
+        is_held = self.comparison is not None
+        grave = (finding for finding in self.findings if finding.severity is not Severity.NOTE)
+        return tuple(each for each in grave if not (is_held and isinstance(each.fact, TightCorner)))
+
+    @property
+    def verdict(self) -> Verdict:
+        """Whether the program may be written: ``incomplete`` where nothing is wrong, and not all could be proved."""
+        if self.counting or self.faults:
+            return "fail"
+        return "incomplete" if self.unproved else "pass"
+
+    @property
+    def path_um(self) -> float | None:
+        """How far the written path lies at most from the offset of the drawing, both ways; None where not known."""
+        return None if self.path is None else self.path.max_um
+
 
 _NEAR_UM = 1000.0
 """A figure's box may lie so far from that of its contour: what a wrong fit moves is told as a path that is off."""
@@ -51,7 +145,7 @@ def target_of(drawn: Drawing, plan: CutPlan) -> tuple[Target | None, tuple[Fault
     found = _nearest(_features([cut.figure.contour for cut in plan.cuts]), _features(rings))
     known = np.flatnonzero(found >= 0)
     once, first = np.unique(found[known], return_index=True)
-    told = {one.entity for one in plan.left_out}
+    told = {each.entity for each in plan.left_out}
     missing = [
         at for at in np.setdiff1d(np.arange(len(closed)), once).tolist() if not _is_told(drawn, closed[at], told)
     ]
@@ -73,8 +167,8 @@ def _depths(shapes: Sequence[shapely.Polygon]) -> Ints:
     """(k,) how many of the others lie round each: a place within it lies within them, and they are larger."""
     area = shapely.area(shapes)
     inner = np.asarray(shapely.point_on_surface(shapes), dtype=np.object_)
-    one, around = shapely.STRtree(shapes).query(inner, predicate="within")
-    depth: Ints = np.bincount(one[area[around] > area[one]], minlength=len(shapes))
+    each, around = shapely.STRtree(shapes).query(inner, predicate="within")
+    depth: Ints = np.bincount(each[area[around] > area[each]], minlength=len(shapes))
     return depth
 
 
@@ -115,9 +209,9 @@ def _of_cut(name: str, plan: CutPlan, at: int) -> Fault:
     return Fault(name, {}, Point(*figure.contour.start_um[0].tolist()), figure.number)
 
 
-def _is_told(drawn: Drawing, loop: DrawnLoop, told: set[Entity]) -> bool:
+def _is_told(drawn: Drawing, loop: DrawnLoop, told_entities: set[Entity]) -> bool:
     """Whether a contour is of entities that are left out, and told so."""
-    return bool(told) and {drawn.entities[int(at)] for at in drawn.entity[loop.row]} <= told
+    return bool(told_entities) and {drawn.entities[int(at)] for at in drawn.entity[loop.row]} <= told_entities
 
 
 def _missing(drawn: Drawing, loop: DrawnLoop) -> Fault:

@@ -12,12 +12,12 @@ import shapely
 from controller.offset.rows import lines_between
 from parser.geometry.along import along_um
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.geometry.feet import feet
+from parser.geometry.distance import feet
 from parser.toolpath import Point
 from parser.units import mm
 from sim.make.cam.leads.room import Room, are_free, balls_um, nearest
 from sim.make.cam.model import CannotCutError, Refusal, Thread
-from sim.make.cam.threads.entries import MOST, Asked, Entries, corners, middles, starts
+from sim.make.cam.threads.entries import MOST, Entries, EntryRequest, corners, middles, starts
 
 HOLE_UM: Final = 1000.0
 """Thread points lie apart by a start hole of 1 mm (assumed).
@@ -39,8 +39,8 @@ def crowded(threads: Mapping[int, Thread], kept_um: Floats) -> list[int]:
     figures = sorted(threads)
     place_um = np.array([threads[at].place_um for at in figures]).reshape(-1, 2)
     moving = ~are_apart(place_um, kept_um)
-    one, other = _near(place_um, place_um)
-    for first, second in sorted(zip(other.tolist(), one.tolist(), strict=True)):
+    this, other = _near(place_um, place_um)
+    for first, second in sorted(zip(other.tolist(), this.tolist(), strict=True)):
         if first < second and not moving[first]:
             moving[second] = True
     return [figures[at] for at in np.flatnonzero(moving).tolist()]
@@ -119,7 +119,7 @@ def _apart(room: Room, side: Floats, found: dict[int, Thread], wanted: Wanted, k
         moving = set(crowded(found, kept_um))
         if not moving:
             break
-        staying_um = np.array([one.place_um for at, one in found.items() if at not in moving]).reshape(-1, 2)
+        staying_um = np.array([each.place_um for at, each in found.items() if at not in moving]).reshape(-1, 2)
         entries = middles(room, side, np.array(sorted(moving)), wanted.reach_um)
         moved = _chosen(room, entries, wanted, np.concatenate([kept_um, staying_um]))
         if not moved:
@@ -141,7 +141,7 @@ def _chosen(room: Room, found: Entries, wanted: Wanted, kept_um: Floats) -> dict
     fits = np.flatnonzero((far >= wanted.least_um) & is_free & are_apart(place, kept_um))
     first = fits[np.diff(figure[fits], prepend=-1) > 0]
     return {
-        int(figure[at]): Thread(Point(*place[at].tolist()), "chosen", entries.one(room, at)) for at in first.tolist()
+        int(figure[at]): Thread(Point(*place[at].tolist()), "chosen", entries.entry(room, at)) for at in first.tolist()
     }
 
 
@@ -154,8 +154,8 @@ def before_corners(
     """
     if not threads:
         return {}
-    places = np.array([one.place_um for one in threads.values()])
-    found, whose = corners(room, side, Asked(np.array(list(threads)), places, wanted.reach_um))
+    places = np.array([thread.place_um for thread in threads.values()])
+    found, whose = corners(room, side, EntryRequest(np.array(list(threads)), places, wanted.reach_um))
     best = np.flatnonzero(np.arange(len(whose)) - np.searchsorted(whose, whose) < MOST)
     found, moved = found.take(best), dict[int, Thread]()
     for share in _SHORTER:
@@ -164,10 +164,10 @@ def before_corners(
         is_clear = nearest(room, place, wanted.least_um).distance_um >= wanted.least_um
         for at in np.flatnonzero(is_free & is_clear & are_apart(place, kept_um)).tolist():
             x, y = place[at].tolist()
-            moved.setdefault(int(room.figure[found.row[at]]), Thread(Point(x, y), "chosen", found.one(room, at)))
-    staying_um = np.array([one.place_um for at, one in threads.items() if at not in moved]).reshape(-1, 2)
+            moved.setdefault(int(room.figure[found.row[at]]), Thread(Point(x, y), "chosen", found.entry(room, at)))
+    staying_um = np.array([thread.place_um for at, thread in threads.items() if at not in moved]).reshape(-1, 2)
     near = set(crowded(moved, np.concatenate([kept_um, staying_um])))
-    return {at: one for at, one in moved.items() if at not in near}
+    return {at: each for at, each in moved.items() if at not in near}
 
 
 def begun_on(room: Room, side: Floats, wanted: Ints) -> dict[int, Thread]:
@@ -178,7 +178,7 @@ def begun_on(room: Room, side: Floats, wanted: Ints) -> dict[int, Thread]:
     order = np.lexsort([np.arange(len(off)), off > _ON_UM, figure])
     first = order[np.diff(figure[order], prepend=-1) > 0]
     return {
-        int(figure[at]): Thread(Point(*place[at].tolist()), "contour", found.one(room, at)) for at in first.tolist()
+        int(figure[at]): Thread(Point(*place[at].tolist()), "contour", found.entry(room, at)) for at in first.tolist()
     }
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from parser.geometry.along import along_um, headings_along, places_at
 from parser.geometry.curves import Bools, Curves, Floats, Ints
 from parser.geometry.directions import directions, to_left
-from parser.geometry.feet import feet
+from parser.geometry.distance import feet
 from parser.toolpath import Point
 from sim.make.cam.leads.room import Room
 from sim.make.cam.model import Entry
@@ -48,7 +48,7 @@ class Entries(NamedTuple):
         """(m, 2) where the pass at the offset begins."""
         return self.place_um + self.aside_um[:, None] * self.out
 
-    def one(self, room: Room, at: int) -> Entry:
+    def entry(self, room: Room, at: int) -> Entry:
         """One of them, with the row of its own contour."""
         row = int(self.row[at])
         first = int(np.searchsorted(room.figure, room.figure[row]))
@@ -108,7 +108,7 @@ def _entries(room: Room, side: Floats, wanted: Ints, reach_um: float, looked: _L
     return Entries(row[order], along[order], place[order], out, np.full(len(order), reach_um))
 
 
-class Asked(NamedTuple):
+class EntryRequest(NamedTuple):
     """Thread points (k, 2) of figures (k,) that ask for entries, and how far leads keep off contours."""
 
     figure: Ints
@@ -116,33 +116,33 @@ class Asked(NamedTuple):
     reach_um: float
 
 
-def across_from(room: Room, side: Floats, asked: Asked) -> tuple[Entries, Ints]:
+def across_from(room: Room, side: Floats, request: EntryRequest) -> tuple[Entries, Ints]:
     """Entries straight across from thread points, the nearest of each first, arcs no larger than the reach last.
 
     With them, which thread point (m,) each is for.
     """
-    row, whose = room.rows(asked.figure)
-    place = asked.place_um[whose]
+    row, whose = room.rows(request.figure)
+    place = request.place_um[whose]
     foot = feet(room.curves, row, place).place_um
     along = along_um(room.curves, row, foot)
     by = place - foot
     length = np.hypot(*by.T)
     heading = headings_along(room.curves, row, along)
     is_across = (np.abs((by * heading).sum(axis=1)) < _ACROSS * length) & (length > 0.0)
-    is_small = room.curves.is_arc[row] & (room.curves.radius_um[row] <= asked.reach_um)
+    is_small = room.curves.is_arc[row] & (room.curves.radius_um[row] <= request.reach_um)
     found = np.flatnonzero(is_across)
     found = found[np.lexsort([length[found], is_small[found], whose[found]])]
-    out, aside = _out(room, side, row[found], heading[found]), np.full(len(found), asked.reach_um)
+    out, aside = _out(room, side, row[found], heading[found]), np.full(len(found), request.reach_um)
     return Entries(row[found], along[found], foot[found], out, aside), whose[found]
 
 
-def corners(room: Room, side: Floats, asked: Asked) -> tuple[Entries, Ints]:
+def corners(room: Room, side: Floats, request: EntryRequest) -> tuple[Entries, Ints]:
     """Entries where curves meet, from midway between both, those nearest to each of the thread points first.
 
     With them, which thread point (m,) each is for. Where the waste lies in a corner, the wire reaches no nearer to it
     than where it touches both sides.
     """
-    row, whose = room.rows(asked.figure)
+    row, whose = room.rows(request.figure)
     leaving, arriving = (way[row] for way in directions(room.curves))
     first = np.searchsorted(whose, whose)
     last = np.searchsorted(whose, whose, side="right") - 1
@@ -151,12 +151,12 @@ def corners(room: Room, side: Floats, asked: Asked) -> tuple[Entries, Ints]:
     sense = side[room.figure[row], None]
     normal, middle = sense * to_left(leaving), sense * (to_left(leaving) + to_left(arriving))
     length = np.hypot(*middle.T)
-    off = np.hypot(*(room.curves.start_um[row] - asked.place_um[whose]).T)
+    off = np.hypot(*(room.curves.start_um[row] - request.place_um[whose]).T)
     corner = np.flatnonzero(length > _ACROSS)
     corner = corner[np.lexsort([off[corner], whose[corner]])]
     out = middle[corner] / length[corner, None]
     turn = (arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0])[corner]
-    aside = asked.reach_um / np.where(sense[corner, 0] * turn > 0.0, (out * normal[corner]).sum(axis=1), 1.0)
+    aside = request.reach_um / np.where(sense[corner, 0] * turn > 0.0, (out * normal[corner]).sum(axis=1), 1.0)
     found = Entries(row[corner], np.zeros(len(corner)), room.curves.start_um[row[corner]], out, aside)
     return found, whose[corner]
 
@@ -165,11 +165,11 @@ def nearest_of(room: Room, side: Floats, at: int, place_um: Floats) -> Entry:
     """The entry of one figure at its place nearest to another one (2,)."""
     row, _ = room.rows(np.array([at]))
     foot = feet(room.curves, row, np.broadcast_to(place_um, (len(row), 2))).place_um
-    one = int(np.argmin(np.hypot(*(foot - place_um).T)))
-    row, foot = row[one : one + 1], foot[one : one + 1]
+    each = int(np.argmin(np.hypot(*(foot - place_um).T)))
+    row, foot = row[each : each + 1], foot[each : each + 1]
     along = along_um(room.curves, row, foot)
     out = _out(room, side, row, headings_along(room.curves, row, along))
-    return Entries(row, along, foot, out, np.zeros(1)).one(room, 0)
+    return Entries(row, along, foot, out, np.zeros(1)).entry(room, 0)
 
 
 def _is_circle(curves: Curves) -> Bools:

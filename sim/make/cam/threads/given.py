@@ -7,14 +7,12 @@ import numpy as np
 
 from controller.offset.rows import lines_between
 from parser.geometry.broad_phase_places import near_places
-from parser.geometry.curves import Bools, Floats, Ints
+from parser.geometry.curves import Bools, Floats, Ints, extents, is_inside
 from parser.geometry.distance import distance_to_curves
-from parser.geometry.extents import extents
-from parser.geometry.inside import is_inside
 from parser.toolpath import Point
 from sim.make.cam.leads.room import Room, are_free
 from sim.make.cam.model import CannotCutError, Entry, Figure, Refusal
-from sim.make.cam.threads.entries import MOST, Asked, Entries, across_from, corners
+from sim.make.cam.threads.entries import MOST, Entries, EntryRequest, across_from, corners
 
 ON_UM: Final = 1.0
 """A place this near to a contour lies on it: a step of the machine."""
@@ -71,14 +69,14 @@ def _off(figure: Figure, place_um: Floats) -> Floats:
     return nearest_
 
 
-class Taken(NamedTuple):
+class FiguresWithThread(NamedTuple):
     """Figures that have thread points: of those that are given now, and from before, so that they need no more."""
 
     now: frozenset[int]
     before: frozenset[int]
 
 
-def matched(waste: Waste, taken: Taken, place_um: Floats) -> dict[int, int]:
+def matched(waste: Waste, taken: FiguresWithThread, place_um: Floats) -> dict[int, int]:
     """Which of the places (m, 2) is for which figure: one in whose waste it lies, the nearest pairs first.
 
     A place for none but figures that had thread points before is left out. CannotCutError where another one is for
@@ -88,10 +86,10 @@ def matched(waste: Waste, taken: Taken, place_um: Floats) -> dict[int, int]:
     of_figure: dict[int, int] = {}
     closed = taken.now | taken.before
     placed: set[int] = set()
-    for at, one in zip(waste.figure.tolist(), waste.place.tolist(), strict=True):
-        if at not in of_figure and one not in placed and at not in closed:
-            of_figure[at] = one
-            placed.add(one)
+    for at, each in zip(waste.figure.tolist(), waste.place.tolist(), strict=True):
+        if at not in of_figure and each not in placed and at not in closed:
+            of_figure[at] = each
+            placed.add(each)
     left = np.setdiff1d(np.arange(len(place_um)), list(placed))
     nowhere = np.setdiff1d(left, waste.place)
     if len(nowhere):
@@ -107,9 +105,9 @@ def on_contour(room: Room, place_um: Floats) -> dict[int, int]:
     found: dict[int, int] = {}
     near = near_places(room.curves, place_um, ON_UM)
     off, _ = distance_to_curves(room.curves, near.row, place_um[near.other, 0], place_um[near.other, 1])
-    for one, row in zip(near.other[off <= ON_UM].tolist(), near.row[off <= ON_UM].tolist(), strict=True):
-        if one not in found.values():
-            found.setdefault(int(room.figure[row]), one)
+    for each, row in zip(near.other[off <= ON_UM].tolist(), near.row[off <= ON_UM].tolist(), strict=True):
+        if each not in found.values():
+            found.setdefault(int(room.figure[row]), each)
     return found
 
 
@@ -119,7 +117,7 @@ def across(room: Room, side: Floats, places: Mapping[int, Floats], reach_um: flo
     Where none lies across it is a corner of the part; a figure to which no way is free has none.
     """
     found = _free(room, side, places, reach_um, across_from)
-    left = {at: one for at, one in places.items() if at not in found}
+    left = {at: place for at, place in places.items() if at not in found}
     return found | at_corners(room, side, left, reach_um)
 
 
@@ -133,18 +131,18 @@ def _free(
     side: Floats,
     places: Mapping[int, Floats],
     reach_um: float,
-    find: Callable[[Room, Floats, Asked], tuple[Entries, Ints]],
+    find: Callable[[Room, Floats, EntryRequest], tuple[Entries, Ints]],
 ) -> dict[int, Entry]:
     """The first of the entries of each figure, among the few best, to which the straight way is free."""
     if not places:
         return {}
-    asked = Asked(np.array(list(places)), np.array(list(places.values())), reach_um)
-    found, whose = find(room, side, asked)
+    entry_request = EntryRequest(np.array(list(places)), np.array(list(places.values())), reach_um)
+    found, whose = find(room, side, entry_request)
     best = np.flatnonzero(np.arange(len(whose)) - np.searchsorted(whose, whose) < MOST)
-    ways = lines_between(asked.place_um[whose[best]], found.take(best).begin_um)
+    ways = lines_between(entry_request.place_um[whose[best]], found.take(best).begin_um)
     free = best[are_free(room, ways, reach_um)]
     first = free[np.diff(whose[free], prepend=-1) > 0]
-    return {int(asked.figure[whose[at]]): found.one(room, at) for at in first.tolist()}
+    return {int(entry_request.figure[whose[at]]): found.entry(room, at) for at in first.tolist()}
 
 
 def refused(why: str, place_um: Floats, values: tuple[tuple[str, str], ...] = ()) -> CannotCutError:

@@ -9,16 +9,16 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from parser.drawing.model import Drawing
-from parser.findings.remarks import Remark
+from parser.findings.catalogue import Remark
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Point
 from parser.units import mm
 from sim.make.cam.leads.room import TOLERANCE_UM, Room, nearest, room_of
 from sim.make.cam.model import CannotCutError, Figure, Refusal, Thread, ThreadedBy
-from sim.make.cam.order.nested import around
+from sim.make.cam.order.order import around
 from sim.make.cam.threads.chosen import Wanted, before_corners, begun_on, chosen
 from sim.make.cam.threads.entries import nearest_of
-from sim.make.cam.threads.given import Taken, across, at_corners, matched, on_contour, refused, waste_of
+from sim.make.cam.threads.given import FiguresWithThread, across, at_corners, matched, on_contour, refused, waste_of
 from sim.setup.making import Making
 
 _SAME_UM = 1.0
@@ -31,7 +31,9 @@ def marks_of_layer(drawing: Drawing, layer: str) -> Floats:
     """
     asked = layer.casefold()
     found = [mark.place_um for mark in drawing.marks if mark.layer.casefold() == asked]
-    on_layer = [at for at, one in enumerate(drawing.entities) if one.layer.casefold() == asked and one.kind == "CIRCLE"]
+    on_layer = [
+        at for at, entity in enumerate(drawing.entities) if entity.layer.casefold() == asked and entity.kind == "CIRCLE"
+    ]
     row = np.isin(drawing.entity, np.array(on_layer, dtype=np.int64)) & drawing.curves.is_arc
     place = _each_once(np.concatenate([np.array(found).reshape(-1, 2), drawing.curves.center_um[row]]))
     if not len(place):
@@ -64,11 +66,11 @@ def threads_of(drawing: Drawing, figures: Sequence[Figure], making: Making, reac
     begins on the contour. CannotCutError where a thread point cannot be, or there is no room for one.
     """
     waste = _Waste(figures, reach_um)
-    threads = waste.given(_whole(making.starts_um), "asked", {})
+    threads = waste.threads_at(_whole(making.starts_um), "asked", {})
     if making.thread_layer is None:
         threads |= waste.lone(points_of(drawing), threads)
     else:
-        threads |= waste.given(marks_of_layer(drawing, making.thread_layer), "marked", threads)
+        threads |= waste.threads_at(marks_of_layer(drawing, making.thread_layer), "marked", threads)
     wanted = np.array([at for at in range(len(figures)) if at not in threads], dtype=np.int64)
     if len(wanted) and (reach_um > 0.0 or making.lead_um is not None):
         threads |= waste.chosen(wanted, making, threads)
@@ -118,7 +120,7 @@ class _Waste:
         self.room: Room = room_of(figures)
         self.side: Floats = np.where([figure.runs_inside for figure in figures], 1.0, -1.0)
 
-    def given(self, place_um: Floats, by: ThreadedBy, taken: Mapping[int, Thread]) -> dict[int, Thread]:
+    def threads_at(self, place_um: Floats, by: ThreadedBy, taken: Mapping[int, Thread]) -> dict[int, Thread]:
         """Threads at places (m, 2), for figures that are not taken yet; what is marked for those that are is left out.
 
         CannotCutError where a place is for none.
@@ -127,8 +129,8 @@ class _Waste:
         if not len(place_um):
             return threads
         waste = waste_of(self.figures, around(self.figures), place_um)
-        begun = Taken(frozenset(threads), frozenset(taken))
-        places = {at: place_um[one] for at, one in matched(waste, begun, place_um).items()}
+        begun = FiguresWithThread(frozenset(threads), frozenset(taken))
+        places = {at: place_um[each] for at, each in matched(waste, begun, place_um).items()}
         return threads | self._threaded(places, by)
 
     def _begun_at(self, place_um: Floats) -> tuple[dict[int, Thread], Floats]:
@@ -138,8 +140,8 @@ class _Waste:
         if on and self.reach_um > 0.0:
             raise refused("start-on-contour", place_um[which])
         begun = {
-            at: Thread(Point(*place_um[one].tolist()), "contour", nearest_of(self.room, self.side, at, place_um[one]))
-            for at, one in on.items()
+            at: Thread(Point(*place_um[each].tolist()), "contour", nearest_of(self.room, self.side, at, place_um[each]))
+            for at, each in on.items()
         }
         return begun, place_um[~which]
 
@@ -152,7 +154,7 @@ class _Waste:
         alone = (np.bincount(waste.place)[waste.place] == 1) & (np.bincount(waste.figure)[waste.figure] == 1)
         alone &= (self.side > 0.0)[waste.figure] & ~np.isin(waste.figure, list(taken))
         found = waste.take(alone)
-        places = {at: place_um[one] for at, one in zip(found.figure.tolist(), found.place.tolist(), strict=True)}
+        places = {at: place_um[each] for at, each in zip(found.figure.tolist(), found.place.tolist(), strict=True)}
         entries = across(self.room, self.side, places, self.clear_um)
         return {at: Thread(Point(*places[at].tolist()), "marked", entry) for at, entry in entries.items()}
 
@@ -173,7 +175,7 @@ class _Waste:
         """Threads of the figures `wanted` at places in their waste, apart from those that are taken."""
         spare_um = _SPARE_UM if making.lead in _ROUND else 0.0
         asked = Wanted(self.clear_um, making.lead_um, spare_um)
-        kept_um = np.array([one.place_um for one in taken.values()]).reshape(-1, 2)
+        kept_um = np.array([each.place_um for each in taken.values()]).reshape(-1, 2)
         found = chosen(self.room, self.side, wanted, asked, kept_um)
         if making.lead == "point":
             found |= before_corners(self.room, self.side, found, asked, kept_um)
@@ -197,14 +199,14 @@ class _Waste:
         back and forth: the lead of a pass back would cut the slug in two.
         """
         lead = making.lead
-        lead_off = {at: one for at, one in threads.items() if one.by != "contour"}
-        places = {at: np.array(one.place_um, dtype=np.float64) for at, one in lead_off.items()}
+        lead_off = {at: thread for at, thread in threads.items() if thread.by != "contour"}
+        places = {at: np.array(each.place_um, dtype=np.float64) for at, each in lead_off.items()}
         found = dict(threads)
         if lead == "point":
             for at, entry in at_corners(self.room, self.side, places, self.clear_um).items():
                 found[at] = threads[at]._replace(entry=entry, lead=lead)
         elif lead in _ROUND and places and not _is_back(making):
-            off = np.array([math.dist(one.place_um, one.entry.place_um) for one in lead_off.values()])
+            off = np.array([math.dist(each.place_um, each.entry.place_um) for each in lead_off.values()])
             clear = nearest(self.room, np.array(list(places.values())), float(off.max())).distance_um
             # Leads of all forms are free in the circle about the thread point that touches contours at the entry alone.
             is_round = (clear >= off - TOLERANCE_UM) & (self.side[list(lead_off)] > 0.0)

@@ -95,7 +95,7 @@
  */
 
 /**
- * Lines that are others than in an earlier text (sim/serve/page/lines.py).
+ * Lines that are others than in an earlier text (sim/serve/page/app.py).
  * @typedef {object} Place
  * @property {number} line from 1, in the text after
  * @property {string} before

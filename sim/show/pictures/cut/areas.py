@@ -37,7 +37,7 @@ class Areas(NamedTuple):
 
 def areas_of(pieces: "Pieces", view: View) -> Areas:
     """What comes free, and the openings that slugs leave in the frame, in a view."""
-    from sim.cut.pieces.kept_shapes import kept_shapes  # noqa: PLC0415 - as above
+    from sim.cut.pieces.kept_edges import kept_shapes  # noqa: PLC0415 - as above
 
     openings = [shape.outline_um for shape in kept_shapes(pieces) if shape.what == "opening"]
     return Areas(

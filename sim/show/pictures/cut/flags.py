@@ -51,8 +51,8 @@ def flags_of(toolpath: Toolpath, findings: Sequence[Finding], apart_um: float) -
     placed = np.flatnonzero(np.isfinite(place[:, 0]))
     at = placed[_gathered(place[placed], apart_um)]
     groups: dict[int, list[Finding]] = {}
-    for one, first in zip(placed.tolist(), at.tolist(), strict=True):
-        groups.setdefault(first, []).append(found[one])
+    for each, first in zip(placed.tolist(), at.tolist(), strict=True):
+        groups.setdefault(first, []).append(found[each])
     return [Flag(place[first], counted(group)) for first, group in groups.items()]
 
 
@@ -88,13 +88,13 @@ def _gathered(place: Floats, apart: float) -> Ints:
     # All places in one cell of a grid count as one: only as many are compared as fit on a page.
     cell, first, of = np.unique(np.floor(place / apart), axis=0, return_index=True, return_inverse=True)
     stands = np.empty(len(cell), dtype=np.int64)
-    kept: list[int] = []
+    kept_numbers: list[int] = []
     for group in np.argsort(first).tolist():
         at = int(first[group])
-        away = np.hypot(*(place[kept] - place[at]).T)
+        away = np.hypot(*(place[kept_numbers] - place[at]).T)
         near = np.flatnonzero(away < apart)
-        stands[group] = kept[int(near[0])] if len(near) else at
-        kept += [] if len(near) else [at]
+        stands[group] = kept_numbers[int(near[0])] if len(near) else at
+        kept_numbers += [] if len(near) else [at]
     found: Ints = stands[of.reshape(-1)]
     return found
 

@@ -24,11 +24,9 @@ from sim.show.draw.legend import (
     rows_in_columns,
     stroke,
 )
-from sim.show.draw.paints import Paint
-from sim.show.draw.tones import paint_of_pass, tones_of
+from sim.show.draw.paints import Paint, paint_of_pass, tones_of
 from sim.show.pictures.cut.flags import draw_flag, places_um
-from sim.show.pictures.cut.marks import draw_end, draw_pause, draw_start, pauses
-from sim.show.pictures.cut.numbers import draw_number, number_size
+from sim.show.pictures.cut.marks import draw_end, draw_number, draw_pause, draw_start, number_size, pauses
 from sim.show.pictures.cut.outlines import draw_clamp, draw_work
 from sim.show.pictures.cut.subject import Cut
 from sim.show.words import Words
@@ -38,7 +36,7 @@ FINDING_COLUMNS: Final = 2
 MOST_CODES: Final = 6
 
 
-class Seen(NamedTuple):
+class Surroundings(NamedTuple):
     """What of the surroundings shows in a plot, and how wide the kerf is drawn."""
 
     work: bool
@@ -59,7 +57,7 @@ class Drawn(NamedTuple):
     pauses: int = 0
 
 
-def entries(cut: Cut, page: Page, say: Words, seen: Seen, drawn: Drawn) -> list[Entry]:
+def entries(cut: Cut, page: Page, say: Words, seen: Surroundings, drawn: Drawn) -> list[Entry]:
     """All that a legend explains, in its order."""
     kerf = say("cut.kerf" if cut.trace else "cut.kerf_programmed", width=f"{mm(cut.kerf_um):.3f}")
     wider = seen.kerf_px > cut.kerf_um * page.view.px_per_um
@@ -112,7 +110,7 @@ def finding_entries(cut: Cut, say: Words) -> list[Entry]:
     order = tuple(Severity)
     return [
         _finding_entry(key, count, say)
-        for key, count in sorted(told, key=lambda one: (order.index(one[1].severity), one[1].code))
+        for key, count in sorted(told, key=lambda each: (order.index(each[1].severity), each[1].code))
     ]
 
 
@@ -142,7 +140,9 @@ def _pass_entries(cut: Cut, say: Words, kerf_px: float) -> list[Entry]:
     passes = () if cut.passes is None else cut.passes.passes
     entries = []
     for tone in tones_of(passes):
-        offsets = [mm(one.offset_um(cut.kerf_um / 2)) for one in passes if paint_of_pass(one.number) is tone.paint]
+        offsets = [
+            mm(pass_.offset_um(cut.kerf_um / 2)) for pass_ in passes if paint_of_pass(pass_.number) is tone.paint
+        ]
         by = dict.fromkeys(f"{offset:.3f}" for offset in (min(offsets), max(offsets)))
         text = say("cut.pass", name=tone.name, by="–".join(by))
         entries.append(Entry(_kerf(kerf_px, tone.paint), text))

@@ -10,9 +10,8 @@ from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import bounds_um, cut_runs, flatten
 from sim.show.draw.layout import View
-from sim.show.draw.paints import Paint
+from sim.show.draw.paints import TONES, Paint, paint_of_pass, tone_number
 from sim.show.draw.simplify import CHORD_PX, simplify
-from sim.show.draw.tones import TONES, paint_of_pass, tone_number
 from sim.show.pictures.cut.subject import Cut
 
 _LEAD = len(TONES) + 1
@@ -96,7 +95,7 @@ def _tones(cut: Cut) -> Ints:
     """Number of the pass whose tone each row (n,) has; `_LEAD` for leads that show, 0 for jumps."""
     numbers = np.ones(len(cut.toolpath), dtype=np.int64)
     if cut.passes is not None:
-        own = np.array([*(tone_number(one.number) for one in cut.passes.passes), _LEAD])
+        own = np.array([*(tone_number(pass_.number) for pass_ in cut.passes.passes), _LEAD])
         numbers = own[cut.passes.of_row]  # the last for the rows of no pass, −1
     if cut.leads is not None:
         numbers[cut.leads] = _LEAD

@@ -1,19 +1,58 @@
-"""The programmed path, and what the check finds on it: no table runs for this picture, and nothing is worked out."""
+"""The programmed path, and what the check finds on it: no table runs for this picture, and nothing is worked out.
 
+What stands about a cut on its page: the bodies on the table, how far that reaches, and the line under the title.
+"""
+
+from collections.abc import Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from parser.findings.findings import Finding
+from parser.geometry.curves import Floats
 from parser.program import Program
 from parser.shape.passes import find_passes
+from parser.toolpath import Toolpath
+from parser.units import from_mm, mm
 from sim.check.beside import Offsetting
-from sim.check.compensation.asked import compensation_of, is_known
+from sim.check.compensation.words import compensation_of, is_known
+from sim.run.findings import verdict
 from sim.run.prepare import checked_for, prepare
 from sim.setup.scenario import Scenario
 from sim.show.draw.sheet import AnyCanvas, Sheet
+from sim.show.pictures.cut.outlines import Bodies
 from sim.show.pictures.cut.picture import draw_cut
 from sim.show.pictures.cut.subject import Cut
-from sim.show.pictures.cut.surroundings import bodies_of, note_of, travel_um
 from sim.show.words import Words
+from sim.table.trace import origin_um
+
+
+def bodies_of(scenario: Scenario) -> Bodies:
+    """The workpiece and the clamps of a scenario."""
+    return Bodies(scenario.work_um, [clamp.outline_um for clamp in scenario.clamps])
+
+
+def travel_um(toolpath: Toolpath, scenario: Scenario) -> Floats:
+    """The box that the table can reach, (2, 2), in program coordinates."""
+    table = scenario.machine.table
+    corner = np.array(origin_um(toolpath)) - scenario.start_um
+    travel = from_mm(np.array([table.travel_x_mm, table.travel_y_mm]))
+    return np.asarray(np.stack([corner, corner + travel]), dtype=np.float64)
+
+
+def note_of(toolpath: Toolpath, offset: Offsetting | None, findings: Sequence[Finding], ran: str, say: Words) -> str:
+    """Verdict, blocks, length of the path, how long it `ran`, and its offset, in one line."""
+    count = len(toolpath)
+    parts = [
+        say(f"findings.{verdict(findings)}"),
+        say("cut.blocks_1" if count == 1 else "cut.blocks", count=count),
+        f"{mm(float(toolpath.length_um.sum())):.1f} mm",
+        ran,
+    ]
+    if offset is not None:
+        by = ", ".join(f"{round(mm(pass_.by_um), 4):g}" for pass_ in offset.passes)
+        parts.append(say(f"cut.offset_{offset.side.name.lower()}", by=by))
+    return " · ".join(parts)
 
 
 class Programmed(NamedTuple):
@@ -69,7 +108,7 @@ def cut_of_path(shown: Programmed, say: Words) -> Cut:
         kerf_um=scenario.wire.kerf_um if has_kerf else 0.0,
         title=scenario.title,
         note=note_of(toolpath, shown.offset, shown.findings, ran, say),
-        passes=passes if has_kerf and any(one.number > 1 for one in passes.passes) else None,
+        passes=passes if has_kerf and any(pass_.number > 1 for pass_ in passes.passes) else None,
         leads=(passes.of_row < 0) & ~toolpath.is_jump if has_kerf else None,
         contour=None if shown.offset is None else shown.offset.passed.drawn,
         bodies=bodies_of(scenario),

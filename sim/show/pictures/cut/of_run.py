@@ -3,10 +3,10 @@
 from sim.cut.pieces.pieces import Pieces
 from sim.run.dryrun import DryRun
 from sim.show.draw.sheet import AnyCanvas, Sheet
+from sim.show.pictures.cut.of_path import bodies_of, note_of, travel_um
 from sim.show.pictures.cut.picture import draw_cut
 from sim.show.pictures.cut.shapes import Shapes
 from sim.show.pictures.cut.subject import Cut
-from sim.show.pictures.cut.surroundings import bodies_of, note_of, travel_um
 from sim.show.words import Words
 from sim.show.words.phrases import lasting
 

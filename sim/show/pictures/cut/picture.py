@@ -11,19 +11,17 @@ from parser.geometry.curves import Floats
 from parser.units import mm
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
-from sim.show.draw.furniture import draw_axes, draw_frame, draw_header
 from sim.show.draw.labels import Ink, Room
 from sim.show.draw.layout import BESIDE_PLOT, IN_PLOT, Box, Margins, Page, View, page_for
-from sim.show.draw.legend import Entry
+from sim.show.draw.legend import Entry, draw_axes, draw_frame, draw_header
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.simplify import simplify
 from sim.show.pictures.cut.areas import Areas, draw_areas, draw_labels
 from sim.show.pictures.cut.flags import draw_flags, flag_reach, flags_of
-from sim.show.pictures.cut.legend import Drawn, Seen, draw_legends, entries, finding_entries, rows_for
+from sim.show.pictures.cut.legend import Drawn, Surroundings, draw_legends, entries, finding_entries, rows_for
 from sim.show.pictures.cut.lines import Lines, draw_lines, path_bounds_um, shown_bounds_um
-from sim.show.pictures.cut.marks import draw_arrows, draw_ends, draw_pauses
-from sim.show.pictures.cut.numbers import draw_numbers
+from sim.show.pictures.cut.marks import draw_arrows, draw_ends, draw_numbers, draw_pauses
 from sim.show.pictures.cut.outlines import clamps_on, draw_bodies, works_on
 from sim.show.pictures.cut.shapes import Shapes
 from sim.show.pictures.cut.size_lines import Extents, draw_extents, draw_rounds, extents_of
@@ -87,7 +85,7 @@ class CutLayout(NamedTuple):
     """The page; what of the surroundings shows on it; the sizes and the lines of the largest; what the codes mean."""
 
     page: Page
-    seen: Seen
+    seen: Surroundings
     sizes: CutSizes
     extents: Extents | None
     codes: list[Entry]
@@ -148,15 +146,15 @@ def layout_of(sheet: Sheet[AnyCanvas], cut: Cut) -> CutLayout:
     extents = extents_of(sizes, path_bounds_um(cut))
     bounds_um, inside = shown_bounds_um(cut), extents.margins() if extents else IN_PLOT
     page = page_for(bounds_um, sheet.width_px, inside=inside)
-    seen = _seen(cut, page)
+    seen = _surroundings(cut, page)
     rows = rows_for(len(entries(cut, page, sheet.say, seen, Drawn())), len(codes))
     foot = style.FOOT + (rows - _FOOT_ROWS) * style.LEGEND_ROW
     page = page_for(bounds_um, sheet.width_px, BESIDE_PLOT._replace(bottom=foot), inside)
     return CutLayout(page, seen._replace(kerf_px=kerf_px(cut, page)), sizes, extents, codes)
 
 
-def _seen(cut: Cut, page: Page) -> Seen:
-    return Seen(
+def _surroundings(cut: Cut, page: Page) -> Surroundings:
+    return Surroundings(
         work=bool(works_on(page, cut.bodies)),
         clamps=bool(clamps_on(page, cut.bodies)),
         travel=cut.travel_um is not None and shows_border(page, cut.travel_um),

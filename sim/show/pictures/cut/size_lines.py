@@ -102,37 +102,37 @@ def _draw_size(canvas: Canvas, unit: float, line: Floats, text: str) -> Box:
 
 def draw_rounds(board: Board, sizes: CutSizes) -> None:
     """Draw the largest radii and diameters, each at one of its arcs, where there is room off the path."""
-    for one in sizes.rounds[:MOST_ROUNDS]:
-        if one.radius_um * board.page.view.px_per_um >= _LEAST_ROUND * board.page.unit:
-            _draw_round(board, one, sizes.path)
+    for round_ in sizes.rounds[:MOST_ROUNDS]:
+        if round_.radius_um * board.page.view.px_per_um >= _LEAST_ROUND * board.page.unit:
+            _draw_round(board, round_, sizes.path)
 
 
-def _draw_round(board: Board, one: Round, path: Toolpath) -> None:
+def _draw_round(board: Board, round_: Round, path: Toolpath) -> None:
     canvas, page = board.canvas, board.page
     size, unit = style.SIZE * page.unit, page.unit
-    wide = canvas.text_width(one.text, size) + size / 2
-    for arc, outward in _leaders(page, one, path):
+    wide = canvas.text_width(round_.text, size) + size / 2
+    for arc, outward in _leaders(page, round_, path):
         reach = style.LEADER * unit + float(np.abs(outward) @ (wide, 1.2 * size)) / 2
         box = board.room.take_clear([box_around(arc + outward * reach, wide, 1.2 * size)])
         if box:
             canvas.arrow(arc, -outward, style.SIZE_ARROW * unit, Paint.SIZE)
             canvas.polyline(np.stack([arc, arc + outward * style.LEADER * unit]), Paint.SIZE, style.SIZE_WIDTH * unit)
             middle = ((box.left + box.right) / 2, (box.top + box.bottom) / 2)
-            canvas.text(middle, one.text, size, Paint.SIZE, align=0.5)
+            canvas.text(middle, round_.text, size, Paint.SIZE, align=0.5)
             return
 
 
-def _leaders(page: Page, one: Round, path: Toolpath) -> Iterator[tuple[Floats, Floats]]:
+def _leaders(page: Page, round_: Round, path: Toolpath) -> Iterator[tuple[Floats, Floats]]:
     """Where a leader may touch the edge that an arc makes, and which way it goes from there: into what is kept first.
 
     The edge of a hole lies outside of its path, that of a boss inside.
     """
-    longest = one.rows[np.argsort(-np.abs(path.sweep_rad[one.rows]), kind="stable")][:_MOST_ARCS]
+    longest = round_.rows[np.argsort(-np.abs(path.sweep_rad[round_.rows]), kind="stable")][:_MOST_ARCS]
     center = path.center_um[longest]
-    side = 1.0 if one.radius_um > float(path.radius_um[longest[0]]) else -1.0
+    side = 1.0 if round_.radius_um > float(path.radius_um[longest[0]]) else -1.0
     for way in (side, -side):
         for share in _ROUND_AT:
             points, _ = along(path, longest, np.full(len(longest), share))
             outward = (points - center) / path.radius_um[longest, None]
-            edge = page.view.to_px(center + one.radius_um * outward)
+            edge = page.view.to_px(center + round_.radius_um * outward)
             yield from zip(edge, way * outward * (1.0, -1.0), strict=True)

@@ -72,10 +72,10 @@ def sizes_of_cut(cut: Cut) -> CutSizes:
 
 
 def _measured(toolpath: Toolpath, sizes: "Sizes") -> CutSizes:
-    box = max(sizes.boxes, key=lambda one: one.nominal_um.x * one.nominal_um.y)
+    box = max(sizes.boxes, key=lambda each_box: each_box.nominal_um.x * each_box.nominal_um.y)
     half, centre = np.array(box.nominal_um) / 2, np.array(box.center_um)
-    row = np.array([one.block - 1 for one in sizes.radii], dtype=np.int64)
-    arcs = _Arcs(row, np.array([one.nominal_um for one in sizes.radii], dtype=np.float64))
+    row = np.array([each.block - 1 for each in sizes.radii], dtype=np.int64)
+    arcs = _Arcs(row, np.array([each.nominal_um for each in sizes.radii], dtype=np.float64))
     return CutSizes(np.stack([centre - half, centre + half]), _rounds(toolpath, arcs), toolpath, of_path=False)
 
 
@@ -85,7 +85,7 @@ def _of_path(toolpath: Toolpath, offset_um: float, pieces: "Pieces | None") -> C
     if not len(loops.contour):
         return CutSizes(None, (), toolpath, of_path=False)
     loops = loops._replace(part_side=_sides(toolpath, loops, pieces))
-    boxes = [bounds_um(toolpath.picked(slice(*one))) for one in zip(loops.first, loops.last + 1, strict=True)]
+    boxes = [bounds_um(toolpath.picked(slice(*each))) for each in zip(loops.first, loops.last + 1, strict=True)]
     largest = int(np.argmax([np.prod(high - low) for low, high in boxes]))
     side = int(loops.part_side[largest])
     grow = -side * _turns(toolpath, loops, largest) * offset_um

@@ -111,12 +111,12 @@ def draw_borders(canvas: Canvas, chart: Chart, toolpath: Toolpath, height: float
         box = Box(float(x[row]), top + 0.8 * height, float(x[row + 1]), top + 0.95 * height)
         canvas.box(box, Paint.JUMP, Paint.JUMP, 0.0)
     names = toolpath.source.names.of_rows()
-    shown = numbers(canvas, x, names, unit)
-    borders = x[1:-1] if all_show(chart, toolpath) else x[[row + 1 for row, _ in shown]]
+    shown_numbers = numbers(canvas, x, names, unit)
+    borders = x[1:-1] if all_show(chart, toolpath) else x[[row + 1 for row, _ in shown_numbers]]
     for at in borders.tolist():
         line = np.array([[at, chart.frame.top - 0.2 * height], [at, chart.frame.bottom]])
         canvas.polyline(line, Paint.FRAME, BORDER_WIDTH * unit)
-    for row, at in shown:
+    for row, at in shown_numbers:
         canvas.text((at, top + 0.42 * height), names[row], style.NUMBER * unit, Paint.INK, align=0.5)
 
 

@@ -8,8 +8,8 @@ from parser.geometry.curves import Floats
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import AxisRange, Chart, range_of
-from sim.show.draw.furniture import draw_header, elide
 from sim.show.draw.layout import Box
+from sim.show.draw.legend import draw_header, elide
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.deviation.samples import Samples
@@ -36,7 +36,7 @@ def titled(sheet: Sheet[AnyCanvas], samples: Samples, title: str, height_px: flo
 def range_shown(samples: Samples) -> AxisRange:
     """Range of the deviations of wire and steps in the cut, of 0, and of the tolerance where they come near it."""
     shown = [samples.wire_um[samples.cutting], samples.steps_um[samples.cutting], np.zeros(1)]
-    reached = max(float(np.abs(one).max(initial=0.0)) for one in shown)
+    reached = max(float(np.abs(each).max(initial=0.0)) for each in shown)
     if reached >= SEEN * samples.tolerance_um:
         shown.append(samples.tolerance_um * np.array([-1.0, 1.0]))
     return range_of(*shown, least=LEAST_UM)

@@ -1,4 +1,7 @@
-"""What an inset shows: a stretch of the ideal path, of the single steps and of the wire, around one place."""
+"""What an inset shows: a stretch of the ideal path, of the single steps and of the wire, around one place.
+
+One inset: a few µm of the path on a grid of single steps, with the staircase and the deviation.
+"""
 
 from typing import Final, NamedTuple
 
@@ -7,7 +10,13 @@ import numpy as np
 from controller.stepping.pulses import Pulses
 from parser.geometry.along import places_at
 from parser.geometry.curves import Bools, Floats
+from sim.show.draw import style
+from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import stretches
+from sim.show.draw.layout import Box, View, box_around, centred, nice_below, ticks
+from sim.show.draw.paints import Paint
+from sim.show.draw.simplify import CHORD_PX, simplify
+from sim.show.pictures.deviation.frame import um
 from sim.show.pictures.deviation.samples import Samples
 from sim.table.trace import origin_um
 
@@ -110,3 +119,102 @@ def _steps_in_view(samples: Samples, steps: Pulses, at: int, center: Floats, sid
     seen[1:] |= inside[:-1]
     seen[:-1] |= inside[1:]
     return [places[stretch] for stretch in stretches(np.flatnonzero(seen))]
+
+
+GRID_APART: Final = 7.0
+"""Lines of the grid are single µm unless they would come closer together than this."""
+TENTH: Final = 10
+"""Every how manyth line of the grid is darker."""
+IDEAL_WIDTH: Final = 2.4
+STEPS_WIDTH: Final = 1.8
+WIRE_WIDTH: Final = 3.0
+TABLE_WIDTH: Final = 1.6
+STEP_DOT: Final = 3.6
+WIRE_DOT: Final = 5.5
+APART: Final = 2.7
+"""Dots show where their middles are at least so many radii apart."""
+SIZE_WIDTH: Final = 2.0
+SIZE_ARROW: Final = 14.0
+
+
+def draw_inset(canvas: Canvas, box: Box, inset: Inset, unit: float) -> None:
+    """Draw an inset into a square box."""
+    view = view_of(box, inset)
+    canvas.box(box, Paint.PAGE, Paint.FRAME, style.GRID_WIDTH * unit)
+    inner = Box(box.left + unit, box.top + unit, box.right - unit, box.bottom - unit)
+    with canvas.clipped(inner):
+        _draw_grid(canvas, box, view, unit)
+        canvas.polyline(_drawn(view, inset.ideal_um), Paint.IDEAL, IDEAL_WIDTH * unit)
+        _draw_steps(canvas, view, inset, unit)
+        if inset.table_um is not inset.wire_um:
+            canvas.polyline(_drawn(view, inset.table_um), Paint.GREY, TABLE_WIDTH * unit)
+        _draw_wire(canvas, view, inset, unit)
+        _draw_size(canvas, box, view, inset, unit)
+
+
+def view_of(box: Box, inset: Inset) -> View:
+    """Scale of an inset in a square box."""
+    return centred(inset.center_um, (box.right - box.left) / inset.side_um, box)
+
+
+def _drawn(view: View, points_um: Floats) -> Floats:
+    return simplify(view.to_px(points_um), CHORD_PX)
+
+
+def grid_um(view: View, unit: float) -> float:
+    """From line to line of the grid: 1 µm, or more where lines would come too close."""
+    least_um = GRID_APART * unit / view.px_per_um
+    return 1.0 if least_um <= 1.0 else nice_below(least_um * 2.5)
+
+
+def _draw_grid(canvas: Canvas, box: Box, view: View, unit: float) -> None:
+    """Draw the lines of the grid, some of them darker."""
+    step = grid_um(view, unit)
+    low, high = view.range_um(box)
+    for axis in (0, 1):
+        for tick in ticks(float(low[axis]), float(high[axis]), step).tolist():
+            x, y = view.to_px(np.array([tick, tick])).tolist()
+            line = [[x, box.top], [x, box.bottom]] if axis == 0 else [[box.left, y], [box.right, y]]
+            paint = Paint.FRAME if round(tick / step) % TENTH == 0 else Paint.GRID
+            canvas.polyline(np.array(line), paint, style.GRID_WIDTH * unit)
+
+
+def _draw_steps(canvas: Canvas, view: View, inset: Inset, unit: float) -> None:
+    """Draw the staircase, and a dot at each place where a step ends while they stand apart."""
+    dots = view.px_per_um >= APART * STEP_DOT * unit
+    for run in inset.steps_um:
+        canvas.polyline(_drawn(view, run), Paint.STEPS, STEPS_WIDTH * unit)
+        for place in view.to_px(run) if dots else ():
+            canvas.disc(place, STEP_DOT * unit, Paint.STEPS)
+
+
+def _draw_wire(canvas: Canvas, view: View, inset: Inset, unit: float) -> None:
+    """Draw the wire's way, and a dot at each sample while they stand apart: between them it is drawn straight."""
+    places = view.to_px(inset.wire_um)
+    canvas.polyline(simplify(places, CHORD_PX), Paint.ACTUAL, WIRE_WIDTH * unit)
+    apart = np.hypot(*np.diff(places, axis=0).T)
+    if not len(apart) or np.median(apart) >= APART * WIRE_DOT * unit:
+        for place in places[(np.abs(inset.wire_um - inset.center_um) <= inset.side_um / 2.0).all(axis=1)]:
+            canvas.disc(place, WIRE_DOT * unit, Paint.ACTUAL)
+
+
+def _draw_size(canvas: Canvas, box: Box, view: View, inset: Inset, unit: float) -> None:
+    """Draw the deviation as a dimension from the ideal path to the wire, its value beyond the wire."""
+    foot, place = view.to_px(np.stack([inset.foot_um, inset.place_um]))
+    length = float(np.hypot(*(place - foot)))
+    ahead = (place - foot) / length if length > 0.0 else np.array([0.0, -1.0])
+    arrow = SIZE_ARROW * unit
+    inside = length > 3.0 * arrow
+    tail = 0.0 if inside else 2.0 * arrow
+    canvas.polyline(np.stack([foot - tail * ahead, place + tail * ahead]), Paint.ERROR, SIZE_WIDTH * unit)
+    for tip, way in ((place, ahead), (foot, -ahead)):
+        canvas.arrow(tip, way if inside else -way, arrow, Paint.ERROR)
+    text = um(float(np.hypot(*(inset.place_um - inset.foot_um))))
+    size = style.NOTE * unit
+    half = np.array([canvas.text_width(text, size) / 2.0 + 0.3 * size, 0.7 * size])
+    reach = tail + 0.6 * size + float(np.abs(ahead) @ half)
+    low = np.array([box.left, box.top]) + half
+    high = np.array([box.right, box.bottom]) - half
+    at = np.clip(place + reach * ahead, low, high)
+    canvas.box(box_around(at, *(2.0 * half).tolist()), Paint.PAGE, Paint.ERROR, unit)
+    canvas.text((float(at[0]), float(at[1])), text, size, Paint.INK, align=0.5)

@@ -8,15 +8,14 @@ from parser.geometry.curves import Floats, Ints
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import bounds_um, cut_runs, flatten
-from sim.show.draw.furniture import draw_axes, draw_frame
 from sim.show.draw.layout import Box, Page, centred, nice_below
-from sim.show.draw.legend import Entry, draw_at_foot, in_rows, stroke
+from sim.show.draw.legend import Entry, draw_at_foot, draw_axes, draw_frame, in_rows, stroke
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.deviation.frame import mark_place, titled, tolerance_text, um
-from sim.show.pictures.deviation.places import worst_of
 from sim.show.pictures.deviation.samples import Samples
+from sim.show.pictures.deviation.worst import worst_of
 from sim.show.words import Words
 
 SHARE: Final = 0.06
@@ -91,7 +90,7 @@ def _page(bounds: Floats, width_px: int, unit: float, legend_px: float) -> Page:
 
 def _whiskers(samples: Samples, page: Page, times: float) -> _Whiskers:
     """The whiskers that show, in the order of the path."""
-    at = _shown(samples, APART * page.unit / page.view.px_per_um)
+    at = _worst_samples(samples, APART * page.unit / page.view.px_per_um)
     place, foot = samples.trace.wire_um[at], samples.foot_um[at]
     tip = foot + times * (place - foot)
     seen = _uncovered(samples, at, page.view.to_px(np.stack([foot, tip], axis=1)) / (WIDTH * page.unit))
@@ -109,7 +108,7 @@ def _uncovered(samples: Samples, at: Ints, lines: Floats) -> Ints:
     return np.sort(worst_first[first])
 
 
-def _shown(samples: Samples, apart_um: float) -> Ints:
+def _worst_samples(samples: Samples, apart_um: float) -> Ints:
     """The worst sample in each stretch of the cut, and in each block that is no shorter than that.
 
     Where there are few samples all of them: one of the two in a stretch, and none in the next, would look like gaps.

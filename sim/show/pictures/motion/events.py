@@ -13,8 +13,7 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import Chart
 from sim.show.draw.labels import MOST_NUMBERS, number_stride
 from sim.show.draw.layout import Box
-from sim.show.draw.paints import Paint
-from sim.show.draw.tones import paint_of_pass
+from sim.show.draw.paints import Paint, paint_of_pass
 from sim.table.findings import Lost
 from sim.table.record.losses import LossKind
 
@@ -49,7 +48,7 @@ class _Label(NamedTuple):
 def marks_of(run: DryRun) -> list[TimeMark]:
     """Losses of a run, with the codes of their findings and the axes, and pauses."""
     pauses = [
-        TimeMark(one.t_s, "motion.pause", PAUSE, Paint.PAUSE) for one in stops_of(run) if one.what.kind == "pause"
+        TimeMark(stop.t_s, "motion.pause", PAUSE, Paint.PAUSE) for stop in stops_of(run) if stop.what.kind == "pause"
     ]
     codes = {fact.kind: finding.code for finding, fact in telling(run.findings, Lost)}
     losses = [
@@ -83,9 +82,9 @@ def draw_passes(canvas: Canvas, chart: Chart, run: DryRun, unit_s: float) -> Non
     """Draw the passes in their tones above the numbers of blocks, each with its own number where that has room."""
     foot, size = chart.frame.top - (TICK + ROW) * chart.unit, style.NUMBER * chart.unit
     borders = chart.x_px(run.border_s / unit_s)
-    for one, _ in passes_of(run):
-        left, right = borders[[one.first, one.last + 1]].tolist()
-        draw_pass(canvas, Box(left, foot - BAND * chart.unit, right, foot), one.number, size)
+    for each, _ in passes_of(run):
+        left, right = borders[[each.first, each.last + 1]].tolist()
+        draw_pass(canvas, Box(left, foot - BAND * chart.unit, right, foot), each.number, size)
 
 
 def draw_pass(canvas: Canvas, box: Box, number: int, size: float) -> None:

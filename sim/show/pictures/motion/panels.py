@@ -16,7 +16,7 @@ from sim.show.draw.paints import Paint
 from sim.show.words import Words
 from sim.table.record.bins import Envelope
 from sim.table.record.history import History
-from sim.table.record.peaks import Quantity
+from sim.table.record.losses import Quantity
 
 ROOM: Final = 0.08
 """Share of its range that a panel leaves free at either side."""
@@ -61,11 +61,11 @@ class Panel(NamedTuple):
     @property
     def range(self) -> AxisRange:
         """From the lowest to the highest, and to levels just outside."""
-        shown = range_of(self.envelope.low, self.envelope.high, least=self.least)
-        reach, levels = shown.wider(REACH), np.array([level.value for level in self.levels])
+        shown_range = range_of(self.envelope.low, self.envelope.high, least=self.least)
+        reach, levels = shown_range.wider(REACH), np.array([level.value for level in self.levels])
         both = np.concatenate([levels, -levels])
         near = both[(both >= reach.low) & (both <= reach.high)]
-        return range_of(np.array(shown), near).wider(ROOM)
+        return range_of(np.array(shown_range), near).wider(ROOM)
 
 
 def panels_of(run: DryRun, most: int) -> tuple[Floats, list[Panel]]:

@@ -17,10 +17,9 @@ from sim.run.dryrun import DryRun
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.chart import AxisRange, Chart, draw_band, draw_chart, draw_level, draw_line
-from sim.show.draw.furniture import draw_header
 from sim.show.draw.labels import number_stride
 from sim.show.draw.layout import Box
-from sim.show.draw.legend import Entry, Legend, LegendSizes, draw_legend, in_rows, middle
+from sim.show.draw.legend import Entry, Legend, LegendSizes, draw_header, draw_legend, in_rows, middle
 from sim.show.draw.letters import Letters
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
@@ -254,7 +253,7 @@ def _draw_standing(canvas: Canvas, chart: Chart, since: float, say: Words) -> No
         canvas.text(middle, text, size, Paint.GREY, align=0.5)
 
 
-class _Told(NamedTuple):
+class _LevelText(NamedTuple):
     """A level beside the name of its panel: its text, its width with a sample, and whether it shows at all."""
 
     level: Level
@@ -263,11 +262,11 @@ class _Told(NamedTuple):
     inside: bool
 
 
-def _told(canvas: Canvas, chart: Chart, level: Level, say: Words) -> _Told:
+def _level_text(canvas: Canvas, chart: Chart, level: Level, say: Words) -> _LevelText:
     size = style.TICK * chart.unit
     inside = any(chart.y.low <= value <= chart.y.high for value in (level.value, -level.value))
     text = level.text(say) if inside else say("motion.outside", limit=level.text(say))
-    return _Told(level, text, canvas.text_width(text, size) + (SAMPLE * chart.unit + 0.4 * size) * inside, inside)
+    return _LevelText(level, text, canvas.text_width(text, size) + (SAMPLE * chart.unit + 0.4 * size) * inside, inside)
 
 
 def _draw_name(canvas: Canvas, chart: Chart, panel: Panel, say: Words, y: float) -> None:
@@ -275,13 +274,13 @@ def _draw_name(canvas: Canvas, chart: Chart, panel: Panel, say: Words, y: float)
     frame, unit, size = chart.frame, chart.unit, style.TICK * chart.unit
     name = say(panel.name)
     canvas.text((frame.left, y), name, size, Paint.INK)
-    told = [_told(canvas, chart, level, say) for level in panel.levels]
-    left = frame.right + size - sum(one.width + size for one in told)
+    told_levels = [_level_text(canvas, chart, level, say) for level in panel.levels]
+    left = frame.right + size - sum(each.width + size for each in told_levels)
     if left < frame.left + canvas.text_width(name, size) + size:
         return
-    for one in told:
-        canvas.text((left + one.width, y), one.text, size, Paint.GREY, align=1.0)
-        if one.inside:
+    for each in told_levels:
+        canvas.text((left + each.width, y), each.text, size, Paint.GREY, align=1.0)
+        if each.inside:
             line = np.array([[left, y], [left + SAMPLE * unit, y]])
-            canvas.dashed(line, one.level.paint, LEVEL_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
-        left += one.width + size
+            canvas.dashed(line, each.level.paint, LEVEL_WIDTH * unit, style.DASH * unit, style.DASH_GAP * unit)
+        left += each.width + size

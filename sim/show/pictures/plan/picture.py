@@ -1,6 +1,8 @@
 """The picture of a plan: parts and waste, contours, the ways of the passes, leads, thread points in their order.
 
 The ways of a plan on a page: contours, passes and leads in px, and which way each figure is run.
+
+The picture of a plan by its name, as those who write pictures ask for it.
 """
 
 from typing import Final, NamedTuple
@@ -13,14 +15,24 @@ from sim.make.cam.model import CutPlan, FigureCut
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.flatten import bounds_um, flatten
-from sim.show.draw.furniture import draw_axes, draw_frame, draw_header
 from sim.show.draw.layout import BESIDE_PLOT, Box, Page, View, page_for
-from sim.show.draw.legend import Entry, across, dashes, draw_at_foot, in_rows, middle, stroke, swatch
-from sim.show.draw.paints import Paint
+from sim.show.draw.legend import (
+    Entry,
+    across,
+    dashes,
+    draw_at_foot,
+    draw_axes,
+    draw_frame,
+    draw_header,
+    in_rows,
+    middle,
+    stroke,
+    swatch,
+)
+from sim.show.draw.paints import TONES, Paint, paint_of_pass
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.simplify import CHORD_PX, simplify
-from sim.show.draw.tones import TONES, paint_of_pass
-from sim.show.words import Words, said
+from sim.show.words import Words, bilingual
 from sim.show.words.phrases import numbered
 
 _LEAST_UM = 100.0
@@ -42,7 +54,7 @@ def line_px(curves: Curves, view: View) -> Floats:
 
 def plan_bounds_um(plan: CutPlan) -> Floats:
     """Box around all that is shown, (2, 2), at least 0.1 mm wide."""
-    boxes = [bounds_um(one) for cut in plan.cuts for one in _curves(cut) if len(one)]
+    boxes = [bounds_um(curve) for cut in plan.cuts for curve in _curves(cut) if len(curve)]
     places = np.array([cut.thread.place_um for cut in plan.cuts])
     low = np.min([*(box[0] for box in boxes), *places], axis=0)
     high = np.max([*(box[1] for box in boxes), *places], axis=0)
@@ -64,7 +76,7 @@ def heading_px(cut: FigureCut, view: View) -> Heading | None:
 
 
 def _curves(cut: FigureCut) -> list[Curves]:
-    ways = [one for each in (*cut.passes, *cut.cut_off) for one in (each.into, each.along, each.out)]
+    ways = [way for run in (*cut.passes, *cut.cut_off) for way in (run.into, run.along, run.out)]
     return [cut.figure.contour, *ways]
 
 
@@ -105,7 +117,7 @@ def _note(plan: CutPlan, say: Words) -> str:
 
 def _draw_areas(canvas: Canvas, page: Page, plan: CutPlan) -> None:
     """Parts and waste, the outer ones below."""
-    for cut in sorted(plan.cuts, key=lambda one: one.figure.depth):
+    for cut in sorted(plan.cuts, key=lambda each_cut: each_cut.figure.depth):
         ring = line_px(cut.figure.contour, page.view)
         if len(ring) > 2:
             canvas.polygon(ring, Paint.PART if cut.figure.kind == "outline" else Paint.SLUG)
@@ -115,13 +127,13 @@ def _draw_ways(canvas: Canvas, page: Page, plan: CutPlan) -> None:
     """Passes, the later ones on top, their contours, leads and tabs; and the jumps between figures."""
     unit = page.unit
     for cut in plan.cuts:
-        for number, one in enumerate(cut.passes, start=1):
+        for number, pass_ in enumerate(cut.passes, start=1):
             width = min(_PASS_WIDTH * _WIDER ** (len(cut.passes) - number), _WIDEST)
-            _stroke(canvas, line_px(one.along, page.view), paint_of_pass(number), width * unit)
-        for one in cut.cut_off:
-            _stroke(canvas, line_px(one.along, page.view), Paint.PAUSE, _TAB_WIDTH * unit)
-        for one in (*cut.passes, *cut.cut_off):
-            for lead in (one.into, one.out):
+            _stroke(canvas, line_px(pass_.along, page.view), paint_of_pass(number), width * unit)
+        for each in cut.cut_off:
+            _stroke(canvas, line_px(each.along, page.view), Paint.PAUSE, _TAB_WIDTH * unit)
+        for pass_ in (*cut.passes, *cut.cut_off):
+            for lead in (pass_.into, pass_.out):
                 _stroke(canvas, line_px(lead, page.view), Paint.ACTUAL, _LEAD_WIDTH * unit)
         _stroke(canvas, line_px(cut.figure.contour, page.view), Paint.IDEAL, style.IDEAL_WIDTH * unit)
     places = page.view.to_px(np.array([cut.thread.place_um for cut in plan.cuts]))
@@ -187,14 +199,14 @@ def _pass_entries(cuts: tuple[FigureCut, ...], say: Words) -> list[Entry]:
     entries = []
     for number in range(1, min(max(len(cut.passes) for cut in cuts), len(TONES)) + 1):
         offsets = sorted({cut.passes[number - 1].by_um for cut in cuts if len(cut.passes) >= number})
-        by = "–".join(f"{mm(one):.3f}" for one in dict.fromkeys((offsets[0], offsets[-1])))
-        name = say("cut.pass", name=said("phrases.one-pass", number=number), by=by)
+        by = "–".join(f"{mm(fromkey):.3f}" for fromkey in dict.fromkeys((offsets[0], offsets[-1])))
+        name = say("cut.pass", name=bilingual("phrases.one-pass", number=number), by=by)
         entries.append(Entry(stroke(paint_of_pass(number), _PASS_WIDTH), name))
     return entries
 
 
 def _has_leads(cut: FigureCut) -> bool:
-    return any(len(one.into) or len(one.out) for one in cut.passes)
+    return any(len(pass_.into) or len(pass_.out) for pass_ in cut.passes)
 
 
 def _arrow(canvas: Canvas, box: Box, unit: float) -> None:
@@ -205,3 +217,25 @@ def _arrow(canvas: Canvas, box: Box, unit: float) -> None:
 
 def _thread(canvas: Canvas, box: Box, unit: float) -> None:
     _draw_thread(canvas, middle(box), "1", 0.85 * unit)
+
+
+PLAN: Final = "plan"
+
+
+class PlanShown(NamedTuple):
+    """A plan of which `PLAN` is to be drawn; see `sim.show.pictures.shown.Drawable`."""
+
+    plan: CutPlan
+
+    @property
+    def title(self) -> str:
+        """Name of the drawing."""
+        return self.plan.drawing.name
+
+    def least_px(self, name: str) -> int:
+        """How narrow the picture can be."""
+        return style.LEAST_WIDTH
+
+    def draw(self, name: str, sheet: Sheet[AnyCanvas]) -> AnyCanvas:
+        """The page, drawn."""
+        return draw_plan(sheet, self.plan)

@@ -11,7 +11,7 @@ from drawn_loops import Piece, circle, drawing_of, polygon, square
 from ezdxf.layouts import Modelspace
 
 from parser.drawing.read import read_drawing
-from parser.findings.remarks import remark_text
+from parser.findings.catalogue import remark_text
 
 EIGHT = polygon([(0, 0), (20, 10), (20, 0), (0, 10)])
 

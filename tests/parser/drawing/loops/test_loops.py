@@ -15,7 +15,7 @@ from ezdxf.layouts import Modelspace
 from parser.drawing.loops.once import drawn_once
 from parser.drawing.model import Drawing, running
 from parser.drawing.read import read_drawing
-from parser.findings.remarks import remark_text
+from parser.findings.catalogue import remark_text
 
 
 def _areas(drawing: Drawing) -> list[float]:

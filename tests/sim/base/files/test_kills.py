@@ -18,7 +18,7 @@ from places import ROOT
 from swaps import NAMES, NEW, OLD, found, left, write
 
 from parser.findings.errors import FileUnreadableError
-from sim.base.files import locks, replace_file, scratch, staged
+from sim.base.files import replace_file, scratch, staged, stages
 
 TOOLS = ROOT / "tests" / "tools"
 PART = "B500B0B500GXL1\nB500B0B2000GYNR1\nB500B0B500GXL3\nDD\n"
@@ -66,8 +66,8 @@ def test_a_living_run_keeps_its_files_while_another_clears_up(tmp_path: Path) ->
 
 
 def test_a_folder_that_another_run_holds_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(locks, "MOST_WAIT_S", 0.01)
-    with locks.alone_in(tmp_path), pytest.raises(FileUnreadableError, match="another run has been changing its files"):
+    monkeypatch.setattr(stages, "MOST_WAIT_S", 0.01)
+    with stages.alone_in(tmp_path), pytest.raises(FileUnreadableError, match="another run has been changing its files"):
         write(tmp_path, OLD)
     assert (found(tmp_path), left(tmp_path)) == ({}, [])
 
@@ -76,7 +76,7 @@ def test_a_file_system_without_locks_is_written_too(tmp_path: Path, monkeypatch:
     def lacking(folder: Path) -> int:
         raise OSError(38, "Function not implemented")
 
-    monkeypatch.setattr(locks, "_locked", lacking)
+    monkeypatch.setattr(stages, "_locked", lacking)
     write(tmp_path, OLD)
     write(tmp_path, NEW)
     assert (found(tmp_path), left(tmp_path)) == (NEW, [])

@@ -17,9 +17,9 @@ from places import ROOT
 from runs import plain_scenario
 
 from parser.drawing.model import LeftOut
-from parser.findings.remarks import Remark
+from parser.findings.catalogue import Remark
 from sim.make.cam.document import document, document_text
-from sim.make.cam.maker import Made, NotMade, made, unproved
+from sim.make.cam.maker import MadeProgram, NotMade, made_program, unproved
 from sim.make.convert.wanted import Wanted
 from sim.setup.making import Making
 from sim.show.terminal.program import told_lines
@@ -36,15 +36,15 @@ def complaints(entry: object) -> list[str]:
 
 
 @pytest.fixture(name="done", scope="module")
-def made_plate(tmp_path_factory: pytest.TempPathFactory) -> Made:
+def made_plate(tmp_path_factory: pytest.TempPathFactory) -> MadeProgram:
     path = plate_file(tmp_path_factory.mktemp("plate"))
-    done = made(path, Making(), Wanted("3b"), plain_scenario())
-    assert isinstance(done, Made)
+    done = made_program(path, Making(), Wanted("3b"), plain_scenario())
+    assert isinstance(done, MadeProgram)
     return done
 
 
 @pytest.fixture(name="entry", scope="module")
-def entry_of_plate(done: Made) -> dict[str, Any]:
+def entry_of_plate(done: MadeProgram) -> dict[str, Any]:
     entry: dict[str, Any] = json.loads(document_text(done, SAY))
     return entry
 
@@ -59,7 +59,7 @@ def test_a_proved_program_fits_its_schema(entry: dict[str, Any]) -> None:
     assert [one["kind"] for one in entry["figures"]] == ["hole", "hole", "outline"]
 
 
-def test_blocks_of_figures_are_those_of_the_text(done: Made, entry: dict[str, Any]) -> None:
+def test_blocks_of_figures_are_those_of_the_text(done: MadeProgram, entry: dict[str, Any]) -> None:
     blocks = [one["blocks"] for one in entry["figures"]]
     assert blocks[0][0] == 1
     assert blocks[-1][1] == int(done.program.toolpath.source.block[-1])
@@ -75,7 +75,7 @@ def test_what_was_not_run_has_no_times(tmp_path: Path) -> None:
 
 def test_a_refusal_is_told_with_its_places(tmp_path: Path) -> None:
     path = drawn(tmp_path, lambda space: space.add_line((0, 0), (30, 0)))
-    done = made(path, Making(), Wanted("3b"), plain_scenario())
+    done = made_program(path, Making(), Wanted("3b"), plain_scenario())
     assert isinstance(done, NotMade)
     entry = json.loads(document_text(done, SAY))
     assert complaints(entry) == []
@@ -85,7 +85,7 @@ def test_a_refusal_is_told_with_its_places(tmp_path: Path) -> None:
     assert "{" not in entry["refusal"]["text"]
 
 
-def test_the_fit_is_held_to_what_was_asked_and_not_to_how_near_it_was_tried(done: Made) -> None:
+def test_the_fit_is_held_to_what_was_asked_and_not_to_how_near_it_was_tried(done: MadeProgram) -> None:
     fit = done.plan.drawing.fit
     assert fit is not None
     drawing = replace(done.plan.drawing, fit=fit._replace(tolerance_um=1.76))
@@ -94,7 +94,7 @@ def test_the_fit_is_held_to_what_was_asked_and_not_to_how_near_it_was_tried(done
     assert not [line for line in told_lines(nearer.plan, "en", 80) if "1.76" in line]
 
 
-def test_what_is_wrong_with_an_entity_and_how_far_it_is_from_closing_is_told_once(done: Made) -> None:
+def test_what_is_wrong_with_an_entity_and_how_far_it_is_from_closing_is_told_once(done: MadeProgram) -> None:
     entity = done.plan.drawing.entities[0]
     wrong = Remark("spline-degree", {"entity": "SPLINE A", "degree": 0})
     left = (LeftOut(entity, "unreadable", detail=wrong), LeftOut(entity, "open", (0.0, 0.0), 2500.0))
@@ -112,7 +112,7 @@ def test_what_is_wrong_with_an_entity_and_how_far_it_is_from_closing_is_told_onc
 
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_what_fails_is_told_in_both_languages(tmp_path: Path, language: str) -> None:
-    done = made(plate_file(tmp_path), Making(passes_um=(300.0, 280.0)), Wanted("3b"), plain_scenario())
+    done = made_program(plate_file(tmp_path), Making(passes_um=(300.0, 280.0)), Wanted("3b"), plain_scenario())
     entry = document(done, Words(language))
     assert complaints(entry) == []
     assert entry["proof"]["verdict"] != "pass"

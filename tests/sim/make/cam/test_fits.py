@@ -9,8 +9,8 @@ from ezdxf.layouts import Modelspace
 
 from parser.drawing.read import read_drawing
 from parser.write.draft import draft_of
-from sim.make.cam.maker import Made, fits_um, unproved
-from sim.make.cam.proof.proof import Given, proved
+from sim.make.cam.maker import MadeProgram, fits_um, unproved
+from sim.make.cam.proof.proof import ToProve, proved
 from sim.make.convert.wanted import Wanted
 from sim.setup.machine.machine import load_machine
 from sim.setup.making import Making
@@ -32,10 +32,10 @@ def ellipse_path(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @cache
-def _of_ellipse(path: Path, tolerance_um: float, offset_um: float) -> Made:
+def _of_ellipse(path: Path, tolerance_um: float, offset_um: float) -> MadeProgram:
     making = Making(tolerance_um=tolerance_um, passes_um=(offset_um,))
     done = unproved(path, making, WANTED, SCENARIO)
-    assert isinstance(done, Made)
+    assert isinstance(done, MadeProgram)
     return done
 
 
@@ -62,7 +62,7 @@ def test_a_path_beside_an_ellipse_takes_a_block_for_each_arc_and_two_for_its_lea
 def test_a_fitted_contour_without_offset_or_leads_proves_its_path(path: Path) -> None:
     """It begins on an arc, at no whole µm: there is no lead on which a controller could begin to add an offset."""
     done = _of_ellipse(path, 2.0, 0.0)
-    proof = proved(Given(done.program, done.plan, read_drawing(path), done.written, WANTED.bound_um), SCENARIO)
+    proof = proved(ToProve(done.program, done.plan, read_drawing(path), done.written, WANTED.bound_um), SCENARIO)
     assert (proof.verdict, [note.name for note in proof.notes]) == ("pass", ["contour"])
     assert proof.path_um is not None
     assert proof.path_um <= 2.0

@@ -12,9 +12,8 @@ from runs import plain_scenario
 from parser.write.iso_choices import iso_choices
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands
-from sim.make.cam.maker import Made, NotMade, made, unproved
-from sim.make.cam.remarked import remarked
-from sim.make.cam.sums import figure_sums
+from sim.make.cam.document import figure_sums
+from sim.make.cam.maker import MadeProgram, NotMade, made_program, remarked, unproved
 from sim.make.convert.wanted import Wanted
 from sim.setup.making import LayerWish, Making
 
@@ -38,9 +37,9 @@ def plate_path(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return plate_file(tmp_path_factory.mktemp("plate"))
 
 
-def program(path: Path, wanted: Wanted = TO_3B) -> Made:
+def program(path: Path, wanted: Wanted = TO_3B) -> MadeProgram:
     done = unproved(path, Making(), wanted, plain_scenario())
-    assert isinstance(done, Made)
+    assert isinstance(done, MadeProgram)
     return done
 
 
@@ -51,8 +50,8 @@ def test_stages_are_told_in_their_order(path: Path) -> None:
         if stage not in stages:
             stages.append(stage)
 
-    done = made(path, Making(), TO_3B, plain_scenario(), told)
-    assert isinstance(done, Made)
+    done = made_program(path, Making(), TO_3B, plain_scenario(), told)
+    assert isinstance(done, MadeProgram)
     assert done.proof is not None
     assert done.proof.verdict == "pass"
     assert stages == ["drawing", "figures", "write", "checks", "plan", "run", "kerf", "comparison"]
@@ -86,15 +85,15 @@ def test_what_cannot_be_cut_is_refused_before_anything_is_written(tmp_path: Path
         ],
     )
     stages: list[str] = []
-    done = made(narrow, Making(), TO_3B, plain_scenario(), lambda stage, done, total: stages.append(stage))
+    done = made_program(narrow, Making(), TO_3B, plain_scenario(), lambda stage, done, total: stages.append(stage))
     assert isinstance(done, NotMade)
     assert done.refusal.why
     assert stages == ["drawing", "figures"]
 
 
 def test_sums_of_figures_are_those_of_the_program_and_its_run(path: Path) -> None:
-    done = made(path, Making(), TO_3B, plain_scenario())
-    assert isinstance(done, Made)
+    done = made_program(path, Making(), TO_3B, plain_scenario())
+    assert isinstance(done, MadeProgram)
     assert done.proof is not None
     run = done.proof.run
     assert run is not None
@@ -126,4 +125,4 @@ def test_leads_are_longer_than_the_offsets_of_layers(path: Path) -> None:
     done = unproved(path, Making(passes_um=(100.0,), lead_um=200.0, layers=(wish,)), TO_3B, plain_scenario())
     assert isinstance(done, NotMade)
     assert done.refusal.why == "short-lead"
-    assert isinstance(unproved(path, Making(passes_um=(100.0,), lead_um=200.0), TO_3B, plain_scenario()), Made)
+    assert isinstance(unproved(path, Making(passes_um=(100.0,), lead_um=200.0), TO_3B, plain_scenario()), MadeProgram)

@@ -12,7 +12,7 @@ from places import ROOT
 
 from parser.dialect.choices import Choices
 from parser.findings.codes import Severity
-from parser.geometry.extents import extents
+from parser.geometry.curves import extents
 from parser.program import Program, load_program, parse_program
 from parser.write.pmac import Card, PmacChoices, Way, blocks_of_source
 from sim.check.engine import run_checks

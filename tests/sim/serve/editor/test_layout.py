@@ -11,7 +11,7 @@ from places import ROOT
 from parser.dialect.choices import Choices
 from parser.findings.findings import edited
 from parser.program import Program, load_program, parse_program
-from sim.serve.editor.layout import layout_of
+from sim.serve.editor.shown import layout_of
 
 MESSY = """// part ( B1B2B3 )
 N   1: b 9900 B0b 39600gy nr1 ; -9.9 , 0

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from sim.serve.page.lines import changed_lines
+from sim.serve.page.app import changed_lines
 
 
 def made(before: str, told: dict) -> str:

@@ -22,11 +22,11 @@ from PIL import Image
 from places import ROOT
 
 from parser.findings.errors import SettingsError
-from sim.serve.page.guard import MOST_BYTES
 from sim.serve.page.life import AWAY_S, FIRST_S, Life
+from sim.serve.page.run_requests import zipped
 from sim.serve.page.runner import _film
 from sim.serve.page.runs import KEYS, Runs
-from sim.serve.page.zipped import zipped
+from sim.serve.page.served import MOST_BYTES
 
 WRONG = "B9900B0B39600GXNR1\nDD\n"
 
@@ -180,7 +180,7 @@ def test_it_lives_while_a_page_is_seen() -> None:
     life = Life(lambda: now[0])
     now[0] = FIRST_S - 1.0
     assert not life.is_over
-    life.seen()
+    life.note_page()
     now[0] += AWAY_S + 1.0
     assert not life.is_over, "browsers let hidden pages say so once a minute"
     now[0] += AWAY_S

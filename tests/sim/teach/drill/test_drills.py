@@ -14,9 +14,8 @@ from places import ROOT
 from parser.program import Program, parse_program, read_program
 from sim.check.batch import check_program
 from sim.check.settings import CheckSettings
-from sim.teach.drill.drills import Asked, Drill, drills_of, lines_of
+from sim.teach.drill.drills import LEVELS, SEEN_FROM, Drill, DrillRequest, departure, drills_of, level_of, lines_of
 from sim.teach.drill.kinds import KINDS, groups_of
-from sim.teach.drill.proof import LEVELS, SEEN_FROM, departure, level_of
 from sim.teach.drill.sound import Sound
 
 SQUARE = "B0B1000B1000GYL2\nB1000B0B1000GXL1\nB0B1000B1000GYL4\nB1000B0B1000GXL3\nDD\n"
@@ -33,7 +32,7 @@ def of_scenario(name: str) -> Program:
 
 @cache
 def drills(name: str, number: int = 1, count: int = 12) -> tuple[Drill, ...]:
-    return drills_of(of_scenario(name), CheckSettings(), Asked(number, count))
+    return drills_of(of_scenario(name), CheckSettings(), DrillRequest(number, count))
 
 
 NAMES = ("die", "iso-die", "keyhole", "rough-and-trim")
@@ -91,7 +90,7 @@ def test_the_answer_holds_what_stood_there() -> None:
 
 
 def test_a_set_has_as_many_kinds_as_there_are_and_is_the_same_for_all() -> None:
-    first, again, other = (drills_of(of_scenario("die"), CheckSettings(), Asked(number)) for number in (7, 7, 8))
+    first, again, other = (drills_of(of_scenario("die"), CheckSettings(), DrillRequest(number)) for number in (7, 7, 8))
     texts = [drill.program.text for drill in first]
     assert texts == [drill.program.text for drill in again]
     assert texts != [drill.program.text for drill in other]
@@ -101,7 +100,7 @@ def test_a_set_has_as_many_kinds_as_there_are_and_is_the_same_for_all() -> None:
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_one_level_can_be_asked_for(level: str) -> None:
-    asked = Asked(3, 6, next(one for one in LEVELS if one == level))
+    asked = DrillRequest(3, 6, next(one for one in LEVELS if one == level))
     made = drills_of(of_scenario("die"), CheckSettings(), asked)
     assert [drill.level for drill in made] == [level] * 6
 
@@ -116,7 +115,7 @@ def test_findings_of_a_drill_are_those_that_its_program_had_not() -> None:
 
 
 def test_a_program_with_little_to_damage_gives_the_few_drills_that_there_are() -> None:
-    made = drills_of(parse_program("B1000B0B1000GXL1\nDD\n"), CheckSettings(), Asked(1, 30))
+    made = drills_of(parse_program("B1000B0B1000GXL1\nDD\n"), CheckSettings(), DrillRequest(1, 30))
     assert 0 < len(made) <= 30
     assert len({drill.program.text for drill in made}) == len(made)
 
@@ -139,7 +138,7 @@ def test_every_kind_of_fault_can_be_made(name: str) -> None:
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
 def test_damaged_programs_keep_the_ends_of_their_lines(end: str) -> None:
     program = parse_program(SQUARE.replace("\n", end))
-    for drill in drills_of(program, CheckSettings(), Asked(2, 20)):
+    for drill in drills_of(program, CheckSettings(), DrillRequest(2, 20)):
         bare = drill.program.text.replace(end, "")
         assert "\r" not in bare
         assert "\n" not in bare
@@ -147,7 +146,7 @@ def test_damaged_programs_keep_the_ends_of_their_lines(end: str) -> None:
 
 def test_lines_are_those_that_the_check_counts() -> None:
     text = SQUARE.replace("GYL2\n", "GYL2 //one\x0btwo\u2028three\x1c\n")
-    for drill in drills_of(parse_program(text), CheckSettings(), Asked(4, 10)):
+    for drill in drills_of(parse_program(text), CheckSettings(), DrillRequest(4, 10)):
         listed = lines_of(drill.program)
         assert len(listed) in {4, 5, 6}
         assert all(drill.program.excerpt(line) == listed[line - 1] for line in drill.lines)

@@ -14,9 +14,8 @@ from parser.geometry.along import places
 from parser.geometry.broad_phase_places import near_curves
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.directions import directions
-from parser.geometry.distance import distance_to_curves
-from parser.geometry.feet import feet
-from sim.make.cam.passes.beside.ends import Met, met_near, with_ends
+from parser.geometry.distance import distance_to_curves, feet
+from sim.make.cam.passes.beside.convex import Met, met_near, with_ends
 from sim.setup.making import Corners
 
 _FEW = 4096  # pairs
@@ -29,21 +28,21 @@ def clearance_um(contour: Curves, curves: Curves, within_um: float) -> Floats:
     Two curves that do not cross are nearest at an end of one of them, or on a line through the centre of one and across
     the other, or through the centres of both.
     """
-    one, other = _pairs(contour, curves, within_um)
+    this, other = _pairs(contour, curves, within_um)
     away = np.minimum.reduce(
         [
-            _away(contour, other, curves.start_um[one]),
-            _away(contour, other, curves.end_um[one]),
-            _away(curves, one, contour.start_um[other]),
-            _away(curves, one, contour.end_um[other]),
+            _away(contour, other, curves.start_um[this]),
+            _away(contour, other, curves.end_um[this]),
+            _away(curves, this, contour.start_um[other]),
+            _away(curves, this, contour.end_um[other]),
         ]
     )
     arc = np.flatnonzero(contour.is_arc[other])
-    away[arc] = np.minimum(away[arc], _across(contour, other[arc], curves, one[arc]))
-    arc = np.flatnonzero(curves.is_arc[one])
-    away[arc] = np.minimum(away[arc], _across(curves, one[arc], contour, other[arc]))
+    away[arc] = np.minimum(away[arc], _across(contour, other[arc], curves, this[arc]))
+    arc = np.flatnonzero(curves.is_arc[this])
+    away[arc] = np.minimum(away[arc], _across(curves, this[arc], contour, other[arc]))
     result = np.full(len(curves), np.inf)
-    np.minimum.at(result, one, away)
+    np.minimum.at(result, this, away)
     return result
 
 

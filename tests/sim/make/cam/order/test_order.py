@@ -8,8 +8,7 @@ import pytest
 from parser.geometry.curves import curves_between
 from parser.toolpath import Point
 from sim.make.cam.model import CannotCutError, Entry, Figure, Thread
-from sim.make.cam.order.nested import around
-from sim.make.cam.order.order import in_order
+from sim.make.cam.order.order import around, in_order
 from sim.make.cam.order.sides import way_of, with_sides
 from sim.setup.making import LayerWish, Making
 

@@ -5,10 +5,10 @@ import time
 import pytest
 from drawn_loops import Piece, circle, drawing_of, polygon, square
 
-from parser.findings.remarks import remark_text
+from parser.findings.catalogue import remark_text
 from sim.make.cam.model import CannotCutError
+from sim.make.cam.parts.contacts import walls
 from sim.make.cam.parts.parts import parts_of
-from sim.make.cam.parts.walls import walls
 from sim.setup.making import Making
 
 REACH_UM = 100.0

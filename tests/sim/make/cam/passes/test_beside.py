@@ -11,9 +11,8 @@ from controller.offset.reach import reach
 from controller.offset.sections import Side
 from parser.geometry.curves import Curves
 from sim.make.cam.model import CannotCutError
-from sim.make.cam.passes.beside.beside import beside
+from sim.make.cam.passes.beside.beside import SHORT_UM, offset_path
 from sim.make.cam.passes.beside.convex import beside_convex
-from sim.make.cam.passes.beside.short import SHORT_UM
 from sim.setup.making import Corners
 
 WITHIN_UM = 0.3
@@ -40,7 +39,7 @@ def test_round_corners_are_the_true_offset(seed: int, inside: bool) -> None:
     rng = random.Random(seed)
     closed = star(rng, rng.randint(3, 12), arcs=seed % 2 == 0)
     by_um = rng.choice((10.0, 100.0, 180.0))
-    way = beside(figure(closed, inside=inside), by_um, "round")
+    way = offset_path(figure(closed, inside=inside), by_um, "round")
     assert is_closed(way)
     lies_between(way, closed, by_um, inside)
 
@@ -58,7 +57,7 @@ def test_sharp_corners_of_up_to_90_degrees_meet_where_lines_do(inside: bool) -> 
         (7000, 9000),
         (0, 9000),
     ]
-    way = beside(figure(contour([(float(x), float(y)) for x, y in places]), inside=inside), 100.0, "sharp")
+    way = offset_path(figure(contour([(float(x), float(y)) for x, y in places]), inside=inside), 100.0, "sharp")
     assert len(way) == len(places)
     drawn = shapely.Polygon(places)
     mitred = drawn.buffer(-100.0 if inside else 100.0, join_style="mitre", mitre_limit=3.0)
@@ -69,12 +68,12 @@ def test_sharp_corners_of_up_to_90_degrees_meet_where_lines_do(inside: bool) -> 
 def test_sharp_corners_take_no_more_of_the_part_and_stay_near_it(seed: int) -> None:
     rng = random.Random(seed)
     closed, by_um = star(rng, rng.randint(3, 12), arcs=True), 120.0
-    way = beside(figure(closed, inside=False), by_um, "sharp")
+    way = offset_path(figure(closed, inside=False), by_um, "sharp")
     off = shapely.distance(shapely.points(flat(way)), shapely.LinearRing(flat(closed)))
     assert is_closed(way)
     assert off.min() >= by_um - WITHIN_UM - DRAWN_UM
     assert off.max() <= by_um * 1.43
-    assert region(way).buffer(0.05).contains(region(beside(figure(closed, inside=False), by_um, "round")))
+    assert region(way).buffer(0.05).contains(region(offset_path(figure(closed, inside=False), by_um, "round")))
 
 
 def test_a_sharp_corner_that_would_cut_the_other_side_of_a_gap_stays_round() -> None:
@@ -82,7 +81,7 @@ def test_a_sharp_corner_that_would_cut_the_other_side_of_a_gap_stays_round() -> 
     places = [(0.0, 0.0), (9000.0, 0.0), (9000.0, 9000.0), (5210.0, 9000.0), (5210.0, 2000.0), (4300.0, 2000.0)]
     places += [(4300.0, 4000.0), (5000.0, 4700.0), (4300.0, 5400.0), (4300.0, 9000.0), (0.0, 9000.0)]
     closed = contour(places)
-    way = beside(figure(closed, inside=False), 100.0, "sharp")
+    way = offset_path(figure(closed, inside=False), 100.0, "sharp")
     off = shapely.distance(shapely.points(flat(way)), shapely.LinearRing(flat(closed)))
     assert off.min() >= 100.0 - 0.1 - DRAWN_UM
     assert way.is_arc.sum() == 1
@@ -116,7 +115,7 @@ def test_most_that_turns_one_way_is_not_left_to_the_general_way() -> None:
 @pytest.mark.parametrize("count", [18, 24, 60])
 def test_joints_of_fitted_arcs_are_mended_without_a_block_more(count: int, corners: Corners, inside: bool) -> None:
     closed = fitted_ellipse(count)
-    way = beside(figure(closed, inside=inside), 100.0, corners)
+    way = offset_path(figure(closed, inside=inside), 100.0, corners)
     assert len(way) == count
     assert way.length_um.min() > 100.0
     assert is_closed(way)
@@ -129,7 +128,7 @@ def test_pieces_too_short_for_whole_um_are_gone() -> None:
     places += [(4998.6, 5000.05), (0.0, 5000.05)]
     for inside in (True, False):
         closed = contour(places)
-        way = beside(figure(closed, inside=inside), 100.0, "round")
+        way = offset_path(figure(closed, inside=inside), 100.0, "round")
         assert is_closed(way)
         lies_between(way, closed, 100.0, inside)
         assert way.length_um.min() >= SHORT_UM
@@ -137,7 +136,7 @@ def test_pieces_too_short_for_whole_um_are_gone() -> None:
 
 def test_a_slot_narrower_than_the_wire_is_named_with_its_place_and_width() -> None:
     with pytest.raises(CannotCutError) as error:
-        beside(figure(_with_slot(150.0, 2000.0), inside=True, number=7), 100.0, "sharp")
+        offset_path(figure(_with_slot(150.0, 2000.0), inside=True, number=7), 100.0, "sharp")
     refusal = error.value.refusal
     assert refusal.why == "narrow-slot"
     assert refusal.places_um == (pytest.approx((5000.0, 2000.0)),)
@@ -150,18 +149,18 @@ def test_lips_that_are_round_or_all_but_let_the_wire_in_make_a_slot_and_sides_th
     lips = contour(rounded_lips, [0.0, 0.0, -0.38, 0.0, 0.0, 0.0, -0.38, 0.0, 0.0, 0.0])
     for closed in (lips, _with_slot(199.9, 2000.0), _with_slot(199.9, 300.0)):
         with pytest.raises(CannotCutError) as error:
-            beside(figure(closed, inside=True), 100.0, "sharp")
+            offset_path(figure(closed, inside=True), 100.0, "sharp")
         assert error.value.refusal.why == "narrow-slot"
     # Between arcs that bend toward the wire, the corner is deeper than between lines, and a corner still.
     places = [(0.0, 0.0), (3000.0, 1000.0), (0.0, 2000.0), (-3000.0, 2000.0), (-3000.0, 0.0)]
     corner = contour(places, [-0.1, -0.1, 0.0, 0.0, 0.0])
-    lies_between(beside(figure(corner, inside=True), 100.0, "round"), corner, 100.0, True)
+    lies_between(offset_path(figure(corner, inside=True), 100.0, "round"), corner, 100.0, True)
 
 
 def test_a_slot_as_wide_as_the_wire_and_a_step_lower_than_the_wire_are_none() -> None:
     step = _with_slot(1500.0, 50.0)
-    lies_between(beside(figure(step, inside=True), 100.0, "round"), step, 100.0, True)
-    way = beside(figure(_with_slot(200.0, 2000.0), inside=True), 100.0, "round")
+    lies_between(offset_path(figure(step, inside=True), 100.0, "round"), step, 100.0, True)
+    way = offset_path(figure(_with_slot(200.0, 2000.0), inside=True), 100.0, "round")
     assert way.end_um[:, 0].max() == pytest.approx(6900.0)  # to the bottom of the slot, and back on the same line
 
 
@@ -169,7 +168,7 @@ def test_a_neck_is_named_where_the_wire_does_not_pass() -> None:
     places = [(0, 0), (5000, 0), (5000, 1925), (6000, 1925), (6000, 0), (9000, 0), (9000, 4000), (6000, 4000)]
     places += [(6000, 2075), (5000, 2075), (5000, 4000), (0, 4000)]
     with pytest.raises(CannotCutError) as error:
-        beside(figure(contour([(float(x), float(y)) for x, y in places]), inside=True), 100.0, "sharp")
+        offset_path(figure(contour([(float(x), float(y)) for x, y in places]), inside=True), 100.0, "sharp")
     refusal = error.value.refusal
     assert refusal.why == "narrow-neck"
     assert sorted(place.x for place in refusal.places_um) == pytest.approx([5000.0, 6000.0])
@@ -178,7 +177,7 @@ def test_a_neck_is_named_where_the_wire_does_not_pass() -> None:
 def test_a_hole_that_the_wire_does_not_fit_in_is_named() -> None:
     for closed in (circle(90.0), contour([(0.0, 0.0), (150.0, 0.0), (150.0, 900.0), (0.0, 900.0)])):
         with pytest.raises(CannotCutError) as error:
-            beside(figure(closed, inside=True), 100.0, "sharp")
+            offset_path(figure(closed, inside=True), 100.0, "sharp")
         assert error.value.refusal.why == "too-small"
 
 

@@ -9,7 +9,7 @@ from ezdxf.layouts import Modelspace
 
 from parser.shape.passes import find_passes
 from parser.toolpath import Point
-from sim.make.cam.maker import Made, made, unproved
+from sim.make.cam.maker import MadeProgram, made_program, unproved
 from sim.make.convert.wanted import Wanted
 from sim.setup.machine.machine import load_machine
 from sim.setup.making import Making
@@ -18,9 +18,9 @@ from sim.setup.scenario import Scenario
 PASSES = (180.0, 120.0, 100.0)
 
 
-def run(path: Path, making: Making) -> Made:
-    found = made(path, making, Wanted("3b"), Scenario("part", path.with_suffix(".3b"), load_machine("dk7740")))
-    assert isinstance(found, Made)
+def run(path: Path, making: Making) -> MadeProgram:
+    found = made_program(path, making, Wanted("3b"), Scenario("part", path.with_suffix(".3b"), load_machine("dk7740")))
+    assert isinstance(found, MadeProgram)
     return found
 
 
@@ -81,7 +81,7 @@ def test_a_step_to_the_next_pass_behind_a_corner_is_no_turn_of_its_own(tmp_path:
     making = making._replace(starts_um=(Point(8000.0, 12000.0),))
     scenario = Scenario("part", tmp_path / "part.3b", load_machine("dk7740"))
     found = unproved(drawn(tmp_path, box), making, Wanted("3b"), scenario)
-    assert isinstance(found, Made)
+    assert isinstance(found, MadeProgram)
     passes = find_passes(found.program.toolpath).passes
     assert [(one.is_back, one.is_tab) for one in passes][:2] == [(False, False), (True, False)]
     assert passes[2].is_tab
@@ -98,6 +98,6 @@ def test_a_tab_round_corners_is_not_read_as_a_jump(
     making = Making(passes_um=passes_um, tab_um=8000.0, direction=direction)
     scenario = Scenario("part", tmp_path / "part.3b", load_machine("dk7740"))
     found = unproved(drawn(tmp_path, triangle), making, Wanted("3b"), scenario)
-    assert isinstance(found, Made)
+    assert isinstance(found, MadeProgram)
     assert found.written.differs == ""
     assert not found.program.toolpath.is_jump.any()

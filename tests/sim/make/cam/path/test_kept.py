@@ -13,9 +13,9 @@ from parser.geometry.curves import CurveKind
 from parser.write.iso_choices import iso_choices
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands
-from sim.make.cam.maker import Made, NotMade, unproved
-from sim.make.cam.path.drafted import draft_of_plan
-from sim.make.cam.proof.proof import Given, proved
+from sim.make.cam.maker import MadeProgram, NotMade, unproved
+from sim.make.cam.path.kept import draft_of_plan
+from sim.make.cam.proof.proof import ToProve, proved
 from sim.make.convert.wanted import Wanted
 from sim.setup.making import Making
 
@@ -27,7 +27,7 @@ def plate_path(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return plate_file(tmp_path_factory.mktemp("plate"))
 
 
-def made(path: Path, making: Making, dialect: str = "skd2") -> Made | NotMade:
+def made(path: Path, making: Making, dialect: str = "skd2") -> MadeProgram | NotMade:
     return unproved(path, making, Wanted("iso", iso_choices(dialect), keeps=True), plain_scenario())
 
 
@@ -35,7 +35,7 @@ def made(path: Path, making: Making, dialect: str = "skd2") -> Made | NotMade:
 @pytest.mark.parametrize("passes_um", [(100.0,), (150.0, 120.0, 100.0)])
 def test_the_controller_makes_the_path_of_the_plan(path: Path, dialect: str, passes_um: tuple[float, ...]) -> None:
     done = made(path, Making(passes_um=passes_um), dialect)
-    assert isinstance(done, Made)
+    assert isinstance(done, MadeProgram)
     assert done.written.differs == ""
     compensated = run_checks(done.program, Demands()).compensation
     assert compensated is not None
@@ -47,7 +47,7 @@ def test_the_controller_makes_the_path_of_the_plan(path: Path, dialect: str, pas
 
 def test_each_pass_has_its_side_and_its_register(path: Path) -> None:
     done = made(path, Making(passes_um=(150.0, 120.0, 100.0)))
-    assert isinstance(done, Made)
+    assert isinstance(done, MadeProgram)
     told = done.draft.compensation
     assert told is not None
     first = len(done.draft.stops) and done.draft.stops[0].after
@@ -67,12 +67,12 @@ def test_4b_has_the_contour_whose_radii_the_controller_changes(tmp_path: Path) -
     path = drawn(tmp_path, rounded)
     wanted = Wanted("4b", keeps=True)
     done = unproved(path, Making(passes_um=(100.0,)), wanted, plain_scenario())
-    assert isinstance(done, Made)
+    assert isinstance(done, MadeProgram)
     words = done.program.toolpath.words
     assert words is not None
     assert words.radius_um[words.turn != 0].tolist() == [5000] * 4
     assert words.curve[words.turn != 0].tolist() == [1] * 4
-    proof = proved(Given(done.program, done.plan, done.plan.drawing, done.written, wanted.bound_um), plain_scenario())
+    proof = proved(ToProve(done.program, done.plan, done.plan.drawing, done.written, wanted.bound_um), plain_scenario())
     assert proof.verdict == "pass"
     assert "added" in {note.name for note in proof.notes}
 

@@ -5,7 +5,7 @@ from typing import Any, cast
 
 from parser.findings.facts import TightCorner
 from parser.findings.findings import Finding
-from sim.make.cam.proof.result import Proof
+from sim.make.cam.proof.target import Proof
 from sim.measure.compare.result import Comparison
 from sim.setup.wire import DEFAULT_WIRE
 

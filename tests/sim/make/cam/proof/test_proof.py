@@ -14,7 +14,7 @@ from parser.toolpath import Point
 from parser.write.iso_choices import iso_choices
 from sim.make.cam.model import CutPlan, FigureCut
 from sim.make.cam.passes.passes import figure_cut
-from sim.make.cam.proof.result import Proof
+from sim.make.cam.proof.target import Proof
 from sim.make.convert.wanted import Wanted
 from sim.setup.making import Making
 

@@ -19,7 +19,7 @@ from sim.jobs.run_into import FILES, run_into
 from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
 from sim.setup.scenario import Scenario
-from sim.show.index_page.thumbnail import thumbnail
+from sim.show.index_page.page import thumbnail
 from sim.show.words.phrases import same
 
 _BY_ITSELF: Final = threading.Lock()  # workers of a cluster may have several threads, and pygame knows one
@@ -79,9 +79,9 @@ def run_task(task: Task) -> Done:
         return fault_of(task.scenario.title, traceback.format_exc())
 
 
-def fault_of(title: str, told: str) -> Done:
+def fault_of(title: str, told_text: str) -> Done:
     """A program at which drycut itself failed; the last line of what is told stands in its row."""
-    return Done(Row("fault", title, same(told.strip().splitlines()[-1])), {}, told)
+    return Done(Row("fault", title, same(told_text.strip().splitlines()[-1])), {}, told_text)
 
 
 def _run(task: Task, folder: Path) -> Done:

@@ -1,0 +1,67 @@
+"""Names of the code: nouns of the field, none of the words that say nothing alone; `docs/words.toml` lists both."""
+
+import ast
+import re
+import tomllib
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+from places import ROOT
+
+WORDS = tomllib.loads((ROOT / "docs" / "words.toml").read_text("utf-8"))
+NO_NAMES = frozenset(WORDS["no-names"]["words"])
+PACKAGES = ("parser", "controller", "sim", "drycut")
+
+
+@cache
+def trees() -> dict[Path, ast.Module]:
+    files = (path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py")))
+    return {path.relative_to(ROOT): ast.parse(path.read_text("utf-8")) for path in files}
+
+
+def bare(tree: ast.AST) -> Iterator[str]:
+    """Functions, methods, classes and loop variables that a word of the list alone names."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name.strip("_").lower() in NO_NAMES:
+            yield f"{node.lineno}: {node.name}"
+        elif isinstance(node, ast.arg) and node.arg == "one":
+            yield f"{node.lineno}: {node.arg}"
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store) and node.id == "one":
+            yield f"{node.lineno}: {node.id}"
+
+
+def test_no_function_class_or_loop_variable_has_a_name_that_says_nothing() -> None:
+    assert [f"{path}:{name}" for path, tree in trees().items() for name in bare(tree)] == []
+
+
+@pytest.mark.parametrize(
+    ("source", "found"),
+    [
+        ("def kept(): ...", ["1: kept"]),
+        ("class _Asked: ...", ["1: _Asked"]),
+        ("for one in passes: ...", ["1: one"]),
+        ("[one for one in passes]", ["1: one"]),
+        ("lambda one: one", ["1: one"]),
+        ("def kept_rows(): ...", []),
+        ("for block in blocks: ...", []),
+    ],
+)
+def test_a_bare_name_is_found(source: str, found: list[str]) -> None:
+    assert list(bare(ast.parse(source))) == found
+
+
+@pytest.mark.parametrize("word", WORDS["words"])
+def test_each_word_of_the_glossary_is_one_that_the_code_uses(word: str) -> None:
+    pattern = re.compile(rf"\b{re.escape(word)}(e?s)?\b", re.IGNORECASE)
+    texts = (ast.unparse(tree).replace("_", " ") for tree in trees().values())
+    assert any(pattern.search(text) for text in texts)
+
+
+@pytest.mark.parametrize("word", WORDS["words"])
+def test_each_word_is_explained_in_a_sentence(word: str) -> None:
+    meaning = WORDS["words"][word]
+    assert meaning[0].isupper()
+    assert meaning.endswith(".")
+    assert len(meaning) <= 160
