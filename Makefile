@@ -75,6 +75,7 @@ pages: $(READY)
 	$(BIN)/python -m sim.show.findings.catalogue_document
 	$(BIN)/python -m sim.setup.key_tables
 	$(BIN)/python tests/tools/door_page.py
+	PYTHONPATH=. $(BIN)/python tests/tools/schema_pages.py
 
 # Renew the lock for every Python the project supports.
 lock: $(READY)

@@ -8,7 +8,7 @@ from parser.findings.errors import SettingsError
 from parser.program import dialects
 from parser.units import from_mm
 from sim.setup.toml.keys import Key
-from sim.setup.toml.kinds import OneOf, ValueKind, in_mm
+from sim.setup.toml.kinds import OneOf, ValueKind, in_mm, limits
 from sim.setup.toml.reader import Bound, number, section
 
 REGISTER_MM = Bound(-10.0, 10.0)
@@ -33,6 +33,10 @@ class RegisterTable(ValueKind):
     def written(self, value: Any) -> dict[str, float] | None:
         """A table; nothing where there are none."""
         return {name: in_mm(by_um) for name, by_um in value} or None
+
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        return {"type": "object", "additionalProperties": {"type": "number", **limits(REGISTER_MM)}}
 
 
 def _register(name: str, by_mm: object, where: str) -> tuple[str, float]:

@@ -13,7 +13,7 @@ from parser.geometry.curves import Floats
 from parser.toolpath import Point
 from parser.units import from_mm
 from sim.setup.toml.keys import Key, Section
-from sim.setup.toml.kinds import Name, ValueKind, in_mm
+from sim.setup.toml.kinds import Name, ValueKind, in_mm, pair_schema
 from sim.setup.toml.reader import PLACE_MM, Bound, number, tables
 
 Outline = tuple[Point, ...]
@@ -44,6 +44,10 @@ class OutlineMm(ValueKind):
     def written(self, value: Any) -> list[list[float]]:
         """A list of its corners."""
         return [[in_mm(corner.x), in_mm(corner.y)] for corner in value]
+
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        return {"type": "array", "minItems": 3, "items": pair_schema(PLACE_MM)}
 
 
 CLAMPS = Section(

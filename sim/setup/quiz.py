@@ -71,6 +71,11 @@ class _Answers(ValueKind):
         """Without control characters."""
         return [printable(answer) for answer in value]
 
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        length = {"minItems": int(ANSWERS.low), "maxItems": int(ANSWERS.high)}
+        return {"type": "array", "uniqueItems": True, **length, "items": {"type": "string", "minLength": 1}}
+
 
 def _of_written(get: Callable[[WrittenQuestion], Any]) -> Callable[[Question], Any]:
     """How something of a question that is written out is found; the others have none of it."""

@@ -7,7 +7,7 @@ from typing import Any, Literal, NamedTuple
 
 from parser.findings.errors import SettingsError
 from sim.setup.toml.keys import Key, Section
-from sim.setup.toml.kinds import MS_AS_S, Number, OneOf, ValueKind
+from sim.setup.toml.kinds import MS_AS_S, Number, OneOf, ValueKind, limits
 from sim.setup.toml.reader import Bound, number, section
 
 _FORCE_N = Bound(0.1, 1e6)
@@ -94,6 +94,12 @@ class _ForceAtRate(ValueKind):
     def written(self, value: Any) -> list[list[float]]:
         """A list of lists."""
         return [list(point) for point in value]
+
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        rate, force = ({"type": "number", **limits(bound)} for bound in (_RATE_HZ, _FORCE_N))
+        point = {"type": "array", "minItems": 2, "maxItems": 2, "prefixItems": [rate, force]}
+        return {"type": "array", "items": point}
 
 
 TABLE = Section(

@@ -63,6 +63,13 @@ class Key:
         return None if nothing else self.kind.written(value)
 
     @property
+    def schema(self) -> dict[str, Any]:
+        """JSON schema of its values, with the default where it can stand in a file."""
+        is_told = self.default is not None and not self.is_required and self.default not in ((), "")
+        is_finite = not (isinstance(self.default, float) and math.isinf(self.default))
+        return self.kind.schema() | ({"default": self.default} if is_told and is_finite else {})
+
+    @property
     def path(self) -> str:
         """Where it is kept, with dots."""
         return self.field or self.name

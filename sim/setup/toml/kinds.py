@@ -40,6 +40,18 @@ US_AS_S = Scale(lambda us: us / 1e6, lambda s: round(s * 1e6, DIGITS))
 DEGREES_AS_RAD = Scale(math.radians, lambda rad: round(math.degrees(rad), DIGITS))
 
 
+def limits(bound: Bound) -> dict[str, float]:
+    """JSON schema of the numbers within bounds, infinite ones left out."""
+    ends = {"minimum": bound.low, "maximum": bound.high}
+    return {name: end for name, end in ends.items() if math.isfinite(end)}
+
+
+def pair_schema(bound: Bound) -> dict[str, Any]:
+    """JSON schema of two numbers within bounds, such as a place [x, y]."""
+    entry = {"type": "number", **limits(bound)}
+    return {"type": "array", "minItems": 2, "maxItems": 2, "items": entry}
+
+
 class ValueKind(ABC):
     """What the values of a key are. Each kind has a name, by which texts about settings call it."""
 
@@ -48,6 +60,10 @@ class ValueKind(ABC):
     """Unit of its numbers in a file."""
     bound: Bound | None = None
     """Bounds of its numbers, or of how many there are."""
+
+    @abstractmethod
+    def schema(self) -> dict[str, Any]:
+        """JSON schema of its values as they stand in a file."""
 
     @abstractmethod
     def checked(self, table: Mapping[str, Any], key: str, where: str) -> Any:
@@ -70,6 +86,10 @@ class Text(ValueKind):
     def checked(self, table: Mapping[str, Any], key: str, where: str) -> str:
         """The text."""
         return text(table, key, where)
+
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        return {"type": "string", "minLength": 1}
 
 
 class Name(Text):
@@ -115,6 +135,10 @@ class Keys(ValueKind):
         """A list of them; nothing where there are none."""
         return list(value) or None
 
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        return {"type": "array", "items": {"type": "string"}}
+
 
 @dataclass(frozen=True)
 class OneOf(ValueKind):
@@ -129,6 +153,10 @@ class OneOf(ValueKind):
         if word not in self.words:
             raise SettingsError("key-not-one-of", where=where, key=key, words=", ".join(self.words), found=word)
         return word
+
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        return {"enum": list(self.words)}
 
 
 @dataclass(frozen=True)
@@ -154,6 +182,10 @@ class Number(ValueKind):
         """In the unit of the file."""
         return self.scale.written(value)
 
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        return {"type": "number", **limits(self.bound)}
+
 
 class Whole(Number):
     """A whole number, written without a point."""
@@ -170,6 +202,10 @@ class Whole(Number):
         """A count."""
         return int(value)
 
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        return {**super().schema(), "type": "integer"}
+
 
 class Truth(ValueKind):
     """True or false."""
@@ -179,6 +215,10 @@ class Truth(ValueKind):
     def checked(self, table: Mapping[str, Any], key: str, where: str) -> bool:
         """The truth."""
         return truth(table, key, where)
+
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        return {"type": "boolean"}
 
 
 class TablePlace(ValueKind):
@@ -195,6 +235,10 @@ class TablePlace(ValueKind):
     def written(self, value: Any) -> list[float]:
         """A list of two."""
         return list(value)
+
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        return pair_schema(PLACE_MM)
 
 
 MOST = 10_000
@@ -216,6 +260,10 @@ class _List(ValueKind):
 
     def _entry(self, value: Any, where: str) -> Any:
         return number(value, self.bound, where)
+
+    def schema(self) -> dict[str, Any]:
+        """Of a list."""
+        return {"type": "array", "maxItems": MOST, "items": {"type": "number", **limits(self.bound)}}
 
 
 class Lengths(_List):
@@ -253,6 +301,10 @@ class Places(_List):
         """In mm."""
         return [[in_mm(place.x), in_mm(place.y)] for place in value] or None
 
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        return {**super().schema(), "items": pair_schema(self.bound)}
+
 
 class Wholes(_List):
     """Whole numbers."""
@@ -271,3 +323,7 @@ class Wholes(_List):
     def written(self, value: Any) -> list[int] | None:
         """A list of them."""
         return list(value) or None
+
+    def schema(self) -> dict[str, Any]:
+        """Of its values."""
+        return {**super().schema(), "items": {"type": "integer", **limits(self.bound)}}

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from places import MACHINES, ROOT
 
+from parser.findings.catalogue import Bilingual
 from parser.findings.errors import SettingsError
 from parser.program import load_program
 from sim.setup import scenario as scenarios
@@ -19,7 +20,7 @@ from sim.setup.key_words import words, words_of
 from sim.setup.machine import machine as machines
 from sim.setup.machine import table_model
 from sim.setup.machine.machine import load_machine, machine_sections
-from sim.setup.quiz import QUIZ, Said
+from sim.setup.quiz import QUIZ
 from sim.setup.scenario import Scenario, load_scenario, scenario_sections
 from sim.setup.toml.keys import Key, Section, toml_text
 from sim.setup.toml.kinds import MM_AS_UM, Number, OneOf
@@ -86,7 +87,7 @@ def test_a_key_added_to_the_table_is_read_written_shown_and_documented(
     (tmp_path / "again.toml").write_text(text, "utf-8")
     assert load_machine(str(tmp_path / "again.toml")) == read
 
-    setting = Setting(Said("pitch error of X", "X 螺距误差"), "pitch_error_x_um", Said("3.5", "3.5"), "µm")
+    setting = Setting(Bilingual("pitch error of X", "X 螺距误差"), "pitch_error_x_um", Bilingual("3.5", "3.5"), "µm")
     assert shown(Scenario("part", Path("part.3b"), read), "pitch_error_x_um") == setting
     row = "| `[table] pitch_error_x_um` | µm | −100 to 100 | 0 | error of the screw |"
     assert documented("[table] pitch_error_x_um") == row
@@ -114,7 +115,7 @@ def test_a_key_added_to_the_wire_is_read_written_shown_and_documented(
     assert load_scenario(tmp_path) == read
 
     assert shown(read, "coating_mm") == Setting(
-        Said("coating", "镀层"), "coating_mm", Said("0.013", "0.013"), unit="mm"
+        Bilingual("coating", "镀层"), "coating_mm", Bilingual("0.013", "0.013"), unit="mm"
     )
     assert documented("[wire] coating_mm") == "| `[wire] coating_mm` | mm | 0 to 0.02 | 0.001 | zinc round the core |"
 

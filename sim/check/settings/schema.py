@@ -1,0 +1,55 @@
+"""JSON schema of ``drycut.toml``, for editors that complete and check TOML."""
+
+from typing import Any, Final
+
+from parser.findings.codes import Severity
+from sim.setup.dialect import READ_WITH
+from sim.setup.file_schemas import DRAFT
+from sim.setup.toml.kinds import limits, pair_schema
+from sim.setup.toml.reader import PLACE_MM, Bound
+from sim.setup.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
+
+_TEXT: Final = {"type": "string", "minLength": 1}
+_CODES: Final = {"type": "array", "items": {"type": "string", "examples": ["3B2", "ISO305"]}}
+_MARKS: Final = {"type": "array", "items": {"type": "string", "pattern": "^[A-Za-z]{0,4}$"}}
+
+
+def settings_schema() -> dict[str, Any]:
+    """JSON schema of ``drycut.toml``, which is that of ``[tool.drycut]`` in ``pyproject.toml``, too."""
+    wire = _table({"diameter_mm": _number(WIRE_DIAMETER_MM), "spark_gap_mm": _number(SPARK_GAP_MM)})
+    keys: dict[str, tuple[str, dict[str, Any]]] = {
+        "root": ("the search for settings ends here", {"type": "boolean"}),
+        "machine": ("name of a machine, or its .toml file", {"type": "string"}),
+        "start_mm": ("place of the program's start on the table", pair_schema(PLACE_MM)),
+        "open": ("contours may stay open", {"type": "boolean"}),
+        "select": ("codes of findings that are shown, or their beginnings", _CODES),
+        "ignore": ("codes of findings that are not shown, or their beginnings", _CODES),
+        "fail_on": ("least severity that fails", {"enum": [str(Severity.WARNING), str(Severity.ERROR)]}),
+        "exclude": ("patterns of files that are left out where a folder is looked through", _list_of(_TEXT)),
+        "baseline": ("file of known findings", _TEXT),
+        **{key.name: (f"{key.name} of ISO programs", key.schema) for key in READ_WITH},
+        "end_marks": ("more words for the end of a 3B program", _MARKS),
+        "pause_marks": ("more words for a pause in a 3B program", _MARKS),
+        "wire": (
+            "wire that corners and offsets are held against",
+            wire,
+        ),
+        "per_file_ignores": (
+            "codes that are not shown of the files of a pattern",
+            {"type": "object", "additionalProperties": _CODES},
+        ),
+    }
+    properties = {name: {"description": meaning, **schema} for name, (meaning, schema) in keys.items()}
+    return {"$schema": DRAFT, "title": "drycut.toml (docs/check.md)", **_table(properties)}
+
+
+def _table(properties: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "object", "additionalProperties": False, "properties": properties}
+
+
+def _list_of(entry: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "array", "items": entry}
+
+
+def _number(bound: Bound) -> dict[str, Any]:
+    return {"type": "number", **limits(bound)}
