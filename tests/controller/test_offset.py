@@ -10,6 +10,7 @@ import pytest
 import shapely
 import sound_offset
 from chunked import chunks_of
+from depth import cases
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from paths import Pen, flipped
@@ -96,9 +97,10 @@ def same_curves(one: Curves, other: Curves) -> bool:
     return all(np.allclose(getattr(one, c), getattr(other, c), rtol=0.0, atol=SAME_UM, equal_nan=True) for c in columns)
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("seed", range(0, 520, 13))
 def test_paths_are_whole_and_arcs_exact(seed: int) -> None:
-    for shape, offset, side in (random_shape(k) for k in range(seed, seed + 13)):
+    for shape, offset, side in (random_shape(k) for k in range(seed, seed + len(cases(4, 13)))):
         toolpath = drawn(shape, (shape.start[0] - 3000.0, shape.start[1] + 100.0))
         path = compensate(toolpath, [OffsetSection(1, len(toolpath) - 1, True)], offset, side)
         assert_sound(path)

@@ -176,7 +176,7 @@ def hold(seed: int) -> None:
 @pytest.mark.deep
 @pytest.mark.parametrize("part", range(4))
 def test_a_certain_mend_gives_the_sound_program_at_every_door(part: int) -> None:
-    for seed in cases(12, 25_000):
+    for seed in cases(5, 25_000):
         hold(4 * seed + part)
 
 

@@ -75,7 +75,7 @@ def test_a_lead_that_strays_is_told_where_it_cuts_into_the_part_and_nowhere_else
     So it takes a step that strays between two passes.
     """
     said: Counter[str] = Counter()
-    for number in cases(48, 4800):
+    for number in cases(18, 4800):
         rng, style = random.Random(f"stray {number}"), TWELVE[number % len(TWELVE)]
         program = of_style(rng, style, random_stray(rng))
         depth_um = gouge_um(program)
