@@ -18,12 +18,13 @@ if TYPE_CHECKING:
     from parser.findings.findings import Finding
     from parser.program import Program, parse_program, read_program
     from parser.write.iso_choices import iso_choices
-    from sim.check.batch import check_program
+    from sim.check.file_check import check_program
     from sim.check.result import CheckResult
     from sim.check.settings import CheckSettings
     from sim.jobs.run_into import run_into
     from sim.jobs.trace_file import StoredTrace, read_trace
-    from sim.make.cam.maker import MadeProgram, NotMade
+    from sim.make.cam.maker import MadeProgram as Made
+    from sim.make.cam.maker import NotMade
     from sim.make.cam.maker import made_program as make_program
     from sim.make.convert.convert import Converted, Refused
     from sim.make.convert.convert import converted as convert_program
@@ -53,7 +54,7 @@ __all__ = [
     "DryRun",
     "DrycutError",
     "Finding",
-    "MadeProgram",
+    "Made",
     "Making",
     "NotMade",
     "Offset",
@@ -96,7 +97,7 @@ _HOMES = {
     "DryRun": "sim.run.dryrun",
     "DrycutError": "parser.findings.errors",
     "Finding": "parser.findings.findings",
-    "MadeProgram": "sim.make.cam.maker",
+    "Made": "sim.make.cam.maker:MadeProgram",
     "Making": "sim.setup.making",
     "NotMade": "sim.make.cam.maker",
     "Offset": "sim.setup.part",
@@ -110,7 +111,7 @@ _HOMES = {
     "Wire": "sim.setup.wire",
     "__version__": "parser",
     "build_report": "sim.run.report",
-    "check_program": "sim.check.batch",
+    "check_program": "sim.check.file_check",
     "compare_program": "sim.measure.compare.compared_program",
     "convert_program": "sim.make.convert.convert:converted",
     "dry_run": "sim.run.running",

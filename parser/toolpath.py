@@ -9,10 +9,10 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from parser.controller_words.compensation import Compensation
+from parser.controller_words.step_words import StepWords
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints
 from parser.text.source import Source
-from parser.told.compensation import Compensation
-from parser.told.step_words import StepWords
 
 _NO_COLUMNS = ("words", "source", "stops", "compensation", "told_center_um")
 

@@ -22,7 +22,7 @@ from numba import types
 from numba.core import config, event
 from numpy.typing import NDArray
 
-from controller.compiled.telling import compiling
+from controller.compiled.compiling import compiling
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from controller.offset.sections import OffsetSection
 from controller.offset.shifted import NOTHING_UM
+from parser.controller_words.compensation import Compensation, CompensationRules
 from parser.geometry.curves import Bools, Curves, Floats, Ints
-from parser.told.compensation import Compensation, CompensationRules
 from parser.toolpath import Toolpath
 
 

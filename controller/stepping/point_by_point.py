@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from controller.stepping.steps import Steps
 from controller.stepping.strokes import arc_strokes, line_strokes, reached, walk_arcs
+from parser.controller_words.step_words import Axis, StepWords
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.told.step_words import Axis, StepWords
 
 Number = TypeVar("Number", np.int64, np.float64)
 

@@ -20,8 +20,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.told.step_words import Axis
 
 # Rows: quarter turns 0..3. Columns: dx, dy of a step toward the centre (u falls) and of a step away from it (v rises).
 TOWARD = np.array([[-1, 0], [0, -1], [1, 0], [0, 1]], dtype=np.int64)

@@ -4,10 +4,10 @@ import numpy as np
 
 from controller.stepping.point_by_point import interpolate_words
 from controller.stepping.steps import Steps
+from parser.controller_words.step_words import StepWords
 from parser.geometry.curves import Curves, Floats, Ints
-from parser.told.step_words import StepWords
+from parser.step_words.rules import words_of_arcs, words_of_lines
 from parser.toolpath import Toolpath
-from parser.words.telling import words_of_arcs, words_of_lines
 
 
 def interpolate(toolpath: Toolpath) -> Steps:

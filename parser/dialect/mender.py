@@ -2,9 +2,9 @@
 
 from typing import NamedTuple, Protocol
 
+from parser.controller_words.step_words import Axis
 from parser.findings.findings import Edit
 from parser.text.source import Field
-from parser.told.step_words import Axis
 from parser.toolpath import Toolpath
 
 

@@ -20,7 +20,7 @@ from parser.drawing.dxf.document import read_document
 from parser.drawing.dxf.forms import behind, of_extrusion, scaled
 from parser.drawing.fit.loops import loops_with_arcs
 from parser.drawing.gather import Gathered, gather
-from parser.drawing.left import entity_of, left_out, wanted_of
+from parser.drawing.left_out import entity_of, left_out, wanted_of
 from parser.drawing.loops.chain import Chained, chain, without_flat
 from parser.drawing.loops.once import Again, drawn_once
 from parser.drawing.loops.weld import welded

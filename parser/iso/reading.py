@@ -6,11 +6,11 @@ from parser.findings.codes import CODES_OF_ISO, Check
 from parser.findings.errors import ProgramError
 from parser.findings.findings import Finding, file_order
 from parser.geometry.curves import Ints
+from parser.iso.families.family import ToldProfile, in_other_distance, mode_findings, profile_told, reread
+from parser.iso.families.mill_code import mill_code
 from parser.iso.listing.lexer import read_listing
 from parser.iso.listing.listing import Listing
 from parser.iso.path.motion import Moved, moved
-from parser.iso.telling.mill_code import mill_code
-from parser.iso.telling.told import ToldProfile, in_other_distance, mode_findings, profile_told, reread
 from parser.iso.trace import Trace
 from parser.iso.words.not_simulated import not_simulated
 from parser.iso.words.numbering import checked

@@ -13,7 +13,6 @@ from parser.geometry.boxes import distinct
 from parser.geometry.broad_phase_places import near_places
 from parser.geometry.curves import Bools, Floats, Ints, extents
 from parser.geometry.distance import distance_to_curves
-from parser.shape.beside import BESIDE_UM, Stretches, run_beside
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.contours import runs
 from parser.shape.loops import find_loops
@@ -28,6 +27,7 @@ from parser.shape.open_edges import (
     sections_elsewhere,
     sections_of_tours,
 )
+from parser.shape.parallel_runs import BESIDE_UM, Stretches, run_beside
 from parser.shape.several_loops import several_loops
 from parser.toolpath import Toolpath
 

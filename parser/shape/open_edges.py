@@ -15,8 +15,8 @@ import numpy as np
 from parser.geometry.along import places
 from parser.geometry.curves import Bools, Floats, Ints, total_before
 from parser.geometry.directions import directions, headings
-from parser.shape.beside import neighbours
 from parser.shape.closing import CLOSED_WITHIN_UM
+from parser.shape.parallel_runs import neighbours
 from parser.toolpath import Toolpath
 
 _BACK = -0.96  # cosine of the angle between the ways there and back; whole µm tilt short blocks

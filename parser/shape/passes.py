@@ -15,10 +15,10 @@ import numpy as np
 from parser.geometry.along import places
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.directions import headings
-from parser.shape.beside import neighbours, run_beside
 from parser.shape.contours import contour_rows, runs
 from parser.shape.cuts import Cuts, edges_of, find_cuts
 from parser.shape.loops import part_sides
+from parser.shape.parallel_runs import neighbours, run_beside
 from parser.toolpath import Toolpath
 
 WIDEST_TAB = 0.25

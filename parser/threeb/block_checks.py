@@ -5,17 +5,17 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from parser.controller_words.step_words import Axis, StepWords
 from parser.dialect.at_block import at_block
 from parser.findings.facts import CountedElsewhere, DoubtfulEnd, WrongLabel
 from parser.findings.findings import Finding, Value
 from parser.geometry.curves import Ints
+from parser.step_words.labels import label
 from parser.text.lines import LineIndex
 from parser.text.source import Field
 from parser.threeb.decode import decoded_words
 from parser.threeb.reader import RADIUS_TOLERANCE_UM
-from parser.told.step_words import Axis, StepWords
 from parser.toolpath import Toolpath
-from parser.words.labels import label
 
 FULL_TURN_UM = 4.0
 """J of a full circle is 4R within about this; more is more than one turn (docs/3b.md §1)."""

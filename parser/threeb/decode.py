@@ -7,15 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
+from parser.controller_words.step_words import StepWords
 from parser.geometry.curves import CurveKind, Floats, Ints
+from parser.step_words.moves import moves, with_axes_named
+from parser.step_words.rules import words_of_lines
 from parser.text.source import Source
 from parser.threeb.figures import Nodes, air_lines, with_node_rows
 from parser.threeb.reader import Records
 from parser.threeb.tokens import fields_of
-from parser.told.step_words import StepWords
 from parser.toolpath import Stop, Toolpath
-from parser.words.moves import moves, with_axes_named
-from parser.words.telling import words_of_lines
 
 
 def decode(records: Records) -> Toolpath:

@@ -8,6 +8,7 @@ from parser.findings.codes import Check
 from parser.findings.errors import ProgramError
 from parser.findings.facts import TooLarge, telling
 from parser.findings.findings import Finding, file_order
+from parser.step_words.labels import SENSES
 from parser.text.encoding import narrow, no_program
 from parser.threeb.block_checks import block_findings
 from parser.threeb.columns import RawBlocks
@@ -18,7 +19,6 @@ from parser.threeb.print_checks import print_findings
 from parser.threeb.reader import Records, read_records
 from parser.threeb.tokens import BLOCK_WORDS, LIKE_A_BLOCK, OWN_MARKS
 from parser.toolpath import Toolpath
-from parser.words.labels import SENSES
 
 _SPELLING = Spelling(SENSES[-1], SENSES[1], end=OWN_MARKS.end[0], pause=OWN_MARKS.pause[0])
 

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from parser.geometry.curves import CurveKind, Floats, Ints
-from parser.shape.beside import BESIDE_UM
 from parser.shape.closing import corners_at, ends_closed, late_first
+from parser.shape.parallel_runs import BESIDE_UM
 from parser.threeb.columns import RawBlocks
 from parser.threeb.reader import Mark
 from parser.toolpath import Toolpath

@@ -15,11 +15,11 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from parser.controller_words.compensation import Compensation
+from parser.controller_words.step_words import StepWords
 from parser.geometry.curves import Bools, CurveKind, Curves, Floats, Ints, curves_between, joined
 from parser.iso.listing.lexer import read_listing
 from parser.iso.listing.listing import Listing
-from parser.told.compensation import Compensation
-from parser.told.step_words import StepWords
 from parser.toolpath import Stop, Toolpath
 
 EventKind = Literal["dwell", "optional-stop", "feed", "condition"]

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.controller_words.compensation import Compensation
 from parser.geometry.curves import CurveKind, Ints
-from parser.told.compensation import Compensation
 from parser.units import mm
 from parser.write.draft import Draft, Written, optional_stops, written_events
 from parser.write.iso_choices import UM_PER_INCH, IsoChoices

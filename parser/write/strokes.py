@@ -14,7 +14,7 @@ _SHORT_STEPS = 3.0
 """An arc of a longer chord keeps its sense, however its places are rounded; a shorter one is a line within a step."""
 
 _LET_BE_STEPS = 0.6
-"""Steps. As in `parser.words.chained`: what a CAM leaves off on an axis before it writes a step more or less."""
+"""Steps. As in `parser.step_words.chained`: what a CAM leaves off on an axis before it writes a step more or less."""
 
 
 _SAME_DIGITS = 6

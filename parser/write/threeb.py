@@ -7,12 +7,12 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis, StepWords
 from parser.geometry.curves import Bools, CurveKind, Floats, Ints
-from parser.told.step_words import Axis, StepWords
+from parser.step_words.chained import Chained, chained_words
+from parser.step_words.labels import label
+from parser.step_words.nearest.nearest import nearest_words
 from parser.units import mm
-from parser.words.chained import Chained, chained_words
-from parser.words.labels import label
-from parser.words.nearest.nearest import nearest_words
 from parser.write.draft import Draft, Written
 
 Form = Literal["compact", "aligned", "detailed"]

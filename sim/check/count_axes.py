@@ -6,15 +6,15 @@ import numpy as np
 
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate, words_of
+from parser.controller_words.step_words import Axis, StepWords
 from parser.dialect.at_block import at_block
 from parser.findings.facts import DoubtfulEnd, PrintedElsewhere, WrongBlock, telling
 from parser.findings.findings import Finding
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.program import Program
+from parser.step_words.rules import counted_way
 from parser.text.source import Field
-from parser.told.step_words import Axis, StepWords
 from parser.toolpath import Toolpath
-from parser.words.telling import counted_way
 
 STEPPED_END_UM = 12.0
 """40,000 random arcs of 10 µm to 1 m radius, on the right count axis, ended at most 9.5 µm from their exact end when

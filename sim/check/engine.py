@@ -16,7 +16,7 @@ from sim.check.result import CheckState, Coverage
 from sim.check.travel import too_many_steps
 
 if TYPE_CHECKING:  # most programs do not compensate
-    from sim.check.beside import Offsetting
+    from sim.check.pass_over_round import Offsetting
 
 PARSER_CHECKS = (Check.GRAMMAR, Check.ORDER, Check.BLOCKS, Check.PRINTED_ENDS, Check.HEADER)
 PATH_CHECKS = (Check.STEPS, Check.CONTOURS, Check.SENSES, Check.CROSSINGS, Check.PASSES, Check.CORNERS, Check.TRAVEL)

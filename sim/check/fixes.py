@@ -6,6 +6,7 @@ from itertools import islice
 from typing import NamedTuple
 
 from controller.stepping.words import words_of
+from parser.controller_words.step_words import Axis
 from parser.dialect.mender import Mend, Mender
 from parser.findings.facts import CountedElsewhere, DoubtfulEnd, NoEnd, PrintedElsewhere, WrongLabel, telling
 from parser.findings.findings import Edit, Finding
@@ -14,7 +15,6 @@ from parser.shape.contours import Contour
 from parser.shape.loops import is_circle
 from parser.text.lines import LINE_END
 from parser.text.source import Field
-from parser.told.step_words import Axis
 from sim.check.blame.cases import MOST_PRINTED
 from sim.check.blame.settle import WrongWord
 from sim.check.closures import OpenContour, Suspected

@@ -16,7 +16,7 @@ from parser.geometry.curves import Floats, Ints
 from parser.program import Program
 from parser.toolpath import Toolpath
 from parser.units import mm
-from sim.check.beside import Distances
+from sim.check.pass_over_round import Distances
 from sim.setup.part import Offset
 
 

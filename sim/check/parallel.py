@@ -8,7 +8,7 @@ from parser.findings.errors import FileUnreadableError
 from sim.base.workers.makers import Maker, made_by, refuse_other_makers
 from sim.base.workers.processes import Pool
 from sim.base.workers.rounds import DIED, Lost, in_order, results
-from sim.check.batch import Job, check_any, not_checked
+from sim.check.file_check import Job, check_any, not_checked
 from sim.check.result import CheckResult
 
 _FILES_A_TASK = 32

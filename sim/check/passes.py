@@ -15,7 +15,7 @@ from parser.geometry.curves import Ints
 from parser.geometry.directions import directions
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program
-from parser.shape.beside import BESIDE_UM
+from parser.shape.parallel_runs import BESIDE_UM
 from parser.shape.passes import WIDEST_TAB, Pass, Passes, row_shifts_um
 from parser.toolpath import Toolpath
 from sim.setup.wire import DEFAULT_WIRE

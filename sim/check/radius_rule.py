@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from parser.controller_words.step_words import StepWords
 from parser.dialect.at_block import at_block
 from parser.findings.facts import OfAddedOffset
 from parser.findings.findings import Finding
@@ -16,7 +17,6 @@ from parser.geometry.directions import Directions, directions, headings_at
 from parser.program import Program
 from parser.shape.loops import find_loops
 from parser.shape.passes import Passes
-from parser.told.step_words import StepWords
 from parser.toolpath import Toolpath
 from sim.check.shape.corners import ROUNDING_UM, tight_corners
 

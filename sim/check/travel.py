@@ -10,6 +10,7 @@ import numpy as np
 
 from controller.stepping.steps import Steps
 from controller.stepping.words import interpolate
+from parser.controller_words.step_words import Axis
 from parser.dialect.at_block import at_block
 from parser.findings.errors import ProgramError
 from parser.findings.facts import TooLarge, telling
@@ -17,7 +18,6 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import Floats, extents
 from parser.program import Program
 from parser.text.source import Field
-from parser.told.step_words import Axis
 from parser.toolpath import Toolpath
 from parser.units import from_mm, mm
 

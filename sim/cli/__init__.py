@@ -8,7 +8,7 @@ from types import FrameType
 
 import click
 
-from controller.compiled.telling import on_compiling
+from controller.compiled.compiling import on_compiling
 from parser import __version__
 from parser.findings.errors import DrycutError
 from parser.findings.messages import Message, system_message

@@ -37,7 +37,7 @@ def run_client(options: ClientOptions, *, as_json: bool) -> int:
     from sim.run.report import report_text
     from sim.show.terminal.client import print_client
     from sim.show.terminal.printer import say, write
-    from sim.show.words import Words
+    from sim.show.texts import Words
 
     scenario = scenario_of(options)
     _refuse_settings(options)
@@ -83,7 +83,7 @@ def scenario_of(options: ClientOptions) -> "Scenario":
 
 def _refuse_settings(options: ClientOptions) -> None:
     """SettingsError where the card's file is none; the client would see no more than a call that fails."""
-    from controller.card.abi.asked import CARD, card_environment
+    from controller.card.abi.environment import CARD, card_environment
 
     if options.settings is not None:
         card_environment({CARD: str(options.settings)})

@@ -12,7 +12,7 @@ from parser.findings.catalogue import Language
 from parser.text.encoding import harmless
 from sim.show.terminal.printer import say
 from sim.show.terminal.wrap import wrapped
-from sim.show.words import Words
+from sim.show.texts import Words
 
 EXIT: Final = 3
 _MOST_FILES = 10

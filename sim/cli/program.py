@@ -87,7 +87,7 @@ def program(  # noqa: PLR0913 - click hands over each option by its name
         _draw(made, _Picture(picture, theme), tongue)
     if as_json:
         from sim.make.cam.document import document_text
-        from sim.show.words import Words
+        from sim.show.texts import Words
 
         write(document_text(done, Words(tongue)), "json")
     else:
@@ -105,7 +105,7 @@ def _written(made: "MadeProgram", request: _ProgramRequest, tongue: "Tongue", *,
 
 def _program_request(path: Path, output: Path | None, options: Options, *, is_written: bool) -> _ProgramRequest:
     """What is to be made. UsageError where it is not said which drawing, or where to."""
-    from sim.make.cam.asked import drawing_to_cut
+    from sim.make.cam.request import drawing_to_cut
     from sim.setup.making import ToMake
     from sim.setup.program_section import of_drawing, refuse_misfits
 
@@ -178,8 +178,8 @@ def _made_program(request: _ProgramRequest) -> "MadeProgram | NotMade":
     from dataclasses import replace
 
     from sim.cli.progress import StageProgress
-    from sim.make.cam.asked import wanted_of
     from sim.make.cam.maker import made_program
+    from sim.make.cam.request import wanted_of
     from sim.run.recording import stages_of
 
     wanted = wanted_of(request.to_make, request.language, request.scenario)
@@ -190,8 +190,8 @@ def _made_program(request: _ProgramRequest) -> "MadeProgram | NotMade":
 
 def _with_findings(done: "MadeProgram", request: _ProgramRequest, tongue: "Tongue") -> bytes:
     """The program with what speaks against it at its head."""
-    from sim.make.cam.asked import wanted_of
     from sim.make.cam.maker import remarked
+    from sim.make.cam.request import wanted_of
     from sim.show.terminal.proof import against
 
     wanted = wanted_of(request.to_make, request.language, request.scenario)

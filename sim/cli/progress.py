@@ -15,7 +15,7 @@ from sim.cli.spoken import words
 from sim.show.terminal.printer import coloured, moves_cursor, say
 from sim.show.terminal.streams import OutputError, outlet
 from sim.show.terminal.wrap import width_of
-from sim.show.words.phrases import lasting
+from sim.show.texts.phrases import lasting
 
 WEIGHTS: Final[Mapping[str, float]] = {"run": 4.0, "kerf": 4.0, "comparison": 3.0, "pieces": 3.0, "pictures": 3.0}
 """About how long stages take beside the others, which count 1: of a part of six blocks and of one of ten thousand."""

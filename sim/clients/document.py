@@ -6,7 +6,7 @@ from typing import Any
 from parser import __version__
 from sim.clients.findings import call_text
 from sim.clients.run import Read
-from sim.clients.said import Questions
+from sim.clients.session import Questions
 from sim.clients.started import Ended
 from sim.run.report.document import finding_entry
 

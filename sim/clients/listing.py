@@ -13,8 +13,8 @@ from parser.program import Program
 from parser.text.lines import LineIndex
 from parser.text.source import Source
 from parser.toolpath import Toolpath
-from sim.clients.again import Again
-from sim.clients.said import Event, Questions, Session
+from sim.clients.repeated import Again
+from sim.clients.session import Event, Questions, Session
 
 NAME: Final = "calls.txt"
 """Of the text, as a file."""

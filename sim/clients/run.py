@@ -18,10 +18,10 @@ from parser.program import Program
 from sim.base.progress import Progress, silent
 from sim.check.result import CheckState, Coverage
 from sim.check.travel import middle_mm, refusal, too_many_steps, travel_findings
-from sim.clients.again import Again, again, pulses_again
 from sim.clients.findings import unseen_findings
 from sim.clients.listing import program_of
-from sim.clients.said import Session
+from sim.clients.repeated import Again, again, pulses_again
+from sim.clients.session import Session
 from sim.clients.started import Ended
 from sim.clients.unseen import Unseen, unseen_of
 from sim.run.dryrun import DryRun, PulseSink

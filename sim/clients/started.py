@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from controller.card.abi.asked import CALL_S, CARD, LOG
+from controller.card.abi.environment import CALL_S, CARD, LOG
 from parser.findings.errors import DrycutError, FileUnreadableError
 from parser.text.encoding import printable
 from sim.clients.library.build import LIBRARY, SLEEP

@@ -12,8 +12,8 @@ from typing import Final, NamedTuple
 
 from controller.card.core.codes import Code
 from controller.card.core.state import LimitMet
-from sim.clients.again import Again
-from sim.clients.said import ClientCall, Event, Questions, Session
+from sim.clients.repeated import Again
+from sim.clients.session import ClientCall, Event, Questions, Session
 
 _ANSWERS: Final = frozenset(
     (

@@ -18,7 +18,7 @@ from sim.base.progress import Progress, silent
 from sim.clients.document import card_document, without_motion
 from sim.clients.listing import NAME as CALLS
 from sim.clients.run import ClientRun, Read, read_again, run_client
-from sim.clients.said import session_of
+from sim.clients.session import session_of
 from sim.clients.started import Ended
 from sim.jobs.trace_file import TRACE, write_trace
 from sim.run.dryrun import DryRun

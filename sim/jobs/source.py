@@ -31,8 +31,8 @@ def source_of(scenario: Scenario, progress: Progress = silent) -> Source:
 
 
 def _made_bytes(scenario: Scenario, to_make: ToMake, progress: Progress) -> bytes:
-    from sim.make.cam.asked import program_of  # noqa: PLC0415 - as above
     from sim.make.cam.maker import NotMade  # noqa: PLC0415 - few programs are made, and what makes them takes long to load
+    from sim.make.cam.request import program_of  # noqa: PLC0415 - as above
     from sim.show.refusals import why_refused  # noqa: PLC0415 - as above
 
     done = program_of(scenario, to_make, progress)

@@ -20,7 +20,7 @@ from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
 from sim.setup.scenario import Scenario
 from sim.show.index_page.page import thumbnail
-from sim.show.words.phrases import same
+from sim.show.texts.phrases import same
 
 _BY_ITSELF: Final = threading.Lock()  # workers of a cluster may have several threads, and pygame knows one
 

@@ -19,7 +19,7 @@ from parser.shape.contours import Contour
 from parser.shape.passes import Passes
 from parser.text.source import BlockNames
 from parser.toolpath import Toolpath
-from sim.check.beside import Offsetting
+from sim.check.pass_over_round import Offsetting
 from sim.check.result import Coverage
 from sim.cut.remains import Remains
 from sim.measure.compare.result import Comparison

@@ -15,10 +15,10 @@ from parser.findings.facts import telling
 from parser.findings.findings import Finding, file_order
 from parser.program import Program
 from parser.shape.passes import find_passes
-from sim.check.beside import Distances, Offsetting, PassBeside, PassOverRound, beside_round
 from sim.check.compensation.words import WithoutValue, compensation_of, is_known
 from sim.check.engine import run_checks
 from sim.check.offset import gouge_findings, loop_findings, no_way_back, uncut_findings
+from sim.check.pass_over_round import Distances, Offsetting, PassBeside, PassOverRound, beside_round
 from sim.check.path_checks import Demands
 from sim.setup.part import Offset
 

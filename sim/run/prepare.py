@@ -13,8 +13,8 @@ from parser.findings.codes import Check, Severity
 from parser.findings.facts import NotSimulated, WithoutOffset
 from parser.findings.findings import Finding
 from parser.program import Program
-from sim.check.beside import Offsetting
 from sim.check.engine import Checked, run_checks
+from sim.check.pass_over_round import Offsetting
 from sim.check.passes import asked_pass_findings
 from sim.check.path_checks import Demands
 from sim.check.result import CheckState, Coverage

@@ -4,8 +4,8 @@ from parser.findings.catalogue import Bilingual
 from sim.run.dryrun import DryRun, assumptions_of
 from sim.setup.key_words import words_of
 from sim.setup.machine.machine import SECTIONS
-from sim.show.words import bilingual
-from sim.show.words.phrases import as_read, listed, machine_name
+from sim.show.texts import bilingual
+from sim.show.texts.phrases import as_read, listed, machine_name
 
 
 def taken_for_granted(run: DryRun) -> list[Bilingual]:

@@ -9,8 +9,8 @@ from parser.dialect.decoding import UNREAD, DecodedBlock, DecodeStep
 from parser.findings.catalogue import Bilingual
 from parser.toolpath import Point
 from parser.units import mm, mm_text
-from sim.show.words import bilingual
-from sim.show.words.phrases import same
+from sim.show.texts import bilingual
+from sim.show.texts.phrases import same
 
 _CIRCLED_ONE: Final = 0x2460
 _CIRCLED: Final = 20

@@ -6,8 +6,8 @@ from parser.findings.catalogue import Bilingual
 from parser.text.encoding import printable
 from parser.units import mm
 from sim.make.cam.model import Refusal
-from sim.show.words import bilingual
-from sim.show.words.phrases import same
+from sim.show.texts import bilingual
+from sim.show.texts.phrases import same
 
 _MOST_PLACES = 5
 

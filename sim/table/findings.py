@@ -3,10 +3,10 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from parser.controller_words.step_words import Axis
 from parser.dialect.at_block import at_block
 from parser.findings.findings import Fact, Finding, Value, file_order
 from parser.program import Program
-from parser.told.step_words import Axis
 from parser.units import mm
 from sim.setup.machine.table_model import Motor
 from sim.table.record.losses import Loss, LossKind

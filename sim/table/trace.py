@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis
 from parser.geometry.curves import Floats, Ints
-from parser.told.step_words import Axis
 from parser.toolpath import Toolpath
 
 

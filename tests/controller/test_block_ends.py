@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from controller.offset.block_ends import JointKind, aside_ends, joint_kinds
+from parser.controller_words.compensation import Compensation, CompensationRules
 from parser.program import parse_program
-from parser.told.compensation import Compensation, CompensationRules
 from parser.toolpath import Toolpath
 
 

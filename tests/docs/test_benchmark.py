@@ -13,7 +13,7 @@ from bench_path import contour_text
 from bench_peers import KLIPPER_MISSING, RS274_MISSING
 
 from parser.program import parse_program
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 

@@ -7,9 +7,9 @@ from places import ROOT
 
 from parser.findings.catalogue import page
 from parser.findings.codes import CODES
+from parser.iso.families.family import amount
+from parser.iso.families.marks import MARKS
 from parser.iso.profiles.profile import PROFILES, profile
-from parser.iso.telling.marks import MARKS
-from parser.iso.telling.told import amount
 
 DOC = (ROOT / "docs/iso.md").read_text(encoding="utf-8")
 SECTION = dict(re.findall(r"^## (\d+)\. .*\n((?:(?!## ).*\n)*)", DOC, re.MULTILINE))

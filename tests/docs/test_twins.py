@@ -146,7 +146,7 @@ def test_names_in_quotes_are_those_on_the_pages(page: str) -> None:
     language = "zh" if ".zh." in page else "en"
     prose = re.sub(r"```.*?```|`[^`]*`", "", (ROOT / "docs" / page).read_text("utf-8"), flags=re.DOTALL)
     quoted = {" ".join(name.split()) for name in re.findall(r"[\"“]([^\"”]+)[\"”]", prose)}
-    words = [tomllib.loads(path.read_text("utf-8")) for path in (ROOT / "sim/show/words").glob("*.toml")]
+    words = [tomllib.loads(path.read_text("utf-8")) for path in (ROOT / "sim/show/texts").glob("*.toml")]
     shown = "\n".join(text for of in words for text in texts(of, language))
     missing = [name for name in quoted if not re.search(re.escape(name).replace("……", ".*"), shown)]
     assert set(missing) <= NAMES_OF_SYSTEMS

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from paths import Pen
 
-from parser.shape.beside import RunBeside, Stretches, neighbours, run_beside
+from parser.shape.parallel_runs import RunBeside, Stretches, neighbours, run_beside
 
 SAMPLES = 16  # of a stretch: here one each 20 µm of 320, from 10 µm on
 

@@ -15,7 +15,7 @@ from places import CORPUS
 from parser.findings.codes import CODES
 from parser.findings.findings import Finding
 from parser.program import Program, read_program
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 from sim.setup.machine.machine import load_machine
 

@@ -13,7 +13,7 @@ from fuzzing.worker import Task, tried
 from hostile import HOSTILE
 
 from parser.findings.codes import Severity
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 SLOWEST_S = 10.0

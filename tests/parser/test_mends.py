@@ -2,11 +2,11 @@
 
 import pytest
 
+from parser.controller_words.step_words import Axis
 from parser.dialect.mender import Mend
 from parser.program import parse_program
 from parser.text.source import Field
 from parser.threeb.mend import MENDER
-from parser.told.step_words import Axis
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from parser.dialect.reader import Reading, in_codes
 from parser.findings.codes import CODES
 from parser.findings.findings import Finding
 from parser.program import parse_program
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.run.report import build_report

@@ -23,7 +23,7 @@ from parser.findings.errors import FileUnreadableError, ProgramError, SettingsEr
 from parser.program import load_program, parse_program
 from parser.units import mm
 from sim.base.progress import silent
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.files import find_files
 from sim.check.settings import CheckSettings
 from sim.check.settings.search import SettingsSearch

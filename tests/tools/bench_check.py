@@ -11,7 +11,7 @@ from bench_path import contour_text
 from bench_peers import in_iso
 from places import SCENARIOS
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 KEYHOLE = SCENARIOS / "keyhole" / "program.3b"

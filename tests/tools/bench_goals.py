@@ -16,7 +16,7 @@ from bench_peers import KLIPPER_MISSING, RS274_MISSING, in_iso, klipper, klipper
 from bench_table import cutting, followed
 from places import SCENARIOS
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 TABLE_PART_MM = 36.0

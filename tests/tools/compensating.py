@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from paths import Pen
 
+from parser.controller_words.compensation import Compensation, CompensationRules
 from parser.geometry.curves import CurveKind, Curves
-from parser.told.compensation import Compensation, CompensationRules
 from parser.toolpath import Toolpath
 
 TEXTBOOK = CompensationRules()

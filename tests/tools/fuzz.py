@@ -19,7 +19,7 @@ from fuzzing.targets import TARGETS
 from fuzzing.worker import Done, Failure, Task
 from hostile import HOSTILE
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 MOST_HOSTILE_S = 15.0

@@ -14,7 +14,7 @@ from parser.geometry.curves import Curves
 from parser.program import load_program
 from sim.make.cam.maker import planned
 from sim.make.cam.model import CutPlan, FigureCut
-from sim.make.cam.path.kept import draft_of_plan
+from sim.make.cam.path.compensated_draft import draft_of_plan
 from sim.make.cam.proof.proof import ToProve, proved
 from sim.make.cam.proof.target import Proof
 from sim.make.convert.proof import proof as held_against

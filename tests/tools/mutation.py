@@ -19,7 +19,7 @@ from mutants import Mutant, mutant
 from parser.geometry.curves import Floats
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 

@@ -6,11 +6,11 @@ from typing import Self
 
 import numpy as np
 
+from parser.controller_words.step_words import StepWords
 from parser.geometry.curves import CurveKind, Curves
+from parser.step_words.moves import arc_ends
 from parser.text.source import Source
-from parser.told.step_words import StepWords
 from parser.toolpath import Toolpath
-from parser.words.moves import arc_ends
 
 
 class Pen:

@@ -18,7 +18,7 @@ import sound
 from mutation import has_moved
 
 from parser.findings.codes import Severity
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 KINDS = ("lost", "doubled", "swapped")

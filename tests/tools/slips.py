@@ -21,7 +21,7 @@ from mutation import has_moved
 from plain import PlainBlock
 
 from parser.findings.findings import Finding, edited
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 

@@ -15,7 +15,7 @@ from sound_cam import Move, Pause, Post, Row
 from sound_cuts import Cut, parting, random_cut
 
 from parser.program import load_program
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.setup.machine.machine import load_machine

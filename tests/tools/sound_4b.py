@@ -13,7 +13,7 @@ from typing import NamedTuple
 from drawings import Arc, Line, Place
 from sound_cam import Post, Row
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 

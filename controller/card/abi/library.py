@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TextIO
 
-from controller.card.abi.asked import CardEnvironment
 from controller.card.abi.clocks import Clock, SimulatedClock, WallClock
+from controller.card.abi.environment import CardEnvironment
 from controller.card.abi.table import Prototype, prototypes
 from controller.card.abi.turns import Passed, Tasks, Turns
 from controller.card.ge import GECard

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.controller_words.compensation import Compensation, CompensationRules
 from parser.dialect.choices import Choices
 from parser.dialect.reader import Assumption, Damage
 from parser.findings.findings import Finding
@@ -25,7 +26,6 @@ from parser.iso.path.registers import Run, run_of
 from parser.iso.path.rows import ROUNDING, Rows, source
 from parser.iso.profiles.profile import Profile
 from parser.text.source import Span
-from parser.told.compensation import Compensation, CompensationRules
 from parser.toolpath import Stop, Toolpath
 
 _MOST_CALLS = 3

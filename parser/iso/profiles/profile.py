@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal
 
-from parser.told.compensation import CompensationRules
+from parser.controller_words.compensation import CompensationRules
 
 _FOLDER = Path(__file__).parent
 PROFILES = (

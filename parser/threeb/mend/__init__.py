@@ -3,11 +3,11 @@
 What looks for mends is imported when it is asked for: most programs need none, and start sooner without.
 """
 
+from parser.controller_words.step_words import Axis
 from parser.dialect.mender import Mend, Mender, Suspect
 from parser.findings.findings import Edit
 from parser.threeb import print_checks
 from parser.threeb.mend import edits
-from parser.told.step_words import Axis
 from parser.toolpath import Toolpath
 
 

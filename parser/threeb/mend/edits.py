@@ -4,15 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis, StepWords
 from parser.dialect.mender import Mend
 from parser.findings.findings import Edit
+from parser.step_words.labels import label
 from parser.text.encoding import narrow
 from parser.text.source import Field
 from parser.threeb.block_checks import ruled_label
 from parser.threeb.decode import decoded_words
-from parser.told.step_words import Axis, StepWords
 from parser.toolpath import Toolpath
-from parser.words.labels import label
 
 _LETTERS = {Field.X: "X ", Field.Y: "Y ", Field.COUNT: "J "}
 """What people call the numbers, which say nothing of their field themselves."""

@@ -8,10 +8,10 @@ points by what sound blocks do far more often than chance would have it. The poi
 import numpy as np
 from numpy.typing import NDArray
 
+from parser.controller_words.step_words import Axis, StepWords
 from parser.geometry.curves import Floats, Ints
+from parser.step_words.moves import Moves
 from parser.threeb.block_checks import ruled_label
-from parser.told.step_words import Axis, StepWords
-from parser.words.moves import Moves
 
 Flags = NDArray[np.bool_]
 

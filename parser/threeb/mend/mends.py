@@ -9,16 +9,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from parser.controller_words.step_words import Axis, StepWords
 from parser.geometry.curves import Floats, Ints
+from parser.step_words.labels import label
+from parser.step_words.moves import Moves, moves, with_axes_named
 from parser.text.source import Field
 from parser.threeb.decode import decoded_words
 from parser.threeb.mend.edits import counted_on
 from parser.threeb.mend.likelihood import slip
 from parser.threeb.mend.solved import COUNT, X, Y, solved_numbers
-from parser.told.step_words import Axis, StepWords
 from parser.toolpath import Toolpath
-from parser.words.labels import label
-from parser.words.moves import Moves, moves, with_axes_named
 
 AXIS, QUADRANT, TURN = range(3, 6)
 """Columns of a table of words, behind X, Y and COUNT."""

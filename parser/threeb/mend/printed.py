@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from parser.dialect.mender import Mend
 from parser.geometry.curves import Floats, Ints
+from parser.step_words.moves import Moves
 from parser.threeb.block_checks import counts_fit
 from parser.threeb.mend.likelihood import familiar, joint, obedience, sizes
 from parser.threeb.mend.mends import FIELDS, SENSE, Mends, ease, field_text, mends, moves_of, word_table, words_of
 from parser.threeb.print_checks import print_change
 from parser.toolpath import Toolpath
-from parser.words.moves import Moves
 
 
 class Rings(NamedTuple):

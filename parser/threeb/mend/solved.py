@@ -4,10 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis, StepWords
 from parser.geometry.curves import Floats, Ints
-from parser.told.step_words import Axis, StepWords
+from parser.step_words.moves import ArcEnds, arc_ends
 from parser.units import MAX_WORD_UM
-from parser.words.moves import ArcEnds, arc_ends
 
 X, Y, COUNT = range(3)
 """Numbers of a block that are solved for."""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from parser.dialect.mender import Suspect
 from parser.geometry.curves import Floats, Ints
 from parser.shape.closing import closure_tolerance_um
+from parser.step_words.moves import Moves
 from parser.threeb.mend.likelihood import alike, familiar, obedience, sizes
 from parser.threeb.mend.mends import (
     FIELDS,
@@ -28,7 +29,6 @@ from parser.threeb.mend.mends import (
 )
 from parser.threeb.mend.printed import Rings, joint_points
 from parser.toolpath import Toolpath
-from parser.words.moves import Moves
 
 MOST = 5
 """Suspects named at most; where more are as likely, naming some would accuse them by chance."""

@@ -13,16 +13,16 @@ from controller.offset.passes import PassedPath, PassedRound
 from controller.offset.programmed import compensated
 from controller.offset.rows import OffsetPath, offset_toolpath
 from controller.offset.sections import Side
+from parser.controller_words.compensation import Compensation
 from parser.findings.findings import file_order
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.program import Program
 from parser.shape.passes import Pass, Passes, with_edges
-from parser.told.compensation import Compensation
 from parser.toolpath import Toolpath
-from sim.check.beside import Offsetting, PassBeside
 from sim.check.compensation.contours import CompensatedStretch, compensated_stretches, contour_findings
 from sim.check.compensation.rounds import CompensatedRound, compensated_rounds, moved_um
 from sim.check.compensation.words import word_findings
+from sim.check.pass_over_round import Offsetting, PassBeside
 
 
 def drawn_passes(runs: Sequence[CompensatedRound], rows: int) -> Passes:

@@ -21,9 +21,9 @@ from parser.geometry.along import along_um
 from parser.geometry.curves import Bools, Curves, Ints, joined
 from parser.program import Program
 from parser.text.source import Field
-from sim.check.beside import PassOverRound, beside_round, rows_beside
 from sim.check.compensation.rounds import CompensatedRound, contour_of, parts_of
 from sim.check.offset import gouge_finding, loop_finding, uncut_finding
+from sim.check.pass_over_round import PassOverRound, beside_round, rows_beside
 
 
 class CompensatedStretch(NamedTuple):

@@ -13,14 +13,14 @@ import numpy as np
 from controller.offset.sections import OffsetSection, Round, Side
 from controller.offset.shifted import closed_contour
 from controller.offset.stretches import known_sides
+from parser.controller_words.compensation import Compensation
 from parser.geometry.along import along_um, places_at
 from parser.geometry.curves import Bools, Curves, Floats, Ints, joined
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.shape.loops import find_loops
-from parser.told.compensation import Compensation
 from parser.toolpath import Toolpath
-from sim.check.beside import Distances
 from sim.check.compensation.edges import ALONE, Along, edges_of_contours
+from sim.check.pass_over_round import Distances
 
 
 class CompensatedRound(NamedTuple):

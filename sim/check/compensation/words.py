@@ -11,12 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from controller.offset.alarms import Alarm, AlarmKind
+from parser.controller_words.compensation import Compensation
 from parser.dialect.at_block import at_block
 from parser.findings.codes import Severity
 from parser.findings.findings import Fact, Finding, Value
 from parser.program import Program
 from parser.text.source import Field
-from parser.told.compensation import Compensation
 from parser.toolpath import Toolpath
 
 

@@ -15,7 +15,7 @@ from parser.geometry.broad_phase_pairs import near_pairs
 from parser.geometry.curves import Bools, Floats, Ints
 from parser.geometry.directions import headings_at
 from parser.geometry.meets import Meets, by_xy, curves_meet
-from parser.shape.beside import BESIDE_UM
+from parser.shape.parallel_runs import BESIDE_UM
 from parser.shape.passes import Passes
 from parser.toolpath import Point, Toolpath
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 from parser.findings.catalogue import Language
 from parser.text.encoding import printable
-from sim.check.batch import Job
+from sim.check.file_check import Job
 from sim.check.result import CheckResult
 from sim.check.silence.baseline import Baseline, baseline_text, findings_of
 from sim.check.silence.directives import without_known
-from sim.show.words import Words
+from sim.show.texts import Words
 
 
 class Ledger(ABC):

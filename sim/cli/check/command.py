@@ -13,7 +13,7 @@ from sim.cli.spread import Spread, pool_of, spread_options
 
 if TYPE_CHECKING:
     from parser.findings.catalogue import Language
-    from sim.check.batch import Job
+    from sim.check.file_check import Job
     from sim.check.result import CheckResult
     from sim.cli.check.baselines import Ledger
     from sim.cli.check.jobs import CheckOptions
@@ -146,7 +146,7 @@ def _check(work: _Work, jobs: Sequence["Job"]) -> int:
 
 def _results(jobs: Sequence["Job"], spread: Spread) -> Iterator["CheckResult"]:
     """Results of the jobs: from workers where they are many, or somebody asked for workers."""
-    from sim.check.batch import PARALLEL_FROM, check_any
+    from sim.check.file_check import PARALLEL_FROM, check_any
 
     if len(jobs) < PARALLEL_FROM and spread == Spread(None, None):
         yield from map(check_any, jobs)

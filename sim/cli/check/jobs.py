@@ -10,7 +10,7 @@ from parser.dialect.choices import merged
 from parser.files.reading import read_stdin
 from parser.findings.messages import Message
 from parser.units import mm
-from sim.check.batch import Job
+from sim.check.file_check import Job
 from sim.check.files import find_files
 from sim.check.settings.read import NO_SETTINGS, PathPattern, SettingsFile, code_list, pattern_list, severity
 from sim.check.settings.search import SettingsSearch

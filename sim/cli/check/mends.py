@@ -16,7 +16,7 @@ from parser.program import Program, load_program
 from parser.text.encoding import printable
 from parser.text.excerpt import place
 from sim.base.files import replace_file, staged
-from sim.check.batch import Job
+from sim.check.file_check import Job
 from sim.check.fixes import Choice, choices
 from sim.check.mended import mended_text
 from sim.check.settings import CheckSettings
@@ -25,7 +25,7 @@ from sim.cli.scenario_options import describe
 from sim.show.terminal.printer import say, write, write_exactly
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of, wrapped
-from sim.show.words import Words
+from sim.show.texts import Words
 
 
 class Unmended(NamedTuple):

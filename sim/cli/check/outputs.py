@@ -21,7 +21,7 @@ from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of
 
 if TYPE_CHECKING:
-    from sim.check.batch import Job
+    from sim.check.file_check import Job
     from sim.check.result import CheckResult
     from sim.show.findings.options import Options
 

@@ -16,7 +16,7 @@ from parser.program import suffixes
 from sim.check.settings.read import NAMES
 from sim.cli.spoken import complaint
 from sim.show.terminal.printer import clear, say
-from sim.show.words import Words
+from sim.show.texts import Words
 
 _LEAST_REST_S = 0.3
 _MOST_REST_S = 3.0

@@ -22,7 +22,7 @@ from parser.findings.messages import Message
 from parser.text.excerpt import cells
 from sim.cli.spoken.tongue import OPTION, speak_as_asked, words
 from sim.show.terminal.wrap import wrapped
-from sim.show.words.words import texts
+from sim.show.texts.texts import texts
 
 _MOST_LEFT = 30  # cells of the left column; a longer name stands on a line of its own
 

@@ -11,7 +11,7 @@ from typing import Final
 import click
 
 from parser.findings.catalogue import LANGUAGES, Language, in_language
-from sim.show.words.words import Words
+from sim.show.texts.texts import Words
 
 OPTION: Final = "--lang"
 

@@ -77,7 +77,7 @@ _DIGITS: Final = 6
 
 
 class Say(Protocol):
-    """Words for people in one language, as `sim.show.words.Words` has them: the text of a key, its places filled."""
+    """Words for people in one language, as `sim.show.texts.Words` has them: the text of a key, its places filled."""
 
     @property
     def language(self) -> Language:

@@ -25,7 +25,7 @@ from sim.make.cam.order.sides import with_sides
 from sim.make.cam.parts.contacts import walls
 from sim.make.cam.parts.parts import parts_of
 from sim.make.cam.passes.passes import figure_cut, offsets_of
-from sim.make.cam.path.kept import added_draft, draft_of_plan, kept_draft
+from sim.make.cam.path.compensated_draft import added_draft, draft_of_plan, kept_draft
 from sim.make.cam.proof.as_run import least_um
 from sim.make.cam.proof.proof import ToProve, proved
 from sim.make.cam.proof.target import Proof, target_of

@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.controller_words.compensation import Compensation
+from parser.controller_words.step_words import StepWords
 from parser.dialect.choices import Choices, Registers
 from parser.findings.codes import Severity
 from parser.findings.errors import ProgramError
@@ -18,8 +20,6 @@ from parser.findings.findings import Finding
 from parser.geometry.curves import CurveKind
 from parser.geometry.distance import distance_to_curves
 from parser.program import Program, load_program
-from parser.told.compensation import Compensation
-from parser.told.step_words import StepWords
 from parser.toolpath import Toolpath
 from parser.units import mm
 from parser.write.draft import OF_THE_FAMILY, Draft, Written

@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.controller_words.compensation import Compensation
 from parser.geometry.curves import CurveKind, Curves, Floats, Ints
-from parser.told.compensation import Compensation
 from parser.toolpath import Toolpath
 from parser.write.draft import Draft, Event, Written, events_of
 

@@ -24,8 +24,8 @@ from typing import Final, Literal, NamedTuple
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis
 from parser.geometry.curves import Bools, Floats
-from parser.told.step_words import Axis
 from sim.run.ballbar.figures import GRID_RAD, SENSES, MeasuredTurn, Sense
 
 BEFORE_RAD: Final = np.radians(5.0)

@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 
 from parser import __version__
+from parser.controller_words.step_words import Axis
 from parser.dialect.reader import HeaderValue
 from parser.findings.catalogue import texts
 from parser.findings.findings import Finding
 from parser.geometry.curves import CurveKind, Floats
 from parser.shape.contours import Contour
-from parser.told.step_words import Axis
 from parser.toolpath import Toolpath
 from sim.base.rounded import DEG_DIGITS, column, moment, points, rounded, rows
 from sim.check.result import Coverage

@@ -8,7 +8,7 @@ import numpy as np
 from controller.offset.rows import RowOrigin
 from parser.geometry.curves import CurveKind, Ints
 from sim.base.rounded import DEG_DIGITS, column, moment, points, rounded, rows
-from sim.check.beside import Offsetting
+from sim.check.pass_over_round import Offsetting
 from sim.measure.deviation.causes import Deviations, Part
 from sim.measure.deviation.deviation import Deviation, Where
 from sim.run.dryrun import DryRun

@@ -19,7 +19,7 @@ from parser.findings.catalogue import texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Edit, Finding
 from sim.serve.editor.places import Places, Text
-from sim.show.words import Words
+from sim.show.texts import Words
 
 SOURCE: Final = "drycut"
 _SEVERITIES: Final[Mapping[Severity, DiagnosticSeverity]] = {

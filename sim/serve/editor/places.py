@@ -13,7 +13,7 @@ from parser.findings.catalogue import Language
 from parser.findings.findings import Edit
 from parser.text.lines import LineIndex
 from parser.text.source import Span
-from sim.check.batch import AsTyped
+from sim.check.file_check import AsTyped
 from sim.check.mended import mended_text
 
 _BEYOND_16: Final = "\uffff"

@@ -11,7 +11,7 @@ from pygls.uris import to_fs_path
 
 from parser import __version__
 from parser.findings.catalogue import Language
-from sim.check.batch import as_typed
+from sim.check.file_check import as_typed
 from sim.serve.editor.diagnostics import actions_of, diagnostics_of
 from sim.serve.editor.places import Places, Text
 from sim.serve.editor.shown import hover_of, layout_of, outline_of

@@ -22,7 +22,7 @@ from parser.text.encoding import narrow, printable
 from parser.toolpath import Block, Point, Toolpath
 from parser.units import mm_text
 from sim.serve.editor.places import Places, Text
-from sim.show.words import Words
+from sim.show.texts import Words
 
 _BLOCK_3B: Final = re.compile(r"B(\d*)B(\d*)B(\d*)(?:B(\d*))?(G[XY]D{0,2})([LSN]R?[1-4])", re.IGNORECASE)
 _REMARK_ISO: Final = re.compile(r"(\([^()\r\n]*\))")

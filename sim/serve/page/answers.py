@@ -15,13 +15,13 @@ from parser.shape.contours import find_contours
 from parser.text.encoding import decode_text, encode_text, printable
 from parser.text.lines import LINE_END
 from sim.base.rounded import rounded
-from sim.check.batch import as_typed
+from sim.check.file_check import as_typed
 from sim.check.result import CheckResult
 from sim.setup.machine.machine import load_machine
 from sim.setup.scenario import DEFAULT_MACHINE, DEFAULT_THICKNESS_MM
 from sim.show.replay.curve_columns import exact_columns
-from sim.show.words import bilingual
-from sim.show.words.phrases import lasting
+from sim.show.texts import bilingual
+from sim.show.texts.phrases import lasting
 
 
 class ReadFile(NamedTuple):

@@ -21,8 +21,8 @@ from parser.program import load_program, moving
 from parser.text.encoding import printable
 from parser.toolpath import Toolpath
 from parser.units import from_mm
-from sim.make.cam.asked import wanted_of
 from sim.make.cam.maker import MadeProgram, made_program, remarked
+from sim.make.cam.request import wanted_of
 from sim.measure.compare.compared_program import compare_program
 from sim.measure.compare.result import FitRequest
 from sim.measure.compare.starts import IN_PLACE, Placement, placed
@@ -40,7 +40,7 @@ from sim.show.refusals import why_refused
 from sim.show.replay.curve_columns import exact_columns
 from sim.show.terminal.program import told_lines
 from sim.show.terminal.proof import against
-from sim.show.words import Words
+from sim.show.texts import Words
 
 _WIDE: Final = 100_000
 """Cells of a line that is not to be broken."""

@@ -14,7 +14,7 @@ from sim.base.workers.processes import Processes
 from sim.base.workers.rounds import DIED, Lost, in_order, results
 from sim.serve.page.row import refused, row_or_why
 from sim.show.terminal.printer import write
-from sim.show.words.phrases import same
+from sim.show.texts.phrases import same
 
 _AT_ONCE: Final = 8
 """Files that are handed over together."""

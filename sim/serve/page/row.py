@@ -9,10 +9,10 @@ from parser.findings.catalogue import LANGUAGES, Bilingual, page, texts
 from parser.findings.errors import DrycutError, ProgramError
 from parser.findings.findings import Finding, counted
 from parser.text.encoding import printable
-from sim.check.batch import as_typed
+from sim.check.file_check import as_typed
 from sim.serve.page.answers import read_file, size_of
 from sim.show.index_page.page import thumbnail
-from sim.show.words.phrases import same
+from sim.show.texts.phrases import same
 
 
 def row_of(name: str, file: Path | None, data: bytes) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from parser.findings.errors import SettingsError
 from parser.findings.messages import Message
 from parser.program import Program, load_program, moving
 from sim.base.progress import Progress
-from sim.check.batch import settings_near
+from sim.check.file_check import settings_near
 from sim.check.settings import CheckSettings
 from sim.jobs.drills_into import drills_into
 from sim.jobs.run_into import run_into, stages_of_files
@@ -31,7 +31,7 @@ from sim.show.film.screen import Look
 from sim.show.film.writers import FORMATS
 from sim.show.pictures.files import PictureFiles, write_pictures
 from sim.show.pictures.gallery import PICTURES, subject_of
-from sim.show.words.phrases import machine_name
+from sim.show.texts.phrases import machine_name
 from sim.teach.drill import drills as drill_set
 
 _FILM_PX: Final = (960, 540)

@@ -9,7 +9,7 @@ from typing import Final
 
 from parser.findings.errors import SettingsError
 from sim.base.files import staged
-from sim.show.words.words import bilingual
+from sim.show.texts.texts import bilingual
 
 OPTION: Final = "--from-icon"
 """Of `drycut open`, with which both of them start it."""

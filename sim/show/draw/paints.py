@@ -12,7 +12,7 @@ from typing import Final, Literal, NamedTuple
 
 from parser.findings.catalogue import Bilingual
 from parser.shape.passes import Pass
-from sim.show.words import bilingual
+from sim.show.texts import bilingual
 
 Colour = tuple[int, int, int]
 """Red, green and blue, 0 to 255."""

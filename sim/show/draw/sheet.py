@@ -11,7 +11,7 @@ from sim.show.draw.layout import unit_of
 from sim.show.draw.paints import LIGHT, Theme
 from sim.show.draw.raster import Raster
 from sim.show.draw.svg import Svg
-from sim.show.words import Words
+from sim.show.texts import Words
 
 AnyCanvas = TypeVar("AnyCanvas", bound=Canvas)
 

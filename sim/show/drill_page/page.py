@@ -23,7 +23,7 @@ from sim.show.draw.flatten import bounds_um, cut_runs, flatten
 from sim.show.draw.path_data import path_data
 from sim.show.draw.simplify import simplify
 from sim.show.html.environment import rendered
-from sim.show.words import bilingual
+from sim.show.texts import bilingual
 from sim.teach.drill.drills import Drill, lines_of
 from sim.teach.drill.kinds import groups_of
 

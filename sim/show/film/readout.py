@@ -20,8 +20,8 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.layout import Box
 from sim.show.draw.paints import Paint, paint_of_pass
 from sim.show.pictures.cut.flags import SEVERITY_PAINTS
-from sim.show.words import Words
-from sim.show.words.phrases import counted_pass
+from sim.show.texts import Words
+from sim.show.texts.phrases import counted_pass
 
 BAR: Final = (30.0, 48.0)
 """Top and foot of the bar, from the strip's top on."""

@@ -25,7 +25,7 @@ from sim.show.film.ground import PieceDrawn, outlines_um
 from sim.show.film.readout import Line, bar_of, draw_strip, read_out, x_px
 from sim.show.film.scene import Layout, Pixels, Plate, Scene, fate, layout_for, plate_over
 from sim.show.pictures.cut.outlines import Bodies
-from sim.show.words import Words
+from sim.show.texts import Words
 
 THE_WIRE: Final = Paint.JUMP
 """The colour of the wire, which the page has too (`--wire` of replay.css)."""

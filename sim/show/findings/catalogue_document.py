@@ -12,7 +12,7 @@ from parser.findings.catalogue import Language, page
 from parser.findings.codes import CODES
 from sim.show.findings.pages import layers, page_text, page_title, severity_word
 from sim.show.terminal.documents import files
-from sim.show.words import Words
+from sim.show.texts import Words
 
 NAMES: Mapping[Language, str] = {"en": "findings.md", "zh": "findings.zh.md"}
 _TOURS: Mapping[Language, str] = {"en": "start.md", "zh": "start.zh.md"}

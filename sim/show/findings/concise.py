@@ -15,7 +15,7 @@ from sim.show.findings.options import Options
 from sim.show.findings.totals import Totals
 from sim.show.findings.wording import counted, reasons, summary
 from sim.show.terminal.finding import with_block
-from sim.show.words import Words
+from sim.show.texts import Words
 
 
 def render(results: Iterable[CheckResult], options: Options) -> Iterator[str]:

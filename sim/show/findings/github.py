@@ -11,7 +11,7 @@ from sim.show.findings.options import Options
 from sim.show.findings.tidy import posix, spot
 from sim.show.findings.totals import Totals
 from sim.show.findings.wording import reasons, settings, silenced, summary, with_hint
-from sim.show.words import Words
+from sim.show.texts import Words
 
 _LEVELS: Mapping[Severity, str] = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "notice"}
 

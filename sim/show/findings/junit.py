@@ -20,7 +20,7 @@ from sim.show.findings.options import Options
 from sim.show.findings.totals import BLOCKS
 from sim.show.findings.wording import reason, silenced, with_hint
 from sim.show.terminal.finding import message
-from sim.show.words import Words
+from sim.show.texts import Words
 
 # What XML 1.0 can hold, section 2.2; a line of text needs no other controls.
 _NO_XML = re.compile("[^\t\n\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")

@@ -3,7 +3,7 @@
 from parser.findings.catalogue import Language, example, page
 from parser.findings.codes import CODES
 from sim.show.terminal.documents import documents, title
-from sim.show.words import Words
+from sim.show.texts import Words
 
 _OF_LAYER = slice(None, -2)
 """What the codes of a layer have in common: ``3B2`` of 3B204, ``ISO2`` of ISO204."""

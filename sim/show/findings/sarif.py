@@ -20,7 +20,7 @@ from sim.check.result import CheckResult, fingerprints
 from sim.show.findings.options import Options
 from sim.show.findings.tidy import clean, joined, spot, tidy
 from sim.show.findings.wording import reason, silenced, with_hint
-from sim.show.words import Words
+from sim.show.texts import Words
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 

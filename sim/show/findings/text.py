@@ -19,7 +19,7 @@ from sim.show.findings.wording import reach, read_as, reasons, silenced, silence
 from sim.show.terminal.colours import COLOURS, painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped
-from sim.show.words import Words
+from sim.show.texts import Words
 
 _GAP = "  "  # between the columns
 

@@ -9,8 +9,8 @@ from parser.findings.findings import Finding
 from sim.check.result import CheckResult, CheckState, Coverage, Silenced, State
 from sim.show.findings.totals import Totals
 from sim.show.terminal.finding import hint, message
-from sim.show.words import Words
-from sim.show.words.phrases import as_read
+from sim.show.texts import Words
+from sim.show.texts.phrases import as_read
 
 _STATES: tuple[State, ...] = ("complete", "incomplete", "not asked")
 _MOST_FILES = 3  # settings files that one line names

@@ -26,8 +26,8 @@ from markupsafe import Markup
 
 from parser import __version__
 from sim.show.draw.paints import DARK, LIGHT, Theme
-from sim.show.words import bilingual
-from sim.show.words.words import texts
+from sim.show.texts import bilingual
+from sim.show.texts.texts import texts
 
 _IMPORT = re.compile(r'^import (?:\{(?P<names>[^{}]*)\}|\* as (?P<all>\w+)) from "(?P<file>[^"\n]+)";$', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async function|function|class|const) (?P<name>\w+))", re.MULTILINE)

@@ -10,7 +10,7 @@ from sim.setup.making import LANGUAGES
 from sim.setup.scenario import DEFAULT_MACHINE, DEFAULT_THICKNESS_MM
 from sim.setup.wire import DEFAULT_WIRE
 from sim.show.html.environment import rendered
-from sim.show.words.words import texts
+from sim.show.texts.texts import texts
 
 _ASSETS: Final = Path(__file__).with_name("assets")
 _PICTURE: Final = "picture_"

@@ -4,7 +4,7 @@ from typing import Protocol
 
 from parser.findings.catalogue import Language
 from sim.show.draw.sheet import AnyCanvas, Sheet
-from sim.show.words import Words
+from sim.show.texts import Words
 
 
 class Drawable(Protocol):

@@ -7,11 +7,11 @@ import numpy as np
 
 from parser.findings.catalogue import Bilingual
 from parser.geometry.curves import Floats
-from parser.words.labels import label
+from parser.step_words.labels import label
 from sim.setup.quiz import About, WrittenQuestion
 from sim.show.replay.asked_block import AskedBlock, in_mm, plain, signed, way
-from sim.show.words import bilingual
-from sim.show.words.phrases import same
+from sim.show.texts import bilingual
+from sim.show.texts.phrases import same
 
 _WRONG = 3
 """Wrong answers beside the right one, where there are as many."""

@@ -5,10 +5,10 @@ from typing import NamedTuple
 import numpy as np
 
 from controller.stepping.strokes import walk_arcs
+from parser.controller_words.step_words import Axis, StepWords
 from parser.geometry.curves import Floats
-from parser.told.step_words import Axis, StepWords
+from parser.step_words.labels import label
 from parser.units import mm
-from parser.words.labels import label
 from sim.run.dryrun import DryRun
 
 

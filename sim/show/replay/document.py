@@ -17,9 +17,9 @@ from controller.decode.blocks import Decoded, decoded
 from controller.motion.plan import Plan
 from controller.stepping.words import words_of
 from parser import __version__
+from parser.controller_words.step_words import Axis, StepWords
 from parser.program import Program
 from parser.text.encoding import printable
-from parser.told.step_words import Axis, StepWords
 from sim.base.rounded import column, rounded
 from sim.cut.pieces.pieces import Piece
 from sim.run.course import Happening, course_of, passes_of
@@ -44,7 +44,7 @@ from sim.show.replay.happenings import (
 )
 from sim.show.replay.quiz import quiz_of
 from sim.show.replay.tape import tape
-from sim.show.words.phrases import machine_name
+from sim.show.texts.phrases import machine_name
 from sim.table.follow import Setup
 from sim.table.trace import origin_um
 

@@ -13,7 +13,7 @@ from sim.base.rounded import rounded
 from sim.run.course import Happening, PassOf
 from sim.run.ending import Ending
 from sim.show.draw.paints import paint_of_pass
-from sim.show.words.phrases import named_pass
+from sim.show.texts.phrases import named_pass
 from sim.table.record.losses import Loss
 
 

@@ -9,13 +9,13 @@ from parser.findings.catalogue import LANGUAGES, Bilingual, texts
 from parser.findings.codes import Severity
 from parser.findings.findings import Finding, edited
 from parser.program import Program, parse_program
-from sim.check.batch import check_program
 from sim.check.blame.settle import told_of
+from sim.check.file_check import check_program
 from sim.check.settings import CheckSettings
 from sim.run.dryrun import DryRun
 from sim.setup.quiz import WrittenQuestion
-from sim.show.words import bilingual
-from sim.show.words.phrases import same
+from sim.show.texts import bilingual
+from sim.show.texts.phrases import same
 
 _MOST_FAULTS = 8
 _ANSWERS = 4

@@ -11,8 +11,8 @@ import numpy as np
 
 from controller.stepping.pulses import Pulses
 from controller.stepping.words import words_of
+from parser.controller_words.step_words import StepWords
 from parser.text.source import Field
-from parser.told.step_words import StepWords
 from sim.run.dryrun import DryRun
 from sim.setup.quiz import About, Question, WrittenQuestion
 from sim.show.replay.answers import written_out

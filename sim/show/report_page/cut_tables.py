@@ -16,7 +16,7 @@ from sim.show.report_page.tables import (
     worded,
     yes_or_no,
 )
-from sim.show.words import bilingual
+from sim.show.texts import bilingual
 
 
 def piece_table(entries: list[dict[str, Any]], names: BlockNames) -> ReportTable:

@@ -11,8 +11,8 @@ from parser.units import mm, mm_text
 from sim.run.dryrun import DryRun
 from sim.run.findings import verdict
 from sim.show.report_page.tables import reached
-from sim.show.words import bilingual
-from sim.show.words.phrases import catalogued, lasting, listed, machine_name, numbered, same
+from sim.show.texts import bilingual
+from sim.show.texts.phrases import catalogued, lasting, listed, machine_name, numbered, same
 
 _NONE = same("")
 

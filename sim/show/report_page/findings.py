@@ -15,7 +15,7 @@ from parser.findings.findings import Finding
 from parser.program import Program
 from parser.text.excerpt import caret_lines
 from sim.run.dryrun import DryRun
-from sim.show.words import bilingual
+from sim.show.texts import bilingual
 
 MOST: Final = 200
 """Findings that the page shows; report.json has them all."""

@@ -45,8 +45,8 @@ from sim.show.report_page.results import (
 )
 from sim.show.report_page.sheet import MOST_THREADS, sheet_of, thread_table
 from sim.show.report_page.tables import Column, ReportTable, yes_or_no
-from sim.show.words import bilingual
-from sim.show.words.phrases import machine_name, same
+from sim.show.texts import bilingual
+from sim.show.texts.phrases import machine_name, same
 
 
 class Setting(NamedTuple):

@@ -20,8 +20,8 @@ from sim.show.report_page.tables import (
     timed,
     worded,
 )
-from sim.show.words import bilingual
-from sim.show.words.phrases import catalogued
+from sim.show.texts import bilingual
+from sim.show.texts.phrases import catalogued
 
 CodeLink = tuple[str, str]
 """A code, and the address in the page of the finding that bears it."""

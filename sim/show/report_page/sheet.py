@@ -12,8 +12,8 @@ from sim.run.recording import NO_PIECES
 from sim.setup.part import DEFAULT_DENSITY_G_CM3
 from sim.show.report_page.findings import ShownFinding, gravest_findings
 from sim.show.report_page.tables import Column, ReportTable, called, column_of, counted, millimetres, timed
-from sim.show.words import bilingual
-from sim.show.words.phrases import lasting, listed, machine_name, numbered, same
+from sim.show.texts import bilingual
+from sim.show.texts.phrases import lasting, listed, machine_name, numbered, same
 
 MOST_THREADS: Final = 12
 """Thread points that have room on the sheet."""

@@ -6,7 +6,7 @@ from typing import Any, Final, Literal, NamedTuple
 from parser.findings.catalogue import Bilingual
 from parser.units import UM_PER_MM
 from sim.show.html.packed import packed
-from sim.show.words import bilingual
+from sim.show.texts import bilingual
 
 _LONG_S: Final = 600.0
 

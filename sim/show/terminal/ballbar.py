@@ -3,9 +3,9 @@
 from parser.findings.catalogue import Language
 from sim.run.ballbar.circle import Ballbar
 from sim.run.ballbar.figures import NAMES
-from sim.show.circular_test import Row, figure_rows, loss_text, part_rows, setup_rows, um
+from sim.show.ballbar_rows import Row, figure_rows, loss_text, part_rows, setup_rows, um
 from sim.show.terminal.layout import paragraph, show, table
-from sim.show.words.words import Words
+from sim.show.texts.texts import Words
 
 
 def print_ballbar(ballbar: Ballbar, tolerance_um: float | None, language: Language) -> None:

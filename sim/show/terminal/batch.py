@@ -8,7 +8,7 @@ from parser.findings.catalogue import Language
 from sim.show.terminal.colours import COLOURS, styled
 from sim.show.terminal.printer import say
 from sim.show.terminal.wrap import wrapped
-from sim.show.words import Words
+from sim.show.texts import Words
 
 _MOST: Final = 20
 _COUNTED: Final = ("pass", "fail", "refused", "fault", "from_cache")

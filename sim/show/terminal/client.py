@@ -8,7 +8,7 @@ from parser.findings.catalogue import Language
 from parser.text.encoding import printable
 from parser.units import mm
 from sim.clients.run import ClientRun
-from sim.clients.said import Questions
+from sim.clients.session import Questions
 from sim.clients.started import Ended
 from sim.show.terminal.colours import painted, styled
 from sim.show.terminal.finding import finding_lines
@@ -16,7 +16,7 @@ from sim.show.terminal.layout import paragraph, show, table
 from sim.show.terminal.printer import say
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of
-from sim.show.words import Words
+from sim.show.texts import Words
 
 _MOST_FINDINGS = 20
 _DAY_S = 86_400.0

@@ -9,7 +9,7 @@ from parser.units import mm, mm_text
 from sim.measure.compare.result import Comparison, WorstPlace
 from sim.measure.compare.tables import by_block, by_entity, corner_places, worst_places
 from sim.show.terminal.layout import paragraph, show, table
-from sim.show.words import Words
+from sim.show.texts import Words
 
 _MOST_CORNERS = 10
 _SHOWN_UM = 5e-4  # what is not printed as 0.000

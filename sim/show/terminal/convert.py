@@ -18,9 +18,9 @@ from sim.make.convert.wanted import Wanted
 from sim.show.terminal.colours import painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped
-from sim.show.words import Words
-from sim.show.words.phrases import as_read, listed, numbered, same
-from sim.show.words.words import bilingual
+from sim.show.texts import Words
+from sim.show.texts.phrases import as_read, listed, numbered, same
+from sim.show.texts.texts import bilingual
 
 _INDENT = "    "
 

@@ -14,8 +14,8 @@ from sim.show.terminal.layout import paragraph
 from sim.show.terminal.printer import say
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of, wrapped
-from sim.show.words import Words
-from sim.show.words.phrases import catalogued
+from sim.show.texts import Words
+from sim.show.texts.phrases import catalogued
 
 _INDENT = _GAP = "  "
 _WIDEST = 24

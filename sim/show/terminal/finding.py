@@ -13,7 +13,7 @@ from parser.findings.findings import Finding
 from parser.text.encoding import printable
 from parser.text.excerpt import caret_lines, cells, place
 from sim.show.terminal.wrap import WIDTH, wrapped
-from sim.show.words import Words
+from sim.show.texts import Words
 
 LABELS: Final = ("found", "expected", "machine", "hint")
 """What is said of a finding: names of its texts, and of their words."""

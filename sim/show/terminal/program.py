@@ -18,8 +18,8 @@ from sim.show.terminal.printer import say
 from sim.show.terminal.proof import proof_lines
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of, wrapped
-from sim.show.words import Words, bilingual
-from sim.show.words.phrases import listed, numbered, same
+from sim.show.texts import Words, bilingual
+from sim.show.texts.phrases import listed, numbered, same
 
 _INDENT = "    "
 _MOST_FIGURES = 40

@@ -10,8 +10,8 @@ from sim.make.cam.proof.target import Proof
 from sim.show.terminal.colours import COLOURS, painted, styled
 from sim.show.terminal.finding import finding_lines
 from sim.show.terminal.wrap import wrapped
-from sim.show.words import Words
-from sim.show.words.phrases import machine_name
+from sim.show.texts import Words
+from sim.show.texts.phrases import machine_name
 
 _INDENT = "    "
 _MOST_FINDINGS = 20

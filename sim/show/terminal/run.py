@@ -28,8 +28,8 @@ from sim.show.terminal.layout import paragraph, show, table
 from sim.show.terminal.printer import say
 from sim.show.terminal.streams import outlet
 from sim.show.terminal.wrap import width_of
-from sim.show.words import Words
-from sim.show.words.phrases import lasting, machine_name, numbered
+from sim.show.texts import Words
+from sim.show.texts.phrases import lasting, machine_name, numbered
 from sim.table.record.losses import Peak
 
 _MOST_PIECES = 4

@@ -19,7 +19,7 @@ from parser.geometry.distance import distance_to_curves
 from parser.program import Program, parse_program
 from parser.shape.closing import CLOSED_WITHIN_UM
 from parser.toolpath import Toolpath
-from sim.check.batch import check_program
+from sim.check.file_check import check_program
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.teach.drill.kinds import KINDS, Group

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from random import Random
 
 from parser.dialect.reader import Spelling
+from parser.step_words.labels import SENSES
 from parser.text.source import Field
-from parser.words.labels import SENSES
 from sim.teach.drill.sound import Slip, Sound
 
 Maker = Callable[[Random, Sound], Slip | None]

@@ -21,7 +21,7 @@ def grown(value):
 
 OUTER = """
 from controller.compiled.loops import compiled
-from controller.compiled.telling import on_compiling
+from controller.compiled.compiling import on_compiling
 
 on_compiling(lambda: print("compiling"))
 from inner import grown

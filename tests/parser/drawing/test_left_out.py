@@ -13,7 +13,7 @@ from parser.drawing.model import Drawing, LeftOut
 from parser.drawing.read import read_drawing
 from parser.findings.catalogue import remark_text
 from parser.findings.errors import DrawingError
-from sim.show.words.words import texts
+from sim.show.texts.texts import texts
 
 
 def _square(space: Modelspace) -> None:

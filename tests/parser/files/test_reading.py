@@ -17,7 +17,7 @@ from parser.findings.errors import DrycutError, FileUnreadableError, SettingsErr
 
 ROOT = Path(__file__).parents[3]
 SHIPPED = {
-    *("parser/findings/catalogue.py", "sim/show/words/words.py", "sim/setup/key_words.py", "sim/setup/key_tables.py"),
+    *("parser/findings/catalogue.py", "sim/show/texts/texts.py", "sim/setup/key_words.py", "sim/setup/key_tables.py"),
     *("sim/show/html/environment.py", "sim/show/findings/catalogue_document.py", "sim/show/terminal/documents.py"),
     *("parser/iso/profiles/profile.py", "parser/write/iso_choices.py", "parser/drawing/dxf/linetypes.py"),
     "controller/compiled/loops.py",  # its own modules

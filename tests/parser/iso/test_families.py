@@ -10,7 +10,7 @@ from iso_writer import IsoProgram
 from parser.dialect.choices import Choices
 from parser.findings.codes import Severity
 from parser.program import Program, parse_program
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.programmed import programmed_of
 from sim.check.settings import CheckSettings
 

@@ -12,7 +12,7 @@ from parser.iso.listing.lexer import read_listing
 from parser.iso.profiles.profile import PROFILES, profile
 from parser.iso.words.word_checks import GROUPS, word_findings
 from parser.program import parse_program
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 CODES = {f"ISO{number}" for number in (200, 201, 202, 203, 205, 206, 209)}

@@ -7,7 +7,7 @@ import pytest
 from checking import SOUND, WRONG_AXIS
 
 from parser.findings.errors import DrycutError
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult, Silenced
 from sim.check.settings import CheckSettings
 from sim.check.silence.baseline import Baseline, baseline_text, findings_of, read_baseline

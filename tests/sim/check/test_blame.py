@@ -11,8 +11,8 @@ from slips import contradiction, measured
 from parser.findings.findings import edited
 from parser.program import Program
 from sim.check import engine
-from sim.check.batch import Job, check_file
 from sim.check.engine import Checked
+from sim.check.file_check import Job, check_file
 from sim.check.path_checks import Demands
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings

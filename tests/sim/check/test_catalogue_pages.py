@@ -4,13 +4,13 @@ import pytest
 
 from parser.findings.catalogue import LANGUAGES, Example, Language, example, page
 from parser.findings.codes import CODES, Severity
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.setup.machine.machine import load_machine
 from sim.show.findings.pages import list_text, page_text, severity_word
 from sim.show.terminal.documents import documents
-from sim.show.words import Words
+from sim.show.texts import Words
 
 OF_A_RUN = {code for code, of in CODES.items() if of.check is None}
 WITHOUT_EXAMPLE = {"3B100", "3B303", "ISO100"} | OF_A_RUN

@@ -11,15 +11,15 @@ from compensating import LINUXCNC, TEXTBOOK
 
 from controller.offset.reach import reach
 from controller.offset.sections import Side
+from parser.controller_words.compensation import CompensationRules
 from parser.dialect.choices import Choices
 from parser.findings.catalogue import LANGUAGES, texts
 from parser.findings.codes import Check, Severity
 from parser.findings.findings import Finding
 from parser.program import Program, parse_program
-from parser.told.compensation import CompensationRules
-from sim.check.beside import Offsetting
 from sim.check.compensation.rounds import contour_of
 from sim.check.engine import Checked, run_checks
+from sim.check.pass_over_round import Offsetting
 from sim.check.path_checks import Demands
 
 STUB_OF_A_COMPENSATED_LEAD = 100.0 * (math.sqrt(5.0) / 2.0 - 1.0)  # midway between two places an offset apart

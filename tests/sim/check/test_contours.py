@@ -8,8 +8,8 @@ from controller.stepping.words import interpolate
 from parser.findings.findings import Finding
 from parser.program import parse_program
 from parser.shape.contours import find_contours
-from sim.check.batch import Job, check_file
 from sim.check.count_axes import ruled_count_axis
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 HOLE = "B9900B0B9900GXL1 B9900B0B39600GYNR1 B9900B0B9900GXL3"

@@ -7,7 +7,7 @@ from checking import SOUND, WRONG_AXIS
 
 from parser.findings.catalogue import texts
 from parser.program import parse_program
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult, Silenced
 from sim.check.settings import CheckSettings
 from sim.check.silence.directives import heed

@@ -14,7 +14,7 @@ from depth import cases
 from lsprotocol.types import CodeAction, CodeActionKind, Position, Range, TextDocumentEdit, TextEdit
 
 from parser.program import load_program
-from sim.check.batch import as_typed
+from sim.check.file_check import as_typed
 from sim.check.mended import mended_text
 from sim.check.settings import CheckSettings
 from sim.cli.check.patches import for_tools

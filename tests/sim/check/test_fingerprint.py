@@ -6,7 +6,7 @@ from cam_programs import sound_program
 from checking import WRONG_AXIS
 from mutants import mutant
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import fingerprints
 from sim.check.settings import CheckSettings
 

@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from depth import cases
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 Place = tuple[int, int]

@@ -9,7 +9,7 @@ from depth import cases
 from mutants import KINDS
 from mutation import tally, trials
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 DAMAGED = ("B lost", "G lost", "X or Y of G lost", "letter of sense lost", "O for 0")

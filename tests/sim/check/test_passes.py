@@ -9,7 +9,7 @@ from rough_and_trim import rough_and_trim
 from sound import program_text
 from sound_cam import Move, Post
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 WIRE = CheckSettings(wire_diameter_um=180.0, spark_gap_um=10.0)

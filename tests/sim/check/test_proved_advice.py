@@ -12,7 +12,7 @@ from depth import cases
 from pass_styles import STYLES, written
 from plain import PlainBlock
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 

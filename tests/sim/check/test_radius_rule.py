@@ -6,7 +6,7 @@ import random
 import pytest
 from sound_4b import outline_4b
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 

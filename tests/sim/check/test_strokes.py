@@ -7,7 +7,7 @@ import pytest
 import single_damages as damaged
 from depth import cases
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 LOST_SIDE = "B0B4120B4120GYL4 B25400B0B25400GXL1 B0B7046B7046GYL2 B0B7046B7046GYL4 B0B4120B4120GYL2 DD"

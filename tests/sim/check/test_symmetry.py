@@ -12,7 +12,7 @@ from rough_and_trim import rough_and_trim
 
 from parser.program import parse_program
 from parser.shape.passes import find_passes
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 WIRE = CheckSettings(wire_diameter_um=180.0, spark_gap_um=10.0)

@@ -13,7 +13,7 @@ from traced import STEEL, kerf_along
 
 from parser.program import load_program
 from parser.toolpath import Toolpath
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 from sim.cut.pieces.pieces import pieces_of
 from sim.measure.compare.as_cut import edge_as_cut

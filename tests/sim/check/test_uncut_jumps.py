@@ -2,7 +2,7 @@
 
 import pytest
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 SQUARE = "B0B9000B9000GYL2 B9000B0B9000GXL1 B0B9000B9000GYL4 B9000B0B9000GXL3"

@@ -18,8 +18,8 @@ from jsonschema import Draft202012Validator
 from PIL import Image
 from places import ROOT
 
+from parser.controller_words.step_words import Axis
 from parser.findings.catalogue import LANGUAGES, Language
-from parser.told.step_words import Axis
 from sim.base.progress import silent
 from sim.cli.ballbar import ballbar as command
 from sim.run.ballbar.circle import Ballbar, circle_test, run_test

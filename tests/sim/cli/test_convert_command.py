@@ -8,7 +8,7 @@ from command import run_inside
 from places import ROOT
 from twins import BLOCKS_3B, TWIN_3B, TWIN_ISO, motion
 
-from sim.show.words.words import texts
+from sim.show.texts.texts import texts
 
 OPEN = "B9000B0B9000GXL1\nB0B9000B9000GYL2\nB9000B0B9000GXL3\nB0B8000B8000GYL4\nDD\n"
 HOLE = (

@@ -11,7 +11,7 @@ import pytest
 from checking import SOUND, WRONG_AXIS
 from command import run_inside
 
-import sim.check.batch
+import sim.check.file_check
 from parser.program import Program
 from parser.text.excerpt import cells
 from sim.cli.faults import EXIT
@@ -19,7 +19,7 @@ from sim.cli.faults import EXIT
 
 def raising(error: BaseException, at: str = "") -> object:
     """`load_program` that raises an error at the file of a name, or at every file."""
-    loaded = sim.check.batch.load_program
+    loaded = sim.check.file_check.load_program
 
     def load(data: bytes, name: str, *others: object) -> Program:
         if at in name:
@@ -63,7 +63,7 @@ def test_a_fault_is_told_for_people_and_kept(
 
 
 def test_the_fault_of_one_file_leaves_the_others_checked(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sim.check.batch.load_program", raising(ZeroDivisionError("boom"), "faulty"))
+    monkeypatch.setattr("sim.check.file_check.load_program", raising(ZeroDivisionError("boom"), "faulty"))
     done = run_inside("check", ".", cwd=folder)
     assert done.returncode == EXIT
     assert "faulty\ufffd.3b: incomplete" in done.stdout.decode()
@@ -74,39 +74,39 @@ def test_the_fault_of_one_file_leaves_the_others_checked(folder: Path, monkeypat
 
 
 def test_a_fault_goes_before_all_else_that_an_exit_code_tells(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sim.check.batch.load_program", raising(ZeroDivisionError("boom"), "faulty"))
+    monkeypatch.setattr("sim.check.file_check.load_program", raising(ZeroDivisionError("boom"), "faulty"))
     assert run_inside("check", ".", "none.3b", "--exit-zero", cwd=folder).returncode == EXIT
 
 
 def test_where_nothing_can_be_kept_that_is_told(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(folder / "nowhere"))
-    monkeypatch.setattr("sim.check.batch.load_program", raising(ZeroDivisionError("boom")))
+    monkeypatch.setattr("sim.check.file_check.load_program", raising(ZeroDivisionError("boom")))
     done = run_inside("check", "a.3b", cwd=folder)
     assert done.returncode == EXIT
     assert "could not be written" in done.stderr.decode()
 
 
 def test_ctrl_c_is_130(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sim.check.batch.load_program", raising(KeyboardInterrupt()))
+    monkeypatch.setattr("sim.check.file_check.load_program", raising(KeyboardInterrupt()))
     done = run_inside("check", ".", cwd=folder)
     assert (done.returncode, done.stderr.strip()) == (130, b"")
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="has no such signal, and starts its processes otherwise")
 def test_a_process_that_dies_is_told_by_its_file(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sim.check.batch.PARALLEL_FROM", 2)
+    monkeypatch.setattr("sim.check.file_check.PARALLEL_FROM", 2)
     monkeypatch.setattr("sim.check.parallel._FILES_A_TASK", 4)
     names = [f"{number}.3b" for number in range(10, 24)]
     for name in names:
         shutil.copy(folder / "wrong.3b", folder / name)
-    check = sim.check.batch.check_file
+    check = sim.check.file_check.check_file
 
-    def dying(job: sim.check.batch.Job) -> sim.check.batch.CheckResult:
+    def dying(job: sim.check.file_check.Job) -> sim.check.file_check.CheckResult:
         if job.name in {"15.3b", "23.3b"}:
             os.kill(os.getpid(), signal.SIGKILL)
         return check(job)
 
-    monkeypatch.setattr("sim.check.batch.check_file", dying)
+    monkeypatch.setattr("sim.check.file_check.check_file", dying)
     done = run_inside("check", *names, "--format", "concise", cwd=folder)
     assert done.returncode == EXIT
     found = {line.split(":")[0] for line in done.stdout.decode().splitlines() if "[3B204]" in line}

@@ -10,7 +10,7 @@ from command import run_inside
 from parser.text.excerpt import cells
 from sim.cli import cli
 from sim.cli.spoken import Spoken
-from sim.show.words.words import texts
+from sim.show.texts.texts import texts
 
 CHINESE = re.compile(r"[\u2e80-\u9fff]")
 OF_ALL = {"usage", "options", "commands", "exit", "colon", "default", "required"}

@@ -23,7 +23,7 @@ from sim.setup.key_words import value_word
 from sim.setup.machine.machine import load_machine
 from sim.setup.scenario import MACHINE_FILE, load_scenario, scenario_sections
 from sim.setup.toml.keys import toml_text
-from sim.show.words.words import texts
+from sim.show.texts.texts import texts
 
 SCHEMA = json.loads((ROOT / "docs" / "check.schema.json").read_text("utf-8"))
 

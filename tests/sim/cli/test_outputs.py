@@ -12,7 +12,7 @@ from checking import SOUND, WRONG_AXIS
 from command import run_command, run_inside
 from places import ROOT
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.cli.check.outputs import Output, write
@@ -120,7 +120,7 @@ def test_outputs_that_cannot_be_are_bad_use_before_any_work(
     (programs / "link").symlink_to("programs/wrong.3b")
     (programs / "known.json").write_text('{"schema": "drycut.baseline/1", "files": {}}', "ascii")
     (programs / "drycut.toml").write_text("", "ascii")
-    monkeypatch.setattr("sim.check.batch.check_file", lambda job: pytest.fail("a file was checked"))
+    monkeypatch.setattr("sim.check.file_check.check_file", lambda job: pytest.fail("a file was checked"))
     before = {path: path.read_bytes() for path in programs.rglob("*") if path.is_file()}
     done = run_inside("check", "programs", *options, cwd=programs)
     assert (done.returncode, done.stdout) == (2, b"")

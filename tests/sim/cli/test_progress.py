@@ -13,7 +13,7 @@ from sim.cli import progress
 from sim.cli.progress import WEIGHTS, StageProgress
 from sim.jobs.run_into import run_into, stages_of_files
 from sim.setup.scenario import Scenario, load_scenario
-from sim.show.words.words import texts
+from sim.show.texts.texts import texts
 
 TEXT = "B0B900B900GYL2 B900B0B900GXL1 B0B900B900GYL4 B900B0B900GXL3 DD"
 Case = Callable[[], tuple[Program, Scenario]]

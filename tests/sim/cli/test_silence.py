@@ -8,7 +8,7 @@ from checking import SOUND, WRONG_AXIS, drycut
 from command import run_inside
 
 from sim.base.workers.processes import Processes
-from sim.check.batch import check_file
+from sim.check.file_check import check_file
 from sim.check.parallel import check_files
 from sim.check.result import CheckResult, Silenced
 from sim.cli.check.jobs import CheckOptions, jobs_of

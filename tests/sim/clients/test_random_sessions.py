@@ -13,7 +13,7 @@ from controller.card.log.writer import CardLog
 from controller.stepping.pulses import Pulses
 from sim.cli.card_client import ClientOptions, scenario_of
 from sim.clients.run import Read, read_again, run_client
-from sim.clients.said import session_of
+from sim.clients.session import session_of
 
 REST_MS = 1e6
 

@@ -12,7 +12,7 @@ from controller.card.core.settings import CardSettings, Switches
 from controller.card.log.lines import CardLogError
 from controller.card.log.writer import CardLog
 from sim.clients.run import Read, read_again
-from sim.clients.said import session_of
+from sim.clients.session import session_of
 from sim.clients.unseen import unseen_of
 
 LIMITED = {"switches": (Switches(negative=-4000.0, positive=9000.0),)}

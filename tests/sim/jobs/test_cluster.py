@@ -20,7 +20,7 @@ from parser.findings.errors import ClusterError
 from parser.program import read_program
 from sim.base.workers.cluster import _caller, cluster
 from sim.base.workers.processes import Processes
-from sim.check.batch import Job, check_any
+from sim.check.file_check import Job, check_any
 from sim.check.parallel import check_files
 from sim.check.settings import CheckSettings
 from sim.jobs.run_into import run_into

@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from runs import machine
 
+from parser.controller_words.step_words import Axis
 from parser.findings.errors import SettingsError
-from parser.told.step_words import Axis
 from sim.base.progress import silent
 from sim.base.units import parse_speed
 from sim.run.ballbar.circle import circle_test, measure, run_test

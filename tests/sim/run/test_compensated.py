@@ -22,7 +22,7 @@ from sim.run.report import build_report
 from sim.run.running import dry_run
 from sim.setup.part import Offset, OffsetPass
 from sim.show.terminal.run import pass_rows
-from sim.show.words import Words
+from sim.show.texts import Words
 
 ASKED = Offset((OffsetPass(100.0),), Side.LEFT)
 

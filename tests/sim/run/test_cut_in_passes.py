@@ -26,7 +26,7 @@ from parser.geometry.along import places_at
 from parser.geometry.curves import CurveKind, Curves, Floats
 from parser.program import parse_program
 from parser.shape.passes import find_passes
-from sim.check.beside import Offsetting
+from sim.check.pass_over_round import Offsetting
 from sim.run.course import findings_of
 from sim.run.offsetting import offsetting
 from sim.run.prepare import Prepared, prepare

@@ -10,8 +10,8 @@ import pytest
 from runs import codes, machine, run_text, scenario_run
 
 from controller.card.log.writer import CardLog
+from parser.controller_words.step_words import Axis
 from parser.program import parse_program
-from parser.told.step_words import Axis
 from sim.run.dryrun import DryRun
 from sim.run.report import build_report
 from sim.run.running import dry_run

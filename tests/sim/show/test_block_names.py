@@ -14,7 +14,7 @@ from parser.findings.codes import CODES
 from parser.program import parse_program
 from parser.text.source import BlockNames
 from sim.base.progress import silent
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 from sim.run.course import course_of
 from sim.run.recording import recorded
@@ -22,7 +22,7 @@ from sim.show.film.readout import read_out
 from sim.show.replay.document import replay_document
 from sim.show.terminal.finding import message
 from sim.show.terminal.run import summary_rows
-from sim.show.words import Words
+from sim.show.texts import Words
 
 COUNTED = re.compile(r"(?<!two )\bblocks? \d+\b(?!\.)|(?:第|至|到|段号) ?\d+(?:–\d+)? ?段|第 \d+(?:–| 至)")
 """A block that is called by its number, in both languages."""

@@ -24,8 +24,8 @@ from sim.show.film.scene import layout_for
 from sim.show.film.screen import THE_WIRE, WIRE, Look, Screen
 from sim.show.film.writers import FilmClock
 from sim.show.keys import OF_PAGE
-from sim.show.words import Words
-from sim.show.words.words import texts
+from sim.show.texts import Words
+from sim.show.texts.texts import texts
 from sim.table.trace import Trace
 
 PART = """

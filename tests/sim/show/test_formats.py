@@ -20,7 +20,7 @@ from places import ROOT
 from parser.findings.catalogue import LANGUAGES, Language, term, texts
 from parser.findings.codes import CODES, Check, Severity
 from parser.findings.findings import Finding
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult, Coverage
 from sim.check.settings import CheckSettings
 from sim.show.findings import FORMATS, render

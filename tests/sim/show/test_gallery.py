@@ -8,7 +8,7 @@ from places import ROOT
 from parser.findings.catalogue import LANGUAGES
 from sim.show.pictures.gallery import PICTURES
 from sim.show.pictures.plan.picture import PLAN
-from sim.show.words.words import Words, texts
+from sim.show.texts.texts import Words, texts
 
 COUNTS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]
 
@@ -16,13 +16,13 @@ COUNTS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", 
 @pytest.mark.parametrize("name", PICTURES)
 def test_a_picture_has_a_name_for_those_who_cannot_see_it(name: str) -> None:
     key = f"picture_{name}"
-    assert key in texts("common"), f"sim/show/words/common.toml has no {key}: what the picture is, in both languages"
+    assert key in texts("common"), f"sim/show/texts/common.toml has no {key}: what the picture is, in both languages"
     assert all(texts("common")[key])
 
 
 def test_no_name_is_left_of_a_picture_that_there_is_not() -> None:
     named = {key.removeprefix("picture_") for key in texts("common") if key.startswith("picture_")}
-    assert named - {*PICTURES, PLAN} == set(), "sim/show/words/common.toml names pictures that nothing draws"
+    assert named - {*PICTURES, PLAN} == set(), "sim/show/texts/common.toml names pictures that nothing draws"
 
 
 def test_the_help_of_draw_names_every_picture_and_says_what_it_shows() -> None:

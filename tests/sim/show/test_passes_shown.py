@@ -27,7 +27,7 @@ from sim.show.replay.document import replay_page
 from sim.show.report_page.page import report_page
 from sim.show.report_page.results import pass_table
 from sim.show.terminal.run import summary_rows
-from sim.show.words import Words
+from sim.show.texts import Words
 
 NAMES = ["pass 1 of 4, forward", "pass 2 of 4, back", "pass 3 of 4, tab, back", "pass 4 of 4, tab, forward"]
 

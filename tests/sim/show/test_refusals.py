@@ -10,7 +10,7 @@ from parser.drawing.loops.chain import WhyFlat
 from parser.toolpath import Point
 from sim.make.cam.model import Refusal
 from sim.show.refusals import places_said, why_refused
-from sim.show.words.words import texts
+from sim.show.texts.texts import texts
 
 TREES = [
     ast.parse(path.read_text("utf-8"))

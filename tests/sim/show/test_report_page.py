@@ -31,7 +31,7 @@ from sim.show.report_page.findings import MOST, prose
 from sim.show.report_page.page import reproduction, setting_groups
 from sim.show.report_page.results import block_table
 from sim.show.report_page.tables import micrometres, reached
-from sim.show.words.phrases import lasting
+from sim.show.texts.phrases import lasting
 
 
 @pytest.fixture(scope="module")

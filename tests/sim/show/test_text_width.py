@@ -12,7 +12,7 @@ from parser.findings.catalogue import LANGUAGES, Language, example, texts
 from parser.findings.codes import CODES
 from parser.findings.findings import Finding
 from parser.text.excerpt import caret_lines, cells
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.result import CheckResult
 from sim.check.settings import CheckSettings
 from sim.setup.machine.machine import load_machine

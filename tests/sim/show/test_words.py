@@ -13,8 +13,8 @@ from places import ROOT
 from parser.findings.catalogue import LANGUAGES, Bilingual
 from sim.run.ballbar.figures import NAMES, SENSES
 from sim.show.html.environment import joined
-from sim.show.words import Words, bilingual
-from sim.show.words.words import FOLDER, texts
+from sim.show.texts import Words, bilingual
+from sim.show.texts.texts import FOLDER, texts
 
 PACKAGES = ("parser", "controller", "sim")
 FILES = sorted(path.stem for path in FOLDER.glob("*.toml"))
@@ -46,7 +46,7 @@ NO_SENTENCES = {
 CHECK = """
 import atexit, sys
 from sim.cli import main
-from sim.show.words.words import texts
+from sim.show.texts.texts import texts
 
 atexit.register(lambda: sys.stderr.write(f"{texts.cache_info().currsize} files"))
 main()

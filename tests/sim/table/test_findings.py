@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from parser.controller_words.step_words import Axis
 from parser.findings.catalogue import texts
 from parser.program import Program, parse_program
-from parser.told.step_words import Axis
 from sim.setup.machine.table_model import Motor
 from sim.table.findings import MOST, loss_findings
 from sim.table.record.losses import Loss

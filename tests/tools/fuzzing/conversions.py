@@ -7,7 +7,7 @@ from fuzzing import iso_text, program_text
 from fuzzing.ran import answer_of, broken_by, leftovers, ran
 from fuzzing.target import Input, Judged
 from parser.findings.codes import Severity
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 _REGISTERS = ("--offset", "D0=0.1mm", "--offset", "D1=0.05mm", "--offset", "D11=0.1mm")

@@ -13,7 +13,7 @@ from fuzzing.target import Input, Judged
 from parser.findings.catalogue import LANGUAGES
 from parser.findings.codes import Severity
 from parser.findings.errors import DrycutError
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 from sim.make.cam.maker import MadeProgram, NotMade, unproved
 from sim.make.convert.wanted import Wanted
@@ -21,7 +21,7 @@ from sim.setup.making import Making
 from sim.setup.scenario import Scenario
 from sim.show.refusals import why_refused
 from sim.show.terminal.program import told_lines
-from sim.show.words import Words
+from sim.show.texts import Words
 
 _PASSES_UM: tuple[tuple[float, ...], ...] = ((), (0.0,), (180.0, 120.0, 100.0))
 _TABS_UM = (0.0, 0.0, 0.0, 3000.0)

@@ -28,7 +28,7 @@ from parser.toolpath import Point
 from sim.make.cam.leads.leads import lead_in, lead_out
 from sim.make.cam.model import CannotCutError, Figure, FigureCut, PassCut, Refusal, Thread
 from sim.make.cam.order.sides import way_of
-from sim.make.cam.passes.beside.beside import SHORT_UM, offset_path
+from sim.make.cam.passes.offset_path.offset_path import SHORT_UM, offset_path
 from sim.setup.making import Making
 
 

@@ -22,8 +22,8 @@ from sim.make.cam.threads.entries import MOST, Entries, EntryRequest, corners, m
 HOLE_UM: Final = 1000.0
 """Thread points lie apart by a start hole of 1 mm (assumed).
 
-A reader of 3B takes what ends within a kerf of a figure's corner for another pass over it (`parser.shape.beside`): so
-near to one thread point no jump leads to another one.
+A reader of 3B takes what ends within a kerf of a figure's corner for another pass over it
+(`parser.shape.parallel_runs`): so near to one thread point no jump leads to another one.
 """
 
 

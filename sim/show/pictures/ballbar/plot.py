@@ -17,7 +17,7 @@ from parser.geometry.curves import Floats
 from sim.run.ballbar.circle import Ballbar, Measured
 from sim.run.ballbar.figures import NAMES, Sense
 from sim.run.ballbar.parts import Reversal
-from sim.show.circular_test import Row, figure_rows, part_rows, setup_rows, um
+from sim.show.ballbar_rows import Row, figure_rows, part_rows, setup_rows, um
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
 from sim.show.draw.dial import NOMINAL_WIDTH, RIM, Dial, draw_ring_values, draw_rings, ring_for
@@ -25,7 +25,7 @@ from sim.show.draw.legend import Entry, LegendSizes, dashes, draw_header, draw_l
 from sim.show.draw.paints import Paint
 from sim.show.draw.raster import Raster
 from sim.show.draw.simplify import CHORD_PX, simplify
-from sim.show.words.words import Words
+from sim.show.texts.texts import Words
 
 COLOURS: Final[dict[Sense, Paint]] = {1: Paint.CCW, -1: Paint.CW}
 """Blue and vermilion of Okabe and Ito; in grey the clockwise curve is told by its dashes."""

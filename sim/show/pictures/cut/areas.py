@@ -16,7 +16,7 @@ from sim.show.draw.layout import Box, View, box_around
 from sim.show.draw.paints import Paint
 from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.cut.subject import Board
-from sim.show.words import Words
+from sim.show.texts import Words
 
 if TYPE_CHECKING:  # of a path no pieces are known, and their rooms take long to load
     from sim.cut.pieces.kinds import Kind

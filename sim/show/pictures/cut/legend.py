@@ -29,7 +29,7 @@ from sim.show.pictures.cut.flags import draw_flag, places_um
 from sim.show.pictures.cut.marks import draw_end, draw_number, draw_pause, draw_start, number_size, pauses
 from sim.show.pictures.cut.outlines import draw_clamp, draw_work
 from sim.show.pictures.cut.subject import Cut
-from sim.show.words import Words
+from sim.show.texts import Words
 
 COLUMNS: Final = 3
 FINDING_COLUMNS: Final = 2

@@ -17,7 +17,7 @@ from sim.show.draw.labels import Anchors, number_stride, place_numbers
 from sim.show.draw.layout import Box, View, box_around
 from sim.show.draw.paints import Paint
 from sim.show.pictures.cut.subject import Board
-from sim.show.words import Words
+from sim.show.texts import Words
 
 NUMBERS_AT: Final = (0.5, 0.4, 0.6, 0.3, 0.7)
 """Where along a block its number may stand, best first."""

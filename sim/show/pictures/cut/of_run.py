@@ -7,8 +7,8 @@ from sim.show.pictures.cut.of_path import bodies_of, note_of, travel_um
 from sim.show.pictures.cut.picture import draw_cut
 from sim.show.pictures.cut.shapes import Shapes
 from sim.show.pictures.cut.subject import Cut
-from sim.show.words import Words
-from sim.show.words.phrases import lasting
+from sim.show.texts import Words
+from sim.show.texts.phrases import lasting
 
 
 def draw_cut_of_run(

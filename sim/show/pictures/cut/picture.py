@@ -27,7 +27,7 @@ from sim.show.pictures.cut.shapes import Shapes
 from sim.show.pictures.cut.size_lines import Extents, draw_extents, draw_rounds, extents_of
 from sim.show.pictures.cut.sizes import CutSizes, sizes_of_cut
 from sim.show.pictures.cut.subject import Board, Cut
-from sim.show.words import Words
+from sim.show.texts import Words
 
 
 def draw_border(canvas: Canvas, page: Page, travel_um: Floats) -> None:

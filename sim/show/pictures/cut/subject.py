@@ -11,7 +11,7 @@ from sim.show.draw.canvas import Canvas
 from sim.show.draw.labels import Room
 from sim.show.draw.layout import Page
 from sim.show.pictures.cut.outlines import Bodies
-from sim.show.words import Words
+from sim.show.texts import Words
 
 if TYPE_CHECKING:  # what only a run has: the picture of a path does without the engine
     from sim.cut.pieces.pieces import Pieces

@@ -13,7 +13,7 @@ from sim.show.draw.legend import draw_header, elide
 from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.words import Words
+from sim.show.texts import Words
 
 LEAST_UM: Final = 0.5
 SEEN: Final = 0.25

@@ -14,7 +14,7 @@ from sim.show.draw.paints import Paint
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.pictures.deviation.frame import range_shown, titled, tolerance_text, um
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.words import Words
+from sim.show.texts import Words
 
 HEIGHT: Final = 0.5
 """Of the page, over its width."""

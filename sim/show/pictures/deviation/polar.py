@@ -18,7 +18,7 @@ from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.deviation.frame import titled, um, write_caption
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.words import Words
+from sim.show.texts import Words
 
 MOST: Final = 4
 """Dials in a picture."""

@@ -16,7 +16,7 @@ from sim.show.draw.simplify import CHORD_PX, simplify
 from sim.show.pictures.deviation.frame import mark_place, titled, tolerance_text, um
 from sim.show.pictures.deviation.samples import Samples
 from sim.show.pictures.deviation.worst import worst_of
-from sim.show.words import Words
+from sim.show.texts import Words
 
 SHARE: Final = 0.06
 """Length of the longest whisker, at most, as a share of the plot's longer side."""

@@ -33,8 +33,8 @@ from sim.show.pictures.deviation.inset import (
     view_of,
 )
 from sim.show.pictures.deviation.samples import Samples
-from sim.show.words import Words
-from sim.show.words.phrases import lasting
+from sim.show.texts import Words
+from sim.show.texts.phrases import lasting
 
 MOST: Final = 4
 APART_UM: Final = 80.0

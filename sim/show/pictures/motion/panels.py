@@ -6,14 +6,14 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis
 from parser.geometry.curves import Floats, Ints
-from parser.told.step_words import Axis
 from parser.units import mm
 from sim.base.units import in_figures
 from sim.run.dryrun import DryRun
 from sim.show.draw.chart import AxisRange, range_of
 from sim.show.draw.paints import Paint
-from sim.show.words import Words
+from sim.show.texts import Words
 from sim.table.record.bins import Envelope
 from sim.table.record.history import History
 from sim.table.record.losses import Quantity

@@ -11,8 +11,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis
 from parser.geometry.curves import Floats, total_before
-from parser.told.step_words import Axis
 from sim.run.dryrun import DryRun
 from sim.show.draw import style
 from sim.show.draw.canvas import Canvas
@@ -36,8 +36,8 @@ from sim.show.pictures.motion.events import (
     marks_of,
 )
 from sim.show.pictures.motion.panels import Level, Panel, panels_of
-from sim.show.words import Words
-from sim.show.words.phrases import lasting, machine_name
+from sim.show.texts import Words
+from sim.show.texts.phrases import lasting, machine_name
 from sim.table.record.bins import Envelope
 
 MEAN_WIDTH: Final = 2.4

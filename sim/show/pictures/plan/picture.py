@@ -32,8 +32,8 @@ from sim.show.draw.legend import (
 from sim.show.draw.paints import TONES, Paint, paint_of_pass
 from sim.show.draw.sheet import AnyCanvas, Sheet
 from sim.show.draw.simplify import CHORD_PX, simplify
-from sim.show.words import Words, bilingual
-from sim.show.words.phrases import numbered
+from sim.show.texts import Words, bilingual
+from sim.show.texts.phrases import numbered
 
 _LEAST_UM = 100.0
 

@@ -23,7 +23,7 @@ from sim.make.cam.maker import MadeProgram, NotMade, made_program, unproved
 from sim.make.convert.wanted import Wanted
 from sim.setup.making import Making
 from sim.show.terminal.program import told_lines
-from sim.show.words import Words
+from sim.show.texts import Words
 
 SCHEMA = json.loads((ROOT / "docs" / "program.schema.json").read_text(encoding="utf-8"))
 VALIDATOR = Draft202012Validator(SCHEMA)

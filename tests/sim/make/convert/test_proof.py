@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from twins import TWIN_3B
 
+from parser.controller_words.compensation import Compensation, CompensationRules
 from parser.dialect.choices import Choices
 from parser.geometry.curves import CurveKind
 from parser.program import parse_program
-from parser.told.compensation import Compensation, CompensationRules
 from parser.toolpath import Toolpath
 from parser.write.draft import draft_of
 from parser.write.iso import written_iso

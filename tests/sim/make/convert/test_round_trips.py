@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import sound
 
+from parser.controller_words.step_words import StepWords
 from parser.geometry.curves import Bools
 from parser.program import Program, dialects, load_program
-from parser.told.step_words import StepWords
 from parser.toolpath import Toolpath
 from parser.write.iso_choices import iso_choices
 from sim.make.convert.convert import Converted, converted

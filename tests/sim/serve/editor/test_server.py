@@ -13,7 +13,7 @@ from lsprotocol import types
 from places import ROOT
 from pygls.lsp.client import LanguageClient
 
-from sim.check.batch import Job, check_file
+from sim.check.file_check import Job, check_file
 from sim.check.settings import CheckSettings
 
 WRONG = "// 😀 part\nB9900B0B39600GXNR1\nDD\n"

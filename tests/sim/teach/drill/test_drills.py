@@ -12,7 +12,7 @@ from mutation import has_moved
 from places import ROOT
 
 from parser.program import Program, parse_program, read_program
-from sim.check.batch import check_program
+from sim.check.file_check import check_program
 from sim.check.settings import CheckSettings
 from sim.teach.drill.drills import LEVELS, SEEN_FROM, Drill, DrillRequest, departure, drills_of, level_of, lines_of
 from sim.teach.drill.kinds import KINDS, groups_of

@@ -11,8 +11,8 @@ from controller.offset.reach import reach
 from controller.offset.sections import Side
 from parser.geometry.curves import Curves
 from sim.make.cam.model import CannotCutError
-from sim.make.cam.passes.beside.beside import SHORT_UM, offset_path
-from sim.make.cam.passes.beside.convex import beside_convex
+from sim.make.cam.passes.offset_path.convex import beside_convex
+from sim.make.cam.passes.offset_path.offset_path import SHORT_UM, offset_path
 from sim.setup.making import Corners
 
 WITHIN_UM = 0.3

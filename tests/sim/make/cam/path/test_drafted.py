@@ -10,7 +10,7 @@ from made_programs import plan_of, plate_file
 
 from parser.geometry.curves import CurveKind, Curves, Floats
 from parser.program import load_program, parse_program
-from sim.make.cam.path.kept import draft_of_plan
+from sim.make.cam.path.compensated_draft import draft_of_plan
 from sim.make.convert.proof import proof
 from sim.make.convert.wanted import Wanted, encoded, written
 from sim.setup.making import Making

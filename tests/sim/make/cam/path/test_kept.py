@@ -14,7 +14,7 @@ from parser.write.iso_choices import iso_choices
 from sim.check.engine import run_checks
 from sim.check.path_checks import Demands
 from sim.make.cam.maker import MadeProgram, NotMade, unproved
-from sim.make.cam.path.kept import draft_of_plan
+from sim.make.cam.path.compensated_draft import draft_of_plan
 from sim.make.cam.proof.proof import ToProve, proved
 from sim.make.convert.wanted import Wanted
 from sim.setup.making import Making

@@ -15,7 +15,7 @@ from parser.geometry.broad_phase_places import near_curves
 from parser.geometry.curves import Bools, Curves, Floats, Ints, curves_between, joined
 from parser.geometry.directions import directions
 from parser.geometry.distance import distance_to_curves, feet
-from sim.make.cam.passes.beside.convex import Met, met_near, with_ends
+from sim.make.cam.passes.offset_path.convex import Met, met_near, with_ends
 from sim.setup.making import Corners
 
 _FEW = 4096  # pairs

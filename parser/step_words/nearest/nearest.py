@@ -1,8 +1,8 @@
 """Words of a path that is meant as it stands: of all whole µm about it, those that run nearest to it.
 
-`parser.words.chained` writes again what was a program before, as its CAM wrote it. Here the curves are no rounding of
-anybody's: each block begins at the decoded end of the last; of the centres in whole µm about the one that an arc should
-have that one is taken whose arc lies nearest; and where the path comes to a place again, the program does too.
+`parser.step_words.chained` writes again what was a program before, as its CAM wrote it. Here the curves are no rounding
+of anybody's: each block begins at the decoded end of the last; of the centres in whole µm about the one that an arc
+should have that one is taken whose arc lies nearest; and where the path comes to a place again, the program does too.
 """
 
 import math
@@ -13,11 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.controller_words.step_words import StepWords
 from parser.geometry.curves import Bools, Curves
-from parser.told.step_words import StepWords
-from parser.words.chained import Chained, OneBlock, Place
-from parser.words.nearest.looked_at import LookedAt, looked_at
-from parser.words.nearest.near_blocks import Aim, arc_to, line_to
+from parser.step_words.chained import Chained, OneBlock, Place
+from parser.step_words.nearest.looked_at import LookedAt, looked_at
+from parser.step_words.nearest.near_blocks import Aim, arc_to, line_to
 
 _ATTEMPTS, _TAIL = 24, 40
 """How often the rows before a place are told until they meet it, and how many rows of them."""

@@ -8,7 +8,7 @@ from parser.dialect.reader import Assumption
 from parser.findings.catalogue import LANGUAGES, Bilingual, term
 from parser.shape.passes import Pass
 from sim.base.units import clock
-from sim.show.words.words import bilingual
+from sim.show.texts.texts import bilingual
 
 if TYPE_CHECKING:
     from sim.setup.machine.machine import Machine

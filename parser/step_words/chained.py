@@ -15,10 +15,17 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis, StepWords
 from parser.geometry.curves import Bools, Curves, Floats
-from parser.told.step_words import Axis, StepWords
-from parser.words.moves import moves
-from parser.words.telling import MOST_SHIFT, MOST_SWEEP_RAD, chosen, words_of_arcs, words_of_lines, words_of_told_arcs
+from parser.step_words.moves import moves
+from parser.step_words.rules import (
+    MOST_SHIFT,
+    MOST_SWEEP_RAD,
+    chosen,
+    words_of_arcs,
+    words_of_lines,
+    words_of_told_arcs,
+)
 
 Place = tuple[float, float]
 

@@ -16,11 +16,11 @@ from parser.dialect.reader import Assumption
 from parser.findings.facts import ReadAs
 from parser.findings.findings import Finding
 from parser.geometry.curves import extents
+from parser.iso.families.marks import DIGITS_IN_MM, MarksSeen, mark_of
 from parser.iso.listing.listing import Listing
 from parser.iso.path.centers import Agreement
 from parser.iso.path.motion import Moved
 from parser.iso.profiles.profile import Profile, profile
-from parser.iso.telling.marks import DIGITS_IN_MM, MarksSeen, mark_of
 from parser.toolpath import Toolpath
 from parser.units import UM_PER_MM
 

@@ -22,8 +22,8 @@ from parser.geometry.curves import Curves, Floats, Ints, total_before
 from parser.geometry.directions import directions
 from parser.toolpath import Point
 from sim.make.cam.model import CannotCutError, Figure, Refusal
-from sim.make.cam.passes.beside.convex import Met, beside_convex, met_near, with_ends
-from sim.make.cam.passes.beside.corners import with_corners
+from sim.make.cam.passes.offset_path.convex import Met, beside_convex, met_near, with_ends
+from sim.make.cam.passes.offset_path.corners import with_corners
 from sim.setup.making import Corners
 
 SHORT_UM = 3.0

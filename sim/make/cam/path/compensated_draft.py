@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.controller_words.compensation import Compensation, CompensationRules
 from parser.geometry.curves import CurveKind, Curves, curves_between, joined
 from parser.geometry.directions import directions
-from parser.told.compensation import Compensation, CompensationRules
 from parser.toolpath import Point, Stop
 from parser.write.draft import Draft
 from sim.make.cam.model import CannotCutError, CutPlan, FigureCut, PassCut, Refusal

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis
 from parser.geometry.curves import Bools, Curves, Floats, Ints
-from parser.told.step_words import Axis
 
 _SAME_UM = 1e-6
 

@@ -12,7 +12,7 @@ from controller.card.log.lines import LONGEST_S, CardLogError, Damaged
 from controller.card.log.replay import call
 from controller.card.way.way import Way, WayRecorder
 from controller.stepping.pulses import Pulses
-from sim.clients.said import ClientCall, Session
+from sim.clients.session import ClientCall, Session
 
 _MOMENT_S: Final = 1e-9
 _SLICE_S: Final = 10.0

@@ -12,11 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis
 from parser.geometry.curves import Floats
-from parser.told.step_words import Axis
-from parser.words.chained import OneBlock, Place, line_of, to_bisector, told_arc_of
-from parser.words.nearest.looked_at import LookedAt
-from parser.words.telling import MOST_SHIFT
+from parser.step_words.chained import OneBlock, Place, line_of, to_bisector, told_arc_of
+from parser.step_words.nearest.looked_at import LookedAt
+from parser.step_words.rules import MOST_SHIFT
 
 
 def steps_off_um(start: Floats, end: Floats, radii: int, turn: float, counted: int) -> Floats:

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis, StepWords
 from parser.geometry.curves import Bools, Floats, Ints
-from parser.told.step_words import Axis, StepWords
 
 MOST_SWEEP_RAD = 1.8 * np.pi
 """Beyond it the ends of an arc are so near each other that a centre equally far from both may lie anywhere."""

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from parser.controller_words.step_words import Axis, StepWords
 from parser.geometry.curves import Floats, Ints
-from parser.told.step_words import Axis, StepWords
 
 
 class ArcEnds(NamedTuple):
