@@ -59,7 +59,7 @@ def overridden(path: Path, options: Overrides) -> "Scenario":
         scenario = replace(scenario, machine=scenario.machine._replace(engine=options.engine))
     thickness_mm = scenario.thickness_mm
     if options.thickness is not None:
-        thickness_mm = number(mm(options.thickness), scenarios.THICKNESS_MM, "--thickness in mm")
+        thickness_mm = scenarios.THICKNESS.of_option(mm(options.thickness))
     scenario = replace(
         scenario,
         thickness_mm=thickness_mm,
@@ -89,16 +89,14 @@ def read_with(
 
 def _wire(wire: "Wire", options: Overrides) -> "Wire":
     """The wire with the options in place of its own values."""
-    from sim.setup.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM, WIRE_LAG_UM
+    from sim.setup.wire import DIAMETER, LAG, SPARK_GAP
 
     if options.wire_diameter is not None:
-        number(mm(options.wire_diameter), WIRE_DIAMETER_MM, "--wire-diameter in mm")
-        wire = replace(wire, diameter_um=options.wire_diameter)
+        wire = replace(wire, diameter_um=DIAMETER.of_option(options.wire_diameter))
     if options.gap is not None:
-        number(mm(options.gap), SPARK_GAP_MM, "--gap in mm")
-        wire = replace(wire, spark_gap_um=options.gap)
+        wire = replace(wire, spark_gap_um=SPARK_GAP.of_option(options.gap))
     if options.wire_lag is not None:
-        wire = replace(wire, lag=number(options.wire_lag, WIRE_LAG_UM, "--wire-lag in µm"))
+        wire = replace(wire, lag=LAG.of_option(options.wire_lag))
     return wire
 
 
@@ -141,7 +139,7 @@ def drawing_target(own: "DrawingTarget | None", options: OfDrawing) -> "DrawingT
 
     SettingsError for values out of their bounds.
     """
-    from sim.setup.part import GAP_UM, TOLERANCE_UM, DrawingTarget
+    from sim.setup.part import GAP, TOLERANCE, DrawingTarget
 
     if options.drawing is not None:
         own = own._replace(file=options.drawing) if own is not None else DrawingTarget(options.drawing)
@@ -150,9 +148,9 @@ def drawing_target(own: "DrawingTarget | None", options: OfDrawing) -> "DrawingT
     if options.layer is not None:
         own = own._replace(layer=options.layer)
     if options.tolerance is not None:
-        own = own._replace(tolerance_um=number(options.tolerance, TOLERANCE_UM, "--tolerance in µm"))
+        own = own._replace(tolerance_um=TOLERANCE.of_option(options.tolerance))
     if options.gap is not None:
-        own = own._replace(gap_um=number(options.gap, GAP_UM, "--gap in µm"))
+        own = own._replace(gap_um=GAP.of_option(options.gap))
     if options.sharp_corners is not None:
         own = own._replace(sharp_corners=options.sharp_corners)
     return own._replace(fit=own.fit and not options.no_fit)

@@ -159,13 +159,15 @@ PASS = Section(
     fills="pass_tables",
     form="list",
 )
+TOLERANCE = Key("tolerance_um", Number(TOLERANCE_UM, "µm"), default=DEFAULT_TOLERANCE_UM, option="--tolerance")
+GAP = Key("gap_um", Number(GAP_UM, "µm"), default=DEFAULT_GAP_UM, option="--gap")
 DRAWING = Section(
     "drawing",
     (
         Key("file", FileName()),
         Key("layer", Text(), default=None, get=lambda drawing: drawing.layer and printable(drawing.layer)),
-        Key("tolerance_um", Number(TOLERANCE_UM, "µm"), default=DEFAULT_TOLERANCE_UM),
-        Key("gap_um", Number(GAP_UM, "µm"), default=DEFAULT_GAP_UM),
+        TOLERANCE,
+        GAP,
         Key("fit", Truth(), default=True),
         Key("sharp_corners", OneOf(SHARP_CORNERS), default="tell"),
     ),

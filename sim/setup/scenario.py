@@ -186,10 +186,11 @@ TOP = Section(
     ),
     form="top",
 )
+THICKNESS = Key("thickness_mm", Number(THICKNESS_MM, "mm"), default=DEFAULT_THICKNESS_MM, option="--thickness")
 WORK = Section(
     "work",
     (
-        Key("thickness_mm", Number(THICKNESS_MM, "mm"), default=DEFAULT_THICKNESS_MM),
+        THICKNESS,
         Key("density_g_cm3", Number(DENSITY_G_CM3, "g/cm³"), default=DEFAULT_DENSITY_G_CM3),
         Key("outline_mm", OutlineMm(), "work_um", default=None),
     ),

@@ -117,18 +117,29 @@ _FORCES = (
     Key("pressure_n_mm", Number(Bound(0.0, 10.0), "N/mm"), default=None, get=_force("pressure_n_mm")),
     Key("guide_span_mm", Number(Bound(0.01, 5000.0), "mm"), default=None, get=_force("guide_span_mm")),
 )
-_LAG = Key(
+DIAMETER = Key(
+    "diameter_mm",
+    Number(WIRE_DIAMETER_MM, "mm", MM_AS_UM),
+    "diameter_um",
+    mm(DEFAULT_WIRE.diameter_um),
+    option="--wire-diameter",
+)
+SPARK_GAP = Key(
+    "spark_gap_mm", Number(SPARK_GAP_MM, "mm", MM_AS_UM), "spark_gap_um", mm(DEFAULT_WIRE.spark_gap_um), option="--gap"
+)
+LAG = Key(
     "lag_um",
     Number(WIRE_LAG_UM, "µm"),
     default=None,
     get=lambda wire: None if isinstance(wire.lag, WireForces) else wire.lag,
+    option="--wire-lag",
 )
 WIRE = Section(
     "wire",
     (
-        Key("diameter_mm", Number(WIRE_DIAMETER_MM, "mm", MM_AS_UM), "diameter_um", mm(DEFAULT_WIRE.diameter_um)),
-        Key("spark_gap_mm", Number(SPARK_GAP_MM, "mm", MM_AS_UM), "spark_gap_um", mm(DEFAULT_WIRE.spark_gap_um)),
-        _LAG,
+        DIAMETER,
+        SPARK_GAP,
+        LAG,
         *_FORCES,
     ),
     fills="wire",
@@ -138,7 +149,7 @@ WIRE = Section(
 def read_wire(table: Mapping[str, Any], where: str) -> Wire:
     """Wire of a ``[wire]`` table. SettingsError names the file and the key."""
     value = WIRE.read(table, where)
-    lag_um = value.pop(_LAG.name)
+    lag_um = value.pop(LAG.name)
     forces = {key.name: value.pop(key.name) for key in _FORCES}
     return Wire(**value, lag=_lag(lag_um, {name: force for name, force in forces.items() if force is not None}, where))
 
@@ -148,7 +159,7 @@ def _lag(lag_um: float | None, forces: Mapping[str, float], where: str) -> float
     if not forces:
         return lag_um or 0.0
     if lag_um is not None:
-        raise SettingsError("lag-given-twice", where=where, name=_LAG.name, forces=" and ".join(forces))
+        raise SettingsError("lag-given-twice", where=where, name=LAG.name, forces=" and ".join(forces))
     for key in ("tension_n", "pressure_n_mm"):
         if key not in forces:
             raise SettingsError("lag-force-missing", where=where, force=next(iter(forces)), key=key)

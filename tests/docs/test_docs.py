@@ -327,9 +327,9 @@ def test_settings_of_the_check_are_documented_with_their_bounds() -> None:
     written = re.findall(r"^\| `([^`]+)` \|", page, flags=re.MULTILINE)
     *plain, wire, by_file = check_settings._KEYS
     assert written == [*plain, *(f"[{wire}] {key}" for key in check_settings._WIRE), f"[{by_file}]"]
-    for key, bound in check_settings._WIRE.items():
-        ((_, _, bounds, *_),) = rows_of(DOCS / "check.md", f"`[wire] {key}`")
-        assert tuple(float(text) for text in bounds.replace("−", "-").split(" to ")) == tuple(bound)
+    for name, key in check_settings._WIRE.items():
+        ((_, _, bounds, *_),) = rows_of(DOCS / "check.md", f"`[wire] {name}`")
+        assert tuple(float(text) for text in bounds.replace("−", "-").split(" to ")) == tuple(key.kind.bound)
 
 
 def test_settings_shown_are_settings(tmp_path: Path) -> None:

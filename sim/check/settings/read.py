@@ -17,11 +17,10 @@ from parser.dialect.choices import Marks
 from parser.findings.codes import CODES, Severity
 from parser.findings.errors import SettingsError
 from parser.program import block_words, own_marks
-from parser.units import from_mm
 from sim.check.settings.model import CheckSettings
 from sim.setup.dialect import READ_WITH
-from sim.setup.toml.reader import load_toml, number, pair, refuse_unknown, section, text, truth
-from sim.setup.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
+from sim.setup.toml.reader import load_toml, pair, refuse_unknown, section, text, truth
+from sim.setup.wire import DIAMETER, SPARK_GAP
 
 if TYPE_CHECKING:
     from sim.setup.machine.machine import Machine
@@ -80,7 +79,7 @@ _KEYS = (
     *(key.name for key in READ_WITH),
     *("end_marks", "pause_marks", "wire", "per_file_ignores"),
 )
-_WIRE = {"diameter_mm": WIRE_DIAMETER_MM, "spark_gap_mm": SPARK_GAP_MM}
+_WIRE = {key.name: key for key in (DIAMETER, SPARK_GAP)}
 
 
 class IgnoredOf(NamedTuple):
@@ -141,7 +140,7 @@ def read_settings(content: Mapping[str, Any], file: Path, name: str) -> Settings
     truth(content, "root", name)
     wire = section(content, "wire", name)
     refuse_unknown(wire, _WIRE, f"{name}: [wire]")
-    lengths = {key: from_mm(number(wire[key], _WIRE[key], f"{name}: [wire]: {key}")) for key in wire}
+    lengths = {key: _WIRE[key].read(wire, f"{name}: [wire]") for key in wire}
     settings = CheckSettings(
         machine=_machine(content, file, name),
         start_mm=pair(content, "start_mm", name),

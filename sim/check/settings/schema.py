@@ -5,9 +5,9 @@ from typing import Any, Final
 from parser.findings.codes import Severity
 from sim.setup.dialect import READ_WITH
 from sim.setup.file_schemas import DRAFT
-from sim.setup.toml.kinds import limits, pair_schema
-from sim.setup.toml.reader import PLACE_MM, Bound
-from sim.setup.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
+from sim.setup.toml.kinds import pair_schema
+from sim.setup.toml.reader import PLACE_MM
+from sim.setup.wire import DIAMETER, SPARK_GAP
 
 _TEXT: Final = {"type": "string", "minLength": 1}
 _CODES: Final = {"type": "array", "items": {"type": "string", "examples": ["3B2", "ISO305"]}}
@@ -16,7 +16,7 @@ _MARKS: Final = {"type": "array", "items": {"type": "string", "pattern": "^[A-Za
 
 def settings_schema() -> dict[str, Any]:
     """JSON schema of ``drycut.toml``, which is that of ``[tool.drycut]`` in ``pyproject.toml``, too."""
-    wire = _table({"diameter_mm": _number(WIRE_DIAMETER_MM), "spark_gap_mm": _number(SPARK_GAP_MM)})
+    wire = _table({key.name: key.schema for key in (DIAMETER, SPARK_GAP)})
     keys: dict[str, tuple[str, dict[str, Any]]] = {
         "root": ("the search for settings ends here", {"type": "boolean"}),
         "machine": ("name of a machine, or its .toml file", {"type": "string"}),
@@ -49,7 +49,3 @@ def _table(properties: dict[str, Any]) -> dict[str, Any]:
 
 def _list_of(entry: dict[str, Any]) -> dict[str, Any]:
     return {"type": "array", "items": entry}
-
-
-def _number(bound: Bound) -> dict[str, Any]:
-    return {"type": "number", **limits(bound)}

@@ -9,13 +9,11 @@ import click
 from parser.dialect.choices import merged
 from parser.files.reading import read_stdin
 from parser.findings.messages import Message
-from parser.units import mm
 from sim.check.file_check import Job
 from sim.check.files import find_files
 from sim.check.settings.read import NO_SETTINGS, PathPattern, SettingsFile, code_list, pattern_list, severity
 from sim.check.settings.search import SettingsSearch
-from sim.setup.toml.reader import number
-from sim.setup.wire import SPARK_GAP_MM, WIRE_DIAMETER_MM
+from sim.setup.wire import DIAMETER, SPARK_GAP
 
 if TYPE_CHECKING:
     from sim.check.silence.baseline import Baseline
@@ -122,11 +120,9 @@ def _settings(options: CheckOptions) -> dict[str, Any]:
 
         given["machine"] = load_machine(options.machine)
     if options.wire_diameter is not None:
-        number(mm(options.wire_diameter), WIRE_DIAMETER_MM, "--wire-diameter in mm")
-        given["wire_diameter_um"] = options.wire_diameter
+        given["wire_diameter_um"] = DIAMETER.of_option(options.wire_diameter)
     if options.gap is not None:
-        number(mm(options.gap), SPARK_GAP_MM, "--gap in mm")
-        given["spark_gap_um"] = options.gap
+        given["spark_gap_um"] = SPARK_GAP.of_option(options.gap)
     if options.may_stay_open:
         given["may_stay_open"] = True
     read_with = {"dialect": options.dialect, "unit": options.unit, "registers": merged([options.offset])}

@@ -13,8 +13,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal, NamedTuple
 
-from sim.setup.toml.kinds import ValueKind
-from sim.setup.toml.reader import refuse_unknown, section
+from sim.setup.toml.kinds import Number, ValueKind
+from sim.setup.toml.reader import number, refuse_unknown, section
 
 REQUIRED: Final = object()
 """In place of a default: the key must be given."""
@@ -37,6 +37,8 @@ class Key:
         Value where it is left out, as the file would say it, in or out of the bounds; None for no value.
     get
         How it is found in what the section fills, where that is no attribute; None where there is nothing to write.
+    option
+        The option that takes its place on the command line, such as ``--gap``; empty where there is none.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Key:
     field: str = ""
     default: Any = REQUIRED
     get: Callable[[Any], Any] | None = None
+    option: str = ""
 
     @property
     def is_required(self) -> bool:
@@ -55,6 +58,12 @@ class Key:
         if self.name in table or self.is_required:
             return self.kind.inside(self.kind.checked(table, self.name, where))
         return None if self.default is None else self.kind.inside(self.default)
+
+    def of_option(self, value: float) -> float:
+        """A number inside that `option` gives. SettingsError, which names the option, where it is out of its bounds."""
+        assert isinstance(self.kind, Number)  # noqa: S101 - no other kind is given by a number
+        number(self.kind.written(value), self.kind.bound, f"{self.option} in {self.kind.unit}")
+        return value
 
     def written(self, owner: object) -> Any:
         """Value in the file that makes this owner; None where it says nothing, as of a limit that there is not."""
