@@ -3,8 +3,7 @@
 from controller.card.calls.axis import PositionCalls
 from controller.card.calls.list import ListCalls
 from controller.card.calls.lookahead_mode import LookAheadCalls
-from controller.card.calls.path import ArcCalls, LineCalls, MoveCalls
-from controller.card.calls.path_base import StepCalls
+from controller.card.calls.path_base import ArcCalls, LineCalls, MoveCalls, StepCalls
 from controller.card.calls.recorded import GuardCalls, RecordedCalls
 from controller.card.calls.servo import ServoCalls
 from controller.card.calls.special import SpecialCalls

@@ -5,8 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from controller.motion.junctions import Junction, Through, junction_speeds, turns
-from controller.motion.path import Path, path_of
+from controller.motion.junctions import Junction, Path, Through, junction_speeds, path_of, turns
 from controller.motion.planner import RowLimits
 from parser.geometry.curves import Floats, Ints
 from parser.toolpath import Toolpath

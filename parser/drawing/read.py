@@ -3,6 +3,8 @@
 Points and circles of a drawing, which may be thread points.
 
 What is said of a drawing as it was read: what is missing of it, what was assumed and what was mended.
+
+What of a drawing is left out, entity by entity, and why.
 """
 
 from collections import Counter
@@ -17,14 +19,15 @@ from ezdxf.math import Vec3
 
 from parser.drawing.dxf.blocks import Placed, placed_entities
 from parser.drawing.dxf.document import read_document
-from parser.drawing.dxf.forms import behind, of_extrusion, scaled
+from parser.drawing.dxf.entities import reader_of
+from parser.drawing.dxf.forms import behind, of_extrusion, place_of, scaled
+from parser.drawing.dxf.linetypes import Linetypes
 from parser.drawing.fit.loops import loops_with_arcs
-from parser.drawing.gather import Gathered, gather
-from parser.drawing.left_out import entity_of, left_out, wanted_of
+from parser.drawing.gather import Gathered, Missed, gather
 from parser.drawing.loops.chain import Chained, chain, without_flat
 from parser.drawing.loops.once import Again, drawn_once
 from parser.drawing.loops.weld import welded
-from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, FitFigures, LeftOut, Mark
+from parser.drawing.model import DEFAULT_FLATTEN_UM, DEFAULT_GAP_UM, Drawing, Entity, FitFigures, LeftOut, Mark
 from parser.drawing.plane.flat import FARTHEST_UM
 from parser.findings.catalogue import LANGUAGES, Bilingual, Remark, remark_text
 from parser.findings.errors import DrawingError
@@ -32,6 +35,90 @@ from parser.findings.messages import Message
 from parser.geometry.curves import Floats
 from parser.text.encoding import printable
 from parser.units import UM_PER_MM, mm
+
+NEVER_PLOTTED = "defpoints"
+"""The layer, in small letters, on which CADs put the points that dimensions hang on, and people what helps to draw."""
+_KINDS = {
+    "text": ("TEXT", "MTEXT", "ATTDEF", "ATTRIB", "RTEXT", "ARCALIGNEDTEXT", "ACAD_TABLE", "SHAPE"),
+    "dimension": ("DIMENSION", "ARC_DIMENSION", "LARGE_RADIAL_DIMENSION", "TOLERANCE"),
+    "leader": ("LEADER", "MULTILEADER", "MLEADER"),
+    "hatch": ("HATCH", "MPOLYGON"),
+    "point": ("POINT",),
+    "solid": (
+        "SOLID",
+        "TRACE",
+        "3DFACE",
+        "3DSOLID",
+        "BODY",
+        "REGION",
+        "MESH",
+        "POLYLINE",
+        "SURFACE",
+        "EXTRUDEDSURFACE",
+        "LOFTEDSURFACE",
+        "PLANESURFACE",
+        "REVOLVEDSURFACE",
+        "SWEPTSURFACE",
+    ),
+    "block": ("INSERT",),
+    "endless": ("XLINE", "RAY"),
+    "picture": ("IMAGE", "WIPEOUT", "OLE2FRAME", "PDFUNDERLAY", "DWFUNDERLAY", "DGNUNDERLAY"),
+    "window": ("VIEWPORT",),
+}
+_WHY = {kind: why for why, kinds in _KINDS.items() for kind in kinds}
+
+
+class Wanted(NamedTuple):
+    """Entities that are read, and those that are not, each with the reason."""
+
+    kept: list[Placed]
+    left: list[tuple[Placed, str]]
+
+
+def wanted_of(document: Document, placed: Sequence[Placed], layer: str | None) -> Wanted:
+    """Entities of one layer, seen or not; or of all layers, but those that are not seen or that no contour is drawn by.
+
+    These are of broken linetypes, such as centre lines, and on the layer that is never plotted.
+    """
+    linetypes, wanted = Linetypes(document), Wanted([], [])
+    for each_placed in placed:
+        why = _why_not(each_placed, linetypes) if layer is None else _why_other(each_placed, layer.lower())
+        if why:
+            wanted.left.append((each_placed, why))
+        else:
+            wanted.kept.append(each_placed)
+    return wanted
+
+
+def _why_not(placed: Placed, linetypes: Linetypes) -> str:
+    if placed.unseen:
+        return placed.unseen
+    if placed.layer.lower() == NEVER_PLOTTED:
+        return "never-plotted"
+    if placed.linetype != "continuous" and linetypes.is_broken(placed.linetype) and reader_of(placed.entity):
+        return "broken-line"
+    return ""
+
+
+def _why_other(placed: Placed, layer: str) -> str:
+    return "" if placed.layer.lower() == layer else "other-layer"
+
+
+def left_out(wanted: Wanted, missed: Sequence[Missed]) -> Iterator[LeftOut]:
+    """What is not read, and what of that which is read gives no curve, with the places of both."""
+    for placed, why in wanted.left:
+        yield LeftOut(entity_of(placed), why, place_of(placed.entity, placed.place))
+    for each_missed in missed:
+        placed = wanted.kept[each_missed.entity]
+        why = each_missed.why or _WHY.get(placed.entity.dxftype(), "no-curve")
+        yield LeftOut(entity_of(placed), why, place_of(placed.entity, placed.place), detail=each_missed.detail)
+
+
+def entity_of(placed: Placed) -> Entity:
+    """An entity by the names that people know it by."""
+    handle, kind = str(placed.entity.dxf.get("handle", "")), placed.entity.dxftype()
+    return Entity(printable(kind), printable(handle), printable(placed.layer), printable(placed.block), placed.color)
+
 
 _MOST_NAMED = 5  # places and entities named one by one
 _UNSEEN = ("off", "frozen", "hidden", "other-layer")

@@ -12,8 +12,8 @@ from parser.iso.listing.lexer import read_listing
 from parser.iso.listing.listing import Listing
 from parser.iso.path.motion import Moved, moved
 from parser.iso.trace import Trace
-from parser.iso.words.not_simulated import not_simulated
 from parser.iso.words.numbering import checked
+from parser.iso.words.word_checks import not_simulated
 from parser.text.encoding import no_program
 
 

@@ -11,9 +11,9 @@ from parser.findings.errors import ProgramError
 from parser.findings.facts import DamagedBlock, NotSimulated
 from parser.findings.findings import Finding, file_order
 from parser.pmac.lines import Buffer, Text, read_lines
+from parser.pmac.moves import speed_findings
 from parser.pmac.path import Arc, arc_of, path_of
 from parser.pmac.running import holds_routines, run
-from parser.pmac.speed import speed_findings
 from parser.pmac.state import State
 from parser.text.encoding import no_program, printable
 from parser.text.source import Span

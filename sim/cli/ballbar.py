@@ -62,8 +62,7 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
     drycut ballbar --radius 50mm --feed 500mm/min -o ballbar.png
     """  # noqa: D301 - click keeps the lines of a paragraph that begins with a backspace
     from sim.cli.progress import StageProgress
-    from sim.run.ballbar.circle import circle_test, run_test
-    from sim.run.ballbar.document import document_text
+    from sim.run.ballbar.circle import circle_test, document_text, run_test
     from sim.setup.machine.machine import load_machine
     from sim.show.terminal.ballbar import print_ballbar
     from sim.show.terminal.printer import say, write
@@ -95,7 +94,7 @@ def ballbar(  # noqa: PLR0913, PLR0917 - click hands over each option by its nam
 def _write(done: "Ballbar", tolerance_um: float | None, output: Path) -> list[str]:
     """Files of a test, all of them or none; names of those written. A turn that does not go round has no picture."""
     from sim.base.files import staged
-    from sim.run.ballbar.document import document_text
+    from sim.run.ballbar.circle import document_text
 
     alone = output.suffix.lower() == ".png"
     folder, picture = (output.parent, output.name) if alone else (output, "ballbar.png")
@@ -113,7 +112,7 @@ def _write(done: "Ballbar", tolerance_um: float | None, output: Path) -> list[st
 def _write_trace(done: "Ballbar", file: Path) -> str:
     """Both turns of the table as CSV, whole or not at all; the name of the file."""
     from sim.base.files import staged
-    from sim.run.ballbar.document import trace_text
+    from sim.run.ballbar.circle import trace_text
 
     with staged(file.parent, [file.name]) as stage:
         (stage / file.name).write_text(trace_text(done), encoding="utf-8", newline="")

@@ -6,11 +6,11 @@ from typing import Final
 LOOPS: Final[tuple[str, ...]] = (
     "controller.stepping.chunks",
     "sim.make.cam.order.order",
-    "sim.make.cam.order.shorter",
+    "sim.make.cam.order.order",
     "sim.cut.kerf.edges",
     "sim.cut.kerf.last_beside",
     "sim.cut.kerf.stars",
-    "sim.cut.play.touching",
+    "sim.cut.play.freedom",
     "sim.measure.compare.as_cut",
     "sim.measure.compare.nearest",
     "sim.measure.compare.directed",

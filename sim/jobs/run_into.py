@@ -15,11 +15,11 @@ from parser.findings.catalogue import Language
 from parser.program import Program
 from sim.base.files import StepFiles, staged
 from sim.base.progress import Progress, silent
-from sim.clients.document import card_document, without_motion
 from sim.clients.listing import NAME as CALLS
 from sim.clients.run import ClientRun, Read, read_again, run_client
 from sim.clients.session import session_of
 from sim.clients.started import Ended
+from sim.clients.table import card_document, without_motion
 from sim.jobs.trace_file import TRACE, write_trace
 from sim.run.dryrun import DryRun
 from sim.run.recording import Recording, recording_of, reported, stages_of

@@ -25,8 +25,7 @@ from controller.card.engine.states import (
     Running,
     Waiting,
 )
-from controller.card.lookahead.host import HostRules
-from controller.card.lookahead.list import ListLookAhead, Off, On, Unruled, ruled, switched_off, switched_on
+from controller.card.lookahead.host import HostRules, ListLookAhead, Off, On, Unruled, ruled, switched_off, switched_on
 
 STATES = (*get_args(Resting), *get_args(Moving))
 

@@ -15,7 +15,7 @@ from controller.card.engine.entries import ORIGIN, Pace, Stepped
 from controller.card.engine.making import make_stretch
 from controller.card.engine.speeds import speeds_of
 from controller.card.engine.stretch import Start
-from controller.motion.path import Path
+from controller.motion.junctions import Path
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping.chunks import chunk_of
 from controller.stepping.point_by_point import interpolate_words

@@ -14,9 +14,8 @@ from controller.card.calls.base import Logged
 from controller.card.core.settings import CardSettings
 from controller.host.entries import Drive, Interpolation, entries_of
 from controller.host.host import Host
-from controller.motion.junctions import JunctionDeviation, SlowAt, StopEach, Through
+from controller.motion.junctions import JunctionDeviation, SlowAt, StopEach, Through, path_of
 from controller.motion.limits import Feeds, MotionLimits, row_limits
-from controller.motion.path import path_of
 from controller.motion.planner import plan_rows
 from controller.stepping.interpolators import EqualTime, PointByPoint
 from controller.stepping.pulses import Pulses

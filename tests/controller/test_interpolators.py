@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from plain import PlainBlock, plain_steps
 from strategies import program_text, programs
 
-from controller.motion.path import path_of
+from controller.motion.junctions import path_of
 from controller.motion.plan import EMPTY_PLAN, Plan
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping import chunks

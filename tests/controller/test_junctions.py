@@ -13,13 +13,14 @@ from controller.motion.junctions import (
     CornerTime,
     Junction,
     JunctionDeviation,
+    Path,
     SlowAt,
     StopEach,
     Through,
     junction_speeds,
+    path_of,
     turns,
 )
-from controller.motion.path import Path, path_of
 from parser.geometry.curves import Floats
 from parser.toolpath import Toolpath
 

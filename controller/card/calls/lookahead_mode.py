@@ -34,8 +34,17 @@ from controller.card.engine.entries import (
 )
 from controller.card.engine.speeds import checked
 from controller.card.lookahead.data import TLookAheadMsg
-from controller.card.lookahead.host import HostBlock
-from controller.card.lookahead.list import ListLookAhead, Mode, Off, On, blocks_kept, ruled, switched_off, switched_on
+from controller.card.lookahead.host import (
+    HostBlock,
+    ListLookAhead,
+    Mode,
+    Off,
+    On,
+    blocks_kept,
+    ruled,
+    switched_off,
+    switched_on,
+)
 
 _MOST_TOLD = 0x7FFF
 _NO_CEILING = 1e9

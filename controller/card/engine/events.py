@@ -21,7 +21,7 @@ from controller.card.core.settings import CardSettings, Switches, is_taken_for_m
 from controller.card.core.state import AxisState, CardState
 from controller.card.engine.entries import Entry, Output, Stepping
 from controller.card.engine.stretch import Stretch
-from controller.motion.path import Path
+from controller.motion.junctions import Path
 from parser.geometry.curves import Floats
 
 _TURN = 2.0 * math.pi

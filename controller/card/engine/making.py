@@ -14,7 +14,7 @@ from controller.card.engine.entries import Entry, Pace, PathEntry, Place, Segmen
 from controller.card.engine.motion_list import steps_of
 from controller.card.engine.speeds import Speeds
 from controller.card.engine.stretch import Start, Stretch
-from controller.motion.path import Path
+from controller.motion.junctions import Path
 from controller.motion.plan import EMPTY_PLAN, Plan
 from controller.motion.planner import RowLimits, plan_rows
 from controller.stepping.equal_time import Clock

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from controller.card.engine.entries import Entry, PathEntry, Place, Segment, Wait, four, steps_made
-from controller.motion.path import Path
+from controller.motion.junctions import Path
 from controller.motion.plan import Plan
 from controller.stepping.interpolators import EqualTime, Interpolator, PointByPoint
 from controller.stepping.steps import Steps

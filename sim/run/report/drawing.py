@@ -9,8 +9,8 @@ import numpy as np
 from parser import __version__
 from parser.findings.catalogue import Remark, remark_text
 from parser.units import from_mm
+from sim.measure.compare.findings import by_block, by_entity, corner_places, worst_places
 from sim.measure.compare.result import Comparison, CornerPlace, WorstPlace
-from sim.measure.compare.tables import by_block, by_entity, corner_places, worst_places
 
 SCHEMA: Final = "drycut.compare/1"
 _DIGITS: Final = 6

@@ -30,7 +30,6 @@ from sim.show.assumptions import taken_for_granted
 from sim.show.draw.paints import DARK, Theme, hexadecimal
 from sim.show.html.environment import rendered
 from sim.show.pictures.inline import Inline
-from sim.show.report_page.cut_tables import corner_table, piece_table, size_tables, worst_table
 from sim.show.report_page.figures import key_figures, time_figures, why
 from sim.show.report_page.findings import explained, inline, shown_findings
 from sim.show.report_page.results import (
@@ -44,7 +43,15 @@ from sim.show.report_page.results import (
     pass_table,
 )
 from sim.show.report_page.sheet import MOST_THREADS, sheet_of, thread_table
-from sim.show.report_page.tables import Column, ReportTable, yes_or_no
+from sim.show.report_page.tables import (
+    Column,
+    ReportTable,
+    corner_table,
+    piece_table,
+    size_tables,
+    worst_table,
+    yes_or_no,
+)
 from sim.show.texts import bilingual
 from sim.show.texts.phrases import machine_name, same
 

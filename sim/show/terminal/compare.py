@@ -6,8 +6,8 @@ from rich.table import Table
 from parser.findings.catalogue import Language, remark_text
 from parser.text.source import BlockNames
 from parser.units import mm, mm_text
+from sim.measure.compare.findings import by_block, by_entity, corner_places, worst_places
 from sim.measure.compare.result import Comparison, WorstPlace
-from sim.measure.compare.tables import by_block, by_entity, corner_places, worst_places
 from sim.show.terminal.layout import paragraph, show, table
 from sim.show.texts import Words
 

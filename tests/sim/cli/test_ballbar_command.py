@@ -22,8 +22,7 @@ from parser.controller_words.step_words import Axis
 from parser.findings.catalogue import LANGUAGES, Language
 from sim.base.progress import silent
 from sim.cli.ballbar import ballbar as command
-from sim.run.ballbar.circle import Ballbar, circle_test, run_test
-from sim.run.ballbar.document import document
+from sim.run.ballbar.circle import Ballbar, circle_test, document, run_test
 from sim.run.ballbar.figures import SENSES, MeasuredTurn
 from sim.setup.machine.machine import load_machine
 from sim.show.draw.dial import RING_SIZES, RINGS, ring_for

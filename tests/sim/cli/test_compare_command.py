@@ -21,8 +21,8 @@ from parser.drawing.read import read_drawing
 from parser.findings.catalogue import remark_text
 from sim.cli.compare import compare as command
 from sim.measure.compare.compared_program import compare_program
+from sim.measure.compare.findings import by_entity
 from sim.measure.compare.result import Comparison, FitRequest
-from sim.measure.compare.tables import by_entity
 from sim.run.report.drawing import comparison_document
 from sim.setup.part import SharpCorners
 

@@ -11,7 +11,7 @@ import pytest
 from checking import SOUND, WRONG_AXIS
 from command import run_inside
 
-from sim.cli.check.patches import for_tools
+from sim.cli.check.mends import for_tools
 
 ENCODINGS = ("utf-8", "utf-8-sig", "utf-16", "gb18030")
 TOOLS = {"patch": ["patch", "-p0", "-s", "-i"], "git": ["git", "apply", "-p0"]}

@@ -18,11 +18,11 @@ from parser.geometry.curves import Curves, curves_between
 from parser.geometry.distance import distance_to_curves, feet
 from sim.measure.compare.compare import compare
 from sim.measure.compare.directed import directed
+from sim.measure.compare.findings import by_block, by_entity, worst_places
 from sim.measure.compare.nearest import indexed, nearest
 from sim.measure.compare.result import FitRequest
 from sim.measure.compare.starts import Placement
 from sim.measure.compare.starts import placed as laid
-from sim.measure.compare.tables import by_block, by_entity, worst_places
 
 L_SHAPE = polygon((0, 0), (30_000, 0), (30_000, 8000), (12_000, 8000), (12_000, 40_000), (0, 40_000))
 

@@ -13,9 +13,9 @@ from rough_and_trim import outline
 from sound_shapes import SHAPES, Shape, placed
 
 from sim.measure.compare.compared_program import compare_program
+from sim.measure.compare.findings import by_entity, corner_places
 from sim.measure.compare.result import FitRequest
 from sim.measure.compare.rings import polygon as filled
-from sim.measure.compare.tables import by_entity, corner_places
 from sim.measure.compare.unreachable import reachable
 
 F = 100.0

@@ -3,7 +3,7 @@
 from runs import run_text
 
 from sim.run.report import build_report
-from sim.show.report_page.cut_tables import piece_table
+from sim.show.report_page.tables import piece_table
 from sim.show.terminal.run import summary_rows
 
 ROUND = "B0B3000B3000GYL2 B2000B0B2000GXL1 B0B4000B4000GYL2 B4000B0B4000GXL3 B0B4000B4000GYL4 "

@@ -29,9 +29,8 @@ from sim.make.cam.proof.as_run import AsRun, as_run
 from sim.make.cam.proof.target import Fault, Proof, Target, target_of
 from sim.make.convert.proof import Proof as Written
 from sim.measure.compare.compared_program import compare_program
-from sim.measure.compare.findings import compare_cut, drawing_findings
+from sim.measure.compare.findings import by_block, by_entity, compare_cut, drawing_findings
 from sim.measure.compare.result import Comparison, FitRequest
-from sim.measure.compare.tables import by_block, by_entity
 from sim.run.dryrun import DryRun
 from sim.run.running import dry_run
 from sim.setup.part import DrawingTarget

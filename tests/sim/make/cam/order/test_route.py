@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from parser.geometry.curves import Floats, Ints
-from sim.make.cam.order.order import from_nearest_to_nearest, neighbours, route, travel_um
-from sim.make.cam.order.shorter import shortened
+from sim.make.cam.order.order import from_nearest_to_nearest, neighbours, route, shortened, travel_um
 
 SEEDS = range(40)
 
