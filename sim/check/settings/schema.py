@@ -10,7 +10,7 @@ from sim.setup.toml.reader import PLACE_MM
 from sim.setup.wire import DIAMETER, SPARK_GAP
 
 _TEXT: Final = {"type": "string", "minLength": 1}
-_CODES: Final = {"type": "array", "items": {"type": "string", "examples": ["3B2", "ISO305"]}}
+_CODES: Final = {"type": "array", "items": {"type": "string"}}
 _MARKS: Final = {"type": "array", "items": {"type": "string", "pattern": "^[A-Za-z]{0,4}$"}}
 
 
@@ -28,8 +28,8 @@ def settings_schema() -> dict[str, Any]:
         "exclude": ("patterns of files that are left out where a folder is looked through", _list_of(_TEXT)),
         "baseline": ("file of known findings", _TEXT),
         **{key.name: (f"{key.name} of ISO programs", key.schema) for key in READ_WITH},
-        "end_marks": ("more words for the end of a 3B program", _MARKS),
-        "pause_marks": ("more words for a pause in a 3B program", _MARKS),
+        "end_marks": ("more words for the end of a program", _MARKS),
+        "pause_marks": ("more words for a pause in a program", _MARKS),
         "wire": (
             "wire that corners and offsets are held against",
             wire,
